@@ -61,7 +61,7 @@ endforeach()
 # products and sums; the kernel of one design, which the room has compiled above, may not.
 function(fw_kernel_lanes name width)
     add_library(fw_kernel_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/multibody/kernel_blocks.c)
-    target_compile_definitions(fw_kernel_${name} PRIVATE FW_W=${width} FW_BRIEF=1 FW_CORE=fw_core_${name}
+    target_compile_definitions(fw_kernel_${name} PRIVATE FW_W=${width} FW_BRIEF=1 FW_CORE=fw_multibody_core_${name}
                                                          FW_CORE_NAME="${name}")
     target_compile_options(fw_kernel_${name} PRIVATE -O3 -mfma -ffp-contract=fast ${ARGN})
     target_sources(fw_multibody PRIVATE $<TARGET_OBJECTS:fw_kernel_${name}>)

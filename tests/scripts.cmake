@@ -20,6 +20,7 @@ fw_script_test(arch.constants LABEL quick COMMAND ${Python3_EXECUTABLE} tests/ar
 # a law, an effect and a format that the program does not have, each one file and one row
 fw_script_test(arch.additions TIMEOUT 600 COMMAND ${Python3_EXECUTABLE} tests/arch/additions.py ${PROJECT_BINARY_DIR})
 set_tests_properties(arch.additions PROPERTIES RUN_SERIAL ON)
+fw_script_test(arch.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/names.py)
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM})

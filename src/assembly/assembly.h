@@ -8,42 +8,45 @@
 #define FW_ASSEMBLY_ASSEMBLY_H
 #include "multibody/multibody.h"
 
-typedef struct fw_joint_gap { /* a pin, a tie or a driver, and how far it is from what it asks */
+typedef struct
+    fw_assembly_joint_gap { /* a pin, a joint or a driver, and how far it is from what it asks */
     const char *id;
-    double gap_m, gap_rad; /* of points or lengths, and of angles; 0 where it asks for none */
-    double x_m[2], y_m[2]; /* its points on body a and on body b, world */
-    int pin, tie, driver;  /* of the mechanism, or FW_NONE */
-} fw_joint_gap;
+    double gap_m, gap_rad;  /* of points or lengths, and of angles; 0 where it asks for none */
+    double x_m[2], y_m[2];  /* its points on body a and on body b, world */
+    int pin, joint, driver; /* of the mechanism, or FW_NONE */
+} fw_assembly_joint_gap;
 
-typedef struct fw_anchor { /* where a body of a dyad is held: a pin, or a prismatic joint */
-    int pin, tie;          /* the other one is FW_NONE */
-} fw_anchor;
+typedef struct
+    fw_assembly_anchor { /* where a body of a dyad is held: a pin, or a prismatic joint */
+    int pin, joint;      /* the other one is FW_NONE */
+} fw_assembly_anchor;
 
-typedef struct fw_elbow { /* dyad: pin P between two moving bodies that are held at A (body_a) and B
+typedef struct
+    fw_assembly_elbow { /* dyad: pin P between two moving bodies that are held at A (body_a) and B
                              (body_b). Two pins: on which side of AB lies P? A pin and a prismatic
                              joint: on which side of the pin, along the axis, lies P? */
-    const char *id;       /* of pin P */
+    const char *id;     /* of pin P */
     int pin, body_a, body_b;
-    fw_anchor a, b;
+    fw_assembly_anchor a, b;
     int guess, found; /* sign of the triangle A P B: +1 counter-clockwise, -1, 0: flat */
-} fw_elbow;
+} fw_assembly_elbow;
 
-typedef struct fw_rank { /* degrees of freedom: unknowns less the rank of G */
-    bool known;          /* false: more than FW_RANK_MOST unknowns, `dof` counts rows */
+typedef struct fw_assembly_rank_result { /* degrees of freedom: unknowns less the rank of G */
+    bool known; /* false: more than FW_RANK_MOST unknowns, `dof` counts rows */
     int unknowns, rows, rank, dof;
     double kept, dropped;   /* smallest singular value above the gap, largest below it (0: none),
                                relative to the largest of all */
     bool clear;             /* the gap spans at least a factor of 1e4 */
     const char **redundant; /* (nredundant) joints with a row that others imply, in file order */
     int nredundant;
-} fw_rank;
+} fw_assembly_rank_result;
 enum { FW_RANK_MOST = 600 };
 
-typedef struct fw_alternative { /* another assembly */
-    double *q;                  /* (3 nbody) SI */
-    int *side;                  /* (nelbow) */
-    double distance_m;          /* from the guess, as fw_assembly.distance_m */
-} fw_alternative;
+typedef struct fw_assembly_alternative { /* another assembly */
+    double *q;                           /* (3 nbody) SI */
+    int *side;                           /* (nelbow) */
+    double distance_m;                   /* from the guess, as fw_assembly.distance_m */
+} fw_assembly_alternative;
 enum { FW_ALTERNATIVES_MOST = 12 };
 
 typedef struct fw_assembly {
@@ -53,21 +56,21 @@ typedef struct fw_assembly {
     double *turned_rad;     /* (nbody) */
     double most_moved_m, most_turned_rad;
     double distance_m;                /* sqrt(sum m (dx^2 + dy^2) + J dphi^2) / sqrt(sum m) */
-    fw_joint_gap *gap;                /* (ngap) pins, ties, drivers in file order, in the guess */
+    fw_assembly_joint_gap *gap;       /* (ngap) pins, joints, drivers in file order, in the guess */
     double gap_before_m, gap_after_m; /* largest; those of angles count with the scene's length */
     int iterations, restarts;
-    fw_elbow *elbow;             /* (nelbow) */
-    fw_alternative *alternative; /* (nalternative) nearest to the guess first */
-    bool more;                   /* the search for alternatives ended at its bound */
-    fw_rank rank;
+    fw_assembly_elbow *elbow;             /* (nelbow) */
+    fw_assembly_alternative *alternative; /* (nalternative) nearest to the guess first */
+    bool more;                            /* the search for alternatives ended at its bound */
+    fw_assembly_rank_result rank;
 } fw_assembly;
 
 /* solves Psi(q) = 0 from the guess q (3 nbody) by damped Newton with mass-weighted steps; *moved_m
    the largest displacement. FW_SOLVER names the joint that cannot close and by how much. */
-fw_status fw_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q, double *moved_m,
-                      fw_diags *diags);
+fw_status fw_assembly_assemble(fw_arena *arena, const fw_mechanism *mechanism, double *q,
+                               double *moved_m, fw_diags *diags);
 
-/* fw_assemble with everything that is known about the result; q (3 nbody) as there.
+/* fw_assembly_assemble with everything that is known about the result; q (3 nbody) as there.
    FW_SOLVER as there; then *assembly has before, gap and after: the best that was found. */
 fw_status fw_assembly_solve(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
                             fw_diags *diags, fw_assembly **assembly);
@@ -75,7 +78,7 @@ fw_status fw_assembly_solve(fw_arena *arena, const fw_mechanism *mechanism, cons
 /* a mechanism that stands in its assembled pose: `mechanism` itself when its own pose closes all
    joints to 1e-9 of its size, else a copy, and FW-D115 on how far bodies were moved: a warning
    beyond 1e-6 of the size. *moved_m (may be NULL): the largest displacement. */
-fw_status fw_assembled(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
-                       const fw_mechanism **assembled, double *moved_m);
+fw_status fw_assembly_assembled(fw_arena *arena, const fw_mechanism *mechanism, fw_diags *diags,
+                                const fw_mechanism **assembled, double *moved_m);
 
 #endif

@@ -6,10 +6,10 @@
 #include "assembly/assembly.h"
 #include "multibody/model.h"
 
-/* ---- closure.c ---- */
-typedef struct fw_closure {
+/* ---- assembly_closure.c ---- */
+typedef struct fw_assembly_closure {
     const fw_arena *arena; /* whose request to stop ends the descent */
-    fw_model *model;
+    fw_multibody_model *model;
     double *u;                           /* (3 nbody) displacements from the guess */
     double *trial, *step, *psi, *lambda; /* work */
     double *kept;                        /* (nblock) angle, length or travel that a block keeps */
@@ -18,64 +18,69 @@ typedef struct fw_closure {
     double promise;                      /* first-order decrease of the mismatch along the step */
     double goal;                         /* |Psi| of a closed mechanism */
     long iterations, left;               /* done; most that may follow */
-} fw_closure;
+} fw_assembly_closure;
 
-fw_status fw_closure_new(fw_arena *arena, fw_model *model, fw_closure *c);
+fw_status fw_assembly_closure_new(fw_arena *arena, fw_multibody_model *model,
+                                  fw_assembly_closure *c);
 /* sum over active blocks of |Psi|^2 / soft^2; psi is set, the model posed */
-double fw_closure_mismatch(fw_closure *c, const double *u);
+double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u);
 /* from c->u downhill; true: every active block is closed to round-off */
-bool fw_closure_descend(fw_closure *c, int most);
+bool fw_assembly_closure_descend(fw_assembly_closure *c, int most);
 /* a closed c->u to the closed pose nearest to u = 0 in the mass metric */
-void fw_closure_nearest(fw_closure *c);
+void fw_assembly_closure_nearest(fw_assembly_closure *c);
 /* angles that went round come back to within half a turn of the guess, where joints allow it */
-void fw_closure_unwind(const fw_closure *c, int *group);
+void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group);
 /* distance of the mass metric from u = 0, squared */
-double fw_closure_distance(const fw_closure *c, const double *u);
+double fw_assembly_closure_distance(const fw_assembly_closure *c, const double *u);
 
 /* ---- tree.c ---- */
-typedef struct fw_tree {
+typedef struct fw_assembly_tree {
     int *order;  /* (nbody) bodies in the order in which they are placed */
     int *parent; /* (nbody) body that it is joined to; nbody: the ground; -1: nothing */
     int *stage;  /* (nblock) place in `order` at which both bodies of a block stand */
     bool *link;  /* (nblock) joins a body to its parent: closed by placing it */
     int *first;  /* (nbody + 1) blocks of a body: item[first[b]] .. */
     int *item;   /* (2 nblock) */
-} fw_tree;
-fw_status fw_tree_new(fw_arena *arena, const fw_model *m, fw_tree *tree);
+} fw_assembly_tree;
+fw_status fw_assembly_tree_new(fw_arena *arena, const fw_multibody_model *m,
+                               fw_assembly_tree *tree);
 /* puts body b where the joints to its parent close, keeping its angle where they allow it */
-void fw_tree_place(const fw_tree *tree, fw_closure *c, int body);
+void fw_assembly_tree_place(const fw_assembly_tree *tree, fw_assembly_closure *c, int body);
 
 /* ---- restart.c ---- */
 /* closes the active blocks from other starts: body by body along the tree, loops as they close,
    then with turned bodies. best (3 nbody) ends as the least mismatch *value of all active blocks.
    work: 3 nbody doubles and nblock flags. */
-typedef struct fw_restart {
-    fw_tree tree;
+typedef struct fw_assembly_restart {
+    fw_assembly_tree tree;
     double *best, *saved;
     double value; /* least mismatch so far */
     bool *wanted; /* (nblock) active set to reach */
     bool *loop;   /* (nbody) bodies of the loop at hand */
     int restarts;
     bool cut; /* ended by the bound on its steps, not because all starts were tried */
-} fw_restart;
-fw_status fw_restart_new(fw_arena *arena, const fw_model *m, fw_restart *r);
-bool fw_restart_close(fw_restart *r, fw_closure *c);
+} fw_assembly_restart;
+fw_status fw_assembly_restart_new(fw_arena *arena, const fw_multibody_model *m,
+                                  fw_assembly_restart *r);
+bool fw_assembly_restart_close(fw_assembly_restart *r, fw_assembly_closure *c);
 
 /* uniform in [0, 1): the same number for the same arguments, everywhere */
-double fw_spread(unsigned stream, unsigned index);
+double fw_assembly_spread(unsigned stream, unsigned index);
 
 /* ---- loops.c ---- */
 /* what cannot close, in words; psi at the best pose */
-fw_status fw_closure_explain(fw_arena *arena, const fw_mechanism *mechanism, fw_closure *c,
-                             fw_restart *r, fw_diags *diags);
-typedef struct fw_length_unit {
+fw_status fw_assembly_closure_explain(fw_arena *arena, const fw_mechanism *mechanism,
+                                      fw_assembly_closure *c, fw_assembly_restart *r,
+                                      fw_diags *diags);
+typedef struct fw_assembly_length_unit {
     const char *name;
     double per_m;
-} fw_length_unit;
+} fw_assembly_length_unit;
 /* one unit for lengths of one sentence: that of the longest, but so that the shortest keeps digits
  */
-fw_length_unit fw_length_unit_for(double longest_m, double shortest_m);
-char *fw_length_text(char *to, size_t n, double metres, fw_length_unit unit);
-void fw_block_gap(const fw_model *m, int block, const double *psi, double *gap_m, double *gap_rad);
+fw_assembly_length_unit fw_assembly_length_unit_for(double longest_m, double shortest_m);
+char *fw_assembly_length_text(char *to, size_t n, double metres, fw_assembly_length_unit unit);
+void fw_assembly_block_gap(const fw_multibody_model *m, int block, const double *psi, double *gap_m,
+                           double *gap_rad);
 
 #endif

@@ -11,8 +11,8 @@ static const char *name_of(const char *id) {
     return id ? id : "(unnamed)";
 }
 
-static fw_status write_names(fw_arena *arena, const fw_mechanism *m, const fw_coordinate_choice *c,
-                             const char **text) {
+static fw_status write_names(fw_arena *arena, const fw_mechanism *m,
+                             const fw_assembly_coordinate_choice *c, const char **text) {
     fw_text out = fw_text_new(arena);
     fw_text_add(&out, "");
     for (int i = 0; i < c->count; i++)
@@ -22,8 +22,9 @@ static fw_status write_names(fw_arena *arena, const fw_mechanism *m, const fw_co
     return fw_text_end(&out);
 }
 
-fw_status fw_independent_rows(fw_arena *arena, const fw_singular *space, int rank,
-                              const fw_coordinate_choice *choice, fw_singular *rows) {
+fw_status fw_assembly_independent_rows(fw_arena *arena, const fw_maths_singular *space, int rank,
+                                       const fw_assembly_coordinate_choice *choice,
+                                       fw_maths_singular *rows) {
     int f = choice->count, n = space->columns;
     double *part;
     FW_NEED(part = fw_arena_array(arena, double, (size_t)f *(size_t)f));
@@ -31,16 +32,16 @@ fw_status fw_independent_rows(fw_arena *arena, const fw_singular *space, int ran
         for (int k = 0; k < f; k++)
             part[i * f + k] =
                 space->v[(rank + k) * n + 3 * choice->item[i].body + choice->item[i].axis];
-    return fw_singular_new(arena, f, f, part, rows);
+    return fw_maths_singular_new(arena, f, f, part, rows);
 }
 
 /* v = N z with orthonormal N: |v| <= |v_I| / (smallest singular value of N_I) */
-static fw_status measure(fw_arena *arena, const fw_singular *space, int rank,
-                         fw_coordinate_choice *c) {
-    fw_singular rows;
+static fw_status measure(fw_arena *arena, const fw_maths_singular *space, int rank,
+                         fw_assembly_coordinate_choice *c) {
+    fw_maths_singular rows;
     c->condition = 1;
     if (c->count == 0) return FW_OK;
-    FW_TRY(fw_independent_rows(arena, space, rank, c, &rows));
+    FW_TRY(fw_assembly_independent_rows(arena, space, rank, c, &rows));
     double least = rows.sigma[c->count - 1];
     c->condition = least > 0 ? fmax(1, 1 / least) : (double)INFINITY;
     return FW_OK;
@@ -49,12 +50,12 @@ static fw_status measure(fw_arena *arena, const fw_singular *space, int rank,
 /* greedy pivoting on the rows of N (nq x f): the longest remainder wins; an angle wins over a
    longer one of at most twice its length, because that is what people turn. Source: QR with column
    pivoting, Golub and Van Loan, ch. 5.4. Test: test_kinematics.c. */
-static fw_status pivot(fw_arena *arena, const fw_singular *space, int rank,
-                       fw_coordinate_choice *c) {
+static fw_status pivot(fw_arena *arena, const fw_maths_singular *space, int rank,
+                       fw_assembly_coordinate_choice *c) {
     int n = space->columns, f = n - rank;
     double *left; /* (n x f) */
     FW_NEED(left = fw_arena_array(arena, double, (size_t)n *(size_t)f));
-    FW_NEED(c->item = fw_arena_array(arena, fw_coordinate, (size_t)f));
+    FW_NEED(c->item = fw_arena_array(arena, fw_assembly_coordinate, (size_t)f));
     c->count = f;
     c->automatic = true;
     for (int i = 0; i < n; i++)
@@ -71,7 +72,7 @@ static fw_status pivot(fw_arena *arena, const fw_singular *space, int rank,
             if (weighed > most * (1 + 1e-9)) most = weighed, norm = sqrt(square), best = i;
         }
         if (best < 0) return FW_SOLVER;
-        c->item[take] = (fw_coordinate){best / 3, best % 3};
+        c->item[take] = (fw_assembly_coordinate){best / 3, best % 3};
         double *row = left + best * f;
         for (int k = 0; k < f; k++)
             row[k] /= norm;
@@ -86,7 +87,7 @@ static fw_status pivot(fw_arena *arena, const fw_singular *space, int rank,
         memset(row, 0, (size_t)f * sizeof *row);
     }
     for (int i = 1; i < f; i++) { /* in the order of the file */
-        fw_coordinate one = c->item[i];
+        fw_assembly_coordinate one = c->item[i];
         int k = i;
         for (; k > 0 && 3 * c->item[k - 1].body + c->item[k - 1].axis > 3 * one.body + one.axis;
              k--)
@@ -117,7 +118,8 @@ static fw_status unknown_name(fw_arena *arena, const fw_mechanism *m, const char
                                 near ? "?" : "", suggestion));
 }
 
-static bool find_coordinate(const fw_mechanism *m, const char *word, size_t n, fw_coordinate *c) {
+static bool find_coordinate(const fw_mechanism *m, const char *word, size_t n,
+                            fw_assembly_coordinate *c) {
     for (int b = 0; b < m->nbody; b++)
         for (int axis = 0; axis < 3; axis++) {
             const char *id = name_of(m->body[b].id);
@@ -125,7 +127,7 @@ static bool find_coordinate(const fw_mechanism *m, const char *word, size_t n, f
             if (n == length + 1 + strlen(axis_name[axis]) && strncmp(word, id, length) == 0 &&
                 word[length] == '.' &&
                 strncmp(word + length + 1, axis_name[axis], strlen(axis_name[axis])) == 0) {
-                *c = (fw_coordinate){b, axis};
+                *c = (fw_assembly_coordinate){b, axis};
                 return true;
             }
         }
@@ -133,8 +135,9 @@ static bool find_coordinate(const fw_mechanism *m, const char *word, size_t n, f
 }
 
 static fw_status read_list(fw_arena *arena, const fw_mechanism *m, const char *asked,
-                           const char *suggestion, fw_diags *diags, fw_coordinate_choice *c) {
-    FW_NEED(c->item = fw_arena_array(arena, fw_coordinate, strlen(asked) + 1));
+                           const char *suggestion, fw_diags *diags,
+                           fw_assembly_coordinate_choice *c) {
+    FW_NEED(c->item = fw_arena_array(arena, fw_assembly_coordinate, strlen(asked) + 1));
     for (const char *at = asked; *at;) {
         size_t n = strcspn(at, ",");
         const char *next = at + n + (at[n] == ',');
@@ -142,7 +145,7 @@ static fw_status read_list(fw_arena *arena, const fw_mechanism *m, const char *a
             at++, n--;
         while (n > 0 && at[n - 1] == ' ')
             n--;
-        fw_coordinate *to = &c->item[c->count];
+        fw_assembly_coordinate *to = &c->item[c->count];
         if (!find_coordinate(m, at, n, to)) {
             const char *word = fw_arena_strndup(arena, at, n);
             FW_NEED(word);
@@ -159,8 +162,9 @@ static fw_status read_list(fw_arena *arena, const fw_mechanism *m, const char *a
     return FW_OK;
 }
 
-static fw_status judge(const fw_coordinate_choice *c, const fw_coordinate_choice *own,
-                       const char *asked, fw_diags *diags) {
+static fw_status judge(const fw_assembly_coordinate_choice *c,
+                       const fw_assembly_coordinate_choice *own, const char *asked,
+                       fw_diags *diags) {
     char number[32];
     if (c->condition < hopeless) return FW_OK;
     return refuse(fw_diag_error(
@@ -173,15 +177,16 @@ static fw_status judge(const fw_coordinate_choice *c, const fw_coordinate_choice
         own->text, fw_number_text((char[32]){0}, 32, own->condition, 3)));
 }
 
-fw_status fw_independent_choose(fw_arena *arena, const fw_mechanism *mechanism,
-                                const fw_singular *space, int rank, const char *asked,
-                                fw_diags *diags, fw_coordinate_choice *choice) {
-    fw_coordinate_choice own = {0};
+fw_status fw_assembly_independent_choose(fw_arena *arena, const fw_mechanism *mechanism,
+                                         const fw_maths_singular *space, int rank,
+                                         const char *asked, fw_diags *diags,
+                                         fw_assembly_coordinate_choice *choice) {
+    fw_assembly_coordinate_choice own = {0};
     FW_TRY(pivot(arena, space, rank, &own));
     FW_TRY(write_names(arena, mechanism, &own, &own.text));
     *choice = own;
     if (!asked || !*asked) return FW_OK;
-    fw_coordinate_choice c = {0};
+    fw_assembly_coordinate_choice c = {0};
     FW_TRY(read_list(arena, mechanism, asked, own.count ? own.text : "AB.phi", diags, &c));
     if (c.count != own.count)
         return refuse(fw_diag_error(

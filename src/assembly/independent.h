@@ -8,11 +8,13 @@
 
 /* space: singular values of the scaled G, of which `rank` count; asked: as in the options, or NULL
  */
-fw_status fw_independent_choose(fw_arena *arena, const fw_mechanism *mechanism,
-                                const fw_singular *space, int rank, const char *asked,
-                                fw_diags *diags, fw_coordinate_choice *choice);
+fw_status fw_assembly_independent_choose(fw_arena *arena, const fw_mechanism *mechanism,
+                                         const fw_maths_singular *space, int rank,
+                                         const char *asked, fw_diags *diags,
+                                         fw_assembly_coordinate_choice *choice);
 /* N_I (count x count): rows of the null space at the chosen coordinates */
-fw_status fw_independent_rows(fw_arena *arena, const fw_singular *space, int rank,
-                              const fw_coordinate_choice *choice, fw_singular *rows);
+fw_status fw_assembly_independent_rows(fw_arena *arena, const fw_maths_singular *space, int rank,
+                                       const fw_assembly_coordinate_choice *choice,
+                                       fw_maths_singular *rows);
 
 #endif

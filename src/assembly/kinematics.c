@@ -11,16 +11,16 @@
 typedef struct state { /* at one instant; arrays are the model's, scaled */
     fw_arena *arena;
     const fw_mechanism *mechanism;
-    const fw_kinematics_options *options;
+    const fw_assembly_kinematics_options *options;
     fw_diags *diags;
-    fw_model *m;
+    fw_multibody_model *m;
     double *q0;     /* (3 nbody) SI: where u = 0 */
     double *y;      /* (ny) u and v */
     double *a;      /* (nq) */
     double *g;      /* (rows x nq) */
     double *packed; /* (rows) */
     double *work;   /* (nq) */
-    fw_singular space;
+    fw_maths_singular space;
     int rank;
 } state;
 
@@ -28,7 +28,7 @@ typedef struct state { /* at one instant; arrays are the model's, scaled */
 
 /* least x with G x = b; b becomes what is left of it, *off its size relative to b */
 static void particular(const state *s, double *b, double *x, double *off) {
-    const fw_singular *g = &s->space;
+    const fw_maths_singular *g = &s->space;
     double size = 0, left = 0;
     memset(x, 0, (size_t)g->columns * sizeof *x);
     for (int k = 0; k < g->rows; k++)
@@ -51,8 +51,8 @@ static void particular(const state *s, double *b, double *x, double *off) {
 
 /* x += N z so that x takes the values `given` at the independent coordinates: N_I z = given - x_I
  */
-static void add_free(const state *s, const fw_coordinate_choice *c, const fw_singular *rows,
-                     const double *given, double *x) {
+static void add_free(const state *s, const fw_assembly_coordinate_choice *c,
+                     const fw_maths_singular *rows, const double *given, double *x) {
     int f = c->count, n = s->space.columns;
     for (int i = 0; i < f; i++) {
         double share = 0;
@@ -69,8 +69,8 @@ static void add_free(const state *s, const fw_coordinate_choice *c, const fw_sin
 }
 
 /* N_I^T tau = N^T force */
-static void driving(const state *s, const fw_coordinate_choice *c, const fw_singular *rows,
-                    const double *force, double *tau) {
+static void driving(const state *s, const fw_assembly_coordinate_choice *c,
+                    const fw_maths_singular *rows, const double *force, double *tau) {
     int f = c->count, n = s->space.columns;
     memset(tau, 0, (size_t)f * sizeof *tau);
     for (int i = 0; i < f; i++) { /* N_I^T = V diag U^T */
@@ -89,7 +89,7 @@ static void driving(const state *s, const fw_coordinate_choice *c, const fw_sing
 
 /* least lambda with G^T lambda = h, into the model's blocks */
 static void multipliers(const state *s, const double *h) {
-    const fw_singular *g = &s->space;
+    const fw_maths_singular *g = &s->space;
     memset(s->packed, 0, (size_t)g->rows * sizeof *s->packed);
     for (int i = 0; i < s->rank; i++) {
         double share = 0;
@@ -98,20 +98,21 @@ static void multipliers(const state *s, const double *h) {
         for (int k = 0; k < g->rows; k++)
             s->packed[k] += share / g->sigma[i] * g->u[i * g->rows + k];
     }
-    fw_model_unpack(s->m, s->packed, s->m->lambda);
+    fw_multibody_model_unpack(s->m, s->packed, s->m->lambda);
 }
 
 /* ---- one instant ---- */
 
-static const char *scene_text(const fw_scene *scene) {
+static const char *scene_text(const fw_device_scene *scene) {
     return scene && scene->name ? scene->name : "(none)";
 }
 
-static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                           const double *q, const fw_kinematics_options *options, fw_diags *diags,
+static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_device_scene *scene, const double *q,
+                           const fw_assembly_kinematics_options *options, fw_diags *diags,
                            state *s) {
     *s = (state){.arena = arena, .mechanism = mechanism, .options = options, .diags = diags};
-    fw_terms terms;
+    fw_effects_loads loads;
     fw_effect_ledger ledger;
     size_t n = 3 * (size_t)mechanism->nbody;
     if (n > FW_KINEMATICS_MOST) {
@@ -129,18 +130,18 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
         double moved;
         const fw_mechanism *start;
         FW_TRY(fw_effects_compile(arena, mechanism, scene, &options->effects, accuracy, diags,
-                                  &ledger, &terms));
-        terms.released = NULL; /* the motion is given: all pins are joints */
-        FW_TRY(fw_effects_strain(arena, mechanism, &terms, &s->mechanism));
-        FW_TRY(fw_effects_at_start(arena, s->mechanism, &terms, &start));
-        if (start != mechanism) FW_TRY(fw_assemble(arena, start, s->q0, &moved, diags));
+                                  &ledger, &loads));
+        loads.released = NULL; /* the motion is given: all pins are joints */
+        FW_TRY(fw_effects_strain(arena, mechanism, &loads, &s->mechanism));
+        FW_TRY(fw_effects_at_start(arena, s->mechanism, &loads, &start));
+        if (start != mechanism) FW_TRY(fw_assembly_assemble(arena, start, s->q0, &moved, diags));
         mechanism = s->mechanism, q = s->q0;
     }
-    if (scene) terms.nfriction = 0; /* forces as they are without */
-    FW_TRY(fw_model_new(arena, mechanism, scene ? &terms : NULL, q, scene ? scene->duration_s : 1,
-                        NULL, diags, &s->m));
+    if (scene) loads.nfriction = 0; /* forces as they are without */
+    FW_TRY(fw_multibody_model_new(arena, mechanism, scene ? &loads : NULL, q,
+                                  scene ? scene->duration_s : 1, NULL, diags, &s->m));
     s->m->piece = DBL_MIN;
-    fw_model_at(s->m, 0);
+    fw_multibody_model_at(s->m, 0);
     size_t rows = (size_t)s->m->rows;
     FW_NEED(s->y = fw_arena_array(arena, double, (size_t)s->m->ny + 2));
     FW_NEED(s->a = fw_arena_array(arena, double, n));
@@ -152,9 +153,9 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism, const
 
 /* G at the pose s->y and its singular values */
 static fw_status factor(state *s) {
-    fw_model_pose(s->m, s->y);
-    fw_model_dense_jacobian(s->m, s->g);
-    FW_TRY(fw_singular_new(s->arena, s->m->rows, s->m->nq, s->g, &s->space));
+    fw_multibody_model_pose(s->m, s->y);
+    fw_multibody_model_dense_jacobian(s->m, s->g);
+    FW_TRY(fw_maths_singular_new(s->arena, s->m->rows, s->m->nq, s->g, &s->space));
     int least = s->m->rows < s->m->nq ? s->m->rows : s->m->nq;
     for (s->rank = 0; s->rank < least && s->space.sigma[s->rank] > 1e-10 * s->space.sigma[0];)
         s->rank++;
@@ -167,7 +168,7 @@ static double unit_of(const state *s, int axis) { /* SI of one scaled displaceme
 
 /* rates (power 1) or accelerations (power 2) of the independent coordinates, scaled, less what x
    has there */
-static void wanted(const state *s, const fw_coordinate_choice *c, const double *given,
+static void wanted(const state *s, const fw_assembly_coordinate_choice *c, const double *given,
                    const double *x, int power, double *out) {
     double time = power == 1 ? s->m->scale.time_s : s->m->scale.time_s * s->m->scale.time_s;
     for (int i = 0; i < c->count; i++) {
@@ -187,21 +188,21 @@ static fw_status contradict(const state *s, double t, const char *what) {
 }
 
 /* v, then a, at scaled time t; the choice's rates and accelerations in SI */
-static fw_status rates(state *s, double t, const fw_coordinate_choice *c, const fw_singular *rows,
-                       const double *rate, const double *accel) {
-    fw_model *m = s->m;
+static fw_status rates(state *s, double t, const fw_assembly_coordinate_choice *c,
+                       const fw_maths_singular *rows, const double *rate, const double *accel) {
+    fw_multibody_model *m = s->m;
     double off, *v = s->y + m->nq, *given;
     FW_NEED(given = fw_arena_array(s->arena, double, (size_t)c->count));
-    fw_model_drift(m, t, m->drift);
-    fw_model_pack(m, m->drift, s->packed);
+    fw_multibody_model_drift(m, t, m->drift);
+    fw_multibody_model_pack(m, m->drift, s->packed);
     for (int i = 0; i < m->rows; i++)
         s->packed[i] = -s->packed[i];
     particular(s, s->packed, v, &off);
     if (off > 1e-8) return contradict(s, t, "velocities");
     wanted(s, c, rate, v, 1, given);
     add_free(s, c, rows, given, v);
-    fw_model_gamma(m, t, v, m->right);
-    fw_model_pack(m, m->right, s->packed);
+    fw_multibody_model_gamma(m, t, v, m->right);
+    fw_multibody_model_pack(m, m->right, s->packed);
     for (int i = 0; i < m->rows; i++)
         s->packed[i] = -s->packed[i];
     particular(s, s->packed, s->a, &off);
@@ -212,11 +213,11 @@ static fw_status rates(state *s, double t, const fw_coordinate_choice *c, const 
 }
 
 /* tau and lambda from M a - Q */
-static void forces(state *s, double t, const fw_coordinate_choice *c, const fw_singular *rows,
-                   double *tau) {
-    fw_model *m = s->m;
-    fw_model_set_switches(m, t, s->y);
-    fw_model_forces(m, t, s->y);
+static void forces(state *s, double t, const fw_assembly_coordinate_choice *c,
+                   const fw_maths_singular *rows, double *tau) {
+    fw_multibody_model *m = s->m;
+    fw_multibody_model_set_switches(m, t, s->y);
+    fw_multibody_model_forces(m, t, s->y);
     for (int i = 0; i < m->nq; i++) {
         double mass = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
         s->work[i] = mass * (s->a[i] - m->accel[i]);
@@ -228,12 +229,13 @@ static void forces(state *s, double t, const fw_coordinate_choice *c, const fw_s
         s->work[3 * c->item[i].body + c->item[i].axis] += tau[i];
     multipliers(s, s->work);
     for (int i = 0; i < c->count; i++)
-        tau[i] *= fw_newton(m) * (c->item[i].axis == 2 ? m->scale.length_m : 1);
+        tau[i] *= fw_multibody_newton(m) * (c->item[i].axis == 2 ? m->scale.length_m : 1);
 }
 
-static fw_status result_new(fw_arena *arena, const fw_mechanism *m, int freedom, fw_kinematics *k) {
+static fw_status result_new(fw_arena *arena, const fw_mechanism *m, int freedom,
+                            fw_assembly_kinematics *k) {
     size_t n = 3 * (size_t)m->nbody, f = (size_t)freedom;
-    k->nbody = m->nbody, k->npin = m->npin, k->ntie = m->ntie, k->ndriver = m->ndriver;
+    k->nbody = m->nbody, k->npin = m->npin, k->njoint = m->njoint, k->ndriver = m->ndriver;
     FW_NEED(k->rate = fw_arena_array(arena, double, f));
     FW_NEED(k->accel = fw_arena_array(arena, double, f));
     FW_NEED(k->drive = fw_arena_array(arena, double, f));
@@ -241,13 +243,13 @@ static fw_status result_new(fw_arena *arena, const fw_mechanism *m, int freedom,
     FW_NEED(k->v = fw_arena_array(arena, double, n));
     FW_NEED(k->a = fw_arena_array(arena, double, n));
     FW_NEED(k->reaction_N = fw_arena_array(arena, double, 2 * (size_t)m->npin));
-    FW_NEED(k->tie_N = fw_arena_array(arena, double, 3 * (size_t)m->ntie));
+    FW_NEED(k->joint_N = fw_arena_array(arena, double, 3 * (size_t)m->njoint));
     FW_NEED(k->driver_N = fw_arena_array(arena, double, (size_t)m->ndriver));
     return FW_OK;
 }
 
-static fw_status store(const state *s, double t, fw_kinematics *k) {
-    const fw_model *m = s->m;
+static fw_status store(const state *s, double t, fw_assembly_kinematics *k) {
+    const fw_multibody_model *m = s->m;
     double time = m->scale.time_s, sum = 0;
     k->t_s = t * time;
     for (int i = 0; i < m->nq; i++) {
@@ -257,15 +259,15 @@ static fw_status store(const state *s, double t, fw_kinematics *k) {
         k->a[i] = unit / (time * time) * s->a[i];
         sum += 0 * (k->v[i] + k->a[i]);
     }
-    fw_pin_forces(m, k->reaction_N);
-    fw_tie_forces(m, s->mechanism, k->tie_N, k->driver_N);
+    fw_multibody_pin_forces(m, k->reaction_N);
+    fw_multibody_joint_forces(m, s->mechanism, k->joint_N, k->driver_N);
     k->unique = s->rank == m->rows;
     for (int i = 0; i < 2 * m->npin; i++)
         sum += 0 * k->reaction_N[i];
     return sum == 0 ? FW_OK : contradict(s, t, "a motion");
 }
 
-static fw_status check_count(const char *what, int given, const fw_coordinate_choice *c,
+static fw_status check_count(const char *what, int given, const fw_assembly_coordinate_choice *c,
                              fw_diags *diags) {
     if (given == 0 || given == c->count) return FW_OK;
     fw_status status =
@@ -288,24 +290,25 @@ static fw_status check_finite(const double *value, int count, fw_diags *diags) {
    decomposition of the scaled G. Error: round-off times the condition of the choice and of G. Cost
    of that decomposition, about 10 unknowns^3. Source: Wehage and Haug 1982; Garcia de Jalon and
    Bayo 1994, ch. 3 and 5. Test: test_kinematics.c. */
-fw_status fw_kinematics_solve(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                              const double *q, const fw_kinematics_options *options,
-                              fw_diags *diags, const fw_kinematics **result) {
+fw_status fw_assembly_kinematics_solve(fw_arena *arena, const fw_mechanism *mechanism,
+                                       const fw_device_scene *scene, const double *q,
+                                       const fw_assembly_kinematics_options *options,
+                                       fw_diags *diags, const fw_assembly_kinematics **result) {
     state s;
-    fw_singular rows;
+    fw_maths_singular rows;
     *result = NULL;
-    fw_kinematics *k = fw_arena_one(arena, fw_kinematics);
+    fw_assembly_kinematics *k = fw_arena_one(arena, fw_assembly_kinematics);
     FW_NEED(k);
     FW_TRY(check_finite(options->rate, options->rate ? options->nrate : 0, diags));
     FW_TRY(check_finite(options->accel, options->accel ? options->naccel : 0, diags));
     FW_TRY(state_new(arena, mechanism, scene, q, options, diags, &s));
     FW_TRY(factor(&s));
-    FW_TRY(fw_independent_choose(arena, mechanism, &s.space, s.rank, options->independent, diags,
-                                 &k->independent));
-    const fw_coordinate_choice *c = &k->independent;
+    FW_TRY(fw_assembly_independent_choose(arena, mechanism, &s.space, s.rank, options->independent,
+                                          diags, &k->independent));
+    const fw_assembly_coordinate_choice *c = &k->independent;
     FW_TRY(check_count("rates are", options->rate ? options->nrate : 0, c, diags));
     FW_TRY(check_count("accelerations are", options->accel ? options->naccel : 0, c, diags));
-    FW_TRY(fw_independent_rows(arena, &s.space, s.rank, c, &rows));
+    FW_TRY(fw_assembly_independent_rows(arena, &s.space, s.rank, c, &rows));
     FW_TRY(result_new(arena, mechanism, c->count, k));
     FW_TRY(rates(&s, 0, c, &rows, options->rate, options->accel));
     forces(&s, 0, c, &rows, k->drive);
@@ -320,7 +323,7 @@ fw_status fw_kinematics_solve(fw_arena *arena, const fw_mechanism *mechanism, co
 
 /* ---- driven mechanisms along time ---- */
 
-static fw_status lost(const state *s, const fw_scene *scene, double t) {
+static fw_status lost(const state *s, const fw_device_scene *scene, double t) {
     char time[32];
     fw_status status = fw_diag_error(
         s->diags, 118, scene->place,
@@ -330,7 +333,7 @@ static fw_status lost(const state *s, const fw_scene *scene, double t) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-static fw_status not_driven(const state *s, const fw_scene *scene) {
+static fw_status not_driven(const state *s, const fw_device_scene *scene) {
     fw_status status = fw_diag_error(
         s->diags, 117, scene->place,
         "%d degrees of freedom are left free by the drivers; only a mechanism that is driven in "
@@ -342,7 +345,7 @@ static fw_status not_driven(const state *s, const fw_scene *scene) {
 /* u at t + h from u, v, a at t: the Taylor step, closed by Newton; false: not within a tenth of
    what it moved */
 static bool advance(state *s, double t, double h, double *next) {
-    fw_model *m = s->m;
+    fw_multibody_model *m = s->m;
     const double *u = s->y, *v = s->y + m->nq;
     double moved = 0, off = 0;
     for (int i = 0; i < m->nq; i++) {
@@ -351,15 +354,15 @@ static bool advance(state *s, double t, double h, double *next) {
         moved = fmax(moved, fabs(next[i] - u[i]));
     }
     if (!(moved < 0.3)) return false;
-    fw_model_pose(m, next);
-    if (!m->method->factor(m) || !fw_model_project_position(m, t + h, next)) return false;
+    fw_multibody_model_pose(m, next);
+    if (!m->method->factor(m) || !fw_multibody_model_project_position(m, t + h, next)) return false;
     for (int i = 0; i < m->nq; i++)
         off = fmax(off, fabs(next[i] - s->work[i]));
     return off <= 0.1 * moved + 1e-9;
 }
 
-static fw_status at_instant(state *s, double t, const fw_coordinate_choice *none) {
-    fw_singular rows = {0};
+static fw_status at_instant(state *s, double t, const fw_assembly_coordinate_choice *none) {
+    fw_maths_singular rows = {0};
     fw_mark mark = fw_arena_mark(s->arena);
     FW_TRY(factor(s));
     if (s->rank < s->m->nq) return contradict(s, t, "a motion");
@@ -370,8 +373,8 @@ static fw_status at_instant(state *s, double t, const fw_coordinate_choice *none
 }
 
 /* from t to `end` in steps that keep the branch */
-static fw_status walk(state *s, const fw_scene *scene, double t, double end,
-                      const fw_coordinate_choice *none) {
+static fw_status walk(state *s, const fw_device_scene *scene, double t, double end,
+                      const fw_assembly_coordinate_choice *none) {
     double h = end - t, span = h, *next = s->m->stage;
     while (t < end) {
         double to = t + h >= end ? end : t + h;
@@ -389,12 +392,12 @@ static fw_status walk(state *s, const fw_scene *scene, double t, double end,
     return at_instant(s, end, none);
 }
 
-fw_status fw_kinematics_follow(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_scene *scene, const double *q, int samples,
-                               const fw_kinematics_options *options, fw_diags *diags,
-                               const fw_kinematics **result) {
+fw_status fw_assembly_kinematics_follow(fw_arena *arena, const fw_mechanism *mechanism,
+                                        const fw_device_scene *scene, const double *q, int samples,
+                                        const fw_assembly_kinematics_options *options,
+                                        fw_diags *diags, const fw_assembly_kinematics **result) {
     state s;
-    fw_coordinate_choice none = {.condition = 1, .text = ""};
+    fw_assembly_coordinate_choice none = {.condition = 1, .text = ""};
     *result = NULL;
     if (samples < 1 || !(scene->duration_s > 0) || !isfinite(scene->duration_s)) {
         fw_status status = fw_diag_error(diags, 105, scene->place,
@@ -403,7 +406,7 @@ fw_status fw_kinematics_follow(fw_arena *arena, const fw_mechanism *mechanism,
     }
     FW_TRY(state_new(arena, mechanism, scene, q, options, diags, &s));
     FW_NEED(s.m->stage = fw_arena_array(arena, double, (size_t)s.m->ny));
-    fw_kinematics *all = fw_arena_array(arena, fw_kinematics, (size_t)samples);
+    fw_assembly_kinematics *all = fw_arena_array(arena, fw_assembly_kinematics, (size_t)samples);
     FW_NEED(all);
     FW_TRY(factor(&s));
     if (s.rank < s.m->nq) return not_driven(&s, scene);

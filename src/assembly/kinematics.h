@@ -9,53 +9,54 @@
 #define FW_ASSEMBLY_KINEMATICS_H
 #include "multibody/multibody.h"
 
-typedef struct fw_coordinate { /* of a body: 0 x, 1 y, 2 phi */
+typedef struct fw_assembly_coordinate { /* of a body: 0 x, 1 y, 2 phi */
     int body, axis;
-} fw_coordinate;
+} fw_assembly_coordinate;
 
-typedef struct fw_coordinate_choice {
-    fw_coordinate *item; /* (count) count = degrees of freedom */
+typedef struct fw_assembly_coordinate_choice {
+    fw_assembly_coordinate *item; /* (count) count = degrees of freedom */
     int count;
     double condition; /* largest scaled velocity of any motion over the rates that give it; >= 1 */
     bool automatic;   /* chosen by pivoting, not asked for */
     const char *text; /* "AB.phi,CD.phi" */
     const char *better; /* the automatic choice where it is ten times better conditioned, or NULL */
     double better_condition;
-} fw_coordinate_choice;
+} fw_assembly_coordinate_choice;
 
-typedef struct fw_kinematics_options {
+typedef struct fw_assembly_kinematics_options {
     const char *independent; /* "BODY.x|y|phi", comma separated; NULL: chosen by pivoting */
     const double *rate;      /* (nrate) m/s, rad/s; NULL: 0 */
     const double *accel;     /* (naccel) m/s2, rad/s2; NULL: 0 */
     int nrate, naccel;
     double accuracy; /* of the choice of effects; 0: 1e-3 */
     fw_effect_choice effects;
-} fw_kinematics_options;
+} fw_assembly_kinematics_options;
 
-typedef struct fw_kinematics { /* at one instant; SI */
-    int nbody, npin, ntie, ndriver;
+typedef struct fw_assembly_kinematics { /* at one instant; SI */
+    int nbody, npin, njoint, ndriver;
     double t_s;
-    fw_coordinate_choice independent;
+    fw_assembly_coordinate_choice independent;
     double *rate, *accel, *drive; /* (independent.count); drive: force or torque it needs */
     double *q, *v, *a;            /* (3 nbody) */
     double *reaction_N;           /* (2 npin) on body b, world axes */
-    double *tie_N;                /* (3 ntie) as fw_motion.tie_N */
+    double *joint_N;              /* (3 njoint) as fw_dynamics_motion.tie_N */
     double *driver_N;             /* (ndriver) */
     bool unique; /* false: redundant rows share the joint forces; those of least norm are shown */
-} fw_kinematics;
+} fw_assembly_kinematics;
 
 /* at t = 0 in the assembled pose q (3 nbody). scene NULL: no loads. FW_USAGE (FW-D117) for a choice
    that does not fit, with one that does; FW_LIMIT beyond FW_KINEMATICS_MOST unknowns. */
 enum { FW_KINEMATICS_MOST = 600 };
-fw_status fw_kinematics_solve(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                              const double *q, const fw_kinematics_options *options,
-                              fw_diags *diags, const fw_kinematics **result);
+fw_status fw_assembly_kinematics_solve(fw_arena *arena, const fw_mechanism *mechanism,
+                                       const fw_device_scene *scene, const double *q,
+                                       const fw_assembly_kinematics_options *options,
+                                       fw_diags *diags, const fw_assembly_kinematics **result);
 
 /* a mechanism that its drivers move (no degree of freedom left): `samples` instants evenly over the
    scene, each with q, v, a and forces. FW_SOLVER when it cannot follow its drivers (FW-D118). */
-fw_status fw_kinematics_follow(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_scene *scene, const double *q, int samples,
-                               const fw_kinematics_options *options, fw_diags *diags,
-                               const fw_kinematics **result);
+fw_status fw_assembly_kinematics_follow(fw_arena *arena, const fw_mechanism *mechanism,
+                                        const fw_device_scene *scene, const double *q, int samples,
+                                        const fw_assembly_kinematics_options *options,
+                                        fw_diags *diags, const fw_assembly_kinematics **result);
 
 #endif

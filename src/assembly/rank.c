@@ -8,16 +8,16 @@
 
 static const double threshold = 1e-10; /* of sigma, relative: the gap found there is reported */
 
-/* file order: pins, ties, drivers */
-static int file_place(const fw_model *m, const fw_block *b) {
+/* file order: pins, joints, drivers */
+static int file_place(const fw_multibody_model *m, const fw_multibody_block *b) {
     if (b->pin != FW_NONE) return b->pin;
-    return b->tie != FW_NONE ? m->npin + b->tie : m->npin + m->ntie + b->driver;
+    return b->joint != FW_NONE ? m->npin + b->joint : m->npin + m->njoint + b->driver;
 }
 
-static fw_status block_of_rows(fw_arena *arena, const fw_model *m, int **block) {
+static fw_status block_of_rows(fw_arena *arena, const fw_multibody_model *m, int **block) {
     FW_NEED(*block = fw_arena_array(arena, int, (size_t)m->rows));
     for (int i = 0, row = 0; i < m->nblock; i++) {
-        fw_rows kind = m->block[i].rows;
+        fw_multibody_rows kind = m->block[i].rows;
         (*block)[row++] = i;
         if (kind == FW_ROWS_PIN || kind == FW_ROWS_SLIDE) (*block)[row++] = i;
     }
@@ -26,7 +26,8 @@ static fw_status block_of_rows(fw_arena *arena, const fw_model *m, int **block) 
 
 /* rows in file order, each less its share in those before (twice, for orthogonality); `left` is
    what remains of its length, 1 = all new. Cost rows^2 unknowns. */
-static void remainders(const fw_model *m, const int *block, int *order, double *g, double *left) {
+static void remainders(const fw_multibody_model *m, const int *block, int *order, double *g,
+                       double *left) {
     size_t n = (size_t)m->nq;
     for (int i = 0; i < m->rows; i++) {
         int k = i; /* insertion by file place keeps both rows of a block together */
@@ -59,8 +60,9 @@ static void remainders(const fw_model *m, const int *block, int *order, double *
 }
 
 /* the rows with least left are the redundant ones; their joints are named once each */
-static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism, const fw_model *m,
-                                double *g, fw_rank *out) {
+static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_multibody_model *m, double *g,
+                                fw_assembly_rank_result *out) {
     int *block, *order;
     double *left;
     FW_TRY(block_of_rows(arena, m, &block));
@@ -78,7 +80,7 @@ static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism, 
         int here = file_place(m, &m->block[block[order[i]]]);
         if (left[i] < 0 && here != last)
             out->redundant[out->nredundant++] =
-                fw_block_name(mechanism, &m->block[block[order[i]]]);
+                fw_multibody_block_name(mechanism, &m->block[block[order[i]]]);
         if (left[i] < 0) last = here;
     }
     return FW_OK;
@@ -86,23 +88,25 @@ static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism, 
 
 /* dof = unknowns - rank(G), G scaled at q (3 nbody, SI). The rank is where the singular values drop
    below 1e-10 of the largest; both neighbours of the drop are handed out, so that nobody has to
-   believe it. statics/ has its own (fw_rest_rank says why). Cost of a singular value decomposition.
+   believe it. statics/ has its own (fw_statics_equilibrium_rank says why). Cost of a singular
+   value decomposition.
    Test: test_assemble.c. */
 fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
-                           fw_diags *diags, fw_rank *out) {
-    fw_model *m;
+                           fw_diags *diags, fw_assembly_rank_result *out) {
+    fw_multibody_model *m;
     double *g, *still;
-    fw_singular s;
-    FW_TRY(fw_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &m));
-    *out = (fw_rank){.unknowns = m->nq, .rows = m->rows, .rank = m->rows, .clear = true};
+    fw_maths_singular s;
+    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &m));
+    *out = (fw_assembly_rank_result){
+        .unknowns = m->nq, .rows = m->rows, .rank = m->rows, .clear = true};
     out->dof = m->nq - m->rows;
     if (m->nq > FW_RANK_MOST || m->rows > 2 * FW_RANK_MOST) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(g = fw_arena_array(arena, double, (size_t)m->rows *(size_t)m->nq));
     FW_NEED(still = fw_arena_array(arena, double, (size_t)m->nq));
-    fw_model_pose(m, still);
-    fw_model_dense_jacobian(m, g);
-    FW_TRY(fw_singular_new(arena, m->rows, m->nq, g, &s));
+    fw_multibody_model_pose(m, still);
+    fw_multibody_model_dense_jacobian(m, g);
+    FW_TRY(fw_maths_singular_new(arena, m->rows, m->nq, g, &s));
     int least = m->rows < m->nq ? m->rows : m->nq, rank = 0;
     while (rank < least && s.sigma[rank] > threshold * s.sigma[0])
         rank++;
@@ -115,6 +119,6 @@ fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const
     fw_arena_rewind(arena, mark);
     if (rank == m->rows) return FW_OK;
     FW_NEED(g = fw_arena_array(arena, double, (size_t)m->rows *(size_t)m->nq));
-    fw_model_dense_jacobian(m, g);
+    fw_multibody_model_dense_jacobian(m, g);
     return name_redundant(arena, mechanism, m, g, out);
 }

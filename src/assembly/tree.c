@@ -4,7 +4,7 @@
 #include "assembly/closure.h"
 #include <math.h>
 
-static fw_status index_blocks(fw_arena *arena, const fw_model *m, fw_tree *t) {
+static fw_status index_blocks(fw_arena *arena, const fw_multibody_model *m, fw_assembly_tree *t) {
     FW_NEED(t->first = fw_arena_array(arena, int, (size_t)m->nbody + 2));
     FW_NEED(t->item = fw_arena_array(arena, int, 2 * (size_t)m->nblock));
     for (int i = 0; i < 2 * m->nblock; i++)
@@ -21,12 +21,12 @@ static fw_status index_blocks(fw_arena *arena, const fw_model *m, fw_tree *t) {
 }
 
 /* joints from body b to bodies that stand, and the latest of those */
-static int joints_to_placed(const fw_tree *t, const fw_model *m, const int *place, int b,
-                            int *latest) {
+static int joints_to_placed(const fw_assembly_tree *t, const fw_multibody_model *m,
+                            const int *place, int b, int *latest) {
     int count = 0;
     *latest = -1;
     for (int e = t->first[b]; e < t->first[b + 1]; e++) {
-        const fw_block *k = &m->block[t->item[e]];
+        const fw_multibody_block *k = &m->block[t->item[e]];
         int other = k->a == b ? k->b : k->a;
         if (other < m->nbody && place[other] < 0) continue;
         count++;
@@ -37,7 +37,7 @@ static int joints_to_placed(const fw_tree *t, const fw_model *m, const int *plac
 
 /* what closes a loop comes first, then what hangs on the body placed last, then the heaviest: loops
    close one by one, each with few new bodies */
-static int next_body(const fw_tree *t, const fw_model *m, const int *place) {
+static int next_body(const fw_assembly_tree *t, const fw_multibody_model *m, const int *place) {
     int best = -1, best_joints = 0, best_latest = -1;
     for (int b = 0; b < m->nbody; b++) {
         int latest, joints;
@@ -53,10 +53,10 @@ static int next_body(const fw_tree *t, const fw_model *m, const int *place) {
 }
 
 /* rows of all blocks between two bodies: how much of a pose they settle */
-static int rows_between(const fw_tree *t, const fw_model *m, int b, int other) {
+static int rows_between(const fw_assembly_tree *t, const fw_multibody_model *m, int b, int other) {
     int rows = 0;
     for (int e = t->first[b]; e < t->first[b + 1]; e++) {
-        const fw_block *k = &m->block[t->item[e]];
+        const fw_multibody_block *k = &m->block[t->item[e]];
         if ((k->a == b ? k->b : k->a) != other) continue;
         rows += k->rows == FW_ROWS_PIN || k->rows == FW_ROWS_SLIDE ? 2 : 1;
     }
@@ -65,11 +65,11 @@ static int rows_between(const fw_tree *t, const fw_model *m, int b, int other) {
 
 /* of the bodies that stand and are joined to b the one that settles most of its pose, among equals
    that of least depth; -1: none */
-static int choose_parent(const fw_tree *t, const fw_model *m, const int *place, const int *depth,
-                         int b) {
+static int choose_parent(const fw_assembly_tree *t, const fw_multibody_model *m, const int *place,
+                         const int *depth, int b) {
     int parent = -1, most = 0;
     for (int e = t->first[b]; e < t->first[b + 1]; e++) {
-        const fw_block *k = &m->block[t->item[e]];
+        const fw_multibody_block *k = &m->block[t->item[e]];
         int other = k->a == b ? k->b : k->a;
         if (other < m->nbody && place[other] < 0) continue;
         int rows = rows_between(t, m, b, other);
@@ -81,7 +81,7 @@ static int choose_parent(const fw_tree *t, const fw_model *m, const int *place, 
 
 /* inputs the blocks; outputs as in closure.h. Pieces that nothing holds start at their heaviest
    body. Cost O(bodies (bodies + blocks)). Test: test_assemble.c (hard guesses). */
-fw_status fw_tree_new(fw_arena *arena, const fw_model *m, fw_tree *t) {
+fw_status fw_assembly_tree_new(fw_arena *arena, const fw_multibody_model *m, fw_assembly_tree *t) {
     size_t n = (size_t)m->nbody;
     int *place, *depth; /* in `order`; -1: not placed; the ground stands before all */
     FW_NEED(t->order = fw_arena_array(arena, int, n));
@@ -110,11 +110,11 @@ fw_status fw_tree_new(fw_arena *arena, const fw_model *m, fw_tree *t) {
 
 /* ---- placing ---- */
 
-static double angle_of(const fw_model *m, const double *u, int body) {
+static double angle_of(const fw_multibody_model *m, const double *u, int body) {
     return body < m->nbody ? m->origin[3 * body + 2] + u[3 * body + 2] : 0;
 }
 
-static void point_of(const fw_model *m, const double *u, int body, const double *local,
+static void point_of(const fw_multibody_model *m, const double *u, int body, const double *local,
                      double p[2]) {
     double angle = angle_of(m, u, body), c = cos(angle), s = sin(angle);
     p[0] = m->origin[3 * body] + c * local[0] - s * local[1];
@@ -122,17 +122,17 @@ static void point_of(const fw_model *m, const double *u, int body, const double 
     if (body < m->nbody) p[0] += u[3 * body], p[1] += u[3 * body + 1];
 }
 
-static void shift(fw_closure *c, int body, double x, double y) {
+static void shift(fw_assembly_closure *c, int body, double x, double y) {
     c->u[3 * body] += x;
     c->u[3 * body + 1] += y;
 }
 
 /* angle, by the first block that keeps one */
-static void turn_body(const fw_tree *t, fw_closure *c, int body, int parent) {
-    const fw_model *m = c->model;
+static void turn_body(const fw_assembly_tree *t, fw_assembly_closure *c, int body, int parent) {
+    const fw_multibody_model *m = c->model;
     for (int e = t->first[body]; e < t->first[body + 1]; e++) {
         int i = t->item[e];
-        const fw_block *k = &m->block[i];
+        const fw_multibody_block *k = &m->block[i];
         if ((k->a != parent && k->b != parent) ||
             (k->rows != FW_ROWS_TURN && k->rows != FW_ROWS_SLIDE))
             continue;
@@ -143,9 +143,9 @@ static void turn_body(const fw_tree *t, fw_closure *c, int body, int parent) {
 }
 
 /* moves the body so that block i closes; rods keep their direction */
-static void shift_body(fw_closure *c, int i, int body) {
-    const fw_model *m = c->model;
-    const fw_block *k = &m->block[i];
+static void shift_body(fw_assembly_closure *c, int i, int body) {
+    const fw_multibody_model *m = c->model;
+    const fw_multibody_block *k = &m->block[i];
     double a[2], b[2], sign = k->b == body ? 1 : -1;
     point_of(m, c->u, k->a, m->local + 4 * i, a);
     point_of(m, c->u, k->b, m->local + 4 * i + 2, b);
@@ -171,16 +171,17 @@ static void shift_body(fw_closure *c, int i, int body) {
     }
 }
 
-void fw_tree_place(const fw_tree *t, fw_closure *c, int body) {
-    const fw_model *m = c->model;
+void fw_assembly_tree_place(const fw_assembly_tree *t, fw_assembly_closure *c, int body) {
+    const fw_multibody_model *m = c->model;
     int parent = t->parent[body];
     if (parent < 0) return;
     turn_body(t, c, body, parent);
     /* a pin says all about the position, a slide leaves the travel, a rod the direction */
-    static const fw_rows order[] = {FW_ROWS_ROD, FW_ROWS_SLIDE, FW_ROWS_TRAVEL, FW_ROWS_PIN};
+    static const fw_multibody_rows order[] = {FW_ROWS_ROD, FW_ROWS_SLIDE, FW_ROWS_TRAVEL,
+                                              FW_ROWS_PIN};
     for (size_t r = 0; r < sizeof order / sizeof order[0]; r++)
         for (int e = t->first[body]; e < t->first[body + 1]; e++) {
-            const fw_block *k = &m->block[t->item[e]];
+            const fw_multibody_block *k = &m->block[t->item[e]];
             if (k->rows == order[r] && (k->a == parent || k->b == parent))
                 shift_body(c, t->item[e], body);
         }

@@ -5,7 +5,7 @@
 #include <jansson.h>
 #include <stdio.h>
 
-int fw_command_doctor(fw_cli_options *options) {
+int fw_cli_command_doctor(fw_cli_options *options) {
     static const char *const needed[] = {"processes/base.xml", "processes/al-masked-rie.xml",
                                          "processes/copper-on-porous-silicon.xml",
                                          "masks/al-masked-rie.xml",

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int fw_command_explain(fw_cli_options *options) {
+int fw_cli_command_explain(fw_cli_options *options) {
     const char *code = options->device;
     const char *digits = strncmp(code, "FW-D", 4) == 0 ? code + 4 : code;
     double number;

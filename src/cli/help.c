@@ -35,24 +35,25 @@ const char *fw_cli_mask_format_names(void) {
 const char *fw_cli_hinge_model_names(void) {
     static names all;
     all = (names){.n = 0};
-    const size_t count = fw_hinge_model_count();
+    const size_t count = fw_effects_hinge_model_count();
     for (size_t i = 0; i < count; i++)
-        add_words(&all, i + 1 < count ? ", " : " or ", fw_hinge_model_text((fw_hinge_model)i),
-                  fw_hinge_model_summary((fw_hinge_model)i));
+        add_words(&all, i + 1 < count ? ", " : " or ",
+                  fw_effects_hinge_model_text((fw_effects_hinge_model)i),
+                  fw_effects_hinge_model_summary((fw_effects_hinge_model)i));
     return all.text;
 }
 
 const char *fw_cli_level_names(void) {
     static names all;
     size_t count;
-    const fw_ladder_level *level = fw_ladder_levels(&count);
+    const fw_plan_ladder_level *level = fw_plan_ladder_levels(&count);
     all = (names){.n = 0};
     for (size_t i = 0; i < count; i++)
         add_words(&all, i + 1 < count ? ", " : " or ", level[i].name, NULL);
     return all.text;
 }
 
-const char *fw_cli_option_help(const fw_option_row *row) {
+const char *fw_cli_option_help(const fw_cli_option_row *row) {
     static const struct {
         const char *option, *(*names)(void);
     } named[] = {{"mask-format", fw_cli_mask_format_names},
@@ -71,7 +72,7 @@ const char *fw_cli_option_help(const fw_option_row *row) {
 
 static void print_options(unsigned groups, FILE *to) {
     size_t count;
-    const fw_option_row *table = fw_option_rows(&count);
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
     for (size_t i = 0; i < count; i++) {
         if (!(table[i].group & groups)) continue;
         char left[64];
@@ -85,7 +86,7 @@ static void print_options(unsigned groups, FILE *to) {
 
 void fw_cli_help(void) {
     size_t n;
-    const fw_command *command = fw_command_table(&n);
+    const fw_cli_command *command = fw_cli_command_table(&n);
     fputs(
         "flexwright - from one description of a compliant micromanipulator to a verdict, masks "
         "and\n"
@@ -108,28 +109,28 @@ void fw_cli_help(void) {
         stdout);
 }
 
-static void print_rows(const char *title, fw_method_row (*at)(size_t)) {
+static void print_rows(const char *title, fw_multibody_method_row (*at)(size_t)) {
     puts(title);
     for (size_t i = 0; at(i).name; i++)
         printf("  %-24s %s\n", at(i).name, at(i).summary);
 }
 
-void fw_cli_command_help(const fw_command *command) {
+void fw_cli_command_help(const fw_cli_command *command) {
     printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
            command->argument ? " " : "", command->argument ? command->argument : "",
            command->example, command->text);
     print_options(command->options, stdout);
     if (command->options & FW_OPT_SIMULATE) {
-        print_rows("\nMethods:", fw_method_at);
-        print_rows("Integrators:", fw_integrator_at);
-        print_rows("Stabilisation:", fw_stabilisation_at);
+        print_rows("\nMethods:", fw_multibody_method_at);
+        print_rows("Integrators:", fw_dynamics_integrator_at);
+        print_rows("Stabilisation:", fw_dynamics_stabilisation_at);
     }
 }
 
 void fw_cli_reference(fw_text *out) {
     size_t n, count;
-    const fw_command *command = fw_command_table(&n);
-    const fw_option_row *table = fw_option_rows(&count);
+    const fw_cli_command *command = fw_cli_command_table(&n);
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
     fw_text_add(out, "# Command line\n\nGenerated from the option table; do not edit.\n");
     for (size_t i = 0; i < n; i++) {
         fw_text_printf(out, "\n## flexwright %s%s%s\n\n%s\n\n    %s\n\n%s\n\n", command[i].name,

@@ -14,7 +14,7 @@ static void column(fw_text *out, const char *conversion, double value, double sc
         fw_text_printf(out, "%*s", atoi(conversion + 1), "-");
 }
 
-static void level_text(fw_text *out, const fw_ladder *l, int i) {
+static void level_text(fw_text *out, const fw_plan_ladder *l, int i) {
     const fw_report_level *r = &l->row[i];
     fw_text_printf(out, "  %c %-12s", i == l->picked ? '*' : ' ', r->name);
     if (r->state != FW_LEVEL_SOLVED) {
@@ -38,8 +38,8 @@ static void level_text(fw_text *out, const fw_ladder *l, int i) {
     fw_text_add(out, "\n");
 }
 
-static void drift_text(fw_text *out, const fw_ladder *l) {
-    const fw_ladder_drift *d = &l->drift;
+static void drift_text(fw_text *out, const fw_plan_ladder *l) {
+    const fw_plan_ladder_drift *d = &l->drift;
     fw_text_add(out, "    axis drifts by ");
     fw_text_real(out, "%.3f", fabs(d->point[0].drift_m) * 1e6);
     fw_text_add(out, " and ");
@@ -72,7 +72,7 @@ static void drift_text(fw_text *out, const fw_ladder *l) {
     fw_text_add(out, "\n");
 }
 
-void fw_ladder_why(const fw_ladder *l, double accuracy, char *text, size_t n) {
+void fw_cli_ladder_why(const fw_plan_ladder *l, double accuracy, char *text, size_t n) {
     if (l->reached)
         snprintf(text, n,
                  "the cheapest whose own estimate, %.2g %% of the stiffness, is within the "
@@ -85,21 +85,22 @@ void fw_ladder_why(const fw_ladder *l, double accuracy, char *text, size_t n) {
                  accuracy * 100, l->reaches * 100);
 }
 
-static void picked_text(fw_text *out, const fw_ladders *all, const fw_ladder *l) {
+static void picked_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_ladder *l) {
     char why[200];
     if (l->picked < 0) return;
-    fw_ladder_why(l, all->accuracy, why, sizeof why);
+    fw_cli_ladder_why(l, all->accuracy, why, sizeof why);
     fw_text_printf(out, "  * %s\n", why);
     if (l->shared < 0) return;
-    const fw_ladder *from = &all->item[l->shared];
-    fw_text_printf(out, "    solved once with hinge %s%s%s, which is alike\n", fw_ladder_id(from),
-                   from->flow ? ", flow " : "", from->flow ? from->flow : "");
+    const fw_plan_ladder *from = &all->item[l->shared];
+    fw_text_printf(out, "    solved once with hinge %s%s%s, which is alike\n",
+                   fw_plan_ladder_id(from), from->flow ? ", flow " : "",
+                   from->flow ? from->flow : "");
 }
 
-static void hinge_text(fw_text *out, const fw_ladders *all, const fw_ladder *l) {
-    const fw_hinge *h = l->hinge;
+static void hinge_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_ladder *l) {
+    const fw_mechanism_hinge *h = l->hinge;
     const fw_flexure_result *c = &h->closed_form;
-    fw_text_printf(out, "  hinge %s%s%s: E ", fw_ladder_id(l), l->flow ? ", flow " : "",
+    fw_text_printf(out, "  hinge %s%s%s: E ", fw_plan_ladder_id(l), l->flow ? ", flow " : "",
                    l->flow ? l->flow : "");
     fw_text_real(out, "%.2f", c->youngs_Pa * 1e-9);
     fw_text_add(out, " GPa, peak stress ");
@@ -124,7 +125,7 @@ static void hinge_text(fw_text *out, const fw_ladders *all, const fw_ladder *l) 
     drift_text(out, l);
 }
 
-fw_status fw_hinge_print(fw_arena *arena, const fw_ladders *all, bool hint) {
+fw_status fw_cli_hinge_print(fw_arena *arena, const fw_plan_ladders *all, bool hint) {
     fw_text out = fw_text_new(arena);
     fw_text_add(&out, "    level         stiffness         kx          ky    centre x   centre y   "
                       "peak     limit   drift"

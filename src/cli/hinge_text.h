@@ -5,8 +5,8 @@
 #include "plan/ladder.h"
 
 /* hint: how to get the levels that were left out */
-fw_status fw_hinge_print(fw_arena *arena, const fw_ladders *all, bool hint);
+fw_status fw_cli_hinge_print(fw_arena *arena, const fw_plan_ladders *all, bool hint);
 /* why the picked level is picked; 200 bytes hold it */
-void fw_ladder_why(const fw_ladder *ladder, double accuracy, char *text, size_t n);
+void fw_cli_ladder_why(const fw_plan_ladder *ladder, double accuracy, char *text, size_t n);
 
 #endif

@@ -47,7 +47,7 @@ static int name_is_plain(const char *name) {
     return strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == n;
 }
 
-int fw_command_init(fw_cli_options *options) {
+int fw_cli_command_init(fw_cli_options *options) {
     const char *name = options->device ? options->device : "my-device";
     if (!name_is_plain(name))
         return fw_cli_usage("a device is named with letters, digits, - and _, not '%s'", name);

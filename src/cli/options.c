@@ -32,7 +32,7 @@ static const char *take_set(fw_cli_options *o, const char *v) {
     if (!path) return "could not be stored: out of memory";
     memcpy(path, v, (size_t)(equals - v));
     path[equals - v] = '\0';
-    o->set[o->nset++] = (fw_set){path, equals + 1};
+    o->set[o->nset++] = (fw_device_set){path, equals + 1};
     return NULL;
 }
 
@@ -144,7 +144,7 @@ static const char *take_mask_format(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
-    fw_flattening kind;
+    fw_geometry_flattening kind;
     o->design.mask_flatten = v;
     return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
 }
@@ -179,9 +179,9 @@ static const char *take_operators(fw_cli_options *o, const char *v) {
 }
 
 static const char *take_day(fw_cli_options *o, const char *v) {
-    fw_calendar day;
+    fw_schedule_calendar day;
     o->design.day = v;
-    return fw_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
+    return fw_schedule_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
 }
 
 static const char *take_lab(fw_cli_options *o, const char *v) {
@@ -218,7 +218,7 @@ static const char *take_scene(fw_cli_options *o, const char *v) {
 }
 
 /* NULL, or a sentence that names all that are known */
-static const char *from_table(const char *v, fw_method_row (*at)(size_t)) {
+static const char *from_table(const char *v, fw_multibody_method_row (*at)(size_t)) {
     static char known[600];
     size_t n = (size_t)snprintf(known, sizeof known, "is not known; known are");
     for (size_t i = 0; at(i).name; i++) {
@@ -231,23 +231,23 @@ static const char *from_table(const char *v, fw_method_row (*at)(size_t)) {
 
 static const char *take_method(fw_cli_options *o, const char *v) {
     o->design.method = v;
-    return from_table(v, fw_method_at);
+    return from_table(v, fw_multibody_method_at);
 }
 
 static const char *take_integrator(fw_cli_options *o, const char *v) {
     o->design.integrator = v;
-    return from_table(v, fw_integrator_at);
+    return from_table(v, fw_dynamics_integrator_at);
 }
 
 static const char *take_stabilise(fw_cli_options *o, const char *v) {
     o->design.stabilise = v;
-    return from_table(v, fw_stabilisation_at);
+    return from_table(v, fw_dynamics_stabilisation_at);
 }
 
 static const char *take_hinge_model(fw_cli_options *o, const char *v) {
     o->design.hinge_model = v;
-    for (size_t i = 0; i < fw_hinge_model_count(); i++)
-        if (strcmp(v, fw_hinge_model_text((fw_hinge_model)i)) == 0) return NULL;
+    for (size_t i = 0; i < fw_effects_hinge_model_count(); i++)
+        if (strcmp(v, fw_effects_hinge_model_text((fw_effects_hinge_model)i)) == 0) return NULL;
     return needs(fw_cli_hinge_model_names);
 }
 
@@ -306,7 +306,7 @@ static const char *take_svg(fw_cli_options *o, const char *v) {
 static const char *take_level(fw_cli_options *o, const char *v) {
     static char wrong[200];
     size_t count;
-    const fw_ladder_level *level = fw_ladder_levels(&count);
+    const fw_plan_ladder_level *level = fw_plan_ladder_levels(&count);
     o->level = v;
     if (strcmp(v, "auto") == 0 || strcmp(v, "all") == 0) return NULL;
     for (size_t i = 0; i < count; i++)
@@ -379,7 +379,7 @@ static const char *take_settings(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs LEVEL;METHOD/INTEGRATOR/RTOL,...";
 }
 
-static const fw_option_row table[] = {
+static const fw_cli_option_row table[] = {
     {"output", 'o', "DIR", "directory of the results; it appears whole or not at all",
      FW_OPT_OUTPUT, take_output},
     {"json", 0, NULL, "one JSON document on standard output", FW_OPT_PLAN, take_json},
@@ -534,7 +534,7 @@ static const fw_option_row table[] = {
 };
 enum { NOPTION = sizeof table / sizeof table[0] };
 
-const fw_option_row *fw_option_rows(size_t *count) {
+const fw_cli_option_row *fw_cli_option_rows(size_t *count) {
     *count = NOPTION;
     return table;
 }

@@ -12,7 +12,7 @@ enum { FW_MOST_SETS = 64 };
 
 typedef struct fw_cli_options {
     fw_design_options design;
-    fw_set set[FW_MOST_SETS];
+    fw_device_set set[FW_MOST_SETS];
     int nset;
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
@@ -31,12 +31,12 @@ typedef struct fw_cli_options {
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;
 
-typedef struct fw_command { /* one row per command */
+typedef struct fw_cli_command { /* one row per command */
     const char *name, *argument, *summary, *example, *text;
     unsigned options; /* bit per option group */
     int (*run)(fw_cli_options *options);
-} fw_command;
-const fw_command *fw_command_table(size_t *count);
+} fw_cli_command;
+const fw_cli_command *fw_cli_command_table(size_t *count);
 
 enum { /* option groups */
        FW_OPT_COMMON = 1,
@@ -58,10 +58,10 @@ enum { /* option groups */
 
 /* fills options from argv[2..]; false: wrong usage, said on stderr */
 /* what it keeps of --set is freed by fw_cli_options_free, also where it failed */
-bool fw_cli_parse(const fw_command *command, int argc, char **argv, fw_cli_options *options);
+bool fw_cli_parse(const fw_cli_command *command, int argc, char **argv, fw_cli_options *options);
 void fw_cli_options_free(fw_cli_options *options);
 void fw_cli_help(void); /* the program */
-void fw_cli_command_help(const fw_command *command);
+void fw_cli_command_help(const fw_cli_command *command);
 void fw_cli_reference(fw_text *out); /* docs/reference/command-line.md */
 /* says "flexwright: error: ... [FW-D230]" and returns exit status 2 */
 int fw_cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -51,7 +51,7 @@ static void ready(const char *url, const char *page, void *context) {
     if (page && !options->no_browser && somebody_looks()) open_browser(page);
 }
 
-int fw_command_serve(fw_cli_options *options) {
+int fw_cli_command_serve(fw_cli_options *options) {
     const fw_serve_options serve = {.device = options->device,
                                     .data_directory = options->design.data_directory,
                                     .port = options->port,

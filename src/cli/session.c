@@ -16,25 +16,25 @@ static int use_colour(const fw_cli_options *options, int fd) {
     return isatty(fd) && !(term && strcmp(term, "dumb") == 0);
 }
 
-void fw_session_stage(const fw_cli_options *options, const char *stage) {
+void fw_cli_session_stage(const fw_cli_options *options, const char *stage) {
     if (options->verbose && !options->quiet) fprintf(stderr, "flexwright: %s\n", stage);
 }
 
-fw_design *fw_session_open(fw_cli_options *options, int *exit_status) {
+fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
     fw_design *design = fw_design_new(&options->design);
     if (!design) {
         fputs("flexwright: error: out of memory\n", stderr);
         *exit_status = fw_status_exit(FW_NOMEM);
         return NULL;
     }
-    fw_design_cancel_with(design, options->interrupted);
+    fw_plan_design_cancel_with(design, options->interrupted);
     int status = FW_STATUS_OK;
     for (int i = 0; status == FW_STATUS_OK && i < options->nset; i++)
         status = fw_design_set(design, options->set[i].path, options->set[i].value);
-    fw_session_stage(options, "reading the description and the process packs");
+    fw_cli_session_stage(options, "reading the description and the process packs");
     if (status == FW_STATUS_OK) status = fw_design_read(design, options->device);
     if (status != FW_STATUS_OK) {
-        *exit_status = fw_session_close(design, options, status, 0);
+        *exit_status = fw_cli_session_close(design, options, status, 0);
         return NULL;
     }
     return design;
@@ -50,14 +50,14 @@ static int print(fw_design *design, const fw_cli_options *options, int document,
     return status;
 }
 
-int fw_session_print(fw_design *design, const fw_cli_options *options, int document) {
+int fw_cli_session_print(fw_design *design, const fw_cli_options *options, int document) {
     return print(design, options, document, stdout);
 }
 
 enum { FILES_MOST = 8, PATH_MOST = 4200 };
 typedef char file_path[PATH_MOST];
 
-static int save_aside(fw_design *design, const char *directory, const fw_session_file *file,
+static int save_aside(fw_design *design, const char *directory, const fw_cli_session_file *file,
                       file_path aside, file_path path) {
     int a = snprintf(aside, PATH_MOST, "%s/.%s.%ld", directory, file->name, (long)getpid());
     int b = snprintf(path, PATH_MOST, "%s/%s", directory, file->name);
@@ -67,8 +67,8 @@ static int save_aside(fw_design *design, const char *directory, const fw_session
 
 /* all of them or none: composed first, then written under other names, which they lose at the end
  */
-int fw_session_save(fw_design *design, const char *directory, const fw_session_file *file,
-                    size_t count) {
+int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_session_file *file,
+                        size_t count) {
     static file_path aside[FILES_MOST], path[FILES_MOST];
     int status = count <= FILES_MOST ? FW_STATUS_OK : FW_STATUS_INTERNAL;
     const char *text;
@@ -76,7 +76,7 @@ int fw_session_save(fw_design *design, const char *directory, const fw_session_f
     for (size_t i = 0; status == FW_STATUS_OK && i < count; i++)
         status = fw_design_document(design, file[i].document, &text, &n);
     if (status != FW_STATUS_OK) return status;
-    bool made = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
+    bool fabricated = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
     while (status == FW_STATUS_OK && written < count) {
         status = save_aside(design, directory, &file[written], aside[written], path[written]);
         written += status == FW_STATUS_OK;
@@ -86,11 +86,11 @@ int fw_session_save(fw_design *design, const char *directory, const fw_session_f
             unlink(aside[i]);
         else if (rename(aside[i], path[i]) != 0)
             status = FW_STATUS_IO;
-    if (status != FW_STATUS_OK && made) rmdir(directory);
+    if (status != FW_STATUS_OK && fabricated) rmdir(directory);
     return status;
 }
 
-bool fw_session_file_on_stdout(const fw_cli_options *options) {
+bool fw_cli_session_file_on_stdout(const fw_cli_options *options) {
     const char *const file[] = {options->csv, options->forces, options->animate, options->svg};
     for (size_t i = 0; i < sizeof file / sizeof file[0]; i++)
         if (file[i] && strcmp(file[i], "-") == 0) return true;
@@ -103,8 +103,8 @@ static bool error_was_said(fw_design *design) {
     return false;
 }
 
-int fw_session_close(fw_design *design, const fw_cli_options *options, int status,
-                     int result_if_ok) {
+int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int status,
+                         int result_if_ok) {
     bool said = print(design, options, FW_DOCUMENT_DIAGNOSTICS_TEXT, stderr) == FW_STATUS_OK &&
                 error_was_said(design);
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);

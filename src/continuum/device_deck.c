@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "continuum/device_deck.h"
-#include "continuum/deck.h"
+#include "continuum/continuum_deck.h"
 #include "continuum/solver.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,8 +13,8 @@ typedef struct numbered {    /* meshes and where their numbers begin */
     int nnode, nelement;
 } numbered;
 
-static fw_status mesh_all(fw_arena *arena, const fw_solid_device *d, const fw_solid_options *o,
-                          fw_diags *diags, numbered *n) {
+static fw_status mesh_all(fw_arena *arena, const fw_continuum_solid_device *d,
+                          const fw_continuum_solid_options *o, fw_diags *diags, numbered *n) {
     double refinement = o->refinement > 0.0 ? o->refinement : 0.5;
     FW_TRY(fw_continuum_usable(&d->material, refinement, (fw_place){0}, diags));
     FW_NEED(n->mesh = fw_arena_array(arena, fw_continuum_mesh, (size_t)d->nhinge));
@@ -34,16 +34,16 @@ static fw_status mesh_all(fw_arena *arena, const fw_solid_device *d, const fw_so
 
 static void point(fw_text *deck, int number, double x_m, double y_m) {
     fw_text_printf(deck, "%d, ", number);
-    fw_deck_number(deck, 1e6 * x_m);
+    fw_continuum_deck_number(deck, 1e6 * x_m);
     fw_text_add(deck, ", ");
-    fw_deck_number(deck, 1e6 * y_m);
+    fw_continuum_deck_number(deck, 1e6 * y_m);
     fw_text_add(deck, ", 0\n");
 }
 
-static void nodes_and_bricks(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+static void nodes_and_bricks(fw_text *deck, const fw_continuum_solid_device *d, const numbered *n) {
     for (int h = 0; h < d->nhinge; h++) {
         fw_text_printf(deck, "** flexure %s\n*NODE\n", d->hinge[h].id);
-        fw_deck_nodes(deck, &n->mesh[h], d->hinge[h].pose, n->node[h]);
+        fw_continuum_deck_nodes(deck, &n->mesh[h], d->hinge[h].pose, n->node[h]);
     }
     fw_text_add(deck, "** bodies: a point, then its rotation\n*NODE, NSET=NREF\n");
     for (int b = 0; b < d->nbody; b++)
@@ -54,24 +54,25 @@ static void nodes_and_bricks(fw_text *deck, const fw_solid_device *d, const numb
         point(deck, n->force + f, d->force[f].x_m, d->force[f].y_m);
     for (int h = 0; h < d->nhinge; h++) {
         fw_text_printf(deck, "*ELEMENT, TYPE=C3D20R, ELSET=E%d\n", h + 1);
-        fw_deck_bricks(deck, &n->mesh[h], n->node[h], n->element[h]);
+        fw_continuum_deck_bricks(deck, &n->mesh[h], n->node[h], n->element[h]);
     }
 }
 
-static void sets_and_sections(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+static void sets_and_sections(fw_text *deck, const fw_continuum_solid_device *d,
+                              const numbered *n) {
     fw_text_add(deck, "*NSET, NSET=MIDDLE\n");
     for (int h = 0; h < d->nhinge; h++)
-        fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_middle);
+        fw_continuum_deck_set(deck, &n->mesh[h], n->node[h], fw_continuum_deck_middle);
     fw_text_add(deck, "*NSET, NSET=FIELD\n");
     for (int h = 0; h < d->nhinge; h++)
-        fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_field);
+        fw_continuum_deck_set(deck, &n->mesh[h], n->node[h], fw_continuum_deck_field);
     for (int b = -1; b < d->nbody; b++) {
         fw_text_printf(deck, "** %s\n*NSET, NSET=B%d\n", b < 0 ? "ground" : d->body[b].id, b + 1);
         for (int h = 0; h < d->nhinge; h++) {
             if (d->hinge[h].first == b)
-                fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_root_first);
+                fw_continuum_deck_set(deck, &n->mesh[h], n->node[h], fw_continuum_deck_root_first);
             if (d->hinge[h].second == b)
-                fw_deck_set(deck, &n->mesh[h], n->node[h], fw_deck_root_second);
+                fw_continuum_deck_set(deck, &n->mesh[h], n->node[h], fw_continuum_deck_root_second);
         }
         for (int f = 0; f < d->nforce; f++)
             if (d->force[f].body == b) fw_text_printf(deck, "%d\n", n->force + f);
@@ -80,11 +81,11 @@ static void sets_and_sections(fw_text *deck, const fw_solid_device *d, const num
         char name[24], set[24];
         snprintf(name, sizeof name, "M%d", h + 1);
         snprintf(set, sizeof set, "E%d", h + 1);
-        fw_deck_material(deck, &d->material, name, set, 0.0);
+        fw_continuum_deck_material(deck, &d->material, name, set, 0.0);
     }
 }
 
-static void constraints(fw_text *deck, const fw_solid_device *d, const numbered *n) {
+static void constraints(fw_text *deck, const fw_continuum_solid_device *d, const numbered *n) {
     for (int b = 0; b < d->nbody; b++)
         fw_text_printf(deck, "*RIGID BODY, NSET=B%d, REF NODE=%d, ROT NODE=%d\n", b + 1,
                        n->reference + 2 * b, n->reference + 2 * b + 1);
@@ -97,25 +98,25 @@ static void constraints(fw_text *deck, const fw_solid_device *d, const numbered 
 
 static void load(fw_text *deck, int node, int axis, double value) {
     fw_text_printf(deck, "%d, %d, ", node, axis);
-    fw_deck_number(deck, value);
+    fw_continuum_deck_number(deck, value);
     fw_text_add(deck, "\n");
 }
 
 /* `share`: of the depth that is meshed, half of it in reality */
-static void step(fw_text *deck, const fw_solid_device *d, const fw_solid_options *o,
-                 const numbered *n, double share) {
+static void step(fw_text *deck, const fw_continuum_solid_device *d,
+                 const fw_continuum_solid_options *o, const numbered *n, double share) {
     fw_text_add(
         deck,
         "** 1e-6 as for one flexure does not converge where bodies are free; these take small "
         "increments, too\n"
         "*STEP, NLGEOM, INC=1000\n*STATIC, SOLVER=SPOOLES\n");
-    fw_deck_number(deck, 1.0 / (o->increments > 0 ? o->increments : 20));
+    fw_continuum_deck_number(deck, 1.0 / (o->increments > 0 ? o->increments : 20));
     fw_text_add(deck, ", 1, 1e-5, 1\n*CONTROLS, PARAMETERS=FIELD\n1e-4, 1e-4, , , 1e-4\n");
     for (int b = 0; b < d->nbody; b++)
         if (d->body[b].driven) {
             fw_text_add(deck, "*BOUNDARY\n");
             fw_text_printf(deck, "%d, 3, 3, ", n->reference + 2 * b + 1);
-            fw_deck_number(deck, d->body[b].rotation_rad);
+            fw_continuum_deck_number(deck, d->body[b].rotation_rad);
             fw_text_add(deck, "\n");
         } else if (d->body[b].moment_Nm != 0.0) {
             fw_text_add(deck, "*CLOAD\n");
@@ -131,10 +132,10 @@ static void step(fw_text *deck, const fw_solid_device *d, const fw_solid_options
                       "*EL FILE, NSET=FIELD, FREQUENCY=1000\nS, E\n*END STEP\n");
 }
 
-static fw_status write_deck(const fw_solid_device *d, const fw_solid_options *o, const numbered *n,
-                            fw_text *deck) {
+static fw_status write_deck(const fw_continuum_solid_device *d, const fw_continuum_solid_options *o,
+                            const numbered *n, fw_text *deck) {
     double share = 0.5 * n->mesh[0].depth_m / d->hinge[0].shape.depth_m;
-    fw_deck_head(deck, "mechanism of solid flexures and rigid bodies");
+    fw_continuum_deck_head(deck, "mechanism of solid flexures and rigid bodies");
     nodes_and_bricks(deck, d, n);
     sets_and_sections(deck, d, n);
     constraints(deck, d, n);
@@ -148,7 +149,8 @@ static fw_status refused(fw_diags *diags, const char *why) {
 }
 
 /* bodies that nothing holds would leave a singular matrix */
-static fw_status complete(const fw_solid_device *d, const fw_solid_options *o, fw_diags *diags) {
+static fw_status complete(const fw_continuum_solid_device *d, const fw_continuum_solid_options *o,
+                          fw_diags *diags) {
     if (d->nhinge < 1 || d->nbody < 1) return refused(diags, "it has no flexure or no body");
     if (2 * d->nbody > FW_RESULT_NODES) return refused(diags, "it has too many bodies");
     for (int b = 0; b < d->nbody; b++) {
@@ -165,37 +167,39 @@ static fw_status complete(const fw_solid_device *d, const fw_solid_options *o, f
     return FW_OK;
 }
 
-fw_status fw_solid_deck(fw_arena *arena, const fw_solid_device *device,
-                        const fw_solid_options *options, fw_diags *diags, fw_text *deck) {
+fw_status fw_continuum_solid_deck(fw_arena *arena, const fw_continuum_solid_device *device,
+                                  const fw_continuum_solid_options *options, fw_diags *diags,
+                                  fw_text *deck) {
     numbered n;
     FW_TRY(complete(device, options, diags));
     FW_TRY(mesh_all(arena, device, options, diags, &n));
     return write_deck(device, options, &n, deck);
 }
 
-static fw_status solve(fw_arena *scratch, const char *program, const fw_solid_device *d,
-                       const fw_solid_options *o, fw_diags *diags, fw_solid_result *r) {
+static fw_status solve(fw_arena *scratch, const char *program, const fw_continuum_solid_device *d,
+                       const fw_continuum_solid_options *o, fw_diags *diags,
+                       fw_continuum_solid_result *r) {
     numbered n;
     fw_text deck = fw_text_new(scratch);
-    fw_solver_result *out;
+    fw_continuum_solver_result *out;
     int node[FW_RESULT_NODES];
-    FW_NEED(out = fw_arena_one(scratch, fw_solver_result));
+    FW_NEED(out = fw_arena_one(scratch, fw_continuum_solver_result));
     FW_TRY(mesh_all(scratch, d, o, diags, &n));
     FW_TRY(write_deck(d, o, &n, &deck));
     for (int i = 0; i < 2 * d->nbody; i++)
         node[i] = n.reference + i;
-    const fw_solver_call call = {.program = program,
-                                 .deck = &deck,
-                                 .node = node,
-                                 .nnode = 2 * d->nbody,
-                                 .nstep = 1,
-                                 .timeout_s = o->timeout_s};
-    FW_TRY(fw_solver_run(scratch, &call, diags, out));
+    const fw_continuum_solver_call call = {.program = program,
+                                           .deck = &deck,
+                                           .node = node,
+                                           .nnode = 2 * d->nbody,
+                                           .nstep = 1,
+                                           .timeout_s = o->timeout_s};
+    FW_TRY(fw_continuum_solver_run(scratch, &call, diags, out));
     double share = 0.5 * n.mesh[0].depth_m / d->hinge[0].shape.depth_m;
     for (int b = 0; b < d->nbody; b++) {
         const double *move = out->step[0].move[2 * b], *turn = out->step[0].move[2 * b + 1];
-        r->body[b] = (fw_solid_pose){1e-6 * move[0], 1e-6 * move[1], turn[2],
-                                     1e-12 * out->step[0].force[2 * b + 1][2] / share};
+        r->body[b] = (fw_continuum_solid_pose){1e-6 * move[0], 1e-6 * move[1], turn[2],
+                                               1e-12 * out->step[0].force[2 * b + 1][2] / share};
         if (!d->body[b].driven) r->body[b].moment_Nm = d->body[b].moment_Nm;
     }
     r->strain = out->strain[0].principal;
@@ -206,10 +210,10 @@ static fw_status solve(fw_arena *scratch, const char *program, const fw_solid_de
     return FW_OK;
 }
 
-fw_status fw_solid_solve(fw_arena *arena, const fw_solid_device *device,
-                         const fw_solid_options *options, fw_diags *diags,
-                         fw_solid_result *result) {
-    *result = (fw_solid_result){.strain_hinge = 0};
+fw_status fw_continuum_solid_solve(fw_arena *arena, const fw_continuum_solid_device *device,
+                                   const fw_continuum_solid_options *options, fw_diags *diags,
+                                   fw_continuum_solid_result *result) {
+    *result = (fw_continuum_solid_result){.strain_hinge = 0};
     FW_TRY(complete(device, options, diags));
     const char *program = fw_continuum_program(arena, "ccx");
     if (!program) {
@@ -218,7 +222,7 @@ fw_status fw_solid_solve(fw_arena *arena, const fw_solid_device *device,
         return FW_OK;
     }
     result->installed = true;
-    FW_NEED(result->body = fw_arena_array(arena, fw_solid_pose, (size_t)device->nbody));
+    FW_NEED(result->body = fw_arena_array(arena, fw_continuum_solid_pose, (size_t)device->nbody));
     fw_arena *scratch = fw_arena_part(arena, (size_t)2 << 30);
     FW_NEED(scratch);
     fw_status status = solve(scratch, program, device, options, diags, result);

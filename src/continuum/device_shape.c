@@ -13,7 +13,7 @@ static fw_status refused(fw_diags *diags, fw_place place, const char *why) {
 
 /* whatever the scene calls for is either in the solids, or has no part in them, or is refused by
  * name */
-static fw_status effects_fit(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
+static fw_status effects_fit(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                              fw_diags *diags) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
@@ -28,12 +28,12 @@ static fw_status effects_fit(fw_arena *arena, const fw_mechanism *m, const fw_sc
     return FW_OK;
 }
 
-static fw_status representable(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
+static fw_status representable(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                                fw_diags *diags) {
     const fw_place none = {0};
     if (m->nhinge < 1) return refused(diags, none, "it has no flexure");
     if (m->nhinge != m->npin) return refused(diags, none, "some of its joints are no flexures");
-    if (m->ntie > 0 || m->ndriver > 0 || m->nspring > 0)
+    if (m->njoint > 0 || m->ndriver > 0 || m->nspring > 0)
         return refused(diags, none, "it has sliders, rods, welds, drivers or springs");
     for (int p = 0; p < m->npin; p++)
         if (m->pin[p].free_angle_rad != 0.0)
@@ -45,52 +45,53 @@ static fw_status representable(fw_arena *arena, const fw_mechanism *m, const fw_
     return s ? effects_fit(arena, m, s, diags) : FW_OK;
 }
 
-static void hinge_of(const fw_mechanism *m, int h, fw_solid_hinge *to) {
-    const fw_hinge *hinge = &m->hinge[h];
-    const fw_pin *pin = &m->pin[hinge->pin];
+static void hinge_of(const fw_mechanism *m, int h, fw_continuum_solid_hinge *to) {
+    const fw_mechanism_hinge *hinge = &m->hinge[h];
+    const fw_mechanism_pin *pin = &m->pin[hinge->pin];
     fw_continuum_shape_of(&hinge->input, &to->shape);
     /* W of the closed form lies at the pin, as in the layout */
     double W = to->shape.centre_x_m, c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
-    fw_vec2 at = fw_pin_place(m, pin, 0);
+    fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, 0);
     to->id = pin->id;
-    to->pose = (fw_pose){at.x - W * c, at.y - W * s, hinge->axis_rad};
+    to->pose = (fw_geometry_pose){at.x - W * c, at.y - W * s, hinge->axis_rad};
     to->first = hinge->first_is_a ? pin->body_a : pin->body_b;
     to->second = hinge->first_is_a ? pin->body_b : pin->body_a;
 }
 
-static double factor_at_end(const fw_law *law, double duration_s) {
+static double factor_at_end(const fw_quantity_law *law, double duration_s) {
     double value[3] = {1.0, 0.0, 0.0};
-    if (law) fw_law_value(law, duration_s, duration_s, value);
+    if (law) fw_quantity_law_value(law, duration_s, duration_s, value);
     return value[0];
 }
 
-fw_status fw_solid_device_of(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
-                             fw_diags *diags, fw_solid_device *device) {
-    const fw_material *material = &m->variant->material;
+fw_status fw_continuum_solid_device_of(fw_arena *arena, const fw_mechanism *m,
+                                       const fw_device_scene *scene, fw_diags *diags,
+                                       fw_continuum_solid_device *device) {
+    const fw_device_material *material = &m->variant->material;
     FW_TRY(representable(arena, m, scene, diags));
-    *device = (fw_solid_device){
+    *device = (fw_continuum_solid_device){
         .nhinge = m->nhinge,
         .nbody = m->nbody,
         .material = {.youngs_Pa = material->youngs.value, .poisson = material->poisson.value}};
     int nforce = scene ? scene->nforce : 0;
-    FW_NEED(device->hinge = fw_arena_array(arena, fw_solid_hinge, (size_t)m->nhinge));
-    FW_NEED(device->body = fw_arena_array(arena, fw_solid_body, (size_t)m->nbody));
-    FW_NEED(device->force = fw_arena_array(arena, fw_solid_force, (size_t)nforce));
+    FW_NEED(device->hinge = fw_arena_array(arena, fw_continuum_solid_hinge, (size_t)m->nhinge));
+    FW_NEED(device->body = fw_arena_array(arena, fw_continuum_solid_body, (size_t)m->nbody));
+    FW_NEED(device->force = fw_arena_array(arena, fw_continuum_solid_force, (size_t)nforce));
     for (int h = 0; h < m->nhinge; h++)
         hinge_of(m, h, &device->hinge[h]);
     for (int b = 0; b < m->nbody; b++)
-        device->body[b] =
-            (fw_solid_body){.id = m->body[b].id, .x_m = m->body[b].x_m, .y_m = m->body[b].y_m};
+        device->body[b] = (fw_continuum_solid_body){
+            .id = m->body[b].id, .x_m = m->body[b].x_m, .y_m = m->body[b].y_m};
     for (int i = 0; i < nforce; i++) {
-        const fw_force *f = &scene->force[i];
+        const fw_device_force *f = &scene->force[i];
         if (f->body < 0) continue;
-        fw_vec2 at = fw_local_place(m, f->body, f->x_m, f->y_m);
+        fw_geometry_vec2 at = fw_mechanism_local_place(m, f->body, f->x_m, f->y_m);
         double share = factor_at_end(f->law, scene->duration_s);
         device->force[device->nforce++] =
-            (fw_solid_force){f->body, at.x, at.y, share * f->fx_N, share * f->fy_N};
+            (fw_continuum_solid_force){f->body, at.x, at.y, share * f->fx_N, share * f->fy_N};
     }
     for (int i = 0; scene && i < scene->ntorque; i++) {
-        const fw_torque *t = &scene->torque[i];
+        const fw_device_torque *t = &scene->torque[i];
         if (t->body < 0) continue;
         device->body[t->body].moment_Nm += factor_at_end(t->law, scene->duration_s) * t->value_Nm;
     }

@@ -30,7 +30,7 @@ const char *fw_continuum_program(fw_arena *arena, const char *name) {
     return NULL;
 }
 
-fw_status fw_external_room_open(const fw_arena *work, fw_external_room *room) {
+fw_status fw_continuum_external_room_open(const fw_arena *work, fw_continuum_external_room *room) {
     room->work = work;
     const char *base = getenv("TMPDIR");
     if (!base || *base != '/' || strlen(base) > 400) base = "/tmp";
@@ -40,7 +40,7 @@ fw_status fw_external_room_open(const fw_arena *work, fw_external_room *room) {
     return FW_IO;
 }
 
-void fw_external_room_close(fw_external_room *room) {
+void fw_continuum_external_room_close(fw_continuum_external_room *room) {
     if (!room->path[0]) return;
     DIR *dir = opendir(room->path);
     if (dir) { /* programs that are run here write plain files only */
@@ -53,12 +53,12 @@ void fw_external_room_close(fw_external_room *room) {
     room->path[0] = 0;
 }
 
-static void path_in(char file[700], const fw_external_room *room, const char *name) {
+static void path_in(char file[700], const fw_continuum_external_room *room, const char *name) {
     snprintf(file, 700, "%s/%s", room->path, name);
 }
 
-fw_status fw_external_write(const fw_external_room *room, const char *name, const char *data,
-                            size_t n) {
+fw_status fw_continuum_external_write(const fw_continuum_external_room *room, const char *name,
+                                      const char *data, size_t n) {
     char file[700];
     path_in(file, room, name);
     int fd = open(file, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -98,7 +98,7 @@ static double now_s(void) {
 }
 
 static fw_status wait_for(const fw_arena *work, pid_t child, double timeout_s,
-                          fw_external_run *run) {
+                          fw_continuum_external_run *run) {
     double start = now_s();
     struct timespec nap = {0, 1000000};
     struct rusage used = {0};
@@ -132,15 +132,15 @@ static fw_status wait_for(const fw_arena *work, pid_t child, double timeout_s,
 
 enum { MOST_WORDS = 400 };
 
-static fw_status call(const fw_external_room *room, const char *directory, char *const *environment,
-                      const char *const *argv, const char *log, double timeout_s,
-                      fw_external_run *run) {
+static fw_status call(const fw_continuum_external_room *room, const char *directory,
+                      char *const *environment, const char *const *argv, const char *log,
+                      double timeout_s, fw_continuum_external_run *run) {
     char file[700];
     path_in(file, room, log);
     char *words[MOST_WORDS + 1] = {NULL};
     for (int i = 0; argv[i] && i < MOST_WORDS; i++)
         memcpy(&words[i], &argv[i], sizeof words[i]); /* execve does not write to them */
-    *run = (fw_external_run){.end = FW_EXTERNAL_FAILED};
+    *run = (fw_continuum_external_run){.end = FW_EXTERNAL_FAILED};
 
     int null = open("/dev/null", O_RDONLY | O_CLOEXEC);
     int out = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -151,8 +151,9 @@ static fw_status call(const fw_external_room *room, const char *directory, char 
     return child < 0 ? FW_IO : wait_for(room->work, child, timeout_s, run);
 }
 
-fw_status fw_external_call(const fw_external_room *room, const char *const *argv, const char *log,
-                           double timeout_s, fw_external_run *run) {
+fw_status fw_continuum_external_call(const fw_continuum_external_room *room,
+                                     const char *const *argv, const char *log, double timeout_s,
+                                     fw_continuum_external_run *run) {
     char home[700];
     snprintf(home, sizeof home, "HOME=%s", room->path);
     char threads[] = "OMP_NUM_THREADS=1", locale[] = "LC_ALL=C", path[] = "PATH=/usr/bin:/bin";
@@ -160,7 +161,8 @@ fw_status fw_external_call(const fw_external_room *room, const char *const *argv
     return call(room, room->path, environment, argv, log, timeout_s, run);
 }
 
-fw_status fw_external_call_here(const fw_external_room *room, const char *const *argv,
-                                const char *log, double timeout_s, fw_external_run *run) {
+fw_status fw_continuum_external_call_here(const fw_continuum_external_room *room,
+                                          const char *const *argv, const char *log,
+                                          double timeout_s, fw_continuum_external_run *run) {
     return call(room, NULL, environ, argv, log, timeout_s, run);
 }

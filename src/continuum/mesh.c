@@ -3,7 +3,7 @@
    fillets they bow until a half circle stands on the face of the root, from where the lattice runs
    out radially to the outline of the block. One lattice, hence no gaps. docs/theory/continuum.md */
 #include "continuum/mesh.h"
-#include "continuum/profile.h"
+#include "continuum/continuum_profile.h"
 #include <math.h>
 
 enum { MOST = 400 }; /* stations in one direction */
@@ -103,7 +103,7 @@ static void plan_depth(plan *c, const fw_continuum_shape *s, double f, bool plan
     graded(c->at_depth, c->layers, c->layers > 1 ? pow(0.5, 1.0 / (c->layers - 1)) : 1.0);
 }
 
-static void make_plan(plan *c, const fw_profile *p, double f, bool plane_stress,
+static void make_plan(plan *c, const fw_continuum_profile *p, double f, bool plane_stress,
                       fw_continuum_finer more) {
     const fw_continuum_shape *s = p->shape;
     *c = (plan){.more = more};
@@ -139,29 +139,32 @@ static station station_at(const plan *c, int i) {
 /* Cubic that leaves both edges square. For a circular arc through a turn of 2 A with chord c the
    handles of the usual approximation are c/(3 cos^2(A/2)); error below 2 % of c at A = 90 degrees,
    which only places inner nodes. */
-static fw_vec2 across(fw_profile_edge right, fw_profile_edge left, double v) {
-    fw_vec2 p = right.p, q = left.p;
+static fw_geometry_vec2 across(fw_continuum_profile_edge right, fw_continuum_profile_edge left,
+                               double v) {
+    fw_geometry_vec2 p = right.p, q = left.p;
     double chord = hypot(q.x - p.x, q.y - p.y);
     double cosine = -(right.n.x * left.n.x + right.n.y * left.n.y); /* of 2 A */
     double half = sqrt(fmax(0.0, 0.5 * (1.0 + cosine)));            /* cos A */
     double h = chord / (1.5 * (1.0 + half)), w = 1.0 - v;
     double b0 = w * w * w, b1 = 3.0 * v * w * w, b2 = 3.0 * v * v * w, b3 = v * v * v;
-    return (fw_vec2){b0 * p.x + b1 * (p.x + h * right.n.x) + b2 * (q.x + h * left.n.x) + b3 * q.x,
-                     b0 * p.y + b1 * (p.y + h * right.n.y) + b2 * (q.y + h * left.n.y) + b3 * q.y};
+    return (fw_geometry_vec2){
+        b0 * p.x + b1 * (p.x + h * right.n.x) + b2 * (q.x + h * left.n.x) + b3 * q.x,
+        b0 * p.y + b1 * (p.y + h * right.n.y) + b2 * (q.y + h * left.n.y) + b3 * q.y};
 }
 
-static fw_vec2 place(const fw_profile *p, const plan *c, int i, int j) {
+static fw_geometry_vec2 place(const fw_continuum_profile *p, const plan *c, int i, int j) {
     station s = station_at(c, i);
     double v = halfway(c->at_across, j);
     if (s.part == PART_STRIP)
-        return across(fw_profile_strip_edge(p, 0, s.u), fw_profile_strip_edge(p, 1, s.u), v);
+        return across(fw_continuum_profile_strip_edge(p, 0, s.u),
+                      fw_continuum_profile_strip_edge(p, 1, s.u), v);
     double u = s.part == PART_FILLET ? s.u : 1.0;
-    fw_vec2 in =
-        across(fw_profile_fillet_edge(p, s.end, 0, u), fw_profile_fillet_edge(p, s.end, 1, u), v);
+    fw_geometry_vec2 in = across(fw_continuum_profile_fillet_edge(p, s.end, 0, u),
+                                 fw_continuum_profile_fillet_edge(p, s.end, 1, u), v);
     if (s.part == PART_FILLET) return in;
     double corner = c->at_across[c->corner];
-    fw_vec2 out = fw_profile_block_edge(p, s.end, corner, s.end ? v : 1.0 - v);
-    return (fw_vec2){in.x + s.u * (out.x - in.x), in.y + s.u * (out.y - in.y)};
+    fw_geometry_vec2 out = fw_continuum_profile_block_edge(p, s.end, corner, s.end ? v : 1.0 - v);
+    return (fw_geometry_vec2){in.x + s.u * (out.x - in.x), in.y + s.u * (out.y - in.y)};
 }
 
 size_t fw_continuum_lattice(const fw_continuum_mesh *mesh, int i, int j, int k) {
@@ -186,7 +189,7 @@ static void number_nodes(fw_continuum_mesh *mesh) {
 }
 
 /* formula: see the head of this file; in: shape (m), refinement (1), out: mesh
-   valid: what fw_profile_build accepts; the caller looks at the quality
+   valid: what fw_continuum_profile_build accepts; the caller looks at the quality
    cost: O(nodes); test_mesh.c: volume against the exact outline, Jacobians, fillet radii */
 fw_status fw_continuum_mesh_build(fw_arena *arena, const fw_continuum_shape *shape,
                                   double refinement, bool plane_stress, fw_continuum_mesh *mesh,
@@ -198,10 +201,10 @@ fw_status fw_continuum_mesh_build(fw_arena *arena, const fw_continuum_shape *sha
 fw_status fw_continuum_mesh_finer(fw_arena *arena, const fw_continuum_shape *shape,
                                   double refinement, bool plane_stress, fw_continuum_finer more,
                                   fw_continuum_mesh *mesh, const char **why) {
-    fw_profile profile;
+    fw_continuum_profile profile;
     plan *c;
     *mesh = (fw_continuum_mesh){0};
-    FW_TRY(fw_profile_build(shape, &profile, why));
+    FW_TRY(fw_continuum_profile_build(shape, &profile, why));
     FW_NEED(c = fw_arena_one(arena, plan));
     make_plan(c, &profile, refinement, plane_stress, more);
     mesh->ni = c->strip + 2 * (c->fillet + c->block);
@@ -218,7 +221,7 @@ fw_status fw_continuum_mesh_finer(fw_arena *arena, const fw_continuum_shape *sha
     FW_NEED(mesh->number = fw_arena_array(arena, int, flat *(size_t)(2 * mesh->nk + 1)));
     for (int i = 0; i <= 2 * mesh->ni; i++)
         for (int j = 0; j <= 2 * mesh->nj; j++) {
-            fw_vec2 at = place(&profile, c, i, j);
+            fw_geometry_vec2 at = place(&profile, c, i, j);
             size_t n = (size_t)i * (size_t)(2 * mesh->nj + 1) + (size_t)j;
             mesh->x[n] = at.x, mesh->y[n] = at.y;
         }

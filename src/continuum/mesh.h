@@ -44,7 +44,7 @@ typedef struct fw_continuum_quality {
 } fw_continuum_quality;
 fw_continuum_quality fw_continuum_mesh_quality(const fw_continuum_mesh *mesh);
 
-/* exact outline of the profile; area by fw_contour_area */
+/* exact outline of the profile; area by fw_geometry_contour_area */
 fw_status fw_continuum_outline(fw_arena *arena, const fw_continuum_shape *shape,
-                               fw_contour *contour, const char **why);
+                               fw_geometry_contour *contour, const char **why);
 #endif

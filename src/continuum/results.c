@@ -46,8 +46,8 @@ static bool starts(const char *line, size_t n, const char *with) {
     return n >= k && memcmp(line, with, k) == 0;
 }
 
-fw_status fw_results_print(const char *text, const int *node, int nnode, fw_result_step *step,
-                           int nstep) {
+fw_status fw_continuum_results_print(const char *text, const int *node, int nnode,
+                                     fw_continuum_result_step *step, int nstep) {
     int now = -1;
     bool forces = false;
     for (const char *line = text; *line;) {
@@ -77,7 +77,7 @@ fw_status fw_results_print(const char *text, const int *node, int nnode, fw_resu
 /* Trigonometric solution of the characteristic cubic (O. K. Smith, Comm. ACM 4 (1961) 168): with
    m = tr/3, B = A - m I, p^2 = tr(B B)/6, q = det(B)/2: values m + 2 p cos(phi + 2 k pi/3),
    phi = acos(q/p^3)/3. Error some 1e-15 of the largest; test_external.c: against rotations */
-void fw_results_principal(const double a[6], double value[3]) {
+void fw_continuum_results_principal(const double a[6], double value[3]) {
     double m = (a[0] + a[1] + a[2]) / 3.0, x = a[0] - m, y = a[1] - m, z = a[2] - m;
     double off = a[3] * a[3] + a[4] * a[4] + a[5] * a[5];
     double p = sqrt((x * x + y * y + z * z + 2.0 * off) / 6.0);
@@ -90,9 +90,9 @@ void fw_results_principal(const double a[6], double value[3]) {
     value[1] = 3.0 * m - value[0] - value[2];
 }
 
-static void add_to_peak(fw_result_peak *peak, int node, const double tensor[6]) {
+static void add_to_peak(fw_continuum_result_peak *peak, int node, const double tensor[6]) {
     double v[3];
-    fw_results_principal(tensor, v);
+    fw_continuum_results_principal(tensor, v);
     double a = v[1] - v[0], b = v[2] - v[1], c = v[2] - v[0];
     peak->mises = fmax(peak->mises, sqrt(0.5 * (a * a + b * b + c * c)));
     double most = fmax(fabs(v[0]), fabs(v[2]));
@@ -104,9 +104,9 @@ static void add_to_peak(fw_result_peak *peak, int node, const double tensor[6]) 
 /* Blocks of the ASCII format: "  100CL" with the time in columns 13-24, " -4" with the name, " -1"
    records of a node in columns 4-13 and values of 12 columns each, " -3" at the end (cgx manual,
    section 11) */
-fw_status fw_results_fields(const char *text, fw_result_peak *strain, fw_result_peak *stress,
-                            int nstep, int *nfound) {
-    fw_result_peak *into = NULL;
+fw_status fw_continuum_results_fields(const char *text, fw_continuum_result_peak *strain,
+                                      fw_continuum_result_peak *stress, int nstep, int *nfound) {
+    fw_continuum_result_peak *into = NULL;
     int now = -1;
     *nfound = 0;
     for (const char *line = text; *line;) {
@@ -118,7 +118,7 @@ fw_status fw_results_fields(const char *text, fw_result_peak *strain, fw_result_
         } else if (starts(line, n, " -4") && now >= 0) {
             bool is_strain = starts(line, n, " -4  TOSTRAIN");
             into = is_strain ? &strain[now] : starts(line, n, " -4  STRESS ") ? &stress[now] : NULL;
-            if (into) *into = (fw_result_peak){0};
+            if (into) *into = (fw_continuum_result_peak){0};
             if (is_strain) *nfound = now + 1;
         } else if (starts(line, n, " -3")) {
             into = NULL;

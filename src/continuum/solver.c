@@ -37,8 +37,8 @@ fw_status fw_continuum_good_mesh(fw_arena *arena, const fw_continuum_shape *shap
                      "the width, or the curve too tight");
 }
 
-static fw_status failed(const fw_solver_call *call, double timeout_s, const fw_external_run *run,
-                        fw_diags *diags) {
+static fw_status failed(const fw_continuum_solver_call *call, double timeout_s,
+                        const fw_continuum_external_run *run, fw_diags *diags) {
     char limit[32];
     if (run->end == FW_EXTERNAL_CANCELLED) return FW_CANCELLED;
     if (run->end == FW_EXTERNAL_TIMEOUT) {
@@ -53,30 +53,32 @@ static fw_status failed(const fw_solver_call *call, double timeout_s, const fw_e
     return FW_SOLVER;
 }
 
-static fw_status read_back(fw_arena *arena, const fw_external_room *room, const char *name,
-                           fw_diags *diags, char **text) {
+static fw_status read_back(fw_arena *arena, const fw_continuum_external_room *room,
+                           const char *name, fw_diags *diags, char **text) {
     size_t n;
     const char *file = fw_arena_printf(arena, "%s/%s", room->path, name);
     FW_NEED(file);
     return fw_input_read(arena, file, MOST_BYTES, diags, text, &n);
 }
 
-static fw_status run_in(fw_arena *arena, const fw_solver_call *call, const fw_external_room *room,
-                        fw_diags *diags, fw_solver_result *out) {
+static fw_status run_in(fw_arena *arena, const fw_continuum_solver_call *call,
+                        const fw_continuum_external_room *room, fw_diags *diags,
+                        fw_continuum_solver_result *out) {
     const char *argv[] = {call->program, "job", NULL};
     double timeout_s = call->timeout_s > 0.0 ? call->timeout_s : 600.0;
-    fw_external_run run;
+    fw_continuum_external_run run;
     int fields = 0;
     char *text;
-    FW_TRY(fw_external_write(room, "job.inp", call->deck->data, call->deck->length));
-    FW_TRY(fw_external_call(room, argv, "log.txt", timeout_s, &run));
+    FW_TRY(fw_continuum_external_write(room, "job.inp", call->deck->data, call->deck->length));
+    FW_TRY(fw_continuum_external_call(room, argv, "log.txt", timeout_s, &run));
     out->cpu_s = run.cpu_s;
     if (run.end != FW_EXTERNAL_DONE) return failed(call, timeout_s, &run, diags);
     FW_TRY(read_back(arena, room, "job.dat", diags, &text));
-    fw_status status = fw_results_print(text, call->node, call->nnode, out->step, call->nstep);
+    fw_status status =
+        fw_continuum_results_print(text, call->node, call->nnode, out->step, call->nstep);
     if (status == FW_OK) {
         FW_TRY(read_back(arena, room, "job.frd", diags, &text));
-        status = fw_results_fields(text, out->strain, out->stress, call->nstep, &fields);
+        status = fw_continuum_results_fields(text, out->strain, out->stress, call->nstep, &fields);
     }
     for (int i = 0; i < call->nstep && status == FW_OK; i++)
         for (int k = 0; k < call->nnode; k++)
@@ -89,20 +91,20 @@ static fw_status run_in(fw_arena *arena, const fw_solver_call *call, const fw_ex
     return status;
 }
 
-fw_status fw_solver_run(fw_arena *arena, const fw_solver_call *call, fw_diags *diags,
-                        fw_solver_result *result) {
-    fw_external_room room;
-    *result = (fw_solver_result){.cpu_s = 0.0};
+fw_status fw_continuum_solver_run(fw_arena *arena, const fw_continuum_solver_call *call,
+                                  fw_diags *diags, fw_continuum_solver_result *result) {
+    fw_continuum_external_room room;
+    *result = (fw_continuum_solver_result){.cpu_s = 0.0};
     if (call->nstep > FW_RESULT_STEPS || call->nnode > FW_RESULT_NODES) return FW_LIMIT;
     FW_TRY(fw_text_end(call->deck));
     if (fw_arena_cancelled(arena)) return FW_CANCELLED;
-    if (fw_external_room_open(arena, &room) != FW_OK) {
+    if (fw_continuum_external_room_open(arena, &room) != FW_OK) {
         fw_diag_error(diags, 215, call->place,
                       "no private directory could be made below TMPDIR or /tmp");
         return FW_IO;
     }
     fw_status status = run_in(arena, call, &room, diags, result);
-    fw_external_room_close(&room);
+    fw_continuum_external_room_close(&room);
     if (status == FW_IO)
         fw_diag_error(diags, 215, call->place,
                       "CalculiX could not be started, or the disk is full");

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <flexure>, and what a path is made of: <line> and <arc>. */
-#include "device/reader.h"
+#include "device/device_reader.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>
 
 /* exactly two of length, radius, angle; the third follows from length = radius angle */
-static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
+static bool complete_arc(fw_device_reader *r, const fw_xml_record *record, fw_device_flexure *f) {
     char label[FW_LABEL];
-    bool length = fw_given(record, "length"), radius = fw_given(record, "radius");
-    bool angle = fw_given(record, "angle");
+    bool length = fw_xml_given(record, "length"), radius = fw_xml_given(record, "radius");
+    bool angle = fw_xml_given(record, "angle");
     if (length + radius + angle != 2) {
         fw_diag_error(r->diags, 58, record->element->place,
                       "%s: a csfh needs exactly two of length, radius and angle (length = radius x "
                       "angle); %d given",
-                      fw_label(record, label), length + radius + angle);
+                      fw_xml_label(record, label), length + radius + angle);
         return false;
     }
     if (!length)
@@ -23,69 +23,73 @@ static bool complete_arc(fw_reader *r, const fw_record *record, fw_flexure *f) {
         f->radius_m = f->length_m / f->angle_rad;
     else
         f->angle_rad = f->length_m / f->radius_m;
-    return !fw_failed(record, "length") && !fw_failed(record, "radius") &&
-           !fw_failed(record, "angle");
+    return !fw_xml_failed(record, "length") && !fw_xml_failed(record, "radius") &&
+           !fw_xml_failed(record, "angle");
 }
 
-static void check_arc(fw_reader *r, const fw_record *record, const fw_flexure *f) {
+static void check_arc(fw_device_reader *r, const fw_xml_record *record,
+                      const fw_device_flexure *f) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     if (f->angle_rad > 330 * FW_PI / 180 * (1 + 1e-12))
         fw_diag_error(r->diags, 59, f->length_place,
                       "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
                       "the ends of the arc meet; shorten it or take a greater radius",
-                      fw_label(record, label), fw_in_unit(a, f->angle_rad, "deg"));
+                      fw_xml_label(record, label), fw_xml_in_unit(a, f->angle_rad, "deg"));
     if (f->width_m >= 2 * f->radius_m)
         fw_diag_error(
-            r->diags, 59, fw_place_of(record, "width"),
+            r->diags, 59, fw_xml_place_of(record, "width"),
             "%s: width %s is not below twice the radius (%s), so the inner side of the arc "
             "has no radius left; make it thinner",
-            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-            fw_in_unit(b, 2 * f->radius_m, "um"));
+            fw_xml_label(record, label), fw_xml_in_unit(a, f->width_m, "um"),
+            fw_xml_in_unit(b, 2 * f->radius_m, "um"));
 }
 
-static void check_slender(fw_reader *r, const fw_record *record, const fw_flexure *f) {
+static void check_slender(fw_device_reader *r, const fw_xml_record *record,
+                          const fw_device_flexure *f) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     if (f->width_m > f->length_m / 4 || f->width_middle_m > f->length_m / 4)
         fw_diag_error(
-            r->diags, 59, fw_place_of(record, "width"),
+            r->diags, 59, fw_xml_place_of(record, "width"),
             "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
             "hold for so stout a flexure; make it thinner or longer",
-            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-            fw_in_unit(b, f->length_m, "um"));
+            fw_xml_label(record, label), fw_xml_in_unit(a, f->width_m, "um"),
+            fw_xml_in_unit(b, f->length_m, "um"));
 }
 
 /* least of all widths: below it the data of materials do not hold (table_device.c) */
 static const double thinnest_m = 1e-7;
 
 /* edges of a piece: each must lie on its side of the centre line all along */
-static bool check_edges(fw_reader *r, const fw_record *record, const fw_strip_piece *p) {
+static bool check_edges(fw_device_reader *r, const fw_xml_record *record,
+                        const fw_geometry_strip_piece *p) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    fw_strip_shape shape;
+    fw_geometry_strip_shape shape;
     double least, most;
-    fw_strip_shape_of(p, &shape);
-    fw_strip_widths(&shape, &least, &most);
+    fw_geometry_strip_shape_of(p, &shape);
+    fw_geometry_strip_widths(&shape, &least, &most);
     if (!(least >= thinnest_m)) {
-        fw_diag_error(r->diags, 263, fw_place_of(record, "width-middle"),
+        fw_diag_error(r->diags, 263, fw_xml_place_of(record, "width-middle"),
                       "%s: between its ends the width vanishes or falls to %s (least: 0.1 um), "
                       "where its edges run as arcs through start, middle and end; make the widths "
                       "less different, or give the middle as a piece of its own",
-                      fw_label(record, label), fw_in_unit(a, least, "um"));
+                      fw_xml_label(record, label), fw_xml_in_unit(a, least, "um"));
         return false;
     }
     if (p->curvature_per_m == 0 || most < 2 / fabs(p->curvature_per_m)) return true;
-    fw_diag_error(r->diags, 263, fw_place_of(record, "width"),
+    fw_diag_error(r->diags, 263, fw_xml_place_of(record, "width"),
                   "%s: width %s is not below twice the radius (%s), so the inner edge of the arc "
                   "has no radius left; make it thinner, or take a greater radius",
-                  fw_label(record, label), fw_in_unit(a, most, "um"),
-                  fw_in_unit(b, 2 / fabs(p->curvature_per_m), "um"));
+                  fw_xml_label(record, label), fw_xml_in_unit(a, most, "um"),
+                  fw_xml_in_unit(b, 2 / fabs(p->curvature_per_m), "um"));
     return false;
 }
 
 /* width-middle of a csfh or leaf: both edges one arc, the ends as wide as `width` */
-static void check_middle(fw_reader *r, const fw_record *record, const fw_flexure *f) {
-    fw_strip_piece one;
+static void check_middle(fw_device_reader *r, const fw_xml_record *record,
+                         const fw_device_flexure *f) {
+    fw_geometry_strip_piece one;
     if (!(f->width_middle_m > 0 && f->width_m > 0 && f->length_m > 0)) return;
-    fw_flexure_pieces(f, &one);
+    fw_device_flexure_pieces(f, &one);
     check_edges(r, record, &one);
 }
 
@@ -93,45 +97,46 @@ static void check_middle(fw_reader *r, const fw_record *record, const fw_flexure
 
 enum { UNKNOWN = -1 }; /* width where the piece before ends, which was reported */
 
-static bool failed_any(const fw_record *record, const char *const *name, int n) {
+static bool failed_any(const fw_xml_record *record, const char *const *name, int n) {
     bool failed = false;
     for (int i = 0; i < n; i++)
-        failed = failed || fw_failed(record, name[i]);
+        failed = failed || fw_xml_failed(record, name[i]);
     return failed;
 }
 
 /* one <line> or <arc>; `before`: the width where it begins */
-static bool read_piece(fw_reader *r, const fw_record *record, double before, fw_strip_piece *p) {
+static bool read_piece(fw_device_reader *r, const fw_xml_record *record, double before,
+                       fw_geometry_strip_piece *p) {
     static const char *const line[] = {"length", "width", "width-middle", "width-end"};
     static const char *const bent[] = {"radius", "angle", "width", "width-middle", "width-end"};
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    bool arc = fw_is(record, "arc");
+    bool arc = fw_xml_is(record, "arc");
     if (arc ? failed_any(record, bent, 5) : failed_any(record, line, 4)) return false;
     double *w = p->width_m;
-    w[0] = fw_number_or(record, "width", before);
+    w[0] = fw_xml_number_or(record, "width", before);
     if (before == UNKNOWN && !(w[0] > 0)) return false;
     if (before > 0 && fabs(w[0] - before) > 1e-12) {
-        fw_diag_error(r->diags, 263, fw_place_of(record, "width"),
+        fw_diag_error(r->diags, 263, fw_xml_place_of(record, "width"),
                       "%s: begins %s wide where the path so far ends %s wide; beam theory does "
                       "not cover the stress concentration of such a step: leave width out, or "
                       "set width-end before (at the first piece: width of the flexure)",
-                      fw_label(record, label), fw_in_unit(a, w[0], "um"),
-                      fw_in_unit(b, before, "um"));
+                      fw_xml_label(record, label), fw_xml_in_unit(a, w[0], "um"),
+                      fw_xml_in_unit(b, before, "um"));
         return false;
     }
     if (before > 0) w[0] = before;
-    w[2] = fw_number_or(record, "width-end", w[0]);
-    w[1] = fw_number_or(record, "width-middle", 0.5 * (w[0] + w[2]));
+    w[2] = fw_xml_number_or(record, "width-end", w[0]);
+    w[1] = fw_xml_number_or(record, "width-middle", 0.5 * (w[0] + w[2]));
     if (!arc) {
-        p->length_m = fw_number_of(record, "length");
+        p->length_m = fw_xml_number_of(record, "length");
         return check_edges(r, record, p);
     }
-    double radius = fw_number_of(record, "radius"), angle = fw_number_of(record, "angle");
+    double radius = fw_xml_number_of(record, "radius"), angle = fw_xml_number_of(record, "angle");
     if (angle == 0) {
         fw_diag_error(
-            r->diags, 262, fw_place_of(record, "angle"),
+            r->diags, 262, fw_xml_place_of(record, "angle"),
             "%s: an arc of 0 deg has no length; remove it, or write <line length=\"...\"/>",
-            fw_label(record, label));
+            fw_xml_label(record, label));
         return false;
     }
     p->length_m = radius * fabs(angle);
@@ -140,50 +145,51 @@ static bool read_piece(fw_reader *r, const fw_record *record, double before, fw_
 }
 
 /* a path that meets itself, and ends that lie too near to each other for two bodies */
-static void check_whole(fw_reader *r, const fw_record *record, const fw_flexure *f) {
+static void check_whole(fw_device_reader *r, const fw_xml_record *record,
+                        const fw_device_flexure *f) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     int i, j;
-    if (fw_strip_crosses(f->piece, f->npiece, &i, &j)) {
+    if (fw_geometry_strip_crosses(f->piece, f->npiece, &i, &j)) {
         fw_diag_error(r->diags, 264, record->element->place,
                       i == j ? "%s: piece %d meets itself; make its angle smaller"
                              : "%s: the path crosses itself: pieces %d and %d; change lengths or "
                                "angles",
-                      fw_label(record, label), i + 1, j + 1);
+                      fw_xml_label(record, label), i + 1, j + 1);
         return;
     }
-    fw_pose end = fw_strip_end(f->piece, f->npiece, (fw_pose){0});
+    fw_geometry_pose end = fw_geometry_strip_end(f->piece, f->npiece, (fw_geometry_pose){0});
     double apart = hypot(end.x_m, end.y_m);
     double wide = f->piece[0].width_m[0] + f->piece[f->npiece - 1].width_m[2];
     if (apart < 2 * wide)
         fw_diag_error(r->diags, 264, record->element->place,
                       "%s: its two ends are %s apart; two roots need twice the sum of the widths "
                       "there (%s): open the path",
-                      fw_label(record, label), fw_in_unit(a, apart, "um"),
-                      fw_in_unit(b, 2 * wide, "um"));
+                      fw_xml_label(record, label), fw_xml_in_unit(a, apart, "um"),
+                      fw_xml_in_unit(b, 2 * wide, "um"));
     if (f->width_m > f->length_m / 4)
         fw_diag_error(
             r->diags, 59, record->element->place,
             "%s: width %s is more than a quarter of the length (%s); beam formulas do not "
             "hold for so stout a flexure; make it thinner or longer",
-            fw_label(record, label), fw_in_unit(a, f->width_m, "um"),
-            fw_in_unit(b, f->length_m, "um"));
+            fw_xml_label(record, label), fw_xml_in_unit(a, f->width_m, "um"),
+            fw_xml_in_unit(b, f->length_m, "um"));
 }
 
 /* children in their order; what is wrong with one is said there and the whole is not judged */
-static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
-    const fw_record *record = &r->xml.record[at];
+static fw_status read_path(fw_device_reader *r, int at, fw_device_flexure *f) {
+    const fw_xml_record *record = &r->xml.record[at];
     char label[FW_LABEL];
-    fw_strip_piece *piece;
+    fw_geometry_strip_piece *piece;
     double before = f->width_m, least = HUGE_VAL;
     bool ok = true;
     int n = 0;
-    FW_NEED(piece = fw_arena_array(r->arena, fw_strip_piece, FW_STRIP_MOST));
+    FW_NEED(piece = fw_arena_array(r->arena, fw_geometry_strip_piece, FW_STRIP_MOST));
     for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++) {
         if (r->xml.record[i].parent != at) continue;
         if (n == FW_STRIP_MOST) {
             fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
-                          "%s: a path has at most %d pieces; join some", fw_label(record, label),
-                          FW_STRIP_MOST);
+                          "%s: a path has at most %d pieces; join some",
+                          fw_xml_label(record, label), FW_STRIP_MOST);
             return FW_OK;
         }
         bool good = read_piece(r, &r->xml.record[i], before, &piece[n]);
@@ -196,14 +202,14 @@ static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
         fw_diag_error(r->diags, 262, record->element->place,
                       "%s: a path needs its pieces: <line length=\"...\"/> and "
                       "<arc radius=\"...\" angle=\"...\"/> in their order",
-                      fw_label(record, label));
+                      fw_xml_label(record, label));
     if (!ok || n == 0) return FW_OK;
-    f->length_m = fw_strip_length(piece, n);
+    f->length_m = fw_geometry_strip_length(piece, n);
     for (int i = 0; i < n; i++) {
-        fw_strip_shape shape;
+        fw_geometry_strip_shape shape;
         double low, high;
-        fw_strip_shape_of(&piece[i], &shape);
-        fw_strip_widths(&shape, &low, &high);
+        fw_geometry_strip_shape_of(&piece[i], &shape);
+        fw_geometry_strip_widths(&shape, &low, &high);
         least = fmin(least, low);
         f->angle_rad += piece[i].curvature_per_m * piece[i].length_m;
     }
@@ -212,56 +218,57 @@ static fw_status read_path(fw_reader *r, int at, fw_flexure *f) {
     return FW_OK;
 }
 
-static void refuse_pieces(fw_reader *r, int at, const char *kind) {
+static void refuse_pieces(fw_device_reader *r, int at, const char *kind) {
     char label[FW_LABEL];
     for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++)
         if (r->xml.record[i].parent == at)
             fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
                           "%s: a %s has no pieces of its own; remove <%s>, or write kind=\"path\"",
-                          fw_label(&r->xml.record[at], label), kind, r->xml.record[i].row->name);
+                          fw_xml_label(&r->xml.record[at], label), kind,
+                          r->xml.record[i].row->name);
 }
 
-static void refuse_attributes(fw_reader *r, const fw_record *record, const char *const *name, int n,
-                              int number, const char *what) {
+static void refuse_attributes(fw_device_reader *r, const fw_xml_record *record,
+                              const char *const *name, int n, int number, const char *what) {
     char label[FW_LABEL];
     for (int i = 0; i < n; i++)
-        if (fw_given(record, name[i]))
-            fw_diag_error(r->diags, number, fw_place_of(record, name[i]), "%s: %s %s",
-                          fw_label(record, label), name[i], what);
+        if (fw_xml_given(record, name[i]))
+            fw_diag_error(r->diags, number, fw_xml_place_of(record, name[i]), "%s: %s %s",
+                          fw_xml_label(record, label), name[i], what);
 }
 
-static void leaf_of(fw_reader *r, const fw_record *record, fw_flexure *f) {
+static void leaf_of(fw_device_reader *r, const fw_xml_record *record, fw_device_flexure *f) {
     char label[FW_LABEL];
     static const char *const foreign[] = {"radius", "angle"};
     for (int i = 0; i < 2; i++)
-        if (fw_given(record, foreign[i]))
-            fw_diag_error(r->diags, 58, fw_place_of(record, foreign[i]),
+        if (fw_xml_given(record, foreign[i]))
+            fw_diag_error(r->diags, 58, fw_xml_place_of(record, foreign[i]),
                           "%s: a leaf is straight and has no %s; remove it or write kind=\"csfh\"",
-                          fw_label(record, label), foreign[i]);
-    if (!fw_given(record, "length"))
+                          fw_xml_label(record, label), foreign[i]);
+    if (!fw_xml_given(record, "length"))
         fw_diag_error(r->diags, 58, record->element->place, "%s: a leaf needs its length",
-                      fw_label(record, label));
+                      fw_xml_label(record, label));
     check_slender(r, record, f);
     check_middle(r, record, f);
 }
 
-static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
-    const fw_record *record = &r->xml.record[at];
-    const char *kind = fw_text_of(record, "kind");
-    bool length = fw_given(record, "length");
-    *f = (fw_flexure){.id = fw_text_of(record, "id"),
-                      .length_m = fw_number_of(record, "length"),
-                      .angle_rad = fw_number_of(record, "angle"),
-                      .radius_m = fw_number_of(record, "radius"),
-                      .width_m = fw_number_of(record, "width"),
-                      .width_middle_m = fw_number_or(record, "width-middle", 0.0),
-                      .gap_m = fw_number_or(record, "gap", 0.0),
-                      .fillet_m = fw_number_of(record, "fillet"),
-                      .fillet_place = fw_place_of(record, "fillet"),
-                      .length_given = length,
-                      .radius_given = fw_given(record, "radius"),
-                      .place = record->element->place,
-                      .length_place = fw_place_of(record, length ? "length" : "radius")};
+static fw_status flexure_of(fw_device_reader *r, int at, fw_device_flexure *f) {
+    const fw_xml_record *record = &r->xml.record[at];
+    const char *kind = fw_xml_text_of(record, "kind");
+    bool length = fw_xml_given(record, "length");
+    *f = (fw_device_flexure){.id = fw_xml_text_of(record, "id"),
+                             .length_m = fw_xml_number_of(record, "length"),
+                             .angle_rad = fw_xml_number_of(record, "angle"),
+                             .radius_m = fw_xml_number_of(record, "radius"),
+                             .width_m = fw_xml_number_of(record, "width"),
+                             .width_middle_m = fw_xml_number_or(record, "width-middle", 0.0),
+                             .gap_m = fw_xml_number_or(record, "gap", 0.0),
+                             .fillet_m = fw_xml_number_of(record, "fillet"),
+                             .fillet_place = fw_xml_place_of(record, "fillet"),
+                             .length_given = length,
+                             .radius_given = fw_xml_given(record, "radius"),
+                             .place = record->element->place,
+                             .length_place = fw_xml_place_of(record, length ? "length" : "radius")};
     if (!kind) return FW_OK;
     static const char *const foreign[] = {"length", "radius", "angle", "width-middle"};
     if (strcmp(kind, "path") == 0) {
@@ -269,7 +276,7 @@ static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
         f->angle_rad = 0, f->width_middle_m = 0;
         refuse_attributes(r, record, foreign, 4, 262,
                           "belongs to the pieces of a path; move it there");
-        return fw_failed(record, "width") ? FW_OK : read_path(r, at, f);
+        return fw_xml_failed(record, "width") ? FW_OK : read_path(r, at, f);
     }
     refuse_pieces(r, at, kind);
     if (strcmp(kind, "csfh") == 0) {
@@ -286,12 +293,12 @@ static fw_status flexure_of(fw_reader *r, int at, fw_flexure *f) {
     return FW_OK;
 }
 
-fw_status fw_build_flexures(fw_reader *r) {
+fw_status fw_device_build_flexures(fw_device_reader *r) {
     fw_device *d = r->device;
-    FW_NEED(d->flexure =
-                fw_arena_array(r->arena, fw_flexure, (size_t)fw_count(&r->xml, "flexure")));
+    FW_NEED(d->flexure = fw_arena_array(r->arena, fw_device_flexure,
+                                        (size_t)fw_xml_count(&r->xml, "flexure")));
     for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_is(&r->xml.record[i], "flexure"))
+        if (fw_xml_is(&r->xml.record[i], "flexure"))
             FW_TRY(flexure_of(r, i, &d->flexure[d->nflexure++]));
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -1,162 +1,167 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a device file says beside its mechanism and scenes, but for flexures. */
-#include "device/reader.h"
+#include "device/device_reader.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- material, limits, flow, workspace, die ---- */
 
-static fw_status read_override(fw_reader *r, const fw_record *record, const char *name,
-                               const char *id, fw_dimension dimension, fw_quantity *q) {
-    const fw_xml_cell *cell = fw_cell_of(record, name);
+static fw_status read_override(fw_device_reader *r, const fw_xml_record *record, const char *name,
+                               const char *id, fw_quantity_dimension dimension, fw_quantity *q) {
+    const fw_xml_cell *cell = fw_xml_cell_of(record, name);
     *q = (fw_quantity){.id = id,
                        .unknown = true,
                        .dimension = dimension,
                        .unit = "",
                        .status = FW_STATED,
                        .source = "device file",
-                       .place = fw_place_of(record, name)};
+                       .place = fw_xml_place_of(record, name)};
     if (!cell->given || !cell->ok) return FW_OK;
     q->unknown = false;
     q->value = cell->number;
-    return fw_expression_unit(r->arena, cell->given->value, strlen(cell->given->value), dimension,
-                              &q->unit);
+    return fw_quantity_expression_unit(r->arena, cell->given->value, strlen(cell->given->value),
+                                       dimension, &q->unit);
 }
 
-static fw_status build_material(fw_reader *r, const fw_record *record) {
-    static const fw_dimension pressure = {-1, 1, -2, 0, 0, 0, 0}, density = {.m = -3, .kg = 1};
-    static const fw_element_row no_row = {.name = "material"};
-    fw_element nothing = {.name = "material"};
-    fw_record absent = {.row = &no_row, .element = &nothing};
+static fw_status build_material(fw_device_reader *r, const fw_xml_record *record) {
+    static const fw_quantity_dimension pressure = {-1, 1, -2, 0, 0, 0, 0},
+                                       density = {.m = -3, .kg = 1};
+    static const fw_xml_element_row no_row = {.name = "material"};
+    fw_xml_element nothing = {.name = "material"};
+    fw_xml_record absent = {.row = &no_row, .element = &nothing};
     fw_device *d = r->device;
-    const fw_record *from = record ? record : &absent;
+    const fw_xml_record *from = record ? record : &absent;
     bool broken = false;
     FW_TRY(read_override(r, from, "youngs-modulus", "youngs", pressure, &d->material.youngs));
-    FW_TRY(read_override(r, from, "poisson", "poisson", (fw_dimension){0}, &d->material.poisson));
+    FW_TRY(read_override(r, from, "poisson", "poisson", (fw_quantity_dimension){0},
+                         &d->material.poisson));
     FW_TRY(read_override(r, from, "density", "density", density, &d->material.density));
     FW_TRY(read_override(r, from, "strength", "strength", pressure, &d->material.strength));
     for (int k = 0; k < FW_LIMIT_DATA; k++) {
-        const char *id = fw_limit_data_id(k);
-        fw_quantity *q = fw_limit_data_at(&d->material.limit, k);
-        FW_TRY(read_override(r, from, id, id, fw_limit_data_dimension(k), q));
-        if (record && fw_failed(record, id)) broken = true;
+        const char *id = fw_device_limit_data_id(k);
+        fw_quantity *q = fw_device_limit_data_at(&d->material.limit, k);
+        FW_TRY(read_override(r, from, id, id, fw_device_limit_data_dimension(k), q));
+        if (record && fw_xml_failed(record, id)) broken = true;
     }
     if (!record) return FW_OK;
     if (!broken)
-        fw_limit_data_complete(&d->material.limit, "<material>", record->element->place, r->diags);
-    d->material_ref = fw_text_of(record, "ref");
-    d->material_place = fw_place_of(record, "ref");
-    d->thickness_m = fw_number_of(record, "thickness");
-    d->orientation_rad = fw_number_of(record, "orientation");
+        fw_device_limit_data_complete(&d->material.limit, "<material>", record->element->place,
+                                      r->diags);
+    d->material_ref = fw_xml_text_of(record, "ref");
+    d->material_place = fw_xml_place_of(record, "ref");
+    d->thickness_m = fw_xml_number_of(record, "thickness");
+    d->orientation_rad = fw_xml_number_of(record, "orientation");
     return FW_OK;
 }
 
-static void build_limits(fw_reader *r, const fw_record *record) {
+static void build_limits(fw_device_reader *r, const fw_xml_record *record) {
     fw_device *d = r->device;
-    const char *survival = fw_text_of(record, "survival");
-    d->safety_factor = fw_number_or(record, "safety-factor", 1.5);
+    const char *survival = fw_xml_text_of(record, "survival");
+    d->safety_factor = fw_xml_number_or(record, "safety-factor", 1.5);
     d->limits_place = record->element->place;
-    d->limits =
-        (fw_limits_asked){.cycles = fw_number_of(record, "cycles"),
-                          .failure_probability = fw_number_of(record, "failure-probability"),
-                          .survival = survival && strcmp(survival, "yes") == 0,
-                          .cycles_place = fw_place_of(record, "cycles"),
-                          .probability_place = fw_place_of(record, "failure-probability")};
+    d->limits = (fw_device_limits_asked){
+        .cycles = fw_xml_number_of(record, "cycles"),
+        .failure_probability = fw_xml_number_of(record, "failure-probability"),
+        .survival = survival && strcmp(survival, "yes") == 0,
+        .cycles_place = fw_xml_place_of(record, "cycles"),
+        .probability_place = fw_xml_place_of(record, "failure-probability")};
 }
 
-static fw_flow_use flow_of(const fw_record *record) {
-    const char *carrier = fw_text_of(record, "carrier");
-    return (fw_flow_use){.ref = fw_text_of(record, "ref"),
-                         .insulating_carrier = carrier && strcmp(carrier, "insulating") == 0,
-                         .material = fw_text_of(record, "material"),
-                         .thickness_m = fw_number_of(record, "thickness"),
-                         .orientation_rad = fw_number_of(record, "orientation"),
-                         .place = fw_place_of(record, "ref"),
-                         .material_place = fw_place_of(record, "material")};
+static fw_device_flow_use flow_of(const fw_xml_record *record) {
+    const char *carrier = fw_xml_text_of(record, "carrier");
+    return (fw_device_flow_use){.ref = fw_xml_text_of(record, "ref"),
+                                .insulating_carrier = carrier && strcmp(carrier, "insulating") == 0,
+                                .material = fw_xml_text_of(record, "material"),
+                                .thickness_m = fw_xml_number_of(record, "thickness"),
+                                .orientation_rad = fw_xml_number_of(record, "orientation"),
+                                .place = fw_xml_place_of(record, "ref"),
+                                .material_place = fw_xml_place_of(record, "material")};
 }
 
-static const char *reference_text(fw_reader *r, const fw_record *record, const char *name) {
-    return fw_reference(r, record, name) >= 0 ? fw_text_of(record, name) : NULL;
+static const char *reference_text(fw_device_reader *r, const fw_xml_record *record,
+                                  const char *name) {
+    return fw_device_reference(r, record, name) >= 0 ? fw_xml_text_of(record, name) : NULL;
 }
 
-static void check_order(fw_reader *r, const fw_record *record, const char *low, const char *high,
-                        const char *unit) {
-    double a = fw_number_of(record, low), b = fw_number_of(record, high);
+static void check_order(fw_device_reader *r, const fw_xml_record *record, const char *low,
+                        const char *high, const char *unit) {
+    double a = fw_xml_number_of(record, low), b = fw_xml_number_of(record, high);
     char left[FW_LABEL], right[FW_LABEL];
     if (a > b)
-        fw_diag_error(r->diags, 63, fw_place_of(record, low),
+        fw_diag_error(r->diags, 63, fw_xml_place_of(record, low),
                       "workspace: %s %s is above %s %s; exchange them", low,
-                      fw_in_unit(left, a, unit), high, fw_in_unit(right, b, unit));
+                      fw_xml_in_unit(left, a, unit), high, fw_xml_in_unit(right, b, unit));
 }
 
-static fw_workspace_box workspace_of(fw_reader *r, const fw_record *record) {
+static fw_device_workspace_box workspace_of(fw_device_reader *r, const fw_xml_record *record) {
     check_order(r, record, "x-min", "x-max", "um");
     check_order(r, record, "y-min", "y-max", "um");
     check_order(r, record, "phi-min", "phi-max", "deg");
-    return (fw_workspace_box){.flow = reference_text(r, record, "flow"),
-                              .x_min_m = fw_number_of(record, "x-min"),
-                              .x_max_m = fw_number_of(record, "x-max"),
-                              .y_min_m = fw_number_of(record, "y-min"),
-                              .y_max_m = fw_number_of(record, "y-max"),
-                              .phi_min_rad = fw_number_of(record, "phi-min"),
-                              .phi_max_rad = fw_number_of(record, "phi-max"),
-                              .place = record->element->place};
+    return (fw_device_workspace_box){.flow = reference_text(r, record, "flow"),
+                                     .x_min_m = fw_xml_number_of(record, "x-min"),
+                                     .x_max_m = fw_xml_number_of(record, "x-max"),
+                                     .y_min_m = fw_xml_number_of(record, "y-min"),
+                                     .y_max_m = fw_xml_number_of(record, "y-max"),
+                                     .phi_min_rad = fw_xml_number_of(record, "phi-min"),
+                                     .phi_max_rad = fw_xml_number_of(record, "phi-max"),
+                                     .place = record->element->place};
 }
 
-static void build_die(fw_device *d, const fw_record *record) {
-    const char *tethers = fw_text_of(record, "tethers"), *fill = fw_text_of(record, "fill");
-    d->die = (fw_die){.width_m = fw_number_of(record, "width"),
-                      .height_m = fw_number_of(record, "height"),
-                      .frame_m = fw_number_of(record, "frame"),
-                      .lane_m = fw_number_of(record, "lane"),
-                      .clearance_m = fw_number_of(record, "clearance"),
-                      .title = fw_text_of(record, "title"),
-                      .tethers = !tethers || strcmp(tethers, "no") != 0,
-                      .fill = fill && strcmp(fill, "yes") == 0,
-                      .width_place = fw_place_of(record, "width"),
-                      .height_place = fw_place_of(record, "height"),
-                      .title_place = fw_place_of(record, "title")};
-    d->release_pitch_m = fw_number_of(record, "release-pitch");
-    d->release_hole_m = fw_number_of(record, "release-hole");
+static void build_die(fw_device *d, const fw_xml_record *record) {
+    const char *tethers = fw_xml_text_of(record, "tethers"), *fill = fw_xml_text_of(record, "fill");
+    d->die = (fw_device_die){.width_m = fw_xml_number_of(record, "width"),
+                             .height_m = fw_xml_number_of(record, "height"),
+                             .frame_m = fw_xml_number_of(record, "frame"),
+                             .lane_m = fw_xml_number_of(record, "lane"),
+                             .clearance_m = fw_xml_number_of(record, "clearance"),
+                             .title = fw_xml_text_of(record, "title"),
+                             .tethers = !tethers || strcmp(tethers, "no") != 0,
+                             .fill = fill && strcmp(fill, "yes") == 0,
+                             .width_place = fw_xml_place_of(record, "width"),
+                             .height_place = fw_xml_place_of(record, "height"),
+                             .title_place = fw_xml_place_of(record, "title")};
+    d->release_pitch_m = fw_xml_number_of(record, "release-pitch");
+    d->release_hole_m = fw_xml_number_of(record, "release-hole");
 }
 
 /* flows before the rest, because scenes and workspaces refer to them */
-static fw_status build_flows(fw_reader *r) {
+static fw_status build_flows(fw_device_reader *r) {
     fw_device *d = r->device;
-    FW_NEED(d->flow = fw_arena_array(r->arena, fw_flow_use, (size_t)fw_count(&r->xml, "flow")));
+    FW_NEED(d->flow = fw_arena_array(r->arena, fw_device_flow_use,
+                                     (size_t)fw_xml_count(&r->xml, "flow")));
     for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_is(&r->xml.record[i], "flow")) d->flow[d->nflow++] = flow_of(&r->xml.record[i]);
+        if (fw_xml_is(&r->xml.record[i], "flow")) d->flow[d->nflow++] = flow_of(&r->xml.record[i]);
     return FW_OK;
 }
 
-fw_status fw_build_parts(fw_reader *r) {
+fw_status fw_device_build_parts(fw_device_reader *r) {
     fw_device *d = r->device;
     double nan_ = (double)NAN;
     d->safety_factor = 1.5;
-    d->limits = (fw_limits_asked){.cycles = nan_, .failure_probability = nan_};
+    d->limits = (fw_device_limits_asked){.cycles = nan_, .failure_probability = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
-    d->die = (fw_die){.width_m = nan_,
-                      .height_m = nan_,
-                      .frame_m = nan_,
-                      .lane_m = nan_,
-                      .clearance_m = nan_,
-                      .tethers = true};
+    d->die = (fw_device_die){.width_m = nan_,
+                             .height_m = nan_,
+                             .frame_m = nan_,
+                             .lane_m = nan_,
+                             .clearance_m = nan_,
+                             .tethers = true};
     FW_TRY(build_material(r, NULL));
     FW_TRY(build_flows(r));
-    size_t boxes = (size_t)fw_count(&r->xml, "workspace");
-    FW_NEED(d->workspace = fw_arena_array(r->arena, fw_workspace_box, boxes));
+    size_t boxes = (size_t)fw_xml_count(&r->xml, "workspace");
+    FW_NEED(d->workspace = fw_arena_array(r->arena, fw_device_workspace_box, boxes));
     for (int i = 0; i < r->xml.nrecord; i++) {
-        const fw_record *record = &r->xml.record[i];
-        if (fw_is(record, "device"))
-            d->name = fw_text_of(record, "name");
-        else if (fw_is(record, "material"))
+        const fw_xml_record *record = &r->xml.record[i];
+        if (fw_xml_is(record, "device"))
+            d->name = fw_xml_text_of(record, "name");
+        else if (fw_xml_is(record, "material"))
             FW_TRY(build_material(r, record));
-        else if (fw_is(record, "limits"))
+        else if (fw_xml_is(record, "limits"))
             build_limits(r, record);
-        else if (fw_is(record, "workspace"))
+        else if (fw_xml_is(record, "workspace"))
             d->workspace[d->nworkspace++] = workspace_of(r, record);
-        else if (fw_is(record, "die"))
+        else if (fw_xml_is(record, "die"))
             build_die(d, record);
     }
     const fw_quantity *stated = &d->material.strength;
@@ -173,78 +178,78 @@ fw_status fw_build_parts(fw_reader *r) {
 
 enum { MOST_VARIANTS = 64 };
 
-static bool says(const fw_record *record, const char *name, const char *word) {
-    const char *text = fw_text_of(record, name);
+static bool says(const fw_xml_record *record, const char *name, const char *word) {
+    const char *text = fw_xml_text_of(record, name);
     return text && strcmp(text, word) == 0;
 }
 
-static fw_wafer_side side_of(const fw_record *record) {
+static fw_device_wafer_side side_of(const fw_xml_record *record) {
     if (says(record, "flat-side", "top")) return FW_SIDE_TOP;
     if (says(record, "flat-side", "left")) return FW_SIDE_LEFT;
     return says(record, "flat-side", "right") ? FW_SIDE_RIGHT : FW_SIDE_BOTTOM;
 }
 
-static fw_wafer_asked wafer_of(const fw_record *record) {
-    double tests = fw_number_or(record, "test-dies", 0);
-    return (fw_wafer_asked){.asked = true,
-                            .diameter_m = fw_number_or(record, "diameter", 0.1),
-                            .flat_m = fw_number_of(record, "flat"),
-                            .edge_m = fw_number_or(record, "edge-exclusion", 3e-3),
-                            .pitch_x_m = fw_number_of(record, "pitch-x"),
-                            .pitch_y_m = fw_number_of(record, "pitch-y"),
-                            .side = side_of(record),
-                            .centre = says(record, "centre", "die")      ? FW_CENTRE_DIE
-                                      : says(record, "centre", "street") ? FW_CENTRE_STREET
-                                                                         : FW_CENTRE_AUTO,
-                            .alignment = says(record, "alignment", "2 sites"),
-                            .tests = isfinite(tests) ? (int)tests : 0,
-                            .blocks = says(record, "assign", "blocks"),
-                            .plate_m = fw_number_of(record, "plate"),
-                            .title = fw_text_of(record, "title"),
-                            .place = record->element->place};
+static fw_device_wafer_asked wafer_of(const fw_xml_record *record) {
+    double tests = fw_xml_number_or(record, "test-dies", 0);
+    return (fw_device_wafer_asked){.asked = true,
+                                   .diameter_m = fw_xml_number_or(record, "diameter", 0.1),
+                                   .flat_m = fw_xml_number_of(record, "flat"),
+                                   .edge_m = fw_xml_number_or(record, "edge-exclusion", 3e-3),
+                                   .pitch_x_m = fw_xml_number_of(record, "pitch-x"),
+                                   .pitch_y_m = fw_xml_number_of(record, "pitch-y"),
+                                   .side = side_of(record),
+                                   .centre = says(record, "centre", "die")      ? FW_CENTRE_DIE
+                                             : says(record, "centre", "street") ? FW_CENTRE_STREET
+                                                                                : FW_CENTRE_AUTO,
+                                   .alignment = says(record, "alignment", "2 sites"),
+                                   .tests = isfinite(tests) ? (int)tests : 0,
+                                   .blocks = says(record, "assign", "blocks"),
+                                   .plate_m = fw_xml_number_of(record, "plate"),
+                                   .title = fw_xml_text_of(record, "title"),
+                                   .place = record->element->place};
 }
 
 /* one end of a sweep, in the parameter's own dimension */
-static fw_status read_end(fw_reader *r, const fw_record *record, const char *name,
-                          const fw_parameter *p, double *value, bool *ok) {
-    const fw_xml_cell *cell = fw_cell_of(record, name);
-    fw_dimension found;
+static fw_status read_end(fw_device_reader *r, const fw_xml_record *record, const char *name,
+                          const fw_device_parameter *p, double *value, bool *ok) {
+    const fw_xml_cell *cell = fw_xml_cell_of(record, name);
+    fw_quantity_dimension found;
     *ok = false;
     if (!cell->given) return FW_OK; /* reported as missing */
-    return fw_attribute_evaluate(&r->xml, cell->given, name, &p->dimension, &found, value, ok);
+    return fw_xml_attribute_evaluate(&r->xml, cell->given, name, &p->dimension, &found, value, ok);
 }
 
-static bool fits(const char *unit, fw_dimension dimension) {
-    fw_unit u = {0};
-    static const fw_dimension pure;
-    if (!*unit) return fw_dimension_equal(dimension, pure);
-    return fw_unit_parse(unit, strlen(unit), &u, NULL, NULL) &&
-           fw_dimension_equal(u.dimension, dimension);
+static bool fits(const char *unit, fw_quantity_dimension dimension) {
+    fw_quantity_unit u = {0};
+    static const fw_quantity_dimension pure;
+    if (!*unit) return fw_quantity_dimension_equal(dimension, pure);
+    return fw_quantity_unit_parse(unit, strlen(unit), &u, NULL, NULL) &&
+           fw_quantity_dimension_equal(u.dimension, dimension);
 }
 
 /* the unit in which steps are written: of `from`, else of the parameter */
-static fw_status unit_of(fw_reader *r, const fw_record *record, const fw_parameter *p,
-                         const char **unit, bool *ok) {
-    const char *from = fw_cell_of(record, "from")->given->value;
-    FW_TRY(fw_expression_unit(r->arena, from, strlen(from), p->dimension, unit));
+static fw_status unit_of(fw_device_reader *r, const fw_xml_record *record,
+                         const fw_device_parameter *p, const char **unit, bool *ok) {
+    const char *from = fw_xml_cell_of(record, "from")->given->value;
+    FW_TRY(fw_quantity_expression_unit(r->arena, from, strlen(from), p->dimension, unit));
     if (!fits(*unit, p->dimension)) *unit = p->unit ? p->unit : "";
     *ok = fits(*unit, p->dimension);
     if (!*ok)
         fw_diag_error(
-            r->diags, 190, fw_place_of(record, "from"),
+            r->diags, 190, fw_xml_place_of(record, "from"),
             "<sweep>: from=\"%s\" has no unit of its own in which the steps of '%s' could "
             "be written; write it with one",
             from, p->name);
     return FW_OK;
 }
 
-static fw_status add_sweep(fw_reader *r, const fw_record *record) {
-    fw_wafer_asked *w = &r->device->wafer;
-    int k = fw_reference(r, record, "parameter");
-    double steps = fw_number_of(record, "steps");
+static fw_status add_sweep(fw_device_reader *r, const fw_xml_record *record) {
+    fw_device_wafer_asked *w = &r->device->wafer;
+    int k = fw_device_reference(r, record, "parameter");
+    double steps = fw_xml_number_of(record, "steps");
     if (k < 0 || k >= r->device->nparameter || !isfinite(steps)) return FW_OK;
-    const fw_parameter *p = &r->device->parameter[k];
-    fw_sweep s = {.parameter = k, .steps = (int)steps, .place = record->element->place};
+    const fw_device_parameter *p = &r->device->parameter[k];
+    fw_device_sweep s = {.parameter = k, .steps = (int)steps, .place = record->element->place};
     bool from, to, unit = false;
     FW_TRY(read_end(r, record, "from", p, &s.from, &from));
     FW_TRY(read_end(r, record, "to", p, &s.to, &to));
@@ -265,10 +270,10 @@ static fw_status add_sweep(fw_reader *r, const fw_record *record) {
     return FW_OK;
 }
 
-fw_status fw_build_wafer(fw_reader *r) {
+fw_status fw_device_build_wafer(fw_device_reader *r) {
     for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_is(&r->xml.record[i], "wafer")) r->device->wafer = wafer_of(&r->xml.record[i]);
+        if (fw_xml_is(&r->xml.record[i], "wafer")) r->device->wafer = wafer_of(&r->xml.record[i]);
     for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_is(&r->xml.record[i], "sweep")) FW_TRY(add_sweep(r, &r->xml.record[i]));
+        if (fw_xml_is(&r->xml.record[i], "sweep")) FW_TRY(add_sweep(r, &r->xml.record[i]));
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

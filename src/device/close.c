@@ -6,7 +6,7 @@
    Rounded to a tenth of a micrometre each is off by 0.05 um at most, so that its two places are 0.2
    um apart along an axis and 0.283 um in all. Larger gaps are no rounding and stay as they are:
    `check` refuses them (FW-D206). Gaps up to 10 nm, which it accepts, stay too, with every bit. */
-#include "device/reader.h"
+#include "device/device_reader.h"
 #include <math.h>
 #include <string.h>
 
@@ -39,18 +39,19 @@ static bool placed(const fw_device *d, int body) {
 }
 
 /* a local point in the world, and its way when the body turns */
-static fw_vec2 place_at(const closing *c, int body, double x, double y, fw_vec2 *turning) {
-    *turning = (fw_vec2){0, 0};
-    if (body < 0) return (fw_vec2){x, y};
+static fw_geometry_vec2 place_at(const closing *c, int body, double x, double y,
+                                 fw_geometry_vec2 *turning) {
+    *turning = (fw_geometry_vec2){0, 0};
+    if (body < 0) return (fw_geometry_vec2){x, y};
     const double *q = c->pose + 3 * body;
-    fw_vec2 arm = {cos(q[2]) * x - sin(q[2]) * y, sin(q[2]) * x + cos(q[2]) * y};
-    *turning = (fw_vec2){-arm.y, arm.x};
-    return (fw_vec2){q[0] + arm.x, q[1] + arm.y};
+    fw_geometry_vec2 arm = {cos(q[2]) * x - sin(q[2]) * y, sin(q[2]) * x + cos(q[2]) * y};
+    *turning = (fw_geometry_vec2){-arm.y, arm.x};
+    return (fw_geometry_vec2){q[0] + arm.x, q[1] + arm.y};
 }
 
 /* the span from a to b along u; `more`: what it changes by when body a turns, besides its point */
-static void add_length(closing *c, const row *head, fw_vec2 u, fw_vec2 turn_a, fw_vec2 turn_b,
-                       double more, double value) {
+static void add_length(closing *c, const row *head, fw_geometry_vec2 u, fw_geometry_vec2 turn_a,
+                       fw_geometry_vec2 turn_b, double more, double value) {
     row *r = &c->row[c->nrow++];
     *r = *head;
     r->value = value;
@@ -72,55 +73,56 @@ static double turn_of(const closing *c, int body) {
     return body < 0 ? 0 : c->pose[3 * body + 2];
 }
 
-static bool driven(const fw_device *d, int tie) {
+static bool driven(const fw_device *d, int joint) {
     for (int i = 0; i < d->ndriver; i++)
-        if (d->driver[i].tie == tie) return true;
+        if (d->driver[i].joint == joint) return true;
     return false;
 }
 
-static void add_tie(closing *c, int i) {
-    const fw_tie *t = &c->device->tie[i];
+static void add_joint(closing *c, int i) {
+    const fw_device_joint *t = &c->device->joint[i];
     row head = {.body = {t->body_a, t->body_b}, .id = t->id, .place = t->place};
-    fw_vec2 turn_a, turn_b;
-    fw_vec2 a = place_at(c, t->body_a, t->ax_m, t->ay_m, &turn_a);
-    fw_vec2 b = place_at(c, t->body_b, t->bx_m, t->by_m, &turn_b);
+    fw_geometry_vec2 turn_a, turn_b;
+    fw_geometry_vec2 a = place_at(c, t->body_a, t->ax_m, t->ay_m, &turn_a);
+    fw_geometry_vec2 b = place_at(c, t->body_b, t->bx_m, t->by_m, &turn_b);
     double dx = b.x - a.x, dy = b.y - a.y, far = hypot(dx, dy);
-    if (t->kind == FW_TIE_DISTANCE) {
+    if (t->kind == FW_JOINT_DISTANCE) {
         if (isnan(t->length_m) || driven(c->device, i) || !(far > 0)) return;
-        add_length(c, &head, (fw_vec2){dx / far, dy / far}, turn_a, turn_b, 0, far - t->length_m);
+        add_length(c, &head, (fw_geometry_vec2){dx / far, dy / far}, turn_a, turn_b, 0,
+                   far - t->length_m);
         return;
     }
     if (!isnan(t->angle_rad))
         add_angle(c, &head, turn_of(c, t->body_b) - turn_of(c, t->body_a) - t->angle_rad);
-    if (t->kind == FW_TIE_WELD) {
-        add_length(c, &head, (fw_vec2){1, 0}, turn_a, turn_b, 0, dx);
-        add_length(c, &head, (fw_vec2){0, 1}, turn_a, turn_b, 0, dy);
+    if (t->kind == FW_JOINT_WELD) {
+        add_length(c, &head, (fw_geometry_vec2){1, 0}, turn_a, turn_b, 0, dx);
+        add_length(c, &head, (fw_geometry_vec2){0, 1}, turn_a, turn_b, 0, dy);
         return;
     }
     double axis = turn_of(c, t->body_a) + t->axis_rad, x = cos(axis), y = sin(axis);
     if (isnan(axis)) return;
     double along = t->body_a < 0 ? 0 : x * dx + y * dy; /* the normal turns with body a */
-    add_length(c, &head, (fw_vec2){-y, x}, turn_a, turn_b, -along, -y * dx + x * dy);
+    add_length(c, &head, (fw_geometry_vec2){-y, x}, turn_a, turn_b, -along, -y * dx + x * dy);
 }
 
 /* all conditions at the present poses; the largest gap of either kind */
 static void list_rows(closing *c, double *gap_m, double *gap_rad, const row **worst) {
     const fw_device *d = c->device;
     c->nrow = 0;
-    for (int j = 0; j < d->njoint; j++) {
-        const fw_joint *t = &d->joint[j];
+    for (int j = 0; j < d->nrevolute; j++) {
+        const fw_device_revolute *t = &d->revolute[j];
         if (isnan(t->ax_m + t->ay_m + t->bx_m + t->by_m) || !placed(d, t->body_a) ||
             !placed(d, t->body_b))
             continue;
         row head = {.body = {t->body_a, t->body_b}, .id = t->id, .place = t->place};
-        fw_vec2 turn_a, turn_b;
-        fw_vec2 a = place_at(c, t->body_a, t->ax_m, t->ay_m, &turn_a);
-        fw_vec2 b = place_at(c, t->body_b, t->bx_m, t->by_m, &turn_b);
-        add_length(c, &head, (fw_vec2){1, 0}, turn_a, turn_b, 0, b.x - a.x);
-        add_length(c, &head, (fw_vec2){0, 1}, turn_a, turn_b, 0, b.y - a.y);
+        fw_geometry_vec2 turn_a, turn_b;
+        fw_geometry_vec2 a = place_at(c, t->body_a, t->ax_m, t->ay_m, &turn_a);
+        fw_geometry_vec2 b = place_at(c, t->body_b, t->bx_m, t->by_m, &turn_b);
+        add_length(c, &head, (fw_geometry_vec2){1, 0}, turn_a, turn_b, 0, b.x - a.x);
+        add_length(c, &head, (fw_geometry_vec2){0, 1}, turn_a, turn_b, 0, b.y - a.y);
     }
-    for (int i = 0; i < d->ntie; i++)
-        if (placed(d, d->tie[i].body_a) && placed(d, d->tie[i].body_b)) add_tie(c, i);
+    for (int i = 0; i < d->njoint; i++)
+        if (placed(d, d->joint[i].body_a) && placed(d, d->joint[i].body_b)) add_joint(c, i);
     *gap_m = *gap_rad = 0;
     *worst = NULL;
     for (int i = 0; i < c->nrow; i++) {
@@ -212,10 +214,11 @@ typedef struct sizes {
 } sizes;
 
 static void add_point(const closing *c, sizes *s, int body, double x, double y) {
-    fw_vec2 turning;
+    fw_geometry_vec2 turning;
     if (isnan(x + y) || !placed(c->device, body)) return;
-    fw_vec2 at = place_at(c, body, x, y, &turning);
-    fw_vec2 centre = body < 0 ? at : (fw_vec2){c->pose[3 * body], c->pose[3 * body + 1]};
+    fw_geometry_vec2 at = place_at(c, body, x, y, &turning);
+    fw_geometry_vec2 centre =
+        body < 0 ? at : (fw_geometry_vec2){c->pose[3 * body], c->pose[3 * body + 1]};
     s->x0 = fmin(s->x0, fmin(at.x, centre.x)), s->x1 = fmax(s->x1, fmax(at.x, centre.x));
     s->y0 = fmin(s->y0, fmin(at.y, centre.y)), s->y1 = fmax(s->y1, fmax(at.y, centre.y));
     if (body < 0) return;
@@ -229,13 +232,13 @@ static fw_status set_levers(fw_arena *arena, closing *c, double *size_m) {
                HUGE_VAL,  HUGE_VAL,
                -HUGE_VAL, -HUGE_VAL};
     FW_NEED(s.count);
-    for (int j = 0; j < d->njoint; j++) {
-        add_point(c, &s, d->joint[j].body_a, d->joint[j].ax_m, d->joint[j].ay_m);
-        add_point(c, &s, d->joint[j].body_b, d->joint[j].bx_m, d->joint[j].by_m);
+    for (int j = 0; j < d->nrevolute; j++) {
+        add_point(c, &s, d->revolute[j].body_a, d->revolute[j].ax_m, d->revolute[j].ay_m);
+        add_point(c, &s, d->revolute[j].body_b, d->revolute[j].bx_m, d->revolute[j].by_m);
     }
-    for (int i = 0; i < d->ntie; i++) {
-        add_point(c, &s, d->tie[i].body_a, d->tie[i].ax_m, d->tie[i].ay_m);
-        add_point(c, &s, d->tie[i].body_b, d->tie[i].bx_m, d->tie[i].by_m);
+    for (int i = 0; i < d->njoint; i++) {
+        add_point(c, &s, d->joint[i].body_a, d->joint[i].ax_m, d->joint[i].ay_m);
+        add_point(c, &s, d->joint[i].body_b, d->joint[i].bx_m, d->joint[i].by_m);
     }
     *size_m = hypot(s.x1 - s.x0, s.y1 - s.y0);
     for (int b = 0; b < d->nbody; b++) {
@@ -266,23 +269,23 @@ static fw_status close_all(fw_arena *arena, closing *c, bool *closed) {
     return FW_OK;
 }
 
-static void tell(fw_reader *r, const row *worst, double gap_m, double gap_rad, double moved_m,
-                 double turned_rad) {
+static void tell(fw_device_reader *r, const row *worst, double gap_m, double gap_rad,
+                 double moved_m, double turned_rad) {
     char gap[FW_LABEL], tilt[FW_LABEL], moved[FW_LABEL], turned[FW_LABEL];
     fw_diag_note(r->diags, 132, worst->place,
                  "the stated positions leave joints open by up to %s (%s) and %s, as rounded "
                  "numbers do; for drawing and motion alike, bodies are moved by up to %s and "
                  "turned by up to %s, the smallest change that closes all joints; write more "
                  "digits to avoid it",
-                 fw_in_unit(gap, gap_m, "nm"), worst->id ? worst->id : "",
-                 fw_in_unit(tilt, gap_rad, "deg"), fw_in_unit(moved, moved_m, "nm"),
-                 fw_in_unit(turned, turned_rad, "deg"));
+                 fw_xml_in_unit(gap, gap_m, "nm"), worst->id ? worst->id : "",
+                 fw_xml_in_unit(tilt, gap_rad, "deg"), fw_xml_in_unit(moved, moved_m, "nm"),
+                 fw_xml_in_unit(turned, turned_rad, "deg"));
 }
 
 /* plates and what else is drawn in the world stays where it is written */
-static void accept(fw_reader *r, const closing *c) {
+static void accept(fw_device_reader *r, const closing *c) {
     fw_device *d = r->device;
-    fw_vec2 turning;
+    fw_geometry_vec2 turning;
     d->rounded = true;
     for (int b = 0; b < d->nbody; b++) {
         if (!placed(d, b)) continue;
@@ -290,19 +293,19 @@ static void accept(fw_reader *r, const closing *c) {
         d->body[b].y_m = c->pose[3 * b + 1];
         d->body[b].phi_rad = c->pose[3 * b + 2];
     }
-    for (int j = 0; j < d->njoint; j++) {
-        fw_joint *t = &d->joint[j];
+    for (int j = 0; j < d->nrevolute; j++) {
+        fw_device_revolute *t = &d->revolute[j];
         if (isnan(t->ax_m + t->ay_m) || !placed(d, t->body_a)) continue;
-        fw_vec2 at = place_at(c, t->body_a, t->ax_m, t->ay_m, &turning);
+        fw_geometry_vec2 at = place_at(c, t->body_a, t->ax_m, t->ay_m, &turning);
         t->x_m = at.x;
         t->y_m = at.y;
     }
 }
 
-fw_status fw_close_rounded(fw_reader *r) {
+fw_status fw_device_close_rounded(fw_device_reader *r) {
     const fw_device *d = r->device;
     fw_mark mark = fw_arena_mark(r->arena);
-    size_t n = 3 * (size_t)d->nbody, rows = 2 * (size_t)d->njoint + 3 * (size_t)d->ntie;
+    size_t n = 3 * (size_t)d->nbody, rows = 2 * (size_t)d->nrevolute + 3 * (size_t)d->njoint;
     closing c = {.device = d,
                  .row = fw_arena_array(r->arena, row, rows),
                  .pose = fw_arena_array(r->arena, double, n),

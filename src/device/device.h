@@ -9,22 +9,22 @@
 #include "base/diag.h"
 #include "device/material.h"
 #include "geometry/strip.h"
-#include "quantity/law.h"
+#include "quantity/quantity_law.h"
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
 enum { FW_GROUND = -1, FW_NONE = -1 };
 
-typedef struct fw_parameter {
+typedef struct fw_device_parameter {
     const char *name, *doc;
     double value, min, max; /* SI; min and max are -inf and +inf when absent */
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     const char *unit; /* unit of the value as written, "" when none */
     bool overridden;  /* by --set */
     fw_place place;
-} fw_parameter;
+} fw_device_parameter;
 
-typedef struct fw_flow_use { /* <flow ref material thickness carrier/> */
+typedef struct fw_device_flow_use { /* <flow ref material thickness carrier/> */
     const char *ref;
     bool insulating_carrier; /* carrier="insulating": what is not joined in the layer is insulated;
                                 default "none": the layer is one conducting sheet */
@@ -32,35 +32,39 @@ typedef struct fw_flow_use { /* <flow ref material thickness carrier/> */
     double thickness_m;      /* NaN: the device's own */
     double orientation_rad;  /* NaN: the device's own */
     fw_place place, material_place;
-} fw_flow_use;
+} fw_device_flow_use;
 
-typedef enum fw_flexure_kind { FW_FLEXURE_CSFH, FW_FLEXURE_LEAF, FW_FLEXURE_PATH } fw_flexure_kind;
+typedef enum fw_device_flexure_kind {
+    FW_FLEXURE_CSFH,
+    FW_FLEXURE_LEAF,
+    FW_FLEXURE_PATH
+} fw_device_flexure_kind;
 
-typedef struct fw_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
+typedef struct fw_device_flexure { /* <flexure id kind radius|length angle width gap fillet .../> */
     const char *id;
-    fw_flexure_kind kind;
-    double length_m;             /* along the centre line, face to face */
-    double angle_rad;            /* subtended angle 2a (csfh); turn of a path */
-    double radius_m;             /* of the centre line (csfh) */
-    double width_m;              /* in the plane, t; of a path the least one */
-    double width_middle_m;       /* csfh, leaf: in the middle, where it differs; 0: uniform */
-    double gap_m;                /* of the conjugate surfaces; 0 = none */
-    double fillet_m;             /* NaN: chosen by the layout */
-    const fw_strip_piece *piece; /* (npiece) of a path, in the order of the file */
+    fw_device_flexure_kind kind;
+    double length_m;       /* along the centre line, face to face */
+    double angle_rad;      /* subtended angle 2a (csfh); turn of a path */
+    double radius_m;       /* of the centre line (csfh) */
+    double width_m;        /* in the plane, t; of a path the least one */
+    double width_middle_m; /* csfh, leaf: in the middle, where it differs; 0: uniform */
+    double gap_m;          /* of the conjugate surfaces; 0 = none */
+    double fillet_m;       /* NaN: chosen by the layout */
+    const fw_geometry_strip_piece *piece; /* (npiece) of a path, in the order of the file */
     int npiece;
     double flare_m; /* of a section as made: half of what one face of the layer is wider than the
                        other, width_m being their mean; 0 as drawn */
     bool length_given, radius_given; /* in the file: what advice should name */
     fw_place place, length_place, fillet_place;
-} fw_flexure;
+} fw_device_flexure;
 
 /* the pieces of any kind, one of a csfh or leaf; returns how many, at most FW_STRIP_MOST */
-int fw_flexure_pieces(const fw_flexure *flexure, fw_strip_piece *piece);
+int fw_device_flexure_pieces(const fw_device_flexure *flexure, fw_geometry_strip_piece *piece);
 /* is there more to it than one arc or line of one width? */
-bool fw_flexure_varies(const fw_flexure *flexure);
-double fw_flexure_narrowest_m(const fw_flexure *flexure);
+bool fw_device_flexure_varies(const fw_device_flexure *flexure);
+double fw_device_flexure_narrowest_m(const fw_device_flexure *flexure);
 
-typedef struct fw_body { /* <body>, or a link of <six-bar> */
+typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     const char *id;
     double mass_kg, inertia_kg_m2; /* NaN: from the laid-out shape */
     double x_m, y_m, phi_rad;      /* pose of the centre of mass; x, y NaN: from the shape */
@@ -70,9 +74,9 @@ typedef struct fw_body { /* <body>, or a link of <six-bar> */
     double plate_x_m, plate_y_m, plate_angle_rad;
     bool platform;
     fw_place place, width_place;
-} fw_body;
+} fw_device_body;
 
-typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
+typedef struct fw_device_revolute { /* <revolute>, or a hinge of <six-bar> */
     const char *id;
     int body_a, body_b;            /* index or FW_GROUND; angle = phi_b - phi_a - free_angle */
     double x_m, y_m;               /* hinge point in the world, in the drawn position */
@@ -85,18 +89,23 @@ typedef struct fw_joint { /* <revolute>, or a hinge of <six-bar> */
     /* stops: beyond these joint angles a spring and damper push back; NaN: none */
     double stop_min_rad, stop_max_rad, stop_stiffness_Nm_per_rad, stop_damping_Nms_per_rad;
     fw_place place;
-} fw_joint;
+} fw_device_revolute;
 
-typedef enum fw_tie_kind { FW_TIE_PRISMATIC, FW_TIE_DISTANCE, FW_TIE_WELD } fw_tie_kind;
+typedef enum fw_device_joint_kind {
+    FW_JOINT_PRISMATIC,
+    FW_JOINT_DISTANCE,
+    FW_JOINT_WELD
+} fw_device_joint_kind;
 
 /* <prismatic>, <distance>, <weld>: joints that are not pins. Points a and b are local, as in
-   fw_spring. prismatic: point b slides along the line through point a with direction `axis` in the
+   fw_device_spring. prismatic: point b slides along the line through point a with direction `axis`
+   in the
    frame of a, phi_b - phi_a stays `angle`; travel = distance along the axis - free length, with a
    spring and a damper. distance: the points stay `length` apart. weld: the points coincide, phi_b -
    phi_a stays `angle`. */
-typedef struct fw_tie {
+typedef struct fw_device_joint {
     const char *id;
-    fw_tie_kind kind;
+    fw_device_joint_kind kind;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m;
     double axis_rad;                                           /* prismatic */
@@ -104,79 +113,80 @@ typedef struct fw_tie {
     double length_m;                                           /* distance; NaN: as drawn */
     double stiffness_N_per_m, damping_Ns_per_m, free_length_m; /* prismatic */
     fw_place place;
-} fw_tie;
+} fw_device_joint;
 
 /* <driver joint value>: the joint's own coordinate follows a law: the angle of a revolute (phi_b -
    phi_a - free angle), the travel of a prismatic, the length of a distance */
-typedef struct fw_driver {
+typedef struct fw_device_driver {
     const char *id;
-    int joint, tie; /* index; the other one is FW_NONE */
-    fw_law law;     /* rad or m */
+    int revolute, joint; /* index; the other one is FW_NONE */
+    fw_quantity_law law; /* rad or m */
     fw_place place, value_place;
-} fw_driver;
+} fw_device_driver;
 
-typedef struct fw_spring { /* <spring>: point to point */
+typedef struct fw_device_spring { /* <spring>: point to point */
     const char *id;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m; /* local; for ground: world */
     double stiffness_N_per_m, damping_Ns_per_m, length_m;
     bool cable; /* only pulls: no force while shorter than its length */
     fw_place place;
-} fw_spring;
+} fw_device_spring;
 
-typedef struct fw_force { /* <force on x y fx fy/>: point local to the body, force in world axes */
+typedef struct
+    fw_device_force { /* <force on x y fx fy/>: point local to the body, force in world axes */
     int body;
     double x_m, y_m, fx_N, fy_N;
-    const fw_law *law; /* factor; NULL: constant from the start */
+    const fw_quantity_law *law; /* factor; NULL: constant from the start */
     fw_place place;
-} fw_force;
+} fw_device_force;
 
-typedef struct fw_torque { /* <torque on value/> */
+typedef struct fw_device_torque { /* <torque on value/> */
     int body;
     double value_Nm;
-    const fw_law *law; /* factor; NULL: constant from the start */
+    const fw_quantity_law *law; /* factor; NULL: constant from the start */
     fw_place place;
-} fw_torque;
+} fw_device_torque;
 
-typedef struct fw_initial { /* <initial body vx vy omega/> */
+typedef struct fw_device_initial { /* <initial body vx vy omega/> */
     int body;
     double vx_m_per_s, vy_m_per_s, omega_rad_per_s;
     bool moves_free, turns_free; /* neither vx nor vy, no omega given: as the joints ask */
     fw_place place;
-} fw_initial;
+} fw_device_initial;
 
-typedef struct fw_eyelet { /* point of a tendon: local to the body; of the ground: world */
+typedef struct fw_device_eyelet { /* point of a tendon: local to the body; of the ground: world */
     int body;
     double x_m, y_m;
     double hole_m, ring_m; /* as drawn: diameter of the hole, width of the ring; 0: the defaults */
     fw_place place;
-} fw_eyelet;
+} fw_device_eyelet;
 
 /* <tendon><eyelet/>...</tendon>: a cable without mass or friction from the first eyelet, where it
    is fixed, through the others to a remote actuator behind the last. Pulled: its tension is pull
    times the law. Drawn: it is elastic and only pulls; of its path, draw times the law is taken in:
      T = max(0, stiffness (path + draw law - (path as drawn + slack)) + damping path') */
-typedef struct fw_tendon {
+typedef struct fw_device_tendon {
     const char *id;
-    fw_eyelet *eyelet; /* (neyelet) at least 2 */
+    fw_device_eyelet *eyelet; /* (neyelet) at least 2 */
     int neyelet;
     double pull_N;                                       /* NaN: drawn */
     double draw_m;                                       /* NaN: pulled */
     double stiffness_N_per_m, damping_Ns_per_m, slack_m; /* drawn; slack below 0: pretension */
-    const fw_law *law;
+    const fw_quantity_law *law;
     fw_place place;
-} fw_tendon;
+} fw_device_tendon;
 
-typedef enum fw_electrodes { FW_ELECTRODES_COMB, FW_ELECTRODES_PLATE } fw_electrodes;
+typedef enum fw_device_electrodes { FW_ELECTRODES_COMB, FW_ELECTRODES_PLATE } fw_device_electrodes;
 
 /* <comb-drive on against x y direction ...>: electrodes of a rotor (body_b) and a stator (body_a,
    usually the ground), voltage times the law between them. comb: `fingers` of the rotor between
    those of the stator, `gap` on either side, engaged by `overlap`; `direction` is where the rotor
    is pulled to. plate: one face of `length` along the wafer opposite another at `gap`; `direction`
    is from rotor to stator. Point: the middle of the overlap, or of the rotor's face. */
-typedef struct fw_comb {
+typedef struct fw_device_comb {
     const char *id;
-    fw_electrodes kind;
+    fw_device_electrodes kind;
     int body_a, body_b;
     double bx_m, by_m;    /* local to the rotor */
     double direction_rad; /* in the frame of the stator */
@@ -186,219 +196,231 @@ typedef struct fw_comb {
     double depth_m; /* NaN: the device layer's thickness */
     double width_m; /* of the fingers as drawn; 0: the default */
     double voltage_V;
-    const fw_law *law;
+    const fw_quantity_law *law;
     fw_place place;
-} fw_comb;
+} fw_device_comb;
 
 /* what is drawn where the file says nothing */
 #define FW_EYELET_HOLE_M  80e-6
 #define FW_EYELET_RING_M  30e-6
 #define FW_FINGER_WIDTH_M 8e-6
 
-typedef struct fw_base_motion { /* <base-motion ax ay>: acceleration of the base times the law */
+typedef struct
+    fw_device_base_motion { /* <base-motion ax ay>: acceleration of the base times the law */
     double ax_m_per_s2, ay_m_per_s2;
-    const fw_law *law;
+    const fw_quantity_law *law;
     fw_place place;
-} fw_base_motion;
+} fw_device_base_motion;
 
-typedef struct fw_friction_use { /* <friction on coefficient>: Coulomb friction of a joint */
-    int joint, tie;              /* one of them, the other FW_NONE */
+typedef struct fw_device_friction_use { /* <friction on coefficient>: Coulomb friction of a joint */
+    int revolute, joint;                /* one of them, the other FW_NONE */
     double coefficient, static_coefficient; /* static: NaN: the same */
     double radius_m;  /* of what slides; NaN: of the hinge's conjugate surfaces. Revolutes only */
     double preload_N; /* presses besides the joint's own force */
     fw_place place;
-} fw_friction_use;
+} fw_device_friction_use;
 
-typedef enum fw_contact_side { FW_CONTACT_INSIDE, FW_CONTACT_OUTSIDE } fw_contact_side;
+typedef enum fw_device_contact_side {
+    FW_CONTACT_INSIDE,
+    FW_CONTACT_OUTSIDE
+} fw_device_contact_side;
 
 /* <contact on>: the conjugate surfaces of a hinge touch where its gap closes. <contact a b ...>:
    two round things about point a and point b: a disc inside a hole (their centres stay within
    `distance`), or side by side (not nearer than `distance`). */
-typedef struct fw_contact_use {
+typedef struct fw_device_contact_use {
     const char *id;
     int joint; /* FW_NONE: points */
-    fw_contact_side side;
+    fw_device_contact_side side;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m;
     double distance_m;        /* NaN, of a hinge: its gap */
     double stiffness_N_per_m; /* NaN, of a hinge: of the line contact of its surfaces */
     double damping_Ns_per_m;
     fw_place place;
-} fw_contact_use;
+} fw_device_contact_use;
 
-typedef struct fw_material_damping { /* <material-damping loss-factor frequency> */
-    double loss_factor;              /* NaN: the material's */
-    double frequency_Hz;             /* where c = eta k/omega holds; NaN: the lowest mode */
+typedef struct fw_device_material_damping { /* <material-damping loss-factor frequency> */
+    double loss_factor;                     /* NaN: the material's */
+    double frequency_Hz;                    /* where c = eta k/omega holds; NaN: the lowest mode */
     fw_place place;
-} fw_material_damping;
+} fw_device_material_damping;
 
-typedef struct fw_temperature { /* <temperature change>: of device and substrate, from where it was
+typedef struct
+    fw_device_temperature { /* <temperature change>: of device and substrate, from where it was
                                    made; times the law */
     double change_K;
     double expansion_per_K;           /* of length; NaN: the material's */
     double substrate_expansion_per_K; /* likewise; NaN: that of the flow's substrate */
     double modulus_change_per_K;      /* relative; NaN: the material's */
-    const fw_law *law;
+    const fw_quantity_law *law;
     fw_place place;
-} fw_temperature;
+} fw_device_temperature;
 
-typedef struct fw_residual_stress { /* <residual-stress mean gradient>: of the layer as deposited,
+typedef struct
+    fw_device_residual_stress { /* <residual-stress mean gradient>: of the layer as deposited,
                                        tension positive; gradient along the thickness */
     double mean_Pa, gradient_Pa_per_m;
     fw_place place;
-} fw_residual_stress;
+} fw_device_residual_stress;
 
-typedef enum fw_air_kind { FW_AIR_SLIDE, FW_AIR_SQUEEZE, FW_AIR_DRAG } fw_air_kind;
+typedef enum fw_device_air_kind { FW_AIR_SLIDE, FW_AIR_SQUEEZE, FW_AIR_DRAG } fw_device_air_kind;
 
 /* <air kind on ...>: slide: film of `gap` between the face of a body and a plane below it; drag: of
    the open air around its outline; squeeze: film between a wall of the body (middle x, y; `length`;
    `direction` outward in its frame) and one of `against` at `gap`. */
-typedef struct fw_air {
-    fw_air_kind kind;
+typedef struct fw_device_air {
+    fw_device_air_kind kind;
     int body;              /* FW_NONE (== FW_GROUND): all bodies (slide, drag) */
     int against;           /* squeeze */
     double gap_m, area_m2; /* area NaN: of the drawn shape */
     double x_m, y_m, direction_rad, length_m, depth_m; /* squeeze; depth NaN: the thickness */
     double pressure_Pa, temperature_K, viscosity_Pas;  /* NaN: dry air at that temperature */
     fw_place place;
-} fw_air;
+} fw_device_air;
 
-/* An element of a scene that no struct stands for: the numbers of its row in the description's table, in its order.
+/* An element of a scene that no struct stands for: the numbers of its row in the description's
+   table, in its order.
    For effects that need no more than a body, numbers and a law. */
-typedef struct fw_scene_part {
+typedef struct fw_device_scene_part {
     const char *element;     /* "magnetic-torque" */
     int body;                /* that its attribute `on` names; FW_GROUND */
     const char *const *name; /* (count) of its attributes */
-    double *number;          /* (count) SI; what is absent has its default, or NaN, as what is no number */
+    double *number; /* (count) SI; what is absent has its default, or NaN, as what is no number */
     int count;
-    const fw_law *law; /* NULL: constant */
+    const fw_quantity_law *law; /* NULL: constant */
     fw_place place;
-} fw_scene_part;
+} fw_device_scene_part;
 /* by the attribute's name; NaN: there is none */
-double fw_scene_part_number(const fw_scene_part *part, const char *name);
+double fw_device_scene_part_number(const fw_device_scene_part *part, const char *name);
 /* multiplies it */
-void fw_scene_part_scale(const fw_scene_part *part, const char *name, double by);
+void fw_device_scene_part_scale(const fw_device_scene_part *part, const char *name, double by);
 
-typedef struct fw_scene {
+typedef struct fw_device_scene {
     const char *name;
     const char *flow; /* only in this flow; NULL: in all */
     double duration_s;
     bool gravity;
     double gx_m_per_s2, gy_m_per_s2;
-    fw_force *force;     /* (nforce) */
-    fw_torque *torque;   /* (ntorque) */
-    fw_initial *initial; /* (ninitial) */
-    fw_tendon *tendon;   /* (ntendon) and so on */
-    fw_comb *comb;
-    fw_base_motion *base;
-    fw_friction_use *friction;
-    fw_contact_use *contact;
-    fw_material_damping *damping;
-    fw_temperature *temperature;
-    fw_residual_stress *stress;
-    fw_air *air;
+    fw_device_force *force;     /* (nforce) */
+    fw_device_torque *torque;   /* (ntorque) */
+    fw_device_initial *initial; /* (ninitial) */
+    fw_device_tendon *tendon;   /* (ntendon) and so on */
+    fw_device_comb *comb;
+    fw_device_base_motion *base;
+    fw_device_friction_use *friction;
+    fw_device_contact_use *contact;
+    fw_device_material_damping *damping;
+    fw_device_temperature *temperature;
+    fw_device_residual_stress *stress;
+    fw_device_air *air;
     int nforce, ntorque, ninitial;
-    fw_scene_part *part;
+    fw_device_scene_part *part;
     int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair, npart;
     fw_place place;
-} fw_scene;
+} fw_device_scene;
 /* the scene gets arrays of its own, which may be changed; FW_NOMEM */
-fw_status fw_device_own_scene(fw_arena *arena, fw_scene *scene);
+fw_status fw_device_own_scene(fw_arena *arena, fw_device_scene *scene);
 
-typedef struct fw_workspace_box { /* <workspace>: platform poses relative to the drawn one */
-    const char *flow;             /* only in this flow; NULL: in all */
+typedef struct fw_device_workspace_box { /* <workspace>: platform poses relative to the drawn one */
+    const char *flow;                    /* only in this flow; NULL: in all */
     double x_min_m, x_max_m, y_min_m, y_max_m, phi_min_rad, phi_max_rad;
     fw_place place;
-} fw_workspace_box;
+} fw_device_workspace_box;
 
-typedef struct fw_die { /* <die>; NaN: from the drawn mechanism */
+typedef struct fw_device_die { /* <die>; NaN: from the drawn mechanism */
     double width_m, height_m, frame_m, lane_m, clearance_m;
     const char *title;
     bool tethers;
     bool fill; /* what the flow has for the window: thief and fill */
     fw_place width_place, height_place, title_place;
-} fw_die;
+} fw_device_die;
 
-typedef enum fw_wafer_side {
+typedef enum fw_device_wafer_side {
     FW_SIDE_BOTTOM,
     FW_SIDE_TOP,
     FW_SIDE_LEFT,
     FW_SIDE_RIGHT
-} fw_wafer_side;
-typedef enum fw_wafer_centre { FW_CENTRE_AUTO, FW_CENTRE_DIE, FW_CENTRE_STREET } fw_wafer_centre;
+} fw_device_wafer_side;
+typedef enum fw_device_wafer_centre {
+    FW_CENTRE_AUTO,
+    FW_CENTRE_DIE,
+    FW_CENTRE_STREET
+} fw_device_wafer_centre;
 
-typedef struct fw_sweep { /* <sweep parameter from to steps> */
-    int parameter;        /* index */
-    double from, to;      /* SI */
-    const char *unit;     /* one that its value can be written in; "" for pure numbers */
+typedef struct fw_device_sweep { /* <sweep parameter from to steps> */
+    int parameter;               /* index */
+    double from, to;             /* SI */
+    const char *unit;            /* one that its value can be written in; "" for pure numbers */
     int steps;
     fw_place place;
-} fw_sweep;
+} fw_device_sweep;
 
-typedef struct fw_wafer_asked { /* <wafer>; NaN: chosen by the wafer room */
+typedef struct fw_device_wafer_asked { /* <wafer>; NaN: chosen by the wafer room */
     bool asked;
     double diameter_m, flat_m, edge_m;
     double pitch_x_m, pitch_y_m;
-    fw_wafer_side side; /* of flat or notch */
-    fw_wafer_centre centre;
+    fw_device_wafer_side side; /* of flat or notch */
+    fw_device_wafer_centre centre;
     bool alignment; /* two sites */
     int tests;      /* dies that give way to coupons */
     bool blocks;    /* steps side by side, not in turn */
     double plate_m;
-    const char *title; /* NULL: the die's */
-    fw_sweep sweep[2]; /* (nsweep) along columns, along rows */
+    const char *title;        /* NULL: the die's */
+    fw_device_sweep sweep[2]; /* (nsweep) along columns, along rows */
     int nsweep;
     fw_place place;
-} fw_wafer_asked;
+} fw_device_wafer_asked;
 
-typedef struct fw_limits_asked { /* <limits>, beside the safety factor */
-    double cycles;               /* repetitions of every scene; NaN: static */
-    double failure_probability;  /* of the whole device, of what fractures; likewise: not asked */
-    bool survival;               /* the 0.2 % offset, not the proportional limit */
+typedef struct fw_device_limits_asked { /* <limits>, beside the safety factor */
+    double cycles;                      /* repetitions of every scene; NaN: static */
+    double failure_probability; /* of the whole device, of what fractures; likewise: not asked */
+    bool survival;              /* the 0.2 % offset, not the proportional limit */
     fw_place cycles_place, probability_place;
-} fw_limits_asked;
+} fw_device_limits_asked;
 
 typedef struct fw_device {
     const char *file, *name;
     const char *source; /* the file's text, for carets */
     size_t source_length;
-    fw_parameter *parameter;
-    fw_flow_use *flow;
-    fw_flexure *flexure;
-    fw_body *body;
-    fw_joint *joint;
-    fw_tie *tie;
-    fw_driver *driver;
-    fw_spring *spring;
-    fw_scene *scene;
-    fw_workspace_box *workspace;
-    int nparameter, nflow, nflexure, nbody, njoint, ntie, ndriver, nspring, nscene, nworkspace;
+    fw_device_parameter *parameter;
+    fw_device_flow_use *flow;
+    fw_device_flexure *flexure;
+    fw_device_body *body;
+    fw_device_revolute *revolute;
+    fw_device_joint *joint;
+    fw_device_driver *driver;
+    fw_device_spring *spring;
+    fw_device_scene *scene;
+    fw_device_workspace_box *workspace;
+    int nparameter, nflow, nflexure, nbody, nrevolute, njoint, ndriver, nspring, nscene, nworkspace;
     const char *material_ref; /* NULL only where nothing needs one: no flexures, all masses given */
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
-    fw_material_override material;
+    fw_device_material_override material;
     double thickness_m;     /* device layer, NaN: the flow's */
     double orientation_rad; /* of [100] of a crystal from +x; NaN: not stated, 45 deg */
     double safety_factor;   /* <limits safety-factor>, default 1.5 */
-    fw_limits_asked limits;
+    fw_device_limits_asked limits;
     fw_place limits_place;
     bool six_bar; /* joints 0..5 are A..F, bodies 0..4 AB BC CD DE EF */
-    fw_die die;
+    fw_device_die die;
     double release_pitch_m, release_hole_m; /* <die>: holes in bodies; NaN or 0 pitch: none */
-    fw_wafer_asked wafer;
+    fw_device_wafer_asked wafer;
     bool rounded; /* the poses were typed with few digits, and closed as they were read: FW-D132 */
 } fw_device;
 
-typedef struct fw_set { /* --set PATH=VALUE */
+typedef struct fw_device_set { /* --set PATH=VALUE */
     const char *path, *value;
-} fw_set;
+} fw_device_set;
 
 /* reads and checks; all mistakes are in diags. FW_INPUT when there is an error: *device is then
    NULL, or what could be understood, good for looking up further references and for nothing else.
    `file` names the text in diagnostics. --set PATH is a parameter's name, or ELEMENT[ID]/@ATTRIBUTE
    (for example flexure[A]/@length). */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
-                         const fw_set *set, int nset, fw_diags *diags, const fw_device **device);
+                         const fw_device_set *set, int nset, fw_diags *diags,
+                         const fw_device **device);
 
 /* a scene or workspace that asks for a flow (NULL: any) holds in this one (NULL: none) */
 bool fw_device_in_flow(const char *asked, const char *flow);

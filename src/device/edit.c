@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text in, text out: places come from the reader, and only the bytes of a change are touched. */
 #include "device/edit.h"
-#include "device/table.h"
+#include "device/device_table.h"
 #include "xml/xml.h"
-#include "xml/guard.h"
+#include "xml/xml_guard.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,8 +11,8 @@ typedef struct editor {
     fw_arena *arena;
     fw_diags *diags;
     const char *file, *path; /* of the change at hand */
-    fw_bytes xml;
-    const fw_element *root;
+    fw_xml_bytes xml;
+    const fw_xml_element *root;
 } editor;
 
 /* FW_INPUT, said why */
@@ -56,10 +56,10 @@ static long number_of(const step *s) {
     return end == s->in + s->in_length && n >= 1 ? n : -1;
 }
 
-static bool fits(const fw_element *e, const step *s, const char *key) {
+static bool fits(const fw_xml_element *e, const step *s, const char *key) {
     if (!named(e->name, s->name, s->name_length)) return false;
     if (!s->in || number_of(s) != 0) return true;
-    const fw_attribute *id = key ? fw_xml_attribute(e, key) : NULL;
+    const fw_xml_attribute *id = key ? fw_xml_attribute_of(e, key) : NULL;
     return id && named(id->value, s->in, s->in_length);
 }
 
@@ -67,22 +67,22 @@ typedef struct search {
     const step *step;
     const char *key;
     long wanted, seen; /* wanted: number of it, 0: the only one */
-    const fw_element *found;
+    const fw_xml_element *found;
 } search;
 
 /* `e` and what follows it; `deep`: what is inside, too. In file order. */
-static void look(search *s, const fw_element *e, bool deep) {
+static void look(search *s, const fw_xml_element *e, bool deep) {
     for (; e; e = e->next) {
         if (fits(e, s->step, s->key) && (++s->seen == s->wanted || s->wanted == 0)) s->found = e;
         if (deep) look(s, e->first_child, true);
     }
 }
 
-static fw_status find_step(const editor *e, const step *s, const fw_element *inside,
-                           const fw_element **found) {
+static fw_status find_step(const editor *e, const step *s, const fw_xml_element *inside,
+                           const fw_xml_element **found) {
     char name[64] = "";
     memcpy(name, s->name, s->name_length < sizeof name ? s->name_length : sizeof name - 1);
-    const fw_element_row *row = fw_xml_row_find(&fw_device_table, name);
+    const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, name);
     search all = {.step = s, .key = row ? row->key : NULL, .wanted = number_of(s)};
     if (all.wanted < 0) return refuse(e, "this is no path; numbers of elements begin with 1", NULL);
     look(&all, inside ? inside->first_child : e->root, !inside);
@@ -95,7 +95,7 @@ static fw_status find_step(const editor *e, const step *s, const fw_element *ins
 }
 
 /* the element of a path; *attribute is what stands behind /@, or NULL */
-static fw_status find(const editor *e, const fw_element **found, const char **attribute) {
+static fw_status find(const editor *e, const fw_xml_element **found, const char **attribute) {
     const char *at = e->path;
     step s;
     *found = NULL;
@@ -168,11 +168,11 @@ static size_t behind_name(const editor *e, size_t tag) {
 
 /* of a start tag at `tag`: behind its name or its last attribute, and behind its '>' */
 static size_t tag_body_end(const editor *e, size_t tag, size_t *end) {
-    fw_raw_attribute raw;
+    fw_xml_raw_attribute raw;
     size_t at = behind_name(e, tag);
-    while (fw_next_attribute(e->xml, at, &raw))
+    while (fw_xml_next_attribute(e->xml, at, &raw))
         at = raw.value + raw.value_length + 1;
-    *end = fw_find(e->xml, at, ">");
+    *end = fw_xml_find(e->xml, at, ">");
     *end += *end < e->xml.n;
     return at;
 }
@@ -185,14 +185,14 @@ static bool closes_itself(const editor *e, size_t end) {
 static size_t end_tag(const editor *e, size_t at, size_t *end) {
     int depth = 0;
     for (;;) {
-        at = fw_find(e->xml, at, "<");
+        at = fw_xml_find(e->xml, at, "<");
         if (at + 1 >= e->xml.n) break;
-        if (fw_starts_with(e->xml, at, "<!--"))
-            at = fw_find(e->xml, at + 4, "-->");
-        else if (fw_starts_with(e->xml, at, "<![CDATA["))
-            at = fw_find(e->xml, at + 9, "]]>");
+        if (fw_xml_starts_with(e->xml, at, "<!--"))
+            at = fw_xml_find(e->xml, at + 4, "-->");
+        else if (fw_xml_starts_with(e->xml, at, "<![CDATA["))
+            at = fw_xml_find(e->xml, at + 9, "]]>");
         else if (e->xml.data[at + 1] == '/') {
-            *end = fw_find(e->xml, at, ">");
+            *end = fw_xml_find(e->xml, at, ">");
             *end += *end < e->xml.n;
             if (depth-- == 0) return at;
             at = *end;
@@ -218,10 +218,10 @@ static fw_status splice(const editor *e, size_t from, size_t to, const fw_text *
 }
 
 /* an attribute of the table, or one of an element that is in no table */
-static fw_status check_attribute(const editor *e, const fw_element *element, const char *name) {
+static fw_status check_attribute(const editor *e, const fw_xml_element *element, const char *name) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    const fw_element_row *row = fw_xml_row_find(&fw_device_table, element->name);
+    const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, element->name);
     if (!name_valid(name)) return refuse(e, "no attribute can be called", name);
     fw_xml_attributes all = {0};
     if (row) FW_TRY(fw_xml_attributes_of(e->arena, row, &all));
@@ -237,14 +237,14 @@ static fw_status check_attribute(const editor *e, const fw_element *element, con
                   better ? better : name);
 }
 
-static fw_status set(const editor *e, const fw_text_change *change, fw_text *out) {
-    const fw_element *element;
+static fw_status set(const editor *e, const fw_device_text_change *change, fw_text *out) {
+    const fw_xml_element *element;
     const char *name;
     fw_text middle = fw_text_new(e->arena);
     fw_text_add(&middle, "");
     FW_TRY(find(e, &element, &name));
     if (!name) return refuse(e, "an attribute is missing behind the element: .../@NAME", NULL);
-    const fw_attribute *a = fw_xml_attribute(element, name);
+    const fw_xml_attribute *a = fw_xml_attribute_of(element, name);
     if (!a) {
         if (!change->value) return refuse(e, "there is no such attribute to take out", name);
         FW_TRY(check_attribute(e, element, name));
@@ -275,15 +275,15 @@ static fw_status set(const editor *e, const fw_text_change *change, fw_text *out
 }
 
 /* the white space between the line's start and `at`; 0 length where something else stands there */
-static fw_bytes indentation(const editor *e, size_t at) {
+static fw_xml_bytes indentation(const editor *e, size_t at) {
     size_t from = at;
     while (from > 0 && (e->xml.data[from - 1] == ' ' || e->xml.data[from - 1] == '\t'))
         from--;
     bool alone = from == 0 || e->xml.data[from - 1] == '\n';
-    return (fw_bytes){e->xml.data + from, alone ? at - from : 0};
+    return (fw_xml_bytes){e->xml.data + from, alone ? at - from : 0};
 }
 
-static void add_element(fw_text *out, const fw_text_change *change) {
+static void add_element(fw_text *out, const fw_device_text_change *change) {
     fw_text_printf(out, "<%s", change->element);
     for (int i = 0; i < change->nattribute; i++) {
         fw_text_printf(out, " %s=\"", change->attribute[i].name);
@@ -295,8 +295,8 @@ static void add_element(fw_text *out, const fw_text_change *change) {
 
 /* as the last child, on a line of its own, as far in as its elder sisters are, or two spaces more
    than the parent */
-static fw_status add(const editor *e, const fw_text_change *change, fw_text *out) {
-    const fw_element *parent = e->root;
+static fw_status add(const editor *e, const fw_device_text_change *change, fw_text *out) {
+    const fw_xml_element *parent = e->root;
     const char *attribute = NULL;
     fw_text middle = fw_text_new(e->arena);
     if (change->path[0]) FW_TRY(find(e, &parent, &attribute));
@@ -308,11 +308,11 @@ static fw_status add(const editor *e, const fw_text_change *change, fw_text *out
             return refuse(e, "no attribute can be called", change->attribute[i].name);
     size_t end, tag = parent->offset + 1, body = tag_body_end(e, tag, &end);
     bool empty = closes_itself(e, end);
-    const char *eol = fw_find(e->xml, 0, "\r\n") < fw_find(e->xml, 0, "\n") ? "\r\n" : "\n";
-    fw_bytes outer = indentation(e, parent->offset);
+    const char *eol = fw_xml_find(e->xml, 0, "\r\n") < fw_xml_find(e->xml, 0, "\n") ? "\r\n" : "\n";
+    fw_xml_bytes outer = indentation(e, parent->offset);
     fw_text in = fw_text_new(e->arena);
     fw_text_add(&in, eol);
-    fw_bytes sister = {NULL, 0};
+    fw_xml_bytes sister = {NULL, 0};
     if (parent->last_child) sister = indentation(e, parent->last_child->offset);
     fw_text_bytes(&in, sister.n ? sister.data : outer.data, sister.n ? sister.n : outer.n);
     if (!sister.n) fw_text_add(&in, "  ");
@@ -344,7 +344,7 @@ static fw_status add(const editor *e, const fw_text_change *change, fw_text *out
 
 /* with its line, where nothing else stands on it */
 static fw_status take_out(const editor *e, fw_text *out) {
-    const fw_element *element;
+    const fw_xml_element *element;
     const char *attribute;
     fw_text nothing = fw_text_new(e->arena);
     fw_text_add(&nothing, "");
@@ -360,7 +360,7 @@ static fw_status take_out(const editor *e, fw_text *out) {
     bool last = after < e->xml.n && (e->xml.data[after] == '\n' || e->xml.data[after] == '\r');
     bool first = from == before || e->xml.data[from - before - 1] == '\n';
     if (first && last) {
-        to = fw_find(e->xml, after, "\n");
+        to = fw_xml_find(e->xml, after, "\n");
         to += to < e->xml.n;
         from -= before;
     }
@@ -368,7 +368,7 @@ static fw_status take_out(const editor *e, fw_text *out) {
 }
 
 /* "arc" is parameter[arc]/@value */
-static fw_status whole_path(editor *e, const fw_text_change *change) {
+static fw_status whole_path(editor *e, const fw_device_text_change *change) {
     e->path = change->path ? change->path : "";
     if (change->kind == FW_CHANGE_SET && e->path[0] && !strpbrk(e->path, "[]/@"))
         FW_NEED(e->path = fw_arena_printf(e->arena, "parameter[%s]/@value", e->path));
@@ -376,10 +376,11 @@ static fw_status whole_path(editor *e, const fw_text_change *change) {
 }
 
 fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, size_t n,
-                         const fw_text_change *change, int nchange, fw_diags *diags, fw_text *out) {
+                         const fw_device_text_change *change, int nchange, fw_diags *diags,
+                         fw_text *out) {
     editor e = {.arena = arena, .diags = diags, .file = file, .xml = {xml, n}, .path = ""};
     for (int i = 0;; i++) { /* read again behind every change, the last one too */
-        fw_element *root;
+        fw_xml_element *root;
         fw_status read = fw_xml_read(arena, file, e.xml.data, e.xml.n, diags, &root);
         if (read == FW_INPUT && i > 0) refuse(&e, "with this change it is no longer XML", NULL);
         FW_TRY(read);
@@ -390,7 +391,7 @@ fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, siz
         FW_TRY(change[i].kind == FW_CHANGE_ADD      ? add(&e, &change[i], &next)
                : change[i].kind == FW_CHANGE_REMOVE ? take_out(&e, &next)
                                                     : set(&e, &change[i], &next));
-        e.xml = (fw_bytes){next.data, next.length};
+        e.xml = (fw_xml_bytes){next.data, next.length};
     }
     fw_text_bytes(out, e.xml.data, e.xml.n);
     return fw_text_end(out);

@@ -11,28 +11,29 @@
 #define FW_DEVICE_EDIT_H
 #include "base/diag.h"
 
-typedef enum fw_text_change_kind {
+typedef enum fw_device_text_change_kind {
     FW_CHANGE_SET,   /* attribute `path` becomes `value`; it is added where it is not there; value
                         NULL: it is taken out */
     FW_CHANGE_ADD,   /* <element> with `attribute` as the last child of element `path` ("": of the
                         root) */
     FW_CHANGE_REMOVE /* element `path` with all that is in it */
-} fw_text_change_kind;
+} fw_device_text_change_kind;
 
-typedef struct fw_text_attribute {
+typedef struct fw_device_text_attribute {
     const char *name, *value;
-} fw_text_attribute;
+} fw_device_text_attribute;
 
-typedef struct fw_text_change {
-    fw_text_change_kind kind;
+typedef struct fw_device_text_change {
+    fw_device_text_change_kind kind;
     const char *path, *value;
-    const char *element;                /* ADD */
-    const fw_text_attribute *attribute; /* (nattribute) ADD */
+    const char *element;                       /* ADD */
+    const fw_device_text_attribute *attribute; /* (nattribute) ADD */
     int nattribute;
-} fw_text_change;
+} fw_device_text_change;
 
 /* n bytes of XML -> *out. FW_INPUT: the text is no XML, or a change cannot be made (FW-D288): all
    in diags, *out is then of no use.  Cost: one reading per change. */
 fw_status fw_device_edit(fw_arena *arena, const char *file, const char *xml, size_t n,
-                         const fw_text_change *change, int nchange, fw_diags *diags, fw_text *out);
+                         const fw_device_text_change *change, int nchange, fw_diags *diags,
+                         fw_text *out);
 #endif

@@ -5,7 +5,7 @@
 #define FW_DEVICE_LIMIT_DATA_H
 #include "quantity/quantity.h"
 
-typedef struct fw_limit_data { /* each unknown where the material has none */
+typedef struct fw_device_limit_data { /* each unknown where the material has none */
     /* fracture: P_f = 1 - exp(-(A/A0) (sigma/sigma0)^m); the three only together */
     fw_quantity weibull_strength; /* Pa: sigma0 */
     fw_quantity weibull_modulus;  /* 1: m */
@@ -23,22 +23,22 @@ typedef struct fw_limit_data { /* each unknown where the material has none */
     fw_quantity fatigue_exponent;   /* 1: b of Basquin's law, below 0 */
     fw_quantity ductility;          /* 1: eps_f' of Manson and Coffin's law */
     fw_quantity ductility_exponent; /* 1: c of it, below 0 */
-} fw_limit_data;
+} fw_device_limit_data;
 
 enum { FW_LIMIT_DATA = 14 }; /* quantities above */
 /* the k-th of them, by its place in the struct; its id in packs, which is also the attribute's name
    in <material>; its dimension */
-fw_quantity *fw_limit_data_at(fw_limit_data *data, int k);
-const char *fw_limit_data_id(int k);
-fw_dimension fw_limit_data_dimension(int k);
-int fw_limit_data_index(const char *id);    /* -1: none of that id */
-const char *const *fw_limit_data_ids(void); /* (FW_LIMIT_DATA) */
+fw_quantity *fw_device_limit_data_at(fw_device_limit_data *data, int k);
+const char *fw_device_limit_data_id(int k);
+fw_quantity_dimension fw_device_limit_data_dimension(int k);
+int fw_device_limit_data_index(const char *id);    /* -1: none of that id */
+const char *const *fw_device_limit_data_ids(void); /* (FW_LIMIT_DATA) */
 /* FW-D047 at `place` where the value is out of its range */
-void fw_limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags);
+void fw_device_limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags);
 /* FW-D233, FW-D234: what belongs together and is not all there */
-void fw_limit_data_complete(const fw_limit_data *data, const char *whose, fw_place place,
-                            fw_diags *diags);
+void fw_device_limit_data_complete(const fw_device_limit_data *data, const char *whose,
+                                   fw_place place, fw_diags *diags);
 /* all unknown */
-fw_limit_data fw_limit_data_none(fw_place place);
+fw_device_limit_data fw_device_limit_data_none(fw_place place);
 
 #endif

@@ -2,7 +2,7 @@
 /* Materials, and what they are known to bear (limit data). */
 #include "base/text.h"
 #include "device/material.h"
-#include "xml/quantity.h"
+#include "xml/xml_quantity.h"
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -10,10 +10,10 @@
 /* ---- limit data ---- */
 
 #define PRESSURE .dimension = {-1, 1, -2, 0, 0, 0, 0}
-#define AT(name) .offset = offsetof(fw_limit_data, name)
+#define AT(name) .offset = offsetof(fw_device_limit_data, name)
 
 typedef struct limit_row {
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     size_t offset;
     double low, high; /* open below, closed above */
     const char *range;
@@ -46,47 +46,47 @@ static const limit_row limit_rows[FW_LIMIT_DATA] = {
      .range = "above -1 and below 0 (more cycles bear less)"},
 };
 
-fw_quantity *fw_limit_data_at(fw_limit_data *data, int k) {
+fw_quantity *fw_device_limit_data_at(fw_device_limit_data *data, int k) {
     return (fw_quantity *)(void *)((char *)data + limit_rows[k].offset);
 }
 
-static const fw_quantity *limit_at(const fw_limit_data *data, int k) {
+static const fw_quantity *limit_at(const fw_device_limit_data *data, int k) {
     return (const fw_quantity *)(const void *)((const char *)data + limit_rows[k].offset);
 }
 
-const char *fw_limit_data_id(int k) {
+const char *fw_device_limit_data_id(int k) {
     return limit_ids[k];
 }
 
-const char *const *fw_limit_data_ids(void) {
+const char *const *fw_device_limit_data_ids(void) {
     return limit_ids;
 }
 
-fw_dimension fw_limit_data_dimension(int k) {
+fw_quantity_dimension fw_device_limit_data_dimension(int k) {
     return limit_rows[k].dimension;
 }
 
-int fw_limit_data_index(const char *id) {
+int fw_device_limit_data_index(const char *id) {
     for (int k = 0; k < FW_LIMIT_DATA; k++)
         if (strcmp(limit_ids[k], id) == 0) return k;
     return -1;
 }
 
-void fw_limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags) {
+void fw_device_limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags) {
     if (q->unknown || (q->value > limit_rows[k].low && q->value <= limit_rows[k].high)) return;
     fw_diag_error(diags, 47, place, "%s must be %s", limit_ids[k], limit_rows[k].range);
 }
 
 /* how many of the quantities from..to-1 are known; *first: place of the first of them */
-static int limits_known(const fw_limit_data *data, int from, int to, fw_place *first) {
+static int limits_known(const fw_device_limit_data *data, int from, int to, fw_place *first) {
     int n = 0;
     for (int k = from; k < to; k++)
         if (!limit_at(data, k)->unknown && n++ == 0) *first = limit_at(data, k)->place;
     return n;
 }
 
-void fw_limit_data_complete(const fw_limit_data *data, const char *whose, fw_place place,
-                            fw_diags *diags) {
+void fw_device_limit_data_complete(const fw_device_limit_data *data, const char *whose,
+                                   fw_place place, fw_diags *diags) {
     int n = limits_known(data, 0, 3, &place);
     if (n == 1 || n == 2)
         fw_diag_error(diags, 233, place,
@@ -104,17 +104,17 @@ void fw_limit_data_complete(const fw_limit_data *data, const char *whose, fw_pla
                       whose);
 }
 
-fw_limit_data fw_limit_data_none(fw_place place) {
-    fw_limit_data none;
+fw_device_limit_data fw_device_limit_data_none(fw_place place) {
+    fw_device_limit_data none;
     memset(&none, 0, sizeof none);
     for (int k = 0; k < FW_LIMIT_DATA; k++)
-        *fw_limit_data_at(&none, k) = (fw_quantity){.id = limit_ids[k],
-                                                    .unknown = true,
-                                                    .dimension = limit_rows[k].dimension,
-                                                    .unit = "",
-                                                    .status = FW_ASSUMED,
-                                                    .source = "",
-                                                    .place = place};
+        *fw_device_limit_data_at(&none, k) = (fw_quantity){.id = limit_ids[k],
+                                                           .unknown = true,
+                                                           .dimension = limit_rows[k].dimension,
+                                                           .unit = "",
+                                                           .status = FW_ASSUMED,
+                                                           .source = "",
+                                                           .place = place};
     return none;
 }
 
@@ -124,13 +124,13 @@ enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, C11,
 static const char *const ids[IDS] = {"youngs",    "poisson",        "density", "strength", "loss",
                                      "expansion", "modulus-change", "c11",     "c12",      "c44"};
 
-static const fw_dimension dimension_of[IDS] = {
+static const fw_quantity_dimension dimension_of[IDS] = {
     [YOUNGS] = {-1, 1, -2, 0, 0, 0, 0},   [DENSITY] = {.m = -3, .kg = 1},
     [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0}, [EXPANSION] = {.K = -1},
     [MODULUS_CHANGE] = {.K = -1},         [C11] = {-1, 1, -2, 0, 0, 0, 0},
     [C12] = {-1, 1, -2, 0, 0, 0, 0},      [C44] = {-1, 1, -2, 0, 0, 0, 0}};
 
-static fw_quantity *slot(fw_material *m, int k) {
+static fw_quantity *slot(fw_device_material *m, int k) {
     fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,        &m->strength,
                                    &m->loss,   &m->expansion, &m->modulus_change, &m->c11,
                                    &m->c12,    &m->c44};
@@ -143,19 +143,19 @@ static int index_of(const char *id) {
     return -1;
 }
 
-static fw_place place_of(const fw_element *e, const char *name) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
+static fw_place place_of(const fw_xml_element *e, const char *name) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, name);
     return a ? a->place : e->place;
 }
 
 /* positive where a formula divides by it; Poisson's ratio within its stable range */
-static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_quantity *q,
+static void check_value(fw_arena *arena, const fw_xml_element *e, int k, const fw_quantity *q,
                         fw_diags *diags) {
-    if (!fw_dimension_equal(q->dimension, dimension_of[k])) {
+    if (!fw_quantity_dimension_equal(q->dimension, dimension_of[k])) {
         fw_diag_error(diags, 25, place_of(e, "unit"),
                       "%s: the dimension must be '%s', and \"%s\" is '%s'; correct the unit",
-                      ids[k], fw_dimension_text(arena, dimension_of[k]), q->unit,
-                      fw_dimension_text(arena, q->dimension));
+                      ids[k], fw_quantity_dimension_text(arena, dimension_of[k]), q->unit,
+                      fw_quantity_dimension_text(arena, q->dimension));
         return;
     }
     bool wrong = !(q->value > 0.0);
@@ -179,36 +179,38 @@ static void check_value(fw_arena *arena, const fw_element *e, int k, const fw_qu
         fw_diag_error(diags, 47, place_of(e, "value"), "%s must be %s", ids[k], range);
 }
 
-/* one of fw_limit_data */
-static fw_status read_limit(fw_arena *arena, const fw_element *e, const fw_source_text *source,
-                            int nsource, fw_diags *diags, int k, fw_material *m) {
-    fw_quantity q, *slot_ = fw_limit_data_at(&m->limit, k);
-    fw_status status = fw_quantity_read(arena, e, source, nsource, diags, &q);
+/* one of fw_device_limit_data */
+static fw_status read_limit(fw_arena *arena, const fw_xml_element *e,
+                            const fw_xml_source_text *source, int nsource, fw_diags *diags, int k,
+                            fw_device_material *m) {
+    fw_quantity q, *slot_ = fw_device_limit_data_at(&m->limit, k);
+    fw_status status = fw_xml_quantity_read(arena, e, source, nsource, diags, &q);
     if (status != FW_OK) return status == FW_NOMEM ? status : FW_OK;
-    const fw_dimension wanted = fw_limit_data_dimension(k);
+    const fw_quantity_dimension wanted = fw_device_limit_data_dimension(k);
     if (slot_->id)
         fw_diag_error(diags, 45, place_of(e, "id"), "material '%s' has '%s' twice; remove one",
                       m->id, q.id);
-    else if (!fw_dimension_equal(q.dimension, wanted))
+    else if (!fw_quantity_dimension_equal(q.dimension, wanted))
         fw_diag_error(diags, 25, place_of(e, "unit"),
                       "%s: the dimension must be '%s', and \"%s\" is '%s'; correct the unit", q.id,
-                      fw_dimension_text(arena, wanted), q.unit,
-                      fw_dimension_text(arena, q.dimension));
+                      fw_quantity_dimension_text(arena, wanted), q.unit,
+                      fw_quantity_dimension_text(arena, q.dimension));
     else
-        fw_limit_data_check(k, &q, place_of(e, "value"), diags);
+        fw_device_limit_data_check(k, &q, place_of(e, "value"), diags);
     *slot_ = q;
     return FW_OK;
 }
 
-static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_source_text *source,
-                            int nsource, fw_diags *diags, fw_material *m) {
-    const fw_attribute *id = fw_xml_attribute(e, "id");
+static fw_status read_child(fw_arena *arena, const fw_xml_element *e,
+                            const fw_xml_source_text *source, int nsource, fw_diags *diags,
+                            fw_device_material *m) {
+    const fw_xml_attribute *id = fw_xml_attribute_of(e, "id");
     int k = id ? index_of(id->value) : -1;
-    int limit = id && k < 0 ? fw_limit_data_index(id->value) : -1;
+    int limit = id && k < 0 ? fw_device_limit_data_index(id->value) : -1;
     if (limit >= 0) return read_limit(arena, e, source, nsource, diags, limit, m);
     if (id && k < 0) {
         const char *better = fw_did_you_mean(id->value, ids, IDS);
-        if (!better) better = fw_did_you_mean(id->value, fw_limit_data_ids(), FW_LIMIT_DATA);
+        if (!better) better = fw_did_you_mean(id->value, fw_device_limit_data_ids(), FW_LIMIT_DATA);
         if (better)
             fw_diag_error(diags, 72, id->place,
                           "material '%s' has no quantity '%s'; did you mean "
@@ -217,7 +219,7 @@ static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_sourc
         return FW_OK; /* other quantities belong to the flows */
     }
     fw_quantity q;
-    fw_status status = fw_quantity_read(arena, e, source, nsource, diags, &q);
+    fw_status status = fw_xml_quantity_read(arena, e, source, nsource, diags, &q);
     if (status != FW_OK || !id) return status == FW_NOMEM ? status : FW_OK;
     if (slot(m, k)->id)
         return fw_diag_error(diags, 45, id->place, "material '%s' has '%s' twice; remove one",
@@ -231,7 +233,7 @@ static fw_status read_child(fw_arena *arena, const fw_element *e, const fw_sourc
 
 /* all three or none, and stable against every strain: C44 > 0, C11 > |C12|, C11 + 2 C12 > 0 (Born)
  */
-static void check_crystal(const fw_element *e, const fw_material *m, fw_diags *diags) {
+static void check_crystal(const fw_xml_element *e, const fw_device_material *m, fw_diags *diags) {
     int given = !m->c11.unknown + !m->c12.unknown + !m->c44.unknown;
     double a = m->c11.value, b = m->c12.value;
     if (given > 0 && given < 3)
@@ -246,14 +248,15 @@ static void check_crystal(const fw_element *e, const fw_material *m, fw_diags *d
             "material '%s' is not stable: c11 must be above |c12|, and c11 + 2 c12 above 0", m->id);
 }
 
-static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_source_text *source,
-                               int nsource, fw_diags *diags, fw_material *m) {
-    const fw_attribute *name = fw_xml_attribute(e, "name");
-    const fw_attribute *criterion = fw_xml_attribute(e, "criterion");
-    *m = (fw_material){.id = fw_xml_attribute(e, "id")->value};
+static fw_status read_material(fw_arena *arena, const fw_xml_element *e,
+                               const fw_xml_source_text *source, int nsource, fw_diags *diags,
+                               fw_device_material *m) {
+    const fw_xml_attribute *name = fw_xml_attribute_of(e, "name");
+    const fw_xml_attribute *criterion = fw_xml_attribute_of(e, "criterion");
+    *m = (fw_device_material){.id = fw_xml_attribute_of(e, "id")->value};
     m->name = name ? name->value : m->id;
     m->criterion = criterion ? criterion->value : "";
-    for (const fw_element *q = e->first_child; q; q = q->next)
+    for (const fw_xml_element *q = e->first_child; q; q = q->next)
         if (strcmp(q->name, "q") == 0)
             FW_TRY(read_child(arena, q, source, nsource, diags, m));
         else
@@ -269,34 +272,34 @@ static fw_status read_material(fw_arena *arena, const fw_element *e, const fw_so
                                         .source = "",
                                         .place = e->place};
     check_crystal(e, m, diags);
-    fw_limit_data none = fw_limit_data_none(e->place);
+    fw_device_limit_data none = fw_device_limit_data_none(e->place);
     for (int k = 0; k < FW_LIMIT_DATA; k++)
-        if (!fw_limit_data_at(&m->limit, k)->id)
-            *fw_limit_data_at(&m->limit, k) = *fw_limit_data_at(&none, k);
+        if (!fw_device_limit_data_at(&m->limit, k)->id)
+            *fw_device_limit_data_at(&m->limit, k) = *fw_device_limit_data_at(&none, k);
     const char *whose = fw_arena_printf(arena, "material '%s'", m->id);
     FW_NEED(whose);
-    fw_limit_data_complete(&m->limit, whose, e->place, diags);
+    fw_device_limit_data_complete(&m->limit, whose, e->place, diags);
     return FW_OK;
 }
 
-fw_status fw_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
-                            fw_diags *diags, fw_materials *materials) {
+fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                                   fw_diags *diags, fw_device_materials *materials) {
     size_t before = diags->errors;
-    *materials = (fw_materials){0};
-    fw_element *root;
-    fw_source_text *source;
+    *materials = (fw_device_materials){0};
+    fw_xml_element *root;
+    fw_xml_source_text *source;
     int nsource, count = 0;
     FW_TRY(fw_xml_read(arena, file, xml, n, diags, &root));
-    if (fw_sources_read(arena, root, diags, &source, &nsource) == FW_NOMEM) return FW_NOMEM;
-    for (const fw_element *e = root->first_child; e; e = e->next)
+    if (fw_xml_sources_read(arena, root, diags, &source, &nsource) == FW_NOMEM) return FW_NOMEM;
+    for (const fw_xml_element *e = root->first_child; e; e = e->next)
         count += strcmp(e->name, "material") == 0;
-    FW_NEED(materials->item = fw_arena_array(arena, fw_material, (size_t)count));
-    for (const fw_element *e = root->first_child; e; e = e->next) {
+    FW_NEED(materials->item = fw_arena_array(arena, fw_device_material, (size_t)count));
+    for (const fw_xml_element *e = root->first_child; e; e = e->next) {
         if (strcmp(e->name, "material") != 0) continue;
-        const fw_attribute *id = fw_xml_attribute(e, "id");
+        const fw_xml_attribute *id = fw_xml_attribute_of(e, "id");
         if (!id || !id->value[0])
             fw_diag_error(diags, 43, e->place, "<material> has no id; add id=\"...\"");
-        else if (fw_material_find(materials, id->value))
+        else if (fw_device_material_find(materials, id->value))
             fw_diag_error(diags, 45, id->place, "material '%s' is given twice; rename one",
                           id->value);
         else
@@ -306,14 +309,16 @@ fw_status fw_materials_read(fw_arena *arena, const char *file, const char *xml, 
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 
-const fw_material *fw_material_find(const fw_materials *materials, const char *id) {
+const fw_device_material *fw_device_material_find(const fw_device_materials *materials,
+                                                  const char *id) {
     for (int i = 0; id && i < materials->count; i++)
         if (strcmp(materials->item[i].id, id) == 0) return &materials->item[i];
     return NULL;
 }
 
-fw_material fw_material_with(const fw_material *material, const fw_material_override *override) {
-    fw_material m = *material;
+fw_device_material fw_device_material_with(const fw_device_material *material,
+                                           const fw_device_material_override *override) {
+    fw_device_material m = *material;
     const fw_quantity *const from[] = {&override->youngs, &override->poisson, &override->density,
                                        &override->strength};
     for (int k = 0; k < 4; k++) {
@@ -327,17 +332,17 @@ fw_material fw_material_with(const fw_material *material, const fw_material_over
     if (!override->youngs.unknown && override->youngs.unit)
         m.c11.unknown = m.c12.unknown = m.c44.unknown = true;
     m.strength_stated = override->strength.unit && !override->strength.unknown;
-    fw_limit_data stated = override->limit;
+    fw_device_limit_data stated = override->limit;
     for (int k = 0; k < FW_LIMIT_DATA; k++) {
-        const fw_quantity *q = fw_limit_data_at(&stated, k);
+        const fw_quantity *q = fw_device_limit_data_at(&stated, k);
         if (!q->unit || q->unknown) continue;
-        *fw_limit_data_at(&m.limit, k) = *q;
-        fw_limit_data_at(&m.limit, k)->source = "device file";
+        *fw_device_limit_data_at(&m.limit, k) = *q;
+        fw_device_limit_data_at(&m.limit, k)->source = "device file";
     }
     return m;
 }
 
-bool fw_material_is_crystal(const fw_material *m) {
+bool fw_device_material_is_crystal(const fw_device_material *m) {
     const fw_quantity *const all[] = {&m->c11, &m->c12, &m->c44};
     for (int i = 0; i < 3; i++)
         if (all[i]->unknown || !(all[i]->value > 0)) return false;

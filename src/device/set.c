@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --set PATH=VALUE replaces an attribute before anything is evaluated. */
-#include "device/reader.h"
-#include "device/table.h"
+#include "device/device_reader.h"
+#include "device/device_table.h"
 #include <string.h>
 
 typedef struct edit { /* one --set */
@@ -9,12 +9,12 @@ typedef struct edit { /* one --set */
     fw_place place; /* "--set PATH": messages say which of several is meant */
 } edit;
 
-static fw_attribute value_of(const edit *set, const char *name) {
-    return (fw_attribute){
+static fw_xml_attribute value_of(const edit *set, const char *name) {
+    return (fw_xml_attribute){
         .name = name, .value = set->value, .place = set->place, .name_place = set->place};
 }
 
-static void unknown_path(fw_reader *r, const edit *set, const char *what, const char *word,
+static void unknown_path(fw_device_reader *r, const edit *set, const char *what, const char *word,
                          const char *const *names, size_t n) {
     const char *better = word && n ? fw_did_you_mean(word, names, n) : NULL;
     fw_diag_error(r->diags, 55, set->place, "%s%s%s%s", what, better ? "; did you mean '" : "",
@@ -25,11 +25,11 @@ static void unknown_path(fw_reader *r, const edit *set, const char *what, const 
 }
 
 /* names of what the file holds: values of `key` of all elements with this name, to depth 3 */
-static size_t collect(fw_element *e, const char *element, const char *key, fw_element **found,
-                      const char **names, size_t room, size_t n) {
+static size_t collect(fw_xml_element *e, const char *element, const char *key,
+                      fw_xml_element **found, const char **names, size_t room, size_t n) {
     for (; e; e = e->next) {
         if (n < room && strcmp(e->name, element) == 0) {
-            const fw_attribute *a = key ? fw_xml_attribute(e, key) : NULL;
+            const fw_xml_attribute *a = key ? fw_xml_attribute_of(e, key) : NULL;
             found[n] = e;
             names[n++] = a ? a->value : "";
         }
@@ -38,25 +38,25 @@ static size_t collect(fw_element *e, const char *element, const char *key, fw_el
     return n;
 }
 
-static size_t count_named(const fw_element *e, const char *element) {
+static size_t count_named(const fw_xml_element *e, const char *element) {
     size_t n = 0;
     for (; e; e = e->next)
         n += (strcmp(e->name, element) == 0) + count_named(e->first_child, element);
     return n;
 }
 
-static fw_status set_parameter(fw_reader *r, const edit *set) {
+static fw_status set_parameter(fw_device_reader *r, const edit *set) {
     size_t most = count_named(r->xml.root->first_child, "parameter");
-    fw_element **found = fw_arena_array(r->arena, fw_element *, most);
+    fw_xml_element **found = fw_arena_array(r->arena, fw_xml_element *, most);
     const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
     size_t n = collect(r->xml.root->first_child, "parameter", "name", found, names, most, 0);
     for (size_t i = 0; i < n; i++) {
         if (strcmp(names[i], set->path) != 0) continue;
-        fw_attribute *a = fw_arena_one(r->arena, fw_attribute);
+        fw_xml_attribute *a = fw_arena_one(r->arena, fw_xml_attribute);
         FW_NEED(a);
         *a = value_of(set, set->path);
-        r->override_[r->noverride++] = (fw_override){found[i], a};
+        r->override_[r->noverride++] = (fw_device_override){found[i], a};
         return FW_OK;
     }
     for (size_t i = 0; i < n; i++) /* a nameless one is reported; it may be the one meant */
@@ -65,8 +65,8 @@ static fw_status set_parameter(fw_reader *r, const edit *set) {
     return FW_OK;
 }
 
-static fw_status replace(fw_reader *r, const edit *set, fw_element *e, const fw_element_row *row,
-                         const char *attribute) {
+static fw_status replace(fw_device_reader *r, const edit *set, fw_xml_element *e,
+                         const fw_xml_element_row *row, const char *attribute) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
     fw_xml_attributes all;
@@ -113,7 +113,7 @@ static fw_status split(fw_arena *arena, const char *text, path *p, bool *ok) {
     return FW_OK;
 }
 
-static fw_status set_attribute(fw_reader *r, const edit *set) {
+static fw_status set_attribute(fw_device_reader *r, const edit *set) {
     path p;
     bool ok;
     FW_TRY(split(r->arena, set->path, &p, &ok));
@@ -122,7 +122,7 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
         return FW_OK;
     }
     const char *element = p.element, *id = p.id, *attribute = p.attribute;
-    const fw_element_row *row = fw_xml_row_find(&fw_device_table, element);
+    const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, element);
     if (!row) {
         const char *names[FW_ELEMENTS_MOST];
         size_t n = 0;
@@ -133,7 +133,7 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
         return FW_OK;
     }
     size_t most = count_named(r->xml.root, element);
-    fw_element **found = fw_arena_array(r->arena, fw_element *, most);
+    fw_xml_element **found = fw_arena_array(r->arena, fw_xml_element *, most);
     const char **names = fw_arena_array(r->arena, const char *, most);
     FW_NEED(found && names);
     size_t n = collect(r->xml.root, element, row->key, found, names, most, 0);
@@ -161,8 +161,9 @@ static fw_status set_attribute(fw_reader *r, const edit *set) {
     return FW_OK;
 }
 
-fw_status fw_sets_apply(fw_reader *r, const fw_set *set, int nset) {
-    FW_NEED(r->override_ = fw_arena_array(r->arena, fw_override, (size_t)(nset > 0 ? nset : 0)));
+fw_status fw_device_sets_apply(fw_device_reader *r, const fw_device_set *set, int nset) {
+    FW_NEED(r->override_ =
+                fw_arena_array(r->arena, fw_device_override, (size_t)(nset > 0 ? nset : 0)));
     for (int i = 0; i < nset; i++) {
         edit copy = {
             fw_arena_strdup(r->arena, set[i].path ? set[i].path : ""),

@@ -11,10 +11,10 @@ static const char *const wafer_sides[] = {"bottom", "top", "left", "right", NULL
 static const char *const wafer_alignments[] = {"none", "2 sites", NULL};
 static const char *const wafer_assignments[] = {"round-robin", "blocks", NULL};
 
-static const fw_attribute_row device_rows[] = {
+static const fw_xml_attribute_row device_rows[] = {
     {"name", ID, REQUIRED, .sentence = "Name of the device; it names outputs and the GDSII cell."},
 };
-static const fw_attribute_row parameter_rows[] = {
+static const fw_xml_attribute_row parameter_rows[] = {
     {"name", .kind = FW_KIND_NAME, REQUIRED,
      .sentence = "Name for expressions; not a unit symbol and not a function."},
     {"value", .kind = FW_KIND_ANY, REQUIRED,
@@ -25,7 +25,7 @@ static const fw_attribute_row parameter_rows[] = {
      .sentence = "Greatest value that --set, the page and studies may give."},
     {"doc", TEXT, .sentence = "One sentence for the page."},
 };
-static const fw_attribute_row material_rows[] = {
+static const fw_xml_attribute_row material_rows[] = {
     {"ref", ID, REQUIRED, .sentence = "Id of a material in processes/base.xml."},
     {"youngs-modulus", D_PRESSURE,
      RANGE(1e6, 2e12, "below 1 MPa are gels and foams; no material is stiffer than 2 TPa"),
@@ -81,7 +81,7 @@ static const fw_attribute_row material_rows[] = {
     {"ductility-exponent", D_PURE, RANGE(-0.999, -1e-6, "more cycles bear less"),
      .fallback = "the material's", .sentence = "Of fatigue: c of Manson and Coffin's law."},
 };
-static const fw_attribute_row limits_rows[] = {
+static const fw_xml_attribute_row limits_rows[] = {
     {"safety-factor", D_PURE, RANGE(1, 100, "below 1 the limit itself would be exceeded"),
      .fallback = "1.5", .sentence = "Strength divided by the stress that is allowed."},
     {"cycles", D_PURE, RANGE(1, 1e15, "a scene is run at least once"), .fallback = "none: static",
@@ -94,7 +94,7 @@ static const fw_attribute_row limits_rows[] = {
      .sentence = "yes: metals may pass their proportional limit up to the 0.2 % offset, as in a "
                  "shock behind which accuracy does not matter."},
 };
-static const fw_attribute_row flow_rows[] = {
+static const fw_xml_attribute_row flow_rows[] = {
     {"ref", ID, REQUIRED, .sentence = "Name of a process pack, e.g. al-masked-rie."},
     {"material", ID, .fallback = "the device's", .sentence = "Id of the material in this flow."},
     {"thickness", THICKNESS, .fallback = "the device's",
@@ -105,7 +105,7 @@ static const fw_attribute_row flow_rows[] = {
      .sentence = "What the layer stands on: none, so that all that is anchored is one conductor; "
                  "insulating (borosilicate glass), so that only what is joined in the layer is."},
 };
-static const fw_attribute_row flexure_rows[] = {
+static const fw_xml_attribute_row flexure_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = flexure_kinds,
      .sentence = "csfh: a thin arc between conjugate surfaces; leaf: a thin straight strip; path: "
@@ -135,18 +135,18 @@ static const fw_attribute_row flexure_rows[] = {
     {                                                                                              \
         "width-end", THIN, .fallback = "width", .sentence = "Where it ends."                       \
     }
-static const fw_attribute_row line_rows[] = {
+static const fw_xml_attribute_row line_rows[] = {
     {"length", SIZE, REQUIRED, .sentence = "Of the centre line."},
     PIECE_WIDTHS,
 };
-static const fw_attribute_row arc_rows[] = {
+static const fw_xml_attribute_row arc_rows[] = {
     {"radius", SIZE, REQUIRED, .sentence = "Of the centre line."},
     {"angle", D_ANGLE, .unit = "deg",
      RANGE(-330 * FW_PI / 180, 330 * FW_PI / 180, "beyond 330 deg the ends of an arc meet"),
      REQUIRED, .sentence = "By which it turns: to the left above 0, to the right below."},
     PIECE_WIDTHS,
 };
-static const fw_attribute_row workspace_rows[] = {
+static const fw_xml_attribute_row workspace_rows[] = {
     {"flow", REF(FW_SPACE_FLOW), .fallback = "all flows", .sentence = "Only in this flow."},
     {"x-min", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
     {"x-max", POSITION, REQUIRED, .sentence = "Platform displacement from the drawn pose."},
@@ -155,7 +155,7 @@ static const fw_attribute_row workspace_rows[] = {
     {"phi-min", TURN, REQUIRED, .sentence = "Platform rotation from the drawn pose."},
     {"phi-max", TURN, REQUIRED, .sentence = "Platform rotation from the drawn pose."},
 };
-static const fw_attribute_row die_rows[] = {
+static const fw_xml_attribute_row die_rows[] = {
     {"width", SIZE, .fallback = "from the drawn mechanism", .sentence = "Of the chip."},
     {"height", SIZE, .fallback = "from the drawn mechanism", .sentence = "Of the chip."},
     {"frame", GAP, .fallback = "chosen by the layout", .sentence = "Width of the frame."},
@@ -176,7 +176,7 @@ static const fw_attribute_row die_rows[] = {
      .sentence = "Diameter of a release hole."},
 };
 
-static const fw_attribute_row wafer_rows[] = {
+static const fw_xml_attribute_row wafer_rows[] = {
     {"diameter", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.305, WAFER), .fallback = "100 mm",
      .sentence = "Of the wafer. Within 2 % of 50.8, 76.2, 100, 125, 150, 200 or 300 mm it is that "
                  "size, with the flat or notch of SEMI M1."},
@@ -204,7 +204,7 @@ static const fw_attribute_row wafer_rows[] = {
      .sentence = "Edge of the square mask plate."},
     {"title", TEXT, .fallback = "the die's title", .sentence = "Written on the plate."},
 };
-static const fw_attribute_row sweep_rows[] = {
+static const fw_xml_attribute_row sweep_rows[] = {
     {"parameter", REF(FW_SPACE_PARAMETER), REQUIRED,
      .sentence = "Which parameter differs from die to die."},
     {"from", .kind = FW_KIND_ANY, REQUIRED, .sentence = "Its first value."},
@@ -214,7 +214,7 @@ static const fw_attribute_row sweep_rows[] = {
      .sentence = "How many values, evenly spaced."},
 };
 
-const fw_element_row fw_table_device[] = {
+const fw_xml_element_row fw_device_table_device[] = {
     {"device", "", "name", ROWS(device_rows), .once = true,
      .sentence = "One planar compliant mechanism; xmlns=\"urn:flexwright:device:1\"."},
     {"parameter", "device", "name", FW_SPACE_PARAMETER, .most = 200, ROWS(parameter_rows),
@@ -239,8 +239,9 @@ const fw_element_row fw_table_device[] = {
     {0},
 };
 
-static const fw_element_row *const parts[] = {fw_table_device, fw_table_mechanism, fw_table_scene,
-                                              fw_table_effects, NULL};
+static const fw_xml_element_row *const parts[] = {fw_device_table_device, fw_device_table_mechanism,
+                                                  fw_device_table_scene, fw_device_table_effects,
+                                                  NULL};
 static const char *const spaces[FW_SPACE_COUNT] = {"name",  "parameter", "flow",       "flexure",
                                                    "body",  "joint",     "spring",     "driver",
                                                    "scene", "tendon",    "comb-drive", "contact"};

@@ -18,7 +18,7 @@ static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
 
 /* ---- actuators ---- */
 
-static const fw_attribute_row tendon_rows[] = {
+static const fw_xml_attribute_row tendon_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the cable, its own in this scene."},
     {"pull", D_FORCE, RANGE(0, 1e20, "a cable only pulls; 1e20 N is beyond any structure"),
      .sentence = "Tension that an actuator keeps, times the law. Exactly one of pull and draw."},
@@ -34,7 +34,7 @@ static const fw_attribute_row tendon_rows[] = {
      .sentence = "Length that the cable has to spare as drawn; negative: it is stretched by that "
                  "much. Only with draw."},
 };
-static const fw_attribute_row eyelet_rows[] = {
+static const fw_xml_attribute_row eyelet_rows[] = {
     {"on", REF(FW_SPACE_BODY), .ground = true, REQUIRED,
      .sentence = "Body that carries it, or ground."},
     {"x", PLACE, .fallback = "0 mm", .sentence = BODY_POINT_X},
@@ -49,7 +49,7 @@ static const fw_attribute_row eyelet_rows[] = {
      .sentence = "Width of material around the hole, at least: what of it lies outside of the body "
                  "is added to it, in the mask and in its mass."},
 };
-static const fw_attribute_row comb_rows[] = {
+static const fw_xml_attribute_row comb_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the drive, its own in this scene."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = electrode_kinds,
      .sentence = "comb: fingers that are drawn in between others; plate: two faces that attract "
@@ -89,7 +89,7 @@ static const fw_attribute_row comb_rows[] = {
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),
      .sentence = "Between rotor and stator, times the law; the force goes with its square."},
 };
-static const fw_attribute_row base_rows[] = {
+static const fw_xml_attribute_row base_rows[] = {
     {"ax", D_GRAVITY, .fallback = "0 m/s^2",
      .sentence = "Acceleration of the base along the world's x axis, times the law."},
     {"ay", D_GRAVITY, .fallback = "0 m/s^2",
@@ -98,7 +98,7 @@ static const fw_attribute_row base_rows[] = {
 
 /* ---- surfaces ---- */
 
-static const fw_attribute_row friction_rows[] = {
+static const fw_xml_attribute_row friction_rows[] = {
     {"on", REF(FW_SPACE_JOINT), REQUIRED,
      .sentence = "A revolute, a hinge of <six-bar>, or a prismatic."},
     {"coefficient", D_PURE,
@@ -114,7 +114,7 @@ static const fw_attribute_row friction_rows[] = {
     {"preload", D_FORCE, RANGE(0, 1e20, "surfaces only press; 1e20 N is beyond any structure"),
      .fallback = "0 uN", .sentence = "Normal force that is there without the joint's own force."},
 };
-static const fw_attribute_row contact_rows[] = {
+static const fw_xml_attribute_row contact_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the contact, its own in this scene."},
     {"on", REF(FW_SPACE_JOINT),
      .sentence = "A hinge with a flexure, whose conjugate surfaces touch where the gap closes; the "
@@ -145,7 +145,7 @@ static const fw_attribute_row contact_rows[] = {
 
 /* ---- material and surroundings ---- */
 
-static const fw_attribute_row damping_rows[] = {
+static const fw_xml_attribute_row damping_rows[] = {
     {"loss-factor", D_PURE,
      RANGE(0, 1, "a negative one would feed energy in; above 1 nothing rings any more"),
      .fallback = "the material's",
@@ -155,7 +155,7 @@ static const fw_attribute_row damping_rows[] = {
      .sentence = "At which a hinge has the damping loss-factor x stiffness / (2 pi frequency); the "
                  "lower another frequency, the less it is damped."},
 };
-static const fw_attribute_row temperature_rows[] = {
+static const fw_xml_attribute_row temperature_rows[] = {
     {"change", D_KELVIN, .difference = true, REQUIRED,
      RANGE(-400, 3000, "there is nothing below 0 K, and no flexure stays elastic beyond"),
      .sentence = "Of device and substrate, from where the device was made, times the law: a "
@@ -170,13 +170,13 @@ static const fw_attribute_row temperature_rows[] = {
      .fallback = "the material's",
      .sentence = "Of Young's modulus, relative, per kelvin; negative: it softens when warm."},
 };
-static const fw_attribute_row stress_rows[] = {
+static const fw_xml_attribute_row stress_rows[] = {
     {"mean", D_STRESS, RANGE(-2e10, 2e10, "no film bears more than 20 GPa"), .fallback = "0 MPa",
      .sentence = "Of the layer as deposited, before it is set free; tension is positive."},
     {"gradient", D_STRESS_SLOPE, RANGE(-2e17, 2e17, "20 GPa over 0.1 um"), .fallback = "0 MPa/um",
      .sentence = "Change of that stress along the thickness, away from the wafer."},
 };
-static const fw_attribute_row air_rows[] = {
+static const fw_xml_attribute_row air_rows[] = {
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = air_kinds,
      .sentence = "slide: a film between a body and a plane below it, sheared; squeeze: a film "
                  "between two walls that come nearer; drag: the open air around a body."},
@@ -214,14 +214,16 @@ static const fw_attribute_row air_rows[] = {
 };
 
 #define OF_SCENE(space_) .space = (space_), .within = true
-const fw_element_row fw_table_effects[] = {
-    {"tendon", "scene", "id", OF_SCENE(FW_SPACE_TENDON), .most = 2000, .timed = true, ROWS(tendon_rows),
+const fw_xml_element_row fw_device_table_effects[] = {
+    {"tendon", "scene", "id", OF_SCENE(FW_SPACE_TENDON), .most = 2000, .timed = true,
+     ROWS(tendon_rows),
      .sentence = "A cable without mass and friction, from its first <eyelet>, where it is fixed, "
                  "through the others to an actuator behind the last. pull: the actuator keeps a "
                  "tension. draw: it takes cable in, and the cable stretches; it never pushes."},
     {"eyelet", "tendon", .most = 20000, ROWS(eyelet_rows),
      .sentence = "A point that the cable is fixed to, or runs through; at least two, in order."},
-    {"comb-drive", "scene", "id", OF_SCENE(FW_SPACE_COMB), .most = 2000, .timed = true, ROWS(comb_rows),
+    {"comb-drive", "scene", "id", OF_SCENE(FW_SPACE_COMB), .most = 2000, .timed = true,
+     ROWS(comb_rows),
      .sentence = "Electrodes that attract each other: a comb, or two faces. What is not joined in "
                  "the layer is insulated only where the flow has carrier=\"insulating\"."},
     {"base-motion", "scene", .most = 2000, .timed = true, ROWS(base_rows),

@@ -7,7 +7,7 @@ static const char *const link_names[] = {"AB", "BC", "DE", "EF", NULL};
 static const char *const platform_names[] = {"CD", NULL};
 static const char *const yes_no[] = {"yes", "no", NULL};
 
-static const fw_attribute_row hinge_rows[] = {
+static const fw_xml_attribute_row hinge_rows[] = {
     {"at", .kind = FW_KIND_WORD, REQUIRED, .words = hinge_names,
      .sentence = "Which hinge of ABCDEF."},
     {"x", POSITION, REQUIRED, .sentence = "Hinge point as drawn."},
@@ -21,7 +21,7 @@ static const fw_attribute_row hinge_rows[] = {
     {"axis", TURN, .fallback = "chosen by the layout",
      .sentence = "Direction of the flexure's bulge, from the x axis."},
 };
-static const fw_attribute_row link_rows[] = {
+static const fw_xml_attribute_row link_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = link_names,
      .sentence = "Which link of ABCDEF."},
     {"width", SIZE, .fallback = "not drawn", .sentence = "Of the bar between its hinges."},
@@ -34,7 +34,7 @@ static const fw_attribute_row link_rows[] = {
     {"y", POSITION, .fallback = "midpoint of its hinges",
      .sentence = "Centre of mass, when mass is given."},
 };
-static const fw_attribute_row platform_rows[] = {
+static const fw_xml_attribute_row platform_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = platform_names, .sentence = "Always CD."},
     {"width", SIZE, .fallback = "not drawn", .sentence = "Of the rectangle; together with height."},
     {"height", SIZE, .fallback = "not drawn", .sentence = "Of the rectangle; together with width."},
@@ -49,7 +49,7 @@ static const fw_attribute_row platform_rows[] = {
     {"inertia", D_INERTIA, SOME_INERTIA, .fallback = "from the drawn shape",
      .sentence = "Moment of inertia about the centre of mass; together with mass."},
 };
-static const fw_attribute_row body_rows[] = {
+static const fw_xml_attribute_row body_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for joints, springs and scenes; not \"ground\"."},
     {"mass", ANY_MASS, .fallback = "from the drawn shape",
      .sentence = "Mass; together with inertia."},
@@ -58,7 +58,7 @@ static const fw_attribute_row body_rows[] = {
     {"x", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
     {"y", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
     {"phi", TURNS, .fallback = "0 deg", .sentence = "Angle of the body's own axes."},
-    {"width", SIZE, .fallback = "not drawn", 
+    {"width", SIZE, .fallback = "not drawn",
      .sentence = "Of the bars that join its hinges. A plate has no bars: there it bounds the width "
                  "of the necks that lead into the plate."},
     {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
@@ -87,7 +87,7 @@ static const fw_attribute_row body_rows[] = {
             .sentence =                                                                            \
                 "Point b: from the centre of mass, in the body's axes; on ground in the world."    \
     }
-static const fw_attribute_row revolute_rows[] = {
+static const fw_xml_attribute_row revolute_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"stiffness", D_TURNING_K, ELASTIC, .fallback = "from the flexure, else 0",
@@ -110,7 +110,7 @@ static const fw_attribute_row revolute_rows[] = {
     {"stop-damping", D_TURNING_C, ELASTIC, .fallback = "0 N m s/rad",
      .sentence = "Of the stops: torque per angular velocity, only beyond stop-min or stop-max."},
 };
-static const fw_attribute_row prismatic_rows[] = {
+static const fw_xml_attribute_row prismatic_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"axis", TURNS, REQUIRED,
@@ -124,7 +124,7 @@ static const fw_attribute_row prismatic_rows[] = {
      .sentence = "Distance of point b from point a along the line at which travel is 0 and the "
                  "spring at rest."},
 };
-static const fw_attribute_row distance_rows[] = {
+static const fw_xml_attribute_row distance_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"length", D_LENGTH, .unit = "mm",
@@ -132,12 +132,12 @@ static const fw_attribute_row distance_rows[] = {
      .fallback = "as drawn",
      .sentence = "Between the two points; a driver of this joint gives the length instead."},
 };
-static const fw_attribute_row weld_rows[] = {
+static const fw_xml_attribute_row weld_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},
     ENDS,
     {"angle", TURNS, .fallback = "as drawn", .sentence = "phi_b - phi_a, which the joint keeps."},
 };
-static const fw_attribute_row driver_rows[] = {
+static const fw_xml_attribute_row driver_rows[] = {
     {"id", ID, .fallback = "the joint's", .sentence = "Id of the driver."},
     {"joint", REF(FW_SPACE_JOINT), REQUIRED,
      .sentence = "What it moves: the angle of a revolute or of a hinge of <six-bar>, the travel of "
@@ -146,7 +146,7 @@ static const fw_attribute_row driver_rows[] = {
      .sentence =
          "That angle, travel or length at the time t, for example 30 deg * sin(2*pi*t/(1 s))."},
 };
-static const fw_attribute_row spring_rows[] = {
+static const fw_xml_attribute_row spring_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the spring."},
     ENDS,
     {"stiffness", D_LINEAR_K, ELASTIC, REQUIRED,
@@ -157,7 +157,7 @@ static const fw_attribute_row spring_rows[] = {
      .sentence = "yes: it only pulls, and hangs slack while shorter than its length."},
 };
 
-const fw_element_row fw_table_mechanism[] = {
+const fw_xml_element_row fw_device_table_mechanism[] = {
     {"six-bar", "device", .once = true,
      .sentence = "The manipulator ABCDEF: ground at A and F, links AB, BC, DE, EF, platform CD."},
     {"hinge", "six-bar", "at", FW_SPACE_JOINT, ROWS(hinge_rows),

@@ -4,7 +4,7 @@
 #ifndef FW_DEVICE_TABLE_ROWS_H
 #define FW_DEVICE_TABLE_ROWS_H
 #include "base/constants.h"
-#include "device/table.h"
+#include "device/device_table.h"
 
 /* dimensions */
 #define D_LENGTH   .kind = FW_KIND_NUMBER, .dimension = {.m = 1}

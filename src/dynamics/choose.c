@@ -2,7 +2,7 @@
 /* Which method: asked for by name, or by the masses. Which integrator: asked for by name, or by the
    spectrum of the scene at its start, and by trial where that may be wrong. */
 #include "dynamics/run.h"
-#include "dynamics/steer.h"
+#include "dynamics/tolerance_control.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,15 +15,15 @@ static const double fw_uneven_most = 1e3;
 /* ---- the method ---- */
 
 /* heaviest body over the lightest one that sits between two joints; a released pin is none */
-static fw_status unevenness(fw_dynamics_problem *problem, const fw_terms *terms, int *light,
+static fw_status unevenness(fw_dynamics_problem *problem, const fw_effects_loads *loads, int *light,
                             int *heavy) {
     const fw_mechanism *m = problem->mechanism;
     int *joints;
     fw_mark mark = fw_arena_mark(problem->arena);
     FW_NEED(joints = fw_arena_array(problem->arena, int, (size_t)m->nbody));
-    for (int i = 0; i < m->npin + m->ntie; i++) {
-        const fw_tie *t = i < m->npin ? NULL : &m->tie[i - m->npin];
-        if (!t && terms->released && terms->released[i]) continue;
+    for (int i = 0; i < m->npin + m->njoint; i++) {
+        const fw_device_joint *t = i < m->npin ? NULL : &m->joint[i - m->npin];
+        if (!t && loads->released && loads->released[i]) continue;
         int a = t ? t->body_a : m->pin[i].body_a, b = t ? t->body_b : m->pin[i].body_b;
         if (a != FW_GROUND) joints[a]++;
         if (b != FW_GROUND) joints[b]++;
@@ -43,10 +43,10 @@ static fw_status unevenness(fw_dynamics_problem *problem, const fw_terms *terms,
    16 - log10(ratio) digits, and the step control follows the noise. Independent coordinates add m
    instead and keep them all. Up to a ratio of 1e3 the noise lies below every tolerance. Test:
    test_hard_masses.c. */
-fw_status fw_method_choose(fw_dynamics_run *r, const fw_terms *terms) {
+fw_status fw_dynamics_method_choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
     int light, heavy;
     char ratio[32];
-    FW_TRY(unevenness(&r->problem, terms, &light, &heavy));
+    FW_TRY(unevenness(&r->problem, loads, &light, &heavy));
     if (r->problem.options->method || r->problem.uneven <= fw_uneven_most ||
         r->problem.mechanism->nbody > fw_dense_most)
         return FW_OK;
@@ -73,14 +73,14 @@ static double norm(const double *x, int n) {
 /* out = J z by a central difference of the right-hand side at (t, y), over 2 `reach` */
 static void product(const fw_dynamics_problem *problem, double t, const double *y, const double *z,
                     double reach, double *at, double *more, double *out) {
-    fw_model *m = problem->model;
+    fw_multibody_model *m = problem->model;
     int n = 2 * m->nq;
     double e = reach / fmax(norm(z, n), 1e-300);
     for (int sign = -1; sign <= 1; sign += 2) {
         memcpy(at, y, (size_t)m->ny * sizeof *at);
         for (int i = 0; i < n; i++)
             at[i] += sign * e * z[i];
-        fw_model_lean_rhs(m, t, at, sign < 0 ? more : out);
+        fw_multibody_model_lean_rhs(m, t, at, sign < 0 ? more : out);
     }
     for (int i = 0; i < n; i++)
         out[i] = (out[i] - more[i]) / (2 * e);
@@ -93,7 +93,7 @@ static void product(const fw_dynamics_problem *problem, double t, const double *
  */
 static fw_status fastest(const fw_dynamics_problem *problem, double t, const double *y,
                          double reach, double *rate, double *shape) {
-    fw_model *m = problem->model;
+    fw_multibody_model *m = problem->model;
     size_t n = (size_t)m->ny;
     double *work[5];
     fw_mark mark = fw_arena_mark(problem->arena);
@@ -121,10 +121,10 @@ static fw_status fastest(const fw_dynamics_problem *problem, double t, const dou
 }
 
 /* rad^2 per scaled time^2 that an element's stated stiffness can add: 1/m and r^2/J of its ports */
-static double stated_square(const fw_model *m, const fw_force_element *e) {
+static double stated_square(const fw_multibody_model *m, const fw_effects_force_element *e) {
     double free = 0, unit = m->scale.time_s * m->scale.time_s / m->scale.mass_kg;
     for (int i = 0; i < e->ports; i++) {
-        const fw_port *p = &e->port[i];
+        const fw_effects_port *p = &e->port[i];
         double arm = hypot(p->x_m, p->y_m) / m->scale.length_m;
         if (p->body != FW_GROUND) free += m->minv[p->body] + arm * arm * m->jinv[p->body];
     }
@@ -135,7 +135,7 @@ static double stated_square(const fw_model *m, const fw_force_element *e) {
    off. Where the formula of one means nothing there (two points that coincide have no direction),
    the rate depends on how far it is looked at; then what they state counts. */
 static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate) {
-    fw_model *m = problem->model;
+    fw_multibody_model *m = problem->model;
     double stated = 0, farther;
     bool idle = false;
     *rate = 0;
@@ -151,19 +151,19 @@ static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double bef
     FW_TRY(fastest(problem, 0, problem->start, 1e-5, &farther, NULL));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
     if (!sound || !(*rate > 1.01 * before)) *rate = stated;
-    fw_model_set_switches(m, 0, problem->start);
+    fw_multibody_model_set_switches(m, 0, problem->start);
     return FW_OK;
 }
 
 /* omega^2 = F.u / u^T M u for the static response u to F (SI), scaled; 0 when there is none */
-static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_terms *terms,
+static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
                           const double *force, double *u, double *rotation, double *rate) {
     double work = 0, mass = 0;
     bool valid = false;
-    FW_TRY(
-        fw_static_response(problem->arena, problem->mechanism, terms, force, u, rotation, &valid));
+    FW_TRY(fw_effects_static_response(problem->arena, problem->mechanism, loads, force, u, rotation,
+                                      &valid));
     for (int i = 0; i < problem->model->nq && valid; i++) {
-        const fw_mass *b = &problem->mechanism->body[i / 3];
+        const fw_mechanism_mass *b = &problem->mechanism->body[i / 3];
         work += force[i] * u[i];
         mass += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * u[i] * u[i];
     }
@@ -174,7 +174,7 @@ static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_terms *te
 /* 1 per scaled time at which motion along u (nq, scaled by any factor) dies away, by damping: half
    of the quotient of power and kinetic energy */
 static fw_status dying(const fw_dynamics_problem *problem, const double *u, double *rate) {
-    const fw_model *m = problem->model;
+    const fw_multibody_model *m = problem->model;
     double *work[4], power = 0, mass = 0;
     size_t n = (size_t)m->nq;
     fw_mark mark = fw_arena_mark(problem->arena);
@@ -196,8 +196,8 @@ static fw_status dying(const fw_dynamics_problem *problem, const double *u, doub
 /* rad per scaled unit of time of the motion that is excited: by the loads at their largest, else by
    the starting velocities, whose momenta stand in for forces; 0 for a free motion. And how it dies
    away. Source: Rayleigh's quotient. */
-static fw_status excited(const fw_dynamics_problem *problem, const fw_terms *terms, double *rate,
-                         double *dies) {
+static fw_status excited(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
+                         double *rate, double *dies) {
     const fw_mechanism *m = problem->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *u, *rotation;
@@ -205,15 +205,15 @@ static fw_status excited(const fw_dynamics_problem *problem, const fw_terms *ter
     FW_NEED(force = fw_arena_array(problem->arena, double, n));
     FW_NEED(u = fw_arena_array(problem->arena, double, n));
     FW_NEED(rotation = fw_arena_array(problem->arena, double, (size_t)m->npin));
-    fw_terms_largest_force(m, terms, problem->scene->duration_s, force);
-    FW_TRY(rayleigh(problem, terms, force, u, rotation, rate));
-    const fw_scale s = problem->model->scale;
+    fw_effects_loads_largest_force(m, loads, problem->scene->duration_s, force);
+    FW_TRY(rayleigh(problem, loads, force, u, rotation, rate));
+    const fw_multibody_scale s = problem->model->scale;
     for (size_t i = 0; i < n; i++) /* SI momenta over a second */
         force[i] =
             problem->start[n + i] *
             (i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg * s.length_m) /
             s.time_s;
-    if (*rate == 0) FW_TRY(rayleigh(problem, terms, force, u, rotation, rate));
+    if (*rate == 0) FW_TRY(rayleigh(problem, loads, force, u, rotation, rate));
     *dies = 0;
     for (size_t i = 0; i < n; i++)
         u[i] /= i % 3 == 2 ? 1 : s.length_m;
@@ -223,25 +223,25 @@ static fw_status excited(const fw_dynamics_problem *problem, const fw_terms *ter
 }
 
 /* instructions, roughly */
-typedef struct price {
+typedef struct cost {
     double explicit_, implicit; /* of a step */
-} price;
+} cost;
 
 /* A right-hand side costs what its effects state (docs/theory/effects/costs.md) and 1300 per body,
    300 on the fast kernel, and in dense methods a factorisation. A step of dop853 takes 12, three
    more for dense output, and nine looks at joint forces; one of radau5, as measured, 12 of lean
    ones, its Jacobian included, and the same nine, besides one real and one complex
    factorisation of size n every second step and five solutions. */
-static price prices(const fw_dynamics_recorder *record) {
-    const fw_model *m = record->problem->model;
+static cost prices(const fw_dynamics_recorder *record) {
+    const fw_multibody_model *m = record->problem->model;
     const fw_effect_ledger *l = &record->motion->ledger;
     double n = m->nq, rhs = (m->kernel ? 300 : 1300) * (1 + n / 3);
     for (int i = 0; i < l->count && !m->kernel; i++)
         if (l->item[i].active) rhs += l->item[i].cost;
     if (m->method->independent) rhs += n * n * n;
     double looks = record->problem->options->reactions ? 9 : 0;
-    return (price){.explicit_ = (15 + looks) * rhs,
-                   .implicit = (12 + looks) * rhs + 2.5 * n * n * n + 50 * n * n};
+    return (cost){.explicit_ = (15 + looks) * rhs,
+                  .implicit = (12 + looks) * rhs + 2.5 * n * n * n + 50 * n * n};
 }
 
 typedef struct spectrum {  /* rad per scaled time */
@@ -256,15 +256,15 @@ typedef struct spectrum {  /* rad per scaled time */
      A = |z.F|/(z.M z w^2) + |z.M v|/(z.M z w),  |A e^(-d t)| > wanted/4
    Loads that come slowly excite less: then implicit steps are taken for dearer than they are.
    Source: modal superposition. Test: test_choose.c (what_is_not_excited). */
-static fw_status ringing(fw_dynamics_recorder *record, const fw_terms *terms, const double *z,
-                         double time, spectrum *s) {
-    const fw_model *m = record->problem->model;
+static fw_status ringing(fw_dynamics_recorder *record, const fw_effects_loads *loads,
+                         const double *z, double time, spectrum *s) {
+    const fw_multibody_model *m = record->problem->model;
     double *force, load = 0, momentum = 0, mass = 0, most = 0, dies;
-    const fw_scale unit = m->scale;
+    const fw_multibody_scale unit = m->scale;
     fw_mark mark = fw_arena_mark(record->problem->arena);
     FW_NEED(force = fw_arena_array(record->problem->arena, double, (size_t)m->nq));
-    fw_terms_largest_force(record->problem->mechanism, terms, record->problem->scene->duration_s,
-                           force);
+    fw_effects_loads_largest_force(record->problem->mechanism, loads,
+                                   record->problem->scene->duration_s, force);
     double newton = unit.mass_kg * unit.length_m / (unit.time_s * unit.time_s);
     for (int i = 0; i < m->nq; i++) {
         bool turn = i % 3 == 2;
@@ -279,7 +279,7 @@ static fw_status ringing(fw_dynamics_recorder *record, const fw_terms *terms, co
     if (!(mass > 0) || !(s->fast > 0)) return FW_OK;
     double amplitude = (fabs(load) / s->fast + fabs(momentum)) / (mass * s->fast) * most;
     double wanted = record->problem->options->rtol > 0 ? 1e3 * record->problem->options->rtol
-                                                       : fw_pace_wanted(record);
+                                                       : fw_dynamics_tolerance_wanted(record);
     FW_TRY(dying(record->problem, z, &dies));
     s->share = fmin(1, amplitude / record->problem->amplitude);
     if (s->share > wanted / 4) s->ringing = fmin(time, log(4 * s->share / wanted) / dies);
@@ -289,7 +289,9 @@ static fw_status ringing(fw_dynamics_recorder *record, const fw_terms *terms, co
 /* the tolerance of the answer */
 static double tolerance(const fw_dynamics_run *r, const char *name) {
     if (r->problem.options->rtol > 0) return r->problem.options->rtol;
-    return fw_pace_start(&r->control, fw_stepper_find(name), fw_pace_wanted(&r->record)).rtol;
+    return fw_dynamics_tolerance_start(&r->control, fw_maths_stepper_find(name),
+                                       fw_dynamics_tolerance_wanted(&r->record))
+        .rtol;
 }
 
 /* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as
@@ -310,8 +312,8 @@ static double explicit_steps(const fw_dynamics_run *r, const spectrum *s, double
     return fmax(30, time * s->slow) * pow(tolerance(r, "dop853") / 1e-7, -0.1);
 }
 
-static fw_status say_choice(fw_dynamics_recorder *record, const spectrum *s, bool stiff,
-                            double stable, double most) {
+static fw_status report_choice(fw_dynamics_recorder *record, const spectrum *s, bool stiff,
+                               double stable, double most) {
     double unit = record->problem->model->scale.time_s;
     bool later = s->touching > s->fast;
     char a[32], b[32], c[32], d[32];
@@ -339,52 +341,52 @@ static fw_status say_choice(fw_dynamics_recorder *record, const spectrum *s, boo
    order 8 are stable up to |eigenvalue| h of about 6 and need about one per radian of the motion
    wanted; those of radau5 pass over fast modes. Right within a factor of 1.5 of the better one on
    the scenes of docs/theory/integrators.md. Test: test_choose.c. */
-static fw_status choose(fw_dynamics_run *r, const fw_terms *terms) {
-    const fw_model *m = r->problem.model;
+static fw_status choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
+    const fw_multibody_model *m = r->problem.model;
     double time = r->problem.scene->duration_s / m->scale.time_s;
     spectrum s;
     double *shape;
     FW_NEED(shape = fw_arena_array(r->problem.arena, double, (size_t)m->nq));
     FW_TRY(fastest(&r->problem, 0, r->problem.start, 1e-6, &s.fast, shape));
     FW_TRY(fastest_in_touch(&r->problem, s.fast, &s.touching));
-    FW_TRY(excited(&r->problem, terms, &s.slow, &s.dying));
-    FW_TRY(ringing(&r->record, terms, shape, time, &s));
+    FW_TRY(excited(&r->problem, loads, &s.slow, &s.dying));
+    FW_TRY(ringing(&r->record, loads, shape, time, &s));
     double most = fmax(s.fast, s.touching);
     if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
-    const price p = prices(&r->record);
+    const cost p = prices(&r->record);
     double stable = time * most / 6, explicit_ = explicit_steps(r, &s, time);
     /* contacts that are open at the start touch for a part of the time: half */
     explicit_ = fmax(explicit_, s.touching > s.fast ? fmax(time * s.fast / 6, stable / 2) : stable);
     double implicit = implicit_steps(r, &s, time);
     bool stiff = implicit * p.implicit < explicit_ * p.explicit_;
-    r->control.integrator = fw_stepper_find(stiff ? "radau5" : "dop853");
+    r->control.integrator = fw_maths_stepper_find(stiff ? "radau5" : "dop853");
     /* what is stiff only later, such as a film that closes, shows in the number of steps; beyond
        300 components a factorisation costs more than any of them */
     r->control.patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
     r->control.stable = stable, r->control.needed = explicit_steps(r, &s, time);
-    r->control.implicit_price = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
-    return say_choice(&r->record, &s, stiff, stable, p.implicit / p.explicit_);
+    r->control.implicit_cost = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
+    return report_choice(&r->record, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
 /* Many steps alone are no sign: a tight tolerance or a fast motion takes them too. Explicit steps
    of order 8 are stable up to |eigenvalue| h of about 6, and their control keeps them between half
    and all of it; steps well below are as short as the tolerance wants them. Source: Hairer and
    Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
-fw_status fw_integrator_stuck(const fw_dynamics_problem *problem, const fw_stepper *s,
-                              bool *stuck) {
+fw_status fw_dynamics_integrator_stuck(const fw_dynamics_problem *problem,
+                                       const fw_maths_stepper *s, bool *stuck) {
     double rate;
     FW_TRY(fastest(problem, s->t, s->y, 1e-6, &rate, NULL));
     *stuck = s->h * rate > 2;
     return FW_OK;
 }
 
-fw_status fw_integrator_change(fw_dynamics_run *r) {
+fw_status fw_dynamics_integrator_change(fw_dynamics_run *r) {
     char steps[32], at[32];
     fw_number_text(steps, sizeof steps, r->control.patience, 2);
     fw_number_text(at, sizeof at, r->control.given_up_s, 3);
-    r->control.integrator = fw_stepper_find("radau5");
+    r->control.integrator = fw_maths_stepper_find("radau5");
     r->record.motion->integrator = r->control.integrator->name;
-    r->control.patience = r->control.implicit_price = 0;
+    r->control.patience = r->control.implicit_cost = 0;
     r->control.given_up_s = (double)NAN;
     FW_NEED(r->record.motion->reason = fw_arena_printf(
                 r->problem.arena,
@@ -394,11 +396,12 @@ fw_status fw_integrator_change(fw_dynamics_run *r) {
     return FW_OK;
 }
 
-fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const char *name) {
+fw_status fw_dynamics_integrator_choose(fw_dynamics_run *r, const fw_effects_loads *loads,
+                                        const char *name) {
     if (!name || strcmp(name, "auto") == 0) {
-        FW_TRY(choose(r, terms));
+        FW_TRY(choose(r, loads));
     } else {
-        r->control.integrator = fw_stepper_find(name);
+        r->control.integrator = fw_maths_stepper_find(name);
         r->record.motion->reason = "asked for";
     }
     r->record.motion->integrator = r->control.integrator->name;
@@ -415,9 +418,9 @@ fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const 
      explicit, before: stability will hold its steps short, needed < stable/2, stable >= 200
      explicit, after:  it did, N < 2 stable and N >= 200, or something else did that nobody saw,
                        N > 5 max(needed, stable) and N >= 60
-     implicit, after:  it took more than explicit steps should cost, max(needed, stable) < N price/2
+     implicit, after:  it took more than explicit steps should cost, max(needed, stable) < N cost/2
 
-   with N steps of the looser run, `needed` and `stable` explicit ones (choose.c), and the price of
+   with N steps of the looser run, `needed` and `stable` explicit ones (choose.c), and the cost of
    an implicit step in explicit ones. Two fifths, because the answer's tolerance, some ten times
    lower, lengthens implicit runs by 10^0.2 to 10^0.25, and those not whose steps stability keeps
    short.
@@ -427,20 +430,24 @@ fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const 
 static const double fw_share = 0.4;
 static const long fw_many = 200, fw_some = 60;
 
-static fw_contest implicit_one(const fw_dynamics_controller *control, double steps) {
-    return (fw_contest){&fw_radau5_row, (long)(fw_share * steps / control->implicit_price)};
+static fw_dynamics_integrator_trial implicit_one(const fw_dynamics_controller *control,
+                                                 double steps) {
+    return (fw_dynamics_integrator_trial){&fw_maths_radau5_row,
+                                          (long)(fw_share * steps / control->implicit_cost)};
 }
 
-fw_contest fw_contest_of(const fw_dynamics_controller *control, long steps) {
-    const fw_contest none = {NULL, 0};
+fw_dynamics_integrator_trial fw_dynamics_integrator_trial_of(const fw_dynamics_controller *control,
+                                                             long steps) {
+    const fw_dynamics_integrator_trial none = {NULL, 0};
     bool watched = control->problem->options->unsettled || control->problem->options->other ||
                    control->problem->sudden;
     double explicit_ = fmax(control->needed, control->stable), n = (double)steps;
-    if (watched || !(control->implicit_price > 0)) return none;
-    if (control->integrator == &fw_radau5_row) {
-        double paid = n * control->implicit_price;
-        return explicit_ < 0.5 * paid ? (fw_contest){&fw_dop853_row, (long)(fw_share * paid)}
-                                      : none;
+    if (watched || !(control->implicit_cost > 0)) return none;
+    if (control->integrator == &fw_maths_radau5_row) {
+        double paid = n * control->implicit_cost;
+        return explicit_ < 0.5 * paid
+                   ? (fw_dynamics_integrator_trial){&fw_maths_dop853_row, (long)(fw_share * paid)}
+                   : none;
     }
     if (steps == 0)
         return control->needed < 0.5 * control->stable && control->stable >= (double)fw_many
@@ -451,8 +458,8 @@ fw_contest fw_contest_of(const fw_dynamics_controller *control, long steps) {
     return held || unseen ? implicit_one(control, n) : none;
 }
 
-fw_status fw_contest_won(fw_dynamics_run *r, long before, long steps) {
-    bool implicit = r->control.integrator == &fw_radau5_row;
+fw_status fw_dynamics_integrator_trial_won(fw_dynamics_run *r, long before, long steps) {
+    bool implicit = r->control.integrator == &fw_maths_radau5_row;
     const char *names[2] = {"explicit", "implicit"};
     FW_NEED(r->record.motion->reason = fw_arena_printf(
                 r->problem.arena,
@@ -460,8 +467,8 @@ fw_status fw_contest_won(fw_dynamics_run *r, long before, long steps) {
                 "explicit ones)",
                 names[!implicit], before > 0 ? "take" : "would take",
                 before > 0 ? before : (long)r->control.stable, names[implicit], steps,
-                r->control.implicit_price));
+                r->control.implicit_cost));
     r->record.motion->integrator = r->control.integrator->name;
-    r->control.patience = r->control.implicit_price = 0; /* that is the last word */
+    r->control.patience = r->control.implicit_cost = 0; /* that is the last word */
     return FW_OK;
 }

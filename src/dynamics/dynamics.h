@@ -8,23 +8,23 @@
 #define FW_DYNAMICS_DYNAMICS_H
 #include "multibody/multibody.h"
 
-typedef struct fw_instant { /* the mechanism at one time, on the dense output */
+typedef struct fw_dynamics_instant { /* the mechanism at one time, on the dense output */
     double t_s;
     const double *q;          /* (3 nbody) m, rad */
     const double *angle_rad;  /* (npin) */
     const double *reaction_N; /* (2 npin) on body b, world axes */
     bool begins; /* a smooth piece begins here: forces may have jumped since the last instant, whose
                     time may be the same */
-    fw_hinge_model hinge; /* how the hinges are taken in this run */
-} fw_instant;
+    fw_effects_hinge_model hinge; /* how the hinges are taken in this run */
+} fw_dynamics_instant;
 /* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
    NULL when the run starts (over, with a tighter tolerance) */
-typedef void (*fw_observer)(void *context, const fw_instant *instant);
+typedef void (*fw_dynamics_observer)(void *context, const fw_dynamics_instant *instant);
 enum { FW_INSTANTS = 12 };
 
-typedef struct fw_motion_options {
-    const char *method;     /* a name of fw_method_at; NULL: chain */
-    const char *integrator; /* a name of fw_integrator_at; NULL: auto */
+typedef struct fw_dynamics_motion_options {
+    const char *method;     /* a name of fw_multibody_method_at; NULL: chain */
+    const char *integrator; /* a name of fw_dynamics_integrator_at; NULL: auto */
     const char *stabilise;  /* "projection" (NULL), "baumgarte", "none" */
     double rtol;            /* relative tolerance of the integrator; 0: from `accuracy` */
     double accuracy;        /* relative error wanted on the peak hinge deflection; default 1e-3 */
@@ -42,37 +42,40 @@ typedef struct fw_motion_options {
     double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
     long most_beams; /* auto takes exact beams only where the motion with the model before asked for
                         the forces of hinges no more often than this; 0: however often */
-    bool within_limits;  /* where hinges turn beyond their elastic limit auto takes no better model
+    bool within_limits; /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
-    fw_observer observe; /* NULL: nobody looks */
+    fw_dynamics_observer observe; /* NULL: nobody looks */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */
-    /* margin (fw_motion_stats.estimate_margin) times what observers of the two runs saw
+    /* margin (fw_dynamics_motion_stats.estimate_margin) times what observers of the two runs saw
        differently, over what would be near enough: above 1 the tolerance is tightened, by so much.
        NULL: 0 */
     double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
-} fw_motion_options;
+} fw_dynamics_motion_options;
 
-typedef struct fw_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
-    double angle_rad;    /* with its sign */
+typedef struct
+    fw_dynamics_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
+    double angle_rad;  /* with its sign */
     double t_s;
     double error_rad; /* estimate, >= 0: of the numbers, and what auto left out */
-} fw_peak;
+} fw_dynamics_peak;
 
-typedef struct fw_force_peak { /* per joint or driver: largest force and torque that it exerts */
+typedef struct
+    fw_dynamics_force_peak { /* per joint or driver: largest force and torque that it exerts */
     double force_N, t_s, error_N;
     /* of prismatic joints and welds, about their point b; of drivers that turn. Else 0 */
     double torque_Nm, torque_t_s, torque_error_Nm;
-} fw_force_peak;
+} fw_dynamics_force_peak;
 
-typedef struct fw_travel_peak { /* per prismatic joint: extreme of |distance along the axis - free
+typedef struct
+    fw_dynamics_travel_peak { /* per prismatic joint: extreme of |distance along the axis - free
                                    length| */
-    double travel_m;            /* with its sign */
+    double travel_m;          /* with its sign */
     double t_s, error_m;
-} fw_travel_peak;
+} fw_dynamics_travel_peak;
 
-typedef struct fw_motion_stats {
+typedef struct fw_dynamics_motion_stats {
     long steps, rejected, rhs, projections;
     long events; /* stops and cables that took hold or let go, blows of drivers */
     long jacobians, factorisations; /* of implicit integrators */
@@ -88,12 +91,12 @@ typedef struct fw_motion_stats {
     double estimate_margin;  /* times what two runs differ by: their error. 0: there was one run */
     double estimate_cpu_s; /* of all other runs: for the estimate, and those that were not enough */
     double looser_rtol;    /* of the run that was compared with; 0: none */
-    int runs;              /* that were made in all; 1 for a row of equilibria */
+    int runs;              /* that were made in all; 1 for a sequence of equilibria */
     long all_steps, all_rhs; /* of them */
-} fw_motion_stats;
+} fw_dynamics_motion_stats;
 
-typedef struct fw_motion {
-    int nbody, npin, ntie, ndriver, nsample;
+typedef struct fw_dynamics_motion {
+    int nbody, npin, njoint, ndriver, nsample;
     double *t_s;        /* (nsample) */
     double *q;          /* (nsample x 3 nbody) x, y, phi in m and rad */
     double *v;          /* (nsample x 3 nbody) */
@@ -101,17 +104,18 @@ typedef struct fw_motion {
     double *angle_rad;  /* (nsample x npin) phi_b - phi_a - free angle */
     double *reaction_N; /* (nsample x 2 npin) force of the pin on body b (ground: on the ground),
                            world axes, without the springs' torque */
-    double *tie_N;    /* (nsample x 3 ntie) force on body b, torque on it about its point b (N m) */
-    double *driver_N; /* (nsample x ndriver) N or N m along the driven coordinate */
-    fw_peak *peak;    /* (npin) */
-    /* energies asked for, else NULL, as of a row of equilibria */
+    double
+        *joint_N; /* (nsample x 3 njoint) force on body b, torque on it about its point b (N m) */
+    double *driver_N;       /* (nsample x ndriver) N or N m along the driven coordinate */
+    fw_dynamics_peak *peak; /* (npin) */
+    /* energies asked for, else NULL, as of a sequence of equilibria */
     double *energy_J;        /* (nsample x 4) kinetic, potential, dissipated, work: the first three
                                 less the last one stay what they are */
     double *constraint_norm; /* (nsample) |Psi| over the scene's length */
     /* when asked for, else NULL */
-    fw_force_peak *force_peak, *tie_peak, *driver_peak; /* (npin) (ntie) (ndriver) */
-    fw_travel_peak *travel_peak;                        /* (ntie) 0 for what is not prismatic */
-    fw_motion_stats stats;
+    fw_dynamics_force_peak *force_peak, *joint_peak, *driver_peak; /* (npin) (njoint) (ndriver) */
+    fw_dynamics_travel_peak *travel_peak; /* (njoint) 0 for what is not prismatic */
+    fw_dynamics_motion_stats stats;
     fw_effect_ledger ledger;
     bool ended;                      /* by most_angle_rad, before the scene's end */
     double end_s;                    /* the scene's duration, or where it was ended */
@@ -121,35 +125,40 @@ typedef struct fw_motion {
     const char *tolerance;                 /* how the tolerance was found: a sentence */
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
-                                  a row of equilibria has no such run) */
-    const fw_terms *terms;     /* what acted, for those who look at it again */
-    const struct fw_level_step *level; /* statics/level.h; NULL: not looked for, or no hinges */
-} fw_motion;
+                                  a sequence of equilibria has no such run) */
+    const fw_effects_loads *loads; /* what acted, for those who look at it again */
+    const struct fw_statics_level_step
+        *level; /* statics/level.h; NULL: not looked for, or no hinges */
+} fw_dynamics_motion;
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.
  */
-fw_status fw_simulate(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                      const fw_motion_options *options, fw_diags *diags, const fw_motion **motion);
+fw_status fw_dynamics_simulate(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene,
+                               const fw_dynamics_motion_options *options, fw_diags *diags,
+                               const fw_dynamics_motion **motion);
 
 /* the same with effects that were compiled before (statics/quasi.h decides between the two kinds of
    motion by them) */
-fw_status fw_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_scene *scene, const fw_motion_options *options,
-                               const fw_effect_ledger *ledger, const fw_terms *terms,
-                               fw_diags *diags, const fw_motion **motion);
+fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mechanism,
+                                        const fw_device_scene *scene,
+                                        const fw_dynamics_motion_options *options,
+                                        const fw_effect_ledger *ledger,
+                                        const fw_effects_loads *loads, fw_diags *diags,
+                                        const fw_dynamics_motion **motion);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
-double fw_motion_left_out(const fw_motion *motion);
+double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
 /* estimated relative error of the largest deflection, what was left out included; 0: nothing moves
  */
-double fw_motion_estimated(const fw_motion *motion);
+double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion);
 /* puts it there; ends either kind of motion, once */
-void fw_motion_widen(fw_motion *motion);
+void fw_dynamics_motion_widen(fw_dynamics_motion *motion);
 /* what both check first: numbers, names of methods, mechanism and scene */
-fw_status fw_check_request(const fw_mechanism *mechanism, const fw_scene *scene,
-                           const fw_motion_options *options, fw_diags *diags);
+fw_status fw_dynamics_check_request(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                    const fw_dynamics_motion_options *options, fw_diags *diags);
 
 /* the i-th one; name NULL behind the last */
-fw_method_row fw_integrator_at(size_t i);
-fw_method_row fw_stabilisation_at(size_t i);
+fw_multibody_method_row fw_dynamics_integrator_at(size_t i);
+fw_multibody_method_row fw_dynamics_stabilisation_at(size_t i);
 
 #endif

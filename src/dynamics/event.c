@@ -2,7 +2,8 @@
 /* The first event of a step: where a stop, a cable, a switch of an element or the state of a joint
    with friction no longer fits its flag. Looked for on the dense output at FW_PLACES + 1 places,
    and between them wherever a touch may be shorter than their spacing; found to round-off. Entries
-   are numbered as fw_model_switches has them, then the joints with friction. Test: test_events.c,
+   are numbered as fw_multibody_model_switches has them, then the joints with friction. Test:
+   test_events.c,
    test_friction.c. */
 #include "dynamics/run.h"
 #include <float.h>
@@ -10,43 +11,46 @@
 #include <string.h>
 
 /* r->moved at theta, posed; returns the time */
-static double stand_at(fw_dynamics_controller *control, fw_stepper *s, double theta) {
-    fw_stepper_dense(s, theta, control->moved);
-    fw_model_at(control->problem->model, s->t_old + theta * s->h);
-    fw_model_pose(control->problem->model, control->moved);
+static double stand_at(fw_dynamics_controller *control, fw_maths_stepper *s, double theta) {
+    fw_maths_stepper_dense(s, theta, control->moved);
+    fw_multibody_model_at(control->problem->model, s->t_old + theta * s->h);
+    fw_multibody_model_pose(control->problem->model, control->moved);
     return s->t_old + theta * s->h;
 }
 
 /* how well switch i fits its flag: >= 0 fits, its value with the sign of the flag */
 static double fitting(const fw_dynamics_problem *problem, int i, double value) {
-    if (fw_model_switch_on(problem->model, i)) return value > 0 ? value : fmin(value, -DBL_MIN);
+    if (fw_multibody_model_switch_on(problem->model, i))
+        return value > 0 ? value : fmin(value, -DBL_MIN);
     return value > 0 ? -value : fabs(value);
 }
 
-static double fitness(fw_dynamics_controller *control, fw_stepper *s, int i, double theta) {
+static double fitness(fw_dynamics_controller *control, fw_maths_stepper *s, int i, double theta) {
     double t = stand_at(control, s, theta);
-    int friction = i - fw_model_switches(control->problem->model);
+    int friction = i - fw_multibody_model_switches(control->problem->model);
     if (friction < 0)
-        return fitting(control->problem, i,
-                       fw_model_switch_value(control->problem->model, t, i, control->moved));
-    fw_friction_fits(control->problem->model, t, control->moved, control->friction_fit);
+        return fitting(
+            control->problem, i,
+            fw_multibody_model_switch_value(control->problem->model, t, i, control->moved));
+    fw_multibody_friction_fits(control->problem->model, t, control->moved, control->friction_fit);
     return control->friction_fit[friction];
 }
 
 /* of all entries at place k, which share their evaluations */
-static void look_at_place(fw_dynamics_controller *control, fw_stepper *s, int k, double *f) {
-    fw_model *m = control->problem->model;
-    int switches = fw_model_switches(m);
+static void look_at_place(fw_dynamics_controller *control, fw_maths_stepper *s, int k, double *f) {
+    fw_multibody_model *m = control->problem->model;
+    int switches = fw_multibody_model_switches(m);
     double t = stand_at(control, s, (double)k / FW_PLACES);
-    fw_model_switch_values(m, t, control->moved, f);
+    fw_multibody_model_switch_values(m, t, control->moved, f);
     for (int i = 0; i < switches; i++)
         f[i] = fitting(control->problem, i, f[i]);
-    if (fw_friction_count(m) > 0) fw_friction_fits(m, t, control->moved, f + switches);
+    if (fw_multibody_friction_count(m) > 0)
+        fw_multibody_friction_fits(m, t, control->moved, f + switches);
 }
 
 /* first place in (low, high] where entry i does not fit, given that it does at low and not at
    high; to round-off of theta, from above */
-static double bisect(fw_dynamics_controller *control, fw_stepper *s, int i, double low,
+static double bisect(fw_dynamics_controller *control, fw_maths_stepper *s, int i, double low,
                      double high) {
     for (int k = 0; k < 52 && high - low > 1e-15; k++) {
         double middle = 0.5 * (low + high);
@@ -57,7 +61,8 @@ static double bisect(fw_dynamics_controller *control, fw_stepper *s, int i, doub
 
 /* a place in (low, high) where entry i does not fit, though it does at both ends: the least fit
    one, by golden section; NaN when it fits there too. Finds a touch shorter than the spacing. */
-static double dip(fw_dynamics_controller *control, fw_stepper *s, int i, double low, double high) {
+static double dip(fw_dynamics_controller *control, fw_maths_stepper *s, int i, double low,
+                  double high) {
     const double golden = 0.6180339887498949;
     double x = high - golden * (high - low), y = low + golden * (high - low);
     double fx = fitness(control, s, i, x), fy = fitness(control, s, i, y);
@@ -75,7 +80,7 @@ static double dip(fw_dynamics_controller *control, fw_stepper *s, int i, double 
 
 /* does entry i, which fits least at an end of the step (f: there, beside it, and beyond), become
    less fit on its way in, so far that a parabola through the three may reach below 0? */
-static bool dips_at_end(fw_dynamics_controller *control, fw_stepper *s, int i, double f,
+static bool dips_at_end(fw_dynamics_controller *control, fw_maths_stepper *s, int i, double f,
                         double beside, double beyond, double theta, double inward) {
     if (!(f >= 0 && f <= beside && 2 * f <= f - 2 * beside + beyond)) return false;
     return fitness(control, s, i, theta + 1e-3 * inward) < f;
@@ -84,7 +89,8 @@ static bool dips_at_end(fw_dynamics_controller *control, fw_stepper *s, int i, d
 /* first place up to place k of the step where entry i does not fit, though it did up to k - 1: by
    its fitness f at the places so far, between any three of which the middle one is least and so
    small that a parabola through them may reach below 0, and at the ends of the step. NaN: none */
-static double first_unfit(fw_dynamics_controller *control, fw_stepper *s, int i, int count, int k) {
+static double first_unfit(fw_dynamics_controller *control, fw_maths_stepper *s, int i, int count,
+                          int k) {
     const double part = 1.0 / FW_PLACES;
     const double *f = control->fit + (size_t)k * (size_t)count + i;
     if (k == 0) return (double)NAN;
@@ -105,12 +111,12 @@ static double first_unfit(fw_dynamics_controller *control, fw_stepper *s, int i,
 }
 
 /* What is found at the next place lies beyond the place before this one. */
-fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_stepper *s) {
-    fw_model *m = control->problem->model;
-    int count = fw_model_switches(m) + fw_friction_count(m);
+fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_maths_stepper *s) {
+    fw_multibody_model *m = control->problem->model;
+    int count = fw_multibody_model_switches(m) + fw_multibody_friction_count(m);
     fw_dynamics_event first = {.which = -1, .theta = 1};
     if (count == 0) return first;
-    fw_friction_watch(m, s->y);
+    fw_multibody_friction_track(m, s->y);
     memset(control->unfit, 0, (size_t)count * sizeof *control->unfit);
     for (int k = 0; k <= FW_PLACES; k++) {
         if (first.which >= 0 && first.theta <= (k - 2.0) / FW_PLACES) break;
@@ -135,12 +141,12 @@ enum { MOST_AIMS = 3 };
 /* of a step: dense output is off by the square of it there; less than a touch that matters lasts */
 static const double fw_near = 1e-3, fw_behind = 1e-6;
 
-static bool worth_an_aim(const fw_stepper *s, fw_dynamics_event event) {
+static bool worth_an_aim(const fw_maths_stepper *s, fw_dynamics_event event) {
     return event.which >= 0 && !s->row->variable_order && event.theta >= fw_near &&
            event.theta <= 1 - fw_near;
 }
 
-bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_stepper *s,
+bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_maths_stepper *s,
                            fw_dynamics_event event) {
     double h = s->h, target = s->t_old + (1 + fw_behind) * event.theta * h, end = s->t_end;
     /* it may come and go with the step */
@@ -149,31 +155,31 @@ bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_stepper *s,
         return false;
     }
     memcpy(control->moved, s->y_old, (size_t)control->problem->model->ny * sizeof *control->moved);
-    fw_run_start(control, s, s->t_old, control->moved, fmin(target, end));
+    fw_dynamics_run_start(control, s, s->t_old, control->moved, fmin(target, end));
     s->h_next = fmin(h, s->t_end - s->t); /* has been accepted already */
     return true;
 }
 
-bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_stepper *s, fw_dynamics_event event,
-                            double end) {
-    fw_model *m = control->problem->model;
+bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_maths_stepper *s,
+                            fw_dynamics_event event, double end) {
+    fw_multibody_model *m = control->problem->model;
     double t = s->t_old + event.theta * s->h, *y = control->moved;
-    int friction = event.which - fw_model_switches(m);
-    fw_stepper_dense(s, event.theta, y);
-    fw_model_at(m, t);
+    int friction = event.which - fw_multibody_model_switches(m);
+    fw_maths_stepper_dense(s, event.theta, y);
+    fw_multibody_model_at(m, t);
     if (friction < 0)
-        fw_model_flip(m, t, event.which, y);
+        fw_multibody_model_flip(m, t, event.which, y);
     else
-        fw_friction_meet(m, friction);
+        fw_multibody_friction_meet(m, friction);
     if (m->projecting) {
-        fw_model_pose(m, y);
-        if (!m->method->factor(m) || !fw_model_project_position(m, t, y) || !m->method->factor(m) ||
-            !fw_model_project_velocity(m, t, y + m->nq))
+        fw_multibody_model_pose(m, y);
+        if (!m->method->factor(m) || !fw_multibody_model_project_position(m, t, y) ||
+            !m->method->factor(m) || !fw_multibody_model_project_velocity(m, t, y + m->nq))
             return false;
     }
-    if (!fw_friction_decide(m, t, y)) return false;
-    fw_kinks_forget(control);
-    fw_run_start(control, s, t, y, end);
+    if (!fw_multibody_friction_decide(m, t, y)) return false;
+    fw_dynamics_near_zero_forget(control);
+    fw_dynamics_run_start(control, s, t, y, end);
     return true;
 }
 
@@ -184,12 +190,13 @@ bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_stepper *s, fw_d
 enum { PATIENT = 3 };
 
 fw_dynamics_event fw_dynamics_event_unless_idle(const fw_dynamics_controller *control,
-                                                const fw_stepper *s, fw_dynamics_event event) {
+                                                const fw_maths_stepper *s,
+                                                fw_dynamics_event event) {
     bool left_alone = control->nudge > 0 && s->t - s->t_old <= 1.5 * control->nudge;
     return left_alone ? (fw_dynamics_event){.which = -1, .theta = 1} : event;
 }
 
-void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_stepper *s,
+void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_maths_stepper *s,
                                  fw_dynamics_event event, bool changed, double end) {
     const double final = fw_dynamics_end(control->problem);
     bool went_on = event.which < 0 && s->t - s->t_old > 1.5 * control->nudge;
@@ -197,5 +204,5 @@ void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_stepper *s,
     if (event.which < 0 || changed || ++control->idle < PATIENT) return;
     control->nudge = fmin(1e-6 * final, fmax(2 * control->nudge, 32 * DBL_EPSILON * final));
     if (s->t + control->nudge < end)
-        fw_run_start(control, s, s->t, control->moved, s->t + control->nudge);
+        fw_dynamics_run_start(control, s, s->t, control->moved, s->t + control->nudge);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Extremes of joint forces, of the torques of ties and drivers, and of travels, along the dense
-   output. Each is one channel: forces of pins, then forces, torques and travels of ties, then
+/* Extremes of joint forces, of the torques of joints and drivers, and of travels, along the dense
+   output. Each is one channel: forces of pins, then forces, torques and travels of joints, then
    drivers. */
 #include "dynamics/run.h"
 #include "base/constants.h"
@@ -11,61 +11,64 @@
 enum { GRID = FW_GRID };
 typedef enum measure { FORCE, TORQUE, TRAVEL } measure;
 
-int fw_run_channels(const fw_dynamics_problem *problem) {
+int fw_dynamics_run_channels(const fw_dynamics_problem *problem) {
     const fw_mechanism *m = problem->mechanism;
-    return m->npin + 3 * m->ntie + m->ndriver;
+    return m->npin + 3 * m->njoint + m->ndriver;
 }
 
-fw_status fw_run_extremes_new(fw_dynamics_recorder *record) {
+fw_status fw_dynamics_run_extremes_new(fw_dynamics_recorder *record) {
     const fw_mechanism *from = record->problem->mechanism;
-    size_t pins = (size_t)from->npin, ties = (size_t)from->ntie, drivers = (size_t)from->ndriver;
-    size_t channels = (size_t)fw_run_channels(record->problem);
-    fw_motion *m = record->motion;
+    size_t pins = (size_t)from->npin, joints = (size_t)from->njoint,
+           drivers = (size_t)from->ndriver;
+    size_t channels = (size_t)fw_dynamics_run_channels(record->problem);
+    fw_dynamics_motion *m = record->motion;
     FW_NEED(record->channel_now = fw_arena_array(record->problem->arena, double, channels));
     FW_NEED(record->channel_grid =
                 fw_arena_array(record->problem->arena, double, (GRID + 1) * channels));
     FW_NEED(record->pin_now = fw_arena_array(record->problem->arena, double, 2 * pins));
-    FW_NEED(record->tie_now = fw_arena_array(record->problem->arena, double, 3 * ties));
-    FW_NEED(m->force_peak = fw_arena_array(record->problem->arena, fw_force_peak, pins));
-    FW_NEED(m->tie_peak = fw_arena_array(record->problem->arena, fw_force_peak, ties));
-    FW_NEED(m->driver_peak = fw_arena_array(record->problem->arena, fw_force_peak, drivers));
-    FW_NEED(m->travel_peak = fw_arena_array(record->problem->arena, fw_travel_peak, ties));
+    FW_NEED(record->joint_now = fw_arena_array(record->problem->arena, double, 3 * joints));
+    FW_NEED(m->force_peak = fw_arena_array(record->problem->arena, fw_dynamics_force_peak, pins));
+    FW_NEED(m->joint_peak = fw_arena_array(record->problem->arena, fw_dynamics_force_peak, joints));
+    FW_NEED(m->driver_peak =
+                fw_arena_array(record->problem->arena, fw_dynamics_force_peak, drivers));
+    FW_NEED(m->travel_peak =
+                fw_arena_array(record->problem->arena, fw_dynamics_travel_peak, joints));
     return FW_OK;
 }
 
 /* ---- along a step ---- */
 
 /* all channels at theta; distances of prismatic joints are those of the state as integrated */
-static void channels_at(fw_dynamics_recorder *record, fw_stepper *s, double theta) {
-    fw_model *m = record->problem->model;
+static void channels_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta) {
+    fw_multibody_model *m = record->problem->model;
     const fw_mechanism *from = record->problem->mechanism;
-    fw_stepper_dense(s, theta, record->state);
-    fw_model_react(m, s->t_old + theta * s->h, record->state, record->rate);
-    double *force = record->channel_now, *torque = force + m->npin + m->ntie,
-           *travel = torque + m->ntie;
-    fw_pin_forces(m, record->pin_now);
-    fw_tie_forces(m, from, record->tie_now, travel + m->ntie);
+    fw_maths_stepper_dense(s, theta, record->state);
+    fw_multibody_model_react(m, s->t_old + theta * s->h, record->state, record->rate);
+    double *force = record->channel_now, *torque = force + m->npin + m->njoint,
+           *travel = torque + m->njoint;
+    fw_multibody_pin_forces(m, record->pin_now);
+    fw_multibody_joint_forces(m, from, record->joint_now, travel + m->njoint);
     for (int i = 0; i < m->npin; i++)
         force[i] = hypot(record->pin_now[2 * i], record->pin_now[2 * i + 1]);
-    for (int i = 0; i < m->ntie; i++) {
+    for (int i = 0; i < m->njoint; i++) {
         double d[2], e[2], n[2];
-        force[m->npin + i] = hypot(record->tie_now[3 * i], record->tie_now[3 * i + 1]);
-        torque[i] = from->tie[i].kind == FW_TIE_DISTANCE ? 0 : record->tie_now[3 * i + 2];
+        force[m->npin + i] = hypot(record->joint_now[3 * i], record->joint_now[3 * i + 1]);
+        torque[i] = from->joint[i].kind == FW_JOINT_DISTANCE ? 0 : record->joint_now[3 * i + 2];
         travel[i] = 0;
-        if (from->tie[i].kind != FW_TIE_PRISMATIC) continue;
-        fw_model_frame(m, m->tie_block[i], record->state, d, e, n);
-        travel[i] = (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->tie[i].free_length_m;
+        if (from->joint[i].kind != FW_JOINT_PRISMATIC) continue;
+        fw_multibody_model_frame(m, m->joint_block[i], record->state, d, e, n);
+        travel[i] = (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->joint[i].free_length_m;
     }
 }
 
-static void offer(fw_extreme *extreme, double value, double t) {
+static void offer(fw_dynamics_extreme *extreme, double value, double t) {
     if (fabs(value) > fabs(extreme->value)) extreme->value = value, extreme->t = t;
 }
 
 /* Chebyshev-Lobatto points of the way to theta_end: a polynomial through values there does not
    swing. Where a method's interpolated states would be multiplied with large stiffnesses, its own
    ones: the polynomial is then one of forces, which are smooth. */
-void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *g) {
+void fw_dynamics_run_places(const fw_maths_stepper *s, double theta_end, fw_dynamics_grid *g) {
     double own[FW_ODE_OWN];
     int count = s->row->own ? s->row->own(s, own) : 0;
     g->last = count > 0 ? 0 : GRID;
@@ -88,7 +91,8 @@ void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *g) {
 /* the polynomial through one channel at the places (a column of values), by the barycentric
    formula; its error at nine places in a step of one radian is some 1e-10. Source: Berrut and
    Trefethen 2004. */
-double fw_run_between(const fw_grid *g, const double *column, int stride, double x) {
+double fw_dynamics_run_between(const fw_dynamics_grid *g, const double *column, int stride,
+                               double x) {
     double above = 0, below = 0;
     for (int k = 0; k <= g->last; k++) {
         double distance = x - g->at[k];
@@ -100,18 +104,19 @@ double fw_run_between(const fw_grid *g, const double *column, int stride, double
 }
 
 /* extreme of that polynomial between two places, by golden section; evaluates nothing else */
-static double highest(const fw_grid *g, const double *column, int stride, double a, double b,
-                      double *at) {
+static double highest(const fw_dynamics_grid *g, const double *column, int stride, double a,
+                      double b, double *at) {
     const double golden = 0.6180339887498949;
     double x = b - golden * (b - a), y = a + golden * (b - a);
-    double fx = fw_run_between(g, column, stride, x), fy = fw_run_between(g, column, stride, y);
+    double fx = fw_dynamics_run_between(g, column, stride, x),
+           fy = fw_dynamics_run_between(g, column, stride, y);
     for (int i = 0; i < 40 && b - a > 1e-8; i++) {
         if (fabs(fx) > fabs(fy)) {
             b = y, y = x, fy = fx, x = b - golden * (b - a);
-            fx = fw_run_between(g, column, stride, x);
+            fx = fw_dynamics_run_between(g, column, stride, x);
         } else {
             a = x, x = y, fx = fy, y = a + golden * (b - a);
-            fy = fw_run_between(g, column, stride, y);
+            fy = fw_dynamics_run_between(g, column, stride, y);
         }
     }
     bool first = fabs(fx) > fabs(fy);
@@ -122,7 +127,7 @@ static double highest(const fw_grid *g, const double *column, int stride, double
 /* cells [*low, *high] around the largest of the places, if they may hide a larger one: next to an
    end of the step the polynomial must rise inwards. A parabola rises above the middle of three
    places by less than its bend. */
-static bool worth_a_search(const fw_grid *g, const double *column, int count, int best,
+static bool worth_a_search(const fw_dynamics_grid *g, const double *column, int count, int best,
                            double so_far, int *low, int *high) {
     int inwards = best == 0 ? 1 : best == g->last ? -1 : 0, middle = best + inwards;
     double f[3], top = fabs(column[best * count]);
@@ -132,18 +137,18 @@ static bool worth_a_search(const fw_grid *g, const double *column, int count, in
     double bend = fabs(f[0] - 2 * f[1] + f[2]), near = 0.75 * g->at[best] + 0.25 * g->at[middle];
     *low = best > 0 ? best - 1 : 0, *high = best < g->last ? best + 1 : g->last;
     if (!(bend > 0 && top + bend >= so_far)) return false;
-    return !inwards || fabs(fw_run_between(g, column, count, near)) > top;
+    return !inwards || fabs(fw_dynamics_run_between(g, column, count, near)) > top;
 }
 
 /* every channel at the places of the step; where the largest of them comes near the extreme so
    far, its maximum is searched. Cost up to nine evaluations per step, whatever the number of
    joints. */
-void fw_run_extremes(fw_dynamics_recorder *record, fw_stepper *s, double theta_end) {
+void fw_dynamics_run_extremes(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     if (!record->extreme) return;
-    int count = fw_run_channels(record->problem), low, high;
+    int count = fw_dynamics_run_channels(record->problem), low, high;
     double *value = record->channel_grid, span = theta_end * s->h, at;
-    fw_grid g;
-    fw_run_places(s, theta_end, &g);
+    fw_dynamics_grid g;
+    fw_dynamics_run_places(s, theta_end, &g);
     for (int k = 0; k <= g.last; k++) {
         channels_at(record, s, theta_end * g.at[k]);
         for (int i = 0; i < count; i++)
@@ -166,14 +171,14 @@ void fw_run_extremes(fw_dynamics_recorder *record, fw_stepper *s, double theta_e
 /* ---- results ---- */
 
 static measure measure_of(const fw_mechanism *m, int channel) {
-    if (channel < m->npin + m->ntie) return FORCE;
-    if (channel < m->npin + 2 * m->ntie) return TORQUE;
-    if (channel < m->npin + 3 * m->ntie) return TRAVEL;
-    return m->driver[channel - m->npin - 3 * m->ntie].joint != FW_NONE ? TORQUE : FORCE;
+    if (channel < m->npin + m->njoint) return FORCE;
+    if (channel < m->npin + 2 * m->njoint) return TORQUE;
+    if (channel < m->npin + 3 * m->njoint) return TRAVEL;
+    return m->driver[channel - m->npin - 3 * m->njoint].revolute != FW_NONE ? TORQUE : FORCE;
 }
 
-static void put_force(fw_force_peak *to, const fw_extreme *from, measure kind, double unit,
-                      double error) {
+static void put_force(fw_dynamics_force_peak *to, const fw_dynamics_extreme *from, measure kind,
+                      double unit, double error) {
     if (kind == FORCE)
         to->force_N = fabs(from->value), to->t_s = from->t * unit, to->error_N = error;
     else
@@ -183,39 +188,42 @@ static void put_force(fw_force_peak *to, const fw_extreme *from, measure kind, d
 
 /* error of each: the largest change of any of its kind from the looser run, at the end too, since
    one number may agree by chance; what the energy balance is off by; and round-off. As for the
-   angles in simulate.c. */
-void fw_run_take_extremes(fw_dynamics_recorder *record, double margin, const fw_extreme *fine,
-                          const fw_extreme *coarse, double doubt, long steps) {
+   angles in dynamics_simulate.c. */
+void fw_dynamics_run_take_extremes(fw_dynamics_recorder *record, double margin,
+                                   const fw_dynamics_extreme *fine,
+                                   const fw_dynamics_extreme *coarse, double uncertainty,
+                                   long steps) {
     const fw_mechanism *m = record->problem->mechanism;
-    fw_motion *out = record->motion;
+    fw_dynamics_motion *out = record->motion;
     const double length = record->problem->model->scale.length_m,
-                 newton = fw_newton(record->problem->model);
+                 newton = fw_multibody_newton(record->problem->model);
     const double unit_of[3] = {newton, newton * length, length}; /* FORCE, TORQUE, TRAVEL */
     double change[3] = {0}, unit = record->problem->model->scale.time_s;
-    for (int i = 0; i < fw_run_channels(record->problem); i++) {
+    for (int i = 0; i < fw_dynamics_run_channels(record->problem); i++) {
         double *most = &change[measure_of(m, i)];
         *most = fmax(*most, fabs(fabs(fine[i].value) - fabs(coarse[i].value)));
         *most = fmax(*most, fabs(fine[i].end - coarse[i].end));
     }
-    for (int i = 0; i < fw_run_channels(record->problem); i++) {
+    for (int i = 0; i < fw_dynamics_run_channels(record->problem); i++) {
         measure kind = measure_of(m, i);
-        double books = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
-        double error = margin * change[kind] + books * fabs(fine[i].value) + doubt * unit_of[kind];
+        double energy_balance = out->stats.energy_error + DBL_EPSILON * (double)(8 + steps);
+        double error = margin * change[kind] + energy_balance * fabs(fine[i].value) +
+                       uncertainty * unit_of[kind];
         if (i < m->npin)
             put_force(&out->force_peak[i], &fine[i], kind, unit, error);
-        else if (i >= m->npin + 3 * m->ntie)
-            put_force(&out->driver_peak[i - m->npin - 3 * m->ntie], &fine[i], kind, unit, error);
+        else if (i >= m->npin + 3 * m->njoint)
+            put_force(&out->driver_peak[i - m->npin - 3 * m->njoint], &fine[i], kind, unit, error);
         else if (kind != TRAVEL) {
             bool none = kind == TORQUE && fine[i].value == 0;
-            put_force(&out->tie_peak[(i - m->npin) % m->ntie], &fine[i], kind, unit,
+            put_force(&out->joint_peak[(i - m->npin) % m->njoint], &fine[i], kind, unit,
                       none ? 0 : error);
-        } else if (m->tie[(i - m->npin) % m->ntie].kind == FW_TIE_PRISMATIC)
-            out->travel_peak[(i - m->npin) % m->ntie] =
-                (fw_travel_peak){fine[i].value, fine[i].t * unit, error};
+        } else if (m->joint[(i - m->npin) % m->njoint].kind == FW_JOINT_PRISMATIC)
+            out->travel_peak[(i - m->npin) % m->njoint] =
+                (fw_dynamics_travel_peak){fine[i].value, fine[i].t * unit, error};
     }
 }
 
-static void widen(const fw_force_peak *p, int count, double most[3], double off[3]) {
+static void widen(const fw_dynamics_force_peak *p, int count, double most[3], double off[3]) {
     for (int i = 0; i < count; i++) {
         most[FORCE] = fmax(most[FORCE], p[i].force_N);
         most[TORQUE] = fmax(most[TORQUE], p[i].torque_Nm);
@@ -225,13 +233,13 @@ static void widen(const fw_force_peak *p, int count, double most[3], double off[
 }
 
 /* torques that are small beside force times the scene's length count with those, and the reverse */
-double fw_run_extremes_off(const fw_dynamics_recorder *record) {
-    const fw_motion *m = record->motion;
+double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record) {
+    const fw_dynamics_motion *m = record->motion;
     double most[3] = {0}, off[3] = {0}, length = record->problem->model->scale.length_m;
     widen(m->force_peak, m->npin, most, off);
-    widen(m->tie_peak, m->ntie, most, off);
+    widen(m->joint_peak, m->njoint, most, off);
     widen(m->driver_peak, m->ndriver, most, off);
-    for (int i = 0; i < m->ntie; i++) {
+    for (int i = 0; i < m->njoint; i++) {
         most[TRAVEL] = fmax(most[TRAVEL], fabs(m->travel_peak[i].travel_m));
         off[TRAVEL] = fmax(off[TRAVEL], m->travel_peak[i].error_m);
     }

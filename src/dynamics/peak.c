@@ -4,28 +4,28 @@
 #include <math.h>
 #include <string.h>
 
-fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
-                       fw_peaks *peaks) {
+fw_status fw_dynamics_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                                fw_dynamics_peaks *peaks) {
     size_t n = (size_t)mechanism->npin;
     FW_NEED(peaks->start = fw_arena_array(arena, double, n));
-    FW_NEED(peaks->peak = fw_arena_array(arena, fw_peak, n));
+    FW_NEED(peaks->peak = fw_arena_array(arena, fw_dynamics_peak, n));
     FW_NEED(peaks->a = fw_arena_array(arena, int, n));
     FW_NEED(peaks->b = fw_arena_array(arena, int, n));
     FW_NEED(peaks->mark_t = fw_arena_array(arena, double, FW_MARKS));
     FW_NEED(peaks->mark = fw_arena_array(arena, double, FW_MARKS *n));
     FW_NEED(peaks->size = fw_arena_array(arena, double, FW_MARKS *n));
-    FW_NEED(peaks->held = fw_arena_array(arena, fw_peak, n));
+    FW_NEED(peaks->held = fw_arena_array(arena, fw_dynamics_peak, n));
     peaks->npin = mechanism->npin;
     peaks->nmark = 0;
     peaks->marked = NULL;
     for (size_t i = 0; i < n; i++) {
-        const fw_pin *p = &mechanism->pin[i];
+        const fw_mechanism_pin *p = &mechanism->pin[i];
         peaks->a[i] = p->body_a == FW_GROUND ? -1 : 3 * p->body_a + 2;
         peaks->b[i] = p->body_b == FW_GROUND ? -1 : 3 * p->body_b + 2;
         double a = p->body_a == FW_GROUND ? 0 : q[peaks->a[i]];
         double b = p->body_b == FW_GROUND ? 0 : q[peaks->b[i]];
         peaks->start[i] = b - a - p->free_angle_rad;
-        peaks->peak[i] = (fw_peak){.angle_rad = peaks->start[i]};
+        peaks->peak[i] = (fw_dynamics_peak){.angle_rad = peaks->start[i]};
     }
     return FW_OK;
 }
@@ -34,25 +34,25 @@ static double difference(const double *y, int a, int b) {
     return (b < 0 ? 0 : y[b]) - (a < 0 ? 0 : y[a]);
 }
 
-double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y) {
+double fw_dynamics_peaks_angle(const fw_dynamics_peaks *peaks, int pin, const double *y) {
     return peaks->start[pin] + difference(y, peaks->a[pin], peaks->b[pin]);
 }
 
-static void offer(fw_peak *peak, double angle, double t) {
+static void offer(fw_dynamics_peak *peak, double angle, double t) {
     if (fabs(angle) > fabs(peak->angle_rad)) peak->angle_rad = angle, peak->t_s = t;
 }
 
 typedef struct turn { /* of one pin along the last step */
-    fw_stepper *stepper;
+    fw_maths_stepper *stepper;
     int a, b; /* components, or -1 */
 } turn;
 
 /* value and slope of y[b] - y[a] over theta */
 static void along(const turn *p, double theta, double *value, double *slope) {
     if (p->b < 0)
-        fw_stepper_component(p->stepper, p->a, -1, -1, 0, theta, value, slope);
+        fw_maths_stepper_component(p->stepper, p->a, -1, -1, 0, theta, value, slope);
     else
-        fw_stepper_component(p->stepper, p->b, 1, p->a, -1, theta, value, slope);
+        fw_maths_stepper_component(p->stepper, p->b, 1, p->a, -1, theta, value, slope);
 }
 
 static double slope_of(const void *context, double theta) {
@@ -63,13 +63,13 @@ static double slope_of(const void *context, double theta) {
 
 /* extremes of one angle inside the step up to `end`: the derivative of the dense output is sampled
    at 16 places, its sign changes refined by Brent's method */
-static void search(fw_peak *peak, const turn *p, double start, double end) {
-    const fw_stepper *s = p->stepper;
+static void search(fw_dynamics_peak *peak, const turn *p, double start, double end) {
+    const fw_maths_stepper *s = p->stepper;
     double before = slope_of(p, 0);
     for (int i = 1; i <= 16; i++) {
         double at = end * i / 16, now = slope_of(p, at);
         if ((before < 0) != (now < 0)) {
-            double value, slope, root = fw_brent_root(slope_of, p, at - end / 16, at, 1e-12);
+            double value, slope, root = fw_maths_brent_root(slope_of, p, at - end / 16, at, 1e-12);
             if (!isnan(root)) {
                 along(p, root, &value, &slope);
                 offer(peak, start + value, s->t_old + root * s->h);
@@ -92,7 +92,8 @@ static bool may_exceed(double peak, const double angle[2], const double rate[2],
     return turns && reach > peak;
 }
 
-void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end) {
+void fw_dynamics_peaks_step(fw_dynamics_peaks *peaks, const fw_multibody_model *m,
+                            fw_maths_stepper *s, double theta_end) {
     for (int i = 0; i < peaks->npin; i++) {
         int a = peaks->a[i], b = peaks->b[i], n = m->nq;
         double start = peaks->start[i];
@@ -113,14 +114,15 @@ void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double the
 /* ---- marks ---- */
 
 /* the peaks themselves stay: the whole step finds them at its own places */
-static void note(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double t, const double *y) {
+static void note(fw_dynamics_peaks *peaks, const fw_multibody_model *m, fw_maths_stepper *s,
+                 double t, const double *y) {
     size_t n = (size_t)peaks->npin, row = (size_t)peaks->nmark * n;
     peaks->mark_t[peaks->nmark++] = t;
     for (size_t i = 0; i < n; i++)
-        peaks->mark[row + i] = fw_peaks_angle(peaks, (int)i, y);
+        peaks->mark[row + i] = fw_dynamics_peaks_angle(peaks, (int)i, y);
     if (!peaks->sized) return;
     memcpy(peaks->held, peaks->peak, n * sizeof *peaks->held);
-    fw_peaks_step(peaks, m, s, t < s->t ? (t - s->t_old) / s->h : 1);
+    fw_dynamics_peaks_step(peaks, m, s, t < s->t ? (t - s->t_old) / s->h : 1);
     for (size_t i = 0; i < n; i++)
         peaks->size[row + i] = fabs(peaks->peak[i].angle_rad);
     memcpy(peaks->peak, peaks->held, n * sizeof *peaks->held);
@@ -128,9 +130,9 @@ static void note(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double t, co
 
 /* The run that sets the marks takes ends of its steps, where angles cost nothing; the other one
    reads them off its dense output. */
-void fw_peaks_mark(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end,
-                   double final, double *y) {
-    const fw_peaks *set = peaks->marked;
+void fw_dynamics_peaks_mark(fw_dynamics_peaks *peaks, const fw_multibody_model *m,
+                            fw_maths_stepper *s, double theta_end, double final, double *y) {
+    const fw_dynamics_peaks *set = peaks->marked;
     double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
     if (!set) {
         bool due = peaks->nmark < FW_MARKS && s->t >= final * (peaks->nmark + 1) / FW_MARKS;
@@ -139,20 +141,21 @@ void fw_peaks_mark(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double the
     }
     while (peaks->nmark < set->nmark && set->mark_t[peaks->nmark] <= reached) {
         double t = set->mark_t[peaks->nmark];
-        if (t < s->t) fw_stepper_dense(s, (t - s->t_old) / s->h, y);
+        if (t < s->t) fw_maths_stepper_dense(s, (t - s->t_old) / s->h, y);
         note(peaks, m, s, t, t < s->t ? y : s->y);
     }
 }
 
-int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t) {
+int fw_dynamics_peaks_first_mark(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                                 double t) {
     int shared = peaks->nmark < other->nmark ? peaks->nmark : other->nmark, k = 0;
     while (k < shared && peaks->mark_t[k] < t)
         k++;
     return k < shared ? k : FW_MARKS;
 }
 
-static double apart(const fw_peaks *peaks, const fw_peaks *other, int k, const double *a,
-                    const double *b) {
+static double apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other, int k,
+                    const double *a, const double *b) {
     double worst = 0;
     if (k >= peaks->nmark || k >= other->nmark) return 0;
     size_t row = (size_t)k * (size_t)peaks->npin;
@@ -161,10 +164,12 @@ static double apart(const fw_peaks *peaks, const fw_peaks *other, int k, const d
     return worst;
 }
 
-double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+double fw_dynamics_peaks_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                               int k) {
     return apart(peaks, other, k, peaks->mark, other->mark);
 }
 
-double fw_peaks_sizes_apart(const fw_peaks *peaks, const fw_peaks *other, int k) {
+double fw_dynamics_peaks_sizes_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                                     int k) {
     return apart(peaks, other, k, peaks->size, other->size);
 }

@@ -9,46 +9,52 @@
 #include "multibody/model.h"
 
 /* peak.c */
-typedef struct fw_peaks {
-    double *start; /* (npin of the mechanism) angle at the assembled pose */
-    int *a, *b;    /* (npin) bodies */
-    fw_peak *peak; /* (npin) time scaled */
+typedef struct fw_dynamics_peaks {
+    double *start;          /* (npin of the mechanism) angle at the assembled pose */
+    int *a, *b;             /* (npin) bodies */
+    fw_dynamics_peak *peak; /* (npin) time scaled */
     int npin;
-    double *mark_t; /* (nmark) instants at which two runs are compared, ascending, scaled */
-    double *mark;   /* (nmark x npin) angles there */
-    double *size;   /* (nmark x npin) largest sizes of the angles up to there */
-    bool sized;     /* those are wanted */
-    fw_peak *held;  /* (npin) work */
+    double *mark_t;         /* (nmark) instants at which two runs are compared, ascending, scaled */
+    double *mark;           /* (nmark x npin) angles there */
+    double *size;           /* (nmark x npin) largest sizes of the angles up to there */
+    bool sized;             /* those are wanted */
+    fw_dynamics_peak *held; /* (npin) work */
     int nmark;
-    const struct fw_peaks *marked; /* the run that set the instants; NULL: this one sets them */
-} fw_peaks;
+    const struct fw_dynamics_peaks
+        *marked; /* the run that set the instants; NULL: this one sets them */
+} fw_dynamics_peaks;
 enum { FW_MARKS = 16 };
-fw_status fw_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
-                       fw_peaks *peaks);
-double fw_peaks_angle(const fw_peaks *peaks, int pin, const double *y);
+fw_status fw_dynamics_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                                fw_dynamics_peaks *peaks);
+double fw_dynamics_peaks_angle(const fw_dynamics_peaks *peaks, int pin, const double *y);
 /* the last step up to theta_end */
-void fw_peaks_step(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end);
+void fw_dynamics_peaks_step(fw_dynamics_peaks *peaks, const fw_multibody_model *m,
+                            fw_maths_stepper *s, double theta_end);
 /* notes all angles at the marks that the step reaches, and the largest up to there; before
-   fw_peaks_step; final: scaled end of the scene; y (ny): work */
-void fw_peaks_mark(fw_peaks *peaks, const fw_model *m, fw_stepper *s, double theta_end,
-                   double final, double *y);
+   fw_dynamics_peaks_step; final: scaled end of the scene; y (ny): work */
+void fw_dynamics_peaks_mark(fw_dynamics_peaks *peaks, const fw_multibody_model *m,
+                            fw_maths_stepper *s, double theta_end, double final, double *y);
 /* the first mark of both runs at or behind scaled time t; FW_MARKS: none */
-int fw_peaks_first_mark(const fw_peaks *peaks, const fw_peaks *other, double t);
+int fw_dynamics_peaks_first_mark(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                                 double t);
 /* largest difference of any angle of two runs at mark k; 0 when one of them has none */
-double fw_peaks_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
+double fw_dynamics_peaks_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                               int k);
 /* likewise of the largest sizes up to there */
-double fw_peaks_sizes_apart(const fw_peaks *peaks, const fw_peaks *other, int k);
+double fw_dynamics_peaks_sizes_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
+                                     int k);
 
-/* check.c */
-fw_status fw_check_options(const fw_motion_options *options, fw_diags *diags);
-fw_status fw_check_names(const fw_motion_options *options, fw_diags *diags, fw_motion *motion);
+/* dynamics_check.c */
+fw_status fw_dynamics_check_options(const fw_dynamics_motion_options *options, fw_diags *diags);
+fw_status fw_dynamics_check_names(const fw_dynamics_motion_options *options, fw_diags *diags,
+                                  fw_dynamics_motion *motion);
 
 /* extreme.c: what has extremes besides the angles, SI: forces of pins, forces, torques and travels
-   of ties, forces or torques of drivers */
-typedef struct fw_extreme {
+   of joints, forces or torques of drivers */
+typedef struct fw_dynamics_extreme {
     double value, t; /* largest in size, with its sign; scaled time */
     double end;      /* value where the pass ends */
-} fw_extreme;
+} fw_dynamics_extreme;
 
 enum { FW_PLACES = 16 }; /* parts of a step at whose ends switches are looked at */
 
@@ -57,9 +63,9 @@ enum { FW_PLACES = 16 }; /* parts of a step at whose ends switches are looked at
 typedef struct fw_dynamics_problem {
     fw_arena *arena;
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
-    const fw_motion_options *options;
-    fw_model *model;
+    const fw_device_scene *scene;
+    const fw_dynamics_motion_options *options;
+    fw_multibody_model *model;
     double *q0;        /* (3 nbody) assembled, SI */
     double *start;     /* (ny) scaled */
     double amplitude;  /* scaled size of the motion: the absolute tolerance is rtol times this */
@@ -68,8 +74,8 @@ typedef struct fw_dynamics_problem {
     const char *why;   /* this method though none was asked for; NULL: the default, or asked for */
     double *end;       /* (npiece) scaled times at which a smooth piece ends */
     int npiece;
-    fw_law_strides *stride; /* (nstride) of the laws that limit steps, s */
-    int *stride_row;        /* (nstride) where each search stands */
+    fw_quantity_law_strides *stride; /* (nstride) of the laws that limit steps, s */
+    int *stride_row;                 /* (nstride) where each search stands */
     int nstride;
     bool sudden; /* a load or driver may begin at any time: an expression limits steps */
 } fw_dynamics_problem;
@@ -78,21 +84,21 @@ typedef struct fw_dynamics_problem {
    and what two runs say of the error. */
 typedef struct fw_dynamics_controller {
     const fw_dynamics_problem *problem;
-    const fw_stepper_row *integrator;
+    const fw_maths_stepper_row *integrator;
     /* the estimate of errors */
     double trust; /* what differences of two runs count times; 1: as they are */
-    double part;  /* likewise of peak angles (steer.h); 0: as the rest */
+    double part;  /* likewise of peak angles (tolerance_control.h); 0: as the rest */
     double lower; /* tolerance of the answer before over this one; 0: there was none */
     /* the choice of the integrator, and its trial */
     double stable, needed; /* explicit steps that are stable, and that the tolerance needs */
-    double implicit_price; /* cost of an implicit step in explicit ones; 0: nothing is tried */
+    double implicit_cost;  /* cost of an implicit step in explicit ones; 0: nothing is tried */
     double patience;       /* steps of one pass after which explicit ones are doubted; 0: never */
     double given_up_s;     /* and where that was; NaN: it was not */
     /* the budget */
-    long steps;        /* over all passes */
-    long taken;        /* in this pass */
-    long trial;        /* steps after which a pass ends; 0: it does not */
-    double next_doubt; /* steps of this pass after which the choice is doubted again */
+    long steps;               /* over all passes */
+    long taken;               /* in this pass */
+    long trial;               /* steps after which a pass ends; 0: it does not */
+    double next_choice_check; /* steps of this pass after which the choice is doubted again */
     /* steps that laws limit */
     double law_stride; /* this times the stride of a law is the longest step */
     double fixed_part; /* likewise of a fixed step */
@@ -100,31 +106,31 @@ typedef struct fw_dynamics_controller {
     double *moved; /* (ny) a state at an event */
     double *fit;   /* (FW_PLACES + 1 x entries) along a step: switches, then joints with friction */
     bool *unfit;   /* (entries) found in this step */
-    double *friction_fit;   /* (friction) */
-    int aims;               /* steps made again for the event at hand */
-    int idle;               /* joints that were to let go and held after all, one after the other */
-    double nudge;           /* how far such a one is left alone, scaled time; 0: not */
-    struct fw_kinks *kinks; /* kink.c; NULL: no friction */
+    double *friction_fit; /* (friction) */
+    int aims;             /* steps made again for the event at hand */
+    int idle;             /* joints that were to let go and held after all, one after the other */
+    double nudge;         /* how far such a one is left alone, scaled time; 0: not */
+    struct fw_dynamics_near_zero *near_zero; /* near_zero_force.c; NULL: no friction */
 } fw_dynamics_controller;
 
 /* What looks at the steps that were made: rows, the observer, extremes and energy. */
 typedef struct fw_dynamics_recorder {
     const fw_dynamics_problem *problem;
-    fw_motion *motion; /* the result */
-    bool full;         /* of the answer: rows and energy too */
-    int row;           /* next one */
-    bool fresh;        /* no step yet behind a break or an event */
-    double *state;     /* (ny) a sample */
-    double *rate;      /* (ny) its derivative */
-    double *kept;      /* (nq) its positions before they were projected */
-    fw_energy first;
+    fw_dynamics_motion *motion; /* the result */
+    bool full;                  /* of the answer: rows and energy too */
+    int row;                    /* next one */
+    bool fresh;                 /* no step yet behind a break or an event */
+    double *state;              /* (ny) a sample */
+    double *rate;               /* (ny) its derivative */
+    double *kept;               /* (nq) its positions before they were projected */
+    fw_multibody_energy first;
     double drift, largest; /* of the energies */
     /* (nq), (npin), (2 npin), (9 x 2 npin): what the observer is shown, SI */
     double *seen_q, *seen_angle, *seen_force, *seen_grid;
-    fw_extreme *extreme;       /* (channels) of this pass; NULL: not asked for */
-    double *channel_now;       /* (channels) */
-    double *channel_grid;      /* (9 channels) along a step */
-    double *pin_now, *tie_now; /* (2 npin), (3 ntie) */
+    fw_dynamics_extreme *extreme; /* (channels) of this pass; NULL: not asked for */
+    double *channel_now;          /* (channels) */
+    double *channel_grid;         /* (9 channels) along a step */
+    double *pin_now, *joint_now;  /* (2 npin), (3 njoint) */
 } fw_dynamics_recorder;
 
 typedef struct fw_dynamics_run {
@@ -143,57 +149,64 @@ static inline const char *fw_dynamics_scene_name(const fw_dynamics_problem *prob
 }
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
-fw_status fw_run_prepare(fw_dynamics_run *r, const fw_terms *terms);
+fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads);
 /* FW-D242 where an element says that it does not hold */
-fw_status fw_run_valid(const fw_dynamics_run *r, double t, const double *y);
+fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y);
 /* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
    strides may be `factor` times as long */
-double fw_run_stride(const fw_dynamics_problem *problem, double factor, double t);
+double fw_dynamics_run_stride(const fw_dynamics_problem *problem, double factor, double t);
 /* what differences of the two runs are multiplied with to be errors */
-double fw_run_margin(const fw_dynamics_controller *control);
-fw_status fw_run_arrays(fw_dynamics_run *r);
+double fw_dynamics_run_margin(const fw_dynamics_controller *control);
+fw_status fw_dynamics_run_arrays(fw_dynamics_run *r);
 
 /* choose.c: by name, or by the masses; problem.why says so where it is not the default */
-fw_status fw_method_choose(fw_dynamics_run *r, const fw_terms *terms);
+fw_status fw_dynamics_method_choose(fw_dynamics_run *r, const fw_effects_loads *loads);
 /* by name, or by the scene; says why in motion->reason */
-fw_status fw_integrator_choose(fw_dynamics_run *r, const fw_terms *terms, const char *name);
+fw_status fw_dynamics_integrator_choose(fw_dynamics_run *r, const fw_effects_loads *loads,
+                                        const char *name);
 /* steps are as short as they are for the sake of stability */
-fw_status fw_integrator_stuck(const fw_dynamics_problem *problem, const fw_stepper *s, bool *stuck);
+fw_status fw_dynamics_integrator_stuck(const fw_dynamics_problem *problem,
+                                       const fw_maths_stepper *s, bool *stuck);
 /* to an implicit one, after a pass that was given up */
-fw_status fw_integrator_change(fw_dynamics_run *r);
+fw_status fw_dynamics_integrator_change(fw_dynamics_run *r);
 
 /* sample.c */
 void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y);
 /* everything that looks at the last step, up to theta_end; false: a state cannot be projected */
-bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_stepper *s, fw_peaks *peaks,
-                             double theta_end);
+bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
+                             fw_dynamics_peaks *peaks, double theta_end);
 /* early: the run ended at scaled time t, before the scene does */
 void fw_dynamics_record_end(fw_dynamics_recorder *record, bool early, double t);
 enum { FW_GRID = 8 };
-typedef struct fw_grid { /* places in a step and the weights of the polynomial through them */
+typedef struct
+    fw_dynamics_grid { /* places in a step and the weights of the polynomial through them */
     int last;
     double at[FW_GRID + 1], weight[FW_GRID + 1]; /* at: of the way to theta_end */
-} fw_grid;
-void fw_run_places(const fw_stepper *s, double theta_end, fw_grid *grid);
+} fw_dynamics_grid;
+void fw_dynamics_run_places(const fw_maths_stepper *s, double theta_end, fw_dynamics_grid *grid);
 /* that polynomial of a column of values at the places, x of the way */
-double fw_run_between(const fw_grid *grid, const double *column, int stride, double x);
+double fw_dynamics_run_between(const fw_dynamics_grid *grid, const double *column, int stride,
+                               double x);
 
 /* extreme.c */
-int fw_run_channels(const fw_dynamics_problem *problem);
-fw_status fw_run_extremes_new(fw_dynamics_recorder *record); /* work, and the peaks of the motion */
+int fw_dynamics_run_channels(const fw_dynamics_problem *problem);
+fw_status
+fw_dynamics_run_extremes_new(fw_dynamics_recorder *record); /* work, and the peaks of the motion */
 /* the last step up to theta_end */
-void fw_run_extremes(fw_dynamics_recorder *record, fw_stepper *s, double theta_end);
+void fw_dynamics_run_extremes(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end);
 /* peaks of the motion with errors from the looser pass */
-void fw_run_take_extremes(fw_dynamics_recorder *record, double margin, const fw_extreme *fine,
-                          const fw_extreme *coarse, double doubt, long steps);
+void fw_dynamics_run_take_extremes(fw_dynamics_recorder *record, double margin,
+                                   const fw_dynamics_extreme *fine,
+                                   const fw_dynamics_extreme *coarse, double uncertainty,
+                                   long steps);
 /* the largest error over the largest value of its kind */
-double fw_run_extremes_off(const fw_dynamics_recorder *record);
+double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record);
 
-/* run.c: FW-D244 when friction is what ended the run at scaled time t */
-fw_status fw_run_jammed(const fw_dynamics_run *r, double t);
+/* dynamics_run.c: FW-D244 when friction is what ended the run at scaled time t */
+fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t);
 /* the stepper from t on, with the longest step that laws allow */
-void fw_run_start(const fw_dynamics_controller *control, fw_stepper *s, double t, const double *y,
-                  double end);
+void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepper *s, double t,
+                           const double *y, double end);
 
 /* event.c */
 typedef struct fw_dynamics_event {
@@ -201,32 +214,36 @@ typedef struct fw_dynamics_event {
     double theta; /* of the step, 1 where there is none */
 } fw_dynamics_event;
 /* the earliest event of the last step */
-fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_stepper *s);
+fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_maths_stepper *s);
 /* true: the step is to be made again, to end just behind the event */
-bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_stepper *s, fw_dynamics_event event);
+bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_maths_stepper *s,
+                           fw_dynamics_event event);
 /* goes on from the event with the flag changed; false: no state or no friction fits there */
-bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_stepper *s, fw_dynamics_event event,
-                            double end);
+bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_maths_stepper *s,
+                            fw_dynamics_event event, double end);
 /* none where it is of a joint that held all the same a moment ago */
 fw_dynamics_event fw_dynamics_event_unless_idle(const fw_dynamics_controller *control,
-                                                const fw_stepper *s, fw_dynamics_event event);
+                                                const fw_maths_stepper *s, fw_dynamics_event event);
 /* behind an event, `changed`: a flag is another one, or behind a step without one */
-void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_stepper *s,
+void fw_dynamics_event_mind_idle(fw_dynamics_controller *control, fw_maths_stepper *s,
                                  fw_dynamics_event event, bool changed, double end);
 
-/* kink.c: steps beside places where a joint that slips is hardly pressed */
-fw_status fw_kinks_new(fw_dynamics_controller *control);
-void fw_kinks_begin(fw_dynamics_controller *control);  /* a pass */
-void fw_kinks_forget(fw_dynamics_controller *control); /* forces may have jumped */
-void fw_kinks_limit(const fw_dynamics_controller *control, fw_stepper *s); /* the next step */
+/* near_zero_force.c: steps beside places where a joint that slips is hardly pressed */
+fw_status fw_dynamics_near_zero_new(fw_dynamics_controller *control);
+void fw_dynamics_near_zero_begin(fw_dynamics_controller *control);  /* a pass */
+void fw_dynamics_near_zero_forget(fw_dynamics_controller *control); /* forces may have jumped */
+void fw_dynamics_near_zero_limit(const fw_dynamics_controller *control,
+                                 fw_maths_stepper *s); /* the next step */
 /* true: the last step is made again, a shorter one */
-bool fw_kinks_again(fw_dynamics_controller *control, fw_stepper *s);
+bool fw_dynamics_near_zero_again(fw_dynamics_controller *control, fw_maths_stepper *s);
 /* what all of them may have moved anything by in this pass, scaled, up to k parts of the scene */
-void fw_kinks_doubt(const fw_dynamics_controller *control, double up_to[FW_MARKS + 1]);
+void fw_dynamics_near_zero_uncertainty(const fw_dynamics_controller *control,
+                                       double up_to[FW_MARKS + 1]);
 /* |error| of the integral of hypot(t - centre, width) from start to end by a rule of that order */
-double fw_kink_error(double start, double end, double centre, double width, int order);
+double fw_dynamics_near_zero_error(double start, double end, double centre, double width,
+                                   int order);
 
 /* from start to end with one stepper; counts and norms are in model and stepper */
-fw_status fw_run_pass(fw_dynamics_run *r, fw_stepper *s, fw_peaks *peaks);
+fw_status fw_dynamics_run_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks);
 
 #endif

@@ -9,11 +9,11 @@
 /* state y in SI: pose and joint angles */
 static void pose_in_SI(const fw_dynamics_problem *problem, const double *y, double *q,
                        double *angle) {
-    const fw_model *m = problem->model;
+    const fw_multibody_model *m = problem->model;
     for (int i = 0; i < m->nq; i++)
         q[i] = problem->q0[i] + (i % 3 == 2 ? 1 : m->scale.length_m) * y[i];
     for (int i = 0; i < problem->mechanism->npin; i++) {
-        const fw_pin *p = &problem->mechanism->pin[i];
+        const fw_mechanism_pin *p = &problem->mechanism->pin[i];
         angle[i] = (p->body_b == FW_GROUND ? 0 : q[3 * p->body_b + 2]) -
                    (p->body_a == FW_GROUND ? 0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
     }
@@ -21,33 +21,34 @@ static void pose_in_SI(const fw_dynamics_problem *problem, const double *y, doub
 
 /* behind everything else of a row: the residual leaves nothing that the next step reads */
 static void store_energy(fw_dynamics_recorder *record, size_t row, double t, const double *y) {
-    fw_model *m = record->problem->model;
+    fw_multibody_model *m = record->problem->model;
     double speed = m->scale.length_m / m->scale.time_s, joule = m->scale.mass_kg * speed * speed;
-    fw_model_at(m, t);
-    fw_model_pose(m, y);
-    const fw_energy e = fw_model_energy(m, t, y);
+    fw_multibody_model_at(m, t);
+    fw_multibody_model_pose(m, y);
+    const fw_multibody_energy e = fw_multibody_model_energy(m, t, y);
     double *out = record->motion->energy_J + 4 * row;
     out[0] = joule * e.kinetic, out[1] = joule * e.elastic;
     out[2] = joule * e.dissipated, out[3] = joule * e.work;
-    record->motion->constraint_norm[row] = fw_model_residual(m, t, y, m->right);
+    record->motion->constraint_norm[row] = fw_multibody_model_residual(m, t, y, m->right);
 }
 
 static void store(fw_dynamics_recorder *record, double t_s, double t, const double *y) {
-    fw_motion *out = record->motion;
-    fw_model *m = record->problem->model;
-    const fw_scale s = m->scale;
+    fw_dynamics_motion *out = record->motion;
+    fw_multibody_model *m = record->problem->model;
+    const fw_multibody_scale s = m->scale;
     size_t row = (size_t)record->row, base = row * (size_t)m->nq;
     out->t_s[row] = t_s;
     pose_in_SI(record->problem, y, out->q + base, out->angle_rad + row * (size_t)out->npin);
-    fw_model_react(m, t, y, record->rate);
+    fw_multibody_model_react(m, t, y, record->rate);
     for (int i = 0; i < m->nq; i++) {
         double unit = (i % 3 == 2 ? 1 : s.length_m) / s.time_s;
         out->v[base + (size_t)i] = unit * y[m->nq + i];
         out->accel[base + (size_t)i] = unit / s.time_s * record->rate[m->nq + i];
     }
-    fw_pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
-    fw_tie_forces(m, record->problem->mechanism, out->tie_N + row * 3 * (size_t)out->ntie,
-                  out->driver_N + row * (size_t)out->ndriver);
+    fw_multibody_pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
+    fw_multibody_joint_forces(m, record->problem->mechanism,
+                              out->joint_N + row * 3 * (size_t)out->njoint,
+                              out->driver_N + row * (size_t)out->ndriver);
     if (out->energy_J) store_energy(record, row, t, y);
     record->row++;
 }
@@ -68,23 +69,23 @@ static void first_sample(fw_dynamics_recorder *record, const double *y) {
    singular position that Newton's method goes astray, the row stays as integrated, within the
    tolerance, and the constraint norm tells. */
 static bool settle(fw_dynamics_recorder *record, double t, double *y) {
-    fw_model *m = record->problem->model;
+    fw_multibody_model *m = record->problem->model;
     if (!m->projecting) return true;
     memcpy(record->kept, y, (size_t)m->nq * sizeof *y);
-    fw_model_at(m, t);
-    fw_model_pose(m, y);
+    fw_multibody_model_at(m, t);
+    fw_multibody_model_pose(m, y);
     if (!m->method->factor(m)) return false;
-    if (!fw_model_project_position(m, t, y)) {
+    if (!fw_multibody_model_project_position(m, t, y)) {
         memcpy(y, record->kept, (size_t)m->nq * sizeof *y);
-        double norm = fw_model_residual(m, t, y, m->right);
+        double norm = fw_multibody_model_residual(m, t, y, m->right);
         if (!(norm < (double)INFINITY)) return false;
         m->worst_position = fmax(m->worst_position, norm);
     }
-    return m->method->factor(m) && fw_model_project_velocity(m, t, y + m->nq);
+    return m->method->factor(m) && fw_multibody_model_project_velocity(m, t, y + m->nq);
 }
 
-static bool samples(fw_dynamics_recorder *record, fw_stepper *s, double theta_end) {
-    fw_model *m = record->problem->model;
+static bool samples(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    fw_multibody_model *m = record->problem->model;
     double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
     double final = fw_dynamics_end(record->problem);
     for (; record->row < record->motion->nsample;) {
@@ -95,7 +96,7 @@ static bool samples(fw_dynamics_recorder *record, fw_stepper *s, double theta_en
             store(record, t_s, s->t, s->y);
             continue;
         }
-        fw_stepper_dense(s, fmin(theta_end, (t - s->t_old) / s->h), record->state);
+        fw_maths_stepper_dense(s, fmin(theta_end, (t - s->t_old) / s->h), record->state);
         if (!settle(record, t, record->state)) return false;
         store(record, t_s, t, record->state);
     }
@@ -103,59 +104,62 @@ static bool samples(fw_dynamics_recorder *record, fw_stepper *s, double theta_en
 }
 
 /* who looks at this run, NULL: nobody */
-static fw_observer observer(const fw_dynamics_recorder *record, void **context) {
+static fw_dynamics_observer observer(const fw_dynamics_recorder *record, void **context) {
     *context = record->full ? record->motion->observed : record->motion->compared;
     return record->full || *context ? record->problem->options->observe : NULL;
 }
 
 static void show_start(fw_dynamics_recorder *record) {
     void *context;
-    fw_observer see = observer(record, &context);
+    fw_dynamics_observer see = observer(record, &context);
     if (see) see(context, NULL);
 }
 
-static void forces_at(fw_dynamics_recorder *record, fw_stepper *s, double theta, double *force) {
-    fw_stepper_dense(s, theta, record->state);
-    fw_model_react(record->problem->model, s->t_old + theta * s->h, record->state, record->rate);
-    fw_pin_forces(record->problem->model, force);
+static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta,
+                      double *force) {
+    fw_maths_stepper_dense(s, theta, record->state);
+    fw_multibody_model_react(record->problem->model, s->t_old + theta * s->h, record->state,
+                             record->rate);
+    fw_multibody_pin_forces(record->problem->model, force);
 }
 
 /* Where states are interpolated between a method's own ones, stiff axes make large forces of the
    error of that: forces are then interpolated instead, between those of the own states */
-static bool own_forces(fw_dynamics_recorder *record, fw_stepper *s, double theta_end, fw_grid *g) {
+static bool own_forces(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end,
+                       fw_dynamics_grid *g) {
     if (!s->row->own) return false;
     size_t count = 2 * (size_t)record->problem->mechanism->npin;
-    fw_run_places(s, theta_end, g);
+    fw_dynamics_run_places(s, theta_end, g);
     for (int k = 0; k <= g->last; k++)
         forces_at(record, s, theta_end * g->at[k], record->seen_grid + (size_t)k * count);
     return true;
 }
 
-static void show(fw_dynamics_recorder *record, fw_stepper *s, double theta_end) {
+static void show(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     void *context;
-    fw_observer see = observer(record, &context);
+    fw_dynamics_observer see = observer(record, &context);
     if (!see) return;
     bool fresh = record->fresh || !(s->t_old > 0);
     int count = 2 * record->problem->mechanism->npin;
-    fw_grid g;
+    fw_dynamics_grid g;
     bool own = own_forces(record, s, theta_end, &g);
     record->fresh = false;
     for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
         double part = (double)i / FW_INSTANTS, theta = theta_end * i / FW_INSTANTS;
         if (own)
-            fw_stepper_dense(s, theta, record->state);
+            fw_maths_stepper_dense(s, theta, record->state);
         else
             forces_at(record, s, theta, record->seen_force);
         for (int k = 0; own && k < count; k++)
-            record->seen_force[k] = fw_run_between(&g, record->seen_grid + k, count, part);
+            record->seen_force[k] = fw_dynamics_run_between(&g, record->seen_grid + k, count, part);
         pose_in_SI(record->problem, record->state, record->seen_q, record->seen_angle);
-        const fw_instant now = {.t_s = (s->t_old + theta * s->h) *
-                                       record->problem->model->scale.time_s,
-                                .q = record->seen_q,
-                                .angle_rad = record->seen_angle,
-                                .reaction_N = record->seen_force,
-                                .begins = fresh && i == 0,
-                                .hinge = record->motion->ledger.hinge.used};
+        const fw_dynamics_instant now = {.t_s = (s->t_old + theta * s->h) *
+                                                record->problem->model->scale.time_s,
+                                         .q = record->seen_q,
+                                         .angle_rad = record->seen_angle,
+                                         .reaction_N = record->seen_force,
+                                         .begins = fresh && i == 0,
+                                         .hinge = record->motion->ledger.hinge.used};
         see(context, &now);
     }
 }
@@ -164,9 +168,9 @@ static void show(fw_dynamics_recorder *record, fw_stepper *s, double theta_end) 
 
 /* the energy of models that have a kernel needs no arms: no loads or springs at points */
 static void watch_energy(fw_dynamics_recorder *record, double t, const double *y) {
-    fw_model_at(record->problem->model, t);
-    if (!record->problem->model->kernel) fw_model_pose(record->problem->model, y);
-    fw_energy e = fw_model_energy(record->problem->model, t, y);
+    fw_multibody_model_at(record->problem->model, t);
+    if (!record->problem->model->kernel) fw_multibody_model_pose(record->problem->model, y);
+    fw_multibody_energy e = fw_multibody_model_energy(record->problem->model, t, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = record->first.kinetic + record->first.elastic + record->first.dissipated -
                    record->first.work;
@@ -177,9 +181,9 @@ static void watch_energy(fw_dynamics_recorder *record, double t, const double *y
 }
 
 static void first_energy(fw_dynamics_recorder *record, const double *y) {
-    fw_model_at(record->problem->model, 0);
-    fw_model_pose(record->problem->model, y);
-    record->first = fw_model_energy(record->problem->model, 0, y);
+    fw_multibody_model_at(record->problem->model, 0);
+    fw_multibody_model_pose(record->problem->model, y);
+    record->first = fw_multibody_model_energy(record->problem->model, 0, y);
     record->drift = 0;
     record->largest = record->first.kinetic + fabs(record->first.elastic);
 }
@@ -193,12 +197,13 @@ void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y) {
     first_sample(record, y);
 }
 
-bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_stepper *s, fw_peaks *peaks,
-                             double theta_end) {
+bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
+                             fw_dynamics_peaks *peaks, double theta_end) {
     const fw_dynamics_problem *problem = record->problem;
-    fw_peaks_mark(peaks, problem->model, s, theta_end, fw_dynamics_end(problem), record->state);
-    fw_peaks_step(peaks, problem->model, s, theta_end);
-    fw_run_extremes(record, s, theta_end);
+    fw_dynamics_peaks_mark(peaks, problem->model, s, theta_end, fw_dynamics_end(problem),
+                           record->state);
+    fw_dynamics_peaks_step(peaks, problem->model, s, theta_end);
+    fw_dynamics_run_extremes(record, s, theta_end);
     if (record->full && theta_end == 1) watch_energy(record, s->t, s->y);
     show(record, s, theta_end);
     return !record->full || samples(record, s, theta_end);

@@ -10,42 +10,43 @@
 
 /* ---- smooth pieces between the breaks of all laws ---- */
 
-static int law_count(const fw_dynamics_problem *problem, const fw_terms *terms) {
-    int count = terms->ntimed + problem->mechanism->ndriver + (terms->stretch.law != NULL);
-    for (int i = 0; i < terms->nelement; i++)
-        count += terms->element[i].laws;
+static int law_count(const fw_dynamics_problem *problem, const fw_effects_loads *loads) {
+    int count = loads->ntimed + problem->mechanism->ndriver + (loads->stretch.law != NULL);
+    for (int i = 0; i < loads->nelement; i++)
+        count += loads->element[i].laws;
     return count;
 }
 
 /* the i-th law of all: of timed loads, drivers, the stretching ground, elements; *coordinate: it
    drives a joint. NULL: constant */
-static const fw_law *law_of(const fw_dynamics_problem *problem, const fw_terms *terms, int i,
-                            bool *coordinate) {
-    int drivers = problem->mechanism->ndriver, moving = drivers + (terms->stretch.law != NULL);
-    *coordinate = i >= terms->ntimed && i < terms->ntimed + moving;
-    if (i < terms->ntimed) return terms->timed[i].law;
-    if (*coordinate && i == terms->ntimed + drivers) return terms->stretch.law;
-    if (*coordinate) return &problem->mechanism->driver[i - terms->ntimed].law;
-    const fw_force_element *e = terms->element;
-    for (i -= terms->ntimed + moving; i >= e->laws; e++)
+static const fw_quantity_law *law_of(const fw_dynamics_problem *problem,
+                                     const fw_effects_loads *loads, int i, bool *coordinate) {
+    int drivers = problem->mechanism->ndriver, moving = drivers + (loads->stretch.law != NULL);
+    *coordinate = i >= loads->ntimed && i < loads->ntimed + moving;
+    if (i < loads->ntimed) return loads->timed[i].law;
+    if (*coordinate && i == loads->ntimed + drivers) return loads->stretch.law;
+    if (*coordinate) return &problem->mechanism->driver[i - loads->ntimed].law;
+    const fw_effects_force_element *e = loads->element;
+    for (i -= loads->ntimed + moving; i >= e->laws; e++)
         i -= e->laws;
     return e->law[i];
 }
 
 /* the breaks of every law, one law after the other (at, counted), and the strides between them */
-static fw_status look_at_laws(fw_dynamics_problem *problem, const fw_terms *terms, double *at,
-                              int count) {
-    int laws = law_count(problem, terms), have = 0;
+static fw_status look_at_laws(fw_dynamics_problem *problem, const fw_effects_loads *loads,
+                              double *at, int count) {
+    int laws = law_count(problem, loads), have = 0;
     double end = problem->scene->duration_s;
     bool coordinate;
-    FW_NEED(problem->stride = fw_arena_array(problem->arena, fw_law_strides, (size_t)laws));
+    FW_NEED(problem->stride =
+                fw_arena_array(problem->arena, fw_quantity_law_strides, (size_t)laws));
     FW_NEED(problem->stride_row = fw_arena_array(problem->arena, int, (size_t)laws));
     for (int i = 0; i < laws; i++) {
-        const fw_law *law = law_of(problem, terms, i, &coordinate);
-        fw_law_strides *own = &problem->stride[problem->nstride];
-        int breaks = fw_law_breaks(law, end, at + have, count - have);
+        const fw_quantity_law *law = law_of(problem, loads, i, &coordinate);
+        fw_quantity_law_strides *own = &problem->stride[problem->nstride];
+        int breaks = fw_quantity_law_breaks_of(law, end, at + have, count - have);
         fw_sort_doubles(at + have, (size_t)breaks);
-        FW_TRY(fw_law_look(problem->arena, law, coordinate, end, at + have, breaks, own));
+        FW_TRY(fw_quantity_law_look(problem->arena, law, coordinate, end, at + have, breaks, own));
         have += breaks;
         bool limits = false;
         for (int k = 0; k < own->n; k++)
@@ -56,23 +57,23 @@ static fw_status look_at_laws(fw_dynamics_problem *problem, const fw_terms *term
     return FW_OK;
 }
 
-double fw_run_stride(const fw_dynamics_problem *problem, double factor, double t) {
+double fw_dynamics_run_stride(const fw_dynamics_problem *problem, double factor, double t) {
     double most = (double)INFINITY, unit = problem->model->scale.time_s;
     for (int i = 0; i < problem->nstride; i++)
-        most = fmin(most,
-                    fw_law_stride(&problem->stride[i], factor, t * unit, &problem->stride_row[i]));
+        most = fmin(most, fw_quantity_law_stride(&problem->stride[i], factor, t * unit,
+                                                 &problem->stride_row[i]));
     return most / unit;
 }
 
-static fw_status pieces(fw_dynamics_problem *problem, const fw_terms *terms) {
-    int laws = law_count(problem, terms), have = 0;
+static fw_status pieces(fw_dynamics_problem *problem, const fw_effects_loads *loads) {
+    int laws = law_count(problem, loads), have = 0;
     double end = problem->scene->duration_s, unit = problem->model->scale.time_s;
     bool coordinate;
     for (int i = 0; i < laws; i++)
-        have += fw_law_breaks(law_of(problem, terms, i, &coordinate), end, NULL, 0);
+        have += fw_quantity_law_breaks_of(law_of(problem, loads, i, &coordinate), end, NULL, 0);
     double *at;
     FW_NEED(at = fw_arena_array(problem->arena, double, (size_t)have + 1));
-    FW_TRY(look_at_laws(problem, terms, at, have));
+    FW_TRY(look_at_laws(problem, loads, at, have));
     if (have > 1) fw_sort_doubles(at, (size_t)have);
     int kept = 0;
     for (int i = 0; i < have; i++)
@@ -90,23 +91,24 @@ static fw_status pieces(fw_dynamics_problem *problem, const fw_terms *terms) {
 
 /* in scaled units, at most 1: twice the linear static response to what acts, and the starting
    velocity, or the strain of the ground; 1 when the mechanism can move freely or is driven */
-static fw_status motion_size(fw_dynamics_problem *problem, const fw_terms *terms) {
+static fw_status motion_size(fw_dynamics_problem *problem, const fw_effects_loads *loads) {
     const fw_mechanism *m = problem->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *displacement, *rotation, size = 0, speed = 0;
     problem->amplitude = 1;
     if (m->ndriver > 0) return FW_OK;
-    if (terms->stretch.law)
-        size = fabs(terms->stretch.strain) *
-               fw_law_largest(terms->stretch.law, problem->scene->duration_s);
+    if (loads->stretch.law)
+        size = fabs(loads->stretch.strain) *
+               fw_quantity_law_largest(loads->stretch.law, problem->scene->duration_s);
     fw_mark mark = fw_arena_mark(problem->arena);
     bool valid = false;
     FW_NEED(force = fw_arena_array(problem->arena, double, n));
     FW_NEED(displacement = fw_arena_array(problem->arena, double, n));
     FW_NEED(rotation = fw_arena_array(problem->arena, double, (size_t)m->npin));
-    fw_terms_largest_force(m, terms, problem->scene->duration_s, force);
-    FW_TRY(fw_static_response(problem->arena, m, terms, force, displacement, rotation, &valid));
-    const fw_scale s = problem->model->scale;
+    fw_effects_loads_largest_force(m, loads, problem->scene->duration_s, force);
+    FW_TRY(fw_effects_static_response(problem->arena, m, loads, force, displacement, rotation,
+                                      &valid));
+    const fw_multibody_scale s = problem->model->scale;
     for (size_t i = 0; i < n; i++) {
         double unit = i % 3 == 2 ? 1 : s.length_m;
         if (valid) size = fmax(size, 2 * fabs(displacement[i]) / unit);
@@ -125,7 +127,7 @@ static fw_status motion_size(fw_dynamics_problem *problem, const fw_terms *terms
 static fw_status note_stated(const fw_dynamics_problem *problem, bool **stated) {
     FW_NEED(*stated = fw_arena_array(problem->arena, bool, (size_t)problem->model->nq));
     for (int i = problem->scene->ninitial - 1; i >= 0; i--) { /* the first of a body counts */
-        const fw_initial *v = &problem->scene->initial[i];
+        const fw_device_initial *v = &problem->scene->initial[i];
         if (v->body == FW_GROUND) continue;
         for (int c = 0; c < 3; c++)
             (*stated)[3 * v->body + c] = !(c < 2 ? v->moves_free : v->turns_free);
@@ -134,22 +136,22 @@ static fw_status note_stated(const fw_dynamics_problem *problem, bool **stated) 
 }
 
 /* one correction v += M^-1 G^T lambda onto G v = -Psi_t with the masses as they are now */
-static bool correct_velocity(fw_model *m, double *v) {
-    fw_chain_assemble(m);
-    if (!fw_chain_factor(&m->chain, fw_epsilon)) return false;
-    fw_model_jacobian(m, v, m->right);
-    fw_model_drift(m, 0, m->drift);
+static bool correct_velocity(fw_multibody_model *m, double *v) {
+    fw_multibody_chain_assemble(m);
+    if (!fw_multibody_chain_factor(&m->chain, fw_epsilon)) return false;
+    fw_multibody_model_jacobian(m, v, m->right);
+    fw_multibody_model_drift(m, 0, m->drift);
     for (int i = 0; i < 2 * m->nblock; i++)
         m->right[i] += m->drift[i];
-    fw_chain_proximal(m, m->right, m->lambda);
-    fw_model_apply(m, m->lambda, v);
+    fw_multibody_chain_proximal(m, m->right, m->lambda);
+    fw_multibody_model_apply(m, m->lambda, v);
     return true;
 }
 
 /* What <initial> does not state follows what it does: the correction is found with masses and
    inertias a million times smaller there, thrice, each time from the velocities that were stated,
    so that what is stated and fits stays to 1e-18. Posed model; v, work (3 nbody). */
-static bool follow_stated(fw_model *m, const bool *stated, const double *given, double *v,
+static bool follow_stated(fw_multibody_model *m, const bool *stated, const double *given, double *v,
                           double *work) {
     double *minv = work, *jinv = work + m->nbody;
     int count = 0;
@@ -182,8 +184,8 @@ static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double
     }
     r->record.motion->stats.velocity_moved = size > 0 ? moved / size : 0;
     if (!(size > 0 && moved > 1e-6 * size)) return;
-    double before = fw_model_kinetic(r->problem.model, given),
-           after = fw_model_kinetic(r->problem.model, v);
+    double before = fw_multibody_model_kinetic(r->problem.model, given),
+           after = fw_multibody_model_kinetic(r->problem.model, v);
     char most[32], energy[32];
     fw_diag_warning(r->diags, 106, r->problem.scene->place,
                     "initial velocities of scene %s contradict the joints; they were changed by up "
@@ -204,59 +206,60 @@ static fw_status cannot_start(const fw_dynamics_run *r) {
 
 /* Velocities start as if all pins were joints, also those that elements stand for: they then start
    without a stretch and without its rate, whatever the scene states. */
-static fw_status closed_model(fw_dynamics_run *r, const fw_terms *terms, fw_model **closed) {
-    fw_terms all = *terms;
+static fw_status closed_model(fw_dynamics_run *r, const fw_effects_loads *loads,
+                              fw_multibody_model **closed) {
+    fw_effects_loads all = *loads;
     *closed = r->problem.model;
     if (r->problem.model->nreleased == 0) return FW_OK;
     all.released = NULL;
-    FW_TRY(fw_model_new(r->problem.arena, r->problem.mechanism, &all, r->problem.q0,
-                        r->problem.scene->duration_s, NULL, r->diags, closed));
+    FW_TRY(fw_multibody_model_new(r->problem.arena, r->problem.mechanism, &all, r->problem.q0,
+                                  r->problem.scene->duration_s, NULL, r->diags, closed));
     (*closed)->piece = r->problem.model->piece;
     return FW_OK;
 }
 
 /* the positions of y onto the joints of m, the velocities v too; given: and as near to that as the
    joints allow */
-static bool onto_joints(fw_model *m, const bool *stated, const double *given, double *y, double *v,
-                        double *work) {
-    fw_model_pose(m, y);
-    if (!m->method->factor(m) || !fw_model_project_position(m, 0, y)) return false;
-    fw_model_pose(m, y);
+static bool onto_joints(fw_multibody_model *m, const bool *stated, const double *given, double *y,
+                        double *v, double *work) {
+    fw_multibody_model_pose(m, y);
+    if (!m->method->factor(m) || !fw_multibody_model_project_position(m, 0, y)) return false;
+    fw_multibody_model_pose(m, y);
     if (given && !follow_stated(m, stated, given, v, work)) return false;
-    return m->method->factor(m) && fw_model_impact(m, 0, v);
+    return m->method->factor(m) && fw_multibody_model_impact(m, 0, v);
 }
 
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
-static fw_status start_values(fw_dynamics_run *r, const fw_terms *terms) {
-    fw_model *m = r->problem.model, *closed;
-    const fw_scale s = m->scale;
+static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads) {
+    fw_multibody_model *m = r->problem.model, *closed;
+    const fw_multibody_scale s = m->scale;
     double *v = r->problem.start + m->nq, *given = r->record.state;
     bool *stated;
     FW_TRY(note_stated(&r->problem, &stated));
     for (int i = 0; i < m->nq; i++)
-        v[i] = given[i] = terms->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
-    FW_TRY(closed_model(r, terms, &closed));
+        v[i] = given[i] = loads->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
+    FW_TRY(closed_model(r, loads, &closed));
     bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
     if (good && closed != m)
         good = onto_joints(m, stated, NULL, r->problem.start, v, r->record.rate);
     if (!good) return cannot_start(r);
     warn_velocities(r, stated, given, v);
-    fw_model_set_switches(m, 0, r->problem.start);
-    FW_TRY(fw_run_valid(r, 0, r->problem.start));
-    fw_friction_begin(m);
-    if (fw_friction_decide(m, 0, r->problem.start)) return FW_OK;
-    FW_TRY(fw_run_jammed(r, 0));
+    fw_multibody_model_set_switches(m, 0, r->problem.start);
+    FW_TRY(fw_dynamics_run_valid(r, 0, r->problem.start));
+    fw_multibody_friction_begin(m);
+    if (fw_multibody_friction_decide(m, 0, r->problem.start)) return FW_OK;
+    FW_TRY(fw_dynamics_run_jammed(r, 0));
     return cannot_start(r);
 }
 
-fw_status fw_run_valid(const fw_dynamics_run *r, double t, const double *y) {
-    fw_model *m = r->problem.model;
+fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y) {
+    fw_multibody_model *m = r->problem.model;
     const char *why = "";
     char time[32];
     if (m->nelement == 0) return FW_OK;
-    fw_model_pose(m, y);
-    const fw_force_element *e = fw_model_element_invalid(m, t, y, &why);
+    fw_multibody_model_pose(m, y);
+    const fw_effects_force_element *e = fw_multibody_model_element_invalid(m, t, y, &why);
     if (!e) return FW_OK;
     fw_status status =
         fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id,
@@ -265,21 +268,21 @@ fw_status fw_run_valid(const fw_dynamics_run *r, double t, const double *y) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-fw_status fw_run_prepare(fw_dynamics_run *r, const fw_terms *terms) {
-    FW_TRY(pieces(&r->problem, terms));
-    FW_TRY(start_values(r, terms));
-    return motion_size(&r->problem, terms);
+fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads) {
+    FW_TRY(pieces(&r->problem, loads));
+    FW_TRY(start_values(r, loads));
+    return motion_size(&r->problem, loads);
 }
 
 /* ---- memory ---- */
 
-static fw_status result_arrays(const fw_dynamics_problem *problem, fw_motion *m) {
+static fw_status result_arrays(const fw_dynamics_problem *problem, fw_dynamics_motion *m) {
     const fw_mechanism *from = problem->mechanism;
     fw_arena *arena = problem->arena;
     int samples = problem->options->samples;
     size_t rows = (size_t)samples, n = 3 * (size_t)from->nbody, pins = (size_t)from->npin;
     m->nbody = from->nbody, m->npin = from->npin;
-    m->ntie = from->ntie, m->ndriver = from->ndriver;
+    m->njoint = from->njoint, m->ndriver = from->ndriver;
     m->nsample = samples;
     if (rows > ((size_t)1 << 40) / (n + pins + 1)) return FW_LIMIT;
     FW_NEED(m->t_s = fw_arena_array(arena, double, rows));
@@ -288,9 +291,9 @@ static fw_status result_arrays(const fw_dynamics_problem *problem, fw_motion *m)
     FW_NEED(m->accel = fw_arena_array(arena, double, rows *n));
     FW_NEED(m->angle_rad = fw_arena_array(arena, double, rows *pins));
     FW_NEED(m->reaction_N = fw_arena_array(arena, double, rows * 2 * pins));
-    FW_NEED(m->tie_N = fw_arena_array(arena, double, rows * 3 * (size_t)from->ntie));
+    FW_NEED(m->joint_N = fw_arena_array(arena, double, rows * 3 * (size_t)from->njoint));
     FW_NEED(m->driver_N = fw_arena_array(arena, double, rows *(size_t)from->ndriver));
-    FW_NEED(m->peak = fw_arena_array(arena, fw_peak, pins));
+    FW_NEED(m->peak = fw_arena_array(arena, fw_dynamics_peak, pins));
     if (!problem->options->energies) return FW_OK;
     FW_NEED(m->energy_J = fw_arena_array(arena, double, 4 * rows));
     FW_NEED(m->constraint_norm = fw_arena_array(arena, double, rows));
@@ -309,22 +312,22 @@ static fw_status recorder_arrays(fw_dynamics_recorder *record) {
     FW_NEED(record->seen_angle = fw_arena_array(arena, double, pins));
     FW_NEED(record->seen_force = fw_arena_array(arena, double, 2 * pins));
     FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * 2 * pins));
-    return problem->options->reactions ? fw_run_extremes_new(record) : FW_OK;
+    return problem->options->reactions ? fw_dynamics_run_extremes_new(record) : FW_OK;
 }
 
 static fw_status controller_arrays(fw_dynamics_controller *control) {
-    const fw_model *model = control->problem->model;
+    const fw_multibody_model *model = control->problem->model;
     fw_arena *arena = control->problem->arena;
-    size_t friction = (size_t)fw_friction_count(model);
-    size_t entries = (size_t)fw_model_switches(model) + friction;
+    size_t friction = (size_t)fw_multibody_friction_count(model);
+    size_t entries = (size_t)fw_multibody_model_switches(model) + friction;
     FW_NEED(control->moved = fw_arena_array(arena, double, (size_t)model->ny));
     FW_NEED(control->fit = fw_arena_array(arena, double, (FW_PLACES + 1) * entries));
     FW_NEED(control->unfit = fw_arena_array(arena, bool, entries));
     FW_NEED(control->friction_fit = fw_arena_array(arena, double, friction));
-    return fw_kinks_new(control);
+    return fw_dynamics_near_zero_new(control);
 }
 
-fw_status fw_run_arrays(fw_dynamics_run *r) {
+fw_status fw_dynamics_run_arrays(fw_dynamics_run *r) {
     fw_dynamics_problem *problem = &r->problem;
     FW_TRY(result_arrays(problem, r->record.motion));
     FW_NEED(problem->start = fw_arena_array(problem->arena, double, (size_t)problem->model->ny));

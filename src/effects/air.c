@@ -7,17 +7,17 @@
 #include "effects/envelope.h"
 #include <math.h>
 
-double fw_air_viscosity(double temperature_K) {
+double fw_effects_air_viscosity(double temperature_K) {
     return 1.458e-6 * pow(temperature_K, 1.5) / (temperature_K + 110.4);
 }
 
 /* mean free path mu/p sqrt(pi R T/2), the one that Kn of the slip formulas is made of */
-fw_gas fw_gas_of(const fw_air *air) {
-    fw_gas g = {.pressure_Pa =
-                    isnan(air->pressure_Pa) ? FW_STANDARD_ATMOSPHERE_Pa : air->pressure_Pa,
-                .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
+fw_effects_gas fw_effects_gas_of(const fw_device_air *air) {
+    fw_effects_gas g = {.pressure_Pa =
+                            isnan(air->pressure_Pa) ? FW_STANDARD_ATMOSPHERE_Pa : air->pressure_Pa,
+                        .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
     g.viscosity_Pas =
-        isnan(air->viscosity_Pas) ? fw_air_viscosity(g.temperature_K) : air->viscosity_Pas;
+        isnan(air->viscosity_Pas) ? fw_effects_air_viscosity(g.temperature_K) : air->viscosity_Pas;
     g.density_kg_per_m3 = g.pressure_Pa / (FW_DRY_AIR_J_PER_kg_K * g.temperature_K);
     g.path_m =
         g.viscosity_Pas / g.pressure_Pa * sqrt(FW_PI * FW_DRY_AIR_J_PER_kg_K * g.temperature_K / 2);
@@ -26,14 +26,16 @@ fw_gas fw_gas_of(const fw_air *air) {
 
 /* a stated area keeps the drawn figure; without one it is a disc, which has the least polar moment
    and perimeter of its area */
-fw_face fw_air_face(const fw_mechanism *m, const fw_air *air, int body) {
-    const fw_shape *drawn = m->shape ? &m->shape[body] : NULL;
+fw_effects_face fw_effects_air_face(const fw_mechanism *m, const fw_device_air *air, int body) {
+    const fw_mechanism_shape *drawn = m->shape ? &m->shape[body] : NULL;
     bool known = drawn && drawn->area_m2 > 0;
     double area = air->area_m2;
-    if (known && isnan(area)) return (fw_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
-    if (!known) return (fw_face){area, area * area / (2 * FW_PI), 2 * sqrt(FW_PI * area)};
+    if (known && isnan(area))
+        return (fw_effects_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
+    if (!known) return (fw_effects_face){area, area * area / (2 * FW_PI), 2 * sqrt(FW_PI * area)};
     double scale = area / drawn->area_m2;
-    return (fw_face){area, scale * scale * drawn->polar_m4, sqrt(scale) * drawn->perimeter_m};
+    return (fw_effects_face){area, scale * scale * drawn->polar_m4,
+                             sqrt(scale) * drawn->perimeter_m};
 }
 
 static bool called_for(const fw_effect_case *c) {
@@ -41,7 +43,7 @@ static bool called_for(const fw_effect_case *c) {
 }
 
 /* the bodies that an <air> of kind slide or drag acts on: [*first, *last] */
-static void bodies_of(const fw_effect_case *c, const fw_air *a, int *first, int *last) {
+static void bodies_of(const fw_effect_case *c, const fw_device_air *a, int *first, int *last) {
     bool all = a->body == FW_NONE;
     *first = all ? 0 : a->body;
     *last = all ? c->mechanism->nbody - 1 : a->body;
@@ -49,18 +51,18 @@ static void bodies_of(const fw_effect_case *c, const fw_air *a, int *first, int 
 
 static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     for (int i = 0; i < c->scene->nair; i++) {
-        const fw_air *a = &c->scene->air[i];
+        const fw_device_air *a = &c->scene->air[i];
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
-            if (isnan(fw_air_depth(c->mechanism, a)))
+            if (isnan(fw_effects_air_depth(c->mechanism, a)))
                 return fw_diag_error(diags, 253, a->place,
                                      "the depth of this film is not known: state it");
             continue;
         }
         for (int b = first; b <= last; b++) {
             const char *id = c->mechanism->body[b].id;
-            if (!(fw_air_face(c->mechanism, a, b).area_m2 > 0))
+            if (!(fw_effects_air_face(c->mechanism, a, b).area_m2 > 0))
                 return fw_diag_error(diags, 253, a->place,
                                      "body %s is not drawn, so the area that the air acts on is "
                                      "not known: state it",
@@ -72,7 +74,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 
 /* ---- bound: |force| <= c times the largest speed that the envelope allows ---- */
 
-static void add_damper(const fw_effect_case *c, int body, fw_damper d, double *force) {
+static void add_damper(const fw_effect_case *c, int body, fw_effects_damper d, double *force) {
     const double *speed = c->envelope->speed + 3 * body;
     force[3 * body] += d.force_Ns_per_m * speed[0];
     force[3 * body + 1] += d.force_Ns_per_m * speed[1];
@@ -92,15 +94,15 @@ static void add_to(double *force, int body, double arm_m, double most_N) {
 }
 
 /* false: the walls may come so close that nothing can be said */
-static bool add_squeeze(const fw_effect_case *c, const fw_air *a, double *force) {
-    const fw_envelope *e = c->envelope;
-    const fw_gas gas = fw_gas_of(a);
-    const fw_squeeze film =
-        fw_air_squeeze(&gas, a->length_m, fw_air_depth(c->mechanism, a), a->gap_m);
+static bool add_squeeze(const fw_effect_case *c, const fw_device_air *a, double *force) {
+    const fw_effects_envelope *e = c->envelope;
+    const fw_effects_gas gas = fw_effects_gas_of(a);
+    const fw_effects_squeeze film =
+        fw_effects_air_squeeze(&gas, a->length_m, fw_effects_air_depth(c->mechanism, a), a->gap_m);
     double own = hypot(a->x_m, a->y_m), other = 0;
     if (a->against != FW_GROUND) {
-        fw_vec2 wall = fw_local_place(c->mechanism, a->body, a->x_m, a->y_m);
-        const fw_mass *b = &c->mechanism->body[a->against];
+        fw_geometry_vec2 wall = fw_mechanism_local_place(c->mechanism, a->body, a->x_m, a->y_m);
+        const fw_mechanism_mass *b = &c->mechanism->body[a->against];
         other = hypot(wall.x - b->x_m, wall.y - b->y_m) + a->gap_m;
     }
     double moved = point_most(e->reach, a->body, own) + point_most(e->reach, a->against, other);
@@ -110,7 +112,7 @@ static bool add_squeeze(const fw_effect_case *c, const fw_air *a, double *force)
     if (!(least > 0.01 * a->gap_m)) return false;
     double spin = a->against == FW_GROUND ? 0 : e->speed[3 * a->against + 2];
     double rate = point_most(e->speed, a->body, own) + point_most(e->speed, a->against, other);
-    double most = fw_squeeze_at(&film, least, NULL) * (rate + spin * far);
+    double most = fw_effects_squeeze_at(&film, least, NULL) * (rate + spin * far);
     add_to(force, a->body, own, most);
     add_to(force, a->against, other + far, most);
     return true;
@@ -118,8 +120,8 @@ static bool add_squeeze(const fw_effect_case *c, const fw_air *a, double *force)
 
 static bool add_forces(const fw_effect_case *c, double *force) {
     for (int i = 0; i < c->scene->nair; i++) {
-        const fw_air *a = &c->scene->air[i];
-        const fw_gas gas = fw_gas_of(a);
+        const fw_device_air *a = &c->scene->air[i];
+        const fw_effects_gas gas = fw_effects_gas_of(a);
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
@@ -127,10 +129,10 @@ static bool add_forces(const fw_effect_case *c, double *force) {
             continue;
         }
         for (int b = first; b <= last; b++) {
-            const fw_face face = fw_air_face(c->mechanism, a, b);
+            const fw_effects_face face = fw_effects_air_face(c->mechanism, a, b);
             add_damper(c, b,
-                       a->kind == FW_AIR_SLIDE ? fw_air_slide(&gas, &face, a->gap_m)
-                                               : fw_air_drag(&gas, &face),
+                       a->kind == FW_AIR_SLIDE ? fw_effects_air_slide(&gas, &face, a->gap_m)
+                                               : fw_effects_air_drag(&gas, &face),
                        force);
         }
     }
@@ -147,14 +149,14 @@ static void name(fw_text *out, const char *what, double number) {
 }
 
 /* at the lowest mode of the envelope and its largest speeds */
-static void validity(const fw_effect_case *c, const fw_air *a, fw_text *out) {
-    const fw_envelope *e = c->envelope;
-    const fw_gas gas = fw_gas_of(a);
+static void validity(const fw_effect_case *c, const fw_device_air *a, fw_text *out) {
+    const fw_effects_envelope *e = c->envelope;
+    const fw_effects_gas gas = fw_effects_gas_of(a);
     double omega = e->modes > 0 ? e->omega[0] : 0, mu = gas.viscosity_Pas;
     double rho = gas.density_kg_per_m3, depth = sqrt(2 * mu / (rho * omega));
     int first, last;
     if (a->kind == FW_AIR_SQUEEZE) {
-        double across = fmin(a->length_m, fw_air_depth(c->mechanism, a)), g = a->gap_m;
+        double across = fmin(a->length_m, fw_effects_air_depth(c->mechanism, a)), g = a->gap_m;
         name(out, "the squeeze number",
              12 * mu * omega * across * across / (gas.pressure_Pa * g * g));
         name(out, "the film's Reynolds number", rho * omega * g * g / mu);
@@ -164,7 +166,7 @@ static void validity(const fw_effect_case *c, const fw_air *a, fw_text *out) {
     bodies_of(c, a, &first, &last);
     double largest = 0, fastest = 0;
     for (int b = first; b <= last; b++) {
-        double size = sqrt(fw_air_face(c->mechanism, a, b).area_m2 / FW_PI);
+        double size = sqrt(fw_effects_air_face(c->mechanism, a, b).area_m2 / FW_PI);
         largest = fmax(largest, size);
         fastest = fmax(fastest, size * point_most(e->speed, b, size));
     }
@@ -188,7 +190,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     }
     double *force;
     FW_NEED(force = fw_arena_array(c->arena, double, 3 * (size_t)c->mechanism->nbody));
-    if (add_forces(c, force)) *value = fw_envelope_answer(c, force, (double)INFINITY);
+    if (add_forces(c, force)) *value = fw_effects_envelope_answer(c, force, (double)INFINITY);
     if (isnan(*value)) *value = (double)INFINITY;
     fw_text text = fw_text_new(c->arena);
     fw_text_add(&text,
@@ -202,19 +204,20 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->nair; i++) {
-        const fw_air *a = &c->scene->air[i];
+        const fw_device_air *a = &c->scene->air[i];
         int first, last;
         bodies_of(c, a, &first, &last);
         if (a->kind == FW_AIR_SQUEEZE) {
-            if (fw_air_depth(c->mechanism, a) > 0) FW_TRY(fw_air_squeeze_add(c, terms, a));
+            if (fw_effects_air_depth(c->mechanism, a) > 0)
+                FW_TRY(fw_effects_air_squeeze_add(c, loads, a));
             continue;
         }
         for (int b = first; b <= last; b++) {
-            if (!(fw_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
-            FW_TRY(a->kind == FW_AIR_SLIDE ? fw_air_slide_add(c, terms, a, b)
-                                           : fw_air_drag_add(c, terms, a, b));
+            if (!(fw_effects_air_face(c->mechanism, a, b).area_m2 > 0)) continue; /* see check */
+            FW_TRY(a->kind == FW_AIR_SLIDE ? fw_effects_air_slide_add(c, loads, a, b)
+                                           : fw_effects_air_drag_add(c, loads, a, b));
         }
     }
     return FW_OK;
@@ -229,7 +232,8 @@ static int count(const fw_effect_case *c) {
     return all;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     static const char *const kind[] = {[FW_AIR_SLIDE] = "sliding film",
                                        [FW_AIR_SQUEEZE] = "squeezed film",
                                        [FW_AIR_DRAG] = "drag"};

@@ -17,24 +17,24 @@
 #include "base/constants.h"
 #include <math.h>
 
-fw_damper fw_air_drag(const fw_gas *gas, const fw_face *face) {
+fw_effects_damper fw_effects_air_drag(const fw_effects_gas *gas, const fw_effects_face *face) {
     double mu = gas->viscosity_Pas, radius = face->perimeter_m / (2 * FW_PI);
     double turning = pow(2 * face->polar_m4 / FW_PI, 0.25);
     double force = 32 * mu * radius / 3, couple = 32 * mu * turning * turning * turning / 3;
-    return (fw_damper){1 / (1 / force + gas->path_m / (mu * face->area_m2)),
-                       1 / (1 / couple + gas->path_m / (mu * face->polar_m4))};
+    return (fw_effects_damper){1 / (1 / force + gas->path_m / (mu * face->area_m2)),
+                               1 / (1 / couple + gas->path_m / (mu * face->polar_m4))};
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
-    const fw_damper *d = e->data;
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
+    const fw_effects_damper *d = e->data;
     f[0] = -d->force_Ns_per_m * s->w[0];
     f[1] = -d->force_Ns_per_m * s->w[1];
     f[2] = -d->couple_Nms * s->w[2];
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
-    const fw_damper *d = e->data;
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
+    const fw_effects_damper *d = e->data;
     (void)s;
     for (int i = 0; i < 9; i++)
         stiffness[i] = damping[i] = 0;
@@ -42,26 +42,28 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     damping[8] = d->couple_Nms;
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
-    const fw_damper *d = e->data;
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double out[2]) {
+    const fw_effects_damper *d = e->data;
     out[0] = d->force_Ns_per_m * (s->w[0] * s->w[0] + s->w[1] * s->w[1]) +
              d->couple_Nms * s->w[2] * s->w[2];
     out[1] = 0;
 }
 
-static const fw_element_class drag_class = {
+static const fw_effects_element_class drag_class = {
     .effect = "air", .force = force, .tangent = tangent, .power = power};
 
-fw_status fw_air_drag_add(const fw_effect_case *c, fw_terms *terms, const fw_air *air, int body) {
-    fw_damper *data = fw_arena_one(c->arena, fw_damper);
-    fw_force_element *e = fw_terms_add_element(c->arena, terms, &drag_class, 1);
+fw_status fw_effects_air_drag_add(const fw_effect_case *c, fw_effects_loads *loads,
+                                  const fw_device_air *air, int body) {
+    fw_effects_damper *data = fw_arena_one(c->arena, fw_effects_damper);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &drag_class, 1);
     FW_NEED(data && e);
-    const fw_gas gas = fw_gas_of(air);
-    const fw_face face = fw_air_face(c->mechanism, air, body);
-    *data = fw_air_drag(&gas, &face);
+    const fw_effects_gas gas = fw_effects_gas_of(air);
+    const fw_effects_face face = fw_effects_air_face(c->mechanism, air, body);
+    *data = fw_effects_air_drag(&gas, &face);
     e->id = c->mechanism->body[body].id;
     e->place = air->place;
-    e->port[0] = (fw_port){body, 0, 0};
+    e->port[0] = (fw_effects_port){body, 0, 0};
     e->dissipates = true;
     e->data = data;
     return FW_OK;

@@ -17,31 +17,32 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void add_force(const fw_force *f, fw_terms *terms) {
+static void add_force(const fw_device_force *f, fw_effects_loads *loads) {
     if (f->body == FW_GROUND) return;
-    if (!fw_law_is_constant(f->law))
-        terms->timed[terms->ntimed++] =
-            (fw_timed_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N, 0, f->law};
+    if (!fw_quantity_law_is_constant(f->law))
+        loads->timed[loads->ntimed++] =
+            (fw_effects_timed_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N, 0, f->law};
     else if (f->x_m == 0 && f->y_m == 0) {
-        terms->constant[3 * f->body] += f->fx_N;
-        terms->constant[3 * f->body + 1] += f->fy_N;
+        loads->constant[3 * f->body] += f->fx_N;
+        loads->constant[3 * f->body + 1] += f->fy_N;
     } else
-        terms->load[terms->nload++] = (fw_point_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N};
+        loads->load[loads->nload++] =
+            (fw_effects_point_load){f->body, f->x_m, f->y_m, f->fx_N, f->fy_N};
 }
 
 /* what a law changes with time goes to `timed`; of the rest, forces at the centre of mass and
    torques are constants, and a force elsewhere turns its arm */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->nforce; i++)
-        add_force(&c->scene->force[i], terms);
+        add_force(&c->scene->force[i], loads);
     for (int i = 0; i < c->scene->ntorque; i++) {
-        const fw_torque *t = &c->scene->torque[i];
+        const fw_device_torque *t = &c->scene->torque[i];
         if (t->body == FW_GROUND) continue;
-        if (fw_law_is_constant(t->law))
-            terms->constant[3 * t->body + 2] += t->value_Nm;
+        if (fw_quantity_law_is_constant(t->law))
+            loads->constant[3 * t->body + 2] += t->value_Nm;
         else
-            terms->timed[terms->ntimed++] =
-                (fw_timed_load){.body = t->body, .torque_Nm = t->value_Nm, .law = t->law};
+            loads->timed[loads->ntimed++] =
+                (fw_effects_timed_load){.body = t->body, .torque_Nm = t->value_Nm, .law = t->law};
     }
     return FW_OK;
 }
@@ -52,16 +53,18 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->scene->nforce; i++) {
-        const fw_force *f = &c->scene->force[i];
-        if (f->body != FW_GROUND) n += !fw_law_is_constant(f->law) ? 9 : f->x_m != 0 || f->y_m != 0;
+        const fw_device_force *f = &c->scene->force[i];
+        if (f->body != FW_GROUND)
+            n += !fw_quantity_law_is_constant(f->law) ? 9 : f->x_m != 0 || f->y_m != 0;
     }
     for (int i = 0; i < c->scene->ntorque; i++)
         if (c->scene->torque[i].body != FW_GROUND)
-            n += fw_law_is_constant(c->scene->torque[i].law) ? 0 : 9;
+            n += fw_quantity_law_is_constant(c->scene->torque[i].law) ? 0 : 9;
     return n;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     for (int i = 0; i < s->nforce; i++) {
         fw_effects_say(to, "; force on {s} ({u}, {u})", device->body[s->force[i].body].id,
                        s->force[i].fx_N, "N", s->force[i].fy_N, "N");
@@ -74,12 +77,14 @@ static void describe(const fw_device *device, const fw_scene *s, const fw_effect
     }
 }
 
-static void loads(const fw_scene *s, fw_effects_loads *list) {
-    if (s->nforce > 0) fw_effects_add_load(list, (fw_effects_load){.name = "forces", .ordinary = true});
-    if (s->ntorque > 0) fw_effects_add_load(list, (fw_effects_load){.name = "torques", .ordinary = true});
+static void loads(const fw_device_scene *s, fw_effects_load_scaling *list) {
+    if (s->nforce > 0)
+        fw_effects_add_load(list, (fw_effects_load){.name = "forces", .ordinary = true});
+    if (s->ntorque > 0)
+        fw_effects_add_load(list, (fw_effects_load){.name = "torques", .ordinary = true});
 }
 
-static void scale(fw_scene *s, double by) {
+static void scale(fw_device_scene *s, double by) {
     for (int i = 0; i < s->nforce; i++) {
         s->force[i].fx_N *= by;
         s->force[i].fy_N *= by;

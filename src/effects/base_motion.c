@@ -6,7 +6,7 @@
 #include "effects/envelope.h"
 #include <math.h>
 
-static bool shakes(const fw_base_motion *b) {
+static bool shakes(const fw_device_base_motion *b) {
     return b->ax_m_per_s2 != 0 || b->ay_m_per_s2 != 0;
 }
 
@@ -17,10 +17,10 @@ static bool called_for(const fw_effect_case *c) {
 }
 
 /* modal forces (modes) of -m a, and the force (n) itself */
-static void push_of(const fw_effect_case *c, const fw_base_motion *b, double size, double *force,
-                    double *mode) {
+static void modal_load_of(const fw_effect_case *c, const fw_device_base_motion *b, double size,
+                          double *force, double *mode) {
     const fw_mechanism *m = c->mechanism;
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     for (int k = 0; k < m->nbody; k++) {
         force[3 * k] = -m->body[k].mass_kg * b->ax_m_per_s2 * size;
         force[3 * k + 1] = -m->body[k].mass_kg * b->ay_m_per_s2 * size;
@@ -37,7 +37,7 @@ static void push_of(const fw_effect_case *c, const fw_base_motion *b, double siz
    SI; output dimensionless. Valid where the envelope is. Cost modes x bodies each. Test:
    test_base_motion.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     *value = (double)INFINITY;
     if (!e || !e->valid) {
         FW_NEED(*reason = fw_arena_printf(
@@ -51,18 +51,18 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
     FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
     for (int i = 0; i < c->scene->nbase; i++) {
-        const fw_base_motion *b = &c->scene->base[i];
+        const fw_device_base_motion *b = &c->scene->base[i];
         double part;
         if (!shakes(b)) continue;
-        fw_law_size size = fw_law_measure(b->law, c->scene->duration_s);
+        fw_quantity_law_size size = fw_quantity_law_measure(b->law, c->scene->duration_s);
         if (size.most == 0) continue;
         if (!isfinite(size.most)) sum = (double)INFINITY;
         if (!isfinite(sum)) break;
-        push_of(c, b, size.most, force, mode);
-        FW_TRY(fw_envelope_softening(c, force, &part));
-        sum += fw_envelope_mode_answer(c, mode, size.variation / size.most) +
-               (fw_law_is_constant(b->law) ? fw_envelope_stiffness(c, part)
-                                           : fw_envelope_varying(c, part));
+        modal_load_of(c, b, size.most, force, mode);
+        FW_TRY(fw_effects_envelope_softening(c, force, &part));
+        sum += fw_effects_envelope_mode_answer(c, mode, size.variation / size.most) +
+               (fw_quantity_law_is_constant(b->law) ? fw_effects_envelope_stiffness(c, part)
+                                                    : fw_effects_envelope_varying(c, part));
     }
     fw_arena_rewind(c->arena, mark);
     if (!(sum < (double)INFINITY)) return FW_OK;
@@ -73,20 +73,20 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 }
 
 /* laws to `timed` (room for every body and shake is reserved), what is constant to the constants */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     const fw_mechanism *m = c->mechanism;
     for (int i = 0; i < c->scene->nbase; i++) {
-        const fw_base_motion *b = &c->scene->base[i];
+        const fw_device_base_motion *b = &c->scene->base[i];
         for (int k = 0; k < m->nbody && shakes(b); k++) {
             double fx = -m->body[k].mass_kg * b->ax_m_per_s2;
             double fy = -m->body[k].mass_kg * b->ay_m_per_s2;
-            if (!fw_law_is_constant(b->law)) {
-                terms->timed[terms->ntimed++] =
-                    (fw_timed_load){.body = k, .fx_N = fx, .fy_N = fy, .law = b->law};
+            if (!fw_quantity_law_is_constant(b->law)) {
+                loads->timed[loads->ntimed++] =
+                    (fw_effects_timed_load){.body = k, .fx_N = fx, .fy_N = fy, .law = b->law};
                 continue;
             }
-            terms->constant[3 * k] += fx;
-            terms->constant[3 * k + 1] += fy;
+            loads->constant[3 * k] += fx;
+            loads->constant[3 * k + 1] += fy;
         }
     }
     return FW_OK;
@@ -96,12 +96,13 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 static int count(const fw_effect_case *c) {
     int laws = 0;
     for (int i = 0; i < c->scene->nbase; i++)
-        laws += shakes(&c->scene->base[i]) && !fw_law_is_constant(c->scene->base[i].law);
+        laws += shakes(&c->scene->base[i]) && !fw_quantity_law_is_constant(c->scene->base[i].law);
     return laws * c->mechanism->nbody;
 }
 
 /* it stays where nothing else moves the mechanism: there is then nothing else to judge */
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->nbase; i++) {
         fw_effects_say(to, "; base shaken with ({n}, {n}) m/s\u00b2", s->base[i].ax_m_per_s2,
@@ -110,11 +111,11 @@ static void describe(const fw_device *device, const fw_scene *s, const fw_effect
     }
 }
 
-static void loads(const fw_scene *s, fw_effects_loads *list) {
+static void loads(const fw_device_scene *s, fw_effects_load_scaling *list) {
     if (s->nbase > 0) fw_effects_add_load(list, (fw_effects_load){.name = "base motion"});
 }
 
-static void scale(fw_scene *s, double by) {
+static void scale(fw_device_scene *s, double by) {
     for (int i = 0; i < s->nbase; i++) {
         s->base[i].ax_m_per_s2 *= by;
         s->base[i].ay_m_per_s2 *= by;

@@ -16,7 +16,7 @@
    load factor. First and second derivatives of C are exact.
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and not at
-   the root; small tilts (sin theta = theta). Left out: fringe fields (fw_comb_fringe), the
+   the root; small tilts (sin theta = theta). Left out: fringe fields (fw_effects_comb_fringe), the
    capacitance of finger tips, and that the fingers of one comb are not at one place (second order
    in theta). Cost about 1200 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
@@ -89,8 +89,8 @@ static double add_strip(const strip *s, double scale, double *slope, double *ben
     return scale * la * phi[0];
 }
 
-double fw_comb_capacitance(const fw_comb_element *c, const double place[3], double *slope,
-                           double *bend) {
+double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const double place[3],
+                                   double *slope, double *bend) {
     const double x = place[0], y = place[1], t = place[2];
     double face = c->face_Fm;
     if (slope) memset(slope, 0, 3 * sizeof *slope);
@@ -114,25 +114,25 @@ double fw_comb_capacitance(const fw_comb_element *c, const double place[3], doub
     return all;
 }
 
-double fw_comb_fringe(const fw_comb_element *c) {
+double fw_effects_comb_fringe(const fw_effects_comb_element *c) {
     double share = c->gap_m / (FW_PI * c->depth_m);
     return share * (1 + log(2 * FW_PI * c->depth_m / c->gap_m));
 }
 
 /* ---- where the rotor is ---- */
 
-static const fw_comb_element *data_of(const fw_force_element *e) {
+static const fw_effects_comb_element *data_of(const fw_effects_force_element *e) {
     return e->data;
 }
 
 /* e of the stator as it stands */
-static fw_vec2 along(const fw_force_element *e, const double *p) {
+static fw_geometry_vec2 along(const fw_effects_force_element *e, const double *p) {
     double turned = data_of(e)->direction_rad + p[2];
-    return (fw_vec2){cos(turned), sin(turned)};
+    return (fw_geometry_vec2){cos(turned), sin(turned)};
 }
 
-void fw_comb_place(const fw_force_element *e, const double *p, double place[3]) {
-    fw_vec2 u = along(e, p);
+void fw_effects_comb_place(const fw_effects_force_element *e, const double *p, double place[3]) {
+    fw_geometry_vec2 u = along(e, p);
     double dx = p[3] - p[0], dy = p[4] - p[1];
     place[0] = u.x * dx + u.y * dy;
     place[1] = -u.y * dx + u.x * dy;
@@ -140,17 +140,18 @@ void fw_comb_place(const fw_force_element *e, const double *p, double place[3]) 
 }
 
 /* d(place)/dp, 3 x 6: d = p1 - p0 and e turns with the stator: x' = e.d' + y theta_a' */
-static void way(const fw_force_element *e, const double *p, double j[3][6]) {
-    fw_vec2 u = along(e, p);
+static void way(const fw_effects_force_element *e, const double *p, double j[3][6]) {
+    fw_geometry_vec2 u = along(e, p);
     double place[3];
-    fw_comb_place(e, p, place);
+    fw_effects_comb_place(e, p, place);
     const double rows[3][6] = {{-u.x, -u.y, place[1], u.x, u.y, 0},
                                {u.y, -u.x, -place[0], -u.y, u.x, 0},
                                {0, 0, -1, 0, 0, 1}};
     memcpy(j, rows, sizeof rows);
 }
 
-void fw_comb_rate(const fw_force_element *e, const double *p, const double *w, double rate[3]) {
+void fw_effects_comb_rate(const fw_effects_force_element *e, const double *p, const double *w,
+                          double rate[3]) {
     double j[3][6];
     way(e, p, j);
     for (int i = 0; i < 3; i++) {
@@ -163,43 +164,43 @@ void fw_comb_rate(const fw_force_element *e, const double *p, const double *w, d
 /* ---- the class ---- */
 
 /* V and V' */
-static void volts(const fw_force_element *e, const fw_seen *s, double v[2]) {
+static void volts(const fw_effects_force_element *e, const fw_effects_port_state *s, double v[2]) {
     double value[3] = {1, 0, 0};
-    if (e->law[0]) fw_law_value(e->law[0], s->t_s, s->piece_s, value);
+    if (e->law[0]) fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, value);
     v[0] = data_of(e)->voltage_V * value[0];
     v[1] = data_of(e)->voltage_V * value[1];
 }
 
-static void push(const fw_force_element *e, const double *p, double half, double *f) {
+static void modal_load(const fw_effects_force_element *e, const double *p, double half, double *f) {
     double place[3], slope[3], j[3][6];
-    fw_comb_place(e, p, place);
-    fw_comb_capacitance(data_of(e), place, slope, NULL);
+    fw_effects_comb_place(e, p, place);
+    fw_effects_comb_capacitance(data_of(e), place, slope, NULL);
     way(e, p, j);
     for (int k = 0; k < 6; k++)
         f[k] = half * (slope[0] * j[0][k] + slope[1] * j[1][k] + slope[2] * j[2][k]);
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     double v[2];
     volts(e, s, v);
-    push(e, s->p, 0.5 * v[0] * v[0] * s->load, f);
+    modal_load(e, s->p, 0.5 * v[0] * v[0] * s->load, f);
 }
 
-static void slope_of(const fw_force_element *e, const fw_seen *s, double *f) {
+static void slope_of(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     double v[2];
     volts(e, s, v);
-    push(e, s->p, 0.5 * v[0] * v[0], f);
+    modal_load(e, s->p, 0.5 * v[0] * v[0], f);
 }
 
 /* -(J^T C'' J + sum C'_i d2(place_i)) V^2/2; second derivatives with the stator's turn: de = n, dn
    = -e, so d2x: n by points, -x by turns; d2y: -e by points, -y by turns */
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
     double v[2], place[3], slope[3], bend[9], j[3][6];
     volts(e, s, v);
     double half = 0.5 * v[0] * v[0] * s->load;
-    fw_comb_place(e, s->p, place);
-    fw_comb_capacitance(data_of(e), place, slope, bend);
+    fw_effects_comb_place(e, s->p, place);
+    fw_effects_comb_capacitance(data_of(e), place, slope, bend);
     way(e, s->p, j);
     memset(damping, 0, 36 * sizeof *damping);
     for (int a = 0; a < 6; a++)
@@ -218,23 +219,25 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     stiffness[14] += half * (slope[0] * place[0] + slope[1] * place[1]);
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     double v[2], place[3];
     volts(e, s, v);
-    fw_comb_place(e, s->p, place);
-    return -0.5 * fw_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[0] * s->load;
+    fw_effects_comb_place(e, s->p, place);
+    return -0.5 * fw_effects_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[0] *
+           s->load;
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double out[2]) {
     double v[2], place[3];
     volts(e, s, v);
-    fw_comb_place(e, s->p, place);
+    fw_effects_comb_place(e, s->p, place);
     out[0] = 0;
-    out[1] = -fw_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[1] * s->load;
+    out[1] = -fw_effects_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[1] * s->load;
 }
 
 /* the gap that is left at the nearer end, relative to the gap as drawn */
-static double least_gap(const fw_comb_element *c, const double place[3]) {
+static double least_gap(const fw_effects_comb_element *c, const double place[3]) {
     if (c->kind == FW_ELECTRODES_PLATE)
         return 1 - (place[0] + 0.5 * c->length_m * fabs(place[2])) / c->gap_m;
     double at_stator = place[1] - place[2] * (0.5 * c->overlap_m + place[0]);
@@ -242,10 +245,11 @@ static double least_gap(const fw_comb_element *c, const double place[3]) {
     return 1 - fmax(fabs(at_stator), fabs(at_rotor)) / c->gap_m;
 }
 
-static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
-    const fw_comb_element *c = data_of(e);
+static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  const char **why) {
+    const fw_effects_comb_element *c = data_of(e);
     double place[3];
-    fw_comb_place(e, s->p, place);
+    fw_effects_comb_place(e, s->p, place);
     if (c->kind == FW_ELECTRODES_COMB && !(c->overlap_m + place[0] > 0)) {
         *why = "the fingers of the comb drive have left each other: the capacitance of an engaged "
                "comb does not hold there. Draw them with more overlap, or move less";
@@ -264,16 +268,16 @@ static bool valid(const fw_force_element *e, const fw_seen *s, const char **why)
     return true;
 }
 
-static const fw_element_class comb_class = {.effect = "comb-drive",
-                                            .electrodes = true,
-                                            .force = force,
-                                            .tangent = tangent,
-                                            .energy = energy,
-                                            .power = power,
-                                            .slope = slope_of,
-                                            .valid = valid};
+static const fw_effects_element_class comb_class = {.effect = "comb-drive",
+                                                    .electrodes = true,
+                                                    .force = force,
+                                                    .tangent = tangent,
+                                                    .energy = energy,
+                                                    .power = power,
+                                                    .slope = slope_of,
+                                                    .valid = valid};
 
-const fw_comb_element *fw_comb_of(const fw_force_element *e) {
+const fw_effects_comb_element *fw_effects_comb_of(const fw_effects_force_element *e) {
     return e->class_ == &comb_class ? data_of(e) : NULL;
 }
 
@@ -297,23 +301,23 @@ static double turn_of(const fw_mechanism *m, int body) {
 }
 
 /* a world point as the body sees it, as drawn */
-static fw_port port_at(const fw_mechanism *m, int body, fw_vec2 world) {
-    if (body == FW_GROUND) return (fw_port){body, world.x, world.y};
-    const fw_mass *b = &m->body[body];
+static fw_effects_port port_at(const fw_mechanism *m, int body, fw_geometry_vec2 world) {
+    if (body == FW_GROUND) return (fw_effects_port){body, world.x, world.y};
+    const fw_mechanism_mass *b = &m->body[body];
     double dx = world.x - b->x_m, dy = world.y - b->y_m, c = cos(b->phi_rad), s = sin(b->phi_rad);
-    return (fw_port){body, c * dx + s * dy, -s * dx + c * dy};
+    return (fw_effects_port){body, c * dx + s * dy, -s * dx + c * dy};
 }
 
-static fw_comb_element electrodes(const fw_effect_case *c, const fw_comb *from) {
+static fw_effects_comb_element electrodes(const fw_effect_case *c, const fw_device_comb *from) {
     const fw_mechanism *m = c->mechanism;
-    fw_comb_element d = {.kind = from->kind,
-                         .gap_m = from->gap_m,
-                         .overlap_m = from->overlap_m,
-                         .length_m = from->length_m,
-                         .depth_m = from->depth_m,
-                         .direction_rad = from->direction_rad,
-                         .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
-                         .voltage_V = from->voltage_V};
+    fw_effects_comb_element d = {.kind = from->kind,
+                                 .gap_m = from->gap_m,
+                                 .overlap_m = from->overlap_m,
+                                 .length_m = from->length_m,
+                                 .depth_m = from->depth_m,
+                                 .direction_rad = from->direction_rad,
+                                 .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
+                                 .voltage_V = from->voltage_V};
     if (isnan(d.depth_m) && m->variant) d.depth_m = m->variant->thickness_m;
     if (d.kind == FW_ELECTRODES_COMB && isnan(d.length_m)) d.length_m = 2 * d.overlap_m;
     d.face_Fm = FW_VACUUM_PERMITTIVITY_F_PER_m * d.depth_m *
@@ -321,32 +325,34 @@ static fw_comb_element electrodes(const fw_effect_case *c, const fw_comb *from) 
     return d;
 }
 
-static fw_status add_one(const fw_effect_case *c, const fw_comb *from, fw_terms *terms) {
-    fw_comb_element *d;
-    fw_force_element *e;
-    FW_NEED(d = fw_arena_one(c->arena, fw_comb_element));
-    FW_NEED(e = fw_terms_add_element(c->arena, terms, &comb_class, 2));
+static fw_status add_one(const fw_effect_case *c, const fw_device_comb *from,
+                         fw_effects_loads *loads) {
+    fw_effects_comb_element *d;
+    fw_effects_force_element *e;
+    FW_NEED(d = fw_arena_one(c->arena, fw_effects_comb_element));
+    FW_NEED(e = fw_effects_loads_add_element(c->arena, loads, &comb_class, 2));
     *d = electrodes(c, from);
-    fw_vec2 world = fw_local_place(c->mechanism, from->body_b, from->bx_m, from->by_m);
+    fw_geometry_vec2 world =
+        fw_mechanism_local_place(c->mechanism, from->body_b, from->bx_m, from->by_m);
     e->id = from->id ? from->id : "comb-drive";
     e->place = from->place;
     e->data = d;
     e->port[0] = port_at(c->mechanism, from->body_a, world);
-    e->port[1] = (fw_port){from->body_b, from->bx_m, from->by_m};
-    if (!fw_law_is_constant(from->law)) e->law[e->laws++] = from->law;
+    e->port[1] = (fw_effects_port){from->body_b, from->bx_m, from->by_m};
+    if (!fw_quantity_law_is_constant(from->law)) e->law[e->laws++] = from->law;
     e->works = e->laws > 0;
     const double as_drawn[3] = {0, 0, 0};
     double slope[3], bend[9];
-    fw_comb_capacitance(d, as_drawn, slope, bend);
-    double volt = d->voltage_V * fw_law_largest(from->law, c->scene->duration_s);
+    fw_effects_comb_capacitance(d, as_drawn, slope, bend);
+    double volt = d->voltage_V * fw_quantity_law_largest(from->law, c->scene->duration_s);
     e->force_N = 0.5 * volt * volt * fabs(slope[0]);
     e->size_N_per_m = 0.5 * volt * volt * fmax(fabs(bend[0]), fabs(bend[4]));
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->ncomb; i++)
-        if (c->scene->comb[i].voltage_V != 0) FW_TRY(add_one(c, &c->scene->comb[i], terms));
+        if (c->scene->comb[i].voltage_V != 0) FW_TRY(add_one(c, &c->scene->comb[i], loads));
     return FW_OK;
 }
 
@@ -358,9 +364,10 @@ static const char *id_of(const fw_device *device, int body) {
     return body < 0 ? "ground" : device->body[body].id;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     for (int i = 0; i < s->ncomb; i++) {
-        const fw_comb *c = &s->comb[i];
+        const fw_device_comb *c = &s->comb[i];
         fw_effects_say(to, "; {s} {s} between {s} and {s} at {u}",
                        c->kind == FW_ELECTRODES_COMB ? "comb" : "plates", c->id,
                        id_of(device, c->body_b), id_of(device, c->body_a), c->voltage_V, "V");
@@ -368,11 +375,12 @@ static void describe(const fw_device *device, const fw_scene *s, const fw_effect
     }
 }
 
-static void loads(const fw_scene *s, fw_effects_loads *list) {
-    if (s->ncomb > 0) fw_effects_add_load(list, (fw_effects_load){.name = "voltages", .squared = true});
+static void loads(const fw_device_scene *s, fw_effects_load_scaling *list) {
+    if (s->ncomb > 0)
+        fw_effects_add_load(list, (fw_effects_load){.name = "voltages", .squared = true});
 }
 
-static void scale(fw_scene *s, double by) {
+static void scale(fw_device_scene *s, double by) {
     for (int i = 0; i < s->ncomb; i++)
         s->comb[i].voltage_V *= sqrt(by);
 }

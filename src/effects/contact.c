@@ -69,7 +69,8 @@ static void ended(const double *p, double o, double angle, int port, double gap,
     g->curve[turn][turn] = -o * (c * x + s * y);
 }
 
-static void look(const fw_force_element *e, const fw_seen *s, bool second, overlap *g) {
+static void look(const fw_effects_force_element *e, const fw_effects_port_state *s, bool second,
+                 overlap *g) {
     const touch *t = e->data;
     const double *p = s->p;
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
@@ -87,37 +88,37 @@ static void look(const fw_force_element *e, const fw_seen *s, bool second, overl
         g->rate += g->slope[i] * s->w[i];
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     const touch *t = e->data;
     overlap g;
     look(e, s, false, &g);
-    double push = s->on[0] ? t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate : 0;
+    double modal_load = s->on[0] ? t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate : 0;
     for (int i = 0; i < N; i++)
-        f[i] = -push * g.slope[i];
+        f[i] = -modal_load * g.slope[i];
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
     const touch *t = e->data;
     overlap g;
     memset(stiffness, 0, N * N * sizeof *stiffness);
     memset(damping, 0, N * N * sizeof *damping);
     if (!s->on[0]) return;
     look(e, s, true, &g);
-    double push = t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate;
+    double modal_load = t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate;
     for (int j = 0; j < N; j++) {
         double turning = 0; /* of g' by p_j */
         for (int i = 0; i < N; i++)
             turning += g.curve[i][j] * s->w[i];
         double by = t->k_N_per_m * g.slope[j] + t->c_Ns_per_m * turning;
         for (int i = 0; i < N; i++) {
-            stiffness[N * i + j] = g.slope[i] * by + push * g.curve[i][j];
+            stiffness[N * i + j] = g.slope[i] * by + modal_load * g.curve[i][j];
             damping[N * i + j] = t->c_Ns_per_m * g.slope[i] * g.slope[j];
         }
     }
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const touch *t = e->data;
     overlap g;
     if (!s->on[0]) return 0;
@@ -125,7 +126,8 @@ static double energy(const fw_force_element *e, const fw_seen *s) {
     return 0.5 * t->k_N_per_m * g.value * g.value;
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double power[2]) {
     const touch *t = e->data;
     overlap g;
     look(e, s, false, &g);
@@ -133,7 +135,8 @@ static void power(const fw_force_element *e, const fw_seen *s, double power[2]) 
     power[1] = 0;
 }
 
-static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
+static double switch_value(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                           int i) {
     (void)i;
     const touch *t = e->data;
     overlap g;
@@ -142,7 +145,7 @@ static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
     return fmin(elastic, elastic + t->c_Ns_per_m * g.rate);
 }
 
-static double pressing(const fw_force_element *e, const fw_seen *s) {
+static double pressing(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const touch *t = e->data;
     overlap g;
     if (!s->on[0]) return 0;
@@ -150,13 +153,13 @@ static double pressing(const fw_force_element *e, const fw_seen *s) {
     return fmax(0, t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate);
 }
 
-static const fw_element_class class_ = {.effect = "contact",
-                                        .force = force,
-                                        .tangent = tangent,
-                                        .energy = energy,
-                                        .power = power,
-                                        .switch_value = switch_value,
-                                        .pressing = pressing};
+static const fw_effects_element_class class_ = {.effect = "contact",
+                                                .force = force,
+                                                .tangent = tangent,
+                                                .energy = energy,
+                                                .power = power,
+                                                .switch_value = switch_value,
+                                                .pressing = pressing};
 
 /* ---- from the scene ---- */
 
@@ -168,25 +171,27 @@ static int count(const fw_effect_case *c) {
     return c->scene->ncontact;
 }
 
-double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
-                       double gap_m, double force_N) {
+double fw_effects_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                               double gap_m, double force_N) {
     double modulus = youngs_Pa / (2 * (1 - poisson * poisson));
     double relative = radius_m * (radius_m + gap_m) / gap_m;
     double half = sqrt(4 * force_N * relative / (FW_PI * depth_m * modulus));
     return FW_PI * depth_m * modulus / (2 * log(4 * radius_m / fmin(half, radius_m)) - 1);
 }
 
-static double surface_stiffness(const fw_effect_case *c, const fw_hinge *h, double gap) {
-    const fw_variant *v = c->mechanism->variant;
-    fw_hinge_at at;
+static double surface_stiffness(const fw_effect_case *c, const fw_mechanism_hinge *h, double gap) {
+    const fw_mechanism_variant *v = c->mechanism->variant;
+    fw_flexure_hinge_at at;
     if (!v || v->material.youngs.unknown || !(h->surface_radius_m > 0)) return 0;
-    fw_hinge_law_at(&h->law, 0, &at);
+    fw_flexure_hinge_law_at(&h->law, 0, &at);
     double nu = v->material.poisson.unknown ? 0 : v->material.poisson.value;
-    return fw_line_contact(v->material.youngs.value, nu, v->thickness_m, h->surface_radius_m, gap,
-                           gap * fmin(at.kx_N_per_m.value, at.ky_N_per_m.value));
+    return fw_effects_line_contact(v->material.youngs.value, nu, v->thickness_m,
+                                   h->surface_radius_m, gap,
+                                   gap * fmin(at.kx_N_per_m.value, at.ky_N_per_m.value));
 }
 
-static fw_status unknown(const fw_effect_case *c, const fw_contact_use *use, const char *what) {
+static fw_status unknown(const fw_effect_case *c, const fw_device_contact_use *use,
+                         const char *what) {
     if (!c->diags) return FW_INPUT;
     return fw_diag_error(c->diags, 246, use->place, "contact %s: %s", use->id ? use->id : "", what);
 }
@@ -195,10 +200,11 @@ static double drawn_turn(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? 0 : m->body[body].phi_rad;
 }
 
-static fw_status put(const fw_effect_case *c, fw_terms *terms, const fw_contact_use *use,
-                     const fw_port port[2], const touch *from) {
+static fw_status put(const fw_effect_case *c, fw_effects_loads *loads,
+                     const fw_device_contact_use *use, const fw_effects_port port[2],
+                     const touch *from) {
     touch *t = fw_arena_one(c->arena, touch);
-    fw_force_element *e = fw_terms_add_element(c->arena, terms, &class_, 2);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &class_, 2);
     if (!t || !e) return FW_NOMEM;
     *t = *from;
     if (use->id) e->id = use->id;
@@ -211,19 +217,19 @@ static fw_status put(const fw_effect_case *c, fw_terms *terms, const fw_contact_
     return FW_OK;
 }
 
-static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
-                               const fw_contact_use *use) {
+static fw_status add_conjugate(const fw_effect_case *c, fw_effects_loads *loads,
+                               const fw_device_contact_use *use) {
     const fw_mechanism *m = c->mechanism;
-    const fw_hinge *h = fw_contact_hinge(m, use);
+    const fw_mechanism_hinge *h = fw_effects_contact_hinge(m, use);
     if (!h)
         return unknown(c, use,
                        "the joint is no flexure hinge, so it has no conjugate surfaces; name "
                        "a hinge with a flexure, or two points with a and b");
-    if (!fw_hinge_is_known(h))
+    if (!fw_effects_hinge_is_known(h))
         return unknown(c, use,
                        "the hinge is not drawn, so the direction in which it gives is not known; "
                        "give its bodies a width or a plate, or the hinge an axis");
-    double gap = fw_contact_gap(c, use, h);
+    double gap = fw_effects_contact_gap(c, use, h);
     if (!(gap > 0))
         return unknown(
             c, use,
@@ -235,7 +241,7 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
         return unknown(c, use,
                        "the stiffness of surfaces that are not drawn, or of a material "
                        "without Young's modulus, is not known; give the contact a stiffness");
-    const fw_pin *p = &m->pin[h->pin];
+    const fw_mechanism_pin *p = &m->pin[h->pin];
     int upper = h->first_is_a ? 1 : 0;
     int body[2] = {p->body_a, p->body_b};
     touch t = {.distance_m = gap,
@@ -251,14 +257,15 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_terms *terms,
         t.from_rad = h->cover_from_rad + a - drawn_turn(m, body[t.from_port]);
         t.to_rad = h->cover_to_rad + a - drawn_turn(m, body[t.to_port]);
     }
-    FW_TRY(fw_hinge_release(c, terms, p->hinge));
+    FW_TRY(fw_effects_hinge_release(c, loads, p->hinge));
     /* where the surfaces are drawn, which of a crystal is not where its pin is */
-    const fw_port port[2] = {{p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y},
-                             {p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y}};
-    return put(c, terms, use, port, &t);
+    const fw_effects_port port[2] = {{p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y},
+                                     {p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y}};
+    return put(c, loads, use, port, &t);
 }
 
-static fw_status add_round(const fw_effect_case *c, fw_terms *terms, const fw_contact_use *use) {
+static fw_status add_round(const fw_effect_case *c, fw_effects_loads *loads,
+                           const fw_device_contact_use *use) {
     if (!(use->distance_m > 0) || !(use->stiffness_N_per_m > 0) ||
         !isfinite(use->stiffness_N_per_m))
         return unknown(c, use, "two round things need a distance and a stiffness above 0");
@@ -267,17 +274,17 @@ static fw_status add_round(const fw_effect_case *c, fw_terms *terms, const fw_co
                      .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
                      .side = use->side == FW_CONTACT_INSIDE ? 1 : -1,
                      .sense = 1};
-    const fw_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
-                             {use->body_b, use->bx_m, use->by_m}};
-    return put(c, terms, use, port, &t);
+    const fw_effects_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
+                                     {use->body_b, use->bx_m, use->by_m}};
+    return put(c, loads, use, port, &t);
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     fw_status status = FW_OK;
     for (int i = 0; i < c->scene->ncontact; i++) {
-        const fw_contact_use *use = &c->scene->contact[i];
+        const fw_device_contact_use *use = &c->scene->contact[i];
         fw_status now =
-            use->joint == FW_NONE ? add_round(c, terms, use) : add_conjugate(c, terms, use);
+            use->joint == FW_NONE ? add_round(c, loads, use) : add_conjugate(c, loads, use);
         if (now == FW_NOMEM) return now;
         if (status == FW_OK) status = now;
     }
@@ -301,10 +308,12 @@ static bool said_already(const fw_diags *diags, fw_place place) {
    are drawn with their gap open */
 static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     for (int i = 0; i < c->scene->ncontact; i++) {
-        const fw_contact_use *use = &c->scene->contact[i];
+        const fw_device_contact_use *use = &c->scene->contact[i];
         if (use->joint != FW_NONE || said_already(diags, use->place)) continue;
-        fw_vec2 a = fw_local_place(c->mechanism, use->body_a, use->ax_m, use->ay_m);
-        fw_vec2 b = fw_local_place(c->mechanism, use->body_b, use->bx_m, use->by_m);
+        fw_geometry_vec2 a =
+            fw_mechanism_local_place(c->mechanism, use->body_a, use->ax_m, use->ay_m);
+        fw_geometry_vec2 b =
+            fw_mechanism_local_place(c->mechanism, use->body_b, use->bx_m, use->by_m);
         double apart = hypot(b.x - a.x, b.y - a.y), past = apart - use->distance_m;
         if (use->side != FW_CONTACT_INSIDE) past = -past;
         char deep[32], far[32], at[32];
@@ -327,13 +336,14 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     *value = (double)INFINITY;
     *reason = "surfaces may touch: what that changes is the motion itself";
-    if (fw_contact_may_touch(c)) return FW_OK;
+    if (fw_effects_contact_may_touch(c)) return FW_OK;
     *value = 0;
     *reason = "no gap closes within the reach of the motion";
     return FW_OK;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->ncontact; i++)
         fw_effects_say(to, "; contact {s}", s->contact[i].id);

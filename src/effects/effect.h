@@ -9,56 +9,61 @@
 #include "effects/effects.def"
 #undef FW_EFFECT
 
-/* a new element of the terms, zeroed, with memory for its ports; NULL without memory */
-fw_force_element *fw_terms_add_element(fw_arena *arena, fw_terms *terms,
-                                       const fw_element_class *class_, int ports);
-fw_friction *fw_terms_add_friction(fw_arena *arena, fw_terms *terms);
+/* a new element of the loads, zeroed, with memory for its ports; NULL without memory */
+fw_effects_force_element *fw_effects_loads_add_element(fw_arena *arena, fw_effects_loads *loads,
+                                                       const fw_effects_element_class *class_,
+                                                       int ports);
+fw_effects_friction *fw_effects_loads_add_friction(fw_arena *arena, fw_effects_loads *loads);
 
 /* of the joints with friction in `rubs`; the envelope is valid */
-fw_status fw_friction_bound(const fw_effect_case *c, const fw_terms *rubs, double *value,
-                            const char **reason);
+fw_status fw_effects_friction_bound(const fw_effect_case *c, const fw_effects_loads *rubs,
+                                    double *value, const char **reason);
 
 /* the entry of a pin, made on first use */
-fw_torsion *fw_terms_torsion(const fw_mechanism *mechanism, fw_terms *terms, int pin);
+fw_effects_torsion *fw_effects_loads_torsion(const fw_mechanism *mechanism, fw_effects_loads *loads,
+                                             int pin);
 /* of a prismatic joint, made on first use */
-fw_slide *fw_terms_slide(fw_terms *terms, int tie);
+fw_effects_slide *fw_effects_loads_slide(fw_effects_loads *loads, int joint);
 /* what the drawing and the geometry say of a flexure suffices for its law at finite rotation */
-bool fw_hinge_is_known(const fw_hinge *hinge);
+bool fw_effects_hinge_is_known(const fw_mechanism_hinge *hinge);
 /* a <contact> of the scene is between the conjugate surfaces of this pin */
-bool fw_hinge_touches(const fw_scene *scene, int pin);
+bool fw_effects_hinge_touches(const fw_device_scene *scene, int pin);
 /* its pin is no constraint any more: an element stands for it (once, however often it is asked for)
  */
-fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge);
+fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge);
 /* those that act as they are in this scene */
-bool fw_hinge_flexes(const fw_effect_case *c, int hinge);
-fw_status fw_hinges_flex(const fw_effect_case *c, fw_terms *terms);
+bool fw_effects_hinge_flexes(const fw_effect_case *c, int hinge);
+fw_status fw_effects_hinges_flex(const fw_effect_case *c, fw_effects_loads *loads);
 /* the bound of nonlinear-hinge; *why: NULL, or why there is none */
-fw_status fw_hinge_give_bound(const fw_effect_case *c, double *value, const char **why);
+fw_status fw_effects_hinge_give_bound(const fw_effect_case *c, double *value, const char **why);
 /* m: W of b from W of a at most, of a pin of a valid envelope */
-double fw_hinge_give_most(const fw_effect_case *c, int pin);
+double fw_effects_hinge_give_most(const fw_effect_case *c, int pin);
 /* all that were released so far have their stiffness times 1 + part + varying law(t); law NULL:
-   the same at all times. Once per terms */
-fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
-                         const fw_law *law);
+   the same at all times. Once for each set of loads */
+fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, double part,
+                                 double varying, const fw_quantity_law *law);
 /* the closed forms among the elements become exact beams, in a copy of the elements */
-fw_status fw_hinges_exact(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms);
+fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *mechanism,
+                                  fw_effects_loads *loads);
 /* hinge of a contact between conjugate surfaces, NULL: none; how far W may move freely, 0: not
    known; false: no gap closes within the motion */
-const fw_hinge *fw_contact_hinge(const fw_mechanism *mechanism, const fw_contact_use *use);
-double fw_contact_gap(const fw_effect_case *c, const fw_contact_use *use, const fw_hinge *hinge);
-bool fw_contact_may_touch(const fw_effect_case *c);
+const fw_mechanism_hinge *fw_effects_contact_hinge(const fw_mechanism *mechanism,
+                                                   const fw_device_contact_use *use);
+double fw_effects_contact_gap(const fw_effect_case *c, const fw_device_contact_use *use,
+                              const fw_mechanism_hinge *hinge);
+bool fw_effects_contact_may_touch(const fw_effect_case *c);
 /* this pin's damper comes from the scene's <material-damping>: joint-damping has nothing to add */
-bool fw_material_damped(const fw_effect_case *c, int pin);
+bool fw_effects_material_damped(const fw_effect_case *c, int pin);
 /* N/m: conforming cylinders, convex radius and gap, pressed by `force`: contact.c */
-double fw_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
-                       double gap_m, double force_N);
-static inline bool fw_pin_has_stop(const fw_pin *p) {
+double fw_effects_line_contact(double youngs_Pa, double poisson, double depth_m, double radius_m,
+                               double gap_m, double force_N);
+static inline bool fw_pin_has_stop(const fw_mechanism_pin *p) {
     return p->stop_stiffness_Nm_per_rad > 0 && (!isnan(p->stop_min_rad) || !isnan(p->stop_max_rad));
 }
 /* a cable that is not stretched in the drawn pose */
-bool fw_spring_slack(const fw_mechanism *mechanism, const fw_spring *spring);
-/* empty terms with room for everything that mechanism and scene can ask for */
-fw_status fw_terms_new(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                       fw_terms *terms);
+bool fw_effects_spring_slack(const fw_mechanism *mechanism, const fw_device_spring *spring);
+/* no loads yet, with room for everything that mechanism and scene can ask for */
+fw_status fw_effects_loads_new(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene, fw_effects_loads *loads);
 
 #endif

@@ -21,31 +21,31 @@ typedef enum fw_effect_mode {
 /* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they
    change is below the accuracy, else compliance, and elastica where the step there is computed to
    change more than the accuracy (statics/level.h). */
-typedef enum fw_hinge_model {
+typedef enum fw_effects_hinge_model {
     FW_HINGE_AUTO,
     FW_HINGE_REVOLUTE,   /* pins at the elastic centres */
     FW_HINGE_COMPLIANCE, /* three degrees of freedom at finite rotation in closed form (finite.h) */
     FW_HINGE_ELASTICA    /* geometrically exact beams (elastica.h) */
-} fw_hinge_model;
-size_t fw_hinge_model_count(void);
-const char *fw_hinge_model_text(fw_hinge_model model);
-const char *fw_hinge_model_summary(fw_hinge_model model); /* for forms */
+} fw_effects_hinge_model;
+size_t fw_effects_hinge_model_count(void);
+const char *fw_effects_hinge_model_text(fw_effects_hinge_model model);
+const char *fw_effects_hinge_model_summary(fw_effects_hinge_model model); /* for forms */
 
 typedef struct fw_effect_choice {
     fw_effect_mode mode;
-    const char *list;     /* comma separated ids, for FW_EFFECTS_LIST */
-    fw_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
+    const char *list;             /* comma separated ids, for FW_EFFECTS_LIST */
+    fw_effects_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
     double below; /* > 0: auto came to this level because the one below was off by so much */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;
 
-typedef struct fw_hinge_use { /* how the hinges were taken */
-    fw_hinge_model used;
+typedef struct fw_effects_hinge_use { /* how the hinges were taken */
+    fw_effects_hinge_model used;
     const char *why; /* NULL: there are no hinges */
     double error;    /* computed change of the largest hinge angle by the next level, relative; of
                         the elastica what its solver tells; NaN: not computed */
-} fw_hinge_use;
+} fw_effects_hinge_use;
 
 typedef struct fw_effect_entry { /* a line of the ledger */
     const char *id;
@@ -60,114 +60,119 @@ typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
-    fw_hinge_use hinge;
+    fw_effects_hinge_use hinge;
 } fw_effect_ledger;
 
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
-typedef struct fw_torsion { /* per pin with a spring or damper */
+typedef struct fw_effects_torsion { /* per pin with a spring or damper */
     int pin, body_a, body_b;
     double stiffness_Nm_per_rad, damping_Nms_per_rad, free_angle_rad;
-} fw_torsion;
+} fw_effects_torsion;
 
-typedef struct fw_point_load { /* constant force in world axes at a point of a body */
+typedef struct fw_effects_point_load { /* constant force in world axes at a point of a body */
     int body;
     double x_m, y_m, fx_N, fy_N;
-} fw_point_load;
+} fw_effects_point_load;
 
-typedef struct fw_timed_load { /* force and torque in world axes times a law */
+typedef struct fw_effects_timed_load { /* force and torque in world axes times a law */
     int body;
     double x_m, y_m, fx_N, fy_N, torque_Nm;
-    const fw_law *law;
-} fw_timed_load;
+    const fw_quantity_law *law;
+} fw_effects_timed_load;
 
-typedef struct fw_stop { /* pushes back where side * (angle - at) > 0; angle as of the pin */
+typedef struct
+    fw_effects_stop { /* pushes back where side * (angle - at) > 0; angle as of the pin */
     int pin, body_a, body_b;
     double side, at_rad, free_angle_rad, stiffness_Nm_per_rad, damping_Nms_per_rad;
-} fw_stop;
+} fw_effects_stop;
 
-typedef struct fw_slide { /* spring and damper along a prismatic joint */
-    int tie;
+typedef struct fw_effects_slide { /* spring and damper along a prismatic joint */
+    int joint;
     double stiffness_N_per_m, damping_Ns_per_m;
-} fw_slide;
+} fw_effects_slide;
 
 /* Coulomb friction along one coordinate: the angle of a pin or the travel of a prismatic joint. It
    sticks while |Q| <= mu_s N r at rest and slides with Q = -mu_k N r sign(rate), r: radius (travel:
    1). N = preload + the force of what presses: a contact element, or else the joint's own force. */
-typedef struct fw_friction {
-    int pin, tie; /* one of them, the other FW_NONE */
-    int element;  /* index of the contact that presses, or FW_NONE: the joint's reaction */
+typedef struct fw_effects_friction {
+    int pin, joint; /* one of them, the other FW_NONE */
+    int element;    /* index of the contact that presses, or FW_NONE: the joint's reaction */
     double static_coefficient, kinetic_coefficient, radius_m, preload_N;
     const char *id;
     fw_place place;
-} fw_friction;
+} fw_effects_friction;
 
 /* The ground that stretches with time: its points stand at p + strain law(t) (p - centre). */
-typedef struct fw_stretch {
+typedef struct fw_effects_stretch {
     double strain;
-    fw_vec2 centre_m;
-    const fw_law *law; /* NULL: nothing of the kind */
-} fw_stretch;
+    fw_geometry_vec2 centre_m;
+    const fw_quantity_law *law; /* NULL: nothing of the kind */
+} fw_effects_stretch;
 
-typedef struct fw_terms {
+typedef struct fw_effects_loads {
     int nbody;
-    double *constant;     /* (3 nbody) force on the centre of mass, torque */
-    double *velocity;     /* (3 nbody) initial velocities as the scene states them */
-    fw_torsion *torsion;  /* (ntorsion) */
-    int *torsion_of;      /* (npin) 1 + index in torsion; 0: none */
-    fw_point_load *load;  /* (nload) off the centre of mass */
-    fw_timed_load *timed; /* (ntimed) */
-    fw_stop *stop;        /* (nstop) */
-    fw_slide *slide;      /* (nslide) */
-    int *slide_of;        /* (ntie) likewise in slide */
-    fw_spring *spring;    /* (nspring) */
+    double *constant;             /* (3 nbody) force on the centre of mass, torque */
+    double *velocity;             /* (3 nbody) initial velocities as the scene states them */
+    fw_effects_torsion *torsion;  /* (ntorsion) */
+    int *torsion_of;              /* (npin) 1 + index in torsion; 0: none */
+    fw_effects_point_load *load;  /* (nload) off the centre of mass */
+    fw_effects_timed_load *timed; /* (ntimed) */
+    fw_effects_stop *stop;        /* (nstop) */
+    fw_effects_slide *slide;      /* (nslide) */
+    int *slide_of;                /* (njoint) likewise in slide */
+    fw_device_spring *spring;     /* (nspring) */
     int ntorsion, nload, ntimed, nstop, nslide, nspring;
-    fw_force_element *element; /* (nelement) see element.h */
-    bool *released;            /* (npin) the pin is not a constraint: an element stands for it */
-    fw_friction *friction;     /* (nfriction) */
+    fw_effects_force_element *element; /* (nelement) see element.h */
+    bool *released; /* (npin) the pin is not a constraint: an element stands for it */
+    fw_effects_friction *friction; /* (nfriction) */
     int nelement, nfriction, nreleased;
     /* free strains, from fabrication or temperature, that act from the start on: arms of every body
        and, last, of the ground are longer by it (fw_mechanism_strained) */
     double *strain; /* (nbody + 1) */
     bool strained;
-    fw_stretch stretch;
-    bool quasi_static; /* inertia is left out: the motion is a row of equilibria */
-} fw_terms;
+    fw_effects_stretch stretch;
+    bool quasi_static; /* inertia is left out: the motion is a sequence of equilibria */
+} fw_effects_loads;
 
-struct fw_envelope;
+struct fw_effects_envelope;
 typedef struct fw_effect_case { /* what an effect is asked about */
     fw_arena *arena;
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
-    const struct fw_envelope *envelope; /* envelope.h: how large the motion can become */
-    fw_diags *diags;                    /* NULL: mistakes are not reported, only returned */
+    const fw_device_scene *scene;
+    const struct fw_effects_envelope *envelope; /* envelope.h: how large the motion can become */
+    fw_diags *diags;                            /* NULL: mistakes are not reported, only returned */
 } fw_effect_case;
 
 /* ---- the scene in words, and less of it ---- */
 
-/* Where a row writes its part of the sentence about a scene. The format is that of reports (report/page.h): {s} text,
+/* Where a row writes its part of the sentence about a scene. The format is that of reports
+   (report/report_page.h): {s} text,
    {u} a value and its SI unit, {n} a number, {i} a whole number. */
 typedef struct fw_effects_words {
     void (*write)(void *context, const char *format, va_list arguments);
-    void (*write_law)(void *context, const fw_law *law); /* " times a ramp over 2 ms"; nothing for NULL */
+    void (*write_law)(void *context,
+                      const fw_quantity_law *law); /* " times a ramp over 2 ms"; nothing for NULL */
     void *context;
 } fw_effects_words;
 void fw_effects_say(const fw_effects_words *words, const char *format, ...);
-void fw_effects_say_law(const fw_effects_words *words, const fw_law *law);
+void fw_effects_say_law(const fw_effects_words *words, const fw_quantity_law *law);
 
 typedef struct fw_effects_load { /* something that a scene can be given less of */
     const char *name;            /* "tendon pulls" */
-    bool ordinary;               /* a force or torque: goes without saying where there is nothing else */
-    bool squared;                /* forces go with its square: a voltage */
+    bool ordinary; /* a force or torque: goes without saying where there is nothing else */
+    bool squared;  /* forces go with its square: a voltage */
 } fw_effects_load;
-typedef struct fw_effects_loads {
+typedef struct fw_effects_load_scaling {
     fw_effects_load item[16]; /* (count) */
     int count;
-} fw_effects_loads;
-void fw_effects_add_load(fw_effects_loads *loads, fw_effects_load load);
+} fw_effects_load_scaling;
+void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load);
 
-/* What a mechanism made of solids (continuum/device_shape.c) does with an effect that the scene calls for */
+/* What a mechanism made of solids (continuum/device_shape.c) does with an effect that the scene
+   calls for */
 typedef enum fw_effects_solid {
-    FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another device */
+    FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another
+                                 device */
     FW_EFFECTS_SOLID_HAS,     /* the solids have it, or the writer gives it to them */
     FW_EFFECTS_SOLID_NO_PART  /* it has no part in an equilibrium under the loads at the end */
 } fw_effects_solid;
@@ -177,11 +182,11 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool (*called_for)(const fw_effect_case *c);
     /* conservative bound on the relative change when left out; *reason says how it was found */
     fw_status (*bound)(const fw_effect_case *c, double *bound, const char **reason);
-    /* adds to the terms; sizes of the plain arrays were reserved */
-    fw_status (*add)(const fw_effect_case *c, fw_terms *terms);
-    /* for what acts until it is left out: changes the terms when the effect was called for and is
+    /* adds to the loads; sizes of the plain arrays were reserved */
+    fw_status (*add)(const fw_effect_case *c, fw_effects_loads *loads);
+    /* for what acts until it is left out: changes the loads when the effect was called for and is
        not active. NULL: nothing is to be done */
-    fw_status (*leave_out)(const fw_effect_case *c, fw_terms *terms);
+    fw_status (*leave_out)(const fw_effect_case *c, fw_effects_loads *loads);
     double cost; /* instructions per right-hand side and instance (callgrind, gcc -O2) */
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
     /* of an active effect, before add: errors and warnings on what is asked of it; NULL: none */
@@ -196,62 +201,69 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool alone_stays;     /* likewise where nothing else moves the mechanism */
     bool kept;    /* never left out, whatever was asked for: without it there is nothing to judge */
     bool passive; /* of what is kept: springs, which move nothing by themselves */
-    /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene states */
-    void (*describe)(const fw_device *device, const fw_scene *scene, const fw_effects_words *words);
-    /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large. Both or neither */
-    void (*loads)(const fw_scene *scene, fw_effects_loads *loads);
-    void (*scale)(fw_scene *scene, double by);
+    /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene
+       states */
+    void (*describe)(const fw_device *device, const fw_device_scene *scene,
+                     const fw_effects_words *words);
+    /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large.
+       Both or neither */
+    void (*loads)(const fw_device_scene *scene, fw_effects_load_scaling *loads);
+    void (*scale)(fw_device_scene *scene, double by);
     fw_effects_solid solid;
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
-/* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to scale) */
-void fw_effects_describe(const fw_device *device, const fw_scene *scene,
+/* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to
+   scale) */
+void fw_effects_describe(const fw_device *device, const fw_device_scene *scene,
                          const fw_effects_words *words);
-void fw_effects_find_loads(const fw_scene *scene, fw_effects_loads *loads);
-bool fw_effects_scale(fw_scene *scene, double by);
+void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling *loads);
+bool fw_effects_scale(fw_device_scene *scene, double by);
 
 /* decides and compiles. Auto leaves effects out, the smallest bound first, while the sum of their
    bounds stays below the accuracy; none and lists leave out what is not kept. A list with an
    unknown id is FW_USAGE (FW-D110 names the known ones). */
-fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                             const fw_effect_choice *choice, double accuracy, fw_diags *diags,
-                             fw_effect_ledger *ledger, fw_terms *terms);
+fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
+                             const fw_device_scene *scene, const fw_effect_choice *choice,
+                             double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
+                             fw_effects_loads *loads);
 
-/* A copy of the terms with the hinges taken one level above `used`: pins released, or closed forms
+/* A copy of the loads with the hinges taken one level above `used`: pins released, or closed forms
    as exact beams, springs and dampers with them. *next: that level, or `used` where there is none
    (elastica, no hinge that could) */
-fw_status fw_hinges_up(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                       const fw_terms *terms, fw_hinge_model used, fw_terms *up,
-                       fw_hinge_model *next);
+fw_status fw_effects_hinges_up(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene, const fw_effects_loads *loads,
+                               fw_effects_hinge_model used, fw_effects_loads *up,
+                               fw_effects_hinge_model *next);
 
 /* the ledger of equilibria: neither inertia nor what acts on velocities has a part in them */
 void fw_effects_in_equilibrium(fw_effect_ledger *ledger);
 /* a copy in the arena that the arrays are in; NULL: out of memory */
-const fw_terms *fw_terms_keep(fw_arena *arena, const fw_terms *terms);
+const fw_effects_loads *fw_effects_loads_keep(fw_arena *arena, const fw_effects_loads *loads);
 
-/* The mechanism that the terms act on: `mechanism` itself, or where they hold strains one with
-   those strains, whose pose is to be assembled again; points in the terms (loads, springs, ports)
+/* The mechanism that the loads act on: `mechanism` itself, or where they hold strains one with
+   those strains, whose pose is to be assembled again; points in the loads (forces, springs, ports)
    follow. Once after each fw_effects_compile. */
-fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_terms *terms,
+fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_effects_loads *loads,
                             const fw_mechanism **strained);
 /* of that mechanism, one whose ground is as a law stretches it at the start: for assembling there
  */
-fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
-                              const fw_mechanism **start);
+fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism,
+                              const fw_effects_loads *loads, const fw_mechanism **start);
 
 /* linear static response of the constrained mechanism about its initial pose to the generalized
-   forces `force` (3 nbody), with the springs of `terms`, drivers held: displacements (3 nbody) and
+   forces `force` (3 nbody), with the springs of `loads`, drivers held: displacements (3 nbody) and
    pin rotations (npin). Stops and slack cables do not act. *valid false when there is none (free
    motion, redundant joints) or the mechanism has more than FW_RESPONSE_MOST unknowns. */
 enum { FW_RESPONSE_MOST = 250 };
-fw_status fw_static_response(fw_arena *arena, const fw_mechanism *mechanism, const fw_terms *terms,
-                             const double *force, double *displacement, double *rotation,
-                             bool *valid);
-/* generalized forces (3 nbody) of the terms at the initial pose, just behind t = 0: constants,
+fw_status fw_effects_static_response(fw_arena *arena, const fw_mechanism *mechanism,
+                                     const fw_effects_loads *loads, const double *force,
+                                     double *displacement, double *rotation, bool *valid);
+/* generalized forces (3 nbody) of the loads at the initial pose, just behind t = 0: constants,
    loads, springs, slides, stops, elements */
-void fw_terms_initial_force(const fw_mechanism *mechanism, const fw_terms *terms, double *force);
+void fw_effects_loads_initial_force(const fw_mechanism *mechanism, const fw_effects_loads *loads,
+                                    double *force);
 /* the same with every timed load at the largest |factor| that it has in (0, end_s) */
-void fw_terms_largest_force(const fw_mechanism *mechanism, const fw_terms *terms, double end_s,
-                            double *force);
+void fw_effects_loads_largest_force(const fw_mechanism *mechanism, const fw_effects_loads *loads,
+                                    double end_s, double *force);
 
 #endif

@@ -8,17 +8,17 @@
 #include <math.h>
 #include <string.h>
 
-static fw_vec2 arm_of(const fw_port *p, const double *q) {
-    if (p->body == FW_GROUND) return (fw_vec2){p->x_m, p->y_m};
+static fw_geometry_vec2 arm_of(const fw_effects_port *p, const double *q) {
+    if (p->body == FW_GROUND) return (fw_geometry_vec2){p->x_m, p->y_m};
     double c = cos(q[3 * p->body + 2]), s = sin(q[3 * p->body + 2]);
-    return (fw_vec2){c * p->x_m - s * p->y_m, s * p->x_m + c * p->y_m};
+    return (fw_geometry_vec2){c * p->x_m - s * p->y_m, s * p->x_m + c * p->y_m};
 }
 
-void fw_element_look(const fw_force_element *e, const double *q, const double *v, double *p,
-                     double *w) {
+void fw_effects_element_place_ports(const fw_effects_force_element *e, const double *q,
+                                    const double *v, double *p, double *w) {
     for (int i = 0; i < e->ports; i++) {
         int b = e->port[i].body;
-        fw_vec2 r = arm_of(&e->port[i], q);
+        fw_geometry_vec2 r = arm_of(&e->port[i], q);
         double *at = p + 3 * i, *speed = w + 3 * i;
         at[0] = r.x, at[1] = r.y, at[2] = 0;
         speed[0] = speed[1] = speed[2] = 0;
@@ -31,11 +31,12 @@ void fw_element_look(const fw_force_element *e, const double *q, const double *v
     }
 }
 
-void fw_element_push(const fw_force_element *e, const double *q, const double *f, double *force) {
+void fw_effects_element_add_forces(const fw_effects_force_element *e, const double *q,
+                                   const double *f, double *force) {
     for (int i = 0; i < e->ports; i++) {
         int b = e->port[i].body;
         if (b == FW_GROUND) continue;
-        fw_vec2 r = arm_of(&e->port[i], q);
+        fw_geometry_vec2 r = arm_of(&e->port[i], q);
         force[3 * b] += f[3 * i];
         force[3 * b + 1] += f[3 * i + 1];
         force[3 * b + 2] += r.x * f[3 * i + 1] - r.y * f[3 * i] + f[3 * i + 2];
@@ -43,8 +44,8 @@ void fw_element_push(const fw_force_element *e, const double *q, const double *f
 }
 
 /* whole += J_i^T block J_j for ports i, j; J = [1 0 -ry; 0 1 rx; 0 0 1] */
-static void spread_block(int n, int bi, int bj, fw_vec2 ri, fw_vec2 rj, const double *block,
-                         int stride, double *whole) {
+static void spread_block(int n, int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj,
+                         const double *block, int stride, double *whole) {
     double right[3][3], both[3][3];
     for (int k = 0; k < 3; k++) {
         const double *row = block + k * stride;
@@ -61,8 +62,8 @@ static void spread_block(int n, int bi, int bj, fw_vec2 ri, fw_vec2 rj, const do
 }
 
 /* column phi_j of the stiffness: damping forces that change because the arm of port j turns */
-static void spread_turning(int n, int bi, int bj, fw_vec2 ri, fw_vec2 rj, double omega,
-                           const double *block, int stride, double *whole) {
+static void spread_turning(int n, int bi, int bj, fw_geometry_vec2 ri, fw_geometry_vec2 rj,
+                           double omega, const double *block, int stride, double *whole) {
     double f[3];
     for (int k = 0; k < 3; k++)
         f[k] = -omega * (block[k * stride] * rj.x + block[k * stride + 1] * rj.y);
@@ -71,20 +72,21 @@ static void spread_turning(int n, int bi, int bj, fw_vec2 ri, fw_vec2 rj, double
         whole[(size_t)(3 * bi + k) * (size_t)n + (size_t)(3 * bj + 2)] += f[k];
 }
 
-void fw_element_spread(const fw_force_element *e, int nbody, const double *q, const double *v,
-                       const double *f, const double *stiffness, const double *damping,
-                       double *whole_stiffness, double *whole_damping) {
+void fw_effects_element_spread(const fw_effects_force_element *e, int nbody, const double *q,
+                               const double *v, const double *f, const double *stiffness,
+                               const double *damping, double *whole_stiffness,
+                               double *whole_damping) {
     int n = 3 * nbody, stride = 3 * e->ports;
     for (int i = 0; i < e->ports; i++) {
         int bi = e->port[i].body;
         if (bi == FW_GROUND) continue;
-        fw_vec2 ri = arm_of(&e->port[i], q);
+        fw_geometry_vec2 ri = arm_of(&e->port[i], q);
         whole_stiffness[(size_t)(3 * bi + 2) * (size_t)n + (size_t)(3 * bi + 2)] +=
             ri.x * f[3 * i] + ri.y * f[3 * i + 1];
         for (int j = 0; j < e->ports; j++) {
             int bj = e->port[j].body, at = 3 * i * stride + 3 * j;
             if (bj == FW_GROUND) continue;
-            fw_vec2 rj = arm_of(&e->port[j], q);
+            fw_geometry_vec2 rj = arm_of(&e->port[j], q);
             spread_block(n, bi, bj, ri, rj, stiffness + at, stride, whole_stiffness);
             if (!damping) continue;
             if (v)

@@ -8,7 +8,7 @@
 #define FW_EFFECTS_ENVELOPE_H
 #include "effects/effects.h"
 
-typedef struct fw_envelope {
+typedef struct fw_effects_envelope {
     bool valid;
     const char *why_not; /* where it is not */
     int n, modes;        /* 3 nbody; degrees of freedom */
@@ -21,7 +21,7 @@ typedef struct fw_envelope {
     double *angle;  /* (npin) |rotation| */
     double *rate;   /* (npin) |angular velocity| */
     double *force;  /* (npin) N: on the joint's force */
-    double *across; /* (ntie) N: of a slide on its guide, across */
+    double *across; /* (njoint) N: of a slide on its guide, across */
     double *give;   /* (npin) m: W of b from W of a where a hinge stands for the pin, its drift not
                        counted */
     double floor;   /* rad: the largest hinge deflection of the scene is at least this */
@@ -29,51 +29,54 @@ typedef struct fw_envelope {
     /* for the answers */
     int npin;
     double duration_s;
-    double margin;            /* that the bounds are widened by, for what is not linear */
-    double *amplitude, *pace; /* (modes) |q| and |q'| of each, without the margin */
-    double *yield;            /* (modes) s^2: |q| under a force of size 1 of any course */
-    const struct fw_modal *modal;
+    double margin;                   /* that the bounds are widened by, for what is not linear */
+    double *amplitude, *modal_speed; /* (modes) |q| and |q'| of each, without the margin */
+    double *response_bound;          /* (modes) s^2: |q| under a force of size 1 of any course */
+    const struct fw_effects_modal *modal;
     /* the same scene with every hinge a pin: what nonlinear-hinge is measured against. NULL: this
        is it */
-    const struct fw_envelope *pinned;
+    const struct fw_effects_envelope *pinned;
     bool *taken; /* (rows of the table) it is in this envelope; what is not must not change much */
     double loose_pull; /* bound of the tendons that may go slack: they are not in it, and `taken`
                           says so */
-} fw_envelope;
+} fw_effects_envelope;
 
 /* of the scene with everything that it calls for and that linear theory can take in; what is
    `kept` first, so that an effect's `add` sees at least that envelope */
-fw_status fw_envelope_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                           fw_envelope *envelope);
-/* of given terms */
-fw_status fw_envelope_of(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                         const fw_terms *terms, fw_envelope *envelope);
+fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_device_scene *scene, fw_effects_envelope *envelope);
+/* of given loads */
+fw_status fw_effects_envelope_of(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_device_scene *scene, const fw_effects_loads *loads,
+                                 fw_effects_envelope *envelope);
 
 /* A further force on the mechanism whose every component stays below `force` (n) in size for the
    whole scene: how much any hinge can turn further, relative to `floor`. `variation`: total
    variation over time in units of that size; a constant put on at once has 1, one that changes sign
    with the motion INFINITY (resonance: it is then bounded by the scene's duration). Infinite where
    the envelope is not valid. Cost modes x n. */
-double fw_envelope_answer(const fw_effect_case *c, const double *force, double variation);
+double fw_effects_envelope_answer(const fw_effect_case *c, const double *force, double variation);
 /* the same for modal forces (modes) that are known: shape . force of what is added */
-double fw_envelope_mode_answer(const fw_effect_case *c, const double *mode, double variation);
-/* modal forces (modes) += of the dampers in `terms` at the largest rates: where the motion is
+double fw_effects_envelope_mode_answer(const fw_effect_case *c, const double *mode,
+                                       double variation);
+/* modal forces (modes) += of the dampers in `loads` at the largest rates: where the motion is
    linear as they act between the modes, where it is not those of the pins by the fastest */
-fw_status fw_envelope_dampers(const fw_effect_case *c, const fw_terms *terms, double *mode);
+fw_status fw_effects_envelope_dampers(const fw_effect_case *c, const fw_effects_loads *loads,
+                                      double *mode);
 /* A relative change of the generalised stiffness, |dK| <= part K in the sense of quadratic forms:
    how much any hinge can turn further, relative to `floor`: frequencies shift and phases run apart
    over the scene. */
-double fw_envelope_stiffness(const fw_effect_case *c, double part);
+double fw_effects_envelope_stiffness(const fw_effect_case *c, double part);
 /* that part for constant forces `force` (n) at centres of mass: what the joint forces which hold
    them take from the stiffness or add to it. A weight along a mast moves nothing and softens it */
-fw_status fw_envelope_softening(const fw_effect_case *c, const double *force, double *part);
+fw_status fw_effects_envelope_softening(const fw_effect_case *c, const double *force, double *part);
 
 /* A change of the stiffness by `part` that comes and goes with time, in whatever step with the
-   motion: as fw_envelope_stiffness, and resonance counts */
-double fw_envelope_varying(const fw_effect_case *c, double part);
+   motion: as fw_effects_envelope_stiffness, and resonance counts */
+double fw_effects_envelope_varying(const fw_effect_case *c, double part);
 /* Free strains of bodies and ground (nbody + 1), times a law (NULL: from the start on), which are
    among those of the envelope: what the motion is without them. envelope_strain.c */
-fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, const fw_law *law,
-                             double *bound);
+fw_status fw_effects_envelope_strain(const fw_effect_case *c, const double *strain,
+                                     const fw_quantity_law *law, double *bound);
 
 #endif

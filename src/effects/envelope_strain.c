@@ -10,8 +10,8 @@
 /* Without the change dK(t), |s_j^T dK s_k| <= part w_j w_k, the motion differs by d with
    d'' + w^2 d = dK q, q the motion that the envelope bounds: a force of known size and any course
    on every mode. Input and output dimensionless. */
-double fw_envelope_varying(const fw_effect_case *c, double part) {
-    const fw_envelope *e = c->envelope;
+double fw_effects_envelope_varying(const fw_effect_case *c, double part) {
+    const fw_effects_envelope *e = c->envelope;
     if (part == 0) return 0;
     if (!e->valid || !(part < 0.5)) return (double)INFINITY;
     double most = 0, pushed = 0;
@@ -22,7 +22,7 @@ double fw_envelope_varying(const fw_effect_case *c, double part) {
         double sum = 0;
         for (int j = 0; j < e->modes; j++)
             sum += fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]) * e->omega[j] * pushed *
-                   e->yield[j];
+                   e->response_bound[j];
         most = fmax(most, sum);
     }
     return most / e->floor * e->margin;
@@ -30,20 +30,20 @@ double fw_envelope_varying(const fw_effect_case *c, double part) {
 
 typedef struct work {
     const fw_effect_case *c;
-    const fw_modal *o;
-    const fw_law *law;
-    fw_law_size size;
-    double *shift, *shift_turn, *force, *push; /* (n) (npin) (n) (modes) */
+    const fw_effects_modal *o;
+    const fw_quantity_law *law;
+    fw_quantity_law_size size;
+    double *shift, *shift_turn, *force, *modal_load; /* (n) (npin) (n) (modes) */
     fw_mechanism *moved;
-    fw_terms terms;
-    fw_modal there;                /* modes where the strains have displaced it to */
+    fw_effects_loads loads;
+    fw_effects_modal there;        /* modes where the strains have displaced it to */
     double *align;                 /* (modes x modes) [l, j]: shape_l there, M, shape_j here */
     double *extra, *rest, *change; /* (npin) rad; (modes) */
 } work;
 
 /* rad of pin i: |turn| of every mode times its size */
 static void add_modes(work *w, const double *size) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     for (int j = 0; j < e->modes; j++)
         for (int i = 0; i < e->npin; i++)
             w->extra[i] += fabs(e->turn[(size_t)j * (size_t)e->npin + (size_t)i]) * size[j];
@@ -52,20 +52,20 @@ static void add_modes(work *w, const double *size) {
 /* ---- the displacement ---- */
 
 static fw_status displace(work *w, const double *strain) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     size_t n = (size_t)e->n;
-    FW_TRY(fw_modal_shift(w->c->arena, w->o, strain, w->shift, w->shift_turn, w->force));
+    FW_TRY(fw_effects_modal_shift(w->c->arena, w->o, strain, w->shift, w->shift_turn, w->force));
     for (int i = 0; i < e->npin; i++)
         w->extra[i] = fabs(w->shift_turn[i]) * w->size.most;
     for (int j = 0; j < e->modes; j++) {
         double square = e->omega[j] * e->omega[j], f = 0;
         for (size_t k = 0; k < n; k++)
             f += e->shape[(size_t)j * n + k] * w->force[k];
-        w->push[j] = f / square; /* static */
-        w->rest[j] =
-            fabs(f) * fmin((w->size.most + w->size.variation) / square, w->size.most * e->yield[j]);
+        w->modal_load[j] = f / square; /* static */
+        w->rest[j] = fabs(f) * fmin((w->size.most + w->size.variation) / square,
+                                    w->size.most * e->response_bound[j]);
         const double *drag = w->o->shift_drag[1];
-        if (!fw_law_is_constant(w->law) && drag && drag[j] != 0)
+        if (!fw_quantity_law_is_constant(w->law) && drag && drag[j] != 0)
             w->rest[j] += fabs(drag[j]) * w->size.variation / e->omega[j];
     }
     add_modes(w, w->rest);
@@ -76,35 +76,35 @@ static fw_status displace(work *w, const double *strain) {
 
 /* strained, and moved to the equilibrium of its springs */
 static fw_status go_there(work *w, const double *strain) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     fw_arena *arena = w->c->arena;
     const fw_mechanism *strained;
     size_t bodies = (size_t)w->o->mechanism->nbody;
     double most = w->size.most;
-    w->terms = *w->o->terms;
-    w->terms.strained = true;
-    w->terms.stretch.law = NULL;
-    FW_NEED(w->terms.strain = fw_arena_array(arena, double, bodies + 1));
+    w->loads = *w->o->loads;
+    w->loads.strained = true;
+    w->loads.stretch.law = NULL;
+    FW_NEED(w->loads.strain = fw_arena_array(arena, double, bodies + 1));
     for (size_t b = 0; b <= bodies; b++)
-        w->terms.strain[b] = most * strain[b];
-    FW_TRY(fw_effects_strain(arena, w->o->mechanism, &w->terms, &strained));
-    w->terms.strained = false;
+        w->loads.strain[b] = most * strain[b];
+    FW_TRY(fw_effects_strain(arena, w->o->mechanism, &w->loads, &strained));
+    w->loads.strained = false;
     FW_NEED(w->moved = fw_arena_one(arena, fw_mechanism));
     *w->moved = *strained;
-    FW_NEED(w->moved->body = fw_arena_array(arena, fw_mass, bodies));
+    FW_NEED(w->moved->body = fw_arena_array(arena, fw_mechanism_mass, bodies));
     for (size_t b = 0; b < bodies; b++) {
         double way[3];
         for (size_t k = 0; k < 3; k++) {
             way[k] = w->shift[3 * b + k];
             for (int j = 0; j < e->modes; j++)
-                way[k] += w->push[j] * e->shape[(size_t)j * (size_t)e->n + 3 * b + k];
+                way[k] += w->modal_load[j] * e->shape[(size_t)j * (size_t)e->n + 3 * b + k];
         }
         w->moved->body[b] = strained->body[b];
         w->moved->body[b].x_m += most * way[0];
         w->moved->body[b].y_m += most * way[1];
         w->moved->body[b].phi_rad += most * way[2];
     }
-    return fw_modal_find(arena, w->moved, w->c->scene, &w->terms, &w->there);
+    return fw_effects_modal_find(arena, w->moved, w->c->scene, &w->loads, &w->there);
 }
 
 static double mass_of(const fw_mechanism *m, int i) {
@@ -112,9 +112,9 @@ static double mass_of(const fw_mechanism *m, int i) {
 }
 
 /* With q there = T q here (T = align) the equation there reads T^T T q'' + T^T W^2 T q = T^T f:
-   what it has besides 1, w^2 and f is the change, in the norm of fw_envelope_stiffness. */
+   what it has besides 1, w^2 and f is the change, in the norm of fw_effects_envelope_stiffness. */
 static fw_status compare_stiffness(work *w, double *part) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     size_t m = (size_t)e->modes, n = (size_t)e->n;
     double sum = 0;
     FW_NEED(w->align = fw_arena_array(w->c->arena, double, m *m));
@@ -139,9 +139,9 @@ static fw_status compare_stiffness(work *w, double *part) {
     return FW_OK;
 }
 
-/* T^T D' T less D of the dampers, at the largest speeds: a push of any course */
+/* T^T D' T less D of the dampers, at the largest speeds: a modal load with any history */
 static void compare_damping(work *w) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     size_t m = (size_t)e->modes;
     for (size_t j = 0; j < m; j++) {
         w->rest[j] = 0;
@@ -151,28 +151,29 @@ static void compare_damping(work *w) {
                 for (size_t b = 0; b < m; b++)
                     change +=
                         w->align[a * m + j] * w->there.damping[a * m + b] * w->align[b * m + k];
-            w->rest[j] += 2 * fabs(change) * e->pace[k] * e->yield[j];
+            w->rest[j] += 2 * fabs(change) * e->modal_speed[k] * e->response_bound[j];
         }
     }
     add_modes(w, w->rest);
 }
 
-/* modal forces there, as seen here, less those here; a push with its law or at its busiest */
-static void compare_push(work *w, const fw_pushes *here, const fw_pushes *there, int i) {
-    const fw_envelope *e = w->c->envelope;
-    const fw_push *a = &here->item[i], *b = &there->item[i];
+/* modal forces there, as seen here, less those here; a modal load with its law or at its busiest */
+static void compare_modal_load(work *w, const fw_effects_modal_loads *here,
+                               const fw_effects_modal_loads *there, int i) {
+    const fw_effects_envelope *e = w->c->envelope;
+    const fw_effects_modal_load *a = &here->item[i], *b = &there->item[i];
     size_t m = (size_t)e->modes;
-    double *one = w->rest, *two = w->push;
+    double *one = w->rest, *two = w->modal_load;
     double sup = 1, first = 1, sway = 0, largest = 0;
-    double with = fw_law_is_constant(w->law) ? 0 : w->size.variation / w->size.most;
+    double with = fw_quantity_law_is_constant(w->law) ? 0 : w->size.variation / w->size.most;
     memcpy(one, a->mode, m * sizeof *one);
     memcpy(two, b->mode, m * sizeof *two);
     if (a->element) {
-        double t = fw_terms_element_busiest(w->o->mechanism, a->element, e->duration_s);
+        double t = fw_effects_loads_element_busiest(w->o->mechanism, a->element, e->duration_s);
         memset(one, 0, m * sizeof *one);
         memset(two, 0, m * sizeof *two);
-        fw_push_at(w->o, here, a, t, fmax(t, DBL_MIN), one);
-        fw_push_at(&w->there, there, b, t, fmax(t, DBL_MIN), two);
+        fw_effects_modal_load_at(w->o, here, a, t, fmax(t, DBL_MIN), one);
+        fw_effects_modal_load_at(&w->there, there, b, t, fmax(t, DBL_MIN), two);
         sway = (double)INFINITY;
     } else if (a->law)
         for (size_t j = 0; j < m; j++)
@@ -186,16 +187,16 @@ static void compare_push(work *w, const fw_pushes *here, const fw_pushes *there,
         for (size_t l = 0; l < m; l++)
             f += w->align[l * m + j] * two[l];
         w->change[j] =
-            fabs(f) * fmin((sup + first + sway + sup * with) / square, sup * e->yield[j]);
+            fabs(f) * fmin((sup + first + sway + sup * with) / square, sup * e->response_bound[j]);
     }
     add_modes(w, w->change);
 }
 
 /* twice: the strained mechanism swings about its new place */
 static fw_status compare(work *w, double *part) {
-    const fw_envelope *e = w->c->envelope;
+    const fw_effects_envelope *e = w->c->envelope;
     size_t m = (size_t)e->modes, pins = (size_t)e->npin;
-    fw_pushes here, there;
+    fw_effects_modal_loads here, there;
     FW_TRY(compare_stiffness(w, part));
     *part *= 2;
     for (size_t j = 0; j < m; j++) {
@@ -211,13 +212,13 @@ static fw_status compare(work *w, double *part) {
         }
     }
     compare_damping(w);
-    FW_TRY(fw_pushes_find(w->c->arena, w->o, &here));
-    FW_TRY(fw_pushes_find(w->c->arena, &w->there, &there));
+    FW_TRY(fw_effects_modal_loads_find(w->c->arena, w->o, &here));
+    FW_TRY(fw_effects_modal_loads_find(w->c->arena, &w->there, &there));
     if (here.why_not || there.why_not) *part = (double)INFINITY;
     for (int i = 0, k = 0; i < here.count && k < there.count; i++)
         if (!here.item[i].shift) {
             FW_NEED(k == i ? w : NULL); /* shifts come last */
-            compare_push(w, &here, &there, k++);
+            compare_modal_load(w, &here, &there, k++);
         }
     return FW_OK;
 }
@@ -229,21 +230,21 @@ static fw_status compare(work *w, double *part) {
    Inputs: strains, dimensionless; output dimensionless, against the floor, with the margin of the
    envelope and that of the turns which the strains make. Infinite where the envelope is not valid
    or the displaced mechanism has no modes. Cost that of one more envelope. */
-fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, const fw_law *law,
-                             double *bound) {
-    const fw_envelope *e = c->envelope;
+fw_status fw_effects_envelope_strain(const fw_effect_case *c, const double *strain,
+                                     const fw_quantity_law *law, double *bound) {
+    const fw_effects_envelope *e = c->envelope;
     double part, most = 0;
     *bound = (double)INFINITY;
     if (!e->valid) return FW_OK;
     work w = {.c = c, .o = e->modal, .law = law};
-    w.size = fw_law_measure(law, e->duration_s);
+    w.size = fw_quantity_law_measure(law, e->duration_s);
     if (!isfinite(w.size.most)) return FW_OK;
     fw_mark mark = fw_arena_mark(c->arena);
     FW_NEED(w.shift = fw_arena_array(c->arena, double, (size_t)e->n));
     FW_NEED(w.force = fw_arena_array(c->arena, double, (size_t)e->n));
     FW_NEED(w.shift_turn = fw_arena_array(c->arena, double, (size_t)e->npin));
     FW_NEED(w.extra = fw_arena_array(c->arena, double, (size_t)e->npin));
-    FW_NEED(w.push = fw_arena_array(c->arena, double, (size_t)e->modes));
+    FW_NEED(w.modal_load = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(w.change = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(w.rest = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_TRY(displace(&w, strain));
@@ -252,9 +253,9 @@ fw_status fw_envelope_strain(const fw_effect_case *c, const double *strain, cons
         FW_TRY(compare(&w, &part));
         for (int i = 0; i < e->npin; i++)
             most = fmax(most, w.extra[i]);
-        *bound = (most * e->margin + fw_modal_second(w.o)) / e->floor;
-        *bound +=
-            fw_law_is_constant(law) ? fw_envelope_stiffness(c, part) : fw_envelope_varying(c, part);
+        *bound = (most * e->margin + fw_effects_modal_second(w.o)) / e->floor;
+        *bound += fw_quantity_law_is_constant(law) ? fw_effects_envelope_stiffness(c, part)
+                                                   : fw_effects_envelope_varying(c, part);
         if (isnan(*bound)) *bound = (double)INFINITY;
     }
     fw_arena_rewind(c->arena, mark);

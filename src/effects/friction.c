@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Coulomb friction of joints. What is added here is what the scene states; the forces come with the
-   joints' own, in multibody/friction.c and stick.c.
+   joints' own, in multibody/multibody_friction.c and stick.c.
 
      at rest   |Q| <= mu_s N r      slides   Q = -mu_k N r sign(rate)      r = 1 of a slide
 
@@ -11,16 +11,17 @@
 #include <math.h>
 #include <string.h>
 
-static double largest(const fw_friction_use *u) {
+static double largest(const fw_device_friction_use *u) {
     return isnan(u->static_coefficient) ? u->coefficient
                                         : fmax(u->coefficient, u->static_coefficient);
 }
 
 /* has it a joint that can rub, and a coefficient? */
-static bool rubs(const fw_effect_case *c, const fw_friction_use *u) {
+static bool rubs(const fw_effect_case *c, const fw_device_friction_use *u) {
     const fw_mechanism *m = c->mechanism;
-    bool pin = u->joint != FW_NONE && u->joint < m->npin;
-    bool slide = u->tie != FW_NONE && u->tie < m->ntie && m->tie[u->tie].kind == FW_TIE_PRISMATIC;
+    bool pin = u->revolute != FW_NONE && u->revolute < m->npin;
+    bool slide = u->joint != FW_NONE && u->joint < m->njoint &&
+                 m->joint[u->joint].kind == FW_JOINT_PRISMATIC;
     return (pin || slide) && largest(u) > 0 && (!pin || !(u->radius_m <= 0));
 }
 
@@ -45,18 +46,18 @@ static double surface(const fw_mechanism *m, int pin) {
     return (double)NAN;
 }
 
-static bool same_point(const fw_port *p, int body, double x, double y) {
+static bool same_point(const fw_effects_port *p, int body, double x, double y) {
     return p->body == body && p->x_m == x && p->y_m == y;
 }
 
 /* the contact element between the two points of the pin, or FW_NONE */
-static int contact_of(const fw_effect_case *c, const fw_terms *terms, int pin) {
-    const fw_pin *p = &c->mechanism->pin[pin];
-    for (int i = 0; i < terms->nelement; i++) {
-        const fw_force_element *e = &terms->element[i];
+static int contact_of(const fw_effect_case *c, const fw_effects_loads *loads, int pin) {
+    const fw_mechanism_pin *p = &c->mechanism->pin[pin];
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
         if (!e->class_->pressing || e->ports < 2 || strcmp(e->class_->effect, "contact") != 0)
             continue;
-        const fw_port *a = &e->port[0], *b = &e->port[1];
+        const fw_effects_port *a = &e->port[0], *b = &e->port[1];
         bool forth = same_point(a, p->body_a, p->ax_m, p->ay_m) &&
                      same_point(b, p->body_b, p->bx_m, p->by_m);
         bool back = same_point(b, p->body_a, p->ax_m, p->ay_m) &&
@@ -66,8 +67,8 @@ static int contact_of(const fw_effect_case *c, const fw_terms *terms, int pin) {
     return FW_NONE;
 }
 
-static fw_status unknown_radius(const fw_effect_case *c, const fw_friction_use *u) {
-    const char *id = c->mechanism->pin[u->joint].id;
+static fw_status unknown_radius(const fw_effect_case *c, const fw_device_friction_use *u) {
+    const char *id = c->mechanism->pin[u->revolute].id;
     if (!c->diags) return FW_INPUT;
     return fw_diag_error(c->diags, 245, u->place,
                          "friction of joint %s needs the radius of the sliding surface, and the "
@@ -76,30 +77,30 @@ static fw_status unknown_radius(const fw_effect_case *c, const fw_friction_use *
                          id ? id : "(unnamed)");
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     const fw_mechanism *m = c->mechanism;
     fw_status status = FW_OK;
     for (int i = 0; i < c->scene->nfriction; i++) {
-        const fw_friction_use *u = &c->scene->friction[i];
+        const fw_device_friction_use *u = &c->scene->friction[i];
         if (!rubs(c, u)) continue;
-        bool pin = u->joint != FW_NONE;
-        double radius = !pin ? 1 : isnan(u->radius_m) ? surface(m, u->joint) : u->radius_m;
+        bool pin = u->revolute != FW_NONE;
+        double radius = !pin ? 1 : isnan(u->radius_m) ? surface(m, u->revolute) : u->radius_m;
         if (isnan(radius)) {
             status = unknown_radius(c, u); /* all of them are reported */
             if (status == FW_NOMEM) return status;
             continue;
         }
-        fw_friction *f = fw_terms_add_friction(c->arena, terms);
+        fw_effects_friction *f = fw_effects_loads_add_friction(c->arena, loads);
         FW_NEED(f);
-        *f = (fw_friction){.pin = u->joint,
-                           .tie = pin ? FW_NONE : u->tie,
-                           .element = pin ? contact_of(c, terms, u->joint) : FW_NONE,
-                           .static_coefficient = largest(u),
-                           .kinetic_coefficient = u->coefficient,
-                           .radius_m = radius,
-                           .preload_N = u->preload_N,
-                           .id = pin ? m->pin[u->joint].id : m->tie[u->tie].id,
-                           .place = u->place};
+        *f = (fw_effects_friction){.pin = u->revolute,
+                                   .joint = pin ? FW_NONE : u->joint,
+                                   .element = pin ? contact_of(c, loads, u->revolute) : FW_NONE,
+                                   .static_coefficient = largest(u),
+                                   .kinetic_coefficient = u->coefficient,
+                                   .radius_m = radius,
+                                   .preload_N = u->preload_N,
+                                   .id = pin ? m->pin[u->revolute].id : m->joint[u->joint].id,
+                                   .place = u->place};
     }
     return status;
 }
@@ -108,7 +109,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
    envelope has. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     fw_effect_case quiet = *c; /* a radius that is missing is reported when it is compiled */
-    fw_terms rubs;
+    fw_effects_loads rubs;
     *value = (double)INFINITY;
     *reason = "kept: contacts may press, with forces that friction changes itself";
     if (c->scene->ncontact > 0) return FW_OK;
@@ -116,20 +117,22 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     if (!c->envelope || !c->envelope->valid) return FW_OK;
     quiet.diags = NULL;
     fw_mark mark = fw_arena_mark(c->arena);
-    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &rubs));
+    FW_TRY(fw_effects_loads_new(c->arena, c->mechanism, c->scene, &rubs));
     fw_status status = add(&quiet, &rubs);
     if (status == FW_NOMEM) return status;
     *reason = "kept: the radius of what slides is not known";
-    if (status == FW_OK) FW_TRY(fw_friction_bound(c, &rubs, value, reason));
+    if (status == FW_OK) FW_TRY(fw_effects_friction_bound(c, &rubs, value, reason));
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     for (int i = 0; i < s->nfriction; i++) {
-        const fw_friction_use *f = &s->friction[i];
+        const fw_device_friction_use *f = &s->friction[i];
         fw_effects_say(to, "; friction in {s}, coefficient {n}",
-                       f->joint != FW_NONE ? device->joint[f->joint].id : device->tie[f->tie].id,
+                       f->revolute != FW_NONE ? device->revolute[f->revolute].id
+                                           : device->joint[f->joint].id,
                        f->coefficient);
     }
 }

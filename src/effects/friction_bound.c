@@ -25,8 +25,8 @@
 
 typedef struct rubbing {
     const fw_effect_case *c;
-    const fw_envelope *e; /* whose motion is looked at */
-    const fw_friction *item;
+    const fw_effects_envelope *e; /* whose motion is looked at */
+    const fw_effects_friction *item;
     int count;
     double *gradient; /* (count x n) of the coordinate */
     double *mode;     /* (count x modes) shape . gradient */
@@ -34,23 +34,23 @@ typedef struct rubbing {
     double *ring;     /* (modes x count x 2) N: on i, of inertia with q'' = 1 */
     double *gain;     /* (count x count) */
     double *torque;   /* (count) */
-    double *lambda, *work, *push;
+    double *lambda, *work, *modal_load;
 } rubbing;
 
 /* ---- coordinates ---- */
 
-static fw_vec2 arm_of(const fw_mechanism *m, int body, fw_vec2 at) {
-    if (body == FW_GROUND) return (fw_vec2){0, 0};
-    return (fw_vec2){at.x - m->body[body].x_m, at.y - m->body[body].y_m};
+static fw_geometry_vec2 arm_of(const fw_mechanism *m, int body, fw_geometry_vec2 at) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){0, 0};
+    return (fw_geometry_vec2){at.x - m->body[body].x_m, at.y - m->body[body].y_m};
 }
 
 /* ds/dq of s = u . (p_b - p_a), u turning with body a */
-static void travel(const fw_mechanism *m, const fw_tie *t, double *out) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+static void travel(const fw_mechanism *m, const fw_device_joint *t, double *out) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
     double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
     double ux = cos(turned), uy = sin(turned);
-    fw_vec2 ra = arm_of(m, t->body_a, a), rb = arm_of(m, t->body_b, b);
+    fw_geometry_vec2 ra = arm_of(m, t->body_a, a), rb = arm_of(m, t->body_b, b);
     if (t->body_b != FW_GROUND) {
         double *at = out + 3 * t->body_b;
         at[0] += ux, at[1] += uy, at[2] += rb.x * uy - rb.y * ux;
@@ -66,12 +66,12 @@ static void gradients(rubbing *r) {
     const fw_mechanism *m = r->c->mechanism;
     size_t n = (size_t)r->e->n, modes = (size_t)r->e->modes;
     for (int i = 0; i < r->count; i++) {
-        const fw_friction *f = &r->item[i];
+        const fw_effects_friction *f = &r->item[i];
         double *out = r->gradient + (size_t)i * n;
         if (f->pin == FW_NONE) {
-            travel(m, &m->tie[f->tie], out);
+            travel(m, &m->joint[f->joint], out);
         } else {
-            const fw_pin *p = &m->pin[f->pin];
+            const fw_mechanism_pin *p = &m->pin[f->pin];
             if (p->body_a != FW_GROUND) out[3 * p->body_a + 2] -= 1;
             if (p->body_b != FW_GROUND) out[3 * p->body_b + 2] += 1;
         }
@@ -83,15 +83,15 @@ static void gradients(rubbing *r) {
 
 /* ---- forces ---- */
 
-/* what presses every joint under r->push at rest: (count x 2) N */
+/* what presses every joint under r->modal_load at rest: (count x 2) N */
 static void presses(rubbing *r, double *out) {
-    const fw_modal *o = r->e->modal;
-    const fw_linear *s = &o->linear;
+    const fw_effects_modal *o = r->e->modal;
+    const fw_effects_linear *s = &o->linear;
     double unit = s->stiffness_N_per_m * s->length_m;
-    fw_modal_multipliers(o, r->push, r->work, r->lambda);
+    fw_effects_modal_multipliers(o, r->modal_load, r->work, r->lambda);
     for (int i = 0; i < r->count; i++) {
-        const fw_friction *f = &r->item[i];
-        int row = f->pin == FW_NONE ? s->tie_row[f->tie] : s->pin_row[f->pin];
+        const fw_effects_friction *f = &r->item[i];
+        int row = f->pin == FW_NONE ? s->joint_row[f->joint] : s->pin_row[f->pin];
         if (row == FW_NONE) continue;
         out[2 * i] = unit * r->lambda[row];
         out[2 * i + 1] = f->pin == FW_NONE ? 0 : unit * r->lambda[row + 1];
@@ -103,14 +103,15 @@ static void responses(rubbing *r) {
     size_t n = (size_t)r->e->n, modes = (size_t)r->e->modes, count = (size_t)r->count;
     for (size_t l = 0; l < modes; l++) {
         for (size_t k = 0; k < n; k++) {
-            const fw_mass *b = &m->body[k / 3];
-            r->push[k] = (k % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * r->e->shape[l * n + k];
+            const fw_mechanism_mass *b = &m->body[k / 3];
+            r->modal_load[k] =
+                (k % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * r->e->shape[l * n + k];
         }
         presses(r, r->ring + 2 * l * count);
     }
     for (size_t j = 0; j < count; j++) {
         double *out = r->direct + 2 * j * count;
-        memcpy(r->push, r->gradient + j * n, n * sizeof *r->push);
+        memcpy(r->modal_load, r->gradient + j * n, n * sizeof *r->modal_load);
         presses(r, out);
         for (size_t l = 0; l < modes; l++)
             for (size_t k = 0; k < 2 * count; k++)
@@ -120,19 +121,20 @@ static void responses(rubbing *r) {
 
 /* of the ring that torque j can make: w^2 q + c q' of mode l */
 static double rings(const rubbing *r, size_t j, size_t l) {
-    const fw_envelope *e = r->e;
+    const fw_effects_envelope *e = r->e;
     size_t modes = (size_t)e->modes;
     const double *mode = r->mode + j * modes;
-    double sum = e->omega[l] * e->omega[l] * e->yield[l] * fabs(mode[l]);
+    double sum = e->omega[l] * e->omega[l] * e->response_bound[l] * fabs(mode[l]);
     for (size_t k = 0; k < modes; k++)
-        sum += fabs(e->modal->damping[l * modes + k] * mode[k]) * e->omega[k] * e->yield[k];
+        sum +=
+            fabs(e->modal->damping[l * modes + k] * mode[k]) * e->omega[k] * e->response_bound[k];
     return sum;
 }
 
 static double gain_of(const rubbing *r, size_t i, size_t j) {
-    const fw_envelope *e = r->e;
+    const fw_effects_envelope *e = r->e;
     size_t modes = (size_t)e->modes, count = (size_t)r->count, pins = (size_t)e->npin;
-    const fw_friction *f = &r->item[i];
+    const fw_effects_friction *f = &r->item[i];
     bool gives = f->pin != FW_NONE && e->modal->linear.pin_row[f->pin] == FW_NONE;
     double sum = 0;
     if (!gives) sum += hypot(r->direct[2 * (j * count + i)], r->direct[2 * (j * count + i) + 1]);
@@ -142,7 +144,7 @@ static double gain_of(const rubbing *r, size_t i, size_t j) {
             sum += hypot(ring[0], ring[1]) * rings(r, j, l);
         } else {
             const double *pull = e->modal->pull + 2 * (l * pins + (size_t)f->pin);
-            sum += hypot(pull[0], pull[1]) * e->yield[l] * fabs(r->mode[j * modes + l]);
+            sum += hypot(pull[0], pull[1]) * e->response_bound[l] * fabs(r->mode[j * modes + l]);
         }
     }
     return sum * e->margin;
@@ -150,7 +152,7 @@ static double gain_of(const rubbing *r, size_t i, size_t j) {
 
 /* ---- torques ---- */
 
-static double limit_of(const fw_friction *f) {
+static double limit_of(const fw_effects_friction *f) {
     return fmax(f->static_coefficient, f->kinetic_coefficient) * f->radius_m;
 }
 
@@ -161,8 +163,8 @@ static fw_status torques(rubbing *r, bool *known) {
     FW_NEED(pivot = fw_arena_array(r->c->arena, int, (size_t)count));
     *known = true;
     for (int i = 0; i < count; i++) {
-        const fw_friction *f = &r->item[i];
-        double force = f->pin == FW_NONE ? r->e->across[f->tie] : r->e->force[f->pin];
+        const fw_effects_friction *f = &r->item[i];
+        double force = f->pin == FW_NONE ? r->e->across[f->joint] : r->e->force[f->pin];
         r->torque[i] = limit_of(f) * (f->preload_N + force);
         for (int j = 0; j < count; j++) {
             double *k = &r->gain[i * count + j];
@@ -171,8 +173,8 @@ static fw_status torques(rubbing *r, bool *known) {
         }
         *known = *known && isfinite(r->torque[i]);
     }
-    *known = *known && fw_lu_factor(count, r->gain, pivot);
-    if (*known) fw_lu_solve(count, r->gain, pivot, r->torque);
+    *known = *known && fw_maths_lu_factor(count, r->gain, pivot);
+    if (*known) fw_maths_lu_solve(count, r->gain, pivot, r->torque);
     for (int i = 0; i < count; i++)
         *known = *known && r->torque[i] >= 0;
     return FW_OK;
@@ -181,8 +183,8 @@ static fw_status torques(rubbing *r, bool *known) {
 static fw_status room(rubbing *r) {
     fw_arena *arena = r->c->arena;
     size_t n = (size_t)r->e->n, modes = (size_t)r->e->modes, count = (size_t)r->count;
-    double **of[] = {&r->gradient, &r->mode,   &r->direct, &r->ring, &r->gain,
-                     &r->torque,   &r->lambda, &r->work,   &r->push};
+    double **of[] = {&r->gradient, &r->mode,   &r->direct, &r->ring,      &r->gain,
+                     &r->torque,   &r->lambda, &r->work,   &r->modal_load};
     const size_t size[] = {count * n,
                            count * modes,
                            2 * count * count,
@@ -201,31 +203,31 @@ static fw_status room(rubbing *r) {
    that no extreme goes farther than without, and the farthest comes with the first swing, or the
    second of a motion that starts with a velocity or away from its springs' rest: at most one arch
    of the response, or two. */
-static double first_swings(const fw_effect_case *c, const fw_envelope *e) {
-    const fw_modal *o = e->modal;
-    const fw_terms *t = o->terms;
+static double first_swings(const fw_effect_case *c, const fw_effects_envelope *e) {
+    const fw_effects_modal *o = e->modal;
+    const fw_effects_loads *t = o->loads;
     if (e->modes != 1 || t->ntimed > 0 || o->shift[0] || o->shift[1]) return (double)INFINITY;
     for (int i = 0; i < t->nelement; i++)
         if (t->element[i].laws > 0) return (double)INFINITY;
     bool rest = o->velocity[0] == 0;
     for (int i = 0; i < e->npin; i++)
-        rest = rest && fw_pin_deflection(c->mechanism, i) == 0;
+        rest = rest && fw_effects_pin_deflection(c->mechanism, i) == 0;
     return (rest ? 2 : 4) / (e->omega[0] * e->omega[0]);
 }
 
 /* bound in the motion of one envelope, over the floor of the other */
-static fw_status in_motion(const fw_effect_case *c, const fw_envelope *e, const fw_terms *rubs,
-                           double *value) {
-    fw_envelope seen = *e;
+static fw_status in_motion(const fw_effect_case *c, const fw_effects_envelope *e,
+                           const fw_effects_loads *rubs, double *value) {
+    fw_effects_envelope seen = *e;
     const fw_effect_case one = {c->arena, c->mechanism, c->scene, &seen, c->diags};
     rubbing r = {.c = &one, .e = &seen, .item = rubs->friction, .count = rubs->nfriction};
     size_t modes = (size_t)e->modes;
     double *force, *passed;
     bool known;
     seen.floor = c->envelope->floor;
-    FW_NEED(seen.yield = fw_arena_array(c->arena, double, modes));
+    FW_NEED(seen.response_bound = fw_arena_array(c->arena, double, modes));
     for (size_t l = 0; l < modes; l++)
-        seen.yield[l] = fmin(e->yield[l], first_swings(c, e));
+        seen.response_bound[l] = fmin(e->response_bound[l], first_swings(c, e));
     FW_TRY(room(&r));
     FW_NEED(force = fw_arena_array(c->arena, double, modes));
     FW_NEED(passed = fw_arena_array(c->arena, double, modes));
@@ -241,16 +243,16 @@ static fw_status in_motion(const fw_effect_case *c, const fw_envelope *e, const 
         passed[l] = force[l];
         for (size_t k = 0; k < modes; k++)
             if (k != l)
-                passed[l] +=
-                    fabs(e->modal->damping[l * modes + k]) * e->omega[k] * e->yield[k] * force[k];
+                passed[l] += fabs(e->modal->damping[l * modes + k]) * e->omega[k] *
+                             e->response_bound[k] * force[k];
     }
-    *value = fw_envelope_mode_answer(&one, passed, (double)INFINITY);
+    *value = fw_effects_envelope_mode_answer(&one, passed, (double)INFINITY);
     return FW_OK;
 }
 
-fw_status fw_friction_bound(const fw_effect_case *c, const fw_terms *rubs, double *value,
-                            const char **reason) {
-    const fw_envelope *e = c->envelope;
+fw_status fw_effects_friction_bound(const fw_effect_case *c, const fw_effects_loads *rubs,
+                                    double *value, const char **reason) {
+    const fw_effects_envelope *e = c->envelope;
     double most, pinned = 0;
     *value = (double)INFINITY;
     *reason = "kept: dry friction has no bound where pins for hinges have no linear theory";

@@ -7,10 +7,10 @@ static bool called_for(const fw_effect_case *c) {
     return c->scene->gravity && (c->scene->gx_m_per_s2 != 0 || c->scene->gy_m_per_s2 != 0);
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int b = 0; b < c->mechanism->nbody; b++) {
-        terms->constant[3 * b] += c->mechanism->body[b].mass_kg * c->scene->gx_m_per_s2;
-        terms->constant[3 * b + 1] += c->mechanism->body[b].mass_kg * c->scene->gy_m_per_s2;
+        loads->constant[3 * b] += c->mechanism->body[b].mass_kg * c->scene->gx_m_per_s2;
+        loads->constant[3 * b + 1] += c->mechanism->body[b].mass_kg * c->scene->gy_m_per_s2;
     }
     return FW_OK;
 }
@@ -21,7 +21,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
    bodies. Test: test_effects.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_mechanism *m = c->mechanism;
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     *value = (double)INFINITY;
     if (!e->valid) {
         FW_NEED(*reason = fw_arena_printf(c->arena,
@@ -40,8 +40,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     for (int j = 0; j < e->modes; j++)
         for (int k = 0; k < e->n; k++)
             mode[j] += e->shape[(size_t)j * (size_t)e->n + (size_t)k] * force[k];
-    FW_TRY(fw_envelope_softening(c, force, &part));
-    *value = fw_envelope_mode_answer(c, mode, 1) + fw_envelope_stiffness(c, part);
+    FW_TRY(fw_effects_envelope_softening(c, force, &part));
+    *value = fw_effects_envelope_mode_answer(c, mode, 1) + fw_effects_envelope_stiffness(c, part);
     fw_arena_rewind(c->arena, mark);
     *reason = isfinite(*value)
                   ? "weight: answer of the modes to it, put on at once, and to what it takes from "
@@ -50,7 +50,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     if (s->gravity)
         fw_effects_say(to, "; gravity ({n}, {n}) m/s\u00b2", s->gx_m_per_s2, s->gy_m_per_s2);

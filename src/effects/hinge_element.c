@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-typedef fw_flexed flexed;
+typedef fw_effects_flexed flexed;
 
 typedef struct bent {               /* values and rates, for what needs no second derivative */
     double c, n, x, y;              /* of psi, and e.D, n.D */
@@ -28,14 +28,14 @@ typedef struct bent {               /* values and rates, for what needs no secon
     double kx, kx_slope, ky, ky_slope, drift_slope;
 } bent;
 
-static inline bent bend(const flexed *f, const fw_seen *s) {
+static inline bent bend(const flexed *f, const fw_effects_port_state *s) {
     const double *a = s->p, *b = s->p + 3, *va = s->w, *vb = s->w + 3, o = f->sense;
     double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
     double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
     double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
     double th = b[2] - a[2] - f->free_rad, th_rate = vb[2] - va[2];
-    fw_hinge_at law;
-    fw_hinge_law_slopes(&f->law, &f->rest, o * th, &law);
+    fw_flexure_hinge_at law;
+    fw_flexure_hinge_law_slopes(&f->law, &f->rest, o * th, &law);
     return (bent){.c = c,
                   .n = n,
                   .x = x,
@@ -53,22 +53,25 @@ static inline bent bend(const flexed *f, const fw_seen *s) {
                   .drift_slope = law.drift_m.slope};
 }
 
-static inline double warmth(const fw_force_element *e, const fw_seen *s, double *rate) {
+static inline double warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                            double *rate) {
     const flexed *h = e->data;
     *rate = 0;
     if (e->laws == 0) return h->factor;
     double law[3];
-    fw_law_value(e->law[0], s->t_s, s->piece_s, law);
+    fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, law);
     *rate = h->varying * law[1];
     return h->factor + h->varying * law[0];
 }
 
-double fw_flexed_warmth(const fw_force_element *e, const fw_seen *s, double *rate) {
+double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                double *rate) {
     return warmth(e, s, rate);
 }
 
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out */
-static inline void push(const flexed *h, const fw_seen *s, double warm, double *f) {
+static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
+                              double *f) {
     const bent b = bend(h, s);
     double moment = warm * (h->law.stiffness_Nm_per_rad * b.th +
                             0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v));
@@ -81,13 +84,14 @@ static inline void push(const flexed *h, const fw_seen *s, double warm, double *
     f[5] = both - moment + Y * b.drift_slope;
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     double rate;
-    push(e->data, s, warmth(e, s, &rate), f);
+    modal_load(e->data, s, warmth(e, s, &rate), f);
 }
 
-void fw_flexed_force(const fw_flexed *h, const fw_seen *s, double warm, double *f) {
-    push(h, s, warm, f);
+void fw_effects_flexed_force(const fw_effects_flexed *h, const fw_effects_port_state *s,
+                             double warm, double *f) {
+    modal_load(h, s, warm, f);
 }
 
 static inline double stored(const flexed *h, const bent *b) { /* U where it was made */
@@ -95,19 +99,20 @@ static inline double stored(const flexed *h, const bent *b) { /* U where it was 
                   b->ky * b->v * b->v);
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const flexed *h = e->data;
     const bent b = bend(h, s);
     double rate;
     return warmth(e, s, &rate) * stored(h, &b);
 }
 
-double fw_flexed_loss_W(const fw_flexed *h, const fw_seen *s) {
+double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s) {
     const bent b = bend(h, s);
     return h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double power[2]) {
     const flexed *h = e->data;
     const bent b = bend(h, s);
     power[0] = h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
@@ -125,7 +130,7 @@ typedef struct strain { /* one of w and v: value, rate, gradient by the ports, s
 } strain;
 
 typedef struct state {
-    fw_hinge_jet kx, ky, drift;
+    fw_flexure_hinge_jet kx, ky, drift;
     strain w, v;
 } state;
 
@@ -133,9 +138,9 @@ static const double turns[N] = {0, 0, -1, 0, 0, 1};   /* d th */
 static const double half[N] = {0, 0, 0.5, 0, 0, 0.5}; /* d psi */
 
 /* a jet of o th as one of th; `odd` where the value itself goes with o */
-static fw_hinge_jet seen_from_a(fw_hinge_jet j, double sense, bool odd) {
+static fw_flexure_hinge_jet seen_from_a(fw_flexure_hinge_jet j, double sense, bool odd) {
     double o = odd ? sense : 1;
-    return (fw_hinge_jet){o * j.value, o * sense * j.slope, o * j.curve};
+    return (fw_flexure_hinge_jet){o * j.value, o * sense * j.slope, o * j.curve};
 }
 
 /* x = u.D, y = its partner a quarter turn on, so that dx/dpsi = side y: gradient and second
@@ -151,13 +156,13 @@ static void project(strain *s, double x, double y, double side, const double *li
                 -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
 }
 
-static void look(const flexed *f, const fw_seen *s, state *at) {
+static void look(const flexed *f, const fw_effects_port_state *s, state *at) {
     const double *a = s->p, *b = s->p + 3;
     double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
     double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
     const double along[N] = {-c, -n, 0, c, n, 0}, across[N] = {n, -c, 0, -n, c, 0};
-    fw_hinge_at law;
-    fw_hinge_law_at(&f->law, f->sense * (b[2] - a[2] - f->free_rad), &law);
+    fw_flexure_hinge_at law;
+    fw_flexure_hinge_law_at(&f->law, f->sense * (b[2] - a[2] - f->free_rad), &law);
     at->kx = seen_from_a(law.kx_N_per_m, f->sense, false);
     at->ky = seen_from_a(law.ky_N_per_m, f->sense, false);
     at->drift = seen_from_a(law.drift_m, f->sense, true);
@@ -177,7 +182,7 @@ static void look(const flexed *f, const fw_seen *s, state *at) {
 }
 
 /* of k (s + tau s') ds/dp: stiffness and damping, += */
-static void add_strain(const strain *s, fw_hinge_jet k, double tau, const double *speed,
+static void add_strain(const strain *s, fw_flexure_hinge_jet k, double tau, const double *speed,
                        double *stiffness, double *damping) {
     double pull = s->value + tau * s->rate, turning[N] = {0};
     for (int j = 0; j < N; j++) /* of s' */
@@ -193,8 +198,8 @@ static void add_strain(const strain *s, fw_hinge_jet k, double tau, const double
         }
 }
 
-void fw_flexed_tangent(const fw_flexed *h, const fw_seen *s, double warm, double *stiffness,
-                       double *damping) {
+void fw_effects_flexed_tangent(const fw_effects_flexed *h, const fw_effects_port_state *s,
+                               double warm, double *stiffness, double *damping) {
     state at;
     look(h, s, &at);
     memset(damping, 0, N * N * sizeof *damping);
@@ -208,43 +213,44 @@ void fw_flexed_tangent(const fw_flexed *h, const fw_seen *s, double warm, double
         stiffness[i] *= warm, damping[i] *= warm;
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
     double rate;
-    fw_flexed_tangent(e->data, s, warmth(e, s, &rate), stiffness, damping);
+    fw_effects_flexed_tangent(e->data, s, warmth(e, s, &rate), stiffness, damping);
 }
 
-static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  const char **why) {
     const flexed *h = e->data;
     double th = h->sense * (s->p[5] - s->p[2] - h->free_rad);
-    if (fw_hinge_law_holds(&h->law, th)) return true;
+    if (fw_flexure_hinge_law_holds(&h->law, th)) return true;
     *why =
         "the flexure is wound up to a full circle, where its ends would meet; lower the load, or "
         "make its angle smaller";
     return false;
 }
 
-static const fw_element_class class_ = {.effect = "nonlinear-hinge",
-                                        .force = force,
-                                        .tangent = tangent,
-                                        .energy = energy,
-                                        .power = power,
-                                        .valid = valid};
+static const fw_effects_element_class class_ = {.effect = "nonlinear-hinge",
+                                                .force = force,
+                                                .tangent = tangent,
+                                                .energy = energy,
+                                                .power = power,
+                                                .valid = valid};
 
 /* ---- in the mechanism ---- */
 
-bool fw_hinge_is_known(const fw_hinge *hinge) {
+bool fw_effects_hinge_is_known(const fw_mechanism_hinge *hinge) {
     return isfinite(hinge->axis_rad) && hinge->law.length_m > 0 &&
            isfinite(hinge->law.bend_m_per_N);
 }
 
-bool fw_hinge_touches(const fw_scene *scene, int pin) {
+bool fw_effects_hinge_touches(const fw_device_scene *scene, int pin) {
     for (int i = 0; i < scene->ncontact; i++)
         if (scene->contact[i].joint == pin) return true;
     return false;
 }
 
-bool fw_material_damped(const fw_effect_case *c, int pin) {
+bool fw_effects_material_damped(const fw_effect_case *c, int pin) {
     const fw_mechanism *m = c->mechanism;
     int hinge = m->pin[pin].hinge;
     return c->scene->ndamping > 0 && hinge != FW_NONE && hinge < m->nhinge &&
@@ -255,13 +261,13 @@ static double drawn_turn(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? 0 : m->body[body].phi_rad;
 }
 
-fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) {
+fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge) {
     const fw_mechanism *m = c->mechanism;
-    const fw_hinge *h = &m->hinge[hinge];
-    const fw_pin *pin = &m->pin[h->pin];
-    if (terms->released[h->pin]) return FW_OK;
+    const fw_mechanism_hinge *h = &m->hinge[hinge];
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    if (loads->released[h->pin]) return FW_OK;
     flexed *f = fw_arena_one(c->arena, flexed);
-    fw_force_element *e = fw_terms_add_element(c->arena, terms, &class_, 2);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &class_, 2);
     if (!f || !e) return FW_NOMEM;
     *f = (flexed){.law = h->law,
                   .sense = h->first_is_a ? 1 : -1,
@@ -270,32 +276,32 @@ fw_status fw_hinge_release(const fw_effect_case *c, fw_terms *terms, int hinge) 
                   .axis_rad = h->axis_rad -
                               0.5 * (drawn_turn(m, pin->body_a) + drawn_turn(m, pin->body_b))};
     f->law.stiffness_Nm_per_rad = pin->stiffness_Nm_per_rad;
-    if (terms->torsion_of[h->pin]) { /* the spring is the element's now, the damper stays */
-        fw_torsion *t = &terms->torsion[terms->torsion_of[h->pin] - 1];
+    if (loads->torsion_of[h->pin]) { /* the spring is the element's now, the damper stays */
+        fw_effects_torsion *t = &loads->torsion[loads->torsion_of[h->pin] - 1];
         t->stiffness_Nm_per_rad = 0;
         if (!h->damping_stated && pin->stiffness_Nm_per_rad > 0)
             f->loss_s = t->damping_Nms_per_rad / pin->stiffness_Nm_per_rad;
     }
-    f->rest = fw_hinge_rest_of(&f->law);
-    fw_hinge_at at;
-    fw_hinge_law_at(&f->law, 0, &at);
+    f->rest = fw_flexure_hinge_rest_of(&f->law);
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(&f->law, 0, &at);
     e->data = f;
     e->id = pin->id;
     e->pin = h->pin;
-    e->port[0] = (fw_port){pin->body_a, pin->ax_m, pin->ay_m};
-    e->port[1] = (fw_port){pin->body_b, pin->bx_m, pin->by_m};
+    e->port[0] = (fw_effects_port){pin->body_a, pin->ax_m, pin->ay_m};
+    e->port[1] = (fw_effects_port){pin->body_b, pin->bx_m, pin->by_m};
     e->size_N_per_m = fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
     e->dissipates = f->loss_s > 0;
-    if (m->device && h->pin < m->device->njoint) e->place = m->device->joint[h->pin].place;
-    terms->released[h->pin] = true;
-    terms->nreleased++;
+    if (m->device && h->pin < m->device->nrevolute) e->place = m->device->revolute[h->pin].place;
+    loads->released[h->pin] = true;
+    loads->nreleased++;
     return FW_OK;
 }
 
-fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double varying,
-                         const fw_law *law) {
-    for (int i = 0; i < terms->nelement; i++) {
-        fw_force_element *e = &terms->element[i];
+fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, double part,
+                                 double varying, const fw_quantity_law *law) {
+    for (int i = 0; i < loads->nelement; i++) {
+        fw_effects_force_element *e = &loads->element[i];
         if (e->class_ != &class_) continue;
         flexed *f = fw_arena_one(arena, flexed);
         FW_NEED(f);
@@ -312,35 +318,36 @@ fw_status fw_hinges_warm(fw_arena *arena, fw_terms *terms, double part, double v
     return FW_OK;
 }
 
-fw_status fw_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_terms *terms) {
-    fw_force_element *own;
-    FW_NEED(own = fw_arena_array(arena, fw_force_element, 2 * (size_t)terms->nelement + 1));
-    if (terms->nelement > 0) memcpy(own, terms->element, (size_t)terms->nelement * sizeof *own);
-    terms->element = own;
-    for (int i = 0; i < terms->nelement; i++) {
-        const fw_hinge *h;
+fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_effects_loads *loads) {
+    fw_effects_force_element *own;
+    FW_NEED(own = fw_arena_array(arena, fw_effects_force_element, 2 * (size_t)loads->nelement + 1));
+    if (loads->nelement > 0) memcpy(own, loads->element, (size_t)loads->nelement * sizeof *own);
+    loads->element = own;
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_mechanism_hinge *h;
         if (own[i].class_ != &class_) continue;
         h = &m->hinge[m->pin[own[i].pin].hinge];
-        if (!fw_exact_is_known(h)) continue;
+        if (!fw_effects_exact_is_known(h)) continue;
         flexed *f = fw_arena_one(arena, flexed);
         FW_NEED(f);
         *f = *(const flexed *)own[i].data;
-        FW_TRY(fw_exact_new(arena, h, &f->exact));
+        FW_TRY(fw_effects_exact_new(arena, h, &f->exact));
         own[i].data = f;
-        own[i].class_ = &fw_exact_class;
+        own[i].class_ = &fw_effects_exact_class;
     }
     return FW_OK;
 }
 
 /* where the file states the stiffness its law holds, unless the surfaces can touch: that needs the
    hinge to give */
-bool fw_hinge_flexes(const fw_effect_case *c, int hinge) {
-    const fw_hinge *h = &c->mechanism->hinge[hinge];
-    return fw_hinge_is_known(h) && (!h->stated || fw_hinge_touches(c->scene, h->pin));
+bool fw_effects_hinge_flexes(const fw_effect_case *c, int hinge) {
+    const fw_mechanism_hinge *h = &c->mechanism->hinge[hinge];
+    return fw_effects_hinge_is_known(h) &&
+           (!h->stated || fw_effects_hinge_touches(c->scene, h->pin));
 }
 
-fw_status fw_hinges_flex(const fw_effect_case *c, fw_terms *terms) {
+fw_status fw_effects_hinges_flex(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->nhinge; i++)
-        if (fw_hinge_flexes(c, i)) FW_TRY(fw_hinge_release(c, terms, i));
+        if (fw_effects_hinge_flexes(c, i)) FW_TRY(fw_effects_hinge_release(c, loads, i));
     return FW_OK;
 }

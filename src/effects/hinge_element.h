@@ -5,31 +5,34 @@
 #define FW_EFFECTS_HINGE_ELEMENT_H
 #include "effects/effect.h"
 
-typedef struct fw_exact fw_exact;
+typedef struct fw_effects_exact fw_effects_exact;
 
-typedef struct fw_flexed { /* data of an element; ports: pin on body a, pin on body b */
-    fw_hinge_law law;
-    double sense;              /* o: 1 where body a has the root at polar angle -a, else -1 */
-    double axis_rad, free_rad; /* axis less half of the drawn turns */
-    double loss_s;             /* tau */
-    double factor, varying;    /* U times factor + varying law(t): temperature */
-    fw_hinge_rest rest;        /* what does not depend on the rotation */
-    fw_exact *exact;           /* of hinge_exact.c; NULL: closed form */
-} fw_flexed;
+typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, pin on body b */
+    fw_flexure_hinge_law law;
+    double sense;               /* o: 1 where body a has the root at polar angle -a, else -1 */
+    double axis_rad, free_rad;  /* axis less half of the drawn turns */
+    double loss_s;              /* tau */
+    double factor, varying;     /* U times factor + varying law(t): temperature */
+    fw_flexure_hinge_rest rest; /* what does not depend on the rotation */
+    fw_effects_exact *exact;    /* of hinge_exact.c; NULL: closed form */
+} fw_effects_flexed;
 
 /* what U is multiplied by, and its rate */
-double fw_flexed_warmth(const fw_force_element *e, const fw_seen *s, double *rate);
+double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                double *rate);
 /* the closed form: elastic force times warm, and what the material dissipates; warm 0: that alone
  */
-void fw_flexed_force(const fw_flexed *h, const fw_seen *s, double warm, double *f);
-void fw_flexed_tangent(const fw_flexed *h, const fw_seen *s, double warm, double *stiffness,
-                       double *damping);
-double fw_flexed_loss_W(const fw_flexed *h, const fw_seen *s);
+void fw_effects_flexed_force(const fw_effects_flexed *h, const fw_effects_port_state *s,
+                             double warm, double *f);
+void fw_effects_flexed_tangent(const fw_effects_flexed *h, const fw_effects_port_state *s,
+                               double warm, double *stiffness, double *damping);
+double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s);
 
 /* hinge_exact.c */
-bool fw_exact_is_known(const fw_hinge *hinge);
-fw_status fw_exact_new(fw_arena *arena, const fw_hinge *hinge, fw_exact **out);
-extern const fw_element_class fw_exact_class;
-extern const double fw_exact_tolerance; /* relative, of its forces */
+bool fw_effects_exact_is_known(const fw_mechanism_hinge *hinge);
+fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *hinge,
+                               fw_effects_exact **out);
+extern const fw_effects_element_class fw_effects_exact_class;
+extern const double fw_effects_exact_tolerance; /* relative, of its forces */
 
 #endif

@@ -23,7 +23,7 @@
 #include <math.h>
 #include <string.h>
 
-const double fw_exact_tolerance = 1e-9;
+const double fw_effects_exact_tolerance = 1e-9;
 /* where rounding leaves more than the tolerance, as in a beam that is hardly bent or a leaf that is
    stiff along its chord: of the wrench that deflects it by a thousandth of itself */
 static const double rough = 1e-6, deflected = 1e-3;
@@ -31,38 +31,39 @@ static const double rough = 1e-6, deflected = 1e-3;
    (its drift is 1e-20 m there), which is all that Newton's method would see */
 static const double linear = 3e-8;
 
-struct fw_exact {
-    fw_beam beam;
+struct fw_effects_exact {
+    fw_flexure_beam beam;
     double length_m; /* of the strip */
-    fw_elastica *solver;
+    fw_flexure_elastica *solver;
     bool asked, held, weighed; /* the state below is that of `twist`; its energy is known */
     double twist[3], wrench[3], k[3][3], energy_J;
     double rest[3][3]; /* stiffness of the unloaded beam */
 };
 
-static void take_stiffness(const fw_elastica_result *r, double k[3][3]) {
+static void take_stiffness(const fw_flexure_elastica_result *r, double k[3][3]) {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             k[i][j] = 0.5 * (r->stiffness[i][j] + r->stiffness[j][i]);
 }
 
-bool fw_exact_is_known(const fw_hinge *h) {
+bool fw_effects_exact_is_known(const fw_mechanism_hinge *h) {
     return !h->stated && h->input.length_m > 0 && h->input.width_m > 0 && h->input.depth_m > 0 &&
            h->closed_form.stiffness_Nm_per_rad > 0;
 }
 
-fw_status fw_exact_new(fw_arena *arena, const fw_hinge *h, fw_exact **out) {
+fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
+                               fw_effects_exact **out) {
     const fw_flexure_result *c = &h->closed_form;
-    fw_exact *x = fw_arena_one(arena, fw_exact);
+    fw_effects_exact *x = fw_arena_one(arena, fw_effects_exact);
     FW_NEED(x);
-    FW_TRY(fw_flexure_beam(arena, &h->input, c, &x->beam));
+    FW_TRY(fw_flexure_beam_of_input(arena, &h->input, c, &x->beam));
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     static const double none[3] = {0};
-    fw_elastica_result r;
-    FW_TRY(fw_elastica_new(arena, &x->beam, pin, false, &x->solver));
-    x->length_m = fw_elastica_linear(x->solver)->length_m;
-    fw_elastica_of_twist(x->solver, none, fw_exact_tolerance, false, &r);
+    fw_flexure_elastica_result r;
+    FW_TRY(fw_flexure_elastica_new(arena, &x->beam, pin, false, &x->solver));
+    x->length_m = fw_flexure_elastica_linear(x->solver)->length_m;
+    fw_flexure_elastica_of_twist(x->solver, none, fw_effects_exact_tolerance, false, &r);
     take_stiffness(&r, x->rest);
     *out = x;
     return FW_OK;
@@ -74,7 +75,7 @@ typedef struct place { /* of the second body in the first one's frame */
     double twist[3];
 } place;
 
-static place place_of(const fw_flexed *f, const double *p) {
+static place place_of(const fw_effects_flexed *f, const double *p) {
     place at = {.first = f->sense > 0 ? 0 : 3, .second = f->sense > 0 ? 3 : 0};
     const double *a = p + at.first, *b = p + at.second;
     double phi = f->axis_rad + a[2] + 0.5 * f->sense * f->free_rad;
@@ -86,7 +87,7 @@ static place place_of(const fw_flexed *f, const double *p) {
     return at;
 }
 
-static bool good(const fw_elastica_result *r, double length_m) {
+static bool good(const fw_flexure_elastica_result *r, double length_m) {
     if (r->code != FW_ELASTICA_ROUGH) return r->code == FW_ELASTICA_OK;
     for (int i = 0; i < 3; i++) {
         double size = 0;
@@ -97,7 +98,7 @@ static bool good(const fw_elastica_result *r, double length_m) {
     return true;
 }
 
-static bool hardly_bent(fw_exact *x) {
+static bool hardly_bent(fw_effects_exact *x) {
     memcpy(x->k, x->rest, sizeof x->k);
     x->energy_J = 0;
     for (int i = 0; i < 3; i++) {
@@ -111,8 +112,8 @@ static bool hardly_bent(fw_exact *x) {
 }
 
 /* the beam at this place; false: it has no equilibrium there */
-static bool solve(fw_exact *x, const double twist[3]) {
-    fw_elastica_result r;
+static bool solve(fw_effects_exact *x, const double twist[3]) {
+    fw_flexure_elastica_result r;
     if (x->asked && x->twist[0] == twist[0] && x->twist[1] == twist[1] && x->twist[2] == twist[2])
         return x->held;
     x->asked = true;
@@ -120,50 +121,52 @@ static bool solve(fw_exact *x, const double twist[3]) {
     memcpy(x->twist, twist, sizeof x->twist);
     if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->length_m) < linear)
         return x->held = hardly_bent(x);
-    fw_elastica_of_twist(x->solver, twist, fw_exact_tolerance, false, &r);
+    fw_flexure_elastica_of_twist(x->solver, twist, fw_effects_exact_tolerance, false, &r);
     x->held = good(&r, x->length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
     take_stiffness(&r, x->k);
     return x->held;
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
-    const fw_flexed *h = e->data;
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
+    const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
-    double rate, warm = fw_flexed_warmth(e, s, &rate);
+    double rate, warm = fw_effects_flexed_warmth(e, s, &rate);
     if (!solve(h->exact, at.twist)) {
-        fw_flexed_force(h, s, warm, f);
+        fw_effects_flexed_force(h, s, warm, f);
         return;
     }
     const double *w = h->exact->wrench;
     double gx = warm * (at.c * w[1] - at.s * w[2]), gy = warm * (at.s * w[1] + at.c * w[2]);
     double turn = warm * (w[1] * at.twist[2] - w[2] * at.twist[1]);
     memset(f, 0, 6 * sizeof *f);
-    if (h->loss_s > 0) fw_flexed_force(h, s, 0, f);
+    if (h->loss_s > 0) fw_effects_flexed_force(h, s, 0, f);
     f[at.second] -= gx, f[at.second + 1] -= gy, f[at.second + 2] -= warm * w[0];
     f[at.first] += gx, f[at.first + 1] += gy, f[at.first + 2] += warm * w[0] - turn;
 }
 
-static double stored(const fw_flexed *h, const fw_seen *s) { /* U where it was made */
-    fw_exact *x = h->exact;
+static double stored(const fw_effects_flexed *h,
+                     const fw_effects_port_state *s) { /* U where it was made */
+    fw_effects_exact *x = h->exact;
     const place at = place_of(h, s->p);
     if (!solve(x, at.twist)) return (double)NAN;
-    if (!x->weighed) x->energy_J = fw_elastica_energy_J(x->solver);
+    if (!x->weighed) x->energy_J = fw_flexure_elastica_energy_J(x->solver);
     x->weighed = true;
     return x->energy_J;
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     double rate;
-    return fw_flexed_warmth(e, s, &rate) * stored(e->data, s);
+    return fw_effects_flexed_warmth(e, s, &rate) * stored(e->data, s);
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double power[2]) {
-    const fw_flexed *h = e->data;
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double power[2]) {
+    const fw_effects_flexed *h = e->data;
     double rate;
-    power[0] = h->loss_s > 0 ? fw_flexed_loss_W(h, s) : 0;
+    power[0] = h->loss_s > 0 ? fw_effects_flexed_loss_W(h, s) : 0;
     power[1] = 0;
-    fw_flexed_warmth(e, s, &rate);
+    fw_effects_flexed_warmth(e, s, &rate);
     if (e->laws > 0) power[1] = rate * stored(h, s);
 }
 
@@ -192,23 +195,24 @@ static void add_turning(const place *at, const double *w, double warm, double *s
 }
 
 /* of what is dissipated: the closed form's with it less that without */
-static void add_loss(const fw_flexed *h, const fw_seen *s, double *stiffness, double *damping) {
+static void add_loss(const fw_effects_flexed *h, const fw_effects_port_state *s, double *stiffness,
+                     double *damping) {
     double with[N * N], without[N * N], none[N * N];
-    fw_flexed calm = *h;
+    fw_effects_flexed calm = *h;
     calm.loss_s = 0;
-    fw_flexed_tangent(h, s, 1, with, damping);
-    fw_flexed_tangent(&calm, s, 1, without, none);
+    fw_effects_flexed_tangent(h, s, 1, with, damping);
+    fw_effects_flexed_tangent(&calm, s, 1, without, none);
     for (int i = 0; i < N * N; i++)
         stiffness[i] += with[i] - without[i];
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
-    const fw_flexed *h = e->data;
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
+    const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
-    double rate, warm = fw_flexed_warmth(e, s, &rate), j[3][N];
+    double rate, warm = fw_effects_flexed_warmth(e, s, &rate), j[3][N];
     if (!solve(h->exact, at.twist)) {
-        fw_flexed_tangent(h, s, warm, stiffness, damping);
+        fw_effects_flexed_tangent(h, s, warm, stiffness, damping);
         return;
     }
     gradient(&at, j);
@@ -225,8 +229,9 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     if (h->loss_s > 0) add_loss(h, s, stiffness, damping);
 }
 
-static bool valid(const fw_force_element *e, const fw_seen *s, const char **why) {
-    const fw_flexed *h = e->data;
+static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  const char **why) {
+    const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
     if (solve(h->exact, at.twist)) return true;
     *why = "the flexure as an exact beam has no equilibrium that can be reached from rest with its "
@@ -235,9 +240,9 @@ static bool valid(const fw_force_element *e, const fw_seen *s, const char **why)
     return false;
 }
 
-const fw_element_class fw_exact_class = {.effect = "nonlinear-hinge",
-                                         .force = force,
-                                         .tangent = tangent,
-                                         .energy = energy,
-                                         .power = power,
-                                         .valid = valid};
+const fw_effects_element_class fw_effects_exact_class = {.effect = "nonlinear-hinge",
+                                                         .force = force,
+                                                         .tangent = tangent,
+                                                         .energy = energy,
+                                                         .power = power,
+                                                         .valid = valid};

@@ -2,7 +2,8 @@
 /* How far the peaks of a mechanism with ideal pins are from those of one whose hinges give and
    drift. Two motions under the same loads are known up to their peaks (peaks.c): the linear one
    with pins (a), and the one with hinges as springs and with what of a hinge is not linear along it
-   (b; hinge_source.c). To |peak a - peak b| is added, with u the doubt of the envelope:
+   (b; hinge_source.c). To |peak a - peak b| is added, with u the nonlinearity estimate of the
+   envelope:
 
      4 u (differences of what stands still, of the rings; rings of the modes that the hinges add)
                 what is not linear does to both alike
@@ -16,7 +17,8 @@
 
    Inputs SI from the envelopes; outputs rad over the floor. Infinite where the hinges give at
    frequencies below twice those of the motion, or are drawn under stress. Valid as the envelope is.
-   Cost: peaks.c three times, and modes times hinges at every instant. The doubts are tested, not
+   Cost: peaks.c three times, and modes times hinges at every instant. The nonlinearity estimates
+   are tested, not
    proved. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_hinge_give.c,
    test_hinge_bounds.c. */
 #include "effects/effect.h"
@@ -28,11 +30,11 @@
 
 typedef struct work {
     const fw_effect_case *c;
-    const fw_envelope *a, *b; /* pinned, given */
-    fw_peaks pa, pb, pc;      /* linear ones; b with what is not linear of the hinges */
-    fw_hinge_sources sources;
+    const fw_effects_envelope *a, *b; /* pinned, given */
+    fw_effects_peaks pa, pb, pc;      /* linear ones; b with what is not linear of the hinges */
+    fw_effects_hinge_sources sources;
     int slow; /* modes of a */
-    double unsure;
+    double nonlinearity;
     double *swing;     /* (slow) sources: static |q| */
     double *ring;      /* (slow) static |q|, of what the fast rings add to them */
     double *rapid_rad; /* (npin) likewise in the modes beyond */
@@ -40,16 +42,16 @@ typedef struct work {
     double *phase;     /* (slow) w T, T the time over which its damping lets it count */
 } work;
 
-double fw_hinge_give_most(const fw_effect_case *c, int pin) {
+double fw_effects_hinge_give_most(const fw_effect_case *c, int pin) {
     enum { STEPS = 16 };
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     int hinge = c->mechanism->pin[pin].hinge;
-    if (!e->pinned || hinge == FW_NONE || !fw_hinge_is_known(&c->mechanism->hinge[hinge]))
+    if (!e->pinned || hinge == FW_NONE || !fw_effects_hinge_is_known(&c->mechanism->hinge[hinge]))
         return e->give[pin];
-    double angle = e->angle[pin] + fabs(fw_pin_deflection(c->mechanism, pin)), drift = 0;
+    double angle = e->angle[pin] + fabs(fw_effects_pin_deflection(c->mechanism, pin)), drift = 0;
     for (int i = -STEPS; i <= STEPS; i++) {
-        fw_hinge_at at;
-        fw_hinge_law_at(&c->mechanism->hinge[hinge].law, angle * i / STEPS, &at);
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&c->mechanism->hinge[hinge].law, angle * i / STEPS, &at);
         drift = fmax(drift, fabs(at.drift_m.value));
     }
     return e->give[pin] + drift;
@@ -58,8 +60,8 @@ double fw_hinge_give_most(const fw_effect_case *c, int pin) {
 /* ---- what a product of two courses of the motion does to a mode ---- */
 
 /* answer of a mode w, over the static one, to cos W t from rest */
-static double answer(double pace, double omega, double most) {
-    double apart = fabs(1 - pace / omega * (pace / omega));
+static double answer(double modal_speed, double omega, double most) {
+    double apart = fabs(1 - modal_speed / omega * (modal_speed / omega));
     return apart * most > 2 ? 2 / apart : most;
 }
 
@@ -80,32 +82,33 @@ static double alone(const work *w, int j) {
 }
 
 /* rad/s of a law that is a single wave, over and over; else 0 */
-static double lasting_wave(const fw_law *law) {
+static double lasting_wave(const fw_quantity_law *law) {
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
     return wave.repeats ? wave.rad_per_s : 0;
 }
 
 /* of a course that is no wave: by its variation */
-static double restless(const fw_pushes *p, int modes) {
+static double restless(const fw_effects_modal_loads *p, int modes) {
     double most = 0;
     for (int i = 0; i < p->count; i++) {
-        const fw_push *f = &p->item[i];
-        if (!f->element && (fw_law_is_constant(f->law) || lasting_wave(f->law) > 0)) continue;
+        const fw_effects_modal_load *f = &p->item[i];
+        if (!f->element && (fw_quantity_law_is_constant(f->law) || lasting_wave(f->law) > 0))
+            continue;
         for (int j = 0; j < modes; j++)
             if (f->sup[j] > 0) most = fmax(most, f->sway[j] / f->sup[j]);
     }
     return most;
 }
 
-static fw_status overshoots(work *w, const fw_pushes *p) {
-    const fw_envelope *e = w->b;
+static fw_status overshoots(work *w, const fw_effects_modal_loads *p) {
+    const fw_effects_envelope *e = w->b;
     int count = 0;
-    double *pace, *share, sum = 0, other = restless(p, w->slow);
+    double *modal_speed, *share, sum = 0, other = restless(p, w->slow);
     size_t most = (size_t)w->slow + (size_t)p->count;
-    FW_NEED(pace = fw_arena_array(w->c->arena, double, most));
+    FW_NEED(modal_speed = fw_arena_array(w->c->arena, double, most));
     FW_NEED(share = fw_arena_array(w->c->arena, double, most));
     for (int j = 0; j < w->slow; j++, count++) {
-        pace[j] = e->omega[j];
+        modal_speed[j] = e->omega[j];
         for (int i = 0; i < e->npin; i++)
             share[j] = fmax(share[j], fabs(e->turn[j * e->npin + i]) * e->amplitude[j]);
         sum += share[j];
@@ -113,18 +116,18 @@ static fw_status overshoots(work *w, const fw_pushes *p) {
     for (int j = 0; j < w->slow; j++)
         share[j] /= sum;
     for (int i = 0; i < p->count; i++) {
-        pace[count] = lasting_wave(p->item[i].law);
-        if (pace[count] > 0) share[count++] = 1;
+        modal_speed[count] = lasting_wave(p->item[i].law);
+        if (modal_speed[count] > 0) share[count++] = 1;
     }
     const bool constant = other == 0 && count == w->slow;
     for (int l = 0; l < w->slow; l++) {
         double cap = fmax(2, 0.5 * e->omega[l] * e->duration_s);
         for (int j = 0; j < count; j++)
             for (int k = 0; k < count; k++)
-                w->overshoot[l] +=
-                    share[j] * share[k] *
-                    (j == l && k == l && constant ? alone(w, l)
-                                                  : both(pace[j], pace[k], e->omega[l], cap));
+                w->overshoot[l] += share[j] * share[k] *
+                                   (j == l && k == l && constant
+                                        ? alone(w, l)
+                                        : both(modal_speed[j], modal_speed[k], e->omega[l], cap));
         w->overshoot[l] += other > 0 ? fmin(cap, 2 * other) : 0;
     }
     return FW_OK;
@@ -135,24 +138,25 @@ static fw_status overshoots(work *w, const fw_pushes *p) {
 /* their waves meet a slow mode off resonance: at a fast frequency, or that less one of the motion
  */
 static double aside(const work *w, int l) {
-    const fw_envelope *e = w->b;
+    const fw_effects_envelope *e = w->b;
     double least = (e->omega[w->slow] - e->omega[w->slow - 1]) / e->omega[l];
     return least > 1 ? fmin(w->overshoot[l], 2 / (least * least - 1)) : w->overshoot[l];
 }
 
 static void add_rings(work *w) {
-    const fw_envelope *e = w->b;
+    const fw_effects_envelope *e = w->b;
     size_t pins = (size_t)e->npin;
     for (int i = 0; i < w->sources.count; i++)
         for (int k = 0; k < FW_HINGE_PARTS; k++) {
-            const fw_hinge_source *h = &w->sources.item[i];
+            const fw_effects_hinge_source *h = &w->sources.item[i];
             for (int l = 0; l < w->slow; l++)
-                w->ring[l] += fabs(fw_hinge_source_mode(h, k, l)) / (e->omega[l] * e->omega[l]) *
+                w->ring[l] += fabs(fw_effects_hinge_source_mode(h, k, l)) /
+                              (e->omega[l] * e->omega[l]) *
                               (h->wave[k] * aside(w, l) + h->lasting[k] * w->overshoot[l]);
             for (size_t pin = 0; pin < pins; pin++) {
                 double sum = 0;
                 for (int l = w->slow; l < e->modes; l++)
-                    sum += e->turn[(size_t)l * pins + pin] * fw_hinge_source_mode(h, k, l) /
+                    sum += e->turn[(size_t)l * pins + pin] * fw_effects_hinge_source_mode(h, k, l) /
                            (e->omega[l] * e->omega[l]);
                 w->rapid_rad[pin] += 2 * fabs(sum) * (h->wave[k] + h->lasting[k]);
             }
@@ -168,7 +172,7 @@ static double phases(const work *w, int i, int d) {
         double turn = fabs(w->b->turn[l * w->b->npin + i]), ring = w->pb.ring[l];
         double own = fabs(w->a->omega[l] / w->b->omega[l] - w->a->omega[d] / w->b->omega[d]);
         double late = fmin(ring, w->pb.late[l]), loose = l == d ? late : ring;
-        double known = fmin(1, 0.5 * w->unsure * w->phase[l]);
+        double known = fmin(1, 0.5 * w->nonlinearity * w->phase[l]);
         if (ring > 0) own += 0.5 * w->swing[l] / ring;
         sum += turn * known *
                (loose * fmin(2, own * w->phase[l]) + late * fmin(2, shift * w->phase[l]));
@@ -177,7 +181,7 @@ static double phases(const work *w, int i, int d) {
 }
 
 static double apart(const work *w, int i) {
-    const fw_peaks *a = &w->pa, *b = &w->pb, *c = &w->pc;
+    const fw_effects_peaks *a = &w->pa, *b = &w->pb, *c = &w->pc;
     double bracket = fmax(a->high[i] - c->low[i], c->high[i] - a->low[i]);
     double alike = fabs(a->still[i] - b->still[i]) + a->rapid_rad[i] + b->rapid_rad[i];
     double sources = 2 * w->sources.rapid_rad[i], least = (double)INFINITY, open = w->rapid_rad[i];
@@ -186,26 +190,27 @@ static double apart(const work *w, int i) {
         alike += fabs(ta * a->ring[l] - tb * b->ring[l]);
         sources += 2 * tb * w->swing[l];
         open += tb * w->ring[l];
-        open += tb * w->swing[l] * (w->overshoot[l] - 2) * fmin(1, 0.5 * w->unsure * w->phase[l]);
+        open +=
+            tb * w->swing[l] * (w->overshoot[l] - 2) * fmin(1, 0.5 * w->nonlinearity * w->phase[l]);
         least = fmin(least, phases(w, i, l));
     }
     for (int l = w->slow; l < w->b->modes; l++) /* those that are followed are no part of rapid */
         alike += fabs(w->b->turn[l * w->b->npin + i]) * b->ring[l];
-    return bracket + 4 * w->unsure * (alike + sources) + open + least;
+    return bracket + 4 * w->nonlinearity * (alike + sources) + open + least;
 }
 
 /* What pin i is deflected by for sure: its linear peak less what stiffness and geometry, wrong by
    u, and frequencies, wrong by u/2, take of it. The shift of the ring d only stretches time. */
 static double sure(const work *w, int i) {
-    double off = w->unsure * (w->pb.still[i] + w->pb.rapid_rad[i]), least = (double)INFINITY;
+    double off = w->nonlinearity * (w->pb.still[i] + w->pb.rapid_rad[i]), least = (double)INFINITY;
     for (int l = 0; l < w->slow; l++)
-        off += w->unsure * fabs(w->b->turn[l * w->b->npin + i]) * w->pb.ring[l];
+        off += w->nonlinearity * fabs(w->b->turn[l * w->b->npin + i]) * w->pb.ring[l];
     for (int d = 0; d < w->slow; d++) {
         double sum = 0;
         for (int l = 0; l < w->slow; l++) {
             double turn = fabs(w->b->turn[l * w->b->npin + i]), ring = w->pb.ring[l];
             double loose = l == d ? fmin(ring, w->pb.late[l]) : ring;
-            sum += turn * loose * fmin(2, 0.5 * w->unsure * w->phase[l] * (l == d ? 1 : 2));
+            sum += turn * loose * fmin(2, 0.5 * w->nonlinearity * w->phase[l] * (l == d ? 1 : 2));
         }
         least = fmin(least, sum);
     }
@@ -213,9 +218,9 @@ static double sure(const work *w, int i) {
 }
 
 static const char *outside(const fw_effect_case *c) {
-    const fw_envelope *b = c->envelope, *a = b->pinned;
+    const fw_effects_envelope *b = c->envelope, *a = b->pinned;
     if (!b->valid) return b->why_not;
-    if (!a && b->modal && (b->modal->terms->strained || b->modal->terms->stretch.law))
+    if (!a && b->modal && (b->modal->loads->strained || b->modal->loads->stretch.law))
         return "free strains bend hinges that give";
     if (!a) return "pins in place of the hinges have no linear theory";
     if (!a->valid) return a->why_not;
@@ -223,45 +228,48 @@ static const char *outside(const fw_effect_case *c) {
     if (!(a->omega[a->modes - 1] < 0.5 * b->omega[a->modes]))
         return "the hinges give at frequencies near those of the motion";
     for (int i = 0; i < b->npin; i++)
-        if (b->modal->terms->released[i] && fw_pin_deflection(c->mechanism, i) != 0)
+        if (b->modal->loads->released[i] && fw_effects_pin_deflection(c->mechanism, i) != 0)
             return "a hinge is drawn under stress";
     return NULL;
 }
 
-static fw_status motions(work *w, fw_pushes *pushes, const char **why) {
+static fw_status motions(work *w, fw_effects_modal_loads *modal_loads, const char **why) {
     const fw_effect_case *c = w->c;
-    const fw_envelope *e = w->b;
+    const fw_effects_envelope *e = w->b;
     double followed = 0, *ring;
     for (int j = 0; j < w->slow; j++)
         followed = fmax(followed, fmax(w->a->omega[j], e->omega[j]));
-    FW_TRY(fw_pushes_find(c->arena, w->a->modal, pushes));
-    FW_TRY(fw_peaks_find(c->arena, w->a->modal, pushes, followed, w->a->amplitude, NULL, &w->pa));
-    FW_TRY(fw_pushes_find(c->arena, e->modal, pushes));
-    FW_TRY(fw_peaks_find(c->arena, e->modal, pushes, followed, e->amplitude, NULL, &w->pb));
+    FW_TRY(fw_effects_modal_loads_find(c->arena, w->a->modal, modal_loads));
+    FW_TRY(fw_effects_peaks_find(c->arena, w->a->modal, modal_loads, followed, w->a->amplitude,
+                                 NULL, &w->pa));
+    FW_TRY(fw_effects_modal_loads_find(c->arena, e->modal, modal_loads));
+    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed, e->amplitude, NULL,
+                                 &w->pb));
     *why = w->pa.why_not ? w->pa.why_not : w->pb.why_not;
     if (*why) return FW_OK;
     FW_NEED(ring = fw_arena_array(c->arena, double, (size_t)e->modes));
     for (int j = 0; j < e->modes; j++)
         ring[j] = fmin(w->pb.ring[j] + w->pb.late[j], e->amplitude[j]);
-    FW_TRY(fw_hinge_sources_new(c->arena, e->modal, w->slow, ring, &w->sources));
-    const fw_peaks_source source = {fw_hinge_sources_at, &w->sources, w->pb.late};
-    FW_TRY(fw_peaks_find(c->arena, e->modal, pushes, followed, e->amplitude, &source, &w->pc));
+    FW_TRY(fw_effects_hinge_sources_new(c->arena, e->modal, w->slow, ring, &w->sources));
+    const fw_effects_peaks_source source = {fw_effects_hinge_sources_at, &w->sources, w->pb.late};
+    FW_TRY(fw_effects_peaks_find(c->arena, e->modal, modal_loads, followed, e->amplitude, &source,
+                                 &w->pc));
     *why = w->pc.why_not;
     return FW_OK;
 }
 
 static fw_status compare(work *w, const char **why) {
     const fw_effect_case *c = w->c;
-    const fw_envelope *e = w->b;
-    fw_pushes pushes;
-    FW_TRY(motions(w, &pushes, why));
+    const fw_effects_envelope *e = w->b;
+    fw_effects_modal_loads modal_loads;
+    FW_TRY(motions(w, &modal_loads, why));
     if (*why) return FW_OK;
     FW_NEED(w->swing = fw_arena_array(c->arena, double, (size_t)w->slow));
     FW_NEED(w->ring = fw_arena_array(c->arena, double, (size_t)w->slow));
     FW_NEED(w->rapid_rad = fw_arena_array(c->arena, double, (size_t)e->npin));
     FW_NEED(w->overshoot = fw_arena_array(c->arena, double, (size_t)w->slow));
     FW_NEED(w->phase = fw_arena_array(c->arena, double, (size_t)w->slow));
-    FW_TRY(overshoots(w, &pushes));
+    FW_TRY(overshoots(w, &modal_loads));
     for (int j = 0; j < w->slow; j++) {
         double zeta = 0.5 * e->modal->damping[j * e->modes + j] / e->omega[j];
         w->phase[j] = fmin(e->omega[j] * e->duration_s, 1 / (FW_E * fmax(zeta, 1e-12)));
@@ -272,13 +280,13 @@ static fw_status compare(work *w, const char **why) {
     return FW_OK;
 }
 
-fw_status fw_hinge_give_bound(const fw_effect_case *c, double *value, const char **why) {
-    const fw_envelope *e = c->envelope;
+fw_status fw_effects_hinge_give_bound(const fw_effect_case *c, double *value, const char **why) {
+    const fw_effects_envelope *e = c->envelope;
     work w = {.c = c, .a = e->pinned, .b = e};
     *value = (double)INFINITY;
     if ((*why = outside(c))) return FW_OK;
     w.slow = w.a->modes;
-    w.unsure = 0.25 * (fmax(w.a->margin, w.b->margin) - 1);
+    w.nonlinearity = 0.25 * (fmax(w.a->margin, w.b->margin) - 1);
     fw_mark mark = fw_arena_mark(c->arena);
     double most = 0, floor_rad = e->floor;
     FW_TRY(compare(&w, why));

@@ -5,10 +5,10 @@
 #include "effects/effect.h"
 
 /* this effect is in or out because of the level asked for, whatever else is asked */
-bool fw_hinge_forced(const char *effect, fw_hinge_model asked, bool *in);
-const char *fw_hinge_forced_reason(const fw_effect_choice *choice);
+bool fw_effects_hinge_forced(const char *effect, fw_effects_hinge_model asked, bool *in);
+const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice);
 /* after everything was added: fills ledger->hinge, makes beams of closed forms where asked for */
-fw_status fw_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
-                          fw_effect_ledger *ledger, fw_terms *terms);
+fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
+                                  fw_effect_ledger *ledger, fw_effects_loads *loads);
 
 #endif

@@ -18,26 +18,26 @@
 #include "effects/hinge_source.h"
 #include <math.h>
 
-double fw_hinge_source_mode(const fw_hinge_source *s, int part, int mode) {
+double fw_effects_hinge_source_mode(const fw_effects_hinge_source *s, int part, int mode) {
     if (part == 0) return -s->pull_e[mode];
     if (part == 1) return -s->pull_n[mode];
     return part == 2 ? s->turn[mode] : s->both[mode];
 }
 
-void fw_hinge_source_of(const fw_hinge *h, fw_hinge_source *s) {
-    fw_hinge_at drawn;
-    *s = (fw_hinge_source){.hinge = h, .sense = h->first_is_a ? 1 : -1};
-    s->rest = fw_hinge_rest_of(&h->law);
-    fw_hinge_law_slopes(&h->law, &s->rest, 0, &drawn);
+void fw_effects_hinge_source_of(const fw_mechanism_hinge *h, fw_effects_hinge_source *s) {
+    fw_flexure_hinge_at drawn;
+    *s = (fw_effects_hinge_source){.hinge = h, .sense = h->first_is_a ? 1 : -1};
+    s->rest = fw_flexure_hinge_rest_of(&h->law);
+    fw_flexure_hinge_law_slopes(&h->law, &s->rest, 0, &drawn);
     s->softness_m_per_N[0] = 1 / drawn.kx_N_per_m.value;
     s->softness_m_per_N[1] = 1 / drawn.ky_N_per_m.value;
 }
 
-static fw_status new_source(fw_arena *arena, const fw_modal *o, const fw_hinge *h, int slow,
-                            const double *ring, fw_hinge_source *s) {
+static fw_status new_source(fw_arena *arena, const fw_effects_modal *o, const fw_mechanism_hinge *h,
+                            int slow, const double *ring, fw_effects_hinge_source *s) {
     size_t modes = (size_t)o->modes, pins = (size_t)o->mechanism->npin, n = (size_t)o->n;
-    const fw_pin *p = &o->mechanism->pin[h->pin];
-    fw_hinge_source_of(h, s);
+    const fw_mechanism_pin *p = &o->mechanism->pin[h->pin];
+    fw_effects_hinge_source_of(h, s);
     double **of[] = {&s->pull_e, &s->pull_n, &s->turn, &s->both};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
         FW_NEED(*of[i] = fw_arena_array(arena, double, modes));
@@ -56,33 +56,33 @@ static fw_status new_source(fw_arena *arena, const fw_modal *o, const fw_hinge *
     return FW_OK;
 }
 
-fw_status fw_hinge_sources_new(fw_arena *arena, const fw_modal *o, int slow, const double *ring,
-                               fw_hinge_sources *all) {
+fw_status fw_effects_hinge_sources_new(fw_arena *arena, const fw_effects_modal *o, int slow,
+                                       const double *ring, fw_effects_hinge_sources *all) {
     const fw_mechanism *m = o->mechanism;
-    *all = (fw_hinge_sources){.modal = o, .slow = slow};
-    FW_NEED(all->item = fw_arena_array(arena, fw_hinge_source, (size_t)m->nhinge));
+    *all = (fw_effects_hinge_sources){.modal = o, .slow = slow};
+    FW_NEED(all->item = fw_arena_array(arena, fw_effects_hinge_source, (size_t)m->nhinge));
     FW_NEED(all->force = fw_arena_array(arena, double, (size_t)o->modes));
     FW_NEED(all->rapid_rad = fw_arena_array(arena, double, (size_t)m->npin));
     for (int i = 0; i < m->nhinge; i++)
-        if (o->terms->released[m->hinge[i].pin])
+        if (o->loads->released[m->hinge[i].pin])
             FW_TRY(new_source(arena, o, &m->hinge[i], slow, ring, &all->item[all->count++]));
     return FW_OK;
 }
 
 /* of a hinge at an instant: its law, and where its axes are */
 typedef struct posture {
-    fw_hinge_at law;
+    fw_flexure_hinge_at law;
     double sense, c, s; /* of psi */
 } posture;
 
-static posture posture_of(const fw_hinge_source *h, double rotation, double turned) {
+static posture posture_of(const fw_effects_hinge_source *h, double rotation, double turned) {
     posture p = {.sense = h->sense, .c = cos(turned), .s = sin(turned)};
-    fw_hinge_law_slopes(&h->hinge->law, &h->rest, h->sense * rotation, &p.law);
+    fw_flexure_hinge_law_slopes(&h->hinge->law, &h->rest, h->sense * rotation, &p.law);
     return p;
 }
 
 /* the parts under a force along e and n as drawn */
-static void parts_at(const fw_hinge_source *h, const posture *at, double fe, double fn,
+static void parts_at(const fw_effects_hinge_source *h, const posture *at, double fe, double fn,
                      double *part) {
     double kx = at->law.kx_N_per_m.value, ky = at->law.ky_N_per_m.value, o = at->sense;
     double e = at->c * fe + at->s * fn, n = at->c * fn - at->s * fe; /* as turned */
@@ -95,14 +95,14 @@ static void parts_at(const fw_hinge_source *h, const posture *at, double fe, dou
     part[3] = -0.5 * (e * y - n * w);
 }
 
-void fw_hinge_source_parts(const fw_hinge_source *h, double rotation, double turned, double fe,
-                           double fn, double *part) {
+void fw_effects_hinge_source_parts(const fw_effects_hinge_source *h, double rotation, double turned,
+                                   double fe, double fn, double *part) {
     const posture p = posture_of(h, rotation, turned);
     parts_at(h, &p, fe, fn, part);
 }
 
 /* what r along e, or n, can add in either direction */
-static void open_parts(fw_hinge_source *h, const posture *at, double fe, double fn,
+static void open_parts(fw_effects_hinge_source *h, const posture *at, double fe, double fn,
                        const double *now) {
     for (int d = 0; d < 2; d++) {
         double r = h->ring_N[d], plus[FW_HINGE_PARTS], minus[FW_HINGE_PARTS];
@@ -117,14 +117,14 @@ static void open_parts(fw_hinge_source *h, const posture *at, double fe, double 
     h->lasting[3] = fmax(h->lasting[3], h->ring_N[0] * h->ring_N[1] * mixed);
 }
 
-void fw_hinge_sources_at(void *data, const double *q, const double *load, double *force) {
-    fw_hinge_sources *all = data;
-    const fw_modal *o = all->modal;
+void fw_effects_hinge_sources_at(void *data, const double *q, const double *load, double *force) {
+    fw_effects_hinge_sources *all = data;
+    const fw_effects_modal *o = all->modal;
     size_t pins = (size_t)o->mechanism->npin;
     for (int j = 0; j < o->modes; j++)
         force[j] = 0;
     for (int i = 0; i < all->count; i++) {
-        fw_hinge_source *h = &all->item[i];
+        fw_effects_hinge_source *h = &all->item[i];
         double fe = 0, fn = 0, angle = 0, turned = 0, part[FW_HINGE_PARTS];
         for (int j = 0; j < o->modes; j++) {
             double at = j < all->slow ? q[j] : load[j] / (o->omega[j] * o->omega[j]);
@@ -136,7 +136,7 @@ void fw_hinge_sources_at(void *data, const double *q, const double *load, double
         open_parts(h, &p, fe, fn, part);
         for (int j = 0; j < o->modes; j++)
             for (int k = 0; k < FW_HINGE_PARTS; k++)
-                force[j] += part[k] * fw_hinge_source_mode(h, k, j);
+                force[j] += part[k] * fw_effects_hinge_source_mode(h, k, j);
     }
     for (int j = 0; j < o->modes; j++)
         all->force[j] = isfinite(force[j]) ? fmax(all->force[j], fabs(force[j])) : (double)INFINITY;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inertia against a motion that is a row of equilibria. Theory: docs/theory/effects/inertia.md. */
+/* Inertia against a motion that is a sequence of equilibria. Theory:
+   docs/theory/effects/inertia.md. */
 #include "effects/effect.h"
 #include "base/sort.h"
 #include "effects/envelope.h"
@@ -25,17 +26,18 @@ typedef struct unrest { /* over the scene */
 
 /* total variation of f' inside (a, b), where f is smooth, by sampling every `step`: the midpoint
    rule of |f''|. A sign change of f'' inside a cell hides less than its share of one cell. */
-static double sampled_variation(const fw_law *law, double a, double b, double piece, double step) {
+static double sampled_variation(const fw_quantity_law *law, double a, double b, double piece,
+                                double step) {
     double count = fmin(fmax(ceil((b - a) / step), 64), 1e6), sum = 0, value[3];
     for (double i = 0; i < count; i++) {
-        fw_law_value(law, a + (b - a) * (i + 0.5) / count, piece, value);
+        fw_quantity_law_value(law, a + (b - a) * (i + 0.5) / count, piece, value);
         sum += fabs(value[2]);
     }
     return 1.01 * sum * (b - a) / count;
 }
 
 /* shortest step that sees all of a law between a and b */
-static double finest(const fw_law_strides *strides, double a, double b) {
+static double finest(const fw_quantity_law_strides *strides, double a, double b) {
     double most = (double)INFINITY;
     for (int i = 0; i < strides->n; i++) {
         double end = i + 1 < strides->n ? strides->t_s[i + 1] : (double)INFINITY;
@@ -45,8 +47,8 @@ static double finest(const fw_law_strides *strides, double a, double b) {
 }
 
 /* inside the piece (a, b), for every row of strides with the step that it asks for */
-static double looked_variation(const fw_law *law, const fw_law_strides *strides, double a, double b,
-                               double end_s) {
+static double looked_variation(const fw_quantity_law *law, const fw_quantity_law_strides *strides,
+                               double a, double b, double end_s) {
     double sum = 0, piece = 0.5 * (a + b);
     double from = a;
     for (int i = 0; i <= strides->n; i++) {
@@ -59,8 +61,8 @@ static double looked_variation(const fw_law *law, const fw_law_strides *strides,
     return sum;
 }
 
-static double smooth_variation(const fw_law *law, const fw_law_strides *strides, double a, double b,
-                               double end_s) {
+static double smooth_variation(const fw_quantity_law *law, const fw_quantity_law_strides *strides,
+                               double a, double b, double end_s) {
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
     if (fw_quantity_law_is_straight(law)) return 0;
     if (law->kind->slope_variation) return law->kind->slope_variation(law, a, b);
@@ -71,27 +73,29 @@ static double smooth_variation(const fw_law *law, const fw_law_strides *strides,
 
 /* Jumps and the variation of the slope of a law over (0, end_s). Exact for steps, ramps, tables,
    sines and half sines; any other law by midpoint sums with a hundredth on top. */
-static fw_status look_at_law(fw_arena *arena, const fw_law *law, double end_s, unrest *out) {
+static fw_status look_at_law(fw_arena *arena, const fw_quantity_law *law, double end_s,
+                             unrest *out) {
     *out = (unrest){0};
-    if (fw_law_is_constant(law)) return FW_OK;
-    fw_law_strides strides = {0};
-    int count = fw_law_breaks(law, end_s, NULL, 0);
+    if (fw_quantity_law_is_constant(law)) return FW_OK;
+    fw_quantity_law_strides strides = {0};
+    int count = fw_quantity_law_breaks_of(law, end_s, NULL, 0);
     double *at, value[3], next[3];
     FW_NEED(at = fw_arena_array(arena, double, (size_t)count + 1));
-    count = fw_law_breaks(law, end_s, at, count);
+    count = fw_quantity_law_breaks_of(law, end_s, at, count);
     fw_sort_doubles(at, (size_t)count);
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
-    if (!(wave.fastest_Hz > 0)) FW_TRY(fw_law_look(arena, law, false, end_s, at, count, &strides));
+    if (!(wave.fastest_Hz > 0))
+        FW_TRY(fw_quantity_law_look(arena, law, false, end_s, at, count, &strides));
     at[count] = end_s;
     double from = 0;
     for (int i = 0; i <= count; i++) {
         double to = at[i], piece = 0.5 * (from + to);
         if (!(to > from)) continue;
-        fw_law_value(law, from, piece, next); /* the limit from the right */
+        fw_quantity_law_value(law, from, piece, next); /* the limit from the right */
         out->jumps += from > 0 ? fabs(next[0] - value[0]) : 0;
         out->slope += from > 0 ? fabs(next[1] - value[1]) : fabs(next[1]);
         out->slope += smooth_variation(law, &strides, from, to, end_s);
-        fw_law_value(law, to, piece, value);
+        fw_quantity_law_value(law, to, piece, value);
         from = to;
     }
     if (!isfinite(out->jumps) || !isfinite(out->slope))
@@ -116,18 +120,18 @@ static double off_by_slope(const unrest *u, double lag, double w) {
 /* ---- sums over modes ---- */
 
 typedef struct modal {
-    const fw_envelope *e;
+    const fw_effects_envelope *e;
     int pins, modes;
-    double lowest;    /* rad/s */
-    double *push;     /* (modes) work: modal force of one group of loads */
-    double *rotation; /* (npin) bound, rad */
-    double *flexible; /* (npin) sqrt(sum turn^2 / omega^2) */
-    double lag;       /* s: |W^-1 D W^-1| from above, D: modal damping; 0: none */
+    double lowest;      /* rad/s */
+    double *modal_load; /* (modes) work: modal force of one group of loads */
+    double *rotation;   /* (npin) bound, rad */
+    double *flexible;   /* (npin) sqrt(sum turn^2 / omega^2) */
+    double lag;         /* s: |W^-1 D W^-1| from above, D: modal damping; 0: none */
 } modal;
 
-static fw_status start(fw_arena *arena, const fw_envelope *e, int pins, modal *m) {
+static fw_status start(fw_arena *arena, const fw_effects_envelope *e, int pins, modal *m) {
     *m = (modal){.e = e, .pins = pins, .modes = e->modes, .lowest = (double)INFINITY};
-    FW_NEED(m->push = fw_arena_array(arena, double, (size_t)e->modes));
+    FW_NEED(m->modal_load = fw_arena_array(arena, double, (size_t)e->modes));
     FW_NEED(m->rotation = fw_arena_array(arena, double, (size_t)pins));
     FW_NEED(m->flexible = fw_arena_array(arena, double, (size_t)pins));
     double sum = 0;
@@ -146,20 +150,21 @@ static fw_status start(fw_arena *arena, const fw_envelope *e, int pins, modal *m
     return FW_OK;
 }
 
-/* What one group of loads with modal forces `push` that share a law can move every pin off its
+/* What one group of loads with modal forces `modal_load` that share a law can move every pin off
+   its
    equilibrium. Undamped, mode by mode: (|F|/omega^2) (jumps + slope/omega). Damped, in the energy
    norm of all modes: |turn/omega| |F/omega| (jumps + (kappa + sqrt(kappa^2 + 1/omega_1^2)) slope).
-   `speed`: push is a velocity, which moves by v/omega. */
-static void spread(modal *m, const double *push, const unrest *u, bool speed) {
+   `speed`: modal_load is a velocity, which moves by v/omega. */
+static void spread(modal *m, const double *modal_load, const unrest *u, bool speed) {
     const double *omega = m->e->omega;
     double size = 0;
     for (int j = 0; j < m->modes; j++)
-        size += pow(push[j] / (speed ? 1 : omega[j]), 2);
+        size += pow(modal_load[j] / (speed ? 1 : omega[j]), 2);
     double whole = sqrt(size) * (u->jumps + off_by_slope(u, m->lag, m->lowest));
     for (int p = 0; p < m->pins; p++) {
         double sum = 0;
         for (int j = 0; j < m->modes && m->lag == 0; j++) {
-            double w = omega[j], f = fabs(push[j]) / (speed ? w : w * w);
+            double w = omega[j], f = fabs(modal_load[j]) / (speed ? w : w * w);
             sum += fabs(m->e->turn[j * m->pins + p]) * f * (u->jumps + off_by_slope(u, 0, w));
         }
         m->rotation[p] += m->lag > 0 ? m->flexible[p] * whole : sum;
@@ -167,28 +172,29 @@ static void spread(modal *m, const double *push, const unrest *u, bool speed) {
 }
 
 /* loads that share a law go together */
-static fw_status spread_laws(fw_arena *arena, const fw_pushes *p, double end_s, modal *m) {
+static fw_status spread_laws(fw_arena *arena, const fw_effects_modal_loads *p, double end_s,
+                             modal *m) {
     for (int i = 0; i < p->count; i++) {
-        const fw_law *law = p->item[i].law;
-        bool done = fw_law_is_constant(law);
+        const fw_quantity_law *law = p->item[i].law;
+        bool done = fw_quantity_law_is_constant(law);
         for (int k = 0; k < i; k++)
             done = done || p->item[k].law == law;
         if (done) continue;
         unrest u;
-        memset(m->push, 0, (size_t)m->modes * sizeof(double));
+        memset(m->modal_load, 0, (size_t)m->modes * sizeof(double));
         for (int k = i; k < p->count; k++)
             for (int j = 0; j < m->modes && p->item[k].law == law; j++)
-                m->push[j] += p->item[k].mode[j];
+                m->modal_load[j] += p->item[k].mode[j];
         FW_TRY(look_at_law(arena, law, end_s, &u));
-        spread(m, m->push, &u, false);
+        spread(m, m->modal_load, &u, false);
     }
     return FW_OK;
 }
 
 /* a ground that stretches drags its dampers along: the row does not know of that */
-static void spread_drag(const fw_modal *o, double end_s, modal *m) {
+static void spread_drag(const fw_effects_modal *o, double end_s, modal *m) {
     if (!o->shift[1]) return;
-    double variation = fw_law_measure(o->terms->stretch.law, end_s).variation;
+    double variation = fw_quantity_law_measure(o->loads->stretch.law, end_s).variation;
     for (int p = 0; p < m->pins; p++)
         for (int j = 0; j < m->modes; j++)
             if (o->shift_drag[1][j] != 0)
@@ -197,30 +203,30 @@ static void spread_drag(const fw_modal *o, double end_s, modal *m) {
 }
 
 /* what acts behind t = 0 is put on at once, constants and laws together: one jump; velocities */
-static void spread_start(const fw_pushes *p, modal *m) {
+static void spread_start(const fw_effects_modal_loads *p, modal *m) {
     const unrest jump = {.jumps = 1};
-    memset(m->push, 0, (size_t)m->modes * sizeof(double));
+    memset(m->modal_load, 0, (size_t)m->modes * sizeof(double));
     for (int i = 0; i < p->count; i++)
-        fw_push_at(m->e->modal, p, &p->item[i], 0, DBL_MIN, m->push);
-    spread(m, m->push, &jump, false);
+        fw_effects_modal_load_at(m->e->modal, p, &p->item[i], 0, DBL_MIN, m->modal_load);
+    spread(m, m->modal_load, &jump, false);
     spread(m, m->e->modal->velocity, &jump, true);
 }
 
 /* ---- how far it moves at least ---- */
 
-static double largest_deflection(const fw_effect_case *c, const fw_pushes *p, const modal *m,
-                                 double t_s, double piece_s) {
+static double largest_deflection(const fw_effect_case *c, const fw_effects_modal_loads *p,
+                                 const modal *m, double t_s, double piece_s) {
     double most = 0;
-    memset(m->push, 0, (size_t)m->modes * sizeof(double));
+    memset(m->modal_load, 0, (size_t)m->modes * sizeof(double));
     for (int i = 0; i < p->count; i++)
-        fw_push_at(m->e->modal, p, &p->item[i], t_s, piece_s, m->push);
+        fw_effects_modal_load_at(m->e->modal, p, &p->item[i], t_s, piece_s, m->modal_load);
     for (int pin = 0; pin < m->pins; pin++) {
-        double turn = fw_modal_shifted(m->e->modal, pin, t_s, piece_s);
+        double turn = fw_effects_modal_shifted(m->e->modal, pin, t_s, piece_s);
         for (int j = 0; j < m->modes; j++)
-            turn += m->e->turn[j * m->pins + pin] * m->push[j] / pow(m->e->omega[j], 2);
+            turn += m->e->turn[j * m->pins + pin] * m->modal_load[j] / pow(m->e->omega[j], 2);
         /* what is not linear could make the turn smaller */
         double less = fabs(turn) * (1 - 1 / m->e->margin);
-        most = fmax(most, fabs(fw_pin_deflection(c->mechanism, pin) + turn) - less);
+        most = fmax(most, fabs(fw_effects_pin_deflection(c->mechanism, pin) + turn) - less);
     }
     return most;
 }
@@ -228,12 +234,12 @@ static double largest_deflection(const fw_effect_case *c, const fw_pushes *p, co
 /* The envelope's floor looks at the first periods of every load; that of slow loads is what the
    equilibria reach at any time, less what the motion may be off by there (off_rad). Times: ends and
    insides of the smooth pieces. Any set of times gives a floor. */
-static fw_status find_floor(const fw_effect_case *c, const fw_pushes *p, const modal *m,
-                            double off_rad, double *floor_rad) {
+static fw_status find_floor(const fw_effect_case *c, const fw_effects_modal_loads *p,
+                            const modal *m, double off_rad, double *floor_rad) {
     enum { LOOKS = 16 };
     double *end, from = 0, most = 0;
     int count;
-    FW_TRY(fw_pushes_breaks(c->arena, m->e->modal, p, &end, &count));
+    FW_TRY(fw_effects_modal_loads_breaks(c->arena, m->e->modal, p, &end, &count));
     for (int i = 0; i < count; i++) {
         for (int k = 0; k <= LOOKS; k++)
             most = fmax(most, largest_deflection(c, p, m, from + (end[i] - from) * k / LOOKS,
@@ -248,18 +254,19 @@ static fw_status find_floor(const fw_effect_case *c, const fw_pushes *p, const m
 
 /* NULL: the sums know all that moves the mechanism */
 static const char *reason_to_keep(const fw_effect_case *c) {
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     if (c->mechanism->ndriver > 0)
         return "drivers move the mechanism, and its joint forces are those of inertia too";
     if (!e->valid || !e->modal) return e->why_not ? e->why_not : "the motion has no linear theory";
     if (e->loose_pull > 0) return "cables may go slack";
-    for (int i = 0; i < e->modal->terms->nelement; i++)
-        if (e->modal->terms->element[i].laws > 0)
+    for (int i = 0; i < e->modal->loads->nelement; i++)
+        if (e->modal->loads->element[i].laws > 0)
             return "a force depends on the pose and on time at once";
     return NULL;
 }
 
-/* Relative change of the largest hinge deflection when the motion is taken as a row of equilibria:
+/* Relative change of the largest hinge deflection when the motion is taken as a sequence of
+   equilibria:
    in each mode q'' + omega^2 q = F f(t) moves off q = F f / omega^2 by at most
      (|F|/omega^2) (sum of jumps of f) + (|F|/omega^3) (|f'(0+)| + total variation of f')
    by integrating Duhamel's integral by parts twice, loads of one law together, laws added; viscous
@@ -270,7 +277,7 @@ static const char *reason_to_keep(const fw_effect_case *c) {
    (n + npin) per law. Source: Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures
    1993, ch. 6; the integration by parts is ours. Test: test_inertia.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     const char *keep = reason_to_keep(c);
     *value = (double)INFINITY;
     if (keep) {
@@ -282,36 +289,35 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         return FW_OK;
     }
     fw_mark mark = fw_arena_mark(c->arena);
-    fw_pushes pushes;
+    fw_effects_modal_loads modal_loads;
     modal m;
     double most = 0;
     FW_TRY(start(c->arena, e, c->mechanism->npin, &m));
-    FW_TRY(fw_pushes_find(c->arena, e->modal, &pushes));
-    spread_start(&pushes, &m);
-    FW_TRY(spread_laws(c->arena, &pushes, c->scene->duration_s, &m));
+    FW_TRY(fw_effects_modal_loads_find(c->arena, e->modal, &modal_loads));
+    spread_start(&modal_loads, &m);
+    FW_TRY(spread_laws(c->arena, &modal_loads, c->scene->duration_s, &m));
     spread_drag(e->modal, c->scene->duration_s, &m);
     for (int p = 0; p < m.pins; p++)
         most = fmax(most, isnan(m.rotation[p]) ? (double)INFINITY : m.rotation[p]);
     double least;
-    most = most * e->margin + fw_modal_second(e->modal);
-    FW_TRY(find_floor(c, &pushes, &m, most, &least));
+    most = most * e->margin + fw_effects_modal_second(e->modal);
+    FW_TRY(find_floor(c, &modal_loads, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
     *value = most / least;
-    *reason =
-        "masses resist changes of motion: jumps of the loads and changes of their slope, "
-        "compared with a quasi-static sequence of equilibria";
+    *reason = "masses resist changes of motion: jumps of the loads and changes of their slope, "
+              "compared with a quasi-static sequence of equilibria";
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     (void)c;
-    terms->quasi_static = false;
+    loads->quasi_static = false;
     return FW_OK;
 }
 
-static fw_status leave_out(const fw_effect_case *c, fw_terms *terms) {
+static fw_status leave_out(const fw_effect_case *c, fw_effects_loads *loads) {
     (void)c;
-    terms->quasi_static = true;
+    loads->quasi_static = true;
     return FW_OK;
 }
 

@@ -4,7 +4,7 @@
 
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->scene->ninitial; i++) {
-        const fw_initial *v = &c->scene->initial[i];
+        const fw_device_initial *v = &c->scene->initial[i];
         if (v->vx_m_per_s != 0 || v->vy_m_per_s != 0 || v->omega_rad_per_s != 0) return true;
     }
     return false;
@@ -17,18 +17,19 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->ninitial; i++) {
-        const fw_initial *v = &c->scene->initial[i];
+        const fw_device_initial *v = &c->scene->initial[i];
         if (v->body == FW_GROUND) continue;
-        terms->velocity[3 * v->body] += v->vx_m_per_s;
-        terms->velocity[3 * v->body + 1] += v->vy_m_per_s;
-        terms->velocity[3 * v->body + 2] += v->omega_rad_per_s;
+        loads->velocity[3 * v->body] += v->vx_m_per_s;
+        loads->velocity[3 * v->body + 1] += v->vy_m_per_s;
+        loads->velocity[3 * v->body + 2] += v->omega_rad_per_s;
     }
     return FW_OK;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     if (s->ninitial) fw_effects_say(to, "; bodies start with a velocity");
 }

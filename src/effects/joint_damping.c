@@ -6,22 +6,22 @@
 /* of a pin: as the file or the mechanism has it, unless the scene's <material-damping> replaces it
  */
 static double damping_of(const fw_effect_case *c, int pin) {
-    return fw_material_damped(c, pin) ? 0 : c->mechanism->pin[pin].damping_Nms_per_rad;
+    return fw_effects_material_damped(c, pin) ? 0 : c->mechanism->pin[pin].damping_Nms_per_rad;
 }
 
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (damping_of(c, i) > 0) return true;
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].damping_Ns_per_m > 0) return true;
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        if (c->mechanism->joint[i].damping_Ns_per_m > 0) return true;
     return false;
 }
 
 /* rate along the axis of a sliding joint at most, m/s: of both points, and of the line's turning */
-static double slide_rate(const fw_effect_case *c, const fw_tie *t) {
+static double slide_rate(const fw_effect_case *c, const fw_device_joint *t) {
     const fw_mechanism *m = c->mechanism;
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
     const double *v = c->envelope->speed;
     double rate = 0;
     for (int side = 0; side < 2; side++) {
@@ -34,26 +34,28 @@ static double slide_rate(const fw_effect_case *c, const fw_tie *t) {
     return rate;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (damping_of(c, i) > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad = damping_of(c, i);
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].damping_Ns_per_m > 0)
-            fw_terms_slide(terms, i)->damping_Ns_per_m = c->mechanism->tie[i].damping_Ns_per_m;
+            fw_effects_loads_torsion(c->mechanism, loads, i)->damping_Nms_per_rad =
+                damping_of(c, i);
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        if (c->mechanism->joint[i].damping_Ns_per_m > 0)
+            fw_effects_loads_slide(loads, i)->damping_Ns_per_m =
+                c->mechanism->joint[i].damping_Ns_per_m;
     return FW_OK;
 }
 
 /* modal forces (modes) of dampers along sliding joints at their largest rates */
 static void slides(const fw_effect_case *c, double *mode, double *force) {
     const fw_mechanism *m = c->mechanism;
-    const fw_envelope *e = c->envelope;
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
+    const fw_effects_envelope *e = c->envelope;
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
         if (!(t->damping_Ns_per_m > 0)) continue;
         double f = t->damping_Ns_per_m * slide_rate(c, t);
-        fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-        fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+        fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+        fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
         double apart = hypot(b.x - a.x, b.y - a.y);
         for (int side = 0; side < 2; side++) {
             int body = side ? t->body_b : t->body_a;
@@ -73,7 +75,7 @@ static void slides(const fw_effect_case *c, double *mode, double *force) {
    motion (resonance). Inputs c in N m s/rad and N s/m; output dimensionless; conservative for small
    motions. Cost modes times joints. Test: test_effects.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     *value = (double)INFINITY;
     if (!e->valid) {
         FW_NEED(*reason = fw_arena_printf(
@@ -86,15 +88,15 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     double *mode, *force;
     FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)e->modes));
     FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
-    fw_terms terms;
+    fw_effects_loads loads;
     slides(c, mode, force);
-    FW_TRY(fw_terms_new(c->arena, c->mechanism, c->scene, &terms));
-    FW_TRY(add(c, &terms));
-    if (e->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
-    for (int i = 0; i < terms.nslide; i++)
-        terms.slide[i].damping_Ns_per_m = 0; /* see slides */
-    FW_TRY(fw_envelope_dampers(c, &terms, mode));
-    *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
+    FW_TRY(fw_effects_loads_new(c->arena, c->mechanism, c->scene, &loads));
+    FW_TRY(add(c, &loads));
+    if (e->pinned) FW_TRY(fw_effects_hinges_flex(c, &loads)); /* they dissipate in all directions */
+    for (int i = 0; i < loads.nslide; i++)
+        loads.slide[i].damping_Ns_per_m = 0; /* see slides */
+    FW_TRY(fw_effects_envelope_dampers(c, &loads, mode));
+    *value = fw_effects_envelope_mode_answer(c, mode, (double)INFINITY);
     fw_arena_rewind(c->arena, mark);
     *reason = "joints have damping: answer of the modes to c times the largest rates, over the "
               "scene";
@@ -105,8 +107,8 @@ static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++)
         n += damping_of(c, i) > 0;
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        n += c->mechanism->tie[i].damping_Ns_per_m > 0;
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        n += c->mechanism->joint[i].damping_Ns_per_m > 0;
     return n;
 }
 

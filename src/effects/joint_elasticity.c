@@ -5,8 +5,8 @@
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].stiffness_Nm_per_rad > 0) return true;
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].stiffness_N_per_m > 0) return true;
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        if (c->mechanism->joint[i].stiffness_N_per_m > 0) return true;
     return false;
 }
 
@@ -19,14 +19,15 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 /* turning: torque -k (phi_b - phi_a - free angle) on b, the opposite on a; sliding: force -k travel
    along the axis on b, the opposite on a */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->npin; i++)
         if (c->mechanism->pin[i].stiffness_Nm_per_rad > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->stiffness_Nm_per_rad =
+            fw_effects_loads_torsion(c->mechanism, loads, i)->stiffness_Nm_per_rad =
                 c->mechanism->pin[i].stiffness_Nm_per_rad;
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        if (c->mechanism->tie[i].stiffness_N_per_m > 0)
-            fw_terms_slide(terms, i)->stiffness_N_per_m = c->mechanism->tie[i].stiffness_N_per_m;
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        if (c->mechanism->joint[i].stiffness_N_per_m > 0)
+            fw_effects_loads_slide(loads, i)->stiffness_N_per_m =
+                c->mechanism->joint[i].stiffness_N_per_m;
     return FW_OK;
 }
 
@@ -34,8 +35,8 @@ static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++)
         n += c->mechanism->pin[i].stiffness_Nm_per_rad > 0;
-    for (int i = 0; i < c->mechanism->ntie; i++)
-        n += c->mechanism->tie[i].stiffness_N_per_m > 0;
+    for (int i = 0; i < c->mechanism->njoint; i++)
+        n += c->mechanism->joint[i].stiffness_N_per_m > 0;
     return n;
 }
 

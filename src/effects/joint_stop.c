@@ -13,7 +13,7 @@ static bool called_for(const fw_effect_case *c) {
    largest deflection is left for effects that the envelope does not know */
 static double room(const fw_effect_case *c, int i, double side, double at_rad) {
     if (isnan(at_rad)) return (double)INFINITY;
-    const fw_pin *p = &c->mechanism->pin[i];
+    const fw_mechanism_pin *p = &c->mechanism->pin[i];
     double a = p->body_a == FW_GROUND ? 0 : c->mechanism->body[p->body_a].phi_rad;
     double b = p->body_b == FW_GROUND ? 0 : c->mechanism->body[p->body_b].phi_rad;
     return side * (at_rad - (b - a - p->free_angle_rad)) - c->envelope->angle[i] -
@@ -28,7 +28,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     *reason = "joints have stops: where one is reached it is the motion itself";
     if (!c->envelope->valid) return FW_OK;
     for (int i = 0; i < c->mechanism->npin; i++) {
-        const fw_pin *p = &c->mechanism->pin[i];
+        const fw_mechanism_pin *p = &c->mechanism->pin[i];
         if (fw_pin_has_stop(p) &&
             !(room(c, i, -1, p->stop_min_rad) > 0 && room(c, i, 1, p->stop_max_rad) > 0))
             return FW_OK;
@@ -38,25 +38,27 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void add_side(const fw_pin *p, int pin, double side, double at_rad, fw_terms *terms) {
+static void add_side(const fw_mechanism_pin *p, int pin, double side, double at_rad,
+                     fw_effects_loads *loads) {
     if (isnan(at_rad)) return;
-    terms->stop[terms->nstop++] = (fw_stop){.pin = pin,
-                                            .body_a = p->body_a,
-                                            .body_b = p->body_b,
-                                            .side = side,
-                                            .at_rad = at_rad,
-                                            .free_angle_rad = p->free_angle_rad,
-                                            .stiffness_Nm_per_rad = p->stop_stiffness_Nm_per_rad,
-                                            .damping_Nms_per_rad = p->stop_damping_Nms_per_rad};
+    loads->stop[loads->nstop++] =
+        (fw_effects_stop){.pin = pin,
+                          .body_a = p->body_a,
+                          .body_b = p->body_b,
+                          .side = side,
+                          .at_rad = at_rad,
+                          .free_angle_rad = p->free_angle_rad,
+                          .stiffness_Nm_per_rad = p->stop_stiffness_Nm_per_rad,
+                          .damping_Nms_per_rad = p->stop_damping_Nms_per_rad};
 }
 
 /* torque -side k side (angle - at) on b while the stop is pressed, the opposite on a */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->npin; i++) {
-        const fw_pin *p = &c->mechanism->pin[i];
+        const fw_mechanism_pin *p = &c->mechanism->pin[i];
         if (!fw_pin_has_stop(p)) continue;
-        add_side(p, i, -1, p->stop_min_rad, terms);
-        add_side(p, i, 1, p->stop_max_rad, terms);
+        add_side(p, i, -1, p->stop_min_rad, loads);
+        add_side(p, i, 1, p->stop_max_rad, loads);
     }
     return FW_OK;
 }
@@ -64,7 +66,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
 static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->npin; i++) {
-        const fw_pin *p = &c->mechanism->pin[i];
+        const fw_mechanism_pin *p = &c->mechanism->pin[i];
         if (fw_pin_has_stop(p)) n += !isnan(p->stop_min_rad) + !isnan(p->stop_max_rad);
     }
     return n;

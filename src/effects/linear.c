@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/linear.h"
-#include "maths/dense.h"
+#include "maths/maths_dense.h"
 #include <math.h>
 #include <string.h>
 
-static void put(const fw_linear *s, int i, int j, double value) {
+static void put(const fw_effects_linear *s, int i, int j, double value) {
     s->a[(size_t)i * (size_t)s->total + (size_t)j] += value;
 }
 
-static fw_vec2 arm(const fw_mechanism *m, int body, double x, double y) {
-    if (body == FW_GROUND) return (fw_vec2){x, y};
+static fw_geometry_vec2 arm(const fw_mechanism *m, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){x, y};
     double c = cos(m->body[body].phi_rad), s = sin(m->body[body].phi_rad);
-    return (fw_vec2){c * x - s * y, s * x + c * y};
+    return (fw_geometry_vec2){c * x - s * y, s * x + c * y};
 }
 
 static void add_arm(int body, double x, double y, double *sum, int *count) {
@@ -28,9 +28,9 @@ static double typical_length(const fw_mechanism *m) {
         add_arm(m->pin[i].body_a, m->pin[i].ax_m, m->pin[i].ay_m, &sum, &count);
         add_arm(m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m, &sum, &count);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        add_arm(m->tie[i].body_a, m->tie[i].ax_m, m->tie[i].ay_m, &sum, &count);
-        add_arm(m->tie[i].body_b, m->tie[i].bx_m, m->tie[i].by_m, &sum, &count);
+    for (int i = 0; i < m->njoint; i++) {
+        add_arm(m->joint[i].body_a, m->joint[i].ax_m, m->joint[i].ay_m, &sum, &count);
+        add_arm(m->joint[i].body_b, m->joint[i].bx_m, m->joint[i].by_m, &sum, &count);
     }
     for (int i = 0; i < m->nspring && sum == 0; i++) {
         add_arm(m->spring[i].body_a, m->spring[i].ax_m, m->spring[i].ay_m, &sum, &count);
@@ -39,7 +39,7 @@ static double typical_length(const fw_mechanism *m) {
     return sum > 0 ? sum / count : 1;
 }
 
-static void add_torsion(const fw_linear *s, const fw_torsion *t) {
+static void add_torsion(const fw_effects_linear *s, const fw_effects_torsion *t) {
     double k = t->stiffness_Nm_per_rad / (s->stiffness_N_per_m * s->length_m * s->length_m);
     int a = t->body_a == FW_GROUND ? -1 : 3 * t->body_a + 2;
     int b = t->body_b == FW_GROUND ? -1 : 3 * t->body_b + 2;
@@ -55,8 +55,8 @@ typedef struct line {
     double row[6];
 } line;
 
-static void add_end(const fw_linear *s, line *l, int body, fw_vec2 r, double ux, double uy,
-                    double sign) {
+static void add_end(const fw_effects_linear *s, line *l, int body, fw_geometry_vec2 r, double ux,
+                    double uy, double sign) {
     if (body == FW_GROUND) return;
     const double part[3] = {sign * ux, sign * uy, sign * (r.x * uy - r.y * ux) / s->length_m};
     for (int c = 0; c < 3; c++, l->count++)
@@ -64,7 +64,7 @@ static void add_end(const fw_linear *s, line *l, int body, fw_vec2 r, double ux,
 }
 
 /* k u u^T along the line: the material part of the tangent */
-static void add_stiffness(const fw_linear *s, const line *l, double k) {
+static void add_stiffness(const fw_effects_linear *s, const line *l, double k) {
     for (int i = 0; i < l->count; i++)
         for (int j = 0; j < l->count; j++)
             put(s, l->index[i], l->index[j], k * l->row[i] * l->row[j]);
@@ -72,13 +72,13 @@ static void add_stiffness(const fw_linear *s, const line *l, double k) {
 
 /* where the rows of the constraints go: into the matrix, or with lambda to their forces */
 typedef struct holding {
-    const fw_linear *s;
+    const fw_effects_linear *s;
     const double *lambda; /* (rows) or NULL */
     double *force;        /* (n) += G^T lambda */
 } holding;
 
 static void add_row(const holding *h, int row, const line *l) {
-    const fw_linear *s = h->s;
+    const fw_effects_linear *s = h->s;
     for (int i = 0; i < l->count; i++)
         if (h->lambda)
             h->force[l->index[i]] += h->lambda[row] * l->row[i];
@@ -86,8 +86,8 @@ static void add_row(const holding *h, int row, const line *l) {
             put(s, s->n + row, l->index[i], l->row[i]), put(s, l->index[i], s->n + row, l->row[i]);
 }
 
-static void add_spring_along(const fw_linear *s, const fw_mechanism *m, const fw_spring *p,
-                             double ux, double uy) {
+static void add_spring_along(const fw_effects_linear *s, const fw_mechanism *m,
+                             const fw_device_spring *p, double ux, double uy) {
     line along = {.count = 0};
     add_end(s, &along, p->body_a, arm(m, p->body_a, p->ax_m, p->ay_m), ux, uy, -1);
     add_end(s, &along, p->body_b, arm(m, p->body_b, p->bx_m, p->by_m), ux, uy, 1);
@@ -95,22 +95,24 @@ static void add_spring_along(const fw_linear *s, const fw_mechanism *m, const fw
 }
 
 /* points that coincide: a spring without length holds them in all directions */
-static void add_spring(const fw_linear *s, const fw_mechanism *m, const fw_spring *p) {
-    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m, p->ay_m);
-    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m, p->by_m);
+static void add_spring(const fw_effects_linear *s, const fw_mechanism *m,
+                       const fw_device_spring *p) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, p->body_a, p->ax_m, p->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, p->body_b, p->bx_m, p->by_m);
     double dx = b.x - a.x, dy = b.y - a.y, l = hypot(dx, dy);
-    if (l > 0 && !fw_spring_slack(m, p)) add_spring_along(s, m, p, dx / l, dy / l);
+    if (l > 0 && !fw_effects_spring_slack(m, p)) add_spring_along(s, m, p, dx / l, dy / l);
     if (l > 0 || p->length_m != 0) return;
     add_spring_along(s, m, p, 1, 0);
     add_spring_along(s, m, p, 0, 1);
 }
 
 /* a direction (ux, uy) fixed in body a: turning it moves the point b, at a distance from a */
-static line tie_line(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, double ux,
-                     double uy, bool turns) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
-    fw_vec2 ra = arm(m, t->body_a, t->ax_m, t->ay_m), rb = arm(m, t->body_b, t->bx_m, t->by_m);
+static line joint_line(const fw_effects_linear *s, const fw_mechanism *m, const fw_device_joint *t,
+                       double ux, double uy, bool turns) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
+    fw_geometry_vec2 ra = arm(m, t->body_a, t->ax_m, t->ay_m),
+                     rb = arm(m, t->body_b, t->bx_m, t->by_m);
     if (turns) ra.x += b.x - a.x, ra.y += b.y - a.y;
     line l = {.count = 0};
     add_end(s, &l, t->body_a, ra, ux, uy, -1);
@@ -118,10 +120,11 @@ static line tie_line(const fw_linear *s, const fw_mechanism *m, const fw_tie *t,
     return l;
 }
 
-static line tie_axis(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, bool normal) {
+static line joint_axis(const fw_effects_linear *s, const fw_mechanism *m, const fw_device_joint *t,
+                       bool normal) {
     double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
     double c = cos(turned), n = sin(turned);
-    return normal ? tie_line(s, m, t, -n, c, true) : tie_line(s, m, t, c, n, true);
+    return normal ? joint_line(s, m, t, -n, c, true) : joint_line(s, m, t, c, n, true);
 }
 
 /* phi_b - phi_a held */
@@ -132,34 +135,35 @@ static void hold_angle(const holding *h, int row, int body_a, int body_b) {
     add_row(h, row, &l);
 }
 
-static int tie_rows(const fw_tie *t) {
-    return t->kind == FW_TIE_PRISMATIC ? 2 : t->kind == FW_TIE_DISTANCE ? 1 : 3;
+static int joint_rows(const fw_device_joint *t) {
+    return t->kind == FW_JOINT_PRISMATIC ? 2 : t->kind == FW_JOINT_DISTANCE ? 1 : 3;
 }
 
 /* a driver holds one motion more; that of a rod replaces its length */
-static int driver_rows(const fw_mechanism *m, const fw_driver *d) {
-    return d->tie == FW_NONE || m->tie[d->tie].kind == FW_TIE_PRISMATIC;
+static int driver_rows(const fw_mechanism *m, const fw_device_driver *d) {
+    return d->joint == FW_NONE || m->joint[d->joint].kind == FW_JOINT_PRISMATIC;
 }
 
-static void add_tie(const holding *h, const fw_mechanism *m, const fw_tie *t, int row) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+static void add_joint(const holding *h, const fw_mechanism *m, const fw_device_joint *t, int row) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
     double dx = b.x - a.x, dy = b.y - a.y, length = hypot(dx, dy);
     line l;
     switch (t->kind) {
-    case FW_TIE_PRISMATIC:
-        l = tie_axis(h->s, m, t, true);
+    case FW_JOINT_PRISMATIC:
+        l = joint_axis(h->s, m, t, true);
         add_row(h, row, &l);
         hold_angle(h, row + 1, t->body_a, t->body_b);
         return;
-    case FW_TIE_DISTANCE:
-        l = tie_line(h->s, m, t, length > 0 ? dx / length : 1, length > 0 ? dy / length : 0, false);
+    case FW_JOINT_DISTANCE:
+        l = joint_line(h->s, m, t, length > 0 ? dx / length : 1, length > 0 ? dy / length : 0,
+                       false);
         add_row(h, row, &l);
         return;
-    case FW_TIE_WELD:
-        l = tie_line(h->s, m, t, 1, 0, false);
+    case FW_JOINT_WELD:
+        l = joint_line(h->s, m, t, 1, 0, false);
         add_row(h, row, &l);
-        l = tie_line(h->s, m, t, 0, 1, false);
+        l = joint_line(h->s, m, t, 0, 1, false);
         add_row(h, row + 1, &l);
         hold_angle(h, row + 2, t->body_a, t->body_b);
         return;
@@ -169,94 +173,96 @@ static void add_tie(const holding *h, const fw_mechanism *m, const fw_tie *t, in
 static void add_constraints(const holding *h, const fw_mechanism *m) {
     int row = 0;
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
+        const fw_mechanism_pin *p = &m->pin[i];
         if (h->s->pin_row[i] == FW_NONE) continue;
-        const fw_tie same = {.body_a = p->body_a,
-                             .body_b = p->body_b,
-                             .ax_m = p->ax_m,
-                             .ay_m = p->ay_m,
-                             .bx_m = p->bx_m,
-                             .by_m = p->by_m};
-        line x = tie_line(h->s, m, &same, 1, 0, false), y = tie_line(h->s, m, &same, 0, 1, false);
+        const fw_device_joint same = {.body_a = p->body_a,
+                                      .body_b = p->body_b,
+                                      .ax_m = p->ax_m,
+                                      .ay_m = p->ay_m,
+                                      .bx_m = p->bx_m,
+                                      .by_m = p->by_m};
+        line x = joint_line(h->s, m, &same, 1, 0, false),
+             y = joint_line(h->s, m, &same, 0, 1, false);
         add_row(h, row, &x);
         add_row(h, row + 1, &y);
         row += 2;
     }
-    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
-        add_tie(h, m, &m->tie[i], row);
+    for (int i = 0; i < m->njoint; row += joint_rows(&m->joint[i]), i++)
+        add_joint(h, m, &m->joint[i], row);
     for (int i = 0; i < m->ndriver; row += driver_rows(m, &m->driver[i]), i++) {
-        const fw_driver *d = &m->driver[i];
-        if (d->tie == FW_NONE)
-            hold_angle(h, row, m->pin[d->joint].body_a, m->pin[d->joint].body_b);
-        else if (m->tie[d->tie].kind == FW_TIE_PRISMATIC) {
-            line l = tie_axis(h->s, m, &m->tie[d->tie], false);
+        const fw_device_driver *d = &m->driver[i];
+        if (d->joint == FW_NONE)
+            hold_angle(h, row, m->pin[d->revolute].body_a, m->pin[d->revolute].body_b);
+        else if (m->joint[d->joint].kind == FW_JOINT_PRISMATIC) {
+            line l = joint_axis(h->s, m, &m->joint[d->joint], false);
             add_row(h, row, &l);
         }
     }
 }
 
 /* largest stiffness, N/m: the unit of the rows of forces; 0 when nothing is elastic */
-static double typical_stiffness(const fw_terms *terms, double length) {
+static double typical_stiffness(const fw_effects_loads *loads, double length) {
     double most = 0;
-    for (int i = 0; i < terms->ntorsion; i++)
-        most = fmax(most, terms->torsion[i].stiffness_Nm_per_rad / (length * length));
-    for (int i = 0; i < terms->nspring; i++)
-        most = fmax(most, terms->spring[i].stiffness_N_per_m);
-    for (int i = 0; i < terms->nslide; i++)
-        most = fmax(most, terms->slide[i].stiffness_N_per_m);
-    for (int i = 0; i < terms->nelement; i++)
-        most = fmax(most, terms->element[i].size_N_per_m);
+    for (int i = 0; i < loads->ntorsion; i++)
+        most = fmax(most, loads->torsion[i].stiffness_Nm_per_rad / (length * length));
+    for (int i = 0; i < loads->nspring; i++)
+        most = fmax(most, loads->spring[i].stiffness_N_per_m);
+    for (int i = 0; i < loads->nslide; i++)
+        most = fmax(most, loads->slide[i].stiffness_N_per_m);
+    for (int i = 0; i < loads->nelement; i++)
+        most = fmax(most, loads->element[i].size_N_per_m);
     return most;
 }
 
-static void add_elastic(const fw_linear *s, const fw_mechanism *m, const fw_terms *terms) {
-    for (int i = 0; i < terms->ntorsion; i++)
-        add_torsion(s, &terms->torsion[i]);
-    for (int i = 0; i < terms->nspring; i++)
-        add_spring(s, m, &terms->spring[i]);
-    for (int i = 0; i < terms->nslide; i++) {
-        line l = tie_axis(s, m, &m->tie[terms->slide[i].tie], false);
-        add_stiffness(s, &l, terms->slide[i].stiffness_N_per_m / s->stiffness_N_per_m);
+static void add_elastic(const fw_effects_linear *s, const fw_mechanism *m,
+                        const fw_effects_loads *loads) {
+    for (int i = 0; i < loads->ntorsion; i++)
+        add_torsion(s, &loads->torsion[i]);
+    for (int i = 0; i < loads->nspring; i++)
+        add_spring(s, m, &loads->spring[i]);
+    for (int i = 0; i < loads->nslide; i++) {
+        line l = joint_axis(s, m, &m->joint[loads->slide[i].joint], false);
+        add_stiffness(s, &l, loads->slide[i].stiffness_N_per_m / s->stiffness_N_per_m);
     }
 }
 
-static fw_status add_elements(fw_arena *arena, const fw_linear *s, const fw_mechanism *m,
-                              const fw_terms *terms) {
-    if (terms->nelement == 0) return FW_OK;
+static fw_status add_elements(fw_arena *arena, const fw_effects_linear *s, const fw_mechanism *m,
+                              const fw_effects_loads *loads) {
+    if (loads->nelement == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     size_t n = (size_t)s->n;
     double *whole;
     FW_NEED(whole = fw_arena_array(arena, double, n *n));
-    FW_TRY(fw_terms_element_tangent(arena, m, terms, whole, NULL));
+    FW_TRY(fw_effects_loads_element_tangent(arena, m, loads, whole, NULL));
     for (int i = 0; i < s->n; i++)
         for (int j = 0; j < s->n; j++)
             put(s, i, j,
-                whole[(size_t)i * n + (size_t)j] * fw_linear_unit(s, j) /
-                    fw_linear_force_unit(s, i));
+                whole[(size_t)i * n + (size_t)j] * fw_effects_linear_unit(s, j) /
+                    fw_effects_linear_force_unit(s, i));
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
 
-static int rows_of(const fw_mechanism *m, const fw_terms *terms) {
+static int rows_of(const fw_mechanism *m, const fw_effects_loads *loads) {
     int rows = 0;
     for (int i = 0; i < m->npin; i++)
-        rows += terms->released && terms->released[i] ? 0 : 2;
-    for (int i = 0; i < m->ntie; i++)
-        rows += tie_rows(&m->tie[i]);
+        rows += loads->released && loads->released[i] ? 0 : 2;
+    for (int i = 0; i < m->njoint; i++)
+        rows += joint_rows(&m->joint[i]);
     for (int i = 0; i < m->ndriver; i++)
         rows += driver_rows(m, &m->driver[i]);
     return rows;
 }
 
-int fw_linear_size(const fw_mechanism *m, const fw_terms *terms) {
-    return m->nbody > FW_RESPONSE_MOST ? 3 * m->nbody : 3 * m->nbody + rows_of(m, terms);
+int fw_effects_linear_size(const fw_mechanism *m, const fw_effects_loads *loads) {
+    return m->nbody > FW_RESPONSE_MOST ? 3 * m->nbody : 3 * m->nbody + rows_of(m, loads);
 }
 
-double fw_linear_unit(const fw_linear *s, int i) {
+double fw_effects_linear_unit(const fw_effects_linear *s, int i) {
     return i % 3 == 2 ? 1 : s->length_m;
 }
 
-double fw_linear_force_unit(const fw_linear *s, int i) {
+double fw_effects_linear_force_unit(const fw_effects_linear *s, int i) {
     return s->stiffness_N_per_m * s->length_m * (i % 3 == 2 ? s->length_m : 1);
 }
 
@@ -264,68 +270,72 @@ double fw_linear_force_unit(const fw_linear *s, int i) {
    drivers. Geometric stiffness of what already pulls (lambda Psi_qq, turning loads, springs across
    their lines) is left out but for the elements'. Cost (3 nbody + rows)^2. Source: linearisation of
    the equations in docs/theory/dynamics.md. Test: test_effects.c, test_envelope.c. */
-fw_status fw_linear_new(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms, fw_linear *s,
-                        bool *elastic) {
-    *s = (fw_linear){.n = 3 * m->nbody, .rows = rows_of(m, terms), .length_m = typical_length(m)};
+fw_status fw_effects_linear_new(fw_arena *arena, const fw_mechanism *m,
+                                const fw_effects_loads *loads, fw_effects_linear *s,
+                                bool *elastic) {
+    *s = (fw_effects_linear){
+        .n = 3 * m->nbody, .rows = rows_of(m, loads), .length_m = typical_length(m)};
     s->total = s->n + s->rows;
-    s->stiffness_N_per_m = typical_stiffness(terms, s->length_m);
+    s->stiffness_N_per_m = typical_stiffness(loads, s->length_m);
     *elastic = s->stiffness_N_per_m > 0;
     int row = 0;
     FW_NEED(s->pin_row = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(s->tie_row = fw_arena_array(arena, int, (size_t)m->ntie));
+    FW_NEED(s->joint_row = fw_arena_array(arena, int, (size_t)m->njoint));
     for (int i = 0; i < m->npin; i++) {
-        bool released = terms->released && terms->released[i];
+        bool released = loads->released && loads->released[i];
         s->pin_row[i] = released ? FW_NONE : row;
         row += released ? 0 : 2;
     }
-    for (int i = 0; i < m->ntie; row += tie_rows(&m->tie[i]), i++)
-        s->tie_row[i] = row;
+    for (int i = 0; i < m->njoint; row += joint_rows(&m->joint[i]), i++)
+        s->joint_row[i] = row;
     if (!*elastic) return FW_OK;
     FW_NEED(s->a = fw_arena_array(arena, double, (size_t)s->total *(size_t)s->total));
-    add_elastic(s, m, terms);
-    FW_TRY(add_elements(arena, s, m, terms));
+    add_elastic(s, m, loads);
+    FW_TRY(add_elements(arena, s, m, loads));
     const holding rows = {.s = s};
     add_constraints(&rows, m);
     return FW_OK;
 }
 
-void fw_linear_hold(const fw_linear *s, const fw_mechanism *m, const double *lambda,
-                    double *force) {
+void fw_effects_linear_hold(const fw_effects_linear *s, const fw_mechanism *m, const double *lambda,
+                            double *force) {
     const holding held = {s, lambda, force};
     add_constraints(&held, m);
 }
 
 /* b less a, along and across the direction that the joint holds */
-static int tie_gaps(const fw_linear *s, const fw_mechanism *m, const fw_tie *t, double *gap) {
-    fw_vec2 a = fw_local_place(m, t->body_a, t->ax_m, t->ay_m);
-    fw_vec2 b = fw_local_place(m, t->body_b, t->bx_m, t->by_m);
+static int joint_gaps(const fw_effects_linear *s, const fw_mechanism *m, const fw_device_joint *t,
+                      double *gap) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
     double dx = (b.x - a.x) / s->length_m, dy = (b.y - a.y) / s->length_m;
     double turned = t->axis_rad + (t->body_a == FW_GROUND ? 0 : m->body[t->body_a].phi_rad);
-    if (t->kind == FW_TIE_PRISMATIC)
+    if (t->kind == FW_JOINT_PRISMATIC)
         gap[0] = -sin(turned) * dx + cos(turned) * dy;
-    else if (t->kind == FW_TIE_DISTANCE)
+    else if (t->kind == FW_JOINT_DISTANCE)
         gap[0] = hypot(dx, dy);
     else
         gap[0] = dx, gap[1] = dy;
-    return tie_rows(t);
+    return joint_rows(t);
 }
 
-void fw_linear_gaps(const fw_linear *s, const fw_mechanism *m, double *gap) {
+void fw_effects_linear_gaps(const fw_effects_linear *s, const fw_mechanism *m, double *gap) {
     int row = 0;
     memset(gap, 0, (size_t)s->rows * sizeof *gap);
     for (int i = 0; i < m->npin; i++) {
         if (s->pin_row[i] == FW_NONE) continue;
-        fw_vec2 a = fw_pin_place(m, &m->pin[i], 0), b = fw_pin_place(m, &m->pin[i], 1);
+        fw_geometry_vec2 a = fw_mechanism_pin_place(m, &m->pin[i], 0),
+                         b = fw_mechanism_pin_place(m, &m->pin[i], 1);
         gap[row++] = (b.x - a.x) / s->length_m;
         gap[row++] = (b.y - a.y) / s->length_m;
     }
-    for (int i = 0; i < m->ntie; i++)
-        row += tie_gaps(s, m, &m->tie[i], gap + row);
+    for (int i = 0; i < m->njoint; i++)
+        row += joint_gaps(s, m, &m->joint[i], gap + row);
 }
 
 /* LU of the whole; error round-off times condition; cost total^3 / 3 */
-fw_status fw_linear_solve(fw_arena *arena, const fw_linear *s, const double *force, double *x,
-                          bool *valid) {
+fw_status fw_effects_linear_solve(fw_arena *arena, const fw_effects_linear *s, const double *force,
+                                  double *x, bool *valid) {
     double largest = 0;
     for (int i = 0; i < s->total; i++) {
         x[i] = i < s->n ? force[i] : 0;
@@ -333,7 +343,7 @@ fw_status fw_linear_solve(fw_arena *arena, const fw_linear *s, const double *for
     }
     for (int i = 0; i < s->n && largest > 0; i++) /* the answer is linear: solve for a unit load */
         x[i] /= largest;
-    FW_TRY(fw_dense_solve_symmetric(arena, s->total, s->a, x, x, valid));
+    FW_TRY(fw_maths_dense_solve_symmetric(arena, s->total, s->a, x, x, valid));
     for (int i = 0; i < s->total; i++) {
         x[i] *= largest;
         *valid = *valid && isfinite(x[i]);

@@ -5,8 +5,10 @@
    sqrt(k/J) of each hinge with the smaller inertia J of its two bodies about it.
 
    Without <material-damping> in the scene, a flexure whose damping the file does not state has the
-   estimate of mechanism/build.c, which joint-damping adds. With it, joint-damping leaves these
-   hinges alone (fw_material_damped) and this effect has them: nothing counts twice. A damping
+   estimate of mechanism/mechanism_build.c, which joint-damping adds. With it, joint-damping leaves
+   these
+   hinges alone (fw_effects_material_damped) and this effect has them: nothing counts twice. A
+   damping
    stated in the file holds in both cases. Inputs eta, Hz, k in N m/rad; output N m s/rad. Valid for
    motions near the frequency: away from it the damper's loss factor goes with the frequency, the
    material's hardly does. Source: loss factor and equivalent viscous damping as in any text on
@@ -18,7 +20,7 @@
 
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (fw_material_damped(c, i)) return true;
+        if (fw_effects_material_damped(c, i)) return true;
     return false;
 }
 
@@ -28,10 +30,11 @@ static double inertia_about(const fw_mechanism *m, int body, double x, double y)
 }
 
 /* rad/s at which the loss factor holds, for this pin; the scene's last word counts */
-static double frequency_of(const fw_effect_case *c, const fw_pin *p) {
+static double frequency_of(const fw_effect_case *c, const fw_mechanism_pin *p) {
     double stated = c->scene->damping[c->scene->ndamping - 1].frequency_Hz;
     if (!isnan(stated)) return 2 * FW_PI * stated;
-    const fw_envelope *e = c->envelope && c->envelope->pinned ? c->envelope->pinned : c->envelope;
+    const fw_effects_envelope *e =
+        c->envelope && c->envelope->pinned ? c->envelope->pinned : c->envelope;
     if (e && e->valid && e->modes > 0 && e->omega[0] > 0) return e->omega[0];
     double a = inertia_about(c->mechanism, p->body_a, p->ax_m, p->ay_m);
     double b = inertia_about(c->mechanism, p->body_b, p->bx_m, p->by_m);
@@ -41,21 +44,21 @@ static double frequency_of(const fw_effect_case *c, const fw_pin *p) {
 static double loss_of(const fw_effect_case *c) {
     double stated = c->scene->damping[c->scene->ndamping - 1].loss_factor;
     if (!isnan(stated)) return stated;
-    const fw_variant *v = c->mechanism->variant;
+    const fw_mechanism_variant *v = c->mechanism->variant;
     if (!v || v->material.loss.unknown || !isfinite(v->material.loss.value)) return (double)NAN;
     return v->material.loss.value;
 }
 
 /* N m s/rad; NaN: the material's loss factor is not known */
 static double damping_of(const fw_effect_case *c, int pin) {
-    const fw_pin *p = &c->mechanism->pin[pin];
+    const fw_mechanism_pin *p = &c->mechanism->pin[pin];
     if (!(p->stiffness_Nm_per_rad > 0)) return 0;
     return loss_of(c) * p->stiffness_Nm_per_rad / frequency_of(c, p);
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     if (isnan(loss_of(c))) {
-        const fw_variant *v = c->mechanism->variant;
+        const fw_mechanism_variant *v = c->mechanism->variant;
         if (!c->diags) return FW_INPUT;
         return fw_diag_error(c->diags, 247, c->scene->damping[c->scene->ndamping - 1].place,
                              "the loss factor of material %s is not known; give "
@@ -63,8 +66,9 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
                              v && v->material.id ? v->material.id : "");
     }
     for (int i = 0; i < c->mechanism->npin; i++)
-        if (fw_material_damped(c, i) && damping_of(c, i) > 0)
-            fw_terms_torsion(c->mechanism, terms, i)->damping_Nms_per_rad += damping_of(c, i);
+        if (fw_effects_material_damped(c, i) && damping_of(c, i) > 0)
+            fw_effects_loads_torsion(c->mechanism, loads, i)->damping_Nms_per_rad +=
+                damping_of(c, i);
     return FW_OK;
 }
 
@@ -74,7 +78,7 @@ static fw_status add(const fw_effect_case *c, fw_terms *terms) {
    Test: test_material_damping.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_mechanism *m = c->mechanism;
-    const fw_envelope *v = c->envelope;
+    const fw_effects_envelope *v = c->envelope;
     *value = (double)INFINITY;
     *reason = "the loss factor is not known";
     if (isnan(loss_of(c))) return FW_OK;
@@ -86,14 +90,14 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         return FW_OK;
     }
     fw_mark mark = fw_arena_mark(c->arena);
-    fw_terms terms;
+    fw_effects_loads loads;
     double *mode;
     FW_NEED(mode = fw_arena_array(c->arena, double, (size_t)v->modes));
-    FW_TRY(fw_terms_new(c->arena, m, c->scene, &terms));
-    FW_TRY(add(c, &terms));
-    if (v->pinned) FW_TRY(fw_hinges_flex(c, &terms)); /* they dissipate in all directions */
-    FW_TRY(fw_envelope_dampers(c, &terms, mode));
-    *value = fw_envelope_mode_answer(c, mode, (double)INFINITY);
+    FW_TRY(fw_effects_loads_new(c->arena, m, c->scene, &loads));
+    FW_TRY(add(c, &loads));
+    if (v->pinned) FW_TRY(fw_effects_hinges_flex(c, &loads)); /* they dissipate in all directions */
+    FW_TRY(fw_effects_envelope_dampers(c, &loads, mode));
+    *value = fw_effects_envelope_mode_answer(c, mode, (double)INFINITY);
     *reason = "the material has a loss factor: answer to c times the largest rates, over the scene";
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
@@ -102,11 +106,12 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 static int count(const fw_effect_case *c) {
     int hinges = 0;
     for (int i = 0; i < c->mechanism->npin; i++)
-        hinges += fw_material_damped(c, i);
+        hinges += fw_effects_material_damped(c, i);
     return hinges;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     if (s->ndamping) fw_effects_say(to, "; damping by the material");
 }

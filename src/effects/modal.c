@@ -11,14 +11,14 @@ static double mass_of(const fw_mechanism *m, int i) {
     return i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg;
 }
 
-static double energy_unit(const fw_linear *s) {
+static double energy_unit(const fw_effects_linear *s) {
     return s->stiffness_N_per_m * s->length_m * s->length_m;
 }
 
 /* sqrt of the scaled masses; false where one is not positive */
-static bool masses(const fw_mechanism *m, const fw_linear *s, double *inertia) {
+static bool masses(const fw_mechanism *m, const fw_effects_linear *s, double *inertia) {
     for (int i = 0; i < s->n; i++) {
-        double u = fw_linear_unit(s, i);
+        double u = fw_effects_linear_unit(s, i);
         inertia[i] = mass_of(m, i) * u * u / energy_unit(s);
         if (!(inertia[i] > 0) || !isfinite(inertia[i])) return false;
     }
@@ -31,15 +31,15 @@ static const char *const repeated =
     "joints repeat each other, or the drawn position is a singular one";
 
 /* rows of G M^-1/2, each of length 1, and their singular values */
-static fw_status hold(fw_arena *arena, fw_modal *o) {
-    const fw_linear *s = &o->linear;
+static fw_status hold(fw_arena *arena, fw_effects_modal *o) {
+    const fw_effects_linear *s = &o->linear;
     size_t n = (size_t)s->n, rows = (size_t)s->rows, total = (size_t)s->total;
     double *g;
     FW_NEED(g = fw_arena_array(arena, double, n *rows));
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < n; j++)
             g[i * n + j] = s->a[(n + i) * total + j] / sqrt(o->inertia[j]);
-    fw_status status = fw_singular_new(arena, s->rows, s->n, g, &o->holding);
+    fw_status status = fw_maths_singular_new(arena, s->rows, s->n, g, &o->holding);
     if (status == FW_SOLVER) o->why_not = "the joints cannot be resolved";
     if (status != FW_OK) return status == FW_SOLVER ? FW_OK : status;
     const double *sigma = o->holding.sigma;
@@ -49,8 +49,8 @@ static fw_status hold(fw_arena *arena, fw_modal *o) {
 }
 
 /* z^T K z over the null space z of G M^-1/2, then its modes */
-static fw_status solve(fw_arena *arena, fw_modal *o) {
-    const fw_linear *s = &o->linear;
+static fw_status solve(fw_arena *arena, fw_effects_modal *o) {
+    const fw_effects_linear *s = &o->linear;
     int n = s->n, m = n - s->rows;
     size_t size = (size_t)n, total = (size_t)s->total;
     double *reduced, *value, *product, *mix;
@@ -77,7 +77,7 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
         }
     }
     FW_NEED(mix = fw_arena_array(arena, double, (size_t)m *(size_t)m));
-    if (!fw_jacobi(m, reduced, value, mix) || !(value[0] > 1e-12 * value[m - 1])) {
+    if (!fw_maths_jacobi(m, reduced, value, mix) || !(value[0] > 1e-12 * value[m - 1])) {
         o->why_not = "the mechanism can move freely, or is not stable where it is drawn";
         return FW_OK;
     }
@@ -91,12 +91,12 @@ static fw_status solve(fw_arena *arena, fw_modal *o) {
             for (size_t i = 0; i < size; i++)
                 to[i] += mix[(size_t)j * (size_t)m + (size_t)l] * z[(size_t)l * size + i];
         for (int i = 0; i < n; i++)
-            to[i] *= fw_linear_unit(s, i) / sqrt(o->inertia[i] * energy_unit(s));
+            to[i] *= fw_effects_linear_unit(s, i) / sqrt(o->inertia[i] * energy_unit(s));
     }
     return FW_OK;
 }
 
-static fw_status turns(fw_arena *arena, fw_modal *o) {
+static fw_status turns(fw_arena *arena, fw_effects_modal *o) {
     const fw_mechanism *m = o->mechanism;
     FW_NEED(o->turn = fw_arena_array(arena, double, (size_t)o->modes *(size_t)m->npin));
     for (int j = 0; j < o->modes; j++)
@@ -112,44 +112,47 @@ static fw_status turns(fw_arena *arena, fw_modal *o) {
 /* ---- damping ---- */
 
 /* C (n x n, SI): the same shapes of matrix as stiffness has, with dampers in its place */
-static fw_status dampers(fw_arena *arena, const fw_modal *o, const fw_terms *terms, double *c) {
-    fw_terms t = *terms;
-    fw_linear s;
+static fw_status dampers(fw_arena *arena, const fw_effects_modal *o, const fw_effects_loads *loads,
+                         double *c) {
+    fw_effects_loads t = *loads;
+    fw_effects_linear s;
     bool any;
     t.nelement = 0;
-    FW_NEED(t.torsion = fw_arena_array(arena, fw_torsion, (size_t)t.ntorsion));
-    FW_NEED(t.slide = fw_arena_array(arena, fw_slide, (size_t)t.nslide));
-    FW_NEED(t.spring = fw_arena_array(arena, fw_spring, (size_t)t.nspring));
+    FW_NEED(t.torsion = fw_arena_array(arena, fw_effects_torsion, (size_t)t.ntorsion));
+    FW_NEED(t.slide = fw_arena_array(arena, fw_effects_slide, (size_t)t.nslide));
+    FW_NEED(t.spring = fw_arena_array(arena, fw_device_spring, (size_t)t.nspring));
     for (int i = 0; i < t.ntorsion; i++) {
-        t.torsion[i] = terms->torsion[i];
+        t.torsion[i] = loads->torsion[i];
         t.torsion[i].stiffness_Nm_per_rad = t.torsion[i].damping_Nms_per_rad;
     }
     for (int i = 0; i < t.nslide; i++) {
-        t.slide[i] = terms->slide[i];
+        t.slide[i] = loads->slide[i];
         t.slide[i].stiffness_N_per_m = t.slide[i].damping_Ns_per_m;
     }
     for (int i = 0; i < t.nspring; i++) {
-        t.spring[i] = terms->spring[i];
+        t.spring[i] = loads->spring[i];
         t.spring[i].stiffness_N_per_m = t.spring[i].damping_Ns_per_m;
     }
-    FW_TRY(fw_linear_new(arena, o->mechanism, &t, &s, &any));
+    FW_TRY(fw_effects_linear_new(arena, o->mechanism, &t, &s, &any));
     for (int i = 0; any && i < s.n; i++)
         for (int j = 0; j < s.n; j++)
             c[(size_t)i * (size_t)s.n + (size_t)j] += s.a[(size_t)i * (size_t)s.total + (size_t)j] *
-                                                      fw_linear_force_unit(&s, i) /
-                                                      fw_linear_unit(&s, j);
+                                                      fw_effects_linear_force_unit(&s, i) /
+                                                      fw_effects_linear_unit(&s, j);
     return FW_OK;
 }
 
-fw_status fw_modal_damping(fw_arena *arena, const fw_modal *o, const fw_terms *terms, double *out) {
+fw_status fw_effects_modal_damping(fw_arena *arena, const fw_effects_modal *o,
+                                   const fw_effects_loads *loads, double *out) {
     size_t n = (size_t)o->n, m = (size_t)o->modes;
     double *c, *k, *product;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(c = fw_arena_array(arena, double, n *n));
     FW_NEED(k = fw_arena_array(arena, double, n *n));
     FW_NEED(product = fw_arena_array(arena, double, n));
-    FW_TRY(dampers(arena, o, terms, c));
-    if (terms->nelement > 0) FW_TRY(fw_terms_element_tangent(arena, o->mechanism, terms, k, c));
+    FW_TRY(dampers(arena, o, loads, c));
+    if (loads->nelement > 0)
+        FW_TRY(fw_effects_loads_element_tangent(arena, o->mechanism, loads, k, c));
     for (size_t j = 0; j < m; j++) {
         for (size_t i = 0; i < n; i++) {
             product[i] = 0;
@@ -160,8 +163,8 @@ fw_status fw_modal_damping(fw_arena *arena, const fw_modal *o, const fw_terms *t
             for (size_t i = 0; i < n; i++)
                 out[l * m + j] += o->shape[l * n + i] * product[i];
     }
-    bool own = terms == o->terms; /* what free strains are damped by belongs to these */
-    if (own && o->shift[1]) FW_TRY(fw_modal_drag(arena, o, o->shift_drag[1]));
+    bool own = loads == o->loads; /* what free strains are damped by belongs to these */
+    if (own && o->shift[1]) FW_TRY(fw_effects_modal_drag(arena, o, o->shift_drag[1]));
     for (int which = 0; which < 2 && own; which++)
         for (size_t j = 0; j < m && o->shift[which]; j++)
             for (size_t i = 0; i < n * n; i++)
@@ -172,7 +175,7 @@ fw_status fw_modal_damping(fw_arena *arena, const fw_modal *o, const fw_terms *t
 
 /* ---- the start ---- */
 
-static bool stated(const fw_scene *scene, int i) {
+static bool stated(const fw_device_scene *scene, int i) {
     for (int k = 0; k < scene->ninitial; k++)
         if (scene->initial[k].body == i / 3)
             return !(i % 3 < 2 ? scene->initial[k].moves_free : scene->initial[k].turns_free);
@@ -181,9 +184,9 @@ static bool stated(const fw_scene *scene, int i) {
 
 /* modal velocities v of least sum W (shape v - given)^2: W the masses, a billion times smaller
    where the scene states nothing, as start.c of dynamics/ has it */
-static fw_status start(fw_arena *arena, fw_modal *o) {
+static fw_status start(fw_arena *arena, fw_effects_modal *o) {
     size_t n = (size_t)o->n, m = (size_t)o->modes;
-    const double *given = o->terms->velocity;
+    const double *given = o->loads->velocity;
     FW_NEED(o->velocity = fw_arena_array(arena, double, m));
     double *a, *weight, moves = 0;
     int count = 0;
@@ -205,8 +208,8 @@ static fw_status start(fw_arena *arena, fw_modal *o) {
             for (size_t l = 0; l < m; l++)
                 a[j * m + l] += w * o->shape[l * n + i];
         }
-    FW_TRY(fw_lapack_ready());
-    if (!fw_cholesky((int)m, a) || !fw_cholesky_solve((int)m, a, o->velocity))
+    FW_TRY(fw_maths_lapack_ready());
+    if (!fw_maths_cholesky((int)m, a) || !fw_maths_cholesky_solve((int)m, a, o->velocity))
         o->why_not = "its velocities at the start cannot be resolved";
     fw_arena_rewind(arena, mark);
     return FW_OK;
@@ -214,13 +217,13 @@ static fw_status start(fw_arena *arena, fw_modal *o) {
 
 /* ---- all of it ---- */
 
-static const char *beyond(const fw_mechanism *m, const fw_terms *t) {
+static const char *beyond(const fw_mechanism *m, const fw_effects_loads *t) {
     if (m->ndriver > 0) return "drivers move the mechanism";
     for (int i = 0; i < t->nspring; i++)
         if (t->spring[i].cable) return "cables pull on one side only";
     for (int i = 0; i < t->nelement; i++) {
-        const fw_force_element *e = &t->element[i];
-        if (!fw_terms_element_fits(e)) return "an element acts at too many points";
+        const fw_effects_force_element *e = &t->element[i];
+        if (!fw_effects_loads_element_fits(e)) return "an element acts at too many points";
         if (e->switches == 0) continue;
         return strcmp(e->class_->effect, "tendon") == 0
                    ? "a tendon that may go slack pulls on one side only"
@@ -229,7 +232,7 @@ static const char *beyond(const fw_mechanism *m, const fw_terms *t) {
     if (t->nstop > 0) return "stops act on one side only";
     if (t->nfriction > 0) return "friction sticks and slides";
     if (t->quasi_static) return "inertia is left out";
-    if (fw_linear_size(m, t) > FW_RESPONSE_MOST)
+    if (fw_effects_linear_size(m, t) > FW_RESPONSE_MOST)
         return "the mechanism has too many bodies for modes";
     return m->nbody == 0 ? "the mechanism has no bodies" : NULL;
 }
@@ -239,12 +242,13 @@ static const char *beyond(const fw_mechanism *m, const fw_terms *t) {
    header. Error: round-off times the largest omega^2. Valid for small motions about a regular
    position. Cost some 10 (3 nbody)^3. Source: null space method, for instance Garcia de Jalon and
    Bayo, ch. 5; modes: Meirovitch, Fundamentals of Vibrations, ch. 7. Test: test_envelope.c. */
-fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *m, const fw_scene *scene,
-                        const fw_terms *terms, fw_modal *o) {
+fw_status fw_effects_modal_find(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_scene *scene, const fw_effects_loads *loads,
+                                fw_effects_modal *o) {
     bool elastic;
-    *o = (fw_modal){.mechanism = m, .scene = scene, .terms = terms, .n = 3 * m->nbody};
-    if ((o->why_not = beyond(m, terms))) return FW_OK;
-    FW_TRY(fw_linear_new(arena, m, terms, &o->linear, &elastic));
+    *o = (fw_effects_modal){.mechanism = m, .scene = scene, .loads = loads, .n = 3 * m->nbody};
+    if ((o->why_not = beyond(m, loads))) return FW_OK;
+    FW_TRY(fw_effects_linear_new(arena, m, loads, &o->linear, &elastic));
     FW_NEED(o->inertia = fw_arena_array(arena, double, (size_t)o->n));
     if (!elastic)
         o->why_not = "nothing in the mechanism is elastic";
@@ -258,17 +262,18 @@ fw_status fw_modal_find(fw_arena *arena, const fw_mechanism *m, const fw_scene *
     if (!o->why_not) FW_TRY(hold(arena, o));
     if (!o->why_not) FW_TRY(solve(arena, o));
     if (!o->why_not) FW_TRY(turns(arena, o));
-    if (!o->why_not) FW_TRY(fw_modal_find_shifts(arena, o));
+    if (!o->why_not) FW_TRY(fw_effects_modal_find_shifts(arena, o));
     if (o->why_not) return FW_OK;
     FW_NEED(o->damping = fw_arena_array(arena, double, (size_t)o->modes *(size_t)o->modes));
-    FW_TRY(fw_modal_damping(arena, o, terms, o->damping));
-    FW_TRY(fw_modal_open(arena, o));
+    FW_TRY(fw_effects_modal_damping(arena, o, loads, o->damping));
+    FW_TRY(fw_effects_modal_open(arena, o));
     return start(arena, o);
 }
 
 /* G^T lambda = F - K x with the static displacement x; lambda = U S^-1 V^T M^-1/2 (F - K x) */
-void fw_modal_multipliers(const fw_modal *o, const double *force, double *work, double *lambda) {
-    const fw_linear *s = &o->linear;
+void fw_effects_modal_multipliers(const fw_effects_modal *o, const double *force, double *work,
+                                  double *lambda) {
+    const fw_effects_linear *s = &o->linear;
     size_t n = (size_t)o->n, rows = (size_t)s->rows, total = (size_t)s->total;
     double *x = work, *r = work + n;
     memset(x, 0, n * sizeof *x);
@@ -278,11 +283,11 @@ void fw_modal_multipliers(const fw_modal *o, const double *force, double *work, 
         for (size_t i = 0; i < n; i++)
             f += o->shape[j * n + i] * force[i];
         for (size_t i = 0; i < n; i++)
-            x[i] +=
-                o->shape[j * n + i] * f / (o->omega[j] * o->omega[j]) / fw_linear_unit(s, (int)i);
+            x[i] += o->shape[j * n + i] * f / (o->omega[j] * o->omega[j]) /
+                    fw_effects_linear_unit(s, (int)i);
     }
     for (size_t i = 0; i < n; i++) {
-        r[i] = force[i] / fw_linear_force_unit(s, (int)i);
+        r[i] = force[i] / fw_effects_linear_force_unit(s, (int)i);
         for (size_t k = 0; k < n; k++)
             r[i] -= s->a[i * total + k] * x[k];
         r[i] /= sqrt(o->inertia[i]);
@@ -299,19 +304,19 @@ void fw_modal_multipliers(const fw_modal *o, const double *force, double *work, 
 /* ---- what forces do to the stiffness ---- */
 
 /* loads at their largest; elements as they are at the start, which is how they are in omega: what
-   their laws change is in fw_modal_bend */
-static void largest_loads(const fw_modal *o, const fw_mechanism *moved, double *force) {
-    fw_terms loads = *o->terms;
+   their laws change is in fw_effects_modal_bend */
+static void largest_loads(const fw_effects_modal *o, const fw_mechanism *moved, double *force) {
+    fw_effects_loads loads = *o->loads;
     loads.nelement = 0;
-    fw_terms_largest_force(moved, &loads, o->scene->duration_s, force);
-    for (int i = 0; i < o->terms->nelement; i++)
-        fw_terms_element_force(moved, &o->terms->element[i], 0, DBL_MIN, force);
+    fw_effects_loads_largest_force(moved, &loads, o->scene->duration_s, force);
+    for (int i = 0; i < o->loads->nelement; i++)
+        fw_effects_loads_element_force(moved, &o->loads->element[i], 0, DBL_MIN, force);
 }
 
 /* residual (n, SI) at q0 + h shape: forces less G^T lambda */
-static void residual(const fw_modal *o, fw_mechanism *moved, const double *shape, double h,
+static void residual(const fw_effects_modal *o, fw_mechanism *moved, const double *shape, double h,
                      const double *lambda, bool dead, double *work, double *out) {
-    const fw_linear *s = &o->linear;
+    const fw_effects_linear *s = &o->linear;
     for (int b = 0; b < moved->nbody; b++) {
         moved->body[b] = o->mechanism->body[b];
         moved->body[b].x_m += h * shape[3 * b];
@@ -321,33 +326,33 @@ static void residual(const fw_modal *o, fw_mechanism *moved, const double *shape
     memset(out, 0, (size_t)o->n * sizeof *out);
     if (!dead) largest_loads(o, moved, out);
     memset(work, 0, (size_t)o->n * sizeof *work);
-    fw_linear_hold(s, moved, lambda, work);
+    fw_effects_linear_hold(s, moved, lambda, work);
     for (int i = 0; i < o->n; i++)
-        out[i] -= work[i] * fw_linear_force_unit(s, i);
+        out[i] -= work[i] * fw_effects_linear_force_unit(s, i);
 }
 
 /* -d(F - G^T lambda)/dq along every mode by central differences of 1e-4 rad (or of the length of
    the scene) against omega^2; lambda held. Dimensionless; error some 1e-8; cost modes times the
    forces. Source: second variation of the constrained potential. Test: test_envelope.c. */
-fw_status fw_modal_softening(fw_arena *arena, const fw_modal *o, const double *force, bool dead,
-                             double *part) {
+fw_status fw_effects_modal_softening(fw_arena *arena, const fw_effects_modal *o,
+                                     const double *force, bool dead, double *part) {
     size_t n = (size_t)o->n, m = (size_t)o->modes;
     double *lambda, *work, *one, *two, *pull, sum = 0;
     fw_mechanism moved = *o->mechanism;
     fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(moved.body = fw_arena_array(arena, fw_mass, (size_t)moved.nbody));
+    FW_NEED(moved.body = fw_arena_array(arena, fw_mechanism_mass, (size_t)moved.nbody));
     FW_NEED(lambda = fw_arena_array(arena, double, (size_t)o->linear.rows));
     FW_NEED(work = fw_arena_array(arena, double, 2 * n));
     FW_NEED(one = fw_arena_array(arena, double, n));
     FW_NEED(two = fw_arena_array(arena, double, n));
     FW_NEED(pull = fw_arena_array(arena, double, 2 * (size_t)moved.npin));
-    fw_modal_multipliers(o, force, work, lambda);
-    fw_modal_pulls(o, force, pull);
+    fw_effects_modal_multipliers(o, force, work, lambda);
+    fw_effects_modal_pulls(o, force, pull);
     for (size_t j = 0; j < m; j++) {
         const double *shape = o->shape + j * n;
         double size = 0;
         for (size_t i = 0; i < n; i++)
-            size = fmax(size, fabs(shape[i]) / fw_linear_unit(&o->linear, (int)i));
+            size = fmax(size, fabs(shape[i]) / fw_effects_linear_unit(&o->linear, (int)i));
         double h = 1e-4 / size;
         residual(o, &moved, shape, h, lambda, dead, work, one);
         residual(o, &moved, shape, -h, lambda, dead, work, two);
@@ -355,7 +360,7 @@ fw_status fw_modal_softening(fw_arena *arena, const fw_modal *o, const double *f
             double k = l == j && !dead ? -o->omega[j] * o->omega[j] : 0;
             for (size_t i = 0; i < n; i++)
                 k -= o->shape[l * n + i] * (one[i] - two[i]) / (2 * h);
-            k += fw_modal_turning(o, pull, (int)l, (int)j);
+            k += fw_effects_modal_turning(o, pull, (int)l, (int)j);
             k /= o->omega[j] * o->omega[l];
             sum += k * k;
         }

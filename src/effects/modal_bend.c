@@ -17,8 +17,8 @@
 
 typedef struct bend {
     fw_arena *arena;
-    const fw_modal *o;
-    const fw_force_element *e;
+    const fw_effects_modal *o;
+    const fw_effects_force_element *e;
     fw_mechanism moved;
     double *k, *c, *k0, *c0, *product; /* (n x n) and (n) */
     double most;
@@ -50,7 +50,8 @@ static fw_status compare(bend *w, const fw_mechanism *m, double t_s, double piec
     bool valid;
     memset(w->k, 0, size);
     memset(w->c, 0, size);
-    FW_TRY(fw_terms_element_tangent_at(w->arena, m, w->e, t_s, piece_s, w->k, w->c, &valid));
+    FW_TRY(
+        fw_effects_loads_element_tangent_at(w->arena, m, w->e, t_s, piece_s, w->k, w->c, &valid));
     double part = norm_of(w, w->k, w->k0, 1) + norm_of(w, w->c, w->c0, 0.5);
     if (!valid || !isfinite(part)) part = (double)INFINITY;
     w->most = fmax(w->most, part);
@@ -67,7 +68,7 @@ static fw_status all_along(bend *w) {
         FW_TRY(compare(w, w->o->mechanism, t, t));
     }
     for (int k = 0; k < w->e->laws; k++) {
-        int count = fw_law_breaks(w->e->law[k], end, at, BREAKS_MOST);
+        int count = fw_quantity_law_breaks_of(w->e->law[k], end, at, BREAKS_MOST);
         for (int i = 0; i < count && i < BREAKS_MOST; i++) {
             FW_TRY(compare(w, w->o->mechanism, at[i], at[i] - 1e-9 * end));
             FW_TRY(compare(w, w->o->mechanism, at[i], at[i] + 1e-9 * end));
@@ -80,10 +81,10 @@ static fw_status all_along(bend *w) {
 
 /* of a port, along (x, y) or, both 0, in turn, under coordinates u (n) */
 static double port_way(const bend *w, int port, double x, double y, const double *u) {
-    const fw_port *p = &w->e->port[port];
+    const fw_effects_port *p = &w->e->port[port];
     if (p->body == FW_GROUND) return 0;
-    const fw_mass *b = &w->o->mechanism->body[p->body];
-    fw_vec2 at = fw_local_place(w->o->mechanism, p->body, p->x_m, p->y_m);
+    const fw_mechanism_mass *b = &w->o->mechanism->body[p->body];
+    fw_geometry_vec2 at = fw_mechanism_local_place(w->o->mechanism, p->body, p->x_m, p->y_m);
     const double *v = u + 3 * p->body;
     if (x == 0 && y == 0) return v[2];
     return x * (v[0] - v[2] * (at.y - b->y_m)) + y * (v[1] + v[2] * (at.x - b->x_m));
@@ -99,7 +100,7 @@ static void move_by(bend *w, double factor, const double *u) {
 
 static fw_status farthest(bend *w, int port, double x, double y, const double *amplitude, double t,
                           double sign) {
-    const fw_modal *o = w->o;
+    const fw_effects_modal *o = w->o;
     memcpy(w->moved.body, o->mechanism->body, (size_t)o->mechanism->nbody * sizeof *w->moved.body);
     for (int j = 0; j < o->modes; j++) {
         const double *shape = o->shape + (size_t)j * (size_t)o->n;
@@ -108,13 +109,13 @@ static fw_status farthest(bend *w, int port, double x, double y, const double *a
     }
     for (int i = 0; i < 2; i++)
         if (o->shift[i])
-            move_by(w, i ? fw_law_largest(o->terms->stretch.law, o->scene->duration_s) : 1,
+            move_by(w, i ? fw_quantity_law_largest(o->loads->stretch.law, o->scene->duration_s) : 1,
                     o->shift[i]);
     return compare(w, &w->moved, t, fmax(t, DBL_MIN));
 }
 
 static fw_status everywhere(bend *w, const double *amplitude) {
-    double t = fw_terms_element_busiest(w->o->mechanism, w->e, w->o->scene->duration_s);
+    double t = fw_effects_loads_element_busiest(w->o->mechanism, w->e, w->o->scene->duration_s);
     for (int port = 0; port + 1 < w->e->ports; port++)
         for (int i = 0; i < 10; i++) {
             double angle = 0.25 * FW_PI * i;
@@ -125,27 +126,28 @@ static fw_status everywhere(bend *w, const double *amplitude) {
     return FW_OK;
 }
 
-fw_status fw_modal_bend(fw_arena *arena, const fw_modal *o, const double *amplitude, double *part) {
+fw_status fw_effects_modal_bend(fw_arena *arena, const fw_effects_modal *o, const double *amplitude,
+                                double *part) {
     size_t n = (size_t)o->n;
     bend w = {.arena = arena, .o = o, .moved = *o->mechanism};
     bool valid;
     *part = 0;
-    if (o->terms->nelement == 0) return FW_OK;
+    if (o->loads->nelement == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(w.moved.body = fw_arena_array(arena, fw_mass, (size_t)w.moved.nbody));
+    FW_NEED(w.moved.body = fw_arena_array(arena, fw_mechanism_mass, (size_t)w.moved.nbody));
     FW_NEED(w.k = fw_arena_array(arena, double, n *n));
     FW_NEED(w.c = fw_arena_array(arena, double, n *n));
     FW_NEED(w.k0 = fw_arena_array(arena, double, n *n));
     FW_NEED(w.c0 = fw_arena_array(arena, double, n *n));
     FW_NEED(w.product = fw_arena_array(arena, double, n));
-    for (int i = 0; i < o->terms->nelement; i++) {
-        w.e = &o->terms->element[i];
+    for (int i = 0; i < o->loads->nelement; i++) {
+        w.e = &o->loads->element[i];
         if (w.e->pin != FW_NONE) continue; /* hinges that give: envelope.c */
         w.most = 0;
         memset(w.k0, 0, n * n * sizeof *w.k0);
         memset(w.c0, 0, n * n * sizeof *w.c0);
-        FW_TRY(
-            fw_terms_element_tangent_at(arena, o->mechanism, w.e, 0, DBL_MIN, w.k0, w.c0, &valid));
+        FW_TRY(fw_effects_loads_element_tangent_at(arena, o->mechanism, w.e, 0, DBL_MIN, w.k0, w.c0,
+                                                   &valid));
         FW_TRY(all_along(&w));
         FW_TRY(everywhere(&w, amplitude));
         *part += w.most;

@@ -12,17 +12,17 @@ enum { EARLY = 256, LATE = 256, PER_PIECE = 4, PIECES_MOST = 400 };
 typedef struct swing {      /* a mode on its way */
     double q, v, off, size; /* off: what it may be wrong by; size: its largest |q| so far */
     double c, s;            /* decay over a cell of the present length */
-    double doubt;           /* what it may be wrong by with the error of its frequency */
+    double nonlinearity_of; /* what it may be wrong by with the error of its frequency */
 } swing;
 
 typedef struct walk {
-    const fw_modal *o;
-    const fw_pushes *pushes;
+    const fw_effects_modal *o;
+    const fw_effects_modal_loads *modal_loads;
     swing *mode;                   /* (modes) */
     double *left, *middle, *right; /* (modes) forces in a cell */
     double *free_rad;              /* (npin) deflection as drawn */
-    double unsure, best, second;
-    bool constant; /* nothing that pushes has a law: left, middle and right are all the same */
+    double nonlinearity, best, second;
+    bool constant; /* no modal load has a law: left, middle and right are all the same */
 } walk;
 
 /* e^(-g t) cosh or cos of w t, and sinh or sin over w; w^2 = g^2 - omega^2 */
@@ -48,12 +48,12 @@ static void swing_on(swing *x, double omega, double g, double a, double b, doubl
 
 static void forces(walk *w, double t_s, double piece_s, double *out) {
     memset(out, 0, (size_t)w->o->modes * sizeof *out);
-    for (int i = 0; i < w->pushes->count; i++)
-        fw_push_at(w->o, w->pushes, &w->pushes->item[i], t_s, piece_s, out);
+    for (int i = 0; i < w->modal_loads->count; i++)
+        fw_effects_modal_load_at(w->o, w->modal_loads, &w->modal_loads->item[i], t_s, piece_s, out);
 }
 
 static void cell(walk *w, double t, double h, double piece) {
-    const fw_modal *o = w->o;
+    const fw_effects_modal *o = w->o;
     size_t m = (size_t)o->modes;
     if (!w->constant) {
         forces(w, t, piece, w->left);
@@ -63,7 +63,7 @@ static void cell(walk *w, double t, double h, double piece) {
     for (size_t j = 0; j < m; j++) {
         swing *x = &w->mode[j];
         double omega = o->omega[j], a = w->left[j], b = (w->right[j] - a) / h, others = 0;
-        /* not straight in the cell; and dampers that tie modes together */
+        /* not straight in the cell; and dampers that joint modes together */
         double bent = fabs(w->middle[j] - 0.5 * (a + w->right[j]));
         for (size_t l = 0; l < m; l++)
             if (l != j) others += fabs(o->damping[j * m + l]) * fabs(w->mode[l].v);
@@ -75,19 +75,21 @@ static void cell(walk *w, double t, double h, double piece) {
 
 /* what every hinge is deflected by for sure */
 static void see(walk *w, double t, double piece) {
-    const fw_modal *o = w->o;
+    const fw_effects_modal *o = w->o;
     size_t pins = (size_t)o->mechanism->npin;
     for (size_t j = 0; j < (size_t)o->modes; j++) {
         swing *x = &w->mode[j];
-        x->doubt = x->off + x->size * fmin(2, w->unsure * (1 + 0.5 * o->omega[j] * t));
+        x->nonlinearity_of =
+            x->off + x->size * fmin(2, w->nonlinearity * (1 + 0.5 * o->omega[j] * t));
     }
     for (size_t i = 0; i < pins; i++) {
-        double angle = w->free_rad[i] + fw_modal_shifted(o, (int)i, t, piece), off = w->second;
+        double angle = w->free_rad[i] + fw_effects_modal_shifted(o, (int)i, t, piece),
+               off = w->second;
         for (size_t j = 0; j < (size_t)o->modes; j++) {
             const swing *x = &w->mode[j];
             double turn = o->turn[j * pins + i];
             angle += turn * x->q;
-            off += fabs(turn) * x->doubt;
+            off += fabs(turn) * x->nonlinearity_of;
         }
         double sure = fabs(angle) - off;
         if (isfinite(off) && sure > w->best) w->best = sure;
@@ -117,13 +119,18 @@ static void walk_piece(walk *w, double from, double to, double early) {
 
 /* Modal equations q'' + c_jj q' + omega^2 q = f(t), f a straight line in every cell (exact for
    steps, ramps and tables); taken off are: the bend of f in the cells, the damping between modes,
-   both as impulses, and an error of the frequencies and the geometry of `unsure`. Output rad, 0
-   where nothing is sure. Cost some 600 cells times modes (pins + pushes). Source: Duhamel's
+   both as impulses, and an error of the frequencies and the geometry of `nonlinearity`. Output
+   rad, 0
+   where nothing is sure. Cost some 600 cells times modes (pins + modal loads). Source: Duhamel's
    integral; Clough and Penzien, Dynamics of Structures, ch. 6. Test: test_envelope.c. */
-fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pushes, double unsure,
-                         double *floor_rad) {
+fw_status fw_effects_modal_floor(fw_arena *arena, const fw_effects_modal *o,
+                                 const fw_effects_modal_loads *modal_loads, double nonlinearity,
+                                 double *floor_rad) {
     size_t m = (size_t)o->modes;
-    walk w = {.o = o, .pushes = pushes, .unsure = unsure, .second = fw_modal_second(o)};
+    walk w = {.o = o,
+              .modal_loads = modal_loads,
+              .nonlinearity = nonlinearity,
+              .second = fw_effects_modal_second(o)};
     double *t_s, from = 0, end = o->scene->duration_s, early = fmin(end, 14 / o->omega[0]);
     int count;
     fw_mark mark = fw_arena_mark(arena);
@@ -133,13 +140,13 @@ fw_status fw_modal_floor(fw_arena *arena, const fw_modal *o, const fw_pushes *pu
     FW_NEED(w.right = fw_arena_array(arena, double, m));
     FW_NEED(w.free_rad = fw_arena_array(arena, double, (size_t)o->mechanism->npin));
     for (int i = 0; i < o->mechanism->npin; i++)
-        w.free_rad[i] = fw_pin_deflection(o->mechanism, i);
+        w.free_rad[i] = fw_effects_pin_deflection(o->mechanism, i);
     for (size_t j = 0; j < m; j++)
         w.mode[j].v = o->velocity[j];
-    FW_TRY(fw_pushes_breaks(arena, o, pushes, &t_s, &count));
+    FW_TRY(fw_effects_modal_loads_breaks(arena, o, modal_loads, &t_s, &count));
     w.constant = true;
-    for (int i = 0; i < pushes->count; i++)
-        w.constant = w.constant && !pushes->item[i].law && !pushes->item[i].element;
+    for (int i = 0; i < modal_loads->count; i++)
+        w.constant = w.constant && !modal_loads->item[i].law && !modal_loads->item[i].element;
     if (w.constant) {
         forces(&w, 0, 0, w.left);
         forces(&w, 0, 0, w.middle);

@@ -7,14 +7,14 @@
 
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->mechanism->nhinge; i++)
-        if (fw_hinge_flexes(c, i)) return true;
+        if (fw_effects_hinge_flexes(c, i)) return true;
     return false;
 }
 
 static int count(const fw_effect_case *c) {
     int n = 0;
     for (int i = 0; i < c->mechanism->nhinge; i++)
-        n += fw_hinge_flexes(c, i);
+        n += fw_effects_hinge_flexes(c, i);
     return n;
 }
 
@@ -24,8 +24,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     const char *why;
     *value = (double)INFINITY;
     *reason = "conjugate surfaces may touch, which needs the hinge to give: kept";
-    if (c->scene->ncontact > 0 && fw_contact_may_touch(c)) return FW_OK;
-    FW_TRY(fw_hinge_give_bound(c, value, &why));
+    if (c->scene->ncontact > 0 && fw_effects_contact_may_touch(c)) return FW_OK;
+    FW_TRY(fw_effects_hinge_give_bound(c, value, &why));
     *reason = "flexures give and drift: peaks of the linear motion with pins and with hinges that "
               "give, and what the hinges do besides";
     if (why)
@@ -40,7 +40,7 @@ const fw_effect_row fw_effect_nonlinear_hinge = {
     .summary = "what flexures do besides turning: their axis drifts, forces displace it",
     .called_for = called_for,
     .bound = bound,
-    .add = fw_hinges_flex,
+    .add = fw_effects_hinges_flex,
     .cost = 665,
     .count = count,
     .solid = FW_EFFECTS_SOLID_HAS};

@@ -22,9 +22,9 @@ enum { CELLS_LEAST = 256, CELLS_MOST = 16384, PIECES_MOST = 64, MODES_MOST = 120
 static const double step_rad = 0.25, followed_rad = 0.5, bend_most = 0.01;
 
 typedef struct walk {
-    const fw_modal *o;
-    const fw_pushes *pushes;
-    fw_peaks *out;
+    const fw_effects_modal *o;
+    const fw_effects_modal_loads *modal_loads;
+    fw_effects_peaks *out;
     size_t m, pins;
     double *left, *middle, *right, *sup; /* (modes) forces */
     double *z, *next;                    /* (2 modes) */
@@ -32,7 +32,7 @@ typedef struct walk {
     double *leap, *power, *square;       /* (2 modes)^2 */
     double *rapid;              /* (modes) amplitude of a mode that is not followed, or 0 */
     double *start, *start_rate; /* (npin) followed part at the left of the cell */
-    const fw_peaks_source *source;
+    const fw_effects_peaks_source *source;
     double *load, *q, *kept; /* (modes), (modes), (4 modes): for the source */
     double h;                /* of leap */
     double bend;
@@ -54,7 +54,7 @@ static void multiply(size_t n, const double *a, const double *b, double *out) {
 
 /* leap = exp([0 W; -W -C] h): Taylor to 14 of the 2^-s part, norm below 1/4, squared s times */
 static void leap_of(walk *w, double h) {
-    const fw_modal *o = w->o;
+    const fw_effects_modal *o = w->o;
     size_t m = w->m, n = 2 * m;
     double norm = 0;
     for (size_t i = 0; i < m; i++) {
@@ -92,13 +92,13 @@ static void leap_of(walk *w, double h) {
 
 static void forces(walk *w, double t_s, double piece_s, double *out) {
     memset(out, 0, w->m * sizeof *out);
-    for (int i = 0; i < w->pushes->count; i++)
-        fw_push_at(w->o, w->pushes, &w->pushes->item[i], t_s, piece_s, out);
+    for (int i = 0; i < w->modal_loads->count; i++)
+        fw_effects_modal_load_at(w->o, w->modal_loads, &w->modal_loads->item[i], t_s, piece_s, out);
 }
 
 /* the ring as the cell begins: z less what the equilibrium has leapt by */
 static void enter(walk *w, double h) {
-    const fw_modal *o = w->o;
+    const fw_effects_modal *o = w->o;
     for (size_t j = 0; j < w->m; j++) {
         double k = o->omega[j] * o->omega[j], lag = 0, slope = (w->right[j] - w->left[j]) / h / k;
         for (size_t l = 0; l < w->m; l++)
@@ -167,8 +167,8 @@ typedef struct view {
 } view;
 
 static view look(const walk *w, size_t pin) {
-    const fw_modal *o = w->o;
-    double drawn = fw_pin_deflection(o->mechanism, (int)pin);
+    const fw_effects_modal *o = w->o;
+    double drawn = fw_effects_pin_deflection(o->mechanism, (int)pin);
     view v = {drawn, drawn, drawn, 0};
     for (size_t j = 0; j < w->m; j++) {
         double turn = o->turn[j * w->pins + pin], r = w->z[j] / o->omega[j];
@@ -270,8 +270,8 @@ static void add_rapid(walk *w, const double *amplitude) {
     }
 }
 
-static fw_status new_peaks(fw_arena *arena, size_t modes, size_t pins, fw_peaks *peaks) {
-    *peaks = (fw_peaks){0};
+static fw_status new_peaks(fw_arena *arena, size_t modes, size_t pins, fw_effects_peaks *peaks) {
+    *peaks = (fw_effects_peaks){0};
     FW_NEED(peaks->low = fw_arena_array(arena, double, pins));
     FW_NEED(peaks->high = fw_arena_array(arena, double, pins));
     FW_NEED(peaks->still = fw_arena_array(arena, double, pins));
@@ -281,10 +281,12 @@ static fw_status new_peaks(fw_arena *arena, size_t modes, size_t pins, fw_peaks 
     return FW_OK;
 }
 
-fw_status fw_peaks_find(fw_arena *arena, const fw_modal *o, const fw_pushes *pushes, double fastest,
-                        const double *amplitude, const fw_peaks_source *source, fw_peaks *peaks) {
+fw_status fw_effects_peaks_find(fw_arena *arena, const fw_effects_modal *o,
+                                const fw_effects_modal_loads *modal_loads, double fastest,
+                                const double *amplitude, const fw_effects_peaks_source *source,
+                                fw_effects_peaks *peaks) {
     walk w = {.o = o,
-              .pushes = pushes,
+              .modal_loads = modal_loads,
               .out = peaks,
               .source = source,
               .m = (size_t)o->modes,
@@ -295,7 +297,7 @@ fw_status fw_peaks_find(fw_arena *arena, const fw_modal *o, const fw_pushes *pus
     FW_TRY(new_peaks(arena, w.m, w.pins, peaks));
     if (o->modes > MODES_MOST) peaks->why_not = "it has too many modes";
     fw_mark mark = fw_arena_mark(arena);
-    FW_TRY(fw_pushes_breaks(arena, o, pushes, &t_s, &count));
+    FW_TRY(fw_effects_modal_loads_breaks(arena, o, modal_loads, &t_s, &count));
     if (count < 0 || count > PIECES_MOST) peaks->why_not = "its loads break too often";
     if (peaks->why_not) return FW_OK;
     FW_TRY(room(arena, &w));

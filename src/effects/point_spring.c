@@ -18,11 +18,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 }
 
 /* force k (l - l0) + c l' along the line between the two points; a cable only pulls */
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->nspring; i++) {
-        const fw_spring *s = &c->mechanism->spring[i];
+        const fw_device_spring *s = &c->mechanism->spring[i];
         if (s->stiffness_N_per_m > 0 || s->damping_Ns_per_m > 0)
-            terms->spring[terms->nspring++] = *s;
+            loads->spring[loads->nspring++] = *s;
     }
     return FW_OK;
 }

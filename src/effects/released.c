@@ -8,18 +8,20 @@
 #include "effects/modal.h"
 #include <math.h>
 
-static void drawn_place(const fw_mechanism *m, const fw_port *p, double *at, fw_vec2 *arm) {
-    fw_vec2 w = fw_local_place(m, p->body, p->x_m, p->y_m);
+static void drawn_place(const fw_mechanism *m, const fw_effects_port *p, double *at,
+                        fw_geometry_vec2 *arm) {
+    fw_geometry_vec2 w = fw_mechanism_local_place(m, p->body, p->x_m, p->y_m);
     at[0] = w.x, at[1] = w.y, at[2] = 0;
     *arm = w;
     if (p->body == FW_GROUND) return;
-    const fw_mass *b = &m->body[p->body];
+    const fw_mechanism_mass *b = &m->body[p->body];
     at[2] = b->phi_rad;
-    *arm = (fw_vec2){w.x - b->x_m, w.y - b->y_m};
+    *arm = (fw_geometry_vec2){w.x - b->x_m, w.y - b->y_m};
 }
 
 /* places of both ports and turns of both bodies in a mode */
-static void seen_in(const fw_force_element *e, const fw_vec2 *arm, const double *shape, double *u) {
+static void seen_in(const fw_effects_force_element *e, const fw_geometry_vec2 *arm,
+                    const double *shape, double *u) {
     for (int side = 0; side < 2; side++) {
         int b = e->port[side].body;
         double x = 0, y = 0, phi = 0;
@@ -30,13 +32,13 @@ static void seen_in(const fw_force_element *e, const fw_vec2 *arm, const double 
     }
 }
 
-static void open_one(fw_modal *o, const fw_force_element *e) {
+static void open_one(fw_effects_modal *o, const fw_effects_force_element *e) {
     double p[6], w[6] = {0}, k[36], c[36], u[6];
-    fw_vec2 arm[2];
+    fw_geometry_vec2 arm[2];
     size_t pins = (size_t)o->mechanism->npin, n = (size_t)o->n;
     for (int side = 0; side < 2; side++)
         drawn_place(o->mechanism, &e->port[side], p + 3 * side, &arm[side]);
-    const fw_seen s = {.load = 1, .p = p, .w = w};
+    const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
     e->class_->tangent(e, &s, k, c);
     for (size_t j = 0; j < (size_t)o->modes; j++) {
         double *open = o->open + 2 * (j * pins + (size_t)e->pin);
@@ -50,17 +52,17 @@ static void open_one(fw_modal *o, const fw_force_element *e) {
     }
 }
 
-fw_status fw_modal_open(fw_arena *arena, fw_modal *o) {
+fw_status fw_effects_modal_open(fw_arena *arena, fw_effects_modal *o) {
     size_t size = 2 * (size_t)o->modes * (size_t)o->mechanism->npin;
     FW_NEED(o->open = fw_arena_array(arena, double, size));
     FW_NEED(o->pull = fw_arena_array(arena, double, size));
-    for (int i = 0; i < o->terms->nelement; i++)
-        if (o->terms->element[i].pin != FW_NONE && o->terms->element[i].ports == 2)
-            open_one(o, &o->terms->element[i]);
+    for (int i = 0; i < o->loads->nelement; i++)
+        if (o->loads->element[i].pin != FW_NONE && o->loads->element[i].ports == 2)
+            open_one(o, &o->loads->element[i]);
     return FW_OK;
 }
 
-void fw_modal_pulls(const fw_modal *o, const double *force, double *pull) {
+void fw_effects_modal_pulls(const fw_effects_modal *o, const double *force, double *pull) {
     size_t n = (size_t)o->n, size = 2 * (size_t)o->mechanism->npin;
     for (size_t i = 0; i < size; i++)
         pull[i] = 0;
@@ -73,16 +75,17 @@ void fw_modal_pulls(const fw_modal *o, const double *force, double *pull) {
     }
 }
 
-double fw_modal_turning(const fw_modal *o, const double *pull, int row, int column) {
+double fw_effects_modal_turning(const fw_effects_modal *o, const double *pull, int row,
+                                int column) {
     const double *left = o->shape + (size_t)row * (size_t)o->n;
     const double *right = o->shape + (size_t)column * (size_t)o->n;
     double sum = 0;
-    for (int i = 0; i < o->terms->nelement && o->terms->nreleased > 0; i++) {
-        const fw_force_element *e = &o->terms->element[i];
+    for (int i = 0; i < o->loads->nelement && o->loads->nreleased > 0; i++) {
+        const fw_effects_force_element *e = &o->loads->element[i];
         for (int side = 0; side < 2 && e->pin != FW_NONE && e->ports == 2; side++) {
             int b = e->port[side].body;
             double at[3];
-            fw_vec2 arm;
+            fw_geometry_vec2 arm;
             if (b == FW_GROUND) continue;
             drawn_place(o->mechanism, &e->port[side], at, &arm);
             double work = arm.x * pull[2 * e->pin] + arm.y * pull[2 * e->pin + 1];

@@ -17,7 +17,7 @@ static bool called_for(const fw_effect_case *c) {
 /* (1 - nu)/E of the layer, 1/Pa; NaN where it is not known */
 static double compliance(const fw_mechanism *m) {
     if (!m->variant) return (double)NAN;
-    const fw_material *of = &m->variant->material;
+    const fw_device_material *of = &m->variant->material;
     if (of->youngs.unknown || of->poisson.unknown || !(of->youngs.value > 0)) return (double)NAN;
     return (1 - of->poisson.value) / of->youngs.value;
 }
@@ -40,26 +40,26 @@ static released released_by(const fw_effect_case *c) {
 
 typedef struct points { /* of all joints, local, body after body */
     int *first;         /* (nbody + 1) */
-    fw_vec2 *at;
+    fw_geometry_vec2 *at;
 } points;
 
 /* fill NULL: only counted */
 static void put_point(points *p, int body, double x_m, double y_m, int *fill) {
     if (body == FW_GROUND) return;
     if (fill)
-        p->at[fill[body]++] = (fw_vec2){x_m, y_m};
+        p->at[fill[body]++] = (fw_geometry_vec2){x_m, y_m};
     else
         p->first[body + 1]++;
 }
 
 static void put_points(const fw_mechanism *m, points *p, int *fill) {
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *from = &m->pin[i];
+        const fw_mechanism_pin *from = &m->pin[i];
         put_point(p, from->body_a, from->ax_m, from->ay_m, fill);
         put_point(p, from->body_b, from->bx_m, from->by_m, fill);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *from = &m->tie[i];
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *from = &m->joint[i];
         put_point(p, from->body_a, from->ax_m, from->ay_m, fill);
         put_point(p, from->body_b, from->bx_m, from->by_m, fill);
     }
@@ -75,7 +75,7 @@ static fw_status find_extents(fw_arena *arena, const fw_mechanism *m, double *ex
     put_points(m, &p, NULL);
     for (size_t b = 0; b < n; b++)
         fill[b] = p.first[b], p.first[b + 1] += p.first[b];
-    FW_NEED(p.at = fw_arena_array(arena, fw_vec2, (size_t)p.first[n]));
+    FW_NEED(p.at = fw_arena_array(arena, fw_geometry_vec2, (size_t)p.first[n]));
     put_points(m, &p, fill);
     for (size_t b = 0; b < n; b++)
         for (int i = p.first[b]; i < p.first[b + 1]; i++)
@@ -155,10 +155,10 @@ static fw_status add_strain(const fw_effect_case *c, double *strain) {
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     if (isnan(released_by(c).strain)) return FW_OK; /* not known: see check */
-    terms->strained = true;
-    return add_strain(c, terms->strain);
+    loads->strained = true;
+    return add_strain(c, loads->strain);
 }
 
 /* by the envelope: envelope_strain.c. Test: test_bounds.c */
@@ -173,7 +173,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         double *strains;
         FW_NEED(strains = fw_arena_array(c->arena, double, (size_t)c->mechanism->nbody + 1));
         FW_TRY(add_strain(c, strains));
-        FW_TRY(fw_envelope_strain(c, strains, NULL, value));
+        FW_TRY(fw_effects_envelope_strain(c, strains, NULL, value));
     }
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
@@ -184,7 +184,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->nstress; i++)
         fw_effects_say(to, "; residual stress {u}", s->stress[i].mean_Pa, "Pa");

@@ -7,25 +7,25 @@
    for it. Inputs SI; outputs displacement (3 nbody) in m and rad, rotation (npin) in rad. Cost the
    cube of 3 nbody + the rows of joints and drivers, over 3. Source: standard static condensation
    of a constrained system. Test: test_effects.c. */
-fw_status fw_static_response(fw_arena *arena, const fw_mechanism *m, const fw_terms *terms,
-                             const double *force, double *displacement, double *rotation,
-                             bool *valid) {
-    int total = fw_linear_size(m, terms);
+fw_status fw_effects_static_response(fw_arena *arena, const fw_mechanism *m,
+                                     const fw_effects_loads *loads, const double *force,
+                                     double *displacement, double *rotation, bool *valid) {
+    int total = fw_effects_linear_size(m, loads);
     *valid = false;
     if (total > FW_RESPONSE_MOST || total == 0) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
-    fw_linear s;
+    fw_effects_linear s;
     bool elastic;
-    FW_TRY(fw_linear_new(arena, m, terms, &s, &elastic));
+    FW_TRY(fw_effects_linear_new(arena, m, loads, &s, &elastic));
     if (elastic) {
         double *x, *f;
         FW_NEED(x = fw_arena_array(arena, double, (size_t)total));
         FW_NEED(f = fw_arena_array(arena, double, (size_t)s.n));
         for (int i = 0; i < s.n; i++)
-            f[i] = force[i] / fw_linear_force_unit(&s, i);
-        FW_TRY(fw_linear_solve(arena, &s, f, x, valid));
+            f[i] = force[i] / fw_effects_linear_force_unit(&s, i);
+        FW_TRY(fw_effects_linear_solve(arena, &s, f, x, valid));
         for (int i = 0; i < s.n; i++) {
-            displacement[i] = x[i] * fw_linear_unit(&s, i);
+            displacement[i] = x[i] * fw_effects_linear_unit(&s, i);
             *valid = *valid && isfinite(displacement[i]);
         }
         for (int i = 0; i < m->npin; i++) {

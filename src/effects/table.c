@@ -162,10 +162,10 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
     double sum = 0;
     for (int i = 0; i < ROWS; i++) {
         seen[i] = !entry[i].called_for || (calm && rows[i]->calms);
-        if (!seen[i] && fw_hinge_forced(rows[i]->id, choice->hinge, &in)) {
+        if (!seen[i] && fw_effects_hinge_forced(rows[i]->id, choice->hinge, &in)) {
             seen[i] = true;
             entry[i].active = in;
-            entry[i].reason = fw_hinge_forced_reason(choice);
+            entry[i].reason = fw_effects_hinge_forced_reason(choice);
         }
         if (calm && rows[i]->calms && entry[i].called_for) {
             entry[i].active = true;
@@ -230,8 +230,8 @@ static void decide_asked(const fw_effect_case *c, const fw_effect_choice *choice
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &entry[i];
         if (!e->called_for) continue;
-        if (fw_hinge_forced(e->id, choice->hinge, &e->active)) {
-            e->reason = fw_hinge_forced_reason(choice);
+        if (fw_effects_hinge_forced(e->id, choice->hinge, &e->active)) {
+            e->reason = fw_effects_hinge_forced_reason(choice);
             continue;
         }
         bool in = all || (list && listed(choice->list, e->id)), stays = belongs(c, rows[i], e);
@@ -262,23 +262,24 @@ void fw_effects_in_equilibrium(fw_effect_ledger *ledger) {
 }
 
 /* the envelope is worth its cost only where something could be left out */
-static fw_status look_around(const fw_effect_case *c, fw_envelope *envelope) {
+static fw_status look_around(const fw_effect_case *c, fw_effects_envelope *envelope) {
     for (int i = 0; i < ROWS; i++)
         if (!rows[i]->kept && rows[i]->called_for(c))
-            return fw_envelope_find(c->arena, c->mechanism, c->scene, envelope);
+            return fw_effects_envelope_find(c->arena, c->mechanism, c->scene, envelope);
     return FW_OK;
 }
 
-fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                             const fw_effect_choice *choice, double accuracy, fw_diags *diags,
-                             fw_effect_ledger *ledger, fw_terms *terms) {
-    fw_envelope envelope = {.why_not = "no effect asked for it"};
+fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
+                             const fw_device_scene *scene, const fw_effect_choice *choice,
+                             double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
+                             fw_effects_loads *loads) {
+    fw_effects_envelope envelope = {.why_not = "no effect asked for it"};
     const fw_effect_case c = {arena, mechanism, scene, &envelope, diags};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
     ledger->left_out = 0;
-    FW_TRY(fw_terms_new(arena, mechanism, scene, terms));
+    FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
     FW_TRY(look_around(&c, &envelope));
     FW_TRY(find_bounds(&c, choice, accuracy, ledger->item));
@@ -290,14 +291,14 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism, con
         fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
         bool forced, was;
-        forced = fw_hinge_forced(e->id, choice->hinge, &was);
+        forced = fw_effects_hinge_forced(e->id, choice->hinge, &was);
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced)
             ledger->left_out += e->bound;
         if (e->active) {
             if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
-            FW_TRY(rows[i]->add(&c, terms));
+            FW_TRY(rows[i]->add(&c, loads));
         } else if (e->called_for && rows[i]->leave_out)
-            FW_TRY(rows[i]->leave_out(&c, terms));
+            FW_TRY(rows[i]->leave_out(&c, loads));
     }
-    return fw_hinge_settle(&c, choice, ledger, terms);
+    return fw_effects_hinge_settle(&c, choice, ledger, loads);
 }

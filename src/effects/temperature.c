@@ -26,7 +26,7 @@ static double stated_or(double stated, const fw_mechanism *m, bool modulus) {
 }
 
 /* likewise of what the layer is anchored to */
-static double substrate_of(const fw_temperature *t, const fw_mechanism *m) {
+static double substrate_of(const fw_device_temperature *t, const fw_mechanism *m) {
     if (!isnan(t->substrate_expansion_per_K)) return t->substrate_expansion_per_K;
     if (!m->variant || m->variant->substrate_expansion.unknown) return (double)NAN;
     return m->variant->substrate_expansion.value;
@@ -40,20 +40,20 @@ static bool has_hinge(const fw_mechanism *m) {
 
 /* of the ground against the device where the law is 1: (1 + alpha_s dT)/(1 + alpha dT) - 1, about
    -(alpha - alpha_s) dT */
-static double ground_strain(const fw_mechanism *m, const fw_temperature *t) {
+static double ground_strain(const fw_mechanism *m, const fw_device_temperature *t) {
     double own = stated_or(t->expansion_per_K, m, false) * t->change_K;
     double substrate = substrate_of(t, m) * t->change_K;
     return (substrate - own) / (1 + own);
 }
 
 /* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */
-static double softening(const fw_mechanism *m, const fw_temperature *t) {
+static double softening(const fw_mechanism *m, const fw_device_temperature *t) {
     return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
 }
 
 /* ---- what cannot be ---- */
 
-static fw_status unknown(const fw_temperature *t, fw_diags *diags, const char *what,
+static fw_status unknown(const fw_device_temperature *t, fw_diags *diags, const char *what,
                          const char *attribute) {
     return fw_diag_error(diags, 253, t->place,
                          "the %s that this temperature needs is not known for the material; state "
@@ -62,29 +62,29 @@ static fw_status unknown(const fw_temperature *t, fw_diags *diags, const char *w
 }
 
 /* a time where the law jumps within the scene; NaN: it does not */
-static fw_status jump(fw_arena *arena, const fw_law *law, double end_s, double *at_s) {
+static fw_status jump(fw_arena *arena, const fw_quantity_law *law, double end_s, double *at_s) {
     *at_s = (double)NAN;
-    int n = fw_law_breaks(law, end_s, NULL, 0);
+    int n = fw_quantity_law_breaks_of(law, end_s, NULL, 0);
     double *at, before[3], behind[3];
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(at = fw_arena_array(arena, double, (size_t)n + 2));
-    fw_law_breaks(law, end_s, at + 1, n);
+    fw_quantity_law_breaks_of(law, end_s, at + 1, n);
     fw_sort_doubles(at + 1, (size_t)n);
     at[n + 1] = end_s;
     for (int i = 1; i <= n && isnan(*at_s); i++) {
-        fw_law_value(law, at[i], 0.5 * (at[i - 1] + at[i]), before);
-        fw_law_value(law, at[i], 0.5 * (at[i] + at[i + 1]), behind);
+        fw_quantity_law_value(law, at[i], 0.5 * (at[i - 1] + at[i]), before);
+        fw_quantity_law_value(law, at[i], 0.5 * (at[i] + at[i + 1]), behind);
         if (fabs(behind[0] - before[0]) > 1e-9 * fmax(1, fabs(behind[0]))) *at_s = at[i];
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }
 
-static fw_status check_law(const fw_effect_case *c, const fw_temperature *t, int *laws,
+static fw_status check_law(const fw_effect_case *c, const fw_device_temperature *t, int *laws,
                            fw_diags *diags) {
     double at;
     char time[32];
-    if (fw_law_is_constant(t->law)) return FW_OK;
+    if (fw_quantity_law_is_constant(t->law)) return FW_OK;
     if (++*laws > 1)
         return fw_diag_error(diags, 252, t->place,
                              "a scene can have one temperature with a law; put the changes into "
@@ -102,7 +102,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     double least = 1;
     int laws = 0;
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
+        const fw_device_temperature *t = &c->scene->temperature[i];
         if (t->change_K == 0) continue;
         double soft = softening(c->mechanism, t);
         if (isnan(ground_strain(c->mechanism, t)))
@@ -111,7 +111,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
             return unknown(t, diags, "change of Young's modulus",
                            "modulus-change (0 where it does not matter)");
         FW_TRY(check_law(c, t, &laws, diags));
-        least -= fabs(soft) * fw_law_largest(t->law, c->scene->duration_s);
+        least -= fabs(soft) * fw_quantity_law_largest(t->law, c->scene->duration_s);
         if (!(least > 0))
             return fw_diag_error(diags, 252, t->place,
                                  "at this temperature the linear modulus-change would reduce "
@@ -132,12 +132,12 @@ typedef struct sizes {     /* of all temperatures of the scene */
 static sizes sizes_of(const fw_effect_case *c) {
     sizes s = {0};
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
+        const fw_device_temperature *t = &c->scene->temperature[i];
         if (t->change_K == 0) continue;
-        double largest = fw_law_largest(t->law, c->scene->duration_s);
+        double largest = fw_quantity_law_largest(t->law, c->scene->duration_s);
         double own = stated_or(t->expansion_per_K, c->mechanism, false) * t->change_K;
         double part = fabs(softening(c->mechanism, t)) * largest;
-        *(fw_law_is_constant(t->law) ? &s.soft : &s.changing) += part;
+        *(fw_quantity_law_is_constant(t->law) ? &s.soft : &s.changing) += part;
         s.strain += fabs(ground_strain(c->mechanism, t)) * largest;
         if (!isnan(own)) s.common += fabs(own) * largest;
     }
@@ -151,17 +151,17 @@ static fw_status strain_bound(const fw_effect_case *c, double *value) {
     *value = 0;
     FW_NEED(strain = fw_arena_array(c->arena, double, (size_t)n + 1));
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
-        if (t->change_K != 0 && fw_law_is_constant(t->law))
+        const fw_device_temperature *t = &c->scene->temperature[i];
+        if (t->change_K != 0 && fw_quantity_law_is_constant(t->law))
             strain[n] += ground_strain(c->mechanism, t);
     }
-    if (strain[n] != 0) FW_TRY(fw_envelope_strain(c, strain, NULL, &one));
+    if (strain[n] != 0) FW_TRY(fw_effects_envelope_strain(c, strain, NULL, &one));
     *value += one;
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
+        const fw_device_temperature *t = &c->scene->temperature[i];
         strain[n] = t->change_K != 0 ? ground_strain(c->mechanism, t) : 0;
-        if (strain[n] == 0 || fw_law_is_constant(t->law)) continue;
-        FW_TRY(fw_envelope_strain(c, strain, t->law, &one));
+        if (strain[n] == 0 || fw_quantity_law_is_constant(t->law)) continue;
+        FW_TRY(fw_effects_envelope_strain(c, strain, t->law, &one));
         *value += one;
     }
     return FW_OK;
@@ -180,8 +180,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     if (c->envelope && c->envelope->valid && isfinite(s.soft + s.changing + s.strain)) {
         double left = 1 - s.soft - s.changing;
         FW_TRY(strain_bound(c, value));
-        *value += left > 0 ? fw_envelope_stiffness(c, s.soft / left) +
-                                 fw_envelope_varying(c, s.changing / left)
+        *value += left > 0 ? fw_effects_envelope_stiffness(c, s.soft / left) +
+                                 fw_effects_envelope_varying(c, s.changing / left)
                            : (double)INFINITY;
     }
     if (isfinite(*value))
@@ -205,28 +205,29 @@ typedef struct change {
     double k_Nm_per_rad, free_rad; /* k beta dT */
 } change;
 
-static double stiffer(const fw_force_element *e, const fw_seen *s, double *rate) {
+static double stiffer(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                      double *rate) {
     const change *d = e->data;
     double law[3];
-    fw_law_value(e->law[0], s->t_s, s->piece_s, law);
+    fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, law);
     *rate = d->k_Nm_per_rad * law[1];
     return d->k_Nm_per_rad * law[0];
 }
 
-static double bent(const fw_force_element *e, const fw_seen *s) {
+static double bent(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const change *d = e->data;
     return s->p[5] - s->p[2] - d->free_rad;
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     double rate, torque = stiffer(e, s, &rate) * bent(e, s);
     for (int i = 0; i < 6; i++)
         f[i] = 0;
     f[2] = torque, f[5] = -torque;
 }
 
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
     double rate, k = stiffer(e, s, &rate);
     for (int i = 0; i < 36; i++)
         stiffness[i] = damping[i] = 0;
@@ -234,27 +235,29 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     stiffness[2 * 6 + 5] = stiffness[5 * 6 + 2] = -k;
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     double rate, angle = bent(e, s);
     return 0.5 * stiffer(e, s, &rate) * angle * angle;
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double out[2]) {
     double rate, angle = bent(e, s);
     stiffer(e, s, &rate);
     out[0] = 0;
     out[1] = 0.5 * rate * angle * angle;
 }
 
-static const fw_element_class modulus_class = {
+static const fw_effects_element_class modulus_class = {
     .effect = "temperature", .force = force, .tangent = tangent, .energy = energy, .power = power};
 
 /* ---- what acts ---- */
 
-static fw_status add_changing_modulus(const fw_effect_case *c, fw_terms *terms,
-                                      const fw_temperature *t, const fw_torsion *on) {
+static fw_status add_changing_modulus(const fw_effect_case *c, fw_effects_loads *loads,
+                                      const fw_device_temperature *t,
+                                      const fw_effects_torsion *on) {
     change *data = fw_arena_one(c->arena, change);
-    fw_force_element *e = fw_terms_add_element(c->arena, terms, &modulus_class, 2);
+    fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &modulus_class, 2);
     FW_NEED(data && e);
     data->k_Nm_per_rad = softening(c->mechanism, t) * on->stiffness_Nm_per_rad;
     data->free_rad = on->free_angle_rad;
@@ -267,42 +270,44 @@ static fw_status add_changing_modulus(const fw_effect_case *c, fw_terms *terms,
     return FW_OK;
 }
 
-/* The flexures among the terms: springs of ideal pins, which joint-elasticity has put there, and
+/* The flexures among the loads: springs of ideal pins, which joint-elasticity has put there, and
    elements that stand for a pin, whose spring is theirs. */
-static fw_status add_modulus(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add_modulus(const fw_effect_case *c, fw_effects_loads *loads) {
     double part = 0;
-    const fw_temperature *changing = NULL;
+    const fw_device_temperature *changing = NULL;
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
+        const fw_device_temperature *t = &c->scene->temperature[i];
         if (!(fabs(softening(c->mechanism, t)) > 0)) continue;
-        if (fw_law_is_constant(t->law))
+        if (fw_quantity_law_is_constant(t->law))
             part += softening(c->mechanism, t);
         else
             changing = t;
     }
-    for (int i = 0; i < terms->ntorsion; i++) {
-        fw_torsion *on = &terms->torsion[i];
+    for (int i = 0; i < loads->ntorsion; i++) {
+        fw_effects_torsion *on = &loads->torsion[i];
         if (c->mechanism->pin[on->pin].hinge == FW_NONE || !(on->stiffness_Nm_per_rad > 0))
             continue;
-        if (changing) FW_TRY(add_changing_modulus(c, terms, changing, on));
+        if (changing) FW_TRY(add_changing_modulus(c, loads, changing, on));
         on->stiffness_Nm_per_rad *= 1 + part;
     }
-    return fw_hinges_warm(c->arena, terms, part, changing ? softening(c->mechanism, changing) : 0,
-                          changing ? changing->law : NULL);
+    return fw_effects_hinges_warm(c->arena, loads, part,
+                                  changing ? softening(c->mechanism, changing) : 0,
+                                  changing ? changing->law : NULL);
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->ntemperature; i++) {
-        const fw_temperature *t = &c->scene->temperature[i];
+        const fw_device_temperature *t = &c->scene->temperature[i];
         double strain = t->change_K != 0 ? ground_strain(c->mechanism, t) : 0;
         if (!(fabs(strain) > 0)) continue; /* none, or not known: see check */
-        if (fw_law_is_constant(t->law)) {
-            terms->strain[terms->nbody] += strain;
-            terms->strained = true;
+        if (fw_quantity_law_is_constant(t->law)) {
+            loads->strain[loads->nbody] += strain;
+            loads->strained = true;
         } else
-            terms->stretch = (fw_stretch){strain, fw_ground_centre(c->mechanism), t->law};
+            loads->stretch =
+                (fw_effects_stretch){strain, fw_mechanism_ground_centre(c->mechanism), t->law};
     }
-    return add_modulus(c, terms);
+    return add_modulus(c, loads);
 }
 
 /* which substrate is meant, behind the reason */
@@ -322,13 +327,14 @@ static int count(const fw_effect_case *c) {
     int hinges = 0;
     for (int i = 0; i < c->scene->ntemperature; i++)
         for (int k = 0; k < c->mechanism->npin; k++)
-            if (!fw_law_is_constant(c->scene->temperature[i].law) &&
+            if (!fw_quantity_law_is_constant(c->scene->temperature[i].law) &&
                 c->mechanism->pin[k].hinge != FW_NONE)
                 hinges++;
     return hinges;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->ntemperature; i++) {
         fw_effects_say(to, "; temperature changed by {n} K", s->temperature[i].change_K);

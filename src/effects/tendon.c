@@ -31,11 +31,11 @@ typedef struct tendon {
 } tendon;
 
 /* factor of the actuation and its rate */
-typedef struct pace {
+typedef struct modal_speed {
     double factor, rate_per_s;
-} pace;
+} modal_speed;
 
-static const tendon *data_of(const fw_force_element *e) {
+static const tendon *data_of(const fw_effects_force_element *e) {
     return e->data;
 }
 
@@ -43,10 +43,11 @@ static bool pulled(const tendon *d) {
     return !isnan(d->pull_N);
 }
 
-static pace pace_of(const fw_force_element *e, const fw_seen *s) {
+static modal_speed modal_speed_of(const fw_effects_force_element *e,
+                                  const fw_effects_port_state *s) {
     double value[3] = {1, 0, 0};
-    if (e->law[0]) fw_law_value(e->law[0], s->t_s, s->piece_s, value);
-    return (pace){value[0], s->still ? 0 : value[1]};
+    if (e->law[0]) fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, value);
+    return (modal_speed){value[0], s->still ? 0 : value[1]};
 }
 
 /* ---- the path ---- */
@@ -56,14 +57,15 @@ typedef struct segment { /* from eyelet i to i + 1 */
 } segment;
 
 /* points of a segment that are no farther apart than this coincide */
-static double round_off(const fw_port *port, const double *p) {
+static double round_off(const fw_effects_port *port, const double *p) {
     double reach = 0;
     for (int i = 0; i < 2; i++)
         reach += fabs(p[3 * i]) + fabs(p[3 * i + 1]) + fabs(port[i].x_m) + fabs(port[i].y_m);
     return 64 * DBL_EPSILON * reach;
 }
 
-static segment segment_of(const fw_force_element *e, const fw_seen *s, int i) {
+static segment segment_of(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          int i) {
     const double *p = s->p + 3 * i, *w = s->w + 3 * i;
     double dx = p[3] - p[0], dy = p[4] - p[1], wx = w[3] - w[0], wy = w[4] - w[1];
     double length = sqrt(dx * dx + dy * dy), size = length;
@@ -75,8 +77,8 @@ static segment segment_of(const fw_force_element *e, const fw_seen *s, int i) {
 }
 
 /* L and L'; grad (3 ports) may be NULL */
-static void path_of(const fw_force_element *e, const fw_seen *s, double *length, double *rate,
-                    double *grad) {
+static void path_of(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *length, double *rate, double *grad) {
     *length = *rate = 0;
     if (grad) memset(grad, 0, 3 * (size_t)e->ports * sizeof *grad);
     for (int i = 0; i + 1 < e->ports; i++) {
@@ -91,7 +93,7 @@ static void path_of(const fw_force_element *e, const fw_seen *s, double *length,
 }
 
 /* how far a drawn cable is stretched beyond its rest length, and how fast */
-static void stretch_of(const tendon *d, pace at, double load, double length, double rate,
+static void stretch_of(const tendon *d, modal_speed at, double load, double length, double rate,
                        double *stretch, double *speed) {
     *stretch = length + d->draw_m * at.factor * load - d->rest_m;
     *speed = rate + d->draw_m * at.rate_per_s * load;
@@ -100,9 +102,10 @@ static void stretch_of(const tendon *d, pace at, double load, double length, dou
 /* ---- the class ---- */
 
 /* T as the switch says: a cable that is held on may for the rest of a step push a little */
-static double tension(const fw_force_element *e, const fw_seen *s, double length, double rate) {
+static double tension(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                      double length, double rate) {
     const tendon *d = data_of(e);
-    pace at = pace_of(e, s);
+    modal_speed at = modal_speed_of(e, s);
     double stretch, speed;
     if (e->switches > 0 && !s->on[0]) return 0;
     if (pulled(d)) {
@@ -113,7 +116,7 @@ static double tension(const fw_force_element *e, const fw_seen *s, double length
     return d->k_N_per_m * stretch + d->c_Ns_per_m * speed;
 }
 
-static void force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     double length, rate;
     path_of(e, s, &length, &rate, f);
     double t = tension(e, s, length, rate);
@@ -122,8 +125,8 @@ static void force(const fw_force_element *e, const fw_seen *s, double *f) {
 }
 
 /* += T H, and, in `turned`, H w */
-static void geometric(const fw_force_element *e, const fw_seen *s, double t, double *stiffness,
-                      double *turned) {
+static void geometric(const fw_effects_force_element *e, const fw_effects_port_state *s, double t,
+                      double *stiffness, double *turned) {
     int n = 3 * e->ports;
     for (int i = 0; i + 1 < e->ports; i++) {
         segment g = segment_of(e, s, i);
@@ -145,8 +148,8 @@ static void geometric(const fw_force_element *e, const fw_seen *s, double t, dou
 }
 
 /* grad L and H w are kept in the first row of the two matrices while these are not yet needed */
-static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                    double *damping) {
+static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                    double *stiffness, double *damping) {
     const tendon *d = data_of(e);
     int n = 3 * e->ports;
     double length, rate;
@@ -168,33 +171,35 @@ static void tangent(const fw_force_element *e, const fw_seen *s, double *stiffne
     }
 }
 
-static double energy(const fw_force_element *e, const fw_seen *s) {
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const tendon *d = data_of(e);
     double length, rate, stretch, speed;
     if (pulled(d) || !s->on[0]) return 0;
     path_of(e, s, &length, &rate, NULL);
-    stretch_of(d, pace_of(e, s), s->load, length, rate, &stretch, &speed);
+    stretch_of(d, modal_speed_of(e, s), s->load, length, rate, &stretch, &speed);
     return 0.5 * d->k_N_per_m * stretch * stretch;
 }
 
-static void power(const fw_force_element *e, const fw_seen *s, double out[2]) {
+static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                  double out[2]) {
     const tendon *d = data_of(e);
     double length, rate, stretch, speed;
     path_of(e, s, &length, &rate, NULL);
     double t = tension(e, s, length, rate);
     out[0] = 0, out[1] = -t * rate;
     if (pulled(d)) return;
-    pace at = pace_of(e, s);
+    modal_speed at = modal_speed_of(e, s);
     stretch_of(d, at, s->load, length, rate, &stretch, &speed);
     if (s->on[0]) out[0] = d->c_Ns_per_m * speed * speed;
     out[1] = t * d->draw_m * at.rate_per_s * s->load;
 }
 
 /* the load factor never decides whether a pulled cable pulls: at 0 it is about to */
-static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
+static double switch_value(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                           int i) {
     (void)i;
     const tendon *d = data_of(e);
-    pace at = pace_of(e, s);
+    modal_speed at = modal_speed_of(e, s);
     double length, rate, stretch, speed;
     if (pulled(d)) return d->pull_N * at.factor;
     path_of(e, s, &length, &rate, NULL);
@@ -202,9 +207,9 @@ static double switch_value(const fw_force_element *e, const fw_seen *s, int i) {
     return fmin(d->k_N_per_m * stretch, d->k_N_per_m * stretch + d->c_Ns_per_m * speed);
 }
 
-static void slope(const fw_force_element *e, const fw_seen *s, double *f) {
+static void slope(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     const tendon *d = data_of(e);
-    pace at = pace_of(e, s);
+    modal_speed at = modal_speed_of(e, s);
     double length, rate, t;
     path_of(e, s, &length, &rate, f);
     if (pulled(d))
@@ -216,13 +221,13 @@ static void slope(const fw_force_element *e, const fw_seen *s, double *f) {
         f[i] *= -t;
 }
 
-static const fw_element_class tendon_class = {.effect = "tendon",
-                                              .force = force,
-                                              .tangent = tangent,
-                                              .energy = energy,
-                                              .power = power,
-                                              .switch_value = switch_value,
-                                              .slope = slope};
+static const fw_effects_element_class tendon_class = {.effect = "tendon",
+                                                      .force = force,
+                                                      .tangent = tangent,
+                                                      .energy = energy,
+                                                      .power = power,
+                                                      .switch_value = switch_value,
+                                                      .slope = slope};
 
 /* ---- the row ---- */
 
@@ -233,7 +238,7 @@ static bool called_for(const fw_effect_case *c) {
 /* Kept whatever it is. Of tendons that may go slack it says how far the motion without them, which
    the other bounds are made from, is from the one with them: tendon_slack.c */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
-    const fw_envelope *e = c->envelope;
+    const fw_effects_envelope *e = c->envelope;
     bool loose = e && e->valid && e->loose_pull > 0 && isfinite(e->loose_pull);
     *value = loose ? e->loose_pull : (double)INFINITY;
     *reason = loose ? "kept; bound: answer to the largest pull of those that may go slack, of any "
@@ -242,35 +247,36 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-static double path_as_drawn(const fw_mechanism *m, const fw_tendon *t) {
+static double path_as_drawn(const fw_mechanism *m, const fw_device_tendon *t) {
     double length = 0;
     for (int i = 0; i + 1 < t->neyelet; i++) {
-        const fw_eyelet *a = &t->eyelet[i], *b = a + 1;
-        fw_vec2 from = fw_local_place(m, a->body, a->x_m, a->y_m);
-        fw_vec2 to = fw_local_place(m, b->body, b->x_m, b->y_m);
+        const fw_device_eyelet *a = &t->eyelet[i], *b = a + 1;
+        fw_geometry_vec2 from = fw_mechanism_local_place(m, a->body, a->x_m, a->y_m);
+        fw_geometry_vec2 to = fw_mechanism_local_place(m, b->body, b->x_m, b->y_m);
         length += hypot(to.x - from.x, to.y - from.y);
     }
     return length;
 }
 
 /* a pull that its law only ever makes smaller never lets go, so that nothing has to be switched */
-static bool always_pulls(const fw_tendon *t) {
+static bool always_pulls(const fw_device_tendon *t) {
     return t->pull_N >= 0 && fw_quantity_law_never_negative(t->law);
 }
 
-static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *terms) {
+static fw_status add_one(const fw_effect_case *c, const fw_device_tendon *t,
+                         fw_effects_loads *loads) {
     tendon *d;
-    fw_force_element *e;
+    fw_effects_force_element *e;
     FW_NEED(d = fw_arena_one(c->arena, tendon));
-    FW_NEED(e = fw_terms_add_element(c->arena, terms, &tendon_class, t->neyelet));
-    double most = fw_law_largest(t->law, c->scene->duration_s);
+    FW_NEED(e = fw_effects_loads_add_element(c->arena, loads, &tendon_class, t->neyelet));
+    double most = fw_quantity_law_largest(t->law, c->scene->duration_s);
     *d = (tendon){.pull_N = t->pull_N};
     e->id = t->id ? t->id : "tendon";
     e->place = t->place;
     e->data = d;
     for (int i = 0; i < t->neyelet; i++)
-        e->port[i] = (fw_port){t->eyelet[i].body, t->eyelet[i].x_m, t->eyelet[i].y_m};
-    if (!fw_law_is_constant(t->law)) e->law[e->laws++] = t->law;
+        e->port[i] = (fw_effects_port){t->eyelet[i].body, t->eyelet[i].x_m, t->eyelet[i].y_m};
+    if (!fw_quantity_law_is_constant(t->law)) e->law[e->laws++] = t->law;
     e->works = true;
     if (pulled(d)) {
         e->switches = !always_pulls(t);
@@ -288,9 +294,9 @@ static fw_status add_one(const fw_effect_case *c, const fw_tendon *t, fw_terms *
     return FW_OK;
 }
 
-static fw_status add(const fw_effect_case *c, fw_terms *terms) {
+static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->scene->ntendon; i++)
-        FW_TRY(add_one(c, &c->scene->tendon[i], terms));
+        FW_TRY(add_one(c, &c->scene->tendon[i], loads));
     return FW_OK;
 }
 
@@ -298,10 +304,11 @@ static int count(const fw_effect_case *c) {
     return c->scene->ntendon;
 }
 
-static void describe(const fw_device *device, const fw_scene *s, const fw_effects_words *to) {
+static void describe(const fw_device *device, const fw_device_scene *s,
+                     const fw_effects_words *to) {
     (void)device;
     for (int i = 0; i < s->ntendon; i++) {
-        const fw_tendon *t = &s->tendon[i];
+        const fw_device_tendon *t = &s->tendon[i];
         const bool pulls = !isnan(t->pull_N);
         fw_effects_say(to, "; cable {s} {s} {u}", t->id, pulls ? "pulls with" : "taken in by",
                        pulls ? t->pull_N : t->draw_m, pulls ? "N" : "m");
@@ -309,7 +316,7 @@ static void describe(const fw_device *device, const fw_scene *s, const fw_effect
     }
 }
 
-static void loads(const fw_scene *s, fw_effects_loads *list) {
+static void loads(const fw_device_scene *s, fw_effects_load_scaling *list) {
     bool pulls = false, draws = false;
     for (int i = 0; i < s->ntendon; i++) {
         pulls = pulls || !isnan(s->tendon[i].pull_N);
@@ -320,7 +327,7 @@ static void loads(const fw_scene *s, fw_effects_loads *list) {
 }
 
 /* the one of the two that is not there (NaN) stays so */
-static void scale(fw_scene *s, double by) {
+static void scale(fw_device_scene *s, double by) {
     for (int i = 0; i < s->ntendon; i++) {
         s->tendon[i].pull_N *= by;
         s->tendon[i].draw_m *= by;

@@ -11,18 +11,20 @@ static double sinc(double x) {
 }
 
 /* s along a piece: the chord of an arc of angle k s is s sinc(k s/2), in the direction half way */
-static fw_beam_pose along(const fw_beam_pose *from, double curvature_per_m, double s_m) {
+static fw_flexure_beam_pose along(const fw_flexure_beam_pose *from, double curvature_per_m,
+                                  double s_m) {
     double half = 0.5 * curvature_per_m * s_m, chord = s_m * sinc(half);
-    return (fw_beam_pose){from->x_m + chord * cos(from->psi_rad + half),
-                          from->y_m + chord * sin(from->psi_rad + half), from->psi_rad + 2 * half};
+    return (fw_flexure_beam_pose){from->x_m + chord * cos(from->psi_rad + half),
+                                  from->y_m + chord * sin(from->psi_rad + half),
+                                  from->psi_rad + 2 * half};
 }
 
-static fw_beam_pose first(const fw_beam *b) {
-    return (fw_beam_pose){b->x_m, b->y_m, b->psi_rad};
+static fw_flexure_beam_pose first(const fw_flexure_beam *b) {
+    return (fw_flexure_beam_pose){b->x_m, b->y_m, b->psi_rad};
 }
 
-void fw_beam_poses(const fw_beam *b, fw_beam_pose *out) {
-    fw_beam_pose at = first(b);
+void fw_flexure_beam_poses(const fw_flexure_beam *b, fw_flexure_beam_pose *out) {
+    fw_flexure_beam_pose at = first(b);
     for (int i = 0; i < b->npiece; i++) {
         at.psi_rad += b->piece[i].kink_rad;
         out[i] = at;
@@ -31,7 +33,7 @@ void fw_beam_poses(const fw_beam *b, fw_beam_pose *out) {
     out[b->npiece] = at;
 }
 
-static double width_at(const fw_beam *b, int piece, double s_m) {
+static double width_at(const fw_flexure_beam *b, int piece, double s_m) {
     if (b->width) return b->width(b->context, piece, s_m);
     const double *w = b->piece[piece].width_m, z = s_m / b->piece[piece].length_m;
     double rise = w[2] - w[0], bow = 2 * (w[0] - 2 * w[1] + w[2]);
@@ -39,7 +41,7 @@ static double width_at(const fw_beam *b, int piece, double s_m) {
 }
 
 /* of 1/E, by both ends; those of the first and the last piece alone are felt there */
-static double lost_at(const fw_beam *b, int piece, double s_m) {
+static double lost_at(const fw_flexure_beam *b, int piece, double s_m) {
     double sum = 0;
     if (b->lost_per_Pa == 0) return 0;
     if (piece == 0) sum += exp(-s_m / b->lost_m);
@@ -47,8 +49,8 @@ static double lost_at(const fw_beam *b, int piece, double s_m) {
     return b->lost_per_Pa * sum;
 }
 
-void fw_beam_at(const fw_beam *b, int piece, const fw_beam_pose *start, double s_m,
-                fw_beam_section *out) {
+void fw_flexure_beam_at(const fw_flexure_beam *b, int piece, const fw_flexure_beam_pose *start,
+                        double s_m, fw_flexure_beam_section *out) {
     out->pose = along(start, b->piece[piece].curvature_per_m, s_m);
     double t = out->width_m = width_at(b, piece, s_m);
     double per_E =
@@ -64,7 +66,8 @@ void fw_beam_at(const fw_beam *b, int piece, const fw_beam_pose *start, double s
    shear strain add to xx, xy, yy */
 enum { W1, WX, WY, WXX, WXY, WYY, AXX, AXY, AYY, SUMS };
 
-static void add(const fw_beam_section *at, double weight, const double about[2], double *sum) {
+static void add(const fw_flexure_beam_section *at, double weight, const double about[2],
+                double *sum) {
     double x = at->pose.x_m - about[0], y = at->pose.y_m - about[1], w = weight * at->bend_per_Nm2;
     double c = cos(at->pose.psi_rad), s = sin(at->pose.psi_rad);
     double n = weight * at->axial_per_N, v = weight * at->shear_per_N;
@@ -80,10 +83,10 @@ typedef struct rule {
 } rule;
 
 /* each piece cut into `panels` panels of 16 nodes; the roots weigh dL/EI and bend only */
-static void integrate(const fw_beam *b, const rule *r, int panels, const double about[2],
+static void integrate(const fw_flexure_beam *b, const rule *r, int panels, const double about[2],
                       double *sum) {
-    fw_beam_section at;
-    fw_beam_pose start = first(b);
+    fw_flexure_beam_section at;
+    fw_flexure_beam_pose start = first(b);
     for (int k = 0; k < SUMS; k++)
         sum[k] = 0;
     for (int i = 0; i < b->npiece; i++) {
@@ -91,12 +94,12 @@ static void integrate(const fw_beam *b, const rule *r, int panels, const double 
         start.psi_rad += b->piece[i].kink_rad;
         for (int j = 0; j < panels; j++)
             for (int k = 0; k < FW_GAUSS_MOST; k++) {
-                fw_beam_at(b, i, &start, (j + r->node[k]) * h, &at);
+                fw_flexure_beam_at(b, i, &start, (j + r->node[k]) * h, &at);
                 add(&at, r->weight[k] * h, about, sum);
             }
         for (int end = 0; end < 2; end++)
             if (end ? i == b->npiece - 1 : i == 0) {
-                fw_beam_at(b, i, &start, end ? length : 0, &at);
+                fw_flexure_beam_at(b, i, &start, end ? length : 0, &at);
                 at.axial_per_N = at.shear_per_N = 0;
                 add(&at, b->root_m[end], about, sum);
             }
@@ -106,7 +109,8 @@ static void integrate(const fw_beam *b, const rule *r, int panels, const double 
 
 /* centre of the weights about a first guess, and the sums about it: twice, so that what is left of
    the first moments is small and nothing cancels in the second ones */
-static void centred(const fw_beam *b, const rule *r, int panels, double centre[2], double *sum) {
+static void centred(const fw_flexure_beam *b, const rule *r, int panels, double centre[2],
+                    double *sum) {
     centre[0] = b->x_m, centre[1] = b->y_m;
     for (int turn = 0; turn < 2; turn++) {
         integrate(b, r, panels, centre, sum);
@@ -129,8 +133,8 @@ static double apart(const double *a, const double *b, const double p[2], const d
     return e;
 }
 
-static void describe(const fw_beam *b, fw_beam_linear *out) {
-    fw_beam_pose at = first(b);
+static void describe(const fw_flexure_beam *b, fw_flexure_beam_linear *out) {
+    fw_flexure_beam_pose at = first(b);
     out->length_m = 0;
     for (int i = 0; i < b->npiece; i++) {
         at.psi_rad += b->piece[i].kink_rad;
@@ -154,13 +158,13 @@ static void describe(const fw_beam *b, fw_beam_linear *out) {
    a panel is exact to rounding, hence no closed form for it).
    Valid for any shape; cost 12 us for a uniform arc. Source: Castigliano; docs/theory/beams.md.
    Test: test_beam.c */
-void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
+void fw_flexure_beam_compliance(const fw_flexure_beam *b, fw_flexure_beam_linear *out) {
     enum { FINEST = 1024 };
     double sum[2][SUMS], centre[2][2];
-    *out = (fw_beam_linear){0};
+    *out = (fw_flexure_beam_linear){0};
     describe(b, out);
     rule r;
-    fw_gauss_rule(FW_GAUSS_MOST, r.node, r.weight);
+    fw_flexure_gauss_rule(FW_GAUSS_MOST, r.node, r.weight);
     int now = 0;
     centred(b, &r, 1, centre[0], sum[0]);
     for (int panels = 2; panels <= FINEST; panels *= 2) {
@@ -183,11 +187,12 @@ void fw_beam_compliance(const fw_beam *b, fw_beam_linear *out) {
 }
 
 /* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
-   off the polar angle, which cos 4 psi does not feel. The two roots give as fw_root_m_per_Pa has
+   off the polar angle, which cos 4 psi does not feel. The two roots give as
+   fw_flexure_root_m_per_Pa has
    it, the ends take away what fw_end_loss_of says, spread as it is found there */
 static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                       fw_beam *out) {
-    const fw_crystal *k = &in->crystal;
+                       fw_flexure_beam *out) {
+    const fw_flexure_crystal *k = &in->crystal;
     double turn = 0.5 * FW_PI - out->psi_rad; /* from the middle to either end */
     fw_flexure_shape shape;
     fw_flexure_shape_of(in, &shape);
@@ -198,38 +203,41 @@ static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *clos
     out->depth_factor = closed_form->depth_factor * shape.golovin;
     out->shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson));
     double h = in->depth_m, L = in->length_m, t = in->width_m, E = closed_form->youngs_Pa, f = 1;
-    if (in->kind == FW_FLEXURE_CSFH) f = fw_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
-    const fw_end_loss loss = fw_end_loss_of(k->reach, h, f, L, shape.root_block_m);
+    if (in->kind == FW_FLEXURE_CSFH)
+        f = fw_flexure_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
+    const fw_flexure_end_loss loss = fw_end_loss_of(k->reach, h, f, L, shape.root_block_m);
     double far = exp(-L / loss.reach_m);
     out->lost_m = loss.reach_m;
     out->lost_per_Pa = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));
     for (int end = 0; end < 2; end++) {
         double four = 4 * (out->orientation_rad + (end ? turn : -turn));
         double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four) - out->lost_per_Pa * (1 + far);
-        out->root_m[end] = fw_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
+        out->root_m[end] = fw_flexure_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
     }
 }
 
-/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in fw_hinge_law_of; of a
+/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in
+   fw_flexure_hinge_law_of; of a
    crystal it goes with the direction. Test: test_beam.c, of a crystal
    tests/cli/test_hinge.py test_random_beams */
-void fw_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                        fw_beam_piece *piece, fw_beam *out) {
+void fw_flexure_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                                fw_flexure_beam_piece *piece, fw_flexure_beam *out) {
     bool arc = in->kind == FW_FLEXURE_CSFH;
     double t = in->width_m, L = in->length_m, dL = closed_form->root_length_m;
     double a = arc ? 0.5 * in->angle_rad : 0, r = arc ? in->radius_m : 0;
     double thin = in->youngs_Pa * in->depth_m * t * t * t / 12;
-    *piece =
-        (fw_beam_piece){.length_m = L, .curvature_per_m = arc ? 1 / r : 0, .width_m = {t, t, t}};
-    *out = (fw_beam){.piece = piece,
-                     .npiece = 1,
-                     .x_m = r * cos(a),
-                     .y_m = arc ? -r * sin(a) : -0.5 * L,
-                     .psi_rad = 0.5 * FW_PI - a,
-                     .depth_m = in->depth_m,
-                     .youngs_Pa = in->youngs_Pa,
-                     .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
-                     .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
-                     .root_m = {dL, dL}};
+    *piece = (fw_flexure_beam_piece){
+        .length_m = L, .curvature_per_m = arc ? 1 / r : 0, .width_m = {t, t, t}};
+    *out =
+        (fw_flexure_beam){.piece = piece,
+                          .npiece = 1,
+                          .x_m = r * cos(a),
+                          .y_m = arc ? -r * sin(a) : -0.5 * L,
+                          .psi_rad = 0.5 * FW_PI - a,
+                          .depth_m = in->depth_m,
+                          .youngs_Pa = in->youngs_Pa,
+                          .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
+                          .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
+                          .root_m = {dL, dL}};
     if (in->crystal.known) crystal_of(in, closed_form, out);
 }

@@ -27,19 +27,20 @@ FW_INLINE bool fw_arc_usual(const fw_flexure_input *in) {
    against 3-D finite elements. Members are set one by one: clearing all of them first would cost a
    tenth of the closed form. source: docs/theory/flexure.md eq. 1, 2, 6, 7; test_ladder.c,
    test_quick.c */
-FW_INLINE void fw_arc_outline(const fw_flexure_input *in, bool usual, fw_real s, fw_real c,
-                              fw_flexure_shape *f) {
-    fw_real r = in->radius_m, a = 0.5 * in->angle_rad, t = in->width_m, rho = in->fillet_m;
-    fw_real L = in->length_m, per_rt = 1 / (r * t), per_t = r * per_rt, half_t = 0.5 * t;
-    fw_real dL = fw_all(0), block = dL, Kt = fw_all(1), ratio = dL, u = half_t * (t * per_rt);
-    fw_real off = FW_IF_USUAL(usual, fw_neutral_thin(u), fw_neutral_series(u));
+FW_INLINE void fw_arc_outline(const fw_flexure_input *in, bool usual, fw_flexure_real s,
+                              fw_flexure_real c, fw_flexure_shape *f) {
+    fw_flexure_real r = in->radius_m, a = 0.5 * in->angle_rad, t = in->width_m, rho = in->fillet_m;
+    fw_flexure_real L = in->length_m, per_rt = 1 / (r * t), per_t = r * per_rt, half_t = 0.5 * t;
+    fw_flexure_real dL = fw_all(0), block = dL, Kt = fw_all(1), ratio = dL,
+                    u = half_t * (t * per_rt);
+    fw_flexure_real off = FW_IF_USUAL(usual, fw_neutral_thin(u), fw_neutral_series(u));
     if (FW_IF_USUAL(usual, true, rho >= 0)) {
-        fw_real x = FW_IF_USUAL(usual, rho * per_t, fw_fitted_ratio(rho * per_t));
+        fw_flexure_real x = FW_IF_USUAL(usual, rho * per_t, fw_fitted_ratio(rho * per_t));
         dL = t * fw_root_law(x), block = fw_root_block_law * t, Kt = fw_concentration_law(x);
         ratio = fw_larger(x, fw_all(0.1));
     }
-    fw_real whole = L + 2 * dL, per = 1 / (L * whole), e = half_t * u * off;
-    fw_real rn = r - e;
+    fw_flexure_real whole = L + 2 * dL, per = 1 / (L * whole), e = half_t * u * off;
+    fw_flexure_real rn = r - e;
     f->kind = FW_FLEXURE_CSFH;
     f->length_m = L, f->radius_m = r, f->width_m = t, f->fillet_m = rho;
     f->half_angle_rad = a, f->sine = s, f->cosine = c;
@@ -54,13 +55,15 @@ FW_INLINE void fw_arc_outline(const fw_flexure_input *in, bool usual, fw_real s,
     f->centre_m = 2 * r * (rn * s + dL * c) * f->per_whole;
 }
 
-FW_INLINE void fw_arc_sine(const fw_flexure_input *in, bool usual, fw_real *s, fw_real *c) {
+FW_INLINE void fw_arc_sine(const fw_flexure_input *in, bool usual, fw_flexure_real *s,
+                           fw_flexure_real *c) {
     FW_IF_USUAL(usual, fw_quick_half_turn(in->angle_rad, s, c),
                 fw_quick_half_angle(in->angle_rad, s, c));
 }
 
 /* marks the outline; by how much its errors widen */
-FW_INLINE fw_real fw_arc_widened(fw_flexure_shape *f, const fw_flexure_input *in, bool usual) {
+FW_INLINE fw_flexure_real fw_arc_widened(fw_flexure_shape *f, const fw_flexure_input *in,
+                                         bool usual) {
     f->sharp = f->beyond_fit = false, f->widening = 1;
 #ifndef FW_FOUR_HINGES
     if (!usual) {
@@ -72,7 +75,7 @@ FW_INLINE fw_real fw_arc_widened(fw_flexure_shape *f, const fw_flexure_input *in
     return fw_all(1);
 }
 
-FW_INLINE fw_depth fw_arc_depth(const fw_depth_start *start, bool usual) {
+FW_INLINE fw_flexure_depth fw_arc_depth(const fw_flexure_depth_start *start, bool usual) {
     return FW_IF_USUAL(usual, fw_depth_near(start), fw_depth_law(start));
 }
 

@@ -10,15 +10,17 @@
    sums, and sin 3a, sin 5a, sin 6a as sin a and sin 2a times sums of cos 2a and cos 4a (Dirichlet's
    kernel). Exact to some ulp of 1; test_crystal.c sums_are_the_integrals */
 typedef struct harmonic {
-    fw_real w, x, xx, yy;     /* int cos 4b {1, cos b, cos^2 b, sin^2 b} db */
-    fw_real y, xy;            /* -int sin 4b {sin b, sin b cos b} db */
-    fw_real sin2, cos4, sin4; /* of 2a, 4a */
+    fw_flexure_real w, x, xx, yy;     /* int cos 4b {1, cos b, cos^2 b, sin^2 b} db */
+    fw_flexure_real y, xy;            /* -int sin 4b {sin b, sin b cos b} db */
+    fw_flexure_real sin2, cos4, sin4; /* of 2a, 4a */
 } harmonic;
 
-FW_INLINE harmonic harmonic_of(fw_real s, fw_real c) {
-    fw_real s2 = (s + s) * c, c2 = (c - s) * (c + s), w = s2 * c2, c4 = (c2 - s2) * (c2 + s2);
-    fw_real kernel = 1 + (c2 + c2), third = (1 / 3.0) * kernel, fifth = 0.2 * (kernel + (c4 + c4));
-    fw_real sixth = (1 / 6.0) * s2, square = sixth * (2 + c4), half = 0.5 * w;
+FW_INLINE harmonic harmonic_of(fw_flexure_real s, fw_flexure_real c) {
+    fw_flexure_real s2 = (s + s) * c, c2 = (c - s) * (c + s), w = s2 * c2,
+                    c4 = (c2 - s2) * (c2 + s2);
+    fw_flexure_real kernel = 1 + (c2 + c2), third = (1 / 3.0) * kernel,
+                    fifth = 0.2 * (kernel + (c4 + c4));
+    fw_flexure_real sixth = (1 / 6.0) * s2, square = sixth * (2 + c4), half = 0.5 * w;
     return (harmonic){.w = w,
                       .x = s * (fifth + third),
                       .xx = half + square,
@@ -33,16 +35,17 @@ FW_INLINE harmonic harmonic_of(fw_real s, fw_real c) {
 /* of the arc in this material, whatever its width: 1/E summed along it, nu of the mean */
 typedef struct soft {
     harmonic h;
-    fw_real along, across;                    /* a1 cos 4al0, a1 sin 4al0, 1/Pa */
-    fw_real weight, youngs_Pa, mean, poisson; /* int 1/E db; E, nu of the mean 1/E */
+    fw_flexure_real along, across;                    /* a1 cos 4al0, a1 sin 4al0, 1/Pa */
+    fw_flexure_real weight, youngs_Pa, mean, poisson; /* int 1/E db; E, nu of the mean 1/E */
 } soft;
 
-FW_INLINE soft soft_of(const fw_crystal *k, fw_real a, fw_real s, fw_real c) {
+FW_INLINE soft soft_of(const fw_flexure_crystal *k, fw_flexure_real a, fw_flexure_real s,
+                       fw_flexure_real c) {
     soft m = {.h = harmonic_of(s, c)};
-    fw_real whole = a + a;
+    fw_flexure_real whole = a + a;
     m.along = k->a1_per_Pa * k->cos4, m.across = k->a1_per_Pa * k->sin4;
     m.weight = k->a0_per_Pa * whole + m.along * m.h.w;
-    const fw_both quotient = fw_quotients(whole, m.weight, m.weight, whole);
+    const fw_flexure_both quotient = fw_quotients(whole, m.weight, m.weight, whole);
     m.youngs_Pa = fw_first(quotient), m.mean = fw_second(quotient),
     m.poisson = -k->s12_per_Pa * m.youngs_Pa;
     return m;
@@ -50,7 +53,7 @@ FW_INLINE soft soft_of(const fw_crystal *k, fw_real a, fw_real s, fw_real c) {
 
 /* Compliance at the centre of elastic weights W, the roots as weights dL/(EI) at the ends:
      W    = int P dw / int dw,  dw = db r/(EI), P at rn; dL/(EI) at r (cos a, -+ sin a)
-            (dL/E of a crystal: fw_root_m_per_Pa)
+            (dL/E of a crystal: fw_flexure_root_m_per_Pa)
      C_th = int dw / (D g),  g Golovin's factor
      C_xx = int y^2 dw + e rn int sin^2 dw' + r/k int cos^2 db/(GA),   dw' = db/(EAe D), y from W
      C_yy = int x^2 dw + e rn int cos^2 dw' + r/k int sin^2 db/(GA)
@@ -69,42 +72,49 @@ FW_INLINE soft soft_of(const fw_crystal *k, fw_real a, fw_real s, fw_real c) {
    Cost 12 ns. source: docs/theory/flexure-silicon.md eq. 1-4, 13; test_ladder.c, test_crystal.c
    crystals_beside_plain_sums */
 typedef struct flat_sum {
-    fw_real xx, yy; /* C_xx, C_yy */
+    fw_flexure_real xx, yy; /* C_xx, C_yy */
 } flat_sum;
 
 typedef struct flat {
     flat_sum bend, slide, even_bend, even_slide;
-    fw_real bend_xy, slide_xy, X, Y; /* W */
-    fw_real roots, per;              /* (dL - d)/E of both; 1/int ds/E */
-    fw_real per_whole;               /* with dL alone */
+    fw_flexure_real bend_xy, slide_xy, X, Y; /* W */
+    fw_flexure_real roots, per;              /* (dL - d)/E of both; 1/int ds/E */
+    fw_flexure_real per_whole;               /* with dL alone */
 } flat;
 
 /* 1/G goes by -4 times what 1/E does (crystal.c) */
-FW_INLINE flat flat_of(const fw_flexure_shape *f, const fw_crystal *k, const soft *m,
-                       fw_real depth_m, fw_real bow) {
-    fw_real a = f->half_angle_rad, s = f->sine, c = f->cosine, r = f->radius_m, rn = f->neutral_m;
-    fw_real dL = f->root_length_m, a0 = k->a0_per_Pa, rr = r * rn, sc = 0.5 * m->h.sin2;
-    fw_real spare = dL - f->root_block_m; /* fw_root_m_per_Pa, sum and difference: */
-    fw_real waved = dL * a0 + spare * (m->along * m->h.cos4), roots = waved + waved;
-    fw_real other = -2 * (spare * (m->across * m->h.sin4)), rx = r * c, ry = r * s;
-    fw_real l = fw_end_reach(k->reach, depth_m, bow, f->length_m), q = l * (f->per_rt * f->width_m);
-    const fw_both ends = fw_quotients(r, bow * (l * l), 1 + q * q, l + f->root_block_m);
-    fw_real in = fw_first(ends), lost = 2 * k->bow_per_Pa * fw_second(ends); /* fw_end_loss_of */
-    fw_real kept = roots - lost, arc = r * m->weight;
-    const fw_both weights = fw_quotients(fw_all(1), fw_all(1), arc + roots, arc + kept);
-    fw_real lx = in * (c + q * s), ly = in * (s - q * c);
-    fw_real per = fw_second(weights), bend = f->per_eccentric, end = f->per_section;
-    fw_real first = (s + s) * a0 + m->along * m->h.x, second = m->across * m->h.y;
-    fw_real held = rx * roots, aside = ry * other;
-    fw_real X = (rr * first + held - lost * lx) * per, Y = (rr * second + aside) * per;
-    fw_real even_X = (rr * ((s + s) * m->mean) + rx * kept) * per, x = rx - X, even_x = rx - even_X;
-    fw_real less = a - sc, more = a + sc, twice = rn + rn, ry2 = ry * ry;
-    fw_real wave_yy = m->along * m->h.yy, wave_xx = m->along * m->h.xx, xy = m->across * m->h.xy;
-    fw_real turn_x = twice * first - m->weight * X, turn_y = twice * second - m->weight * Y;
-    fw_real slide = 1.2 * r, g0 = k->g0_per_Pa, flat_end = end * roots, flat_bend = bend * m->mean;
-    fw_real flat_lost = end * lost, flat_kept = end * kept, lost_x = lx - X;
-    fw_real even_slide = slide * ((2 + 2 * m->poisson) * m->mean), even_rr = flat_bend * rr;
-    fw_real yaw = Y * aside;
+FW_INLINE flat flat_of(const fw_flexure_shape *f, const fw_flexure_crystal *k, const soft *m,
+                       fw_flexure_real depth_m, fw_flexure_real bow) {
+    fw_flexure_real a = f->half_angle_rad, s = f->sine, c = f->cosine, r = f->radius_m,
+                    rn = f->neutral_m;
+    fw_flexure_real dL = f->root_length_m, a0 = k->a0_per_Pa, rr = r * rn, sc = 0.5 * m->h.sin2;
+    fw_flexure_real spare =
+        dL - f->root_block_m; /* fw_flexure_root_m_per_Pa, sum and difference: */
+    fw_flexure_real waved = dL * a0 + spare * (m->along * m->h.cos4), roots = waved + waved;
+    fw_flexure_real other = -2 * (spare * (m->across * m->h.sin4)), rx = r * c, ry = r * s;
+    fw_flexure_real l = fw_end_reach(k->reach, depth_m, bow, f->length_m),
+                    q = l * (f->per_rt * f->width_m);
+    const fw_flexure_both ends = fw_quotients(r, bow * (l * l), 1 + q * q, l + f->root_block_m);
+    fw_flexure_real in = fw_first(ends),
+                    lost = 2 * k->bow_per_Pa * fw_second(ends); /* fw_end_loss_of */
+    fw_flexure_real kept = roots - lost, arc = r * m->weight;
+    const fw_flexure_both weights = fw_quotients(fw_all(1), fw_all(1), arc + roots, arc + kept);
+    fw_flexure_real lx = in * (c + q * s), ly = in * (s - q * c);
+    fw_flexure_real per = fw_second(weights), bend = f->per_eccentric, end = f->per_section;
+    fw_flexure_real first = (s + s) * a0 + m->along * m->h.x, second = m->across * m->h.y;
+    fw_flexure_real held = rx * roots, aside = ry * other;
+    fw_flexure_real X = (rr * first + held - lost * lx) * per, Y = (rr * second + aside) * per;
+    fw_flexure_real even_X = (rr * ((s + s) * m->mean) + rx * kept) * per, x = rx - X,
+                    even_x = rx - even_X;
+    fw_flexure_real less = a - sc, more = a + sc, twice = rn + rn, ry2 = ry * ry;
+    fw_flexure_real wave_yy = m->along * m->h.yy, wave_xx = m->along * m->h.xx,
+                    xy = m->across * m->h.xy;
+    fw_flexure_real turn_x = twice * first - m->weight * X, turn_y = twice * second - m->weight * Y;
+    fw_flexure_real slide = 1.2 * r, g0 = k->g0_per_Pa, flat_end = end * roots,
+                    flat_bend = bend * m->mean;
+    fw_flexure_real flat_lost = end * lost, flat_kept = end * kept, lost_x = lx - X;
+    fw_flexure_real even_slide = slide * ((2 + 2 * m->poisson) * m->mean), even_rr = flat_bend * rr;
+    fw_flexure_real yaw = Y * aside;
     return (flat){
         .bend = {bend * (rr * (a0 * less + wave_yy) - Y * turn_y) +
                      (flat_end * (ry2 + Y * Y) - end * (yaw + yaw)) - flat_lost * (ly * ly + Y * Y),
@@ -126,12 +136,12 @@ FW_INLINE flat flat_of(const fw_flexure_shape *f, const fw_crystal *k, const sof
 }
 
 typedef struct ends { /* what the direction does to the stress of the roots */
-    fw_root_crystal law;
-    fw_root_worst worst; /* of both */
+    fw_flexure_root_crystal law;
+    fw_flexure_root_worst worst; /* of both */
 } ends;
 
 /* 4 psi of the roots: 4a - 4al0 and 4a + 4al0, the first mirrored (section_core.h) */
-FW_INLINE ends ends_of(const fw_flexure_shape *f, const fw_crystal *k, const soft *m) {
+FW_INLINE ends ends_of(const fw_flexure_shape *f, const fw_flexure_crystal *k, const soft *m) {
     ends e = {.law = fw_root_crystal_of(k->share, f->fillet_ratio,
                                         fw_notch_of(f->fillet_concentration), f->curved)};
     e.worst =
@@ -145,12 +155,12 @@ FW_INLINE ends ends_of(const fw_flexure_shape *f, const fw_crystal *k, const sof
    the integral without d, with which G was found
    docs/theory/flexure-silicon.md eq. 12-14; test_crystal.c, test_root_strain.c */
 FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in, const soft *m,
-                           const flat *o, const ends *e, const fw_depth *depth, fw_real per_A,
-                           fw_flexure_result *out) {
-    fw_real t = f->width_m, I = (in->depth_m * t) * (t * t) * (1 / 12.0);
-    fw_real K = f->golovin * depth->stiffness * I * o->per;
-    fw_real soft_D = depth->softness;
-    fw_real xx = o->bend.xx * soft_D + o->slide.xx, yy = o->bend.yy * soft_D + o->slide.yy;
+                           const flat *o, const ends *e, const fw_flexure_depth *depth,
+                           fw_flexure_real per_A, fw_flexure_result *out) {
+    fw_flexure_real t = f->width_m, I = (in->depth_m * t) * (t * t) * (1 / 12.0);
+    fw_flexure_real K = f->golovin * depth->stiffness * I * o->per;
+    fw_flexure_real soft_D = depth->softness;
+    fw_flexure_real xx = o->bend.xx * soft_D + o->slide.xx, yy = o->bend.yy * soft_D + o->slide.yy;
     out->stiffness_Nm_per_rad = K;
     out->stiffness_thin = m->youngs_Pa * I * f->per_length;
     out->compliance[0][0] = 1 / K;
@@ -164,27 +174,29 @@ FW_INLINE void crystal_arc(const fw_flexure_shape *f, const fw_flexure_input *in
     out->offset_m[0] = o->X - f->centre_m, out->offset_m[1] = o->Y;
     out->youngs_Pa = m->youngs_Pa, out->poisson = m->poisson;
     out->depth_factor = depth->stiffness;
-    fw_real u = f->curved, inside = fw_larger((1 + u) * depth->inner, (1 - u) * depth->outer);
-    fw_real h = in->depth_m, nu = m->poisson;
-    fw_real rise = fw_root_crystal_peak(&e->law, &e->worst, h / (h + 4 * t), nu, nu * depth->bow);
+    fw_flexure_real u = f->curved,
+                    inside = fw_larger((1 + u) * depth->inner, (1 - u) * depth->outer);
+    fw_flexure_real h = in->depth_m, nu = m->poisson;
+    fw_flexure_real rise =
+        fw_root_crystal_peak(&e->law, &e->worst, h / (h + 4 * t), nu, nu * depth->bow);
     fw_peak_strain(f, 0.5 * t * o->per_whole / in->youngs_Pa, inside,
                    f->fillet_concentration * rise, out);
 }
 
-/* as fw_csfh_at_once: the depth factor on its way while the outline is worked out */
+/* as fw_flexure_csfh_at_once: the depth factor on its way while the outline is worked out */
 FW_INLINE void fw_crystal_arc_at_once(const fw_flexure_input *in, bool usual,
                                       fw_flexure_result *out) {
     fw_flexure_shape f;
-    fw_real s, c, h = in->depth_m;
+    fw_flexure_real s, c, h = in->depth_m;
     fw_arc_sine(in, usual, &s, &c);
     const soft m = soft_of(&in->crystal, 0.5 * in->angle_rad, s, c);
-    const fw_depth_start start = fw_depth_start_crystal(h * h * (1 / (in->radius_m * in->width_m)),
-                                                        &in->crystal, m.youngs_Pa);
+    const fw_flexure_depth_start start = fw_depth_start_crystal(
+        h * h * (1 / (in->radius_m * in->width_m)), &in->crystal, m.youngs_Pa);
     fw_arc_outline(in, usual, s, c, &f);
     const ends e = ends_of(&f, &in->crystal, &m);
-    const fw_depth depth = fw_arc_depth(&start, usual);
+    const fw_flexure_depth depth = fw_arc_depth(&start, usual);
     const flat o = flat_of(&f, &in->crystal, &m, h, depth.bow);
-    fw_real per_A = 1 / (h * f.width_m), wide = fw_arc_widened(&f, in, usual);
+    fw_flexure_real per_A = 1 / (h * f.width_m), wide = fw_arc_widened(&f, in, usual);
     out->centre_m = f.centre_m;
     crystal_arc(&f, in, &m, &o, &e, &depth, per_A, out);
     fw_stiffness_and_limit(&f, in, out);

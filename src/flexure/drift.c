@@ -11,14 +11,14 @@ enum { STEPS = 256, HALVINGS = 60 };
    the literature (Verotti 2016); the error of a pin at W is the drift itself, second order.
    in: rad, m; out: m. Valid |th| < pi. Exact for the law. Cost 50 ns.
    source: docs/theory/axis-drift.md eq. 15; test_drift.c pole_stands_still */
-static double pole(const fw_hinge_at *at, double th) {
+static double pole(const fw_flexure_hinge_at *at, double th) {
     double s = 2 * sin(0.5 * th);
     return fabs(th) < 1e-5 ? 0.5 * at->drift_m.curve * th - at->drift_m.slope
                            : -at->drift_m.value / s;
 }
 
 /* what is left of a gap when the surfaces are displaced by u: gap - |u| cos zeta */
-static double left(const fw_surfaces *s, double x, double y) {
+static double left(const fw_flexure_surfaces *s, double x, double y) {
     return s->gap_m - hypot(x, y) * cos(s->aside_rad);
 }
 
@@ -26,9 +26,9 @@ static double left(const fw_surfaces *s, double x, double y) {
    keeps its direction in the first body's frame: w = (Fx cos h + Fy sin h)/kx,  v = (Fy cos h - Fx
    sin h)/ky + drift in: rad, N; out: m. Error of the law: docs/theory/effects/nonlinear-hinge.md,
    with the square of the force. Test: test_drift.c under_a_force */
-static void displaced(const fw_hinge_law *law, double th, const double F[2], double u[2]) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, th, &at);
+static void displaced(const fw_flexure_hinge_law *law, double th, const double F[2], double u[2]) {
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, th, &at);
     double c = cos(0.5 * th), s = sin(0.5 * th), x = F ? F[0] : 0, y = F ? F[1] : 0;
     u[0] = (c * x + s * y) / at.kx_N_per_m.value;
     u[1] = (c * y - s * x) / at.ky_N_per_m.value + at.drift_m.value;
@@ -36,30 +36,34 @@ static void displaced(const fw_hinge_law *law, double th, const double F[2], dou
 
 /* the offset o along y of the first body is o (sin h, cos h) in the frame half turned; a point c
    that both bodies carry parts by (R(h) - R(-h)) c = 2 sin h (-c_y, c_x) */
-static double left_at(const fw_hinge_law *law, const fw_surfaces *s, double th, const double F[2]) {
+static double left_at(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *s, double th,
+                      const double F[2]) {
     double u[2], h = 0.5 * th;
     displaced(law, th, F, u);
     double turn = 2 * sin(h), x = u[0] - turn * s->centre_m[1], y = u[1] + turn * s->centre_m[0];
     return left(s, x - s->offset_m * sin(h), y - s->offset_m * cos(h));
 }
 
-void fw_drift_displacement(const fw_hinge_law *law, double th, const double F[2], double u_m[2]) {
+void fw_flexure_drift_displacement(const fw_flexure_hinge_law *law, double th, const double F[2],
+                                   double u_m[2]) {
     double u[2], c = cos(0.5 * th), s = sin(0.5 * th);
     displaced(law, th, F, u);
     u_m[0] = c * u[0] - s * u[1], u_m[1] = s * u[0] + c * u[1];
 }
 
-fw_drift_point fw_drift_at(const fw_hinge_law *law, const fw_surfaces *surfaces, double th) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, th, &at);
-    return (fw_drift_point){th, at.drift_m.value, pole(&at, th), left_at(law, surfaces, th, NULL)};
+fw_flexure_drift_point fw_flexure_drift_at(const fw_flexure_hinge_law *law,
+                                           const fw_flexure_surfaces *surfaces, double th) {
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, th, &at);
+    return (fw_flexure_drift_point){th, at.drift_m.value, pole(&at, th),
+                                    left_at(law, surfaces, th, NULL)};
 }
 
-void fw_drift_curve(const fw_hinge_law *law, const fw_surfaces *surfaces, double low_rad,
-                    double high_rad, int n, fw_drift_point *point) {
+void fw_flexure_drift_curve(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *surfaces,
+                            double low_rad, double high_rad, int n, fw_flexure_drift_point *point) {
     for (int i = 0; i < n; i++) {
         double part = n > 1 ? (double)i / (n - 1) : 0;
-        point[i] = fw_drift_at(law, surfaces, low_rad + part * (high_rad - low_rad));
+        point[i] = fw_flexure_drift_at(law, surfaces, low_rad + part * (high_rad - low_rad));
     }
 }
 
@@ -68,8 +72,8 @@ void fw_drift_curve(const fw_hinge_law *law, const fw_surfaces *surfaces, double
    ends within one step is missed. After it the hinge is a pin joint of that clearance, which this
    does not follow (contact.c does). Cost 10 to 20 us.
    source: docs/theory/axis-drift.md eq. 16; test_drift.c surfaces_meet */
-double fw_drift_contact_rad(const fw_hinge_law *law, const fw_surfaces *s, const double F[2],
-                            int sense) {
+double fw_flexure_drift_contact_rad(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *s,
+                                    const double F[2], int sense) {
     double low = 0, step = (sense < 0 ? -FW_PI : FW_PI) / STEPS;
     if (!(left_at(law, s, 0, F) > 0)) return 0;
     for (int i = 1; i < STEPS; i++) {
@@ -90,9 +94,10 @@ double fw_drift_contact_rad(const fw_hinge_law *law, const fw_surfaces *s, const
     return (double)NAN;
 }
 
-double fw_drift_contact_small_rad(const fw_hinge_law *law, const fw_surfaces *s) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, 0, &at);
+double fw_flexure_drift_contact_small_rad(const fw_flexure_hinge_law *law,
+                                          const fw_flexure_surfaces *s) {
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, 0, &at);
     return sqrt(2 * s->gap_m / (fabs(at.drift_m.curve) * cos(s->aside_rad)));
 }
 
@@ -100,22 +105,24 @@ double fw_drift_contact_small_rad(const fw_hinge_law *law, const fw_surfaces *s)
    way of it need half the gap. A pin at (p, 0) from W is off by drift + 2 p sin(th/2): none at th
    where p is the pole of th.
    source: docs/theory/axis-drift.md eq. 17; test_drift.c advice_halves_the_gap */
-fw_drift_advice fw_drift_advise(const fw_hinge_law *law, double low_rad, double high_rad) {
+fw_flexure_drift_advice fw_flexure_drift_advise(const fw_flexure_hinge_law *law, double low_rad,
+                                                double high_rad) {
     double most = 0, least = 0;
-    fw_hinge_at at;
+    fw_flexure_hinge_at at;
     for (int i = 0; i <= STEPS; i++) {
-        fw_hinge_law_at(law, low_rad + i * (high_rad - low_rad) / STEPS, &at);
+        fw_flexure_hinge_law_at(law, low_rad + i * (high_rad - low_rad) / STEPS, &at);
         most = fmax(most, at.drift_m.value), least = fmin(least, at.drift_m.value);
     }
-    fw_drift_advice advice = {.offset_m = 0.5 * (most + least), .centred_m = fmax(most, -least)};
+    fw_flexure_drift_advice advice = {.offset_m = 0.5 * (most + least),
+                                      .centred_m = fmax(most, -least)};
     /* the offset itself turns with the first body: a little more than half is needed */
-    const fw_surfaces s = {.gap_m = 0, .offset_m = advice.offset_m};
+    const fw_flexure_surfaces s = {.gap_m = 0, .offset_m = advice.offset_m};
     for (int i = 0; i <= STEPS; i++) {
         double th = low_rad + i * (high_rad - low_rad) / STEPS;
         advice.gap_m = fmax(advice.gap_m, -left_at(law, &s, th, NULL));
     }
     double far = high_rad > -low_rad ? high_rad : low_rad, near = far > 0 ? -low_rad : high_rad;
-    fw_hinge_law_at(law, far, &at);
+    fw_flexure_hinge_law_at(law, far, &at);
     advice.pivot_x_m = pole(&at, far) * (1 - fabs(near / far));
     if (!isfinite(advice.pivot_x_m)) advice.pivot_x_m = 0;
     return advice;

@@ -19,7 +19,7 @@ static void rounding(const double k[3][3], double twist[3], double wrench[3]) {
 }
 
 /* K = T S^-1 from the derivatives of the twist (S) and of the wrench (T) by the unknowns */
-static void tangent_of(const fw_end_state *end, double k[3][3]) {
+static void tangent_of(const fw_flexure_end_state *end, double k[3][3]) {
     double a[3][3], x[3][3], det, size = 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -28,7 +28,7 @@ static void tangent_of(const fw_end_state *end, double k[3][3]) {
         }
     for (int j = 0; j < 3; j++)
         size *= hypot(hypot(a[0][j], a[1][j]), a[2][j]);
-    bool regular = fw_solve3(a, 3, x, &det) && fabs(det) > 1e-13 * size;
+    bool regular = fw_flexure_solve3(a, 3, x, &det) && fabs(det) > 1e-13 * size;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             k[i][j] = regular ? x[j][i] : (double)NAN;
@@ -48,7 +48,7 @@ static double relative(const double twist[3], const double wrench[3], const doub
     return worst;
 }
 
-static void judge(const fw_newton *fine, const double *coarse, const fw_goal *g,
+static void judge(const fw_flexure_newton *fine, const double *coarse, const fw_flexure_goal *g,
                   const double k[3][3], errors *out) {
     double round[2][3], rest = 10 * fine->change * fine->change; /* what the next pass would do */
     for (int i = 0; i < 3; i++) {
@@ -65,13 +65,13 @@ static void judge(const fw_newton *fine, const double *coarse, const fw_goal *g,
 }
 
 /* units of (theta, ux, uy, M, Fx, Fy) */
-static double unit(const fw_elastica *e, int which) {
+static double unit(const fw_flexure_elastica *e, int which) {
     double l = e->length_m, C = e->soft;
     return which == 0 ? 1 : which < 3 ? l : which == 3 ? 1 / C : 1 / (C * l);
 }
 
-static void report(fw_elastica *e, const fw_newton *n, const fw_goal *g, const double k[3][3],
-                   const errors *err, fw_elastica_result *out) {
+static void report(fw_flexure_elastica *e, const fw_flexure_newton *n, const fw_flexure_goal *g,
+                   const double k[3][3], const errors *err, fw_flexure_elastica_result *out) {
     double value[6];
     for (int i = 0; i < 6; i++)
         value[i] = n->end.value[i];
@@ -97,24 +97,25 @@ static void report(fw_elastica *e, const fw_newton *n, const fw_goal *g, const d
 
 /* the solution on one mesh is the start on the next finer one and their difference the error of the
    coarser; what is handed out is the finer. The tangent is that of the finer mesh's last pass. */
-static void refine(fw_elastica *e, int level, const fw_goal *g, fw_way *w, fw_newton *n,
-                   fw_elastica_result *out) {
+static void refine(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, fw_flexure_way *w,
+                   fw_flexure_newton *n, fw_flexure_elastica_result *out) {
     bool have = true;
     out->code = FW_ELASTICA_FAILED;
     for (; level + 1 < FW_LEVELS; level++) {
         double coarse[6], k[3][3];
         errors err;
-        fw_goal whole = *g;
-        if (!have && (!fw_elastica_reach(e, level, &whole, w, n) || w->reached < 1)) continue;
+        fw_flexure_goal whole = *g;
+        if (!have && (!fw_flexure_elastica_reach(e, level, &whole, w, n) || w->reached < 1))
+            continue;
         for (int i = 0; i < 6; i++)
             coarse[i] = n->end.value[i];
-        fw_mesh_refine(e, level);
-        *n = (fw_newton){.tolerance = 0.1 * w->tolerance,
-                         .last = fmin(1e-7, w->tolerance),
-                         .contract = 0.5,
-                         .sign = w->sign,
-                         .square = n->square};
-        have = fw_newton_run(e, level + 1, g, n);
+        fw_flexure_mesh_refine(e, level);
+        *n = (fw_flexure_newton){.tolerance = 0.1 * w->tolerance,
+                                 .last = fmin(1e-7, w->tolerance),
+                                 .contract = 0.5,
+                                 .sign = w->sign,
+                                 .square = n->square};
+        have = fw_flexure_newton_run(e, level + 1, g, n);
         if (!have) {
             w->warm = false;
             continue;
@@ -132,14 +133,15 @@ static void refine(fw_elastica *e, int level, const fw_goal *g, fw_way *w, fw_ne
 
 /* at a limit the tangent is singular and a finer mesh has it a little elsewhere: the result is the
    nearest state before it that both meshes have */
-static double stop_before(fw_elastica *e, int level, const fw_goal *g, double reached, fw_way *w,
-                          fw_newton *n, fw_elastica_result *out) {
+static double stop_before(fw_flexure_elastica *e, int level, const fw_flexure_goal *g,
+                          double reached, fw_flexure_way *w, fw_flexure_newton *n,
+                          fw_flexure_elastica_result *out) {
     for (int i = 0; i < 8; i++) {
-        fw_goal part = *g;
+        fw_flexure_goal part = *g;
         double to = reached * (1 - 1e-4 * (ldexp(1, i) - 1));
         for (int k = 0; k < 3; k++)
             part.value[k] *= to;
-        if (!fw_elastica_reach(e, level, &part, w, n) || w->reached < 1) continue;
+        if (!fw_flexure_elastica_reach(e, level, &part, w, n) || w->reached < 1) continue;
         refine(e, level, &part, w, n, out);
         if (out->code == FW_ELASTICA_FAILED) continue;
         out->code = FW_ELASTICA_LIMIT;
@@ -149,7 +151,8 @@ static double stop_before(fw_elastica *e, int level, const fw_goal *g, double re
     return 0;
 }
 
-static bool sensible(const fw_elastica_task *task, fw_goal *g, const fw_elastica *e) {
+static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
+                     const fw_flexure_elastica *e) {
     for (int i = 0; i < 3; i++) {
         g->given[i] = task->given[i];
         g->value[i] = task->value[i] / unit(e, (int)task->given[i]);
@@ -172,27 +175,27 @@ static bool sensible(const fw_elastica_task *task, fw_goal *g, const fw_elastica
    rounding; the true one is smaller by orders. Cost: tests/bench/bench_hinge.c. Source: Reissner,
    ZAMP 23 (1972) 795; Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1 and VI.4;
    docs/theory/beams.md. Test: test_elastica.c, test_elastica_bench.c */
-void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tolerance, bool warm,
-                       fw_elastica_result *out) {
-    fw_goal g = {0}, part = {0};
-    fw_newton n = {0};
-    *out = (fw_elastica_result){.code = FW_ELASTICA_LOOSE};
+void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                               double tolerance, bool warm, fw_flexure_elastica_result *out) {
+    fw_flexure_goal g = {0}, part = {0};
+    fw_flexure_newton n = {0};
+    *out = (fw_flexure_elastica_result){.code = FW_ELASTICA_LOOSE};
     e->passes = 0;
     if (!sensible(task, &g, e)) return;
     warm = warm && e->solved > 0;
-    fw_elastica_look_unloaded(e, &g);
+    fw_flexure_elastica_unloaded(e, &g);
     if (e->unloaded == 0 && !warm) return;
-    fw_way w = {.warm = warm,
-                .tolerance = fmax(tolerance, 1e-13),
-                .sign = e->unloaded == 0 ? 0
-                        : warm           ? e->sign
-                                         : 1};
+    fw_flexure_way w = {.warm = warm,
+                        .tolerance = fmax(tolerance, 1e-13),
+                        .sign = e->unloaded == 0 ? 0
+                                : warm           ? e->sign
+                                                 : 1};
     double reached = -1;
     bool found = false;
     for (int level = warm ? e->solved - 1 : 0; level < FW_LEVELS - 1; level++) {
-        fw_mesh_fill(e, level);
+        fw_flexure_mesh_fill(e, level);
         part = g;
-        found = fw_elastica_reach(e, level, &part, &w, &n);
+        found = fw_flexure_elastica_reach(e, level, &part, &w, &n);
         if (found && w.reached == 1) {
             refine(e, level, &part, &w, &n, out);
             break;
@@ -212,60 +215,62 @@ void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tole
     out->steps = w.steps;
 }
 
-void fw_elastica_of_twist(fw_elastica *e, const double twist[3], double tolerance, bool warm,
-                          fw_elastica_result *out) {
-    const fw_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
-                                   {twist[0], twist[1], twist[2]}};
-    fw_elastica_solve(e, &task, tolerance, warm, out);
+void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,
+                                  bool warm, fw_flexure_elastica_result *out) {
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                           {twist[0], twist[1], twist[2]}};
+    fw_flexure_elastica_solve(e, &task, tolerance, warm, out);
 }
 
-void fw_elastica_of_wrench(fw_elastica *e, const double wrench[3], double tolerance, bool warm,
-                           fw_elastica_result *out) {
-    const fw_elastica_task task = {{FW_END_M, FW_END_FX, FW_END_FY},
-                                   {wrench[0], wrench[1], wrench[2]}};
-    fw_elastica_solve(e, &task, tolerance, warm, out);
+void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
+                                   bool warm, fw_flexure_elastica_result *out) {
+    const fw_flexure_elastica_task task = {{FW_END_M, FW_END_FX, FW_END_FY},
+                                           {wrench[0], wrench[1], wrench[2]}};
+    fw_flexure_elastica_solve(e, &task, tolerance, warm, out);
 }
 
 /* ---- tables ---- */
 
 /* an element of eight nodes takes up to 3/4 of a turn of an arc to 1e-8, halved to 1e-12 */
-static int elements_of(const fw_beam_piece *piece) {
+static int elements_of(const fw_flexure_beam_piece *piece) {
     return 1 + (int)(fabs(piece->curvature_per_m) * piece->length_m / 4.8);
 }
 
-static fw_status meshes(fw_arena *arena, fw_elastica *e) {
+static fw_status meshes(fw_arena *arena, fw_flexure_elastica *e) {
     int count = 0;
     FW_NEED(e->per_piece = fw_arena_array(arena, int, (size_t)e->beam->npiece));
     for (int i = 0; i < e->beam->npiece; i++)
         count += e->per_piece[i] = elements_of(&e->beam->piece[i]);
     for (int level = 0; level < FW_LEVELS; level++) {
         e->mesh[level].count = count << level;
-        FW_NEED(e->mesh[level].element = fw_arena_array(arena, fw_element, (size_t)count << level));
+        FW_NEED(e->mesh[level].element =
+                    fw_arena_array(arena, fw_flexure_element, (size_t)count << level));
     }
     return FW_OK;
 }
 
-fw_status fw_elastica_new(fw_arena *arena, const fw_beam *beam, const double *point_m, bool hinged,
-                          fw_elastica **out) {
-    fw_elastica *e = fw_arena_one(arena, fw_elastica);
+fw_status fw_flexure_elastica_new(fw_arena *arena, const fw_flexure_beam *beam,
+                                  const double *point_m, bool hinged, fw_flexure_elastica **out) {
+    fw_flexure_elastica *e = fw_arena_one(arena, fw_flexure_elastica);
     FW_NEED(e);
     e->beam = beam;
     e->hinged = hinged;
     e->solved = -1;
     e->kind[0] = e->kind[1] = e->kind[2] = FW_END_THETA; /* none */
-    fw_rule_fill(&e->rule);
-    fw_beam_compliance(beam, &e->linear);
+    fw_flexure_rule_fill(&e->rule);
+    fw_flexure_beam_compliance(beam, &e->linear);
     e->length_m = e->linear.length_m;
     e->soft = e->linear.c[0][0];
-    FW_NEED(e->pose = fw_arena_array(arena, fw_beam_pose, (size_t)beam->npiece + 1));
-    fw_beam_poses(beam, e->pose);
+    FW_NEED(e->pose = fw_arena_array(arena, fw_flexure_beam_pose, (size_t)beam->npiece + 1));
+    fw_flexure_beam_poses(beam, e->pose);
     const double *point = point_m ? point_m : e->linear.centre_m;
     e->arm[0] = (point[0] - e->linear.end.x_m) / e->length_m;
     e->arm[1] = (point[1] - e->linear.end.y_m) / e->length_m;
     for (int end = 0; end < 2; end++) {
-        fw_beam_section at;
+        fw_flexure_beam_section at;
         int piece = end ? beam->npiece - 1 : 0;
-        fw_beam_at(beam, piece, &e->pose[piece], end ? beam->piece[piece].length_m : 0, &at);
+        fw_flexure_beam_at(beam, piece, &e->pose[piece], end ? beam->piece[piece].length_m : 0,
+                           &at);
         e->root[end] = beam->root_m[end] * at.bend_per_Nm2 / e->soft;
     }
     FW_TRY(meshes(arena, e));
@@ -273,6 +278,6 @@ fw_status fw_elastica_new(fw_arena *arena, const fw_beam *beam, const double *po
     return FW_OK;
 }
 
-const fw_beam_linear *fw_elastica_linear(const fw_elastica *e) {
+const fw_flexure_beam_linear *fw_flexure_elastica_linear(const fw_flexure_elastica *e) {
     return &e->linear;
 }

@@ -13,31 +13,32 @@
 #include "base/status.h"
 #include "flexure/beam.h"
 
-typedef enum fw_elastica_end {
+typedef enum fw_flexure_elastica_end {
     FW_END_THETA,
     FW_END_UX,
     FW_END_UY,
     FW_END_M,
     FW_END_FX,
     FW_END_FY
-} fw_elastica_end;
+} fw_flexure_elastica_end;
 
-typedef struct fw_elastica_task { /* three different ends and their values, rad, m, N m, N */
-    fw_elastica_end given[3];
+typedef struct
+    fw_flexure_elastica_task { /* three different ends and their values, rad, m, N m, N */
+    fw_flexure_elastica_end given[3];
     double value[3];
-} fw_elastica_task;
+} fw_flexure_elastica_task;
 
-typedef enum fw_elastica_code {
+typedef enum fw_flexure_elastica_code {
     FW_ELASTICA_OK,
     FW_ELASTICA_ROUGH, /* solved, but the error stays above the tolerance on the finest mesh */
     FW_ELASTICA_LIMIT, /* the way from the unloaded beam ends at `reached` of the values: a limit
                           point or a branching; the result is the last state before it */
     FW_ELASTICA_LOOSE, /* what is given does not hold the beam, or contradicts its rigidity */
     FW_ELASTICA_FAILED /* not finite, or no convergence from the state it was to start from */
-} fw_elastica_code;
+} fw_flexure_elastica_code;
 
-typedef struct fw_elastica_result {
-    fw_elastica_code code;
+typedef struct fw_flexure_elastica_result {
+    fw_flexure_elastica_code code;
     double twist[3], wrench[3];
     double stiffness[3]
                     [3]; /* d wrench/d twist; not a number where the beam has a rigid direction */
@@ -49,38 +50,39 @@ typedef struct fw_elastica_result {
                          point of what is given, > 0 on the primary branch before the first */
     double reached;   /* part of the values reached, 1: all */
     int passes, steps, mesh; /* element sweeps over the coarse mesh, load steps, elements used */
-} fw_elastica_result;
+} fw_flexure_elastica_result;
 
-typedef struct fw_elastica fw_elastica;
+typedef struct fw_flexure_elastica fw_flexure_elastica;
 
 /* Tables of one beam and room for its solutions: all memory is taken here, some 50 kB a piece. The
    beam itself must live as long; one thread at a time. point_m NULL: W. hinged: the first root
    turns freely about the start of the centre line. */
-fw_status fw_elastica_new(fw_arena *arena, const fw_beam *beam, const double *point_m, bool hinged,
-                          fw_elastica **out);
+fw_status fw_flexure_elastica_new(fw_arena *arena, const fw_flexure_beam *beam,
+                                  const double *point_m, bool hinged, fw_flexure_elastica **out);
 
 /* From the last solution if there is one and `warm`, otherwise from the unloaded beam along its
    primary branch. tolerance: relative error wanted, 1e-13 to 1e-3. */
-void fw_elastica_solve(fw_elastica *e, const fw_elastica_task *task, double tolerance, bool warm,
-                       fw_elastica_result *out);
-void fw_elastica_of_twist(fw_elastica *e, const double twist[3], double tolerance, bool warm,
-                          fw_elastica_result *out);
-void fw_elastica_of_wrench(fw_elastica *e, const double wrench[3], double tolerance, bool warm,
-                           fw_elastica_result *out);
+void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                               double tolerance, bool warm, fw_flexure_elastica_result *out);
+void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,
+                                  bool warm, fw_flexure_elastica_result *out);
+void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
+                                   bool warm, fw_flexure_elastica_result *out);
 
 /* --- of the last solution ----------------------------------------------------------------- */
-typedef struct fw_elastica_state {
-    double s_m;        /* along the centre line of the whole beam */
-    fw_beam_pose pose; /* where the section is now */
+typedef struct fw_flexure_elastica_state {
+    double s_m;                /* along the centre line of the whole beam */
+    fw_flexure_beam_pose pose; /* where the section is now */
     double rotation_rad, moment_Nm, axial_N, shear_N;
     double strain[2]; /* of the fibres to the left (+t/2) and to the right of the tangent, by
                          plane sections: axial/EA -+ t/2 moment/EI. Fillets and the
                          hyperbolic law of thick arcs are the caller's */
-} fw_elastica_state;
+} fw_flexure_elastica_state;
 
-void fw_elastica_at(fw_elastica *e, double s_m, fw_elastica_state *out);
-void fw_elastica_peak_strain(fw_elastica *e, fw_elastica_state *out); /* the larger |strain| */
-double fw_elastica_energy_J(fw_elastica *e);
-const fw_beam_linear *fw_elastica_linear(const fw_elastica *e);
+void fw_flexure_elastica_at(fw_flexure_elastica *e, double s_m, fw_flexure_elastica_state *out);
+void fw_flexure_elastica_peak_strain(fw_flexure_elastica *e,
+                                     fw_flexure_elastica_state *out); /* the larger |strain| */
+double fw_flexure_elastica_energy_J(fw_flexure_elastica *e);
+const fw_flexure_beam_linear *fw_flexure_elastica_linear(const fw_flexure_elastica *e);
 
 #endif

@@ -10,19 +10,19 @@ enum { FW_NODES = 8, FW_LEVELS = 5, FW_UNKNOWN = 3 };
 /* eight nodes at once: the compiler cuts this into what the processor has */
 typedef double fw_nodes __attribute__((vector_size(8 * FW_NODES), may_alias));
 
-typedef struct fw_rule {
+typedef struct fw_flexure_rule {
     fw_nodes column[FW_NODES]; /* [j][i]: integral of Lagrange polynomial j to node i */
     fw_nodes node, weight;
     double finer[2][FW_NODES][FW_NODES + 2]; /* start, nodes, end to the nodes of both halves */
-} fw_rule;
+} fw_flexure_rule;
 
 /* what is carried along the beam: value and derivatives by the unknowns */
 enum { PHI, MOMENT, X, Y, CARRIED };
-typedef struct fw_carried {
+typedef struct fw_flexure_carried {
     double value[CARRIED], by[CARRIED][FW_UNKNOWN];
-} fw_carried;
+} fw_flexure_carried;
 
-typedef struct fw_element {
+typedef struct fw_flexure_element {
     int piece;
     double from, h;    /* from the start of the piece */
     double dx, dy;     /* over the element as made */
@@ -36,63 +36,65 @@ typedef struct fw_element {
     fw_nodes kept;                /* phi to go back to */
     fw_nodes change[1 + FW_UNKNOWN];        /* of phi in this pass: itself, by the unknowns */
     double start, start_by[1 + FW_UNKNOWN]; /* phi at the start, the same way */
-} fw_element;
+} fw_flexure_element;
 
-typedef struct fw_mesh {
+typedef struct fw_flexure_mesh {
     int count;
-    fw_element *element;
+    fw_flexure_element *element;
     bool made;                          /* tables filled */
     double end, end_by[1 + FW_UNKNOWN]; /* phi at the end */
-} fw_mesh;
+} fw_flexure_mesh;
 
-struct fw_elastica {
-    const fw_beam *beam;
-    fw_beam_linear linear;
-    fw_rule rule;
-    fw_mesh mesh[FW_LEVELS];
-    int *per_piece;        /* elements of each piece on the coarsest mesh */
-    fw_beam_pose *pose;    /* starts of the pieces */
-    double length_m, soft; /* units: l, C_theta */
-    double root[2];        /* rotation per moment */
-    double arm[2];         /* from the end to the point that is watched, as made */
+struct fw_flexure_elastica {
+    const fw_flexure_beam *beam;
+    fw_flexure_beam_linear linear;
+    fw_flexure_rule rule;
+    fw_flexure_mesh mesh[FW_LEVELS];
+    int *per_piece;             /* elements of each piece on the coarsest mesh */
+    fw_flexure_beam_pose *pose; /* starts of the pieces */
+    double length_m, soft;      /* units: l, C_theta */
+    double root[2];             /* rotation per moment */
+    double arm[2];              /* from the end to the point that is watched, as made */
     bool hinged;
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */
     double last[6];                         /* its twist and wrench */
     double sign;                            /* of its determinant over `unloaded` */
-    fw_elastica_end kind[3];                /* for which `unloaded` was worked out */
+    fw_flexure_elastica_end kind[3];        /* for which `unloaded` was worked out */
     double unloaded;                        /* determinant of the unloaded beam; 0: none is held */
     int passes;
 };
 
 /* the end of the beam after a pass: twist and wrench for unchanged unknowns, and by them */
-typedef struct fw_end_state {
+typedef struct fw_flexure_end_state {
     double value[6], by[6][FW_UNKNOWN];
-} fw_end_state;
+} fw_flexure_end_state;
 
-void fw_rule_fill(fw_rule *rule);
-void fw_element_fill(const fw_elastica *e, fw_element *el);
-void fw_mesh_fill(fw_elastica *e, int level);
-void fw_mesh_refine(fw_elastica *e, int level); /* phi of the next level from that of this one */
+void fw_flexure_rule_fill(fw_flexure_rule *rule);
+void fw_flexure_element_fill(const fw_flexure_elastica *e, fw_flexure_element *el);
+void fw_flexure_mesh_fill(fw_flexure_elastica *e, int level);
+void fw_flexure_mesh_refine(fw_flexure_elastica *e,
+                            int level); /* phi of the next level from that of this one */
 
-void fw_element_pass(fw_element *el, const double force[2], fw_carried *carried);
-void fw_mesh_pass(fw_elastica *e, int level, fw_end_state *end);
+void fw_flexure_element_pass(fw_flexure_element *el, const double force[2],
+                             fw_flexure_carried *carried);
+void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_state *end);
 /* adds the change for dp to phi and p; answers the largest change, *span the largest |phi| */
-double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span);
-void fw_elastica_begin(const fw_elastica *e, fw_carried *carried);
+double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *dp, double *span);
+void fw_flexure_elastica_begin(const fw_flexure_elastica *e, fw_flexure_carried *carried);
 
 /* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.
  *det: its determinant */
-bool fw_solve3(const double a[3][3], int columns, double x[3][3], double *det);
+bool fw_flexure_solve3(const double a[3][3], int columns, double x[3][3], double *det);
 
-typedef struct fw_goal { /* what is given, without units */
-    fw_elastica_end given[3];
+typedef struct fw_flexure_goal { /* what is given, without units */
+    fw_flexure_elastica_end given[3];
     double value[3];
     bool eased;     /* of the place only what lies along `soft`; the force across stays */
     double soft[2]; /* unit vector */
-} fw_goal;
+} fw_flexure_goal;
 
-typedef struct fw_newton {
+typedef struct fw_flexure_newton {
     double tolerance; /* on the change that would come next, over the largest rotation */
     double last;      /* on the last change itself, so that the tangent is as good */
     double contract;  /* largest quotient of two changes */
@@ -100,23 +102,25 @@ typedef struct fw_newton {
     double square;    /* a change over the square of the one before; 0: not known. In and out */
     /* out: */
     double ratio, change, stability, span; /* span: largest rotation inside, at most 1 */
-    fw_end_state end;                      /* after the last change, derivatives before it */
-} fw_newton;
+    fw_flexure_end_state end;              /* after the last change, derivatives before it */
+} fw_flexure_newton;
 
-typedef struct fw_way {
+typedef struct fw_flexure_way {
     bool warm;
     double tolerance;
     double sign;
     double reached;
     int steps;
-} fw_way;
+} fw_flexure_way;
 
-bool fw_newton_run(fw_elastica *e, int level, const fw_goal *g, fw_newton *n);
+bool fw_flexure_newton_run(fw_flexure_elastica *e, int level, const fw_flexure_goal *g,
+                           fw_flexure_newton *n);
 /* for another kind of task than the last: the determinant of the unloaded beam, 0 where nothing
    holds it, and the sign of the present one */
-void fw_elastica_look_unloaded(fw_elastica *e, const fw_goal *g);
+void fw_flexure_elastica_unloaded(fw_flexure_elastica *e, const fw_flexure_goal *g);
 /* a solution on this mesh: from the last one, from the wound beam, or along the branch; false:
    none. Where the branch ends before, w->reached is below 1 and g holds that part of the values. */
-bool fw_elastica_reach(fw_elastica *e, int level, fw_goal *g, fw_way *w, fw_newton *n);
+bool fw_flexure_elastica_reach(fw_flexure_elastica *e, int level, fw_flexure_goal *g,
+                               fw_flexure_way *w, fw_flexure_newton *n);
 
 #endif

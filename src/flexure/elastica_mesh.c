@@ -13,10 +13,10 @@ static double lagrange(int n, const double *z, int k, double x) {
     return product;
 }
 
-void fw_rule_fill(fw_rule *rule) {
+void fw_flexure_rule_fill(fw_flexure_rule *rule) {
     double node[FW_NODES], weight[FW_NODES], a[FW_NODES * FW_NODES], z[FW_NODES + 2];
-    fw_gauss_rule(FW_NODES, node, weight);
-    fw_gauss_integrals(FW_NODES, node, weight, a);
+    fw_flexure_gauss_rule(FW_NODES, node, weight);
+    fw_flexure_gauss_integrals(FW_NODES, node, weight, a);
     z[0] = 0, z[FW_NODES + 1] = 1;
     for (int i = 0; i < FW_NODES; i++) {
         rule->node[i] = z[i + 1] = node[i];
@@ -32,13 +32,13 @@ void fw_rule_fill(fw_rule *rule) {
 
 /* sections at the nodes of an element whose piece, from and h are set; with D = diag(1/EI) and A
    the collocation matrix, phi = phi0 + h A D (M0 + h A m) = phi0 + turned M0 + twice m */
-void fw_element_fill(const fw_elastica *e, fw_element *el) {
-    const fw_rule *r = &e->rule;
-    const fw_beam_pose *start = &e->pose[el->piece];
-    fw_beam_section at, ends[2];
+void fw_flexure_element_fill(const fw_flexure_elastica *e, fw_flexure_element *el) {
+    const fw_flexure_rule *r = &e->rule;
+    const fw_flexure_beam_pose *start = &e->pose[el->piece];
+    fw_flexure_beam_section at, ends[2];
     double l = e->length_m, C = e->soft, h = el->h;
     for (int i = 0; i < FW_NODES; i++) {
-        fw_beam_at(e->beam, el->piece, start, l * (el->from + h * r->node[i]), &at);
+        fw_flexure_beam_at(e->beam, el->piece, start, l * (el->from + h * r->node[i]), &at);
         el->psi[i] = at.pose.psi_rad;
         el->cos_made[i] = cos(at.pose.psi_rad);
         el->sin_made[i] = sin(at.pose.psi_rad);
@@ -47,7 +47,7 @@ void fw_element_fill(const fw_elastica *e, fw_element *el) {
         el->shear[i] = at.shear_per_N / (C * l);
     }
     for (int end = 0; end < 2; end++)
-        fw_beam_at(e->beam, el->piece, start, l * (el->from + h * end), &ends[end]);
+        fw_flexure_beam_at(e->beam, el->piece, start, l * (el->from + h * end), &ends[end]);
     el->dx = (ends[1].pose.x_m - ends[0].pose.x_m) / l;
     el->dy = (ends[1].pose.y_m - ends[0].pose.y_m) / l;
     el->once_end = h * r->weight;
@@ -66,11 +66,11 @@ void fw_element_fill(const fw_elastica *e, fw_element *el) {
     }
 }
 
-void fw_mesh_fill(fw_elastica *e, int level) {
-    fw_mesh *mesh = &e->mesh[level];
+void fw_flexure_mesh_fill(fw_flexure_elastica *e, int level) {
+    fw_flexure_mesh *mesh = &e->mesh[level];
     if (mesh->made) return;
     double cumulative = e->hinged ? 0 : e->root[0];
-    fw_element *el = mesh->element;
+    fw_flexure_element *el = mesh->element;
     for (int piece = 0; piece < e->beam->npiece; piece++) {
         int n = e->per_piece[piece] << level;
         double h = e->beam->piece[piece].length_m / e->length_m / n;
@@ -78,7 +78,7 @@ void fw_mesh_fill(fw_elastica *e, int level) {
             el->piece = piece;
             el->from = i * h;
             el->h = h;
-            fw_element_fill(e, el);
+            fw_flexure_element_fill(e, el);
             el->cumulative = cumulative;
             cumulative += el->turn;
         }
@@ -86,13 +86,13 @@ void fw_mesh_fill(fw_elastica *e, int level) {
     mesh->made = true;
 }
 
-void fw_mesh_refine(fw_elastica *e, int level) {
-    const fw_mesh *from = &e->mesh[level];
-    fw_mesh *to = &e->mesh[level + 1];
-    fw_mesh_fill(e, level + 1);
+void fw_flexure_mesh_refine(fw_flexure_elastica *e, int level) {
+    const fw_flexure_mesh *from = &e->mesh[level];
+    fw_flexure_mesh *to = &e->mesh[level + 1];
+    fw_flexure_mesh_fill(e, level + 1);
     for (int n = 0; n < from->count; n++) {
         double z[FW_NODES + 2];
-        const fw_element *el = &from->element[n];
+        const fw_flexure_element *el = &from->element[n];
         z[0] = el->start;
         memcpy(z + 1, &el->phi, sizeof el->phi);
         z[FW_NODES + 1] = n + 1 < from->count ? el[1].start : from->end;

@@ -29,7 +29,7 @@ typedef struct slopes { /* at the nodes: values, and by Psi, Fx, Fy */
     fw_nodes m_f[2], x_f[2], y_f[2];
 } slopes;
 
-static inline void slopes_at(const fw_element *el, const double force[2], slopes *out) {
+static inline void slopes_at(const fw_flexure_element *el, const double force[2], slopes *out) {
     fw_nodes c, s;
     for (int i = 0; i < FW_NODES; i++) {
         double psi = el->psi[i] + el->phi[i];
@@ -52,14 +52,14 @@ static inline void slopes_at(const fw_element *el, const double force[2], slopes
     out->y_f[1] = a * s * s + g * c * c;
 }
 
-static inline void twice(const fw_element *el, const fw_nodes *m, fw_nodes *sum) {
+static inline void twice(const fw_flexure_element *el, const fw_nodes *m, fw_nodes *sum) {
     for (int j = 0; j < FW_NODES; j++)
         *sum += (*m)[j] * el->twice[j];
 }
 
 /* (1 - twice diag(m_psi)) x = x for four right sides, by Gauss and Jordan without exchange: the
    eigenvalues of `twice` are below 0.02 h^2/EI, the matrix is near 1 on any mesh that resolves */
-static inline void solve(const fw_element *el, const fw_nodes *m_psi, fw_nodes *x) {
+static inline void solve(const fw_flexure_element *el, const fw_nodes *m_psi, fw_nodes *x) {
     fw_nodes a[FW_NODES];
     for (int j = 0; j < FW_NODES; j++) {
         a[j] = -(*m_psi)[j] * el->twice[j];
@@ -77,7 +77,7 @@ static inline void solve(const fw_element *el, const fw_nodes *m_psi, fw_nodes *
 }
 
 /* the ends' values from those at the nodes: c in by the start, out by the end */
-static inline void carry(fw_element *el, const slopes *at, fw_carried *c) {
+static inline void carry(fw_flexure_element *el, const slopes *at, fw_flexure_carried *c) {
     const fw_nodes *change = el->change;
     fw_nodes w = el->once_end, b = el->twice_end, sum;
     fw_nodes wm = w * at->m_psi, wx = w * at->x_psi, wy = w * at->y_psi, bm = b * at->m_psi;
@@ -108,7 +108,7 @@ static inline void carry(fw_element *el, const slopes *at, fw_carried *c) {
    (8!)^4/(17 (16!)^3) h^17 times the 16th derivative, 1.7e-23 h^17 for sine and cosine of h; cost
    0.5 us, half of it the 8 x 8 system. Source: docs/theory/beams.md (23), (24).
    Test: test_elastica.c another_method_agrees, tangents_are_derivatives */
-void fw_element_pass(fw_element *el, const double force[2], fw_carried *c) {
+void fw_flexure_element_pass(fw_flexure_element *el, const double force[2], fw_flexure_carried *c) {
     slopes at;
     slopes_at(el, force, &at);
     fw_nodes *change = el->change;
@@ -125,8 +125,8 @@ void fw_element_pass(fw_element *el, const double force[2], fw_carried *c) {
 }
 
 /* a clamped root gives phi = root M; a hinge has phi for its unknown and no moment */
-void fw_elastica_begin(const fw_elastica *e, fw_carried *c) {
-    *c = (fw_carried){0};
+void fw_flexure_elastica_begin(const fw_flexure_elastica *e, fw_flexure_carried *c) {
+    *c = (fw_flexure_carried){0};
     if (e->hinged) {
         c->value[PHI] = e->p[0];
         c->by[PHI][0] = 1;
@@ -140,7 +140,8 @@ void fw_elastica_begin(const fw_elastica *e, fw_carried *c) {
 
 /* from the end of the beam to the point that is watched: the second root turns by root M, the arm
    a with it; moment about the point: M - a x F */
-static void watch(const fw_elastica *e, const fw_carried *c, fw_end_state *end) {
+static void watch(const fw_flexure_elastica *e, const fw_flexure_carried *c,
+                  fw_flexure_end_state *end) {
     double th = c->value[PHI] + e->root[1] * c->value[MOMENT];
     double sine = sin(th), half = sin(0.5 * th), less = 2 * half * half;
     double ux = -less * e->arm[0] - sine * e->arm[1], uy = sine * e->arm[0] - less * e->arm[1];
@@ -163,12 +164,12 @@ static void watch(const fw_elastica *e, const fw_carried *c, fw_end_state *end) 
     }
 }
 
-void fw_mesh_pass(fw_elastica *e, int level, fw_end_state *end) {
-    fw_mesh *mesh = &e->mesh[level];
-    fw_carried c;
-    fw_elastica_begin(e, &c);
+void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_state *end) {
+    fw_flexure_mesh *mesh = &e->mesh[level];
+    fw_flexure_carried c;
+    fw_flexure_elastica_begin(e, &c);
     for (int n = 0; n < mesh->count; n++)
-        fw_element_pass(&mesh->element[n], &e->p[1], &c);
+        fw_flexure_element_pass(&mesh->element[n], &e->p[1], &c);
     mesh->end_by[0] = c.value[PHI];
     for (int k = 0; k < FW_UNKNOWN; k++)
         mesh->end_by[1 + k] = c.by[PHI][k];
@@ -180,12 +181,12 @@ static double applied(const double *by, const double *dp) {
     return by[0] + by[1] * dp[0] + by[2] * dp[1] + by[3] * dp[2];
 }
 
-double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span) {
-    fw_mesh *mesh = &e->mesh[level];
+double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *dp, double *span) {
+    fw_flexure_mesh *mesh = &e->mesh[level];
     double most = 0, size = 1;
     *span = 0;
     for (int n = 0; n < mesh->count; n++) {
-        fw_element *el = &mesh->element[n];
+        fw_flexure_element *el = &mesh->element[n];
         fw_nodes change =
             el->change[0] + dp[0] * el->change[1] + dp[1] * el->change[2] + dp[2] * el->change[3];
         el->phi += change;
@@ -208,7 +209,7 @@ double fw_mesh_update(fw_elastica *e, int level, const double *dp, double *span)
 
 /* Gauss with exchange of rows. Source: Golub and Van Loan, Matrix Computations, 3.4.
    Test: all of test_elastica.c */
-bool fw_solve3(const double a[3][3], int columns, double x[3][3], double *det) {
+bool fw_flexure_solve3(const double a[3][3], int columns, double x[3][3], double *det) {
     double m[3][3];
     *det = 1;
     for (int i = 0; i < 3; i++)

@@ -6,15 +6,15 @@
 #include "flexure/kinds.h"
 #include "flexure/quick.h"
 
-typedef struct fw_root_lever { /* of a root, about W */
-    fw_real along, across, sine, cosine;
-} fw_root_lever;
+typedef struct fw_flexure_root_lever { /* of a root, about W */
+    fw_flexure_real along, across, sine, cosine;
+} fw_flexure_root_lever;
 
-FW_INLINE fw_root_lever fw_root_lever_of(const fw_flexure_shape *f) {
+FW_INLINE fw_flexure_root_lever fw_root_lever_of(const fw_flexure_shape *f) {
     if (f->kind == FW_FLEXURE_LEAF)
-        return (fw_root_lever){fw_all(0), 0.5 * f->length_m, fw_all(0), fw_all(1)};
-    return (fw_root_lever){f->radius_m * f->cosine - f->centre_m, f->radius_m * f->sine, f->sine,
-                           f->cosine};
+        return (fw_flexure_root_lever){fw_all(0), 0.5 * f->length_m, fw_all(0), fw_all(1)};
+    return (fw_flexure_root_lever){f->radius_m * f->cosine - f->centre_m, f->radius_m * f->sine,
+                                   f->sine, f->cosine};
 }
 
 /* Five causes, each with the factor that bounds continuum figures of 23 shapes (theory, table):
@@ -32,22 +32,22 @@ FW_INLINE fw_root_lever fw_root_lever_of(const fw_flexure_shape *f) {
    in: shape, result with D, C, Kt (SI); out: relative errors, of W in m. Cost 15 ns.
    source: docs/theory/flexure-errors.md; test_error.c, test_ladder.c */
 FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
-                                   const fw_flexure_result *r, fw_real per_EI, fw_real wide,
-                                   fw_flexure_error *out) {
+                                   const fw_flexure_result *r, fw_flexure_real per_EI,
+                                   fw_flexure_real wide, fw_flexure_error *out) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
-    fw_real t = f->width_m, nu2 = r->poisson * r->poisson, rho = fw_smaller(f->fillet_m, t);
-    fw_real bow = fw_larger(1 - (1 - nu2) * r->depth_factor, fw_all(0)), lost, rho2;
+    fw_flexure_real t = f->width_m, nu2 = r->poisson * r->poisson, rho = fw_smaller(f->fillet_m, t);
+    fw_flexure_real bow = fw_larger(1 - (1 - nu2) * r->depth_factor, fw_all(0)), lost, rho2;
     rho = fw_larger(rho, fw_all(0)), rho2 = rho * rho; /* twice what either end loses: */
     lost = (arc ? 0.7 : 0.8) * in->depth_m * bow + 0.012 * t;
     if (arc) lost += 4.6 * 9 / 12.0 * (f->curved * f->curved * rho2) * (f->per_section * t);
-    fw_real place = 0.6 * rho2, twice = lost, e = lost * f->per_length;
+    fw_flexure_real place = 0.6 * rho2, twice = lost, e = lost * f->per_length;
     /* 1/EA over 1/EI: t^2/12 */
-    fw_real give = fw_unless_below_0(f->fillet_m, (3.2 / 12) * t * t * t, fw_all(0));
-    fw_root_lever at = fw_root_lever_of(f);
-    fw_real x = fw_size(at.along), y = fw_size(at.across), c = at.cosine, n = at.sine;
-    fw_real along = y * (twice * y + place * fw_size(c)) + give * (n * n);
-    fw_real across = x * (twice * x + place * fw_size(n)) + give * (c * c);
-    fw_real centre = 0.01 * t;
+    fw_flexure_real give = fw_unless_below_0(f->fillet_m, (3.2 / 12) * t * t * t, fw_all(0));
+    fw_flexure_root_lever at = fw_root_lever_of(f);
+    fw_flexure_real x = fw_size(at.along), y = fw_size(at.across), c = at.cosine, n = at.sine;
+    fw_flexure_real along = y * (twice * y + place * fw_size(c)) + give * (n * n);
+    fw_flexure_real across = x * (twice * x + place * fw_size(n)) + give * (c * c);
+    fw_flexure_real centre = 0.01 * t;
     if (arc) centre = e * x + place * f->per_length + 2e-4 * f->radius_m;
     out->stiffness = wide * (0.001 + e);
     out->kx = wide * (0.002 + (per_EI * r->kx_N_per_m) * along);
@@ -60,10 +60,10 @@ FW_INLINE void fw_isotropic_errors(const fw_flexure_shape *f, const fw_flexure_i
    each, ideal ends, beside a closed form that did not know what ends lose: three times what is left
    since), W twice, strain 3 % more; where its direction is not known the spread over
    all of them. source: docs/theory/flexure-silicon.md; test_crystal.c */
-FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k, fw_real wide,
-                                 fw_flexure_error *e) {
+FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_flexure_crystal *k,
+                                 fw_flexure_real wide, fw_flexure_error *e) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
-    fw_real spread = k->aligned ? fw_all(0) : fw_size(k->a1_per_Pa / k->a0_per_Pa);
+    fw_flexure_real spread = k->aligned ? fw_all(0) : fw_size(k->a1_per_Pa / k->a0_per_Pa);
     e->stiffness += wide * (0.014 + (arc ? fw_all(0) : spread));
     e->kx += wide * (0.010 + (arc ? 0.1 * spread : spread));
     e->ky += wide * (0.016 + spread);
@@ -75,8 +75,9 @@ FW_INLINE void fw_crystal_errors(const fw_flexure_shape *f, const fw_crystal *k,
 /* peak strain: at the fillets of a root (share: Kt (1 + u) G of section_core.h), or between them
    where the fillets are wide; (5) beside it. beam: t/2 over length and roots, of a crystal in its
    modulus */
-FW_INLINE void fw_peak_strain(const fw_flexure_shape *f, fw_real beam, fw_real inside,
-                              fw_real share, fw_flexure_result *out) {
+FW_INLINE void fw_peak_strain(const fw_flexure_shape *f, fw_flexure_real beam,
+                              fw_flexure_real inside, fw_flexure_real share,
+                              fw_flexure_result *out) {
     out->concentration = fw_unless_below_0(f->fillet_m, fw_larger(inside, share), inside);
     out->strain_per_rad = beam * out->concentration;
     out->strain_fit_per_rad = beam * f->fillet_concentration * inside;
@@ -87,7 +88,7 @@ FW_INLINE void fw_peak_strain(const fw_flexure_shape *f, fw_real beam, fw_real i
    t/10, 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r > 0.3) */
 FW_INLINE void fw_stiffness_and_limit(const fw_flexure_shape *f, const fw_flexure_input *in,
                                       fw_flexure_result *out) {
-    const fw_both stiff =
+    const fw_flexure_both stiff =
         fw_quotients(fw_all(1), fw_all(1), out->compliance[1][1], out->compliance[2][2]);
     out->kx_N_per_m = fw_first(stiff), out->ky_N_per_m = fw_second(stiff);
     out->stress_per_rad_Pa = in->youngs_Pa * out->strain_per_rad;

@@ -31,9 +31,9 @@
 static const double small = 1.0;
 
 /* a function and its derivatives 0..3; the last ones only where they were asked for */
-typedef struct fw_series {
+typedef struct fw_flexure_series {
     double d[4];
-} fw_series;
+} fw_flexure_series;
 
 /* of t = x^2, below |x| = 1; the first one left out changes the second derivative by 1e-16 of it */
 enum { OF_SINC = 10, OF_BEND = 12 };
@@ -67,24 +67,24 @@ static const double bend_of[OF_BEND][2] = {
 };
 
 /* p(t) and its derivatives to those of p(x^2) by x */
-static fw_series of_square(double x, double p, double slope, double curve) {
-    return (fw_series){{p, 2 * x * slope, 2 * slope + 4 * x * x * curve, 0}};
+static fw_flexure_series of_square(double x, double p, double slope, double curve) {
+    return (fw_flexure_series){{p, 2 * x * slope, 2 * slope + 4 * x * x * curve, 0}};
 }
 
 /* sinc(x) = sin(x)/x below |x| = 1; sinc'' = -sinc - 2 sinc'/x */
-INLINE fw_series sinc_near(double x, bool second) {
+INLINE fw_flexure_series sinc_near(double x, bool second) {
     double t = x * x, p = 0, slope = 0, curve = 0; /* curve: of p''/2 */
     _Pragma("GCC unroll 10") for (int n = OF_SINC - 1; n >= 0; n--) {
         if (second) curve = curve * t + slope;
         slope = slope * t + p;
         p = p * t + sinc_of[n];
     }
-    return (fw_series){{p, 2 * x * slope, -p - 4 * slope, -2 * x * (slope + 8 * curve)}};
+    return (fw_flexure_series){{p, 2 * x * slope, -p - 4 * slope, -2 * x * (slope + 8 * curve)}};
 }
 
 /* the same where x is large enough to divide by */
-static inline fw_series sinc_far(double over, double sine, double cosine) {
-    fw_series s;
+static inline fw_flexure_series sinc_far(double over, double sine, double cosine) {
+    fw_flexure_series s;
     s.d[0] = sine * over;
     s.d[1] = (cosine - s.d[0]) * over;
     s.d[2] = -s.d[0] - 2 * s.d[1] * over;
@@ -92,12 +92,12 @@ static inline fw_series sinc_far(double over, double sine, double cosine) {
     return s;
 }
 
-static fw_series sinc(double x) {
+static fw_flexure_series sinc(double x) {
     return fabs(x) < small ? sinc_near(x, true) : sinc_far(1 / x, sin(x), cos(x));
 }
 
 typedef struct shape { /* what the law is made of, at x: sinc, z = sinc(2x), g and h */
-    fw_series s, z, g, h;
+    fw_flexure_series s, z, g, h;
 } shape;
 
 INLINE void shape_near(double x, bool second, shape *at) {
@@ -108,32 +108,33 @@ INLINE void shape_near(double x, bool second, shape *at) {
         slope[i] = slope[i] * t + p[i];
         p[i] = p[i] * t + bend_of[n][i];
     }
-    const fw_series g = at->g = of_square(x, p[0], slope[0], 2 * curve[0]);
+    const fw_flexure_series g = at->g = of_square(x, p[0], slope[0], 2 * curve[0]);
     at->h = of_square(x, p[1], slope[1], 2 * curve[1]);
-    at->z = (fw_series){{1 - t * g.d[0], -2 * x * g.d[0] - t * g.d[1],
-                         -2 * g.d[0] - 4 * x * g.d[1] - t * g.d[2], 0}};
+    at->z = (fw_flexure_series){{1 - t * g.d[0], -2 * x * g.d[0] - t * g.d[1],
+                                 -2 * g.d[0] - 4 * x * g.d[1] - t * g.d[2], 0}};
 }
 
 /* n(x)/x^2 from n and its first two derivatives */
-static inline fw_series over_square(double n, double slope, double curve, double over) {
+static inline fw_flexure_series over_square(double n, double slope, double curve, double over) {
     double square = over * over, q = n * square, d = slope * square - 2 * q * over;
-    return (fw_series){{q, d, (curve - 2 * q) * square - 4 * d * over, 0}};
+    return (fw_flexure_series){{q, d, (curve - 2 * q) * square - 4 * d * over, 0}};
 }
 
 static inline void shape_far(double x, double sine, double cosine, shape *at) {
     double over = 1 / x;
-    const fw_series s = at->s = sinc_far(over, sine, cosine);
-    const fw_series z = at->z = (fw_series){{s.d[0] * cosine, s.d[1] * cosine - s.d[0] * sine,
-                                             (s.d[2] - s.d[0]) * cosine - 2 * s.d[1] * sine, 0}};
+    const fw_flexure_series s = at->s = sinc_far(over, sine, cosine);
+    const fw_flexure_series z = at->z =
+        (fw_flexure_series){{s.d[0] * cosine, s.d[1] * cosine - s.d[0] * sine,
+                             (s.d[2] - s.d[0]) * cosine - 2 * s.d[1] * sine, 0}};
     at->g = over_square(1 - z.d[0], -z.d[1], -z.d[2], over);
     at->h = over_square(1 + z.d[0] - 2 * s.d[0] * s.d[0], z.d[1] - 4 * s.d[0] * s.d[1],
                         z.d[2] - 4 * (s.d[1] * s.d[1] + s.d[0] * s.d[2]), over);
 }
 
 /* 1/c with its derivatives by the rotation, c by x = a + q th */
-static inline fw_hinge_jet inverse(const double c[3], double q) {
+static inline fw_flexure_hinge_jet inverse(const double c[3], double q) {
     double k = 1 / c[0], slope = q * c[1] * k;
-    return (fw_hinge_jet){k, -slope * k, (2 * slope * slope - q * q * c[2] * k) * k};
+    return (fw_flexure_hinge_jet){k, -slope * k, (2 * slope * slope - q * q * c[2] * k) * k};
 }
 
 typedef double pair __attribute__((vector_size(16)));
@@ -157,7 +158,7 @@ typedef struct turned { /* sine and cosine of x and of th/2 */
 } turned;
 
 /* x = a + q th: the free arc's own sine and cosine are at hand */
-INLINE turned turn(const fw_hinge_rest *rest, double x, double part, double half) {
+INLINE turned turn(const fw_flexure_hinge_rest *rest, double x, double part, double half) {
     if (!(fabs(half) < 0.8 && fabs(part) < 0.8))
         return (turned){sin(x), cos(x), sin(half), cos(half)};
     pair s, c;
@@ -169,7 +170,7 @@ INLINE turned turn(const fw_hinge_rest *rest, double x, double part, double half
 /* Clenshaw's recurrence for a Chebyshev series and its first two derivatives, x = th/(2 pi):
    error 1e-14 of the largest coefficient. Cost 70 ns. Source: Clenshaw 1955. Test: test_path_law.c
  */
-static fw_hinge_jet series(const double *c, double th) {
+static fw_flexure_hinge_jet series(const double *c, double th) {
     double x = 0.5 * (1 / FW_PI) * th, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, e2 = 0;
     for (int n = FW_PATH_TERMS - 1; n > 0; n--) {
         double e = 4 * d1 + 2 * x * e1 - e2, d = 2 * b1 + 2 * x * d1 - d2;
@@ -177,16 +178,16 @@ static fw_hinge_jet series(const double *c, double th) {
         e2 = e1, e1 = e, d2 = d1, d1 = d, b2 = b1, b1 = b;
     }
     double per = 0.5 * (1 / FW_PI);
-    return (fw_hinge_jet){c[0] + x * b1 - b2, per * (b1 + x * d1 - d2),
-                          per * per * (2 * d1 + x * e1 - e2)};
+    return (fw_flexure_hinge_jet){c[0] + x * b1 - b2, per * (b1 + x * d1 - d2),
+                                  per * per * (2 * d1 + x * e1 - e2)};
 }
 
-static fw_hinge_jet one_over(fw_hinge_jet c) {
+static fw_flexure_hinge_jet one_over(fw_flexure_hinge_jet c) {
     const double at[3] = {c.value, c.slope, c.curve};
     return inverse(at, 1);
 }
 
-static turned table_at(const struct fw_hinge_table *t, double th, fw_hinge_at *at) {
+static turned table_at(const struct fw_flexure_hinge_table *t, double th, fw_flexure_hinge_at *at) {
     at->kx_N_per_m = one_over(series(t->along_m_per_N, th));
     at->ky_N_per_m = one_over(series(t->across_m_per_N, th));
     at->drift_m = series(t->drift_m, th);
@@ -194,8 +195,8 @@ static turned table_at(const struct fw_hinge_table *t, double th, fw_hinge_at *a
 }
 
 /* `second` is a constant where this is expanded: without it no second derivative is worked out */
-INLINE turned law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double th, bool second,
-                     fw_hinge_at *at) {
+INLINE turned law_at(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest, double th,
+                     bool second, fw_flexure_hinge_at *at) {
     if (__builtin_expect(law->table != NULL, 0)) return table_at(law->table, th, at);
     double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
     double p = law->axial_m_per_N, v = law->shear_m_per_N;
@@ -227,14 +228,14 @@ INLINE turned law_at(const fw_hinge_law *law, const fw_hinge_rest *rest, double 
     return tip;
 }
 
-fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law) {
-    const fw_series a = sinc(law->half_angle_rad);
-    return (fw_hinge_rest){a.d[0], law->share * a.d[1], sin(law->half_angle_rad),
-                           cos(law->half_angle_rad)};
+fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law) {
+    const fw_flexure_series a = sinc(law->half_angle_rad);
+    return (fw_flexure_hinge_rest){a.d[0], law->share * a.d[1], sin(law->half_angle_rad),
+                                   cos(law->half_angle_rad)};
 }
 
-void fw_hinge_law_at(const fw_hinge_law *law, double th, fw_hinge_at *at) {
-    const fw_hinge_rest rest = fw_hinge_rest_of(law);
+void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double th, fw_flexure_hinge_at *at) {
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(law);
     law_at(law, &rest, th, true, at);
 }
 
@@ -242,13 +243,13 @@ void fw_hinge_law_at(const fw_hinge_law *law, double th, fw_hinge_at *at) {
    c, s = cos, sin(th/2):  dw/dth = y/2,  dy/dth = -w/2
    in: rad, m; out: N m, N and their derivatives, symmetric. Valid and exact as the law is. Cost 60
    ns. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c wrench_and_tangent */
-void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, const double twist[3],
-                         double wrench[3], double tangent[3][3]) {
-    fw_hinge_at at;
+void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                 const double twist[3], double wrench[3], double tangent[3][3]) {
+    fw_flexure_hinge_at at;
     double th = twist[0];
     const turned half = law_at(law, rest, th, true, &at);
     double c = half.c2, s = half.s2;
-    const fw_hinge_jet *X = &at.kx_N_per_m, *Y = &at.ky_N_per_m, *d = &at.drift_m;
+    const fw_flexure_hinge_jet *X = &at.kx_N_per_m, *Y = &at.ky_N_per_m, *d = &at.drift_m;
     double w = c * twist[1] + s * twist[2], y = c * twist[2] - s * twist[1], v = y - d->value;
     double w1 = 0.5 * y, v1 = -0.5 * w - d->slope, w2 = -0.25 * w, v2 = -0.25 * y - d->curve;
     double fw = X->value * w, fv = Y->value * v;
@@ -266,8 +267,8 @@ void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, con
     tangent[1][2] = tangent[2][1] = c * s * (X->value - Y->value);
 }
 
-void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double th,
-                         fw_hinge_at *at) {
+void fw_flexure_hinge_law_slopes(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                 double th, fw_flexure_hinge_at *at) {
     law_at(law, rest, th, false, at);
 }
 
@@ -275,43 +276,44 @@ void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, dou
    corrections hold for forces too. A crystal's arc is one of its mean modulus that bends more along
    or across by what makes kx and ky at rest differ from those of that modulus; its C_xy is not in
    the law; the pins are at its own W. */
-void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                     fw_hinge_law *law) {
+void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                             fw_flexure_hinge_law *law) {
     double L = in->length_m, dL = closed_form->root_length_m;
     double EI = closed_form->stiffness_Nm_per_rad * (L + 2 * dL);
     double EA = closed_form->youngs_Pa * in->depth_m * in->width_m;
     double kGA = 5.0 / 6.0 * EA / (2 * (1 + closed_form->poisson));
-    *law = (fw_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
-                          .half_angle_rad = in->kind == FW_FLEXURE_CSFH ? 0.5 * in->angle_rad : 0,
-                          .length_m = L,
-                          .share = L / (L + 2 * dL),
-                          .bend_m_per_N = L * L * L / (8 * EI),
-                          .root_m_per_N = dL * L * L / (2 * EI),
-                          .axial_m_per_N = L / (2 * EA),
-                          .shear_m_per_N = L / (2 * kGA)};
+    *law = (fw_flexure_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
+                                  .half_angle_rad =
+                                      in->kind == FW_FLEXURE_CSFH ? 0.5 * in->angle_rad : 0,
+                                  .length_m = L,
+                                  .share = L / (L + 2 * dL),
+                                  .bend_m_per_N = L * L * L / (8 * EI),
+                                  .root_m_per_N = dL * L * L / (2 * EI),
+                                  .axial_m_per_N = L / (2 * EA),
+                                  .shear_m_per_N = L / (2 * kGA)};
     if (!in->crystal.known || in->kind != FW_FLEXURE_CSFH) return;
-    fw_hinge_at even, more;
-    fw_hinge_law_at(law, 0, &even);
+    fw_flexure_hinge_at even, more;
+    fw_flexure_hinge_law_at(law, 0, &even);
     law->uneven_x = law->uneven_y = 1; /* what bending alone contributes */
-    fw_hinge_law_at(law, 0, &more);
+    fw_flexure_hinge_law_at(law, 0, &more);
     double x = 1 / even.kx_N_per_m.value, y = 1 / even.ky_N_per_m.value;
     law->uneven_x = closed_form->uneven_x * x / (1 / more.kx_N_per_m.value - x);
     law->uneven_y = closed_form->uneven_y * y / (1 / more.ky_N_per_m.value - y);
 }
 
-bool fw_hinge_law_holds(const fw_hinge_law *law, double th) {
+bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {
     bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < FW_PI;
     return within && (!law->table || fabs(th) < 2 * FW_PI);
 }
 
-static double drift_at(const fw_hinge_law *law, double th) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, th, &at);
+static double drift_at(const fw_flexure_hinge_law *law, double th) {
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, th, &at);
     return fabs(at.drift_m.value);
 }
 
 /* bisection on the side where it is reached first; the drift grows with |th| */
-double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m) {
+double fw_flexure_hinge_drift_reaches(const fw_flexure_hinge_law *law, double gap_m) {
     double best = (double)NAN;
     for (int side = -1; side <= 1; side += 2) {
         double low = 0, high = 0, step = FW_PI / 64;

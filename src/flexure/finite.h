@@ -6,7 +6,7 @@
 #define FW_FLEXURE_FINITE_H
 #include "flexure/flexure.h"
 
-typedef struct fw_hinge_law {
+typedef struct fw_flexure_hinge_law {
     double stiffness_Nm_per_rad;
     double half_angle_rad; /* a of the free arc; 0: straight */
     double length_m;       /* L */
@@ -16,41 +16,42 @@ typedef struct fw_hinge_law {
     double axial_m_per_N, shear_m_per_N; /* L/(2 EA), L/(2 kGA) */
     double uneven_x,
         uneven_y; /* of a crystal: share that bend_m_per_N is larger along and across */
-    const struct fw_hinge_table
+    const struct fw_flexure_hinge_table
         *table; /* of a path (path.h): this instead of the above; else NULL */
-} fw_hinge_law;
+} fw_flexure_hinge_law;
 
 /* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a) */
-typedef struct fw_hinge_rest {
+typedef struct fw_flexure_hinge_rest {
     double sinc, turn, sine, cosine;
-} fw_hinge_rest;
+} fw_flexure_hinge_rest;
 
 /* value, first and second derivative by the rotation */
-typedef struct fw_hinge_jet {
+typedef struct fw_flexure_hinge_jet {
     double value, slope, curve;
-} fw_hinge_jet;
+} fw_flexure_hinge_jet;
 
-typedef struct fw_hinge_at {
-    fw_hinge_jet kx_N_per_m, ky_N_per_m; /* along and across the arc's axis, half turned */
-    fw_hinge_jet drift_m;                /* of W on the second body from W on the first, along y */
-} fw_hinge_at;
+typedef struct fw_flexure_hinge_at {
+    fw_flexure_hinge_jet kx_N_per_m, ky_N_per_m; /* along and across the arc's axis, half turned */
+    fw_flexure_hinge_jet drift_m; /* of W on the second body from W on the first, along y */
+} fw_flexure_hinge_at;
 
-void fw_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                     fw_hinge_law *law);
-void fw_hinge_law_at(const fw_hinge_law *law, double rotation_rad, fw_hinge_at *at);
+void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
+                             fw_flexure_hinge_law *law);
+void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double rotation_rad,
+                             fw_flexure_hinge_at *at);
 /* values and first derivatives alone, for forces; the second ones are not */
-fw_hinge_rest fw_hinge_rest_of(const fw_hinge_law *law);
-void fw_hinge_law_slopes(const fw_hinge_law *law, const fw_hinge_rest *rest, double rotation_rad,
-                         fw_hinge_at *at);
+fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law);
+void fw_flexure_hinge_law_slopes(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                 double rotation_rad, fw_flexure_hinge_at *at);
 /* What the hinge does to a twist (theta, ux, uy) of the second body's W against the first one's, u
    in the first body's frame with x along the free arc's axis: wrench (M, Fx, Fy) that it takes, the
    gradient of the energy by the twist, and its symmetric tangent; SI */
-void fw_hinge_law_wrench(const fw_hinge_law *law, const fw_hinge_rest *rest, const double twist[3],
-                         double wrench[3], double tangent[3][3]);
+void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                 const double twist[3], double wrench[3], double tangent[3][3]);
 /* does the law hold at this rotation? not where the flexure is wound up to a full circle */
-bool fw_hinge_law_holds(const fw_hinge_law *law, double rotation_rad);
+bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double rotation_rad);
 /* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
    below half a turn */
-double fw_hinge_drift_reaches(const fw_hinge_law *law, double gap_m);
+double fw_flexure_hinge_drift_reaches(const fw_flexure_hinge_law *law, double gap_m);
 
 #endif

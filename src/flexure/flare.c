@@ -20,8 +20,8 @@ void fw_flexure_flare(const fw_flexure_input *in, double flare_m, fw_flexure_res
     out->stiffness_thin *= stiffer;
     out->kx_N_per_m *= stiffer;
     if (in->kind != FW_FLEXURE_LEAF) out->ky_N_per_m *= stiffer;
-    double sharper = fw_fillet_concentration(in->width_m * (1.0 + p), in->fillet_m) /
-                     fw_fillet_concentration(in->width_m, in->fillet_m);
+    double sharper = fw_flexure_fillet_concentration(in->width_m * (1.0 + p), in->fillet_m) /
+                     fw_flexure_fillet_concentration(in->width_m, in->fillet_m);
     double strained = (1.0 + p) * sharper;
     out->concentration *= sharper;
     out->strain_per_rad *= strained;

@@ -10,15 +10,16 @@
 #include "flexure/crystal.h"
 
 typedef struct fw_flexure_input {
-    fw_flexure_kind kind;
+    fw_device_flexure_kind kind;
     double length_m, angle_rad, radius_m, width_m, fillet_m, depth_m; /* fillet below 0: ideal ends,
                                              rigid, without roots and without concentration */
     double youngs_Pa, poisson;
     double strength_Pa, safety_factor;
-    double width_middle_m;       /* csfh, leaf: 0 uniform, as in fw_flexure */
-    const fw_strip_piece *piece; /* (npiece) of a path; must live as long */
+    double width_middle_m;                /* csfh, leaf: 0 uniform, as in fw_device_flexure */
+    const fw_geometry_strip_piece *piece; /* (npiece) of a path; must live as long */
     int npiece;
-    fw_crystal crystal; /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are
+    fw_flexure_crystal
+        crystal; /* {.known = false}: isotropic, youngs_Pa and poisson hold; else they are
                            only what strains are counted in: strain = stress/youngs_Pa */
 } fw_flexure_input;
 
@@ -60,7 +61,7 @@ typedef struct fw_flexure_result {
 #define FW_FLEXURE_STRAIN_UNCERTAINTY 0.015
 /* What follows from the outline alone: worked out once where material, depth or load vary */
 typedef struct fw_flexure_shape {
-    fw_flexure_kind kind;
+    fw_device_flexure_kind kind;
     double length_m, radius_m, width_m, fillet_m, half_angle_rad;
     double sine, cosine;           /* of the half-angle */
     double neutral_m, eccentric_m; /* rn, e = r - rn */
@@ -76,12 +77,12 @@ typedef struct fw_flexure_shape {
     bool sharp;             /* fillet below t/10 */
     bool beyond_fit;        /* of the root's concentration */
     fw_flexure_error error; /* of a path, isotropic and not too deep */
-    fw_pose start;          /* of a path: first end and its tangent */
+    fw_geometry_pose start; /* of a path: first end and its tangent */
 } fw_flexure_shape;
 
 typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is one file and one row
                                    */
-    fw_flexure_kind kind;
+    fw_device_flexure_kind kind;
     const char *name, *summary;
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
@@ -100,10 +101,10 @@ void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
                                fw_flexure_result *out);
 /* what is to be asked of a flexure as described; material, depth and limits are left 0 */
-fw_flexure_input fw_flexure_input_of(const fw_flexure *flexure, double fillet_m);
+fw_flexure_input fw_flexure_input_of(const fw_device_flexure *flexure, double fillet_m);
 /* not one arc or line of one width: the rows of `path` serve it, whatever its kind */
 bool fw_flexure_input_varies(const fw_flexure_input *in);
 /* the fillet used where the file gives none: as wide as the flexure, where the arc leaves room */
-double fw_flexure_default_fillet(const fw_flexure *flexure);
+double fw_flexure_default_fillet(const fw_device_flexure *flexure);
 
 #endif

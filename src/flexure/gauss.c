@@ -16,7 +16,7 @@ static void legendre(int n, long double x, long double *p) {
    in: n <= FW_GAUSS_MOST. out: nodes and weights on [0, 1], rounded from long double; exact for
    polynomials of degree 2 n - 1. Source: Abramowitz and Stegun 25.4.29.
    Test: test_beam.c rules_are_exact */
-void fw_gauss_rule(int n, double *node, double *weight) {
+void fw_flexure_gauss_rule(int n, double *node, double *weight) {
     long double p[FW_GAUSS_MOST + 1];
     for (int i = 0; i < (n + 1) / 2; i++) {
         long double x = cosl((long double)FW_PI * (i + 0.75L) / (n + 0.5L));
@@ -36,7 +36,7 @@ void fw_gauss_rule(int n, double *node, double *weight) {
    the products; the integral of (2k + 1) P_k is P_(k+1) - P_(k-1).
    Source: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5.
    Test: test_beam.c rules_are_exact */
-void fw_gauss_integrals(int n, const double *node, const double *weight, double *a) {
+void fw_flexure_gauss_integrals(int n, const double *node, const double *weight, double *a) {
     long double at[FW_GAUSS_MOST + 2], of[FW_GAUSS_MOST + 2];
     for (int i = 0; i < n; i++) {
         long double x = 2 * (long double)node[i] - 1;

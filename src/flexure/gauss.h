@@ -6,9 +6,9 @@
 enum { FW_GAUSS_MOST = 16 };
 
 /* n nodes in rising order and their weights, which add up to 1 */
-void fw_gauss_rule(int n, double *node, double *weight);
+void fw_flexure_gauss_rule(int n, double *node, double *weight);
 /* a[i * n + j] = integral of the j-th Lagrange polynomial of the nodes from 0 to node i: the
    collocation method of order 2 n */
-void fw_gauss_integrals(int n, const double *node, const double *weight, double *a);
+void fw_flexure_gauss_integrals(int n, const double *node, const double *weight, double *a);
 
 #endif

@@ -20,19 +20,20 @@ FW_INLINE void outline(const fw_flexure_input *in, fw_flexure_shape *f) {
     f->fillet_concentration = Kt;
 }
 
-void fw_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
+void fw_flexure_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
     *f = (fw_flexure_shape){.kind = FW_FLEXURE_LEAF};
     outline(in, f);
 }
 
 /* what a solid has at a fillet over the beam (section_core.h) */
-FW_INLINE double root_of(const fw_flexure_shape *f, const fw_crystal *k, double h, double nu) {
+FW_INLINE double root_of(const fw_flexure_shape *f, const fw_flexure_crystal *k, double h,
+                         double nu) {
     double Kt = f->fillet_concentration, x = f->fillet_ratio, q = fw_notch_of(Kt);
     double p = h / (h + 4 * f->width_m);
     if (f->fillet_m < 0) return 1;
     if (!k->known) return Kt * fw_root_rise(x, q, p, nu, nu, 0);
-    const fw_root_crystal root = fw_root_crystal_of(k->share, x, q, 0);
-    const fw_root_worst worst =
+    const fw_flexure_root_crystal root = fw_root_crystal_of(k->share, x, q, 0);
+    const fw_flexure_root_worst worst =
         k->aligned ? fw_root_crystal_at(&root, 1, 0, k->cos4, k->sin4) : fw_root_crystal_any(&root);
     return Kt * fw_root_crystal_peak(&root, &worst, p, nu, nu);
 }
@@ -47,7 +48,7 @@ FW_INLINE double root_of(const fw_flexure_shape *f, const fw_crystal *k, double 
    SI. Valid L >= 10 t. Cost 18 ns. source: docs/theory/flexure.md eq. 11; test_ladder.c
    leaf_matches_the_reference */
 FW_INLINE void leaf(const fw_flexure_shape *f, const fw_flexure_input *in, fw_flexure_result *out) {
-    const fw_crystal *k = &in->crystal;
+    const fw_flexure_crystal *k = &in->crystal;
     double t = f->width_m, L = f->length_m, A = in->depth_m * t, E = in->youngs_Pa;
     double nu = in->poisson, G = E / (2.0 * (1.0 + nu));
     if (k->known) {
@@ -58,7 +59,8 @@ FW_INLINE void leaf(const fw_flexure_shape *f, const fw_flexure_input *in, fw_fl
     double EI = E * A * (t * t) * (1 / 12.0), dL = f->root_length_m, per = 1 / EI;
     double whole = L + 2 * dL, ends = dL, per_whole = f->per_whole, K = EI * per_whole, lost_xx = 0;
     if (k->known) {
-        const fw_end_loss end = fw_end_loss_of(k->reach, in->depth_m, 1, L, f->root_block_m);
+        const fw_flexure_end_loss end =
+            fw_end_loss_of(k->reach, in->depth_m, 1, L, f->root_block_m);
         double lost = E * k->bow_per_Pa * end.length_m, at = 0.5 * L - end.reach_m;
         dL = E * (dL * k->a0_per_Pa + (dL - f->root_block_m) * k->a1_per_Pa * k->cos4);
         ends = dL - lost, whole = L + 2 * ends, lost_xx = 2 * lost * (at * at) * per;
@@ -84,7 +86,7 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
     leaf(f, in, out);
 }
 
-void fw_leaf_at_once(const fw_flexure_input *in, fw_flexure_result *out) {
+void fw_flexure_leaf_at_once(const fw_flexure_input *in, fw_flexure_result *out) {
     fw_flexure_shape f = {.kind = FW_FLEXURE_LEAF}; /* what only arcs have is 0 */
     outline(in, &f);
     fw_shape_marks(&f);

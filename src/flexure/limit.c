@@ -9,20 +9,20 @@ static bool known(const fw_quantity *q) {
 }
 
 /* the material's criterion says that it fractures */
-static bool brittle(const fw_material *material) {
+static bool brittle(const fw_device_material *material) {
     return material->criterion && strncmp(material->criterion, "fracture", 8) == 0;
 }
 
 /* from one quantity, as it is */
-static void take_plain(const fw_quantity *q, const char *definition, fw_limit *limit) {
+static void take_plain(const fw_quantity *q, const char *definition, fw_flexure_limit *limit) {
     limit->allowable_Pa = q->value;
     limit->status = q->status;
     limit->source = q->source ? q->source : "";
     limit->definition = definition;
 }
 
-static fw_value_status weakest(const fw_quantity *const *q, int n) {
-    fw_value_status worst = FW_MEASURED;
+static fw_quantity_value_status weakest(const fw_quantity *const *q, int n) {
+    fw_quantity_value_status worst = FW_MEASURED;
     for (int i = 0; i < n; i++)
         if (q[i]->status > worst) worst = q[i]->status;
     return worst;
@@ -31,7 +31,8 @@ static fw_value_status weakest(const fw_quantity *const *q, int n) {
 /* ---- the criteria ---- */
 
 /* what the device file states of its own material */
-static bool stated(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+static bool stated(const fw_flexure_limit_input *in, fw_flexure_limits *all,
+                   fw_flexure_limit *limit) {
     (void)all;
     if (!in->material->strength_stated) return false;
     take_plain(&in->material->strength, "strength as the device file states it, which rules alone",
@@ -43,19 +44,20 @@ static bool stated(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
    for, the stress at which one of its n flexures in series breaks with 1 - (1 - P)^(1/n):
      sigma = sigma0 ((A0/A_eff) ln(1/(1 - P))/n)^(1/m)
    source: Weibull (1951), docs/theory/limits-of-materials.md eq. 1-3; test_weibull.c */
-static bool fracture(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
-    const fw_material *m = in->material;
-    const fw_limit_data *d = &m->limit;
+static bool fracture(const fw_flexure_limit_input *in, fw_flexure_limits *all,
+                     fw_flexure_limit *limit) {
+    const fw_device_material *m = in->material;
+    const fw_device_limit_data *d = &m->limit;
     if (!brittle(m)) return false;
     double probability = in->asked->failure_probability;
     bool asked = probability > 0;
     if (known(&d->weibull_strength) && known(&d->weibull_modulus) && known(&d->weibull_area))
-        all->weibull =
-            (fw_weibull){.known = true,
-                         .strength_Pa = d->weibull_strength.value,
-                         .modulus = d->weibull_modulus.value,
-                         .area_m2 = d->weibull_area.value,
-                         .effective_m2 = fw_weibull_area_m2(in->flexure, d->weibull_modulus.value)};
+        all->weibull = (fw_flexure_weibull){
+            .known = true,
+            .strength_Pa = d->weibull_strength.value,
+            .modulus = d->weibull_modulus.value,
+            .area_m2 = d->weibull_area.value,
+            .effective_m2 = fw_flexure_weibull_area_m2(in->flexure, d->weibull_modulus.value)};
     if (asked && all->weibull.known) {
         const fw_quantity *const used[] = {&d->weibull_strength, &d->weibull_modulus,
                                            &d->weibull_area};
@@ -64,8 +66,8 @@ static bool fracture(const fw_limit_input *in, fw_limits *all, fw_limit *limit) 
             "for (Weibull, with the stressed surface)";
         limit->source = d->weibull_strength.source;
         limit->status = weakest(used, 3);
-        limit->allowable_Pa =
-            fw_weibull_stress_Pa(&all->weibull, fw_series_share(probability, in->nhinge));
+        limit->allowable_Pa = fw_flexure_weibull_stress_Pa(
+            &all->weibull, fw_flexure_series_share(probability, in->nhinge));
         return true;
     }
     if (asked) {
@@ -81,8 +83,8 @@ static bool fracture(const fw_limit_input *in, fw_limits *all, fw_limit *limit) 
 /* 0.2 % offset of a film of thickness t: A + B (t/1 um)^-n, up to the thickness that the law was
    found for. in: Pa, Pa, 1, t m; out: Pa; source: Yu and Spaepen (2004) for copper on polymer;
    test_limits.c film_law */
-static bool film(const fw_limit_input *in, fw_quantity *offset) {
-    const fw_limit_data *d = &in->material->limit;
+static bool film(const fw_flexure_limit_input *in, fw_quantity *offset) {
+    const fw_device_limit_data *d = &in->material->limit;
     const fw_quantity *const used[] = {&d->film_yield, &d->film_yield_rise, &d->film_exponent,
                                        &d->film_thickest};
     double t = in->flexure->depth_m;
@@ -103,10 +105,11 @@ static bool from_device(const fw_quantity *q) {
    0.2 % offset value that the device file states, or that the thickness law gives; the material's
    own strength, unless that is of fracture; factor x the material's 0.2 % offset. For survival: the
    0.2 % offset itself, and where only a strength is known that. */
-static bool yielding(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
+static bool yielding(const fw_flexure_limit_input *in, fw_flexure_limits *all,
+                     fw_flexure_limit *limit) {
     (void)all;
-    const fw_material *m = in->material;
-    const fw_limit_data *d = &m->limit;
+    const fw_device_material *m = in->material;
+    const fw_device_limit_data *d = &m->limit;
     fw_quantity offset = d->offset_yield;
     bool own = from_device(&d->offset_yield), law = !own && film(in, &offset);
     bool have = known(&offset);
@@ -136,13 +139,15 @@ static bool yielding(const fw_limit_input *in, fw_limits *all, fw_limit *limit) 
 
 /* amplitude that lasts the cycles asked for, once per repetition; the law itself goes to the
    verdict, which counts the cycles of a motion. Data: strain_life.h */
-static bool fatigue_life(const fw_limit_input *in, fw_limits *all, fw_limit *limit) {
-    const fw_limit_data *d = &in->material->limit;
+static bool fatigue_life(const fw_flexure_limit_input *in, fw_flexure_limits *all,
+                         fw_flexure_limit *limit) {
+    const fw_device_limit_data *d = &in->material->limit;
     if (!(in->asked->cycles > 0)) return false;
     const fw_quantity *const used[] = {&d->fatigue_strength, &d->fatigue_cycles,
                                        &d->fatigue_exponent, &d->ductility, &d->ductility_exponent};
     bool plastic = known(&d->ductility) && known(&d->ductility_exponent);
-    all->life = (fw_strain_life){.known = true,
+    all->life =
+        (fw_flexure_strain_life){.known = true,
                                  .amplitude_Pa = d->fatigue_strength.value,
                                  .cycles = d->fatigue_cycles.value,
                                  .exponent = d->fatigue_exponent.value,
@@ -156,7 +161,7 @@ static bool fatigue_life(const fw_limit_input *in, fw_limits *all, fw_limit *lim
         all->missing_place = in->asked->cycles_place;
         return false;
     }
-    if (!(fw_strain_life_elastic_Pa(&all->life) > 0)) {
+    if (!(fw_flexure_strain_life_elastic_Pa(&all->life) > 0)) {
         all->life.known = false;
         all->missing = "a ductility that leaves some of fatigue-strength elastic";
         all->missing_place = in->asked->cycles_place;
@@ -166,20 +171,20 @@ static bool fatigue_life(const fw_limit_input *in, fw_limits *all, fw_limit *lim
         plastic ? "amplitude at life (Basquin, Manson and Coffin)" : "amplitude at life (Basquin)";
     limit->source = d->fatigue_strength.source;
     limit->status = weakest(used, plastic ? 5 : 3);
-    limit->allowable_Pa = fw_strain_life_amplitude_Pa(&all->life, in->asked->cycles);
+    limit->allowable_Pa = fw_flexure_strain_life_amplitude_Pa(&all->life, in->asked->cycles);
     return true;
 }
 
 /* ---- all of them ---- */
 
-static const fw_limit_row table[FW_LIMITS] = {
+static const fw_flexure_limit_row table[FW_LIMITS] = {
     {"strength", "the strength that the device file states, alone", stated},
     {"fracture", "the strength of what breaks: plain, or at a failure probability", fracture},
     {"yield", "the proportional limit of metals; for survival the 0.2 % offset", yielding},
     {"fatigue", "the amplitude that lasts a number of cycles", fatigue_life},
 };
 
-const fw_limit_row *fw_limit_rows(size_t *count) {
+const fw_flexure_limit_row *fw_flexure_limit_rows(size_t *count) {
     *count = FW_LIMITS;
     return table;
 }
@@ -187,10 +192,10 @@ const fw_limit_row *fw_limit_rows(size_t *count) {
 /* Material -> what it allows this flexure. A stated strength is the only static one.
    Cost: one pow per criterion. Test: test_limits.c the_lowest_governs, a_stated_strength_is_alone
  */
-void fw_limits_of(const fw_limit_input *in, fw_limits *limits) {
-    *limits = (fw_limits){.governing = FW_NONE, .fatigue = FW_NONE};
+void fw_flexure_limits_of(const fw_flexure_limit_input *in, fw_flexure_limits *limits) {
+    *limits = (fw_flexure_limits){.governing = FW_NONE, .fatigue = FW_NONE};
     for (size_t i = 0; i < FW_LIMITS; i++) {
-        fw_limit found = {.criterion = table[i].name};
+        fw_flexure_limit found = {.criterion = table[i].name};
         bool fatigue = table[i].of == fatigue_life;
         if (limits->count > 0 && in->material->strength_stated && !fatigue) continue;
         if (!table[i].of(in, limits, &found)) continue;
@@ -204,6 +209,6 @@ void fw_limits_of(const fw_limit_input *in, fw_limits *limits) {
     }
 }
 
-const fw_limit *fw_limits_governing(const fw_limits *limits) {
+const fw_flexure_limit *fw_flexure_limits_governing(const fw_flexure_limits *limits) {
     return limits->governing == FW_NONE ? NULL : &limits->item[limits->governing];
 }

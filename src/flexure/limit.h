@@ -9,43 +9,43 @@
 #include "flexure/strain_life.h"
 #include "flexure/weibull.h"
 
-typedef struct fw_limit {
+typedef struct fw_flexure_limit {
     const char *criterion;  /* the row's name: "strength", "fracture", "yield", "fatigue" */
     const char *definition; /* what kind of number it is */
     double allowable_Pa;    /* fatigue: amplitude, fully reversed, of `cycles` equal cycles */
-    fw_value_status status; /* the weakest of what went into it */
-    const char *source;     /* of the number that it rests on most */
-} fw_limit;
+    fw_quantity_value_status status; /* the weakest of what went into it */
+    const char *source;              /* of the number that it rests on most */
+} fw_flexure_limit;
 
 enum { FW_LIMITS = 4 };
 
-typedef struct fw_limits {
-    fw_limit item[FW_LIMITS]; /* (count) those that apply, in the order of the table */
+typedef struct fw_flexure_limits {
+    fw_flexure_limit item[FW_LIMITS]; /* (count) those that apply, in the order of the table */
     int count;
-    int governing;          /* index of the lowest, fatigue left out; FW_NONE: nothing known */
-    int fatigue;            /* index of it, or FW_NONE */
-    fw_weibull weibull;     /* of this flexure; .known: its data hold */
-    fw_strain_life life;    /* .known where fatigue >= 0 */
-    const char *missing;    /* what was asked for and has no data; NULL: nothing */
-    fw_place missing_place; /* of what asked */
-} fw_limits;
+    int governing;               /* index of the lowest, fatigue left out; FW_NONE: nothing known */
+    int fatigue;                 /* index of it, or FW_NONE */
+    fw_flexure_weibull weibull;  /* of this flexure; .known: its data hold */
+    fw_flexure_strain_life life; /* .known where fatigue >= 0 */
+    const char *missing;         /* what was asked for and has no data; NULL: nothing */
+    fw_place missing_place;      /* of what asked */
+} fw_flexure_limits;
 
-typedef struct fw_limit_input {
-    const fw_material *material;
+typedef struct fw_flexure_limit_input {
+    const fw_device_material *material;
     const fw_flexure_input *flexure; /* shape, with its fillet; youngs_Pa of strain and stress */
-    const fw_limits_asked *asked;
+    const fw_device_limits_asked *asked;
     int nhinge; /* of the whole device: in series, each may break it */
-} fw_limit_input;
+} fw_flexure_limit_input;
 
-typedef struct fw_limit_row { /* adding a criterion is one function and one row */
+typedef struct fw_flexure_limit_row { /* adding a criterion is one function and one row */
     const char *name, *summary;
     /* true: *limit is what it allows. May say in `all` what it found beside, or missed */
-    bool (*of)(const fw_limit_input *in, fw_limits *all, fw_limit *limit);
-} fw_limit_row;
-const fw_limit_row *fw_limit_rows(size_t *count);
-void fw_limits_of(const fw_limit_input *in, fw_limits *limits);
+    bool (*of)(const fw_flexure_limit_input *in, fw_flexure_limits *all, fw_flexure_limit *limit);
+} fw_flexure_limit_row;
+const fw_flexure_limit_row *fw_flexure_limit_rows(size_t *count);
+void fw_flexure_limits_of(const fw_flexure_limit_input *in, fw_flexure_limits *limits);
 
 /* NULL where nothing is known */
-const fw_limit *fw_limits_governing(const fw_limits *limits);
+const fw_flexure_limit *fw_flexure_limits_governing(const fw_flexure_limits *limits);
 
 #endif

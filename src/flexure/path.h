@@ -10,61 +10,66 @@
 
 /* strip in the flexure's frame (flexure.h). A path whose W lies to the left of the way from its
    first end to its second is walked from the other end, so that the bulge is at +x. */
-typedef struct fw_course {
-    fw_strip_shape shape[FW_STRIP_MOST];
-    fw_pose start[FW_STRIP_MOST + 1]; /* of each piece; then the end */
+typedef struct fw_flexure_course {
+    fw_geometry_strip_shape shape[FW_STRIP_MOST];
+    fw_geometry_pose start[FW_STRIP_MOST + 1]; /* of each piece; then the end */
     int n;
     double root_m[2], concentration[2]; /* dL, Kt of the first and second end */
-} fw_course;
-void fw_path_of(const fw_flexure_input *in, fw_course *path);
+} fw_flexure_course;
+void fw_flexure_path_of(const fw_flexure_input *in, fw_flexure_course *path);
 /* left or right edge (side +1, -1) at part 0..1 of a piece */
-fw_vec2 fw_path_edge(const fw_course *path, int piece, double part, int side);
+fw_geometry_vec2 fw_flexure_path_edge(const fw_flexure_course *path, int piece, double part,
+                                      int side);
 /* part 0..1 of the whole length at the place of the centre line nearest to a point, to 1/48 of a
    piece: for pictures */
-double fw_path_nearest(const fw_course *path, double x_m, double y_m);
+double fw_flexure_path_nearest(const fw_flexure_course *path, double x_m, double y_m);
 
 /* ---- strain under a wrench ---- */
-typedef struct fw_path_point {
+typedef struct fw_flexure_path_point {
     double x_m, y_m;      /* in the flexure's frame */
     double strain_per_Nm; /* largest there per section moment; roots with their concentration */
-} fw_path_point;
-typedef struct fw_path_strain {
-    fw_path_point *point; /* (n) along the strip */
+} fw_flexure_path_point;
+typedef struct fw_flexure_path_strain {
+    fw_flexure_path_point *point; /* (n) along the strip */
     int n;
-} fw_path_strain;
-fw_status fw_path_strain_new(fw_arena *arena, const fw_flexure_input *in, fw_path_strain *out);
+} fw_flexure_path_strain;
+fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
+                                     fw_flexure_path_strain *out);
 /* (M, Fx, Fy) on the second body at (x, y): largest strain, from 0 to 0.1 % on the safe side */
-double fw_path_strain_at(const fw_path_strain *strain, const double at_m[2],
-                         const double wrench[3]);
+double fw_flexure_path_strain_at(const fw_flexure_path_strain *strain, const double at_m[2],
+                                 const double wrench[3]);
 
 /* ---- at finite rotation ---- */
 enum { FW_PATH_TERMS = 32 };
 /* Chebyshev series over |rotation| <= 2 pi */
-struct fw_hinge_table {
+struct fw_flexure_hinge_table {
     double along_m_per_N[FW_PATH_TERMS], across_m_per_N[FW_PATH_TERMS], drift_m[FW_PATH_TERMS];
 };
-typedef struct fw_path_pose { /* at one rotation, in the frame half turned */
-    double c[2][2];           /* softness along and across, m/N */
-    double drift_m[2];        /* of W of a pure moment */
-} fw_path_pose;
-typedef struct fw_path_way fw_path_way;
-/* what does not depend on the rotation; fw_path_pose_at: valid below a full turn, 4 us a piece */
-fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_path_way **out);
-void fw_path_pose_at(const fw_path_way *way, double rotation_rad, fw_path_pose *out);
+typedef struct fw_flexure_path_pose { /* at one rotation, in the frame half turned */
+    double c[2][2];                   /* softness along and across, m/N */
+    double drift_m[2];                /* of W of a pure moment */
+} fw_flexure_path_pose;
+typedef struct fw_flexure_path_way fw_flexure_path_way;
+/* what does not depend on the rotation; fw_flexure_path_pose_at: valid below a full turn, 4 us a
+   piece */
+fw_status fw_flexure_path_way_new(fw_arena *arena, const fw_flexure_input *in,
+                                  const fw_flexure_path_way **out);
+void fw_flexure_path_pose_at(const fw_flexure_path_way *way, double rotation_rad,
+                             fw_flexure_path_pose *out);
 /* largest part up to a rotation, either way, that the law leaves out: drift along x (m), coupling
    c_xy/sqrt(c_xx c_yy); 0 of a path that is its own mirror image */
-void fw_path_left_out(const fw_path_way *way, double rotation_rad, double *drift_m,
-                      double *coupling);
-/* the law with its table; without one fw_hinge_law_of knows plain arcs and leaves only */
-fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
-                      const fw_flexure_result *closed_form, fw_hinge_law *law);
+void fw_flexure_path_left_out(const fw_flexure_path_way *way, double rotation_rad, double *drift_m,
+                              double *coupling);
+/* the law with its table; without one fw_flexure_hinge_law_of knows plain arcs and leaves only */
+fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
+                              const fw_flexure_result *closed_form, fw_flexure_hinge_law *law);
 
 /* the beam of elastica.h: exact width, roots, one depth factor that gives the closed form's
    stiffness. Pieces and the table of widths are taken from the arena. */
-fw_status fw_path_beam(fw_arena *arena, const fw_flexure_input *in,
-                       const fw_flexure_result *closed_form, fw_beam *out);
+fw_status fw_flexure_path_beam(fw_arena *arena, const fw_flexure_input *in,
+                               const fw_flexure_result *closed_form, fw_flexure_beam *out);
 /* that of any flexure: the path's where the width varies, else of one arc or line (beam.h) */
-fw_status fw_flexure_beam(fw_arena *arena, const fw_flexure_input *in,
-                          const fw_flexure_result *closed_form, fw_beam *out);
+fw_status fw_flexure_beam_of_input(fw_arena *arena, const fw_flexure_input *in,
+                                   const fw_flexure_result *closed_form, fw_flexure_beam *out);
 
 #endif

@@ -27,28 +27,28 @@ typedef struct knot {        /* node of the quadrature */
     double stretch, shear;   /* ds/EA, ds 6/5/GA */
 } knot;
 
-struct fw_path_way {
+struct fw_flexure_path_way {
     knot *knot;      /* (n) panel after panel */
     double *panel_m; /* (n/NODES) length of each panel */
     int n;
-    double inside[NODES * NODES]; /* fw_gauss_integrals */
-    fw_pose first, last;
+    double inside[NODES * NODES]; /* fw_flexure_gauss_integrals */
+    fw_geometry_pose first, last;
     double root[2]; /* shares of the roots */
     double W[2];    /* centre of weights as made */
     double total;   /* C */
 };
 
 /* sections of the strip as made */
-static double lay_knots(fw_path_way *way, const fw_course *p, const fw_path_stuff *m,
-                        const double *node, const double *weight) {
+static double lay_knots(fw_flexure_path_way *way, const fw_flexure_course *p,
+                        const fw_flexure_path_stuff *m, const double *node, const double *weight) {
     double total = 0;
     for (int i = 0; i < p->n; i++)
         for (int j = 0; j < PANELS; j++) {
             double h = p->shape[i].piece.length_m / PANELS;
             way->panel_m[way->n / NODES] = h;
             for (int k = 0; k < NODES; k++) {
-                fw_path_section at;
-                fw_path_section_at(p, m, i, (j + node[k]) * h, &at);
+                fw_flexure_path_section at;
+                fw_flexure_path_section_at(p, m, i, (j + node[k]) * h, &at);
                 double ds = weight[k] * h, t = at.width_m;
                 way->knot[way->n++] = (knot){.psi_rad = at.pose.angle_rad,
                                              .length_m = ds,
@@ -62,7 +62,7 @@ static double lay_knots(fw_path_way *way, const fw_course *p, const fw_path_stuf
 }
 
 /* f at the nodes: within a panel by the polynomial through them */
-static void share_out(fw_path_way *way, const double *weight) {
+static void share_out(fw_flexure_path_way *way, const double *weight) {
     double before = way->root[0];
     for (int first = 0; first < way->n; first += NODES) {
         knot *at = way->knot + first;
@@ -89,7 +89,7 @@ static void add_point(wound *o, double weight, double x, double y) {
 }
 
 /* the strip wound by th, in the first body's frame with the first end at the origin */
-static wound wind(const fw_path_way *way, double th) {
+static wound wind(const fw_flexure_path_way *way, double th) {
     wound o = {0};
     double x = 0, y = 0, c[NODES], s[NODES];
     for (int first = 0; first < way->n; first += NODES) {
@@ -118,23 +118,24 @@ static wound wind(const fw_path_way *way, double th) {
     return o;
 }
 
-fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_path_way **out) {
-    fw_course p;
-    fw_path_way *way;
+fw_status fw_flexure_path_way_new(fw_arena *arena, const fw_flexure_input *in,
+                                  const fw_flexure_path_way **out) {
+    fw_flexure_course p;
+    fw_flexure_path_way *way;
     double node[NODES], weight[NODES], root, lost;
-    fw_path_section at;
-    fw_path_of(in, &p);
-    const fw_path_stuff m = fw_path_stuff_of(&p, in);
-    FW_NEED(way = fw_arena_one(arena, fw_path_way));
+    fw_flexure_path_section at;
+    fw_flexure_path_of(in, &p);
+    const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
+    FW_NEED(way = fw_arena_one(arena, fw_flexure_path_way));
     FW_NEED(way->knot = fw_arena_array(arena, knot, (size_t)(p.n * PANELS * NODES)));
     FW_NEED(way->panel_m = fw_arena_array(arena, double, (size_t)(p.n * PANELS)));
-    fw_gauss_rule(NODES, node, weight);
-    fw_gauss_integrals(NODES, node, weight, way->inside);
+    fw_flexure_gauss_rule(NODES, node, weight);
+    fw_flexure_gauss_integrals(NODES, node, weight, way->inside);
     way->first = p.start[0], way->last = p.start[p.n];
     way->total = lay_knots(way, &p, &m, node, weight);
     for (int end = 0; end < 2; end++) {
-        fw_path_root(&p, &m, end, &at, &root);
-        fw_path_end_loss(&p, &m, end, &at, &lost);
+        fw_flexure_path_root(&p, &m, end, &at, &root);
+        fw_flexure_path_end_loss(&p, &m, end, &at, &lost);
         way->root[end] = (root - lost) * at.bend_per_Nm2; /* both at the end: W 0.1 um off */
         way->total += way->root[end];
     }
@@ -148,7 +149,7 @@ fw_status fw_path_way_new(fw_arena *arena, const fw_flexure_input *in, const fw_
     return FW_OK;
 }
 
-void fw_path_pose_at(const fw_path_way *way, double th, fw_path_pose *out) {
+void fw_flexure_path_pose_at(const fw_flexure_path_way *way, double th, fw_flexure_path_pose *out) {
     const wound o = wind(way, th);
     const wound made = {.end = {way->last.x_m - way->first.x_m, way->last.y_m - way->first.y_m}};
     double c = cos(0.5 * th), s = sin(0.5 * th);
@@ -166,29 +167,29 @@ void fw_path_pose_at(const fw_path_way *way, double th, fw_path_pose *out) {
     out->c[0][1] = out->c[1][0] = c * s * (yy - xx) + (c * c - s * s) * xy;
 }
 
-void fw_path_left_out(const fw_path_way *way, double rotation_rad, double *drift_m,
-                      double *coupling) {
+void fw_flexure_path_left_out(const fw_flexure_path_way *way, double rotation_rad, double *drift_m,
+                              double *coupling) {
     enum { STEPS = 16 };
     *drift_m = *coupling = 0;
     for (int i = -STEPS; i <= STEPS; i++) {
-        fw_path_pose at;
-        fw_path_pose_at(way, rotation_rad * i / STEPS, &at);
+        fw_flexure_path_pose at;
+        fw_flexure_path_pose_at(way, rotation_rad * i / STEPS, &at);
         *drift_m = fmax(*drift_m, fabs(at.drift_m[0]));
         *coupling = fmax(*coupling, fabs(at.c[0][1]) / sqrt(at.c[0][0] * at.c[1][1]));
     }
 }
 
-fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
-                      const fw_flexure_result *closed_form, fw_hinge_law *law) {
+fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
+                              const fw_flexure_result *closed_form, fw_flexure_hinge_law *law) {
     enum { N = FW_PATH_TERMS };
-    const fw_path_way *way;
-    struct fw_hinge_table *t;
+    const fw_flexure_path_way *way;
+    struct fw_flexure_hinge_table *t;
     fw_flexure_shape f;
-    fw_path_pose at[N];
-    FW_TRY(fw_path_way_new(arena, in, &way));
-    FW_NEED(t = fw_arena_one(arena, struct fw_hinge_table));
+    fw_flexure_path_pose at[N];
+    FW_TRY(fw_flexure_path_way_new(arena, in, &way));
+    FW_NEED(t = fw_arena_one(arena, struct fw_flexure_hinge_table));
     for (int i = 0; i < N; i++)
-        fw_path_pose_at(way, 2 * FW_PI * cos(FW_PI * (i + 0.5) / N), &at[i]);
+        fw_flexure_path_pose_at(way, 2 * FW_PI * cos(FW_PI * (i + 0.5) / N), &at[i]);
     for (int n = 0; n < N; n++)
         for (int i = 0; i < N; i++) {
             double by = (n ? 2.0 : 1.0) / N * cos(FW_PI * n * (i + 0.5) / N);
@@ -197,12 +198,12 @@ fw_status fw_path_law(fw_arena *arena, const fw_flexure_input *in,
             t->drift_m[n] += by * at[i].drift_m[1];
         }
     fw_flexure_shape_of(in, &f);
-    fw_path_pose_at(way, 0, &at[0]);
-    *law = (fw_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
-                          .half_angle_rad = f.half_angle_rad,
-                          .length_m = f.length_m,
-                          .share = 1 - way->root[0] - way->root[1],
-                          .bend_m_per_N = at[0].c[0][0],
-                          .table = t};
+    fw_flexure_path_pose_at(way, 0, &at[0]);
+    *law = (fw_flexure_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
+                                  .half_angle_rad = f.half_angle_rad,
+                                  .length_m = f.length_m,
+                                  .share = 1 - way->root[0] - way->root[1],
+                                  .bend_m_per_N = at[0].c[0][0],
+                                  .table = t};
     return FW_OK;
 }

@@ -9,14 +9,14 @@
 /* {sin r, cos r}: r + r^3 p(r^2) and 1 - r^2/2 + r^4 q(r^2), p and q minimax of degree 5 (rest
    below 4e-18; tools/minimax.py). in: |r| <= pi/4 rad; out: 1. Error 1 ulp. Cost 3 ns. Test:
    test_quick.c sine_and_cosine */
-FW_INLINE fw_both fw_quick_small_angle(fw_real r) {
+FW_INLINE fw_flexure_both fw_quick_small_angle(fw_flexure_real r) {
     static const double law[6][2] = {{-0x1.5555555555549p-3, 0x1.555555555554cp-5},
                                      {0x1.111111110f87bp-7, -0x1.6c16c16c1517dp-10},
                                      {-0x1.a01a019c11c83p-13, 0x1.a01a019cb1bd1p-16},
                                      {0x1.71de3577ea6a0p-19, -0x1.27e4f809f93a7p-22},
                                      {-0x1.ae5e666a03935p-26, 0x1.1ee9ebf426062p-29},
                                      {0x1.5d93106531dabp-33, -0x1.8faea46b3db14p-37}};
-    fw_real z = r * r, z2 = z * z;
+    fw_flexure_real z = r * r, z2 = z * z;
     return fw_both_madd(fw_both_of(r * z, z2), fw_quintics(law, z, z2, z2 * z2),
                         fw_both_of(r, 1 - 0.5 * z));
 }
@@ -24,10 +24,11 @@ FW_INLINE fw_both fw_quick_small_angle(fw_real r) {
 /* sine and cosine of half an angle, at most a full turn: cos 2r and -sin 2r of r = angle/4 - pi/4,
    |r| <= pi/4, which needs no quadrants. in: rad, 0 to 6.2832; out: 1. Error 6e-16, of the cosine 3
    ulp. Cost 4 ns. Test: test_quick.c half_angles */
-FW_INLINE void fw_quick_half_turn(fw_real angle, fw_real *sine, fw_real *cosine) {
-    fw_both of =
+FW_INLINE void fw_quick_half_turn(fw_flexure_real angle, fw_flexure_real *sine,
+                                  fw_flexure_real *cosine) {
+    fw_flexure_both of =
         fw_quick_small_angle((0.25 * angle - 0x1.921fb54442d18p-1) - 0x1.1a62633145c07p-55);
-    fw_real s = fw_first(of), c = fw_second(of);
+    fw_flexure_real s = fw_first(of), c = fw_second(of);
     *sine = (c - s) * (c + s);
     *cosine = -2 * s * c;
 }
@@ -37,7 +38,7 @@ FW_INLINE void fw_quick_half_turn(fw_real angle, fw_real *sine, fw_real *cosine)
    (minimax of degree 7, off by 9e-18; tools/minimax.py).
    in: 1/32 <= x < 8, beyond it something finite or NaN; out: 1. Error 3 ulp. Cost 3 ns.
    Test: test_quick.c two_thirds */
-FW_INLINE fw_real fw_quick_two_thirds(fw_real x) {
+FW_INLINE fw_flexure_real fw_quick_two_thirds(fw_flexure_real x) {
     static const double part[32][2] = {
         {0x1.f81f81f81f820p-1, 0x1.fabc3375d249cp-1}, {0x1.e9131abf0b767p-1, 0x1.f0999b9824157p-1},
         {0x1.dae6076b981dbp-1, 0x1.e6f4f94b57ef8p-1}, {0x1.cd85689039b0bp-1, 0x1.ddc4cab9e69d2p-1},
@@ -63,8 +64,8 @@ FW_INLINE fw_real fw_quick_two_thirds(fw_real x) {
                                      {-0x1.5555555555555p-1, -0x1.b0a2ee1aaafe8p-2},
                                      {0x1.1c71c71c746f1p-1, 0x1.98c7187b9b632p-2},
                                      {-0x1.f9add3c0d8484p-2, -0x1.855b321904a33p-2}};
-    fw_real d = fw_mantissa(x) * fw_fetch(&part[0][0], 2, x, 47, 31) - 1, square = d * d;
-    fw_both half = fw_cubics(law, d, square);
+    fw_flexure_real d = fw_mantissa(x) * fw_fetch(&part[0][0], 2, x, 47, 31) - 1, square = d * d;
+    fw_flexure_both half = fw_cubics(law, d, square);
     return (fw_fetch(octave, 1, x, 52, 7) * fw_fetch(&part[0][1], 2, x, 47, 31)) *
            (fw_first(half) + (square * square) * fw_second(half));
 }

@@ -6,41 +6,43 @@
 
 /* root length dL and fillet concentration for fillet rho and width t; rho/t is clamped to the
    range [0.05, 2] of the laws; rho < 0: an ideal end, 0 and 1 */
-double fw_root_length_m(double width_m, double fillet_m);
-double fw_root_block_m(double width_m,
-                       double fillet_m); /* what of it a fillet of no radius would leave */
-double fw_fillet_concentration(double width_m, double fillet_m);
+double fw_flexure_root_length_m(double width_m, double fillet_m);
+double fw_flexure_root_block_m(double width_m,
+                               double fillet_m); /* what of it a fillet of no radius would leave */
+double fw_flexure_fillet_concentration(double width_m, double fillet_m);
 
 /* e = R - rn of a strip of width t bent to radius R, u = t/2R; exact stiffness of it over the thin
    one (Golovin) */
-double fw_neutral_offset(double radius_m, double u);
-double fw_neutral_thick(double u); /* e/(R u^2), u >= 0.1 */
-double fw_golovin(double u);
+double fw_flexure_neutral_offset(double radius_m, double u);
+double fw_flexure_neutral_thick(double u); /* e/(R u^2), u >= 0.1 */
+double fw_flexure_golovin(double u);
 
-typedef struct fw_depth {
+typedef struct fw_flexure_depth {
     double stiffness; /* EI_eff / EI: 1 plane stress .. 1/(1-nu^2) plane strain */
     double softness;  /* 1 over that */
     double bow;       /* f: 1 free to bow across, plane stress .. 0 plane strain */
     double inner,
         outer; /* hoop strain over the beam's: inner fibre at mid-depth, outer at the edge */
-} fw_depth;
-fw_depth fw_depth_factors(double radius_m, double width_m, double depth_m, double poisson);
+} fw_flexure_depth;
+fw_flexure_depth fw_flexure_depth_factors(double radius_m, double width_m, double depth_m,
+                                          double poisson);
 
-fw_depth fw_depth_at(double depth_over_root_of_radius_and_width, double poisson);
+fw_flexure_depth fw_flexure_depth_at(double depth_over_root_of_radius_and_width, double poisson);
 /* of a crystal's strip, E of its mean compliance */
-fw_depth fw_depth_crystal(double depth_over_root_of_radius_and_width, const fw_crystal *crystal,
-                          double youngs_Pa);
-struct fw_depth_start;
-fw_depth fw_depth_deep(struct fw_depth_start from); /* x > 16; section_core.h */
+fw_flexure_depth fw_flexure_depth_crystal(double depth_over_root_of_radius_and_width,
+                                          const fw_flexure_crystal *crystal, double youngs_Pa);
+struct fw_flexure_depth_start;
+fw_flexure_depth
+fw_flexure_depth_deep(struct fw_flexure_depth_start from); /* x > 16; section_core.h */
 
 /* peak strain (of a crystal: stress) at a root over that of the beam there, Kt and curvature
    included, on the safe side of solids. curved: t/3R, signed to the left; end: -1 the first, 1 the
    second, whose tangent has the angle `angle_rad` in the flexure's frame */
-typedef struct fw_root_case {
+typedef struct fw_flexure_root_case {
     double width_m, fillet_m, depth_m, curved, poisson, bow;
     int end;
     double angle_rad;
-} fw_root_case;
-double fw_root_peak(const fw_root_case *root, const fw_crystal *crystal);
+} fw_flexure_root_case;
+double fw_flexure_root_peak(const fw_flexure_root_case *root, const fw_flexure_crystal *crystal);
 
 #endif

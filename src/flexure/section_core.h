@@ -7,7 +7,7 @@
 #include "flexure/section.h"
 
 /* x = rho/t in the range of the laws of the root */
-FW_INLINE fw_real fw_fitted_ratio(fw_real x) {
+FW_INLINE fw_flexure_real fw_fitted_ratio(fw_flexure_real x) {
     return fw_smaller(fw_larger(x, fw_all(0.05)), fw_all(2.0));
 }
 
@@ -17,27 +17,27 @@ FW_INLINE fw_real fw_fitted_ratio(fw_real x) {
    fitted to plane-stress finite elements of three geometries and two materials
    docs/theory/flexure.md eq. 6; test_flexure.c root_law_matches_finite_elements */
 static const double fw_root_block_law = 0.4192;
-FW_INLINE fw_real fw_root_law(fw_real x) {
+FW_INLINE fw_flexure_real fw_root_law(fw_flexure_real x) {
     return fw_root_block_law - 0.5972 * x - 0.1167 * x * x;
 }
 
 /* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
    valid as above; within 1 % of the finite elements it was fitted to, -0.2..+2.9 % on held-out ones
    docs/theory/root-strain.md eq. 7; test_flexure.c concentration_matches_finite_elements */
-FW_INLINE fw_real fw_concentration_law(fw_real x) {
+FW_INLINE fw_flexure_real fw_concentration_law(fw_flexure_real x) {
     return 0.944 + 0.2113 * fw_quick_two_thirds(x);
 }
 
 /* (t/rho)^(2/3) of that, no more than of rho = t/10 */
-FW_INLINE fw_real fw_notch_of(fw_real concentration) {
+FW_INLINE fw_flexure_real fw_notch_of(fw_flexure_real concentration) {
     return fw_smaller((concentration - 0.944) * (1 / 0.2113), fw_all(4.641588833612779));
 }
 
 /* e/(r u^2), e = r - rn = r (1 - u/atanh u) (Winkler), where the difference would cancel by the
    polynomial of u^2 nearest to it (off by 3e-17; tools/minimax.py); thicker than t/r = 0.32 by
-   fw_neutral_thick */
-FW_INLINE fw_real fw_neutral_thin(fw_real u) {
-    fw_real z = u * u, z2 = z * z;
+   fw_flexure_neutral_thick */
+FW_INLINE fw_flexure_real fw_neutral_thin(fw_flexure_real u) {
+    fw_flexure_real z = u * u, z2 = z * z;
     return ((0x1.5555555555556p-2 + z * 0x1.6c16c16c16088p-4) +
             z2 * (0x1.7d6d2c2b9bbe8p-5 + z * 0x1.eeb2ce0297badp-6)) +
            z2 * z2 *
@@ -46,12 +46,12 @@ FW_INLINE fw_real fw_neutral_thin(fw_real u) {
 
 #ifndef FW_FOUR_HINGES
 FW_INLINE double fw_neutral_series(double u) {
-    return u < 0.16 ? fw_neutral_thin(u) : fw_neutral_thick(u);
+    return u < 0.16 ? fw_neutral_thin(u) : fw_flexure_neutral_thick(u);
 }
 #endif
 
-FW_INLINE fw_real fw_golovin_law(fw_real u) {
-    fw_real u2 = u * u;
+FW_INLINE fw_flexure_real fw_golovin_law(fw_flexure_real u) {
+    fw_flexure_real u2 = u * u;
     return 1.0 - 2.0 / 15.0 * u2 - u2 * u2 * (1 / 21.0);
 }
 
@@ -66,25 +66,26 @@ FW_INLINE fw_real fw_golovin_law(fw_real u) {
    zeros of (sinh x + sin x)/2x, lie on z < 0, at -4 mu^4, tan mu + tanh mu = 0, and are those of a
    free bar. With the first seven as
    their denominator Q(z) they are quotients of polynomials of degree 7 up to x = 8, off by 2e-17
-   (tools/minimax.py); deeper ones by fw_depth_deep.
+   (tools/minimax.py); deeper ones by fw_flexure_depth_deep.
    in: square
    = h^2/(r t), nu, per = 1/(1 - nu^2); out: both factors; x -> 0 plane stress, x -> infinity plane
    strain; error below 0.3 % against 3-D finite elements (rigid ends), 0.5 % with real roots. Cost 8
    ns docs/theory/flexure.md eq. 8, docs/theory/root-strain.md eq. 9-10;
    test_flexure.c depth_factor_limits_and_reference,
    test_quick.c depth_factors */
-typedef struct fw_depth_start {
-    fw_real z, poisson, nu2, rest, per, lift; /* x^4, nu, nu^2, 1 - nu^2, 1 over that, k */
-} fw_depth_start;
+typedef struct fw_flexure_depth_start {
+    fw_flexure_real z, poisson, nu2, rest, per, lift; /* x^4, nu, nu^2, 1 - nu^2, 1 over that, k */
+} fw_flexure_depth_start;
 
-FW_INLINE fw_depth_start fw_depth_start_of(fw_real square, fw_real poisson) {
-    fw_real nu2 = poisson * poisson, rest = 1 - nu2;
-    return (fw_depth_start){.z = 3 * rest * (square * square),
-                            .poisson = poisson,
-                            .nu2 = nu2,
-                            .rest = rest,
-                            .per = 1 / rest,
-                            .lift = 0.25 * poisson * square};
+FW_INLINE fw_flexure_depth_start fw_depth_start_of(fw_flexure_real square,
+                                                   fw_flexure_real poisson) {
+    fw_flexure_real nu2 = poisson * poisson, rest = 1 - nu2;
+    return (fw_flexure_depth_start){.z = 3 * rest * (square * square),
+                                    .poisson = poisson,
+                                    .nu2 = nu2,
+                                    .rest = rest,
+                                    .per = 1 / rest,
+                                    .lift = 0.25 * poisson * square};
 }
 
 /* The same of a crystal's strip. Plate and hoop energy per length of a section that bows by c,
@@ -95,15 +96,18 @@ FW_INLINE fw_depth_start fw_depth_start_of(fw_real square, fw_real poisson) {
    and leave nu h^2, hence the hoop strain's k, as it is. With one nu D of silicon is 0.3 to 0.6 %
    too high for h >= 9 t, r <= 20 t.
    in: square = h^2/(r t), E Pa of the mean 1/E. Test: test_crystal.c ends_of_silicon */
-FW_INLINE fw_depth_start fw_depth_start_crystal(fw_real square, const fw_crystal *k, fw_real E) {
-    fw_real n2 = k->bow_per_Pa * E, rest = 1 - n2, unlike = (k->a0_per_Pa + k->a1_per_Pa) * E;
-    fw_real poisson = -k->s12_per_Pa * E;
-    return (fw_depth_start){.z = 3 * rest * unlike * (square * square),
-                            .poisson = poisson,
-                            .nu2 = n2,
-                            .rest = rest,
-                            .per = 1 / rest,
-                            .lift = 0.25 * poisson * square};
+FW_INLINE fw_flexure_depth_start fw_depth_start_crystal(fw_flexure_real square,
+                                                        const fw_flexure_crystal *k,
+                                                        fw_flexure_real E) {
+    fw_flexure_real n2 = k->bow_per_Pa * E, rest = 1 - n2,
+                    unlike = (k->a0_per_Pa + k->a1_per_Pa) * E;
+    fw_flexure_real poisson = -k->s12_per_Pa * E;
+    return (fw_flexure_depth_start){.z = 3 * rest * unlike * (square * square),
+                                    .poisson = poisson,
+                                    .nu2 = n2,
+                                    .rest = rest,
+                                    .per = 1 / rest,
+                                    .lift = 0.25 * poisson * square};
 }
 
 /* What an end takes away, because it keeps its section straight that would bow across by nu/R as
@@ -122,34 +126,37 @@ FW_INLINE fw_depth_start fw_depth_start_crystal(fw_real square, const fw_crystal
    of silicon arcs (x 0.1 to 1.25, h/t 0.5 to 30, t/r to 0.15) is then -0.27 to 0.26 % off, 0.08 %
    rms (without: 0.42 %, 1.25 % at most), W of others 0.1 um.
    source: docs/theory/flexure-silicon.md eq. 13a; test_crystal.c ends_of_silicon */
-typedef struct fw_end_loss {
-    fw_real reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
-} fw_end_loss;
+typedef struct fw_flexure_end_loss {
+    fw_flexure_real reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
+} fw_flexure_end_loss;
 
-FW_INLINE fw_real fw_end_reach(fw_real reach, fw_real depth_m, fw_real f, fw_real length_m) {
+FW_INLINE fw_flexure_real fw_end_reach(fw_flexure_real reach, fw_flexure_real depth_m,
+                                       fw_flexure_real f, fw_flexure_real length_m) {
     return fw_smaller(depth_m * reach * f, (1 / 3.0) * length_m);
 }
 
-FW_INLINE fw_end_loss fw_end_loss_of(fw_real reach, fw_real depth_m, fw_real f, fw_real length_m,
-                                     fw_real block_m) {
-    fw_real l = fw_end_reach(reach, depth_m, f, length_m);
-    return (fw_end_loss){.reach_m = l, .length_m = f * (l * l) / (l + block_m)};
+FW_INLINE fw_flexure_end_loss fw_end_loss_of(fw_flexure_real reach, fw_flexure_real depth_m,
+                                             fw_flexure_real f, fw_flexure_real length_m,
+                                             fw_flexure_real block_m) {
+    fw_flexure_real l = fw_end_reach(reach, depth_m, f, length_m);
+    return (fw_flexure_end_loss){.reach_m = l, .length_m = f * (l * l) / (l + block_m)};
 }
 
 /* f = of over; c1 = C1 / (rt/2), edge the bracket over it */
-FW_INLINE fw_depth fw_depth_by(const fw_depth_start *from, fw_real of, fw_real over, fw_real c1,
-                               fw_real edge, fw_real per_part) {
-    fw_real left = over - from->nu2 * of, per = 1 / (over * left); /* (1 - nu^2 f) over */
-    fw_real per_over = left * per, per_left = over * per, part = per_part * per_over;
-    return (fw_depth){.stiffness = left * from->per * per_over,
-                      .softness = from->rest * over * per_left,
-                      .bow = of * per_over,
-                      .inner = 1 - c1 * part,
-                      .outer = 1 + edge * part};
+FW_INLINE fw_flexure_depth fw_depth_by(const fw_flexure_depth_start *from, fw_flexure_real of,
+                                       fw_flexure_real over, fw_flexure_real c1,
+                                       fw_flexure_real edge, fw_flexure_real per_part) {
+    fw_flexure_real left = over - from->nu2 * of, per = 1 / (over * left); /* (1 - nu^2 f) over */
+    fw_flexure_real per_over = left * per, per_left = over * per, part = per_part * per_over;
+    return (fw_flexure_depth){.stiffness = left * from->per * per_over,
+                              .softness = from->rest * over * per_left,
+                              .bow = of * per_over,
+                              .inner = 1 - c1 * part,
+                              .outer = 1 + edge * part};
 }
 
 /* x <= 8 */
-FW_INLINE fw_depth fw_depth_near(const fw_depth_start *from) {
+FW_INLINE fw_flexure_depth fw_depth_near(const fw_flexure_depth_start *from) {
     static const double stiff[8][2] = {{0x1.0000000000000p+0, 0x1.0000000000000p+0},
                                        {0x1.10fe6934aafd4p-7, 0x1.6bcc21fa7e721p-9},
                                        {0x1.6f618bcc145b3p-19, 0x1.249456cbca3fcp-21},
@@ -166,14 +173,14 @@ FW_INLINE fw_depth fw_depth_near(const fw_depth_start *from) {
                                       {-0x1.6fe4c96047d55p-82, 0x1.b413d9facee34p-74},
                                       {0x1.361e8235e345ep-101, 0x1.1699265c4a5f2p-93},
                                       {-0x1.8c0b9e948c137p-121, 0x1.364bc77d9de83p-115}};
-    fw_real z = from->z, z2 = z * z, z4 = z2 * z2;
-    fw_both f = fw_septics(stiff, z, z2, z4), c = fw_septics(hoop, z, z2, z4);
+    fw_flexure_real z = from->z, z2 = z * z, z4 = z2 * z2;
+    fw_flexure_both f = fw_septics(stiff, z, z2, z4), c = fw_septics(hoop, z, z2, z4);
     return fw_depth_by(from, fw_second(f), fw_first(f), -fw_first(c), fw_second(c), from->lift);
 }
 
 #ifndef FW_FOUR_HINGES
-FW_INLINE fw_depth fw_depth_law(const fw_depth_start *from) {
-    return from->z <= 4096 ? fw_depth_near(from) : fw_depth_deep(*from);
+FW_INLINE fw_flexure_depth fw_depth_law(const fw_flexure_depth_start *from) {
+    return from->z <= 4096 ? fw_depth_near(from) : fw_flexure_depth_deep(*from);
 }
 #endif
 
@@ -193,8 +200,9 @@ FW_INLINE fw_depth fw_depth_law(const fw_depth_start *from) {
    solids' own error is 0.3 %.
    source: docs/theory/root-strain.md eq. 11a; solids and fit: tools/solids;
    test_root_strain.c */
-FW_INLINE fw_real fw_root_rise(fw_real x, fw_real q, fw_real p, fw_real nu, fw_real n, fw_real u) {
-    fw_real p2 = p * p;
+FW_INLINE fw_flexure_real fw_root_rise(fw_flexure_real x, fw_flexure_real q, fw_flexure_real p,
+                                       fw_flexure_real nu, fw_flexure_real n, fw_flexure_real u) {
+    fw_flexure_real p2 = p * p;
     return 1.0312 + n * p * (1.8208 * p2 - 0.7838) +
            nu * p2 * (q * (0.8824 - 1.069 * p) - 0.0907 * x * p) +
            u * (0.316 * p + 3.092 * n * x - 0.2066 * q);
@@ -218,59 +226,65 @@ FW_INLINE fw_real fw_root_rise(fw_real x, fw_real q, fw_real p, fw_real nu, fw_r
    source: docs/theory/flexure-silicon.md eq. 14; tools/solids; test_root_strain.c, test_crystal.c
    peak_stress_of_silicon
  */
-typedef struct fw_root_crystal {
-    fw_real even, along, across, lean; /* A, B, C, D u */
-    fw_real x, q, u;
-} fw_root_crystal;
+typedef struct fw_flexure_root_crystal {
+    fw_flexure_real even, along, across, lean; /* A, B, C, D u */
+    fw_flexure_real x, q, u;
+} fw_flexure_root_crystal;
 
-typedef struct fw_root_worst { /* (1 + u)(A + ...) of the inner fillet, (1 - u)(A + ...) of the
+typedef struct
+    fw_flexure_root_worst { /* (1 + u)(A + ...) of the inner fillet, (1 - u)(A + ...) of the
                                   outer */
-    fw_real inner, outer;
-} fw_root_worst;
+    fw_flexure_real inner, outer;
+} fw_flexure_root_worst;
 
-FW_INLINE fw_root_crystal fw_root_crystal_of(fw_real share, fw_real x, fw_real q, fw_real u) {
-    return (fw_root_crystal){.even = 1.0721 + 0.02 * x + q * (0.0172 + 0.0039 * q),
-                             .along = share * (-0.1134 + 0.0261 * x + 0.0305 * q),
-                             .across = share * (-0.077 + 0.0061 * x + q * (0.1783 - 0.0305 * q)),
-                             .lean = share * 0.394 * u,
-                             .x = x,
-                             .q = q,
-                             .u = u};
+FW_INLINE fw_flexure_root_crystal fw_root_crystal_of(fw_flexure_real share, fw_flexure_real x,
+                                                     fw_flexure_real q, fw_flexure_real u) {
+    return (fw_flexure_root_crystal){.even = 1.0721 + 0.02 * x + q * (0.0172 + 0.0039 * q),
+                                     .along = share * (-0.1134 + 0.0261 * x + 0.0305 * q),
+                                     .across =
+                                         share * (-0.077 + 0.0061 * x + q * (0.1783 - 0.0305 * q)),
+                                     .lean = share * 0.394 * u,
+                                     .x = x,
+                                     .q = q,
+                                     .u = u};
 }
 
 /* the worse of two roots whose 4 psi are b - w and b + w, cosine and sine of both angles given. b
    is turned back by 16.2 x u = 5.4 rho/R, of which sine and cosine stand as their Taylor series,
    2e-4 of 1 off at 1 rad, with which the laws were fitted. The larger of a + b and a - b is a + |b|
  */
-FW_INLINE fw_root_worst fw_root_crystal_at(const fw_root_crystal *r, fw_real cos_w, fw_real sin_w,
-                                           fw_real cos_b, fw_real sin_b) {
-    fw_real e = 16.2 * r->x * r->u, z = e * e;
-    fw_real S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
-    fw_real C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
-    fw_real c = cos_b * C + sin_b * S, s = sin_b * C - cos_b * S, Bc = r->along * c,
-            Bs = r->along * s;
-    fw_real P = r->lean + r->across, Q = r->lean - r->across;
-    return (fw_root_worst){
+FW_INLINE fw_flexure_root_worst fw_root_crystal_at(const fw_flexure_root_crystal *r,
+                                                   fw_flexure_real cos_w, fw_flexure_real sin_w,
+                                                   fw_flexure_real cos_b, fw_flexure_real sin_b) {
+    fw_flexure_real e = 16.2 * r->x * r->u, z = e * e;
+    fw_flexure_real S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
+    fw_flexure_real C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
+    fw_flexure_real c = cos_b * C + sin_b * S, s = sin_b * C - cos_b * S, Bc = r->along * c,
+                    Bs = r->along * s;
+    fw_flexure_real P = r->lean + r->across, Q = r->lean - r->across;
+    return (fw_flexure_root_worst){
         (1 + r->u) * (r->even + (Bc + P * s) * cos_w + fw_size((P * c - Bs) * sin_w)),
         (1 - r->u) * (r->even + (Bc + Q * s) * cos_w + fw_size((Q * c - Bs) * sin_w))};
 }
 
 #ifndef FW_FOUR_HINGES
 /* the worst direction */
-FW_INLINE fw_root_worst fw_root_crystal_any(const fw_root_crystal *r) {
-    fw_real P = r->lean + r->across, Q = r->lean - r->across, B = r->along * r->along;
-    return (fw_root_worst){(1 + r->u) * (r->even + sqrt(B + P * P)),
-                           (1 - r->u) * (r->even + sqrt(B + Q * Q))};
+FW_INLINE fw_flexure_root_worst fw_root_crystal_any(const fw_flexure_root_crystal *r) {
+    fw_flexure_real P = r->lean + r->across, Q = r->lean - r->across, B = r->along * r->along;
+    return (fw_flexure_root_worst){(1 + r->u) * (r->even + sqrt(B + P * P)),
+                                   (1 - r->u) * (r->even + sqrt(B + Q * Q))};
 }
 #endif
 
 /* G */
-FW_INLINE fw_real fw_root_crystal_peak(const fw_root_crystal *r, const fw_root_worst *worst,
-                                       fw_real p, fw_real nu, fw_real n) {
+FW_INLINE fw_flexure_real fw_root_crystal_peak(const fw_flexure_root_crystal *r,
+                                               const fw_flexure_root_worst *worst,
+                                               fw_flexure_real p, fw_flexure_real nu,
+                                               fw_flexure_real n) {
     p = fw_smaller(p, fw_all(15 / 17.0));
-    fw_real p2 = p * p, level = 1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) +
-                                nu * p2 * r->x * (-1.3063 + 1.6285 * p);
-    fw_real tilt = r->u * (1.5231 * p + n * (0.3433 * r->x + 2.1208) - 0.4898 * r->q);
+    fw_flexure_real p2 = p * p, level = 1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) +
+                                        nu * p2 * r->x * (-1.3063 + 1.6285 * p);
+    fw_flexure_real tilt = r->u * (1.5231 * p + n * (0.3433 * r->x + 2.1208) - 0.4898 * r->q);
     return fw_larger(worst->inner * (level + tilt), worst->outer * (level - tilt));
 }
 

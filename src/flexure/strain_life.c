@@ -9,25 +9,25 @@
 #include "flexure/strain_life.h"
 #include <math.h>
 
-static double plastic_Pa(const fw_strain_life *law, double cycles) {
+static double plastic_Pa(const fw_flexure_strain_life *law, double cycles) {
     if (!(law->ductility > 0)) return 0;
     return law->youngs_Pa * law->ductility * pow(2 * cycles, law->ductility_exponent);
 }
 
-double fw_strain_life_elastic_Pa(const fw_strain_life *law) {
+double fw_flexure_strain_life_elastic_Pa(const fw_flexure_strain_life *law) {
     return law->amplitude_Pa - plastic_Pa(law, law->cycles);
 }
 
-double fw_strain_life_amplitude_Pa(const fw_strain_life *law, double cycles) {
-    return fw_strain_life_elastic_Pa(law) * pow(cycles / law->cycles, law->exponent) +
+double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles) {
+    return fw_flexure_strain_life_elastic_Pa(law) * pow(cycles / law->cycles, law->exponent) +
            plastic_Pa(law, cycles);
 }
 
 /* Newton on logarithms: ln sigma(ln N) is convex and falls, so that from below the root in N it
    comes up to it without passing it */
-double fw_strain_life_cycles(const fw_strain_life *law, double amplitude_Pa) {
+double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law, double amplitude_Pa) {
     double s = fabs(amplitude_Pa), b = law->exponent, c = law->ductility_exponent;
-    double elastic = fw_strain_life_elastic_Pa(law);
+    double elastic = fw_flexure_strain_life_elastic_Pa(law);
     if (!(s > 0)) return (double)INFINITY;
     double ln = log(law->cycles) + log(s / elastic) / b;
     if (!(law->ductility > 0)) return exp(ln);
@@ -45,6 +45,6 @@ double fw_strain_life_cycles(const fw_strain_life *law, double amplitude_Pa) {
 /* sigma_ar = sqrt(sigma_max sigma_a), sigma_max = sigma_a + |sigma_m|: a strip bends, so that one
    of its sides has the mean in tension, whichever its sign source: Smith, Watson, Topper, J.
    Materials 5 (1970) 767; test_strain_life.c mean_stress */
-double fw_equivalent_amplitude_Pa(double amplitude_Pa, double mean_Pa) {
+double fw_flexure_equivalent_amplitude_Pa(double amplitude_Pa, double mean_Pa) {
     return sqrt((amplitude_Pa + fabs(mean_Pa)) * amplitude_Pa);
 }

@@ -15,14 +15,14 @@ static uint64_t strip_of(double x) {
     return bits;
 }
 
-static int *head_at(const fw_graph *g, uint64_t x, uint64_t y) {
+static int *head_at(const fw_geometry_graph *g, uint64_t x, uint64_t y) {
     uint64_t h = (x ^ (y << 32 | y >> 32)) * UINT64_C(0x9e3779b97f4a7c15);
     return &g->head[(unsigned)(h >> 32) & (g->heads - 1)];
 }
 
 /* The earliest node within the tolerance, or -1. What is that near lies in the strips of x and y
    less and more the tolerance: one square, but at its rim. Cost O(1). */
-static int find_node(const fw_graph *g, fw_vec2 at) {
+static int find_node(const fw_geometry_graph *g, fw_geometry_vec2 at) {
     const double wider = 2 * FW_COINCIDENT_M;
     const uint64_t x[2] = {strip_of(at.x - wider), strip_of(at.x + wider)};
     const uint64_t y[2] = {strip_of(at.y - wider), strip_of(at.y + wider)};
@@ -37,10 +37,10 @@ static int find_node(const fw_graph *g, fw_vec2 at) {
     return found;
 }
 
-static fw_status new_node(fw_graph *g, fw_vec2 at, int *node) {
+static fw_status new_node(fw_geometry_graph *g, fw_geometry_vec2 at, int *node) {
     if (g->nnode == g->node_room) {
         int more = 2 * g->node_room;
-        fw_vec2 *grown =
+        fw_geometry_vec2 *grown =
             fw_arena_grow(g->arena, g->node, (size_t)g->nnode, (size_t)more, sizeof *grown);
         int *same = fw_arena_grow(g->arena, g->same, (size_t)g->nnode, (size_t)more, sizeof *same);
         int *next = fw_arena_grow(g->arena, g->next, (size_t)g->nnode, (size_t)more, sizeof *next);
@@ -61,7 +61,7 @@ static fw_status new_node(fw_graph *g, fw_vec2 at, int *node) {
 }
 
 /* the node at a place, made when there is none within the tolerance */
-static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
+static fw_status node_at(fw_geometry_graph *g, fw_geometry_vec2 at, int *node) {
     /* one segment begins where the last one ended: what is found first does not change */
     bool again = g->nnode > 0 && at.x == g->asked.x && at.y == g->asked.y;
     *node = again ? g->answer : find_node(g, at);
@@ -71,33 +71,33 @@ static fw_status node_at(fw_graph *g, fw_vec2 at, int *node) {
     return FW_OK;
 }
 
-static int root_of(const fw_graph *g, int node) {
+static int root_of(const fw_geometry_graph *g, int node) {
     while (g->same[node] != node)
         node = g->same[node];
     return node;
 }
 
 /* two places that a segment cannot tell apart are one node, the earlier */
-static void unite(fw_graph *g, int a, int b) {
+static void unite(fw_geometry_graph *g, int a, int b) {
     a = root_of(g, a);
     b = root_of(g, b);
     g->same[a > b ? a : b] = a > b ? b : a;
 }
 
-static fw_status add_cut(fw_graph *g, int segment, double t, int node) {
+static fw_status add_cut(fw_geometry_graph *g, int segment, double t, int node) {
     if (g->ncut == g->cut_room) {
         int more = 2 * g->cut_room;
-        fw_cut *grown =
+        fw_geometry_cut *grown =
             fw_arena_grow(g->arena, g->cut, (size_t)g->ncut, (size_t)more, sizeof *grown);
         FW_NEED(grown);
         g->cut = grown;
         g->cut_room = more;
     }
-    g->cut[g->ncut++] = (fw_cut){segment, node, t};
+    g->cut[g->ncut++] = (fw_geometry_cut){segment, node, t};
     return FW_OK;
 }
 
-static int count_segments(const fw_region *region) {
+static int count_segments(const fw_geometry_region *region) {
     int n = 0;
     for (int i = 0; i < region->count; i++)
         n += region->contour[i].count;
@@ -105,7 +105,7 @@ static int count_segments(const fw_region *region) {
 }
 
 /* room for the nodes and cuts of all ends and of some crossings */
-static fw_status make_room(fw_graph *g) {
+static fw_status make_room(fw_geometry_graph *g) {
     size_t n = (size_t)g->nsegment;
     for (g->heads = 16; g->heads < n;)
         g->heads *= 2;
@@ -122,15 +122,16 @@ static fw_status make_room(fw_graph *g) {
 }
 
 /* every segment with cuts at its own two ends; ends of p come first and keep their doubles */
-static fw_status collect(fw_graph *g, const fw_region *p, const fw_region *q) {
+static fw_status collect(fw_geometry_graph *g, const fw_geometry_region *p,
+                         const fw_geometry_region *q) {
     g->nfirst = count_segments(p);
     g->nsegment = g->nfirst + count_segments(q);
     FW_TRY(make_room(g));
     int n = 0;
     for (int side = 0; side < 2; side++) {
-        const fw_region *region = side ? q : p;
+        const fw_geometry_region *region = side ? q : p;
         for (int i = 0; i < region->count; i++) {
-            if (!fw_contour_valid(&region->contour[i])) return FW_GEOMETRY;
+            if (!fw_geometry_contour_valid(&region->contour[i])) return FW_GEOMETRY;
             for (int k = 0; k < region->contour[i].count; k++)
                 g->segment[n++] = &region->contour[i].segment[k];
         }
@@ -146,8 +147,8 @@ static fw_status collect(fw_graph *g, const fw_region *p, const fw_region *q) {
 }
 
 /* a cut inside a segment; at its very end the node is united with that end */
-static fw_status cut_at(fw_graph *g, int segment, double t, int node) {
-    double length = fw_segment_length(g->segment[segment]);
+static fw_status cut_at(fw_geometry_graph *g, int segment, double t, int node) {
+    double length = fw_geometry_segment_length(g->segment[segment]);
     if (t * length <= FW_COINCIDENT_M)
         unite(g, node, g->cut[2 * segment].node);
     else if ((1 - t) * length <= FW_COINCIDENT_M)
@@ -157,15 +158,15 @@ static fw_status cut_at(fw_graph *g, int segment, double t, int node) {
     return FW_OK;
 }
 
-static fw_box box_of(const fw_box *box, int from, int to) {
-    fw_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+static fw_geometry_box box_of(const fw_geometry_box *box, int from, int to) {
+    fw_geometry_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int i = from; i < to; i++)
         all = fw_box_join(all, box[i]);
     return all;
 }
 
-static fw_status intersect_all(fw_graph *g) {
-    fw_box *box = fw_arena_raw(g->arena, (size_t)g->nsegment * sizeof *box);
+static fw_status intersect_all(fw_geometry_graph *g) {
+    fw_geometry_box *box = fw_arena_raw(g->arena, (size_t)g->nsegment * sizeof *box);
     FW_NEED(g->own = box);
     for (int i = 0; i < g->nsegment; i++)
         box[i] = fw_segment_box(g->segment[i]);
@@ -176,8 +177,8 @@ static fw_status intersect_all(fw_graph *g) {
         for (int j = g->nfirst; j < g->nsegment; j++) {
             if (fw_box_apart(&box[i], &box[j], 2 * FW_COINCIDENT_M)) continue;
             if (fw_box_gap(box[i], box[j]) > FW_COINCIDENT_M) continue;
-            fw_hit hit[FW_MOST_HITS];
-            int n = fw_segment_intersect(g->segment[i], g->segment[j], hit);
+            fw_geometry_hit hit[FW_MOST_HITS];
+            int n = fw_geometry_segment_intersect(g->segment[i], g->segment[j], hit);
             for (int k = 0; k < n; k++) {
                 int node;
                 FW_TRY(node_at(g, hit[k].at, &node));
@@ -189,24 +190,24 @@ static fw_status intersect_all(fw_graph *g) {
     return FW_OK;
 }
 
-static bool before(const fw_cut *a, const fw_cut *b) {
+static bool before(const fw_geometry_cut *a, const fw_geometry_cut *b) {
     return a->t != b->t ? a->t < b->t : a->node < b->node;
 }
 
 /* by segment, place and node: counted into the segments, put into order there, where there are few
  */
-static fw_status sort_cuts(fw_graph *g) {
+static fw_status sort_cuts(fw_geometry_graph *g) {
     if (g->ncut == 2 * g->nsegment) return FW_OK; /* the two ends of each */
     int *begin = fw_arena_array(g->arena, int, (size_t)g->nsegment + 1);
     int *there = fw_arena_array(g->arena, int, (size_t)g->nsegment);
-    fw_cut *sorted = fw_arena_array(g->arena, fw_cut, (size_t)g->ncut);
+    fw_geometry_cut *sorted = fw_arena_array(g->arena, fw_geometry_cut, (size_t)g->ncut);
     if (!begin || !there || !sorted) return FW_NOMEM;
     for (int i = 0; i < g->ncut; i++)
         begin[g->cut[i].segment + 1]++;
     for (int i = 0; i < g->nsegment; i++)
         begin[i + 1] += begin[i];
     for (int i = 0; i < g->ncut; i++) {
-        const fw_cut *c = &g->cut[i];
+        const fw_geometry_cut *c = &g->cut[i];
         int first = begin[c->segment], at = first + there[c->segment]++;
         for (; at > first && before(c, &sorted[at - 1]); at--)
             sorted[at] = sorted[at - 1];
@@ -216,47 +217,49 @@ static fw_status sort_cuts(fw_graph *g) {
     return FW_OK;
 }
 
-static fw_status cut_edges(fw_graph *g) {
+static fw_status cut_edges(fw_geometry_graph *g) {
     for (int i = 0; i < g->ncut; i++)
         g->cut[i].node = root_of(g, g->cut[i].node);
     FW_TRY(sort_cuts(g));
     g->edge = fw_arena_raw(g->arena, (size_t)g->ncut * sizeof *g->edge);
     FW_NEED(g->edge);
     for (int i = 1, rank = 0; i < g->ncut; i++) {
-        const fw_cut *a = &g->cut[i - 1], *b = &g->cut[i];
+        const fw_geometry_cut *a = &g->cut[i - 1], *b = &g->cut[i];
         if (a->segment != b->segment) {
             rank = 0;
             continue;
         }
-        const fw_segment *s = g->segment[a->segment];
-        double length = fw_segment_length(s) * (b->t - a->t);
+        const fw_geometry_segment *s = g->segment[a->segment];
+        double length = fw_geometry_segment_length(s) * (b->t - a->t);
         /* a closed circle may run from a node to itself, a stub within the tolerance may not */
         if (a->node == b->node && length <= 8 * FW_COINCIDENT_M) continue;
-        g->edge[g->nedge++] = (fw_edge){.segment = a->segment,
-                                        .rank = rank++,
-                                        .owner = a->segment < g->nfirst ? 0 : 1,
-                                        .from = a->node,
-                                        .to = b->node,
-                                        .t0 = a->t,
-                                        .t1 = b->t,
-                                        .twin = -1};
+        g->edge[g->nedge++] = (fw_geometry_edge){.segment = a->segment,
+                                                 .rank = rank++,
+                                                 .owner = a->segment < g->nfirst ? 0 : 1,
+                                                 .from = a->node,
+                                                 .to = b->node,
+                                                 .t0 = a->t,
+                                                 .t1 = b->t,
+                                                 .twin = -1};
     }
     return FW_OK;
 }
 
-fw_segment fw_edge_segment(const fw_graph *g, const fw_edge *e) {
-    fw_segment s =
-        fw_segment_cut(g->segment[e->segment], e->t0, g->node[e->from], e->t1, g->node[e->to]);
-    return e->reversed ? fw_segment_reverse(&s) : s;
+fw_geometry_segment fw_geometry_edge_segment(const fw_geometry_graph *g,
+                                             const fw_geometry_edge *e) {
+    fw_geometry_segment s = fw_geometry_segment_cut(g->segment[e->segment], e->t0, g->node[e->from],
+                                                    e->t1, g->node[e->to]);
+    return e->reversed ? fw_geometry_segment_reverse(&s) : s;
 }
 
-static fw_vec2 middle_of(const fw_graph *g, const fw_edge *e) {
-    fw_segment s = fw_edge_segment(g, e);
-    return fw_segment_point(&s, 0.5);
+static fw_geometry_vec2 middle_of(const fw_geometry_graph *g, const fw_geometry_edge *e) {
+    fw_geometry_segment s = fw_geometry_edge_segment(g, e);
+    return fw_geometry_segment_point(&s, 0.5);
 }
 
 /* edges of p and q between the same nodes along the same path; *same: in the same direction */
-static bool is_twin(const fw_graph *g, const fw_edge *a, const fw_edge *b, bool *same) {
+static bool is_twin(const fw_geometry_graph *g, const fw_geometry_edge *a,
+                    const fw_geometry_edge *b, bool *same) {
     if (a->from == b->from && a->to == b->to)
         *same = true;
     else if (a->from == b->to && a->to == b->from)
@@ -269,18 +272,19 @@ static bool is_twin(const fw_graph *g, const fw_edge *a, const fw_edge *b, bool 
 }
 
 /* outside the box nothing winds around a point */
-static bool may_hold(fw_box b, fw_vec2 p) {
+static bool may_hold(fw_geometry_box b, fw_geometry_vec2 p) {
     const double wider = 1e-9;
     return p.x >= b.x0 - wider && p.x <= b.x1 + wider && p.y >= b.y0 - wider && p.y <= b.y1 + wider;
 }
 
 /* own: boxes of the region's segments, outline by outline; of many outlines few are near a point */
-static int region_winding(const fw_region *region, const fw_box *own, fw_vec2 point) {
+static int region_winding(const fw_geometry_region *region, const fw_geometry_box *own,
+                          fw_geometry_vec2 point) {
     int winding = 0;
     for (int i = 0; i < region->count; i++) {
-        const fw_contour *c = &region->contour[i];
+        const fw_geometry_contour *c = &region->contour[i];
         if (region->count == 1 || may_hold(box_of(own, 0, c->count), point))
-            winding += fw_contour_winding(c, point);
+            winding += fw_geometry_contour_winding(c, point);
         own += c->count;
     }
     return winding;
@@ -288,16 +292,17 @@ static int region_winding(const fw_region *region, const fw_box *own, fw_vec2 po
 
 /* Does the other region hold the middle of an edge? Where all of its segment is clear of that
    region's box the middle is not worked out. */
-static bool is_within(const fw_graph *g, const fw_edge *e, const fw_region *other) {
-    const fw_box *box = &g->box[!e->owner];
+static bool is_within(const fw_geometry_graph *g, const fw_geometry_edge *e,
+                      const fw_geometry_region *other) {
+    const fw_geometry_box *box = &g->box[!e->owner];
     if (fw_box_gap(g->own[e->segment], *box) > 2e-9) return false;
-    fw_vec2 middle = middle_of(g, e);
+    fw_geometry_vec2 middle = middle_of(g, e);
     return may_hold(*box, middle) &&
            region_winding(other, g->own + (e->owner ? 0 : g->nfirst), middle) != 0;
 }
 
 /* which edges bound the result, and in which direction */
-static void choose(fw_edge *e, bool within, fw_boolean op) {
+static void choose(fw_geometry_edge *e, bool within, fw_geometry_boolean op) {
     if (op == FW_UNION)
         e->keep = !within;
     else if (op == FW_INTERSECTION)
@@ -311,7 +316,7 @@ static void choose(fw_edge *e, bool within, fw_boolean op) {
 /* Twins are among the edges with the same lower node, listed in their order. Shared edges bound a
    union or an intersection once when both regions lie on one side, never when on either side; a
    difference the other way round. The copy of p is kept, with its flags. */
-static fw_status pair_twins(fw_graph *g, fw_boolean op) {
+static fw_status pair_twins(fw_geometry_graph *g, fw_geometry_boolean op) {
     int *first = fw_arena_raw(g->arena, (size_t)g->nnode * sizeof *first);
     int *after = fw_arena_raw(g->arena, (size_t)g->nedge * sizeof *after);
     FW_NEED(first);
@@ -319,14 +324,14 @@ static fw_status pair_twins(fw_graph *g, fw_boolean op) {
     for (int i = 0; i < g->nnode; i++)
         first[i] = -1;
     for (int i = g->nedge - 1; i >= 0; i--) {
-        const fw_edge *e = &g->edge[i];
+        const fw_geometry_edge *e = &g->edge[i];
         int low = e->from < e->to ? e->from : e->to;
         after[i] = first[low];
         first[low] = i;
     }
     for (int i = 0; i < g->nedge; i++)
         for (int j = after[i]; j >= 0; j = after[j]) {
-            fw_edge *a = &g->edge[i], *b = &g->edge[j];
+            fw_geometry_edge *a = &g->edge[i], *b = &g->edge[j];
             bool same;
             if (a->owner == b->owner || a->twin >= 0 || b->twin >= 0 || !is_twin(g, a, b, &same))
                 continue;
@@ -342,10 +347,11 @@ static fw_status pair_twins(fw_graph *g, fw_boolean op) {
    the other region, coincident edges by rule; (3) stitch. In: regions (outer ccw, holes cw, m).
    Out: the same kind of region. Untouched segments keep their doubles and flags.
    Cost: O(n m + n (n + m)). Test: test_boolean.c. */
-fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region *q, fw_boolean op,
-                            fw_region *out) {
-    *out = (fw_region){0};
-    fw_graph g = {.arena = arena};
+fw_status fw_geometry_region_boolean(fw_arena *arena, const fw_geometry_region *p,
+                                     const fw_geometry_region *q, fw_geometry_boolean op,
+                                     fw_geometry_region *out) {
+    *out = (fw_geometry_region){0};
+    fw_geometry_graph g = {.arena = arena};
     FW_TRY(collect(&g, p, q));
     if (g.nsegment == 0) return FW_OK;
     FW_TRY(intersect_all(&g));
@@ -354,5 +360,5 @@ fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region
     for (int i = 0; i < g.nedge; i++)
         if (g.edge[i].twin < 0)
             choose(&g.edge[i], is_within(&g, &g.edge[i], g.edge[i].owner ? p : q), op);
-    return fw_graph_stitch(&g, out);
+    return fw_geometry_graph_stitch(&g, out);
 }

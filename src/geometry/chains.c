@@ -34,13 +34,13 @@ typedef struct sweep {
     int nactive;
 } sweep;
 
-static inline key key_of(fw_point p) {
+static inline key key_of(fw_geometry_point p) {
     return (key)p.x_dbu * ((key)1 << 32) + p.y_dbu;
 }
 
-static inline fw_point point_of(key k) {
+static inline fw_geometry_point point_of(key k) {
     int32_t y = (int32_t)(uint32_t)((uint64_t)k & 0xffffffffu);
-    return (fw_point){(int32_t)((k - y) / ((key)1 << 32)), y};
+    return (fw_geometry_point){(int32_t)((k - y) / ((key)1 << 32)), y};
 }
 
 /* > 0: c lies above the edge from a to b, a before b */
@@ -49,7 +49,7 @@ static inline int64_t height(key a, key b, key c) {
 }
 
 /* from the least vertex on, so that no chain runs over the end of the list */
-static void rotate(const fw_polygon *p, key *v) {
+static void rotate(const fw_geometry_polygon *p, key *v) {
     int least = 0, n = p->count;
     key first = key_of(p->vertex[0]);
     for (int i = 1; i < n; i++) {
@@ -144,8 +144,8 @@ static bool apart(const sweep *s, int below, key p) {
     int i = low->pair_at, j = low->pair_up, di = low->step, dj = up->step;
     key a = v[i + di],
         b = v[j + dj]; /* where the two edges end, and as points from where to where */
-    fw_point from_a = point_of(v[i]), from_b = point_of(v[j]), to_a = point_of(a),
-             to_b = point_of(b);
+    fw_geometry_point from_a = point_of(v[i]), from_b = point_of(v[j]), to_a = point_of(a),
+                      to_b = point_of(b);
     for (;;) {
         if (a < b) {
             if (a > p) return true;
@@ -230,7 +230,8 @@ static bool sweep_chains(sweep *s, int n) {
    bytes a vertex at most. Source: Shamos and Hoey, "Geometric intersection problems", FOCS 1976;
    Park and Shin, Computer-Aided Design 34 (2002) 655, for chains. Test: test_polygon.c, against all
    pairs and the sweep over edges. */
-fw_status fw_polygon_prove(fw_arena *arena, const fw_polygon *polygon, bool *proved) {
+fw_status fw_geometry_polygon_prove(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                    bool *proved) {
     int n = polygon->count;
     *proved = false;
     fw_mark mark = fw_arena_mark(arena);

@@ -10,11 +10,11 @@
 #include "base/status.h"
 #include <stdbool.h>
 
-typedef struct fw_vec2 {
+typedef struct fw_geometry_vec2 {
     double x, y; /* m */
-} fw_vec2;
+} fw_geometry_vec2;
 
-typedef enum fw_segment_kind { FW_LINE, FW_ARC } fw_segment_kind;
+typedef enum fw_geometry_segment_kind { FW_LINE, FW_ARC } fw_geometry_segment_kind;
 
 enum {
     FW_SEGMENT_JOINT = 1, /* shared with the neighbouring piece: its end corners stay as they are */
@@ -22,112 +22,127 @@ enum {
                                 the same line or circle, not square to the joint */
 };
 
-typedef struct fw_segment {
-    fw_segment_kind kind;
+typedef struct fw_geometry_segment {
+    fw_geometry_segment_kind kind;
     unsigned flags;
-    fw_vec2 a, b;     /* start, end */
-    fw_vec2 centre;   /* arc only */
-    double radius;    /* arc only, > 0, m */
-    double sweep_rad; /* arc only, signed: > 0 counter-clockwise; 0 < |sweep| <= 2 pi */
-} fw_segment;
+    fw_geometry_vec2 a, b;   /* start, end */
+    fw_geometry_vec2 centre; /* arc only */
+    double radius;           /* arc only, > 0, m */
+    double sweep_rad;        /* arc only, signed: > 0 counter-clockwise; 0 < |sweep| <= 2 pi */
+} fw_geometry_segment;
 
-typedef struct fw_contour {
-    fw_segment *segment; /* (count), segment[i].b == segment[i+1].a bit for bit, cyclic */
+typedef struct fw_geometry_contour {
+    fw_geometry_segment *segment; /* (count), segment[i].b == segment[i+1].a bit for bit, cyclic */
     int count;
-} fw_contour;
+} fw_geometry_contour;
 
-typedef struct fw_region { /* outer contours counter-clockwise, holes clockwise, disjoint */
-    fw_contour *contour;   /* (count) */
+typedef struct
+    fw_geometry_region {          /* outer contours counter-clockwise, holes clockwise, disjoint */
+    fw_geometry_contour *contour; /* (count) */
     int count;
-} fw_region;
+} fw_geometry_region;
 
 /* rotation by angle_rad about the origin, then translation */
-typedef struct fw_pose {
+typedef struct fw_geometry_pose {
     double x_m, y_m, angle_rad;
-} fw_pose;
+} fw_geometry_pose;
 
-typedef struct fw_box {
+typedef struct fw_geometry_box {
     double x0, y0, x1, y1; /* m */
-} fw_box;
+} fw_geometry_box;
 
 /* ---- building: start, then segments, then close (adds the closing line when needed) ---- */
-typedef struct fw_outline {
+typedef struct fw_geometry_outline {
     fw_arena *arena;
-    fw_segment *segment;
+    fw_geometry_segment *segment;
     int count, capacity;
-    fw_vec2 first, at;
+    fw_geometry_vec2 first, at;
     bool failed;  /* out of memory */
     bool invalid; /* an arc whose end is off its circle, or a number that is not finite */
-} fw_outline;
-fw_outline fw_outline_start(fw_arena *arena, fw_vec2 point);
-void fw_outline_line(fw_outline *outline, fw_vec2 to, unsigned flags);
-/* arc about `centre` through the signed sweep; the end point is computed, `fw_outline_arc_to` takes
+} fw_geometry_outline;
+fw_geometry_outline fw_geometry_outline_start(fw_arena *arena, fw_geometry_vec2 point);
+void fw_geometry_outline_line(fw_geometry_outline *outline, fw_geometry_vec2 to, unsigned flags);
+/* arc about `centre` through the signed sweep; the end point is computed,
+   `fw_geometry_outline_arc_to` takes
    an end point already known so that neighbours share it bit for bit */
-void fw_outline_arc(fw_outline *outline, fw_vec2 centre, double sweep_rad, unsigned flags);
-void fw_outline_arc_to(fw_outline *outline, fw_vec2 centre, double sweep_rad, fw_vec2 to,
-                       unsigned flags);
-fw_status fw_outline_close(fw_outline *outline, fw_contour *contour);
+void fw_geometry_outline_arc(fw_geometry_outline *outline, fw_geometry_vec2 centre,
+                             double sweep_rad, unsigned flags);
+void fw_geometry_outline_arc_to(fw_geometry_outline *outline, fw_geometry_vec2 centre,
+                                double sweep_rad, fw_geometry_vec2 to, unsigned flags);
+fw_status fw_geometry_outline_close(fw_geometry_outline *outline, fw_geometry_contour *contour);
 
-fw_status fw_contour_rectangle(fw_arena *arena, fw_box box, fw_contour *contour);
-fw_status fw_contour_disc(fw_arena *arena, fw_vec2 centre, double radius_m, fw_contour *contour);
+fw_status fw_geometry_contour_rectangle(fw_arena *arena, fw_geometry_box box,
+                                        fw_geometry_contour *contour);
+fw_status fw_geometry_contour_disc(fw_arena *arena, fw_geometry_vec2 centre, double radius_m,
+                                   fw_geometry_contour *contour);
 /* rectangle of `width` whose axis runs from p to q, square ends */
-fw_status fw_contour_bar(fw_arena *arena, fw_vec2 p, fw_vec2 q, double width_m,
-                         fw_contour *contour);
+fw_status fw_geometry_contour_bar(fw_arena *arena, fw_geometry_vec2 p, fw_geometry_vec2 q,
+                                  double width_m, fw_geometry_contour *contour);
 /* the part of a ring between two radii, from angle0 through sweep > 0 */
-fw_status fw_contour_ring_sector(fw_arena *arena, fw_vec2 centre, double inner_m, double outer_m,
-                                 double angle0_rad, double sweep_rad, fw_contour *contour);
+fw_status fw_geometry_contour_ring_sector(fw_arena *arena, fw_geometry_vec2 centre, double inner_m,
+                                          double outer_m, double angle0_rad, double sweep_rad,
+                                          fw_geometry_contour *contour);
 
 /* ---- measuring, all closed form ---- */
-double fw_contour_area(const fw_contour *contour);      /* m2, > 0 counter-clockwise */
-double fw_contour_perimeter(const fw_contour *contour); /* m */
-fw_box fw_contour_box(const fw_contour *contour);
-double fw_contour_area_in(const fw_contour *contour, fw_box box); /* m2, where the box is known */
+double fw_geometry_contour_area(const fw_geometry_contour *contour); /* m2, > 0 counter-clockwise */
+double fw_geometry_contour_perimeter(const fw_geometry_contour *contour); /* m */
+fw_geometry_box fw_geometry_contour_box(const fw_geometry_contour *contour);
+double fw_geometry_contour_area_in(const fw_geometry_contour *contour,
+                                   fw_geometry_box box); /* m2, where the box is known */
 /* area, centroid and polar second moment about the centroid (m4), by Green's theorem */
-typedef struct fw_moments {
+typedef struct fw_geometry_moments {
     double area_m2;
-    fw_vec2 centroid;
+    fw_geometry_vec2 centroid;
     double polar_m4;
-} fw_moments;
-fw_moments fw_region_moments(const fw_region *region);
-bool fw_contour_contains(const fw_contour *contour, fw_vec2 point); /* boundary: either answer */
+} fw_geometry_moments;
+fw_geometry_moments fw_geometry_region_moments(const fw_geometry_region *region);
+bool fw_geometry_contour_contains(const fw_geometry_contour *contour,
+                                  fw_geometry_vec2 point); /* boundary: either answer */
 /* least distance between two outlines, and where; 0 when they cross */
-double fw_contour_distance(const fw_contour *p, const fw_contour *q, fw_vec2 *at_p, fw_vec2 *at_q);
+double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geometry_contour *q,
+                                    fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
 /* the same where it is less than a limit; else the limit. Cost: pairs of segments whose boxes are
    nearer than that */
-double fw_contour_distance_below(const fw_contour *p, const fw_contour *q, double limit_m,
-                                 fw_vec2 *at_p, fw_vec2 *at_q);
+double fw_geometry_contour_distance_below(const fw_geometry_contour *p,
+                                          const fw_geometry_contour *q, double limit_m,
+                                          fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
 /* least distance between segments of one outline that are not neighbours (space or width), with the
    indices of the two; `inside` true: through material (width), false: through the outside (space).
    Counted are chords between edges that face each other (outward normals more than 90 degrees
    apart) where neither end can slide along the outline to a shorter chord, past tangent joints too:
    so neither a rounded corner nor a step in an edge is a width. An arc of half a turn or more faces
    itself. JOINT segments are no edges. HUGE_VAL and -1, -1 when there is none. */
-double fw_contour_clearance(const fw_contour *contour, bool inside, int *i, int *j);
+double fw_geometry_contour_clearance(const fw_geometry_contour *contour, bool inside, int *i,
+                                     int *j);
 /* the same where it is less than a limit; else the limit, and -1, -1. Cost: pairs of segments whose
    boxes are nearer than that */
-double fw_contour_clearance_below(const fw_contour *contour, bool inside, double limit_m, int *i,
-                                  int *j);
+double fw_geometry_contour_clearance_below(const fw_geometry_contour *contour, bool inside,
+                                           double limit_m, int *i, int *j);
 
 /* ---- changing ---- */
-fw_status fw_contour_transform(fw_arena *arena, const fw_contour *contour, fw_pose pose,
-                               bool mirror_y, fw_contour *out); /* y -> -y first, stays ccw */
-fw_status fw_contour_reverse(fw_arena *arena, const fw_contour *contour, fw_contour *out);
+fw_status fw_geometry_contour_transform(fw_arena *arena, const fw_geometry_contour *contour,
+                                        fw_geometry_pose pose, bool mirror_y,
+                                        fw_geometry_contour *out); /* y -> -y first, stays ccw */
+fw_status fw_geometry_contour_reverse(fw_arena *arena, const fw_geometry_contour *contour,
+                                      fw_geometry_contour *out);
 /* exact boolean of outlines in general position; coincident segments are allowed and merged.
    tolerance 1e-12 m. Result has no holes lost: outlines that touch themselves are split there.
    Outer outlines come first. FW_GEOMETRY: an operand is no closed outline, or edges run within a
    few 1e-12 m of each other without being the same to the tolerance and no consistent result was
    found (never a wrong one). */
-typedef enum fw_boolean { FW_UNION, FW_DIFFERENCE, FW_INTERSECTION } fw_boolean;
-fw_status fw_region_boolean(fw_arena *arena, const fw_region *p, const fw_region *q, fw_boolean op,
-                            fw_region *out);
+typedef enum fw_geometry_boolean { FW_UNION, FW_DIFFERENCE, FW_INTERSECTION } fw_geometry_boolean;
+fw_status fw_geometry_region_boolean(fw_arena *arena, const fw_geometry_region *p,
+                                     const fw_geometry_region *q, fw_geometry_boolean op,
+                                     fw_geometry_region *out);
 /* rounds corners with tangent arcs: convex corners (material angle < 180) with `convex_m`, concave
    ones with `concave_m`; radius 0 leaves them. A corner next to a JOINT segment stays. A segment
    between two corners of one side that is too short for both (and shorter than the radius, turns up
    to 120 degrees together) is left out: the rounding touches its neighbours. Where neighbouring
    segments are else too short the radius shrinks, never below a quarter, else FW_GEOMETRY with the
    corner's place in *where; what stays of a segment is nothing or 200 nm. */
-fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double convex_m,
-                           double concave_m, fw_contour *out, fw_vec2 *where);
+fw_status fw_geometry_contour_round(fw_arena *arena, const fw_geometry_contour *contour,
+                                    double convex_m, double concave_m, fw_geometry_contour *out,
+                                    fw_geometry_vec2 *where);
 /* moves every segment outward by d (inward for d < 0) along its normal; lines and arcs stay lines
    and arcs. Convex corners are mitred up to 2 d, else joined by an arc; concave ones are
    intersected. JOINT segments stay where they are (they are cut lines, not edges): each end slides
@@ -138,7 +153,7 @@ fw_status fw_contour_round(fw_arena *arena, const fw_contour *contour, double co
    edges, to 1e-15 m, which both pieces find alike. Two JOINT segments at one vertex, and an arc as
    a joint, are refused. Refuses (FW_GEOMETRY, the two segments in *i, *j) when the topology could
    change: a concave arc with radius <= d, or a clearance <= 2 d. */
-fw_status fw_contour_offset(fw_arena *arena, const fw_contour *contour, double d_m, fw_contour *out,
-                            int *i, int *j);
+fw_status fw_geometry_contour_offset(fw_arena *arena, const fw_geometry_contour *contour,
+                                     double d_m, fw_geometry_contour *out, int *i, int *j);
 
 #endif

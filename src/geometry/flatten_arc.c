@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "geometry/flatten.h"
+#include "geometry/geometry_flatten.h"
 #include <string.h>
 
 enum {
@@ -10,14 +10,15 @@ enum {
 
 /* the arc as both of its neighbours see it: from the lexicographically smaller end, radius and
    sweep recomputed from the shared points alone */
-static fw_segment canonical(const fw_segment *s, bool *reversed) {
+static fw_geometry_segment canonical(const fw_geometry_segment *s, bool *reversed) {
     *reversed = vec_before(s->b, s->a) || (vec_same(s->a, s->b) && s->sweep_rad < 0);
-    fw_segment c = *reversed ? fw_segment_reverse(s) : *s;
+    fw_geometry_segment c = *reversed ? fw_geometry_segment_reverse(s) : *s;
     c.radius = vec_distance(c.a, c.centre);
     c.sweep_rad = vec_same(c.a, c.b)
                       ? FW_TURN
-                      : fw_angle_near(fw_vec_angle(vec_sub(c.a, c.centre), vec_sub(c.b, c.centre)),
-                                      c.sweep_rad);
+                      : fw_geometry_angle_near(
+                            fw_geometry_vec_angle(vec_sub(c.a, c.centre), vec_sub(c.b, c.centre)),
+                            c.sweep_rad);
     return c;
 }
 
@@ -59,7 +60,7 @@ static double equal_area_error(double radius, int n, double t, double rho, doubl
 /* least n >= 2 with an error of at most eps. The sagitta s gives (2/3) s n/(n - 1) at the vertices
    and 0.69 s on the end chords, so that s = 1.5 eps is nearly right and never too small a number to
    start from. */
-static void plan_equal_area(fw_chords *c, double eps) {
+static void plan_equal_area(fw_geometry_chords *c, double eps) {
     double end, w = fabs(c->arc.sweep_rad), r = c->arc.radius;
     for (int n = chord_count(r, w, 1.5 * eps) < 2 ? 2 : chord_count(r, w, 1.5 * eps);; n++) {
         c->n = n;
@@ -71,8 +72,9 @@ static void plan_equal_area(fw_chords *c, double eps) {
     c->length_m = 2 * end + (c->n - 2) * 2 * c->reach * r * sin(0.5 * w / c->n);
 }
 
-fw_chords fw_flatten_plan(const fw_segment *arc, double tolerance_m, fw_flattening kind) {
-    fw_chords c = {.reach = 1};
+fw_geometry_chords fw_geometry_flatten_plan(const fw_geometry_segment *arc, double tolerance_m,
+                                            fw_geometry_flattening kind) {
+    fw_geometry_chords c = {.reach = 1};
     c.arc = canonical(arc, &c.reversed);
     double r = c.arc.radius, w = fabs(c.arc.sweep_rad);
     c.n = chord_count(r, w, tolerance_m);
@@ -107,7 +109,7 @@ static inline whole_pair nearest(pair x) {
 }
 
 /* two points from the lower halves, to at[0] and at[way] */
-static inline void store(fw_point *at, int way, whole_pair x, whole_pair y) {
+static inline void store(fw_geometry_point *at, int way, whole_pair x, whole_pair y) {
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     bit_pair both = ((bit_pair)x & 0xffffffffu) | ((bit_pair)y << 32);
     uint64_t first = both[0], second = both[1];
@@ -115,17 +117,18 @@ static inline void store(fw_point *at, int way, whole_pair x, whole_pair y) {
     memcpy(at + way, &second, sizeof second);
 #else
     for (int i = 0; i < 2; i++)
-        at[way * i] = (fw_point){(int32_t)(uint32_t)(x[i] & 0xffffffff),
-                                 (int32_t)(uint32_t)(y[i] & 0xffffffff)};
+        at[way * i] = (fw_geometry_point){(int32_t)(uint32_t)(x[i] & 0xffffffff),
+                                          (int32_t)(uint32_t)(y[i] & 0xffffffff)};
 #endif
 }
 
-static fw_vec2 product(fw_vec2 p, fw_vec2 q) { /* of complex numbers */
-    return (fw_vec2){p.x * q.x - p.y * q.y, p.y * q.x + p.x * q.y};
+static fw_geometry_vec2 product(fw_geometry_vec2 p, fw_geometry_vec2 q) { /* of complex numbers */
+    return (fw_geometry_vec2){p.x * q.x - p.y * q.y, p.y * q.x + p.x * q.y};
 }
 
 /* LANES points, LANES / 2 of them at a time, and all of them turned on */
-static inline void block_of(pair *x, pair *y, fw_vec2 centre, fw_vec2 step, fw_point *at, int way) {
+static inline void block_of(pair *x, pair *y, fw_geometry_vec2 centre, fw_geometry_vec2 step,
+                            fw_geometry_point *at, int way) {
     for (int i = 0; i < PAIRS; i++) {
         store(at + 2 * i * way, way, nearest(centre.x + x[i]), nearest(centre.y + y[i]));
         pair turned = step.x * x[i] - step.y * y[i];
@@ -139,19 +142,19 @@ static inline void block_of(pair *x, pair *y, fw_vec2 centre, fw_vec2 step, fw_p
    In: centre and arm (dbu), all points within 2^30; by: cosine and sine of h. Out: at[0], at[way]
    .. Error before rounding: ANEW steps of some 2^-53 R, below 1e-13 R. Cost: about 1 ns a point.
    Test: test_tessellate.c. */
-static void turn_about(fw_vec2 centre, fw_vec2 end, double first, double h, fw_vec2 by, int n,
-                       fw_point *at, int way) {
-    fw_vec2 step = product(by, by);
+static void turn_about(fw_geometry_vec2 centre, fw_geometry_vec2 end, double first, double h,
+                       fw_geometry_vec2 by, int n, fw_geometry_point *at, int way) {
+    fw_geometry_vec2 step = product(by, by);
     step = product(step, step);
     step = product(step, step); /* LANES = 8 times h */
     pair x[PAIRS] = {{0}}, y[PAIRS] = {{0}};
     for (int k = 0, block = 0; k < n; k += LANES, block++) {
         if (block % ANEW == 0) {
-            fw_vec2 arm = fw_vec_rotate(end, (first + k) * h);
+            fw_geometry_vec2 arm = fw_geometry_vec_rotate(end, (first + k) * h);
             for (int i = 0; i < LANES; i++, arm = product(by, arm))
                 x[i / 2][i % 2] = arm.x, y[i / 2][i % 2] = arm.y;
         }
-        fw_point rest[LANES];
+        fw_geometry_point rest[LANES];
         if (n - k >= LANES) {
             block_of(x, y, centre, step, at + way * k, way);
             continue;
@@ -164,13 +167,13 @@ static void turn_about(fw_vec2 centre, fw_vec2 end, double first, double h, fw_v
 
 /* vertices k/n of the arc, k = 1..n-1, from both ends to its middle: always as `canonical` has it,
    so that both neighbours of an arc find the same */
-void fw_flatten_points(const fw_chords *c, fw_point *at) {
+void fw_geometry_flatten_points(const fw_geometry_chords *c, fw_geometry_point *at) {
     int n = c->n, half = n / 2 < n ? n / 2 : n - 1, rest = n - 1 - half;
     double h = c->arc.sweep_rad / n, scale = c->reach * FW_GRID_PER_M;
-    fw_vec2 centre = vec_scale(FW_GRID_PER_M, c->arc.centre);
-    fw_vec2 a = vec_scale(scale, vec_sub(c->arc.a, c->arc.centre));
-    fw_vec2 b = vec_scale(scale, vec_sub(c->arc.b, c->arc.centre));
-    fw_vec2 by = {cos(h), sin(h)};
+    fw_geometry_vec2 centre = vec_scale(FW_GRID_PER_M, c->arc.centre);
+    fw_geometry_vec2 a = vec_scale(scale, vec_sub(c->arc.a, c->arc.centre));
+    fw_geometry_vec2 b = vec_scale(scale, vec_sub(c->arc.b, c->arc.centre));
+    fw_geometry_vec2 by = {cos(h), sin(h)};
     int way = c->reversed ? -1 : 1;
     if (c->reversed) at += n - 2;
     turn_about(centre, a, 1, h, by, half, at, way);

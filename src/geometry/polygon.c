@@ -6,12 +6,12 @@
 #include <stdlib.h>
 
 typedef struct sweep {
-    const fw_polygon *polygon;
+    const fw_geometry_polygon *polygon;
     int *left, *right; /* search tree over the edges that the sweep line meets, by height */
     int root;
 } sweep;
 
-static fw_point vertex(const fw_polygon *p, int i) {
+static fw_geometry_point vertex(const fw_geometry_polygon *p, int i) {
     return p->vertex[i < p->count ? i : 0];
 }
 
@@ -19,22 +19,23 @@ static int sign(int64_t value) {
     return (value > 0) - (value < 0);
 }
 
-static int compare_points(fw_point a, fw_point b) {
+static int compare_points(fw_geometry_point a, fw_geometry_point b) {
     if (a.x_dbu != b.x_dbu) return a.x_dbu < b.x_dbu ? -1 : 1;
     return (a.y_dbu > b.y_dbu) - (a.y_dbu < b.y_dbu);
 }
 
 /* the end of edge e that the sweep meets first, and the other */
-static void ends(const fw_polygon *p, int e, fw_point *low, fw_point *high) {
-    fw_point a = vertex(p, e), b = vertex(p, e + 1);
+static void ends(const fw_geometry_polygon *p, int e, fw_geometry_point *low,
+                 fw_geometry_point *high) {
+    fw_geometry_point a = vertex(p, e), b = vertex(p, e + 1);
     bool ordered = compare_points(a, b) < 0;
     *low = ordered ? a : b;
     *high = ordered ? b : a;
 }
 
 /* is edge e above (+1) or below (-1) edge f, where both meet the sweep line? */
-static int above(const fw_polygon *p, int e, int f) {
-    fw_point el, eh, fl, fh;
+static int above(const fw_geometry_polygon *p, int e, int f) {
+    fw_geometry_point el, eh, fl, fh;
     if (e == f) return 0;
     ends(p, e, &el, &eh);
     ends(p, f, &fl, &fh);
@@ -47,13 +48,13 @@ static int above(const fw_polygon *p, int e, int f) {
 }
 
 /* c lies on the line through a <= b: between them? */
-static bool within(fw_point a, fw_point b, fw_point c) {
+static bool within(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     return compare_points(a, c) <= 0 && compare_points(c, b) <= 0;
 }
 
 /* do two closed edges have a common point? */
-static bool meet(const fw_polygon *p, int e, int f) {
-    fw_point a, b, c, d;
+static bool meet(const fw_geometry_polygon *p, int e, int f) {
+    fw_geometry_point a, b, c, d;
     ends(p, e, &a, &b);
     ends(p, f, &c, &d);
     int c_side = sign(fw_cross(a, b, c)), d_side = sign(fw_cross(a, b, d));
@@ -141,7 +142,7 @@ static bool take_out(sweep *s, int e, int *under, int *over) {
 }
 
 typedef struct event {
-    fw_point at;
+    fw_geometry_point at;
     int edge;
     int enters; /* at one point edges leave before others enter */
 } event;
@@ -159,7 +160,7 @@ static bool neighbours(int n, int e, int f) {
     return gap == 1 || gap == n - 1;
 }
 
-static bool clash(const fw_polygon *p, int e, int f, fw_polygon_report *report) {
+static bool clash(const fw_geometry_polygon *p, int e, int f, fw_geometry_polygon_report *report) {
     if (e < 0 || f < 0 || neighbours(p->count, e, f) || !meet(p, e, f)) return false;
     report->bad_i = e < f ? e : f;
     report->bad_j = e < f ? f : e;
@@ -170,8 +171,8 @@ static bool clash(const fw_polygon *p, int e, int f, fw_polygon_report *report) 
    them, and each pair is tested when it becomes neighbouring; the first common point is always
    found so. Vertices were found distinct before. In: polygon (dbu). Out: report. Exact. O(n log n).
    Test: test_polygon.c. */
-static bool sweep_edges(sweep *s, const event *events, fw_polygon_report *report) {
-    const fw_polygon *p = s->polygon;
+static bool sweep_edges(sweep *s, const event *events, fw_geometry_polygon_report *report) {
+    const fw_geometry_polygon *p = s->polygon;
     for (int i = 0; i < 2 * p->count; i++) {
         int under, over, e = events[i].edge;
         if (events[i].enters) {
@@ -198,14 +199,14 @@ static inline void sharper(double sine, double cosine, double least[2]) {
    In: vertices (dbu), exact products. Out: shortest edge (m), sharpest corners (rad) towards
    material and space, whether one is below 90 degrees (exact), numbers of zero edges, spikes and
    straight vertices. Error: one rounding of each. Cost O(n). Test: test_polygon.c. */
-static bool measure(const fw_polygon *p, fw_polygon_report *report) {
+static bool measure(const fw_geometry_polygon *p, fw_geometry_polygon_report *report) {
     int n = p->count;
     int64_t least2 = INT64_MAX;
     double corner[2][2] = {{0, -1}, {0, -1}}; /* in material, in space: a straight way so far */
-    fw_point a = vertex(p, n - 1), b = vertex(p, 0);
+    fw_geometry_point a = vertex(p, n - 1), b = vertex(p, 0);
     int64_t ux = (int64_t)a.x_dbu - b.x_dbu, uy = (int64_t)a.y_dbu - b.y_dbu;
     for (int i = 0; i < n; i++) {
-        fw_point c = vertex(p, i + 1);
+        fw_geometry_point c = vertex(p, i + 1);
         int64_t vx = (int64_t)c.x_dbu - b.x_dbu, vy = (int64_t)c.y_dbu - b.y_dbu;
         int64_t turn = ux * vy - uy * vx, dot = ux * vx + uy * vy, length2 = vx * vx + vy * vy;
         least2 = length2 < least2 ? length2 : least2;
@@ -232,9 +233,9 @@ static bool measure(const fw_polygon *p, fw_polygon_report *report) {
     return report->bad_i < 0;
 }
 
-static void fill_events(const fw_polygon *p, event *events) {
+static void fill_events(const fw_geometry_polygon *p, event *events) {
     for (int e = 0; e < p->count; e++) {
-        fw_point low, high;
+        fw_geometry_point low, high;
         ends(p, e, &low, &high);
         events[2 * e] = (event){low, e, 1};
         events[2 * e + 1] = (event){high, e, 0};
@@ -243,7 +244,7 @@ static void fill_events(const fw_polygon *p, event *events) {
 }
 
 /* each vertex belongs to two edges, so an end that occurs more than twice is met again */
-static bool vertices_distinct(const event *events, int n, fw_polygon_report *report) {
+static bool vertices_distinct(const event *events, int n, fw_geometry_polygon_report *report) {
     for (int i = 2; i < 2 * n; i++)
         if (compare_points(events[i].at, events[i - 2].at) == 0) {
             int e = events[i - 2].edge, f = events[i].edge;
@@ -257,16 +258,17 @@ static bool vertices_distinct(const event *events, int n, fw_polygon_report *rep
     return true;
 }
 
-fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report) {
+fw_status fw_geometry_polygon_check(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                    fw_geometry_polygon_report *report) {
     int n = polygon->count;
-    *report = (fw_polygon_report){.bad_i = -1, .bad_j = -1};
+    *report = (fw_geometry_polygon_report){.bad_i = -1, .bad_j = -1};
     if (n < 3) return FW_GEOMETRY;
     for (int i = 0; i < n; i++) {
         int64_t x = polygon->vertex[i].x_dbu, y = polygon->vertex[i].y_dbu, most = 1 << 30;
         if (x <= -most || x >= most || y <= -most || y >= most) return FW_LIMIT;
     }
     if (!measure(polygon, report)) return FW_OK;
-    FW_TRY(fw_polygon_prove(arena, polygon, &report->simple));
+    FW_TRY(fw_geometry_polygon_prove(arena, polygon, &report->simple));
     if (report->simple) return FW_OK;
     fw_mark mark = fw_arena_mark(arena);
     event *events = fw_arena_array(arena, event, 2 * (size_t)n);

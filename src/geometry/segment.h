@@ -10,58 +10,59 @@
 #define FW_COINCIDENT_M 1e-12 /* points nearer than this are one point */
 #define FW_SMOOTH_RAD   1e-6  /* a smaller turn is no corner */
 
-static inline fw_vec2 vec_add(fw_vec2 p, fw_vec2 q) {
-    return (fw_vec2){p.x + q.x, p.y + q.y};
+static inline fw_geometry_vec2 vec_add(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return (fw_geometry_vec2){p.x + q.x, p.y + q.y};
 }
-static inline fw_vec2 vec_sub(fw_vec2 p, fw_vec2 q) {
-    return (fw_vec2){p.x - q.x, p.y - q.y};
+static inline fw_geometry_vec2 vec_sub(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return (fw_geometry_vec2){p.x - q.x, p.y - q.y};
 }
-static inline fw_vec2 vec_scale(double s, fw_vec2 p) {
-    return (fw_vec2){s * p.x, s * p.y};
+static inline fw_geometry_vec2 vec_scale(double s, fw_geometry_vec2 p) {
+    return (fw_geometry_vec2){s * p.x, s * p.y};
 }
-static inline fw_vec2 vec_along(fw_vec2 p, double s, fw_vec2 u) {
-    return (fw_vec2){p.x + s * u.x, p.y + s * u.y};
+static inline fw_geometry_vec2 vec_along(fw_geometry_vec2 p, double s, fw_geometry_vec2 u) {
+    return (fw_geometry_vec2){p.x + s * u.x, p.y + s * u.y};
 }
-static inline double vec_dot(fw_vec2 p, fw_vec2 q) {
+static inline double vec_dot(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x * q.x + p.y * q.y;
 }
-static inline double vec_cross(fw_vec2 p, fw_vec2 q) {
+static inline double vec_cross(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x * q.y - p.y * q.x;
 }
 /* not hypot: sqrt is correctly rounded everywhere, so results do not depend on the C library */
-static inline double vec_length(fw_vec2 p) {
+static inline double vec_length(fw_geometry_vec2 p) {
     return sqrt(p.x * p.x + p.y * p.y);
 }
-static inline double vec_distance(fw_vec2 p, fw_vec2 q) {
+static inline double vec_distance(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return vec_length(vec_sub(p, q));
 }
-static inline fw_vec2 vec_left(fw_vec2 p) {
-    return (fw_vec2){-p.y, p.x};
+static inline fw_geometry_vec2 vec_left(fw_geometry_vec2 p) {
+    return (fw_geometry_vec2){-p.y, p.x};
 }
-static inline bool vec_same(fw_vec2 p, fw_vec2 q) {
+static inline bool vec_same(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x == q.x && p.y == q.y;
 }
-static inline bool vec_before(fw_vec2 p, fw_vec2 q) {
+static inline bool vec_before(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x < q.x || (p.x == q.x && p.y < q.y);
 }
-static inline bool vec_finite(fw_vec2 p) {
+static inline bool vec_finite(fw_geometry_vec2 p) {
     return isfinite(p.x) && isfinite(p.y);
 }
 /* unit vector; (1, 0) for the null vector */
-static inline fw_vec2 vec_unit(fw_vec2 p) {
+static inline fw_geometry_vec2 vec_unit(fw_geometry_vec2 p) {
     double length = vec_length(p);
-    return length > 0 ? vec_scale(1 / length, p) : (fw_vec2){1, 0};
+    return length > 0 ? vec_scale(1 / length, p) : (fw_geometry_vec2){1, 0};
 }
 
-fw_vec2 fw_vec_rotate(fw_vec2 p, double angle_rad);
+fw_geometry_vec2 fw_geometry_vec_rotate(fw_geometry_vec2 p, double angle_rad);
 /* angle from p to q, -pi..pi */
-double fw_vec_angle(fw_vec2 p, fw_vec2 q);
+double fw_geometry_vec_angle(fw_geometry_vec2 p, fw_geometry_vec2 q);
 /* angle + 2 pi k nearest to `near` */
-double fw_angle_near(double angle_rad, double near_rad);
+double fw_geometry_angle_near(double angle_rad, double near_rad);
 
 /* foot of the perpendicular on a line, or the nearer end; *t: where */
-static inline fw_vec2 vec_line_foot(fw_vec2 a, fw_vec2 b, fw_vec2 from, double *t) {
-    fw_vec2 along = vec_sub(b, a);
+static inline fw_geometry_vec2 vec_line_foot(fw_geometry_vec2 a, fw_geometry_vec2 b,
+                                             fw_geometry_vec2 from, double *t) {
+    fw_geometry_vec2 along = vec_sub(b, a);
     double square = vec_dot(along, along);
     double here = square > 0 ? vec_dot(vec_sub(from, a), along) / square : 0;
     *t = here < 0 ? 0 : here > 1 ? 1 : here;
@@ -71,49 +72,62 @@ static inline fw_vec2 vec_line_foot(fw_vec2 a, fw_vec2 b, fw_vec2 from, double *
 }
 
 /* t runs from 0 at a to 1 at b; both ends are returned bit for bit */
-fw_vec2 fw_segment_point(const fw_segment *s, double t);
-fw_vec2 fw_segment_tangent(const fw_segment *s, double t); /* unit, in the running direction */
-double fw_segment_length(const fw_segment *s);
-double fw_segment_parameter(const fw_segment *s, fw_vec2 on); /* of a point on the segment, 0..1 */
+fw_geometry_vec2 fw_geometry_segment_point(const fw_geometry_segment *s, double t);
+fw_geometry_vec2 fw_geometry_segment_tangent(const fw_geometry_segment *s,
+                                             double t); /* unit, in the running direction */
+double fw_geometry_segment_length(const fw_geometry_segment *s);
+double fw_geometry_segment_parameter(const fw_geometry_segment *s,
+                                     fw_geometry_vec2 on); /* of a point on the segment, 0..1 */
 /* the nearest point; the second: its distance (t and at may be NULL) */
-fw_vec2 fw_segment_foot(const fw_segment *s, fw_vec2 from, double *t);
-double fw_segment_nearest(const fw_segment *s, fw_vec2 from, double *t, fw_vec2 *at);
+fw_geometry_vec2 fw_geometry_segment_foot(const fw_geometry_segment *s, fw_geometry_vec2 from,
+                                          double *t);
+double fw_geometry_segment_nearest(const fw_geometry_segment *s, fw_geometry_vec2 from, double *t,
+                                   fw_geometry_vec2 *at);
 /* does the ray from the arc's centre along `direction` meet the arc (ends included)? */
-bool fw_segment_faces(const fw_segment *arc, fw_vec2 direction, double *t);
-fw_segment fw_segment_reverse(const fw_segment *s);
+bool fw_geometry_segment_faces(const fw_geometry_segment *arc, fw_geometry_vec2 direction,
+                               double *t);
+fw_geometry_segment fw_geometry_segment_reverse(const fw_geometry_segment *s);
 /* the part between two parameters, with end points already known */
-fw_segment fw_segment_cut(const fw_segment *s, double t0, fw_vec2 p0, double t1, fw_vec2 p1);
-bool fw_segment_valid(const fw_segment *s);
+fw_geometry_segment fw_geometry_segment_cut(const fw_geometry_segment *s, double t0,
+                                            fw_geometry_vec2 p0, double t1, fw_geometry_vec2 p1);
+bool fw_geometry_segment_valid(const fw_geometry_segment *s);
 
 /* points of a line (point, unit direction) on a circle, of two circles; 0, 1 (touch) or 2 */
-int fw_line_circle(fw_vec2 p, fw_vec2 u, fw_vec2 centre, double radius, fw_vec2 hit[2]);
-int fw_circle_circle(fw_vec2 c1, double r1, fw_vec2 c2, double r2, fw_vec2 hit[2]);
+int fw_geometry_line_circle(fw_geometry_vec2 p, fw_geometry_vec2 u, fw_geometry_vec2 centre,
+                            double radius, fw_geometry_vec2 hit[2]);
+int fw_geometry_circle_circle(fw_geometry_vec2 c1, double r1, fw_geometry_vec2 c2, double r2,
+                              fw_geometry_vec2 hit[2]);
 /* points common to the carriers (whole line or whole circle) of two segments */
-int fw_carrier_meet(const fw_segment *p, const fw_segment *q, fw_vec2 hit[2]);
+int fw_geometry_carrier_meet(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                             fw_geometry_vec2 hit[2]);
 
-typedef struct fw_hit {
+typedef struct fw_geometry_hit {
     double tp, tq;
-    fw_vec2 at;
-} fw_hit;
+    fw_geometry_vec2 at;
+} fw_geometry_hit;
 enum { FW_MOST_HITS = 6 };
 /* where two segments meet, touch, or begin and end to overlap */
-int fw_segment_intersect(const fw_segment *p, const fw_segment *q, fw_hit hit[FW_MOST_HITS]);
+int fw_geometry_segment_intersect(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                                  fw_geometry_hit hit[FW_MOST_HITS]);
 
 /* stationary chords between two segments */
-typedef struct fw_chord {
+typedef struct fw_geometry_chord {
     double tp, tq;
-    fw_vec2 at_p, at_q;
-} fw_chord;
+    fw_geometry_vec2 at_p, at_q;
+} fw_geometry_chord;
 enum { FW_MOST_CHORDS = 12 };
-int fw_segment_chords(const fw_segment *p, const fw_segment *q, fw_chord chord[FW_MOST_CHORDS]);
+int fw_geometry_segment_chords(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                               fw_geometry_chord chord[FW_MOST_CHORDS]);
 /* |r1 - r2| of concentric arcs that run opposite ways, so that their normals face each other, and
    lie before each other seen from the centre, in the unit direction `along`: the least of all
    chords on which they face each other. HUGE_VAL: they are not like that */
-double fw_concentric_gap(const fw_segment *p, const fw_segment *q, fw_vec2 *along);
-double fw_segment_distance(const fw_segment *p, const fw_segment *q, fw_vec2 *at_p, fw_vec2 *at_q);
+double fw_geometry_concentric_gap(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                                  fw_geometry_vec2 *along);
+double fw_geometry_segment_distance(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                                    fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q);
 
 /* turns of the contour about the point, counter-clockwise positive */
-int fw_contour_winding(const fw_contour *contour, fw_vec2 point);
+int fw_geometry_contour_winding(const fw_geometry_contour *contour, fw_geometry_vec2 point);
 
 /* of numbers: fmin and fmax without their calls */
 static inline double fw_lesser(double p, double q) {
@@ -123,31 +137,31 @@ static inline double fw_greater(double p, double q) {
     return p > q ? p : q;
 }
 /* least distance between two boxes */
-static inline double fw_box_gap(fw_box p, fw_box q) {
+static inline double fw_box_gap(fw_geometry_box p, fw_geometry_box q) {
     double x = fw_greater(fw_greater(p.x0 - q.x1, q.x0 - p.x1), 0);
     double y = fw_greater(fw_greater(p.y0 - q.y1, q.y0 - p.y1), 0);
     return x > 0 && y > 0 ? sqrt(x * x + y * y) : x + y;
 }
 /* are they that far apart along x or along y alone, as most boxes are? */
-static inline bool fw_box_apart(const fw_box *p, const fw_box *q, double least) {
+static inline bool fw_box_apart(const fw_geometry_box *p, const fw_geometry_box *q, double least) {
     return p->x0 - q->x1 >= least || q->x0 - p->x1 >= least || p->y0 - q->y1 >= least ||
            q->y0 - p->y1 >= least;
 }
-static inline fw_box fw_box_join(fw_box p, fw_box q) {
-    return (fw_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),
-                    fw_greater(p.y1, q.y1)};
+static inline fw_geometry_box fw_box_join(fw_geometry_box p, fw_geometry_box q) {
+    return (fw_geometry_box){fw_lesser(p.x0, q.x0), fw_lesser(p.y0, q.y0), fw_greater(p.x1, q.x1),
+                             fw_greater(p.y1, q.y1)};
 }
-fw_box fw_arc_box(const fw_segment *arc, fw_box ends);
-static inline fw_box fw_segment_box(const fw_segment *s) {
-    fw_box box = {fw_lesser(s->a.x, s->b.x), fw_lesser(s->a.y, s->b.y), fw_greater(s->a.x, s->b.x),
-                  fw_greater(s->a.y, s->b.y)};
-    return s->kind == FW_LINE ? box : fw_arc_box(s, box);
+fw_geometry_box fw_geometry_arc_box(const fw_geometry_segment *arc, fw_geometry_box ends);
+static inline fw_geometry_box fw_segment_box(const fw_geometry_segment *s) {
+    fw_geometry_box box = {fw_lesser(s->a.x, s->b.x), fw_lesser(s->a.y, s->b.y),
+                           fw_greater(s->a.x, s->b.x), fw_greater(s->a.y, s->b.y)};
+    return s->kind == FW_LINE ? box : fw_geometry_arc_box(s, box);
 }
 /* a lower bound of the distance between an arc and anything in the box; 0 of a line */
-double fw_segment_clear_of(const fw_segment *s, const fw_box *box);
+double fw_geometry_segment_clear_of(const fw_geometry_segment *s, const fw_geometry_box *box);
 /* turn at the corner where `before` ends and `after` begins, > 0 to the left (convex) */
-double fw_corner_turn(const fw_segment *before, const fw_segment *after);
+double fw_geometry_corner_turn(const fw_geometry_segment *before, const fw_geometry_segment *after);
 /* closed, joined bit for bit, finite, every segment well formed */
-bool fw_contour_valid(const fw_contour *contour);
+bool fw_geometry_contour_valid(const fw_geometry_contour *contour);
 
 #endif

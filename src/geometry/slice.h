@@ -5,31 +5,36 @@
 #define FW_GEOMETRY_SLICE_H
 #include "geometry/contour.h"
 
-typedef struct fw_cut_line {
-    fw_vec2 at, along; /* a point of the line; unit vector */
-} fw_cut_line;
+typedef struct fw_geometry_cut_line {
+    fw_geometry_vec2 at, along; /* a point of the line; unit vector */
+} fw_geometry_cut_line;
 
-typedef struct fw_slice { /* from < to, m from `at` along the line */
+typedef struct fw_geometry_slice { /* from < to, m from `at` along the line */
     double from_m, to_m;
     double from_sine, to_sine; /* of the angle between line and outline there, > 0: an edge that
                                   moves by d moves the end by d/sine */
-} fw_slice;
+} fw_geometry_slice;
 
-typedef struct fw_slices { /* ascending, apart from each other by more than 1e-12 m */
-    fw_slice *item;        /* (n) */
+typedef struct fw_geometry_slices { /* ascending, apart from each other by more than 1e-12 m */
+    fw_geometry_slice *item;        /* (n) */
     int n;
-} fw_slices;
+} fw_geometry_slices;
 
 /* what of the line lies inside a contour (of either direction) */
-fw_status fw_contour_slice(fw_arena *arena, const fw_contour *contour, fw_cut_line line,
-                           fw_slices *out);
+fw_status fw_geometry_contour_slice(fw_arena *arena, const fw_geometry_contour *contour,
+                                    fw_geometry_cut_line line, fw_geometry_slices *out);
 
-typedef enum fw_set_rule { FW_SET_OR, FW_SET_AND, FW_SET_NOT, FW_SET_XOR } fw_set_rule;
+typedef enum fw_geometry_set_rule {
+    FW_SET_OR,
+    FW_SET_AND,
+    FW_SET_NOT,
+    FW_SET_XOR
+} fw_geometry_set_rule;
 /* p OR q, p AND q, p NOT q (what of p is not in q), p XOR q. Gaps and pieces of up to 1e-12 m are
    closed and dropped: outlines that share an edge leave nothing between them. */
-fw_status fw_slices_combine(fw_arena *arena, fw_slices p, fw_slices q, fw_set_rule rule,
-                            fw_slices *out);
-double fw_slices_length(fw_slices p);
-bool fw_slices_contain(fw_slices p, double s_m); /* ends: yes */
+fw_status fw_geometry_slices_combine(fw_arena *arena, fw_geometry_slices p, fw_geometry_slices q,
+                                     fw_geometry_set_rule rule, fw_geometry_slices *out);
+double fw_geometry_slices_length(fw_geometry_slices p);
+bool fw_geometry_slices_contain(fw_geometry_slices p, double s_m); /* ends: yes */
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/tessellate.h"
-#include "geometry/flatten.h"
+#include "geometry/geometry_flatten.h"
 #include <string.h>
 
 #define PROVEN_SAGITTA_M 0.3536e-9 /* g sqrt 2 / 4: rounding cannot turn such chords' corners */
@@ -8,18 +8,18 @@ enum { FEW_SEGMENTS = 16 };        /* planned on the stack */
 static const double FARTHEST_DBU = 1073741823.0;
 
 typedef struct builder {
-    fw_point *vertex;
+    fw_geometry_point *vertex;
     int count;
     bool fixed;       /* the last vertex: an end of a joint, kept even on a straight line */
     bool first_fixed; /* so is the first one */
 } builder;
 
-static bool same_point(fw_point p, fw_point q) {
+static bool same_point(fw_geometry_point p, fw_geometry_point q) {
     return p.x_dbu == q.x_dbu && p.y_dbu == q.y_dbu;
 }
 
 /* is q on the straight way from p to r, exactly? */
-static bool on_the_way(fw_point p, fw_point q, fw_point r) {
+static bool on_the_way(fw_geometry_point p, fw_geometry_point q, fw_geometry_point r) {
     int64_t ax = (int64_t)q.x_dbu - p.x_dbu, ay = (int64_t)q.y_dbu - p.y_dbu;
     int64_t bx = (int64_t)r.x_dbu - q.x_dbu, by = (int64_t)r.y_dbu - q.y_dbu;
     return ax * by - ay * bx == 0 && ax * bx + ay * by > 0;
@@ -27,7 +27,7 @@ static bool on_the_way(fw_point p, fw_point q, fw_point r) {
 
 /* the next vertex: none that repeats the last one, and the last one goes where it lies exactly on
    the way to this one, unless it ends a joint */
-static void add(builder *b, fw_point p, bool fixed) {
+static void add(builder *b, fw_geometry_point p, bool fixed) {
     if (b->count > 0 && same_point(b->vertex[b->count - 1], p)) {
         b->fixed |= fixed;
     } else {
@@ -42,10 +42,11 @@ static void add(builder *b, fw_point p, bool fixed) {
 
 /* Do the rounded corners of an arc's chords keep the sense of the arc? From one end to the other,
    both included; a corner that rounding made straight has gone. Exact integers. */
-static bool keeps_sense(const fw_point *inner, int n, fw_point start, fw_point end, bool left) {
-    fw_point p = start, q = start;
+static bool keeps_sense(const fw_geometry_point *inner, int n, fw_geometry_point start,
+                        fw_geometry_point end, bool left) {
+    fw_geometry_point p = start, q = start;
     for (int i = 0; i <= n; i++) {
-        fw_point r = i < n ? inner[i] : end;
+        fw_geometry_point r = i < n ? inner[i] : end;
         if (same_point(q, r)) continue;
         int64_t ax = (int64_t)q.x_dbu - p.x_dbu, ay = (int64_t)q.y_dbu - p.y_dbu;
         int64_t bx = (int64_t)r.x_dbu - q.x_dbu, by = (int64_t)r.y_dbu - q.y_dbu;
@@ -59,26 +60,28 @@ static bool keeps_sense(const fw_point *inner, int n, fw_point start, fw_point e
 /* Rounding n up leaves a sagitta of eps/4 at worst (n = 2). From 0.354 nm on the corners are safe
    whatever the radius is; below, it is looked at what became of them. False: one turned; *next_m is
    the sagitta of one chord less. */
-static bool arc_proven(const fw_chords *c, const fw_segment *s, double tolerance_m,
-                       const fw_point *inner, fw_point start, double *next_m) {
+static bool arc_proven(const fw_geometry_chords *c, const fw_geometry_segment *s,
+                       double tolerance_m, const fw_geometry_point *inner, fw_geometry_point start,
+                       double *next_m) {
     double sine = sin(0.25 * fabs(c->arc.sweep_rad) / c->n);
     if (c->n < 2 || tolerance_m >= 4 * PROVEN_SAGITTA_M ||
         2 * c->arc.radius * sine * sine >= PROVEN_SAGITTA_M)
         return true;
-    fw_point end = {fw_round_half_up(s->b.x * FW_GRID_PER_M),
-                    fw_round_half_up(s->b.y * FW_GRID_PER_M)};
+    fw_geometry_point end = {fw_round_half_up(s->b.x * FW_GRID_PER_M),
+                             fw_round_half_up(s->b.y * FW_GRID_PER_M)};
     sine = sin(0.25 * fabs(c->arc.sweep_rad) / (c->n - 1));
     *next_m = 2 * c->arc.radius * sine * sine;
     return keeps_sense(inner, c->n - 1, start, end, s->sweep_rad > 0);
 }
 
-/* Inner vertices of an arc. Of a clean one (flatten.h) only the first can make its start needless
+/* Inner vertices of an arc. Of a clean one (geometry_flatten.h) only the first can make its start
+   needless
    or repeat it; then, and where rounding can do more, one by one. */
-static bool add_arc(builder *b, const fw_chords *c, const fw_segment *s, double tolerance_m,
-                    double *next_m) {
+static bool add_arc(builder *b, const fw_geometry_chords *c, const fw_geometry_segment *s,
+                    double tolerance_m, double *next_m) {
     if (c->n < 2) return true;
-    fw_point *first = b->vertex + b->count, start = first[-1];
-    fw_flatten_points(c, first);
+    fw_geometry_point *first = b->vertex + b->count, start = first[-1];
+    fw_geometry_flatten_points(c, first);
     if (!arc_proven(c, s, tolerance_m, first, start, next_m)) return false;
     bool goes = b->count > 1 && !b->fixed && on_the_way(first[-2], start, first[0]);
     if (c->clean && !goes && !same_point(start, first[0])) {
@@ -92,8 +95,8 @@ static bool add_arc(builder *b, const fw_chords *c, const fw_segment *s, double 
 }
 
 /* where the last vertex meets the first */
-static fw_point *closed(builder *b) {
-    fw_point *v = b->vertex;
+static fw_geometry_point *closed(builder *b) {
+    fw_geometry_point *v = b->vertex;
     while (b->count > 1 && same_point(v[0], v[b->count - 1])) {
         b->first_fixed |= b->fixed;
         b->count--;
@@ -108,25 +111,26 @@ static fw_point *closed(builder *b) {
 }
 
 /* all of the outline within the grid's range, with room for vertices outside of arcs */
-static bool in_range(const fw_box *box, double tolerance_m) {
+static bool in_range(const fw_geometry_box *box, double tolerance_m) {
     double most = fmax(fmax(fabs(box->x0), fabs(box->x1)), fmax(fabs(box->y0), fabs(box->y1)));
     return (most + tolerance_m) * FW_GRID_PER_M < FARTHEST_DBU;
 }
 
 /* Room for all vertices, and what of the bounds does not depend on rounding: *length_m of the
    polygon, chords instead of arcs. */
-static void plan_arcs(const fw_contour *contour, double tolerance_m, fw_flattening kind,
-                      fw_chords *chords, double *most, double *length_m, fw_flat_bounds *bounds) {
+static void plan_arcs(const fw_geometry_contour *contour, double tolerance_m,
+                      fw_geometry_flattening kind, fw_geometry_chords *chords, double *most,
+                      double *length_m, fw_geometry_flat_bounds *bounds) {
     *most = *length_m = 0;
-    *bounds = (fw_flat_bounds){.wavy = -1};
+    *bounds = (fw_geometry_flat_bounds){.wavy = -1};
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
+        const fw_geometry_segment *s = &contour->segment[i];
         if (s->kind == FW_LINE) {
             *most += 1;
             *length_m += vec_distance(s->a, s->b);
             continue;
         }
-        chords[i] = fw_flatten_plan(s, tolerance_m, kind);
+        chords[i] = fw_geometry_flatten_plan(s, tolerance_m, kind);
         *most += chords[i].n;
         *length_m += chords[i].length_m;
         bounds->area_m2 += chords[i].area_m2;
@@ -138,7 +142,8 @@ static void plan_arcs(const fw_contour *contour, double tolerance_m, fw_flatteni
    sum m_i x (p_(i+1) - p_(i-1)) / 2 + sum m_i x m_(i+1) / 2 <= e (length) + n e^2 / 2; to which the
    error of the doubles is added, some 1e-12 of the numbers that are summed. Test:
    test_tessellate.c. */
-static void bound_rounding(double length_m, int n, const fw_box *box, fw_flat_bounds *bounds) {
+static void bound_rounding(double length_m, int n, const fw_geometry_box *box,
+                           fw_geometry_flat_bounds *bounds) {
     double size = (box->x1 - box->x0) * (box->y1 - box->y0);
     bounds->area_m2 = bounds->area_m2 * (1 + 1e-9) + FW_SNAP_M * length_m * (1 + 1e-9) +
                       0.5 * n * FW_SNAP_M * FW_SNAP_M + 1e-12 * size;
@@ -146,61 +151,63 @@ static void bound_rounding(double length_m, int n, const fw_box *box, fw_flat_bo
 }
 
 /* the arc whose corners rounding turned, or -1 */
-static int run_along(builder *b, const fw_contour *contour, const fw_chords *chords,
-                     double tolerance_m, double *next_m) {
+static int run_along(builder *b, const fw_geometry_contour *contour,
+                     const fw_geometry_chords *chords, double tolerance_m, double *next_m) {
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
-        const fw_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
-        fw_point a = {fw_round_half_up(s->a.x * FW_GRID_PER_M),
-                      fw_round_half_up(s->a.y * FW_GRID_PER_M)};
+        const fw_geometry_segment *s = &contour->segment[i];
+        const fw_geometry_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
+        fw_geometry_point a = {fw_round_half_up(s->a.x * FW_GRID_PER_M),
+                               fw_round_half_up(s->a.y * FW_GRID_PER_M)};
         add(b, a, (s->flags | before->flags) & FW_SEGMENT_JOINT);
         if (s->kind == FW_ARC && !add_arc(b, &chords[i], s, tolerance_m, next_m)) return i;
     }
     return -1;
 }
 
-fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
-                     fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds) {
-    *polygon = (fw_polygon){0};
-    if (bounds) *bounds = (fw_flat_bounds){.wavy = -1};
+fw_status fw_geometry_flatten(fw_arena *arena, const fw_geometry_contour *contour,
+                              double tolerance_m, fw_geometry_flattening kind,
+                              fw_geometry_polygon *polygon, fw_geometry_flat_bounds *bounds) {
+    *polygon = (fw_geometry_polygon){0};
+    if (bounds) *bounds = (fw_geometry_flat_bounds){.wavy = -1};
     if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12)) || !isfinite(tolerance_m))
         return FW_INPUT;
-    if (!fw_contour_valid(contour)) return FW_GEOMETRY;
-    fw_box box = fw_contour_box(contour);
+    if (!fw_geometry_contour_valid(contour)) return FW_GEOMETRY;
+    fw_geometry_box box = fw_geometry_contour_box(contour);
     if (!in_range(&box, tolerance_m)) return FW_LIMIT;
-    fw_chords few[FEW_SEGMENTS], *chords = few;
-    fw_flat_bounds proven;
+    fw_geometry_chords few[FEW_SEGMENTS], *chords = few;
+    fw_geometry_flat_bounds proven;
     double most, length_m;
     if (contour->count > FEW_SEGMENTS)
         FW_NEED(chords = fw_arena_raw(arena, (size_t)contour->count * sizeof *chords));
     plan_arcs(contour, tolerance_m, kind, chords, &most, &length_m, &proven);
     if (!(most < 1e9)) return FW_LIMIT;
-    builder b = {.vertex = fw_arena_raw(arena, (size_t)most * sizeof(fw_point))}; /* < 8e9 bytes */
+    builder b = {
+        .vertex = fw_arena_raw(arena, (size_t)most * sizeof(fw_geometry_point))}; /* < 8e9 bytes */
     FW_NEED(b.vertex);
     proven.wavy = run_along(&b, contour, chords, tolerance_m, &proven.next_m);
     if (proven.wavy >= 0) {
         if (bounds) *bounds = proven;
         return FW_GEOMETRY;
     }
-    fw_point *vertex = closed(&b);
+    fw_geometry_point *vertex = closed(&b);
     if (b.count < 3) return FW_GEOMETRY;
     bound_rounding(length_m, (int)most, &box, &proven);
-    *polygon = (fw_polygon){vertex, b.count};
+    *polygon = (fw_geometry_polygon){vertex, b.count};
     if (bounds) *bounds = proven;
     return FW_OK;
 }
 
-fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
-                        fw_polygon *polygon) {
-    return fw_flatten(arena, contour, tolerance_m, FW_FLATTEN_INSIDE, polygon, NULL);
+fw_status fw_geometry_tessellate(fw_arena *arena, const fw_geometry_contour *contour,
+                                 double tolerance_m, fw_geometry_polygon *polygon) {
+    return fw_geometry_flatten(arena, contour, tolerance_m, FW_FLATTEN_INSIDE, polygon, NULL);
 }
 
-int64_t fw_polygon_area2(const fw_polygon *polygon) {
+int64_t fw_geometry_polygon_area2(const fw_geometry_polygon *polygon) {
     uint64_t sum = 0; /* it may pass over 2^64 and back: the result does not */
     int n = polygon->count;
-    fw_point p = n > 0 ? polygon->vertex[n - 1] : (fw_point){0, 0};
+    fw_geometry_point p = n > 0 ? polygon->vertex[n - 1] : (fw_geometry_point){0, 0};
     for (int i = 0; i < n; i++) {
-        fw_point q = polygon->vertex[i];
+        fw_geometry_point q = polygon->vertex[i];
         sum += (uint64_t)((int64_t)p.x_dbu * q.y_dbu - (int64_t)p.y_dbu * q.x_dbu);
         p = q;
     }

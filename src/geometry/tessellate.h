@@ -11,27 +11,27 @@
 #include "geometry/contour.h"
 #include <stdint.h>
 
-typedef struct fw_point {
+typedef struct fw_geometry_point {
     int32_t x_dbu, y_dbu;
-} fw_point;
+} fw_geometry_point;
 
-typedef struct fw_polygon { /* closed, first vertex not repeated, counter-clockwise */
-    fw_point *vertex;       /* (count) */
+typedef struct fw_geometry_polygon { /* closed, first vertex not repeated, counter-clockwise */
+    fw_geometry_point *vertex;       /* (count) */
     int count;
-} fw_polygon;
+} fw_geometry_polygon;
 
-typedef enum fw_flattening {
+typedef enum fw_geometry_flattening {
     FW_FLATTEN_INSIDE,     /* vertices on the arc: a convex arc loses area, a hollow one gains it */
     FW_FLATTEN_EQUAL_AREA, /* inner vertices a little outside, so that the chords enclose what the
                               arc does; its ends stay */
-} fw_flattening;
+} fw_geometry_flattening;
 
-typedef struct fw_flat_bounds { /* proven of the polygon, rounding included */
-    double edge_m;              /* no point of an edge is farther from the outline */
-    double area_m2;             /* |area of the polygon - area of the outline| */
+typedef struct fw_geometry_flat_bounds { /* proven of the polygon, rounding included */
+    double edge_m;                       /* no point of an edge is farther from the outline */
+    double area_m2;                      /* |area of the polygon - area of the outline| */
     int wavy; /* where nothing is proven (FW_GEOMETRY): the arc whose corners rounding turned */
     double next_m; /* and the tolerance that takes one chord less for it; else -1 */
-} fw_flat_bounds;
+} fw_geometry_flat_bounds;
 
 /* below, chords between vertices on the grid cannot keep the sense of any long arc */
 #define FW_LEAST_TOLERANCE_M 0.36e-9
@@ -41,28 +41,29 @@ typedef struct fw_flat_bounds { /* proven of the polygon, rounding included */
 /* Flattens an outline. tolerance_m: farthest that a chord may be from its arc, at least
    FW_LEAST_TOLERANCE_M (else FW_INPUT), before rounding to the grid of 1e-9 m. Below
    FW_SAFE_TOLERANCE_M: FW_GEOMETRY where an arc's corners turn the wrong way (bounds->wavy). bounds
-   may be NULL. For the rest see fw_tessellate. */
-fw_status fw_flatten(fw_arena *arena, const fw_contour *contour, double tolerance_m,
-                     fw_flattening kind, fw_polygon *polygon, fw_flat_bounds *bounds);
+   may be NULL. For the rest see fw_geometry_tessellate. */
+fw_status fw_geometry_flatten(fw_arena *arena, const fw_geometry_contour *contour,
+                              double tolerance_m, fw_geometry_flattening kind,
+                              fw_geometry_polygon *polygon, fw_geometry_flat_bounds *bounds);
 
 /* the same with vertices on the arcs. tolerance_m is the sagitta eps; grid 1e-9 m. Vertices that
    lie exactly on the way between their neighbours are left out, except the ends of JOINT segments.
    A clockwise outline gives a clockwise polygon. FW_LIMIT: a coordinate of 2^30 or more;
    FW_GEOMETRY: fewer than three vertices are left. */
-fw_status fw_tessellate(fw_arena *arena, const fw_contour *contour, double tolerance_m,
-                        fw_polygon *polygon);
+fw_status fw_geometry_tessellate(fw_arena *arena, const fw_geometry_contour *contour,
+                                 double tolerance_m, fw_geometry_polygon *polygon);
 /* twice the signed area in dbu^2, exact (|coordinate| < 2^30) */
-int64_t fw_polygon_area2(const fw_polygon *polygon);
+int64_t fw_geometry_polygon_area2(const fw_geometry_polygon *polygon);
 
-typedef struct fw_polygon_triangle { /* vertex numbers, counter-clockwise */
+typedef struct fw_geometry_polygon_triangle { /* vertex numbers, counter-clockwise */
     int vertex[3];
-} fw_polygon_triangle;
+} fw_geometry_polygon_triangle;
 /* out: (count - 2) triangles that make a simple polygon, counter-clockwise, none of them flat */
-fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
-                                 fw_polygon_triangle *out);
+fw_status fw_geometry_polygon_triangulate(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                          fw_geometry_polygon_triangle *out);
 
 /* exact integer certificate of one polygon */
-typedef struct fw_polygon_report {
+typedef struct fw_geometry_polygon_report {
     bool simple;      /* no crossing, touch, zero edge or spike */
     int bad_i, bad_j; /* the two edges, when not simple */
     double shortest_edge_m;
@@ -71,7 +72,8 @@ typedef struct fw_polygon_report {
     bool acute;             /* a corner is below 90 degrees on one of its sides, exactly */
     int zero_edges, spikes; /* none of a simple polygon */
     int straight;           /* vertices exactly between their neighbours: ends of joints */
-} fw_polygon_report;
-fw_status fw_polygon_check(fw_arena *arena, const fw_polygon *polygon, fw_polygon_report *report);
+} fw_geometry_polygon_report;
+fw_status fw_geometry_polygon_check(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                    fw_geometry_polygon_report *report);
 
 #endif

@@ -3,7 +3,7 @@
 #include "geometry/polygon.h"
 
 typedef struct ring {
-    const fw_point *v;
+    const fw_geometry_point *v;
     int *next, *before; /* of the vertices that are left */
     int *not_convex;    /* (count) vertices that may lie in a triangle */
     int *place;         /* in that list; -1: convex */
@@ -23,7 +23,8 @@ static void becomes_convex(ring *r, int i) {
 }
 
 /* in the closed triangle, which runs counter-clockwise */
-static bool covers(fw_point a, fw_point b, fw_point c, fw_point p) {
+static bool covers(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c,
+                   fw_geometry_point p) {
     return fw_cross(a, b, p) >= 0 && fw_cross(b, c, p) >= 0 && fw_cross(c, a, p) >= 0;
 }
 
@@ -40,19 +41,19 @@ static int32_t most(int32_t a, int32_t b, int32_t c) {
 static bool is_ear(const ring *r, int i) {
     if (r->place[i] >= 0) return false;
     int p = r->before[i], n = r->next[i];
-    fw_point a = r->v[p], b = r->v[i], c = r->v[n];
+    fw_geometry_point a = r->v[p], b = r->v[i], c = r->v[n];
     int32_t x0 = least(a.x_dbu, b.x_dbu, c.x_dbu), x1 = most(a.x_dbu, b.x_dbu, c.x_dbu);
     int32_t y0 = least(a.y_dbu, b.y_dbu, c.y_dbu), y1 = most(a.y_dbu, b.y_dbu, c.y_dbu);
     for (int k = 0; k < r->count; k++) {
         int q = r->not_convex[k];
-        fw_point at = r->v[q];
+        fw_geometry_point at = r->v[q];
         if (at.x_dbu < x0 || at.x_dbu > x1 || at.y_dbu < y0 || at.y_dbu > y1) continue;
         if (q != p && q != n && covers(a, b, c, at)) return false;
     }
     return true;
 }
 
-static fw_status start(fw_arena *arena, const fw_polygon *p, ring *r) {
+static fw_status start(fw_arena *arena, const fw_geometry_polygon *p, ring *r) {
     size_t n = (size_t)p->count;
     *r = (ring){.v = p->vertex,
                 .next = fw_arena_array(arena, int, n),
@@ -74,12 +75,13 @@ static fw_status start(fw_arena *arena, const fw_polygon *p, ring *r) {
 /* Ears are cut off until three vertices are left (Meisters 1975: there are always two). An ear is a
    corner of less than 180 degrees whose closed triangle has no other vertex in it; vertices on a
    straight way count as such, so that no triangle is flat and every vertex is used.
-   In: a simple polygon, counter-clockwise (fw_polygon_check). Out: (count - 2) triangles, vertex
+   In: a simple polygon, counter-clockwise (fw_geometry_polygon_check). Out: (count - 2) triangles,
+   vertex
    numbers, counter-clockwise. Exact. Cost: O(n r) for r corners that are not convex, n tries at
    best, n^2 at worst. FW_GEOMETRY: the polygon is not simple. Source: G. H. Meisters, "Polygons
    have ears", Am. Math. Monthly 82 (1975) 648. Test: test_triangulate.c. */
-fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
-                                 fw_polygon_triangle *out) {
+fw_status fw_geometry_polygon_triangulate(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                          fw_geometry_polygon_triangle *out) {
     ring r;
     if (polygon->count < 3) return FW_GEOMETRY;
     fw_mark mark = fw_arena_mark(arena);
@@ -92,7 +94,7 @@ fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
             continue;
         }
         int p = r.before[at], n = r.next[at];
-        out[made++] = (fw_polygon_triangle){{p, at, n}};
+        out[made++] = (fw_geometry_polygon_triangle){{p, at, n}};
         r.next[p] = n;
         r.before[n] = p;
         becomes_convex(&r, p);
@@ -102,7 +104,7 @@ fw_status fw_polygon_triangulate(fw_arena *arena, const fw_polygon *polygon,
         missed = 0;
     }
     bool whole = left == 3 && turn(&r, at) > 0;
-    out[made] = (fw_polygon_triangle){{r.before[at], at, r.next[at]}};
+    out[made] = (fw_geometry_polygon_triangle){{r.before[at], at, r.next[at]}};
     fw_arena_rewind(arena, mark);
     return whole ? FW_OK : FW_GEOMETRY;
 }

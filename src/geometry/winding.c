@@ -8,7 +8,7 @@ static int crosses(double y0, double y1, double y) {
     return y0 <= y ? 1 : -1;
 }
 
-static int line_winding(const fw_segment *s, fw_vec2 p) {
+static int line_winding(const fw_geometry_segment *s, fw_geometry_vec2 p) {
     int way = crosses(s->a.y, s->b.y, p.y);
     if (way == 0) return 0;
     /* the crossing lies to the right of p when p is to the left of the upward edge */
@@ -16,8 +16,8 @@ static int line_winding(const fw_segment *s, fw_vec2 p) {
     return (way > 0) == (side > 0) ? way : 0;
 }
 
-static int arc_winding(const fw_segment *s, fw_vec2 p) {
-    fw_vec2 c = s->centre;
+static int arc_winding(const fw_geometry_segment *s, fw_geometry_vec2 p) {
+    fw_geometry_vec2 c = s->centre;
     double r = s->radius, y = p.y - c.y;
     /* beside the circle (ends may be off it by less than 1e-10 m): nothing to the right, or all of
        it, and then the steps below add up to that from one end to the other */
@@ -49,15 +49,15 @@ static int arc_winding(const fw_segment *s, fw_vec2 p) {
    and bottom, where x = c_x +- sqrt(r^2 - (y - c_y)^2) is single-valued.
    In: contour, point (m). Exact for points off the outline by more than rounding. O(n).
    Test: test_distance.c. */
-int fw_contour_winding(const fw_contour *contour, fw_vec2 point) {
+int fw_geometry_contour_winding(const fw_geometry_contour *contour, fw_geometry_vec2 point) {
     int total = 0;
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
+        const fw_geometry_segment *s = &contour->segment[i];
         total += s->kind == FW_LINE ? line_winding(s, point) : arc_winding(s, point);
     }
     return total;
 }
 
-bool fw_contour_contains(const fw_contour *contour, fw_vec2 point) {
-    return fw_contour_winding(contour, point) != 0;
+bool fw_geometry_contour_contains(const fw_geometry_contour *contour, fw_geometry_vec2 point) {
+    return fw_geometry_contour_winding(contour, point) != 0;
 }

@@ -8,16 +8,16 @@
 enum { MOST_JOINTS = 16, ROUNDS = 64, MOST_PARTS = 3 * MOST_JOINTS + 8 };
 
 typedef struct parts {
-    fw_contour item[MOST_PARTS];
+    fw_geometry_contour item[MOST_PARTS];
     int count;
 } parts;
 
-static bool has_plate(const fw_drawing *d, int body) {
+static bool has_plate(const fw_layout_drawing *d, int body) {
     return body >= 0 && !isnan(d->device->body[body].plate_width_m);
 }
 
-static const fw_side *side_of(const fw_drawing *d, int joint, int body) {
-    const fw_hinge_plan *plan = &d->hinge[joint];
+static const fw_layout_side *side_of(const fw_layout_drawing *d, int joint, int body) {
+    const fw_layout_hinge_plan *plan = &d->hinge[joint];
     return &plan->side[plan->side[1].body == body];
 }
 
@@ -27,7 +27,8 @@ static const fw_side *side_of(const fw_drawing *d, int joint, int body) {
    rules ask for. Fills the edge from the hinge outwards; returns the number of points, 0 where even
    the steepest shoulder does not reach: then *most_half_m is what does. The base has no stated
    width and is as wide as it gets. */
-static int bar_end(const fw_side *side, double length, fw_vec2 p[3], double *most_half_m) {
+static int bar_end(const fw_layout_side *side, double length, fw_geometry_vec2 p[3],
+                   double *most_half_m) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double half = side->half_width_m, end = side->neck_end_m;
     double from = fmax(end - rule->bar_overlap_m, side->solid_m);
@@ -50,47 +51,49 @@ static int bar_end(const fw_side *side, double length, fw_vec2 p[3], double *mos
 enum { EDGE = 8 }; /* most points of one edge of a bar */
 
 /* mirrors the n points of one edge to the other and closes the outline; local x along the bar */
-static fw_status close_bar(fw_drawing *d, fw_vec2 w, fw_vec2 direction, fw_vec2 p[2 * EDGE], int n,
-                           fw_contour *bar) {
-    fw_local local = {w, direction.x, direction.y, false};
+static fw_status close_bar(fw_layout_drawing *d, fw_geometry_vec2 w, fw_geometry_vec2 direction,
+                           fw_geometry_vec2 p[2 * EDGE], int n, fw_geometry_contour *bar) {
+    fw_layout_local local = {w, direction.x, direction.y, false};
     for (int i = 0; i < n; i++)
         p[2 * n - 1 - i] = fw_v(p[i].x, -p[i].y);
     return fw_layout_polygon(d->arena, &local, p, 2 * n, -1, bar);
 }
 
 /* the stated width does not fit on `length_m` beyond one of the body's hinges */
-static fw_status refuse_width(fw_drawing *d, int body, int joint, double length_m, double most_m) {
-    const fw_body *b = &d->device->body[body];
+static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double length_m,
+                              double most_m) {
+    const fw_device_body *b = &d->device->body[body];
     char wide[32], length[32], most[32];
-    const char *label = fw_body_label(d, body);
+    const char *label = fw_layout_body_label(d, body);
     FW_NEED(label);
     fw_diag_error(
         d->diags, 137, b->width_place,
         "%s: a bar %s um wide cannot be drawn: at hinge %s it has %s um, on which the "
         "layout widens it from the hinge's neck by 45 degrees at most and leaves half of "
         "the bar its full width; write a width of %s um or less, or move the hinges apart",
-        label, fw_layout_um(wide, b->width_m), d->device->joint[joint].id,
+        label, fw_layout_um(wide, b->width_m), d->device->revolute[joint].id,
         fw_layout_um(length, length_m), fw_layout_um(most, floor(most_m * 1e7) / 1e7));
     return FW_GEOMETRY;
 }
 
 /* from hinge to `end` on the hinge's own direction, square end */
-static fw_status draw_spoke(fw_drawing *d, int joint, const fw_side *side, double half, double end,
-                            fw_contour *bar) {
-    fw_vec2 p[2 * EDGE];
+static fw_status draw_spoke(fw_layout_drawing *d, int joint, const fw_layout_side *side,
+                            double half, double end, fw_geometry_contour *bar) {
+    fw_geometry_vec2 p[2 * EDGE];
     double most = 0.0;
     int n = bar_end(side, end, p, &most);
     if (n == 0) return refuse_width(d, side->body, joint, end, 2.0 * most);
     p[n++] = fw_v(end, half);
-    return close_bar(d, fw_joint_point(d->device, joint), side->direction, p, n, bar);
+    return close_bar(d, fw_layout_joint_point(d->device, joint), side->direction, p, n, bar);
 }
 
 /* Bar between two hinges of a body, its ends meeting half-way between the hinges or, where the two
    necks leave too little there, half-way between the necks. */
-static fw_status draw_link(fw_drawing *d, int body, const int joint[2], fw_contour *bar) {
-    const fw_side *side[2] = {side_of(d, joint[0], body), side_of(d, joint[1], body)};
-    fw_vec2 p[2 * EDGE], w = fw_joint_point(d->device, joint[0]), far[3];
-    double length = fw_norm(fw_sub(fw_joint_point(d->device, joint[1]), w));
+static fw_status draw_link(fw_layout_drawing *d, int body, const int joint[2],
+                           fw_geometry_contour *bar) {
+    const fw_layout_side *side[2] = {side_of(d, joint[0], body), side_of(d, joint[1], body)};
+    fw_geometry_vec2 p[2 * EDGE], w = fw_layout_joint_point(d->device, joint[0]), far[3];
+    double length = fw_norm(fw_sub(fw_layout_joint_point(d->device, joint[1]), w));
     double part[2] = {0.5 * length, 0.5 * length}, most[2];
     int n = bar_end(side[0], part[0], p, &most[0]), m = bar_end(side[1], part[1], far, &most[1]);
     if (n != 2 || m != 2) {
@@ -110,24 +113,24 @@ static fw_status draw_link(fw_drawing *d, int body, const int joint[2], fw_conto
 
 /* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part of a body;
    the pieces that are left are appended */
-static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const int *skip,
-                          int nskip, parts *out) {
-    fw_region region = {(fw_contour *)part, 1};
-    for (int j = 0; j < d->device->njoint; j++) {
-        const fw_hinge_layout *h = &d->layout->hinge[j];
+static fw_status cut_free(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                          const int *skip, int nskip, parts *out) {
+    fw_geometry_region region = {(fw_geometry_contour *)part, 1};
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         bool own = false;
         for (int i = 0; i < nskip; i++)
             own = own || skip[i] == j;
         if (own) continue;
-        fw_contour disc;
+        fw_geometry_contour disc;
         double radius = h->keep_out_m;
         if (h->lower == body || h->upper == body) radius += side_of(d, j, body)->form.wider_m;
-        FW_TRY(fw_contour_disc(d->arena, h->centre, radius, &disc));
-        if (!fw_contour_contains(part, h->centre) &&
-            fw_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
+        FW_TRY(fw_geometry_contour_disc(d->arena, h->centre, radius, &disc));
+        if (!fw_geometry_contour_contains(part, h->centre) &&
+            fw_geometry_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
             continue;
-        fw_region hole = {&disc, 1}, left;
-        FW_TRY(fw_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
+        fw_geometry_region hole = {&disc, 1}, left;
+        FW_TRY(fw_geometry_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
         region = left;
     }
     for (int i = 0; i < region.count && out->count < MOST_PARTS; i++)
@@ -136,13 +139,13 @@ static fw_status cut_free(fw_drawing *d, int body, const fw_contour *part, const
 }
 
 /* the plate without the discs of the hinges; the necks of its own hinges reach into it */
-static fw_status plate_parts(fw_drawing *d, int body, parts *out) {
-    const fw_body *b = &d->device->body[body];
+static fw_status plate_parts(fw_layout_drawing *d, int body, parts *out) {
+    const fw_device_body *b = &d->device->body[body];
     double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
-    fw_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
-                      sin(b->plate_angle_rad), false};
-    fw_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
-    fw_contour plate;
+    fw_layout_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
+                             sin(b->plate_angle_rad), false};
+    fw_geometry_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+    fw_geometry_contour plate;
     FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
     return cut_free(d, body, &plate, NULL, 0, out);
 }
@@ -151,15 +154,15 @@ static fw_status plate_parts(fw_drawing *d, int body, parts *out) {
    line one of them is in the way of the others' spokes there; then (beside: only for bodies that
    cannot be drawn otherwise) the hub stands beside the line, on the side where no other body
    leaves, clear of the longest flexure. test_layout_hubs.c */
-fw_vec2 fw_body_hub(const fw_drawing *d, int body) {
+fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d, int body) {
     const fw_device *device = d->device;
-    fw_vec2 sum = fw_v(0.0, 0.0), along = sum, others = sum, first = sum;
+    fw_geometry_vec2 sum = fw_v(0.0, 0.0), along = sum, others = sum, first = sum;
     double clear = 0.0;
     int n = 0;
-    for (int j = 0; j < device->njoint; j++) {
-        const fw_joint *t = &device->joint[j];
+    for (int j = 0; j < device->nrevolute; j++) {
+        const fw_device_revolute *t = &device->revolute[j];
         if (t->body_a != body && t->body_b != body) continue;
-        fw_vec2 p = fw_joint_point(device, j);
+        fw_geometry_vec2 p = fw_layout_joint_point(device, j);
         int other = t->body_a == body ? t->body_b : t->body_a;
         if (n++ == 0) first = p;
         if (fw_norm(fw_sub(p, first)) > fw_norm(along)) along = fw_sub(p, first);
@@ -169,64 +172,66 @@ fw_vec2 fw_body_hub(const fw_drawing *d, int body) {
         clear = fmax(clear, device->flexure[t->flexure].length_m);
         sum = fw_add(sum, 1.0, p);
     }
-    fw_vec2 hub = fw_v(sum.x / n, sum.y / n);
+    fw_geometry_vec2 hub = fw_v(sum.x / n, sum.y / n);
     if (!d->beside || !d->beside[body]) return hub;
     double size = fw_norm(along);
-    fw_vec2 out = size > 0.0 ? fw_left(fw_v(along.x / size, along.y / size)) : fw_v(0.0, 1.0);
+    fw_geometry_vec2 out =
+        size > 0.0 ? fw_left(fw_v(along.x / size, along.y / size)) : fw_v(0.0, 1.0);
     return fw_add(
         hub, (fw_dot(out, others) > 0.0 ? -1.0 : 1.0) * (clear + fw_layout_rule.hub_clear_m), out);
 }
 
-static fw_status bar_parts(fw_drawing *d, int body, const int *joint, int njoint, parts *out) {
-    fw_contour bar;
+static fw_status bar_parts(fw_layout_drawing *d, int body, const int *joint, int njoint,
+                           parts *out) {
+    fw_geometry_contour bar;
     if (njoint == 2) {
         FW_TRY(draw_link(d, body, joint, &bar));
         return cut_free(d, body, &bar, joint, 2, out);
     }
-    fw_vec2 hub = fw_v(0.0, 0.0);
+    fw_geometry_vec2 hub = fw_v(0.0, 0.0);
     double half = 0.0;
     for (int i = 0; i < njoint; i++) {
-        fw_vec2 p = fw_joint_point(d->device, joint[i]);
+        fw_geometry_vec2 p = fw_layout_joint_point(d->device, joint[i]);
         hub = fw_add(hub, 1.0 / njoint, p);
         half = side_of(d, joint[i], body)->half_width_m;
     }
-    if (njoint > 2 && body >= 0) hub = fw_body_hub(d, body);
+    if (njoint > 2 && body >= 0) hub = fw_layout_body_hub(d, body);
     if (njoint == 1 && body >= 0) hub = fw_v(d->device->body[body].x_m, d->device->body[body].y_m);
     if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
-        const fw_side *side = side_of(d, joint[0], body);
-        double begin = side->neck_end_m, cut = fw_base_reach(d, joint[0]);
+        const fw_layout_side *side = side_of(d, joint[0], body);
+        double begin = side->neck_end_m, cut = fw_layout_base_reach(d, joint[0]);
         hub = fw_add(hub, begin + fw_layout_rule.pedestal_reach * (cut - begin), side->direction);
     }
     for (int i = 0; i < njoint; i++) {
-        const fw_side *side = side_of(d, joint[i], body);
-        double end = fw_norm(fw_sub(hub, fw_joint_point(d->device, joint[i])));
+        const fw_layout_side *side = side_of(d, joint[i], body);
+        double end = fw_norm(fw_sub(hub, fw_layout_joint_point(d->device, joint[i])));
         FW_TRY(draw_spoke(d, joint[i], side, half, end, &bar));
         FW_TRY(cut_free(d, body, &bar, &joint[i], 1, out));
     }
     if (njoint > 2) { /* a hub under the inner ends */
-        fw_contour disc;
-        FW_TRY(fw_contour_disc(d->arena, hub, fw_layout_rule.hub_radii * half, &disc));
+        fw_geometry_contour disc;
+        FW_TRY(fw_geometry_contour_disc(d->arena, hub, fw_layout_rule.hub_radii * half, &disc));
         FW_TRY(cut_free(d, body, &disc, NULL, 0, out));
     }
     return FW_OK;
 }
 
 /* one simple outline, or FW_GEOMETRY */
-fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
-                        fw_contour *out) {
-    fw_region region = {(fw_contour *)part, 1};
+fw_status fw_layout_body_unite(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                               int npart, fw_geometry_contour *out) {
+    fw_geometry_region region = {(fw_geometry_contour *)part, 1};
     for (int i = 1; i < npart; i++) {
-        fw_region next = {(fw_contour *)&part[i], 1}, both;
-        FW_TRY(fw_region_boolean(d->arena, &region, &next, FW_UNION, &both));
+        fw_geometry_region next = {(fw_geometry_contour *)&part[i], 1}, both;
+        FW_TRY(fw_geometry_region_boolean(d->arena, &region, &next, FW_UNION, &both));
         region = both;
     }
     if (region.count != 1) {
-        const char *label = fw_body_label(d, body);
+        const char *label = fw_layout_body_label(d, body);
         FW_NEED(label);
         bool hole = false;
         for (int i = 0; i < region.count; i++)
-            hole = hole || fw_contour_area(&region.contour[i]) < 0.0;
-        fw_diag_error(d->diags, 123, fw_body_place(d, body),
+            hole = hole || fw_geometry_contour_area(&region.contour[i]) < 0.0;
+        fw_diag_error(d->diags, 123, fw_layout_body_place(d, body),
                       "%s would %s; the layout draws a body as one outline without holes: move "
                       "its plate or hinges, or change the width of its bars",
                       label, hole ? "enclose a hole" : "fall apart where hinges cut it");
@@ -238,18 +243,19 @@ fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npa
 
 /* Corners of 10 um; where the parts are too small for that, 5, 2.5 or 1.25 um for the whole body.
    Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
-fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
-                        double *radius_m, fw_vec2 *where) {
+fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry_contour *in,
+                               fw_geometry_contour *out, double *radius_m,
+                               fw_geometry_vec2 *where) {
     for (double radius = fw_layout_rule.corner_m; radius > fw_layout_rule.least_corner_m;
          radius *= 0.5) {
-        fw_status status = fw_contour_round(d->arena, in, radius, radius, out, where);
+        fw_status status = fw_geometry_contour_round(d->arena, in, radius, radius, out, where);
         *radius_m = radius;
         if (status != FW_GEOMETRY) return status;
     }
     char x[32], y[32];
-    const char *label = fw_body_label(d, body);
+    const char *label = fw_layout_body_label(d, body);
     FW_NEED(label);
-    fw_diag_error(d->diags, 126, fw_body_place(d, body),
+    fw_diag_error(d->diags, 126, fw_layout_body_place(d, body),
                   "%s has a corner at (%s, %s) um where edges of two parts nearly coincide, so "
                   "that it cannot be rounded by even 1.25 um, the least radius of the layout: "
                   "change a width or a position nearby by a few micrometres",
@@ -261,11 +267,11 @@ fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contou
  */
 typedef struct work {
     int body, slot, joint[MOST_JOINTS], njoint;
-    const fw_contour *extra;
+    const fw_geometry_contour *extra;
     int nextra, lug_shift, first_lug;
 } work;
 
-static fw_status unite_all(fw_drawing *d, const work *w) {
+static fw_status unite_all(fw_layout_drawing *d, const work *w) {
     parts *all;
     FW_NEED(all = fw_arena_one(d->arena, parts));
     if (has_plate(d, w->body))
@@ -276,17 +282,17 @@ static fw_status unite_all(fw_drawing *d, const work *w) {
         all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
     for (int i = 0; i < w->nextra; i++)
         all->item[all->count++] = w->extra[i];
-    FW_TRY(fw_body_unite(d, w->body, all->item, all->count, &d->raw[w->slot]));
+    FW_TRY(fw_layout_body_unite(d, w->body, all->item, all->count, &d->raw[w->slot]));
     d->nlug = w->first_lug;
     if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
     static const double shift[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* nearest first */
-    fw_contour lug[4];
+    fw_geometry_contour lug[4];
     int nlug = 0;
-    FW_TRY(
-        fw_platform_lugs(d, w->body, shift[w->lug_shift] * fw_layout_rule.lug_shift_m, lug, &nlug));
+    FW_TRY(fw_layout_platform_lugs(d, w->body, shift[w->lug_shift] * fw_layout_rule.lug_shift_m,
+                                   lug, &nlug));
     for (int i = 0; i < nlug; i++) {
-        fw_contour pair[2] = {d->raw[w->slot], lug[i]};
-        FW_TRY(fw_body_unite(d, w->body, pair, 2, &d->raw[w->slot]));
+        fw_geometry_contour pair[2] = {d->raw[w->slot], lug[i]};
+        FW_TRY(fw_layout_body_unite(d, w->body, pair, 2, &d->raw[w->slot]));
     }
     return FW_OK;
 }
@@ -296,7 +302,7 @@ enum { LUG_SHIFTS = 5 };
 typedef struct flaw {
     double value_m, limit_m;
     const char *what;
-    fw_vec2 where;
+    fw_geometry_vec2 where;
 } flaw;
 
 static double share(const flaw *f) {
@@ -304,22 +310,22 @@ static double share(const flaw *f) {
 }
 
 /* least width or space where that is below the limit; else the limit's share is without bound */
-static flaw narrowest(const fw_contour *c, bool inside, double limit_m) {
+static flaw narrowest(const fw_geometry_contour *c, bool inside, double limit_m) {
     int i, j;
     flaw f = {HUGE_VAL, limit_m, inside ? "width" : "space", {0.0, 0.0}};
-    double least = fw_contour_clearance_below(c, inside, limit_m, &i, &j);
+    double least = fw_geometry_contour_clearance_below(c, inside, limit_m, &i, &j);
     if (i < 0) return f;
-    fw_vec2 other;
+    fw_geometry_vec2 other;
     f.value_m = least;
     f.where = c->segment[i].a;
-    if (i != j) fw_segment_distance(&c->segment[i], &c->segment[j], &f.where, &other);
+    if (i != j) fw_geometry_segment_distance(&c->segment[i], &c->segment[j], &f.where, &other);
     return f;
 }
 
 /* least radius of an arc: where it turns by more than 45 degrees its neighbours nearly face each
    other, so that they are a width or a space across it; not at the root of a flexure */
-static double arc_limit(const fw_contour *c, int i) {
-    const fw_segment *s = &c->segment[i];
+static double arc_limit(const fw_geometry_contour *c, int i) {
+    const fw_geometry_segment *s = &c->segment[i];
     int n = c->count;
     unsigned beside = c->segment[(i + 1) % n].flags | c->segment[(i + n - 1) % n].flags;
     bool hollow = s->sweep_rad < 0.0;
@@ -329,12 +335,12 @@ static double arc_limit(const fw_contour *c, int i) {
     return hollow ? fw_layout_rule.own_hollow_m : 1e-9;
 }
 
-static flaw worst_of(const fw_contour *c) {
+static flaw worst_of(const fw_geometry_contour *c) {
     flaw worst = narrowest(c, true, fw_layout_rule.own_width_m);
     flaw space = narrowest(c, false, fw_layout_rule.own_space_m);
     if (share(&space) < share(&worst)) worst = space;
     for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
+        const fw_geometry_segment *s = &c->segment[i];
         flaw arc = {s->radius, arc_limit(c, i), "radius", s->a};
         if (s->kind == FW_ARC && share(&arc) < share(&worst)) worst = arc;
     }
@@ -343,24 +349,24 @@ static flaw worst_of(const fw_contour *c) {
 
 /* The least of width, space and radius, each over its limit; >= 1 is good, and says nothing more.
  */
-double fw_body_soundness(const fw_contour *c, fw_vec2 *where) {
+double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where) {
     flaw worst = worst_of(c);
     if (isfinite(worst.value_m)) *where = worst.where;
     return share(&worst);
 }
 
-static int nearest_joint(const fw_drawing *d, const work *w, fw_vec2 p) {
+static int nearest_joint(const fw_layout_drawing *d, const work *w, fw_geometry_vec2 p) {
     int best = w->joint[0];
     for (int i = 1; i < w->njoint; i++)
-        if (fw_norm(fw_sub(p, fw_joint_point(d->device, w->joint[i]))) <
-            fw_norm(fw_sub(p, fw_joint_point(d->device, best))))
+        if (fw_norm(fw_sub(p, fw_layout_joint_point(d->device, w->joint[i]))) <
+            fw_norm(fw_sub(p, fw_layout_joint_point(d->device, best))))
             best = w->joint[i];
     return best;
 }
 
-static bool near_lug(const fw_drawing *d, const work *w, fw_vec2 p) {
+static bool near_lug(const fw_layout_drawing *d, const work *w, fw_geometry_vec2 p) {
     for (int i = w->first_lug; i < d->nlug; i++) {
-        fw_box b = fw_contour_box(&d->lug[i]);
+        fw_geometry_box b = fw_geometry_contour_box(&d->lug[i]);
         double q = fw_layout_rule.lug_near_m;
         if (p.x > b.x0 - q && p.x < b.x1 + q && p.y > b.y0 - q && p.y < b.y1 + q) return true;
     }
@@ -369,17 +375,19 @@ static bool near_lug(const fw_drawing *d, const work *w, fw_vec2 p) {
 
 /* one drawing of the body as its heads stand now; *sound 0 when it cannot be united (*where NaN) or
    rounded */
-static fw_status attempt(fw_drawing *d, const work *w, double *sound, fw_vec2 *where) {
+static fw_status attempt(fw_layout_drawing *d, const work *w, double *sound,
+                         fw_geometry_vec2 *where) {
     *sound = 0.0;
     *where = fw_v((double)NAN, (double)NAN);
     FW_TRY(unite_all(d, w));
-    FW_TRY(fw_body_round(d, w->body, &d->raw[w->slot], &d->plain[w->slot], &d->corner_m[w->slot],
-                         where));
-    *sound = fw_body_soundness(&d->plain[w->slot], where);
+    FW_TRY(fw_layout_body_round(d, w->body, &d->raw[w->slot], &d->plain[w->slot],
+                                &d->corner_m[w->slot], where));
+    *sound = fw_layout_body_soundness(&d->plain[w->slot], where);
     return FW_OK;
 }
 
-static fw_status quiet_attempt(fw_drawing *d, const work *w, double *sound, fw_vec2 *where) {
+static fw_status quiet_attempt(fw_layout_drawing *d, const work *w, double *sound,
+                               fw_geometry_vec2 *where) {
     fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
     d->diags = &unsaid;
     fw_status status = attempt(d, w, sound, where);
@@ -387,15 +395,15 @@ static fw_status quiet_attempt(fw_drawing *d, const work *w, double *sound, fw_v
     return status == FW_GEOMETRY ? FW_OK : status;
 }
 
-static fw_status choose_heads(fw_drawing *d, const work *w, const int *choice) {
+static fw_status choose_heads(fw_layout_drawing *d, const work *w, const int *choice) {
     for (int i = 0; i < w->njoint; i++)
         if (side_of(d, w->joint[i], w->body)->attempt != choice[i])
-            FW_TRY(fw_head_draw(d, w->joint[i], w->body, choice[i]));
+            FW_TRY(fw_layout_head_draw(d, w->joint[i], w->body, choice[i]));
     return FW_OK;
 }
 
 /* the next thing to try where an outline is unsound: other eyelets, else another head there */
-static bool vary(const fw_drawing *d, work *w, fw_vec2 where, int *choice) {
+static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, int *choice) {
     if (isnan(where.x)) {
         bool exist = true;
         for (int i = 0; i < w->njoint; i++)
@@ -415,19 +423,20 @@ static bool vary(const fw_drawing *d, work *w, fw_vec2 where, int *choice) {
 static const double SOUND_ENOUGH = 1e-3; /* of a limit: 10 nm, below what a mask writer places */
 
 /* no head, and no place of the eyelets, that was tried makes the outline sound */
-static fw_status say_flaw(fw_drawing *d, const work *w) {
+static fw_status say_flaw(fw_layout_drawing *d, const work *w) {
     flaw f = worst_of(&d->plain[w->slot]);
     char x[32], y[32], value[32], limit[32];
-    const char *label = fw_body_label(d, w->body);
+    const char *label = fw_layout_body_label(d, w->body);
     FW_NEED(label);
     if (d->said) return FW_OK;
-    fw_diag_warning(d->diags, 138, fw_body_place(d, w->body),
-                    "the outline of %s has a %s of only %s um at (%s, %s) um; the layout's own rule is "
-                    "%s um, so that every mask shows it, and no other neck or root block of the "
-                    "hinge there does better: change a width, a fillet or a position nearby, or see "
-                    "whether the rules of the mask accept it",
-                    label, f.what, fw_layout_um(value, f.value_m), fw_layout_um(x, f.where.x),
-                    fw_layout_um(y, f.where.y), fw_layout_um(limit, f.limit_m));
+    fw_diag_warning(
+        d->diags, 138, fw_layout_body_place(d, w->body),
+        "the outline of %s has a %s of only %s um at (%s, %s) um; the layout's own rule is "
+        "%s um, so that every mask shows it, and no other neck or root block of the "
+        "hinge there does better: change a width, a fillet or a position nearby, or see "
+        "whether the rules of the mask accept it",
+        label, f.what, fw_layout_um(value, f.value_m), fw_layout_um(x, f.where.x),
+        fw_layout_um(y, f.where.y), fw_layout_um(limit, f.limit_m));
     return FW_OK;
 }
 
@@ -435,10 +444,10 @@ static fw_status say_flaw(fw_drawing *d, const work *w) {
    can show. Then the free dimensions of the head (or the eyelets) next to the worst place are
    changed (fw_layout_head_form) until it is sound; else the best of the attempts stands, the first
    one unless another is better by 5 %, and what is wrong with it is said. test_layout_sweep.c */
-static fw_status draw_soundly(fw_drawing *d, work *w) {
+static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
     int choice[MOST_JOINTS] = {0}, best[MOST_JOINTS] = {0}, best_shift = 0;
     double most = 0.0, sound;
-    fw_vec2 where;
+    fw_geometry_vec2 where;
     for (int round = 0; round < ROUNDS; round++) {
         fw_status heads = choose_heads(d, w, choice);
         if (heads == FW_GEOMETRY) break; /* no such head: what was drawn before stands */
@@ -459,9 +468,9 @@ static fw_status draw_soundly(fw_drawing *d, work *w) {
     fw_status status = attempt(d, w, &sound, &where);
     if (status == FW_OK && sound < 1.0 - SOUND_ENOUGH) return say_flaw(d, w);
     if (status != FW_GEOMETRY || d->diags->errors > errors) return status;
-    const char *label = fw_body_label(d, w->body);
+    const char *label = fw_layout_body_label(d, w->body);
     FW_NEED(label);
-    fw_diag_error(d->diags, 126, fw_body_place(d, w->body),
+    fw_diag_error(d->diags, 126, fw_layout_body_place(d, w->body),
                   "%s: edges of two of its parts nearly coincide over some length, so that the "
                   "parts cannot be united to one outline; change a width or a position by a few "
                   "micrometres",
@@ -472,27 +481,28 @@ static fw_status draw_soundly(fw_drawing *d, work *w) {
 /* raw (united) and plain (rounded) outline of one body, and its moments. `extra` are parts that
    only the base has. Half of each adjacent flexure's mass is not added: it is about 1 % of a
    link's. */
-fw_status fw_body_draw(fw_drawing *d, int body, int only, const fw_contour *extra, int nextra) {
-    int slot = fw_drawing_slot(d, body, only);
+fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
+                              const fw_geometry_contour *extra, int nextra) {
+    int slot = fw_layout_drawing_slot(d, body, only);
     work w = {.body = body, .slot = slot, .extra = extra, .nextra = nextra, .first_lug = d->nlug};
-    w.njoint = fw_body_joints(d->device, body, w.joint, MOST_JOINTS);
+    w.njoint = fw_layout_body_joints(d->device, body, w.joint, MOST_JOINTS);
     if (only != FW_NONE) {
         w.joint[0] = only;
         w.njoint = 1;
     }
     if (w.njoint > MOST_JOINTS) {
-        const char *label = fw_body_label(d, body);
+        const char *label = fw_layout_body_label(d, body);
         FW_NEED(label);
-        fw_diag_error(d->diags, 123, fw_body_place(d, body),
+        fw_diag_error(d->diags, 123, fw_layout_body_place(d, body),
                       "%s has %d hinges; at most %d can be drawn on one body", label, w.njoint,
                       (int)MOST_JOINTS);
         return FW_GEOMETRY;
     }
     FW_TRY(draw_soundly(d, &w));
     if (body < 0) return FW_OK;
-    fw_region region = {&d->plain[slot], 1};
-    fw_moments m = fw_region_moments(&region);
-    d->layout->body[body] =
-        (fw_body_layout){m.area_m2, fw_contour_perimeter(&d->plain[slot]), m.centroid, m.polar_m4};
+    fw_geometry_region region = {&d->plain[slot], 1};
+    fw_geometry_moments m = fw_geometry_region_moments(&region);
+    d->layout->body[body] = (fw_layout_body_layout){
+        m.area_m2, fw_geometry_contour_perimeter(&d->plain[slot]), m.centroid, m.polar_m4};
     return FW_OK;
 }

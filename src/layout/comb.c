@@ -4,7 +4,7 @@
 #include "geometry/segment.h"
 #include "base/constants.h"
 #include "layout/draw.h"
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 
@@ -23,36 +23,38 @@ enum { FINGERS_MOST = 100, LETTERS = 6 };
    so that n fingers, and n + 1 in the frame turned by 180 degrees, keep the gap g everywhere and
    are engaged by the overlap. Area n w length + bar - 2 n (1 - pi/4) r^2, r of the tips' rounding.
    test_layout_actuators.c */
-static fw_status draw_fingers(fw_arena *arena, const fw_local *local, const fw_comb_plan *p, int n,
-                              fw_contour *out) {
+static fw_status draw_fingers(fw_arena *arena, const fw_layout_local *local,
+                              const fw_layout_comb_plan *p, int n, fw_geometry_contour *out) {
     double w = p->width_m, pitch = 2.0 * (w + p->comb->gap_m), r = fmin(TIP_M, 0.4 * w);
     double tip = 0.5 * p->comb->overlap_m, root = tip - p->length_m;
     double half = 0.5 * (n - 1) * pitch + 0.5 * w;
-    fw_sketch k = fw_sketch_start(arena, local, fw_v(root - BACK_M, -half));
+    fw_layout_sketch k = fw_layout_sketch_start(arena, local, fw_v(root - BACK_M, -half));
     for (int i = 0; i < n; i++) {
         double low = (i - 0.5 * (n - 1)) * pitch - 0.5 * w, high = low + w;
-        if (i > 0) fw_sketch_line(&k, fw_v(root, low), 0);
-        fw_sketch_line(&k, fw_v(tip - r, low), 0);
-        fw_sketch_arc(&k, fw_v(tip - r, low + r), 0.5 * FW_PI, fw_v(tip, low + r));
-        fw_sketch_line(&k, fw_v(tip, high - r), 0);
-        fw_sketch_arc(&k, fw_v(tip - r, high - r), 0.5 * FW_PI, fw_v(tip - r, high));
-        if (i < n - 1) fw_sketch_line(&k, fw_v(root, high), 0);
+        if (i > 0) fw_layout_sketch_line(&k, fw_v(root, low), 0);
+        fw_layout_sketch_line(&k, fw_v(tip - r, low), 0);
+        fw_layout_sketch_arc(&k, fw_v(tip - r, low + r), 0.5 * FW_PI, fw_v(tip, low + r));
+        fw_layout_sketch_line(&k, fw_v(tip, high - r), 0);
+        fw_layout_sketch_arc(&k, fw_v(tip - r, high - r), 0.5 * FW_PI, fw_v(tip - r, high));
+        if (i < n - 1) fw_layout_sketch_line(&k, fw_v(root, high), 0);
     }
-    fw_sketch_line(&k, fw_v(root - BACK_M, half), 0);
-    return fw_sketch_close(&k, out);
+    fw_layout_sketch_line(&k, fw_v(root - BACK_M, half), 0);
+    return fw_layout_sketch_close(&k, out);
 }
 
-static fw_status draw_plate(fw_arena *arena, const fw_local *local, double face, double half,
-                            fw_contour *out) {
-    fw_vec2 p[4] = {{face - BACK_M, -half}, {face, -half}, {face, half}, {face - BACK_M, half}};
+static fw_status draw_plate(fw_arena *arena, const fw_layout_local *local, double face, double half,
+                            fw_geometry_contour *out) {
+    fw_geometry_vec2 p[4] = {
+        {face - BACK_M, -half}, {face, -half}, {face, half}, {face - BACK_M, half}};
     return fw_layout_polygon(arena, local, p, 4, -1, out);
 }
 
-static fw_local turned(const fw_local *local) {
-    return (fw_local){local->origin, -local->c, -local->s, false};
+static fw_layout_local turned(const fw_layout_local *local) {
+    return (fw_layout_local){local->origin, -local->c, -local->s, false};
 }
 
-fw_status fw_comb_rotor(fw_arena *arena, const fw_comb_plan *p, fw_contour *rotor) {
+fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *p,
+                               fw_geometry_contour *rotor) {
     if (p->comb->kind == FW_ELECTRODES_COMB)
         return draw_fingers(arena, &p->local, p, p->comb->fingers, rotor);
     return draw_plate(arena, &p->local, 0.0, 0.5 * p->length_m, rotor);
@@ -60,8 +62,9 @@ fw_status fw_comb_rotor(fw_arena *arena, const fw_comb_plan *p, fw_contour *roto
 
 /* the stator's face is longer than the rotor's by a gap and 10 um at either end, so that their
    force has no part across (docs/theory/effects/comb-drive.md) */
-fw_status fw_comb_stator(fw_arena *arena, const fw_comb_plan *p, fw_contour *stator) {
-    fw_local other = turned(&p->local);
+fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *p,
+                                fw_geometry_contour *stator) {
+    fw_layout_local other = turned(&p->local);
     double g = p->comb->gap_m;
     if (p->comb->kind == FW_ELECTRODES_COMB)
         return draw_fingers(arena, &other, p, p->comb->fingers + 1, stator);
@@ -70,36 +73,39 @@ fw_status fw_comb_stator(fw_arena *arena, const fw_comb_plan *p, fw_contour *sta
 
 /* ---- what is in the way ---- */
 
-static bool close_by(const fw_contour *p, const fw_contour *q, double space_m, fw_vec2 *at) {
-    fw_box a = fw_contour_box(p), b = fw_contour_box(q);
-    fw_vec2 there;
+static bool close_by(const fw_geometry_contour *p, const fw_geometry_contour *q, double space_m,
+                     fw_geometry_vec2 *at) {
+    fw_geometry_box a = fw_geometry_contour_box(p), b = fw_geometry_contour_box(q);
+    fw_geometry_vec2 there;
     if (q->count == 0 || a.x0 > b.x1 + space_m || b.x0 > a.x1 + space_m || a.y0 > b.y1 + space_m ||
         b.y0 > a.y1 + space_m)
         return false;
-    if (fw_contour_distance_below(p, q, space_m, at, &there) < space_m * (1.0 - 1e-9)) return true;
+    if (fw_geometry_contour_distance_below(p, q, space_m, at, &there) < space_m * (1.0 - 1e-9))
+        return true;
     *at = q->segment[0].a;
-    if (fw_contour_contains(p, *at)) return true;
+    if (fw_geometry_contour_contains(p, *at)) return true;
     *at = p->segment[0].a;
-    return fw_contour_contains(q, *at);
+    return fw_geometry_contour_contains(q, *at);
 }
 
 /* the same for a disc */
-static bool disc_close_by(const fw_contour *p, fw_vec2 centre, double radius_m, fw_vec2 *at) {
-    fw_box b = fw_contour_box(p);
+static bool disc_close_by(const fw_geometry_contour *p, fw_geometry_vec2 centre, double radius_m,
+                          fw_geometry_vec2 *at) {
+    fw_geometry_box b = fw_geometry_contour_box(p);
     double far, t;
     *at = centre;
     if (centre.x < b.x0 - radius_m || centre.x > b.x1 + radius_m || centre.y < b.y0 - radius_m ||
         centre.y > b.y1 + radius_m)
         return false;
     for (int i = 0; i < p->count; i++) {
-        far = fw_segment_nearest(&p->segment[i], centre, &t, at);
+        far = fw_geometry_segment_nearest(&p->segment[i], centre, &t, at);
         if (far < radius_m) return true;
     }
     *at = centre;
-    return fw_contour_contains(p, centre);
+    return fw_geometry_contour_contains(p, centre);
 }
 
-static fw_status name(fw_drawing *d, fw_vec2 at, const char *kind, const char *id,
+static fw_status name(fw_layout_drawing *d, fw_geometry_vec2 at, const char *kind, const char *id,
                       const char **what) {
     char x[32], y[32];
     FW_NEED(id);
@@ -108,11 +114,11 @@ static fw_status name(fw_drawing *d, fw_vec2 at, const char *kind, const char *i
     return FW_OK;
 }
 
-static fw_status crosses_drives(fw_drawing *d, const fw_contour *c, int before, double space_m,
-                                const char **what) {
-    fw_vec2 at;
+static fw_status crosses_drives(fw_layout_drawing *d, const fw_geometry_contour *c, int before,
+                                double space_m, const char **what) {
+    fw_geometry_vec2 at;
     for (int i = 0; i < before && !*what; i++) {
-        const fw_comb_plan *p = &d->comb[i];
+        const fw_layout_comb_plan *p = &d->comb[i];
         const char *id = p->comb->id ? p->comb->id : "(unnamed)";
         if (!p->off &&
             (close_by(c, &p->rotor, space_m, &at) || close_by(c, &p->stator, space_m, &at)))
@@ -121,38 +127,39 @@ static fw_status crosses_drives(fw_drawing *d, const fw_contour *c, int before, 
     return FW_OK;
 }
 
-fw_status fw_actuator_crosses(fw_drawing *d, const fw_contour *c, int body, double space_m,
-                              int before, const char **what) {
+fw_status fw_layout_actuator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int body,
+                                     double space_m, int before, const char **what) {
     const fw_device *device = d->device;
-    fw_vec2 at;
+    fw_geometry_vec2 at;
     *what = NULL;
     for (int b = 0; b < device->nbody && !*what; b++)
         if (b != body && close_by(c, &d->plain[b], space_m, &at))
-            FW_TRY(name(d, at, "", fw_body_label(d, b), what));
-    for (int j = 0; j < device->njoint && !*what; j++) {
-        const fw_hinge_layout *h = &d->layout->hinge[j];
+            FW_TRY(name(d, at, "", fw_layout_body_label(d, b), what));
+    for (int j = 0; j < device->nrevolute && !*what; j++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         if (disc_close_by(c, h->centre, h->keep_out_m, &at))
-            FW_TRY(name(d, at, "hinge ", device->joint[j].id, what));
+            FW_TRY(name(d, at, "hinge ", device->revolute[j].id, what));
     }
     FW_TRY(crosses_drives(d, c, before, space_m, what));
     return FW_OK;
 }
 
 /* besides: the rings of others, and where the bar between two ground hinges will be */
-static fw_status stator_crosses(fw_drawing *d, const fw_contour *c, int rotor, double space_m,
-                                int before, const char **what) {
+static fw_status stator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int rotor,
+                                double space_m, int before, const char **what) {
     int joint[3];
-    fw_vec2 at;
-    FW_TRY(fw_actuator_crosses(d, c, rotor, space_m, before, what));
+    fw_geometry_vec2 at;
+    FW_TRY(fw_layout_actuator_crosses(d, c, rotor, space_m, before, what));
     for (int i = 0; i < d->neyelet && !*what; i++) {
-        const fw_eyelet_plan *e = &d->eyelet[i];
+        const fw_layout_eyelet_plan *e = &d->eyelet[i];
         if (!e->off && disc_close_by(c, e->at, 0.5 * e->hole_m + e->ring_m + LEAST_M, &at))
             FW_TRY(name(d, at, "an eyelet of tendon ", e->tendon->id ? e->tendon->id : "", what));
     }
-    if (!*what && fw_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
-        fw_contour bar;
-        FW_TRY(fw_contour_bar(d->arena, fw_joint_point(d->device, joint[0]),
-                              fw_joint_point(d->device, joint[1]), fw_layout_rule.base_width_m + 40e-6, &bar));
+    if (!*what && fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
+        fw_geometry_contour bar;
+        FW_TRY(fw_geometry_contour_bar(d->arena, fw_layout_joint_point(d->device, joint[0]),
+                                       fw_layout_joint_point(d->device, joint[1]),
+                                       fw_layout_rule.base_width_m + 40e-6, &bar));
         if (close_by(c, &bar, LEAST_M, &at)) FW_TRY(name(d, at, "", "the base", what));
     }
     return FW_OK;
@@ -166,58 +173,60 @@ typedef struct candidate {
 } candidate;
 
 /* bars of the lead and the pad (axis-parallel, on the grid), each a part to unite */
-static fw_status draw_lead(fw_drawing *d, const fw_comb_plan *p, const candidate *c,
-                           fw_contour part[3], int *npart, fw_vec2 *letter_at) {
+static fw_status draw_lead(fw_layout_drawing *d, const fw_layout_comb_plan *p, const candidate *c,
+                           fw_geometry_contour part[3], int *npart, fw_geometry_vec2 *letter_at) {
     double face = p->comb->kind == FW_ELECTRODES_COMB ? p->length_m - 0.5 * p->comb->overlap_m
                                                       : p->comb->gap_m;
-    fw_vec2 u = fw_v(p->local.c, p->local.s), n = fw_left(u), way = u;
-    fw_vec2 start = fw_add(fw_add(p->local.origin, face + 0.5 * BACK_M, u), c->from, n);
-    fw_vec2 end = fw_add(start, 0.5 * BACK_M + c->ahead, u);
-    fw_vec2 corner = end;
+    fw_geometry_vec2 u = fw_v(p->local.c, p->local.s), n = fw_left(u), way = u;
+    fw_geometry_vec2 start = fw_add(fw_add(p->local.origin, face + 0.5 * BACK_M, u), c->from, n);
+    fw_geometry_vec2 end = fw_add(start, 0.5 * BACK_M + c->ahead, u);
+    fw_geometry_vec2 corner = end;
     *npart = 0;
     if (c->aside != 0.0) {
         way = c->aside > 0.0 ? n : fw_v(-n.x, -n.y);
         end = fw_add(end, c->aside, n);
-        FW_TRY(fw_contour_bar(d->arena, start, fw_add(corner, 0.5 * BACK_M, u), BACK_M,
-                              &part[(*npart)++]));
+        FW_TRY(fw_geometry_contour_bar(d->arena, start, fw_add(corner, 0.5 * BACK_M, u), BACK_M,
+                                       &part[(*npart)++]));
     }
     double text = fw_layout_text_width(c->letter, 9.0 * STROKE_M, STROKE_M);
     double wide = fmax(PAD_M, text + 2.0 * MARGIN_M), strip = 9.0 * STROKE_M + 2.0 * MARGIN_M;
     double high = PAD_M + strip;
     double reach = fmin(fabs(way.x) > 1e-9 ? 0.5 * wide / fabs(way.x) : HUGE_VAL,
                         fabs(way.y) > 1e-9 ? 0.5 * high / fabs(way.y) : HUGE_VAL);
-    fw_vec2 middle = fw_add(end, reach - 0.25 * BACK_M, way);
+    fw_geometry_vec2 middle = fw_add(end, reach - 0.25 * BACK_M, way);
     double x0 = fw_layout_to_grid(middle.x - 0.5 * wide),
            y0 = fw_layout_to_grid(middle.y - 0.5 * high);
     /* into the middle of the pad, whatever its edge is like where it is reached */
-    FW_TRY(fw_contour_bar(d->arena, c->aside != 0.0 ? corner : start, middle, BACK_M,
-                          &part[(*npart)++]));
+    FW_TRY(fw_geometry_contour_bar(d->arena, c->aside != 0.0 ? corner : start, middle, BACK_M,
+                                   &part[(*npart)++]));
     *letter_at =
         fw_v(fw_layout_to_grid(x0 + 0.5 * (wide - text)), fw_layout_to_grid(y0 + MARGIN_M));
-    return fw_contour_rectangle(d->arena, (fw_box){x0, y0, x0 + wide, y0 + high},
-                                &part[(*npart)++]);
+    return fw_geometry_contour_rectangle(d->arena, (fw_geometry_box){x0, y0, x0 + wide, y0 + high},
+                                         &part[(*npart)++]);
 }
 
-static fw_status unite(fw_arena *arena, const fw_contour *electrode, const fw_contour *part,
-                       int npart, fw_contour *out, bool *good) {
-    fw_contour whole = *electrode;
-    fw_vec2 where;
+static fw_status unite(fw_arena *arena, const fw_geometry_contour *electrode,
+                       const fw_geometry_contour *part, int npart, fw_geometry_contour *out,
+                       bool *good) {
+    fw_geometry_contour whole = *electrode;
+    fw_geometry_vec2 where;
     *good = false;
     for (int i = 0; i < npart; i++) {
-        fw_region a = {&whole, 1}, b = {(fw_contour *)&part[i], 1}, both;
-        fw_status status = fw_region_boolean(arena, &a, &b, FW_UNION, &both);
+        fw_geometry_region a = {&whole, 1}, b = {(fw_geometry_contour *)&part[i], 1}, both;
+        fw_status status = fw_geometry_region_boolean(arena, &a, &b, FW_UNION, &both);
         if (status == FW_GEOMETRY || (status == FW_OK && both.count != 1)) return FW_OK;
         FW_TRY(status);
         whole = both.contour[0];
     }
-    fw_status status = fw_contour_round(arena, &whole, fw_layout_rule.corner_m, fw_layout_rule.corner_m, out, &where);
+    fw_status status = fw_geometry_contour_round(arena, &whole, fw_layout_rule.corner_m,
+                                                 fw_layout_rule.corner_m, out, &where);
     *good = status == FW_OK;
     return status == FW_GEOMETRY ? FW_OK : status;
 }
 
 /* does what is in `part` keep its distance from everything, its own rotor's body included? */
-static fw_status is_free(fw_drawing *d, const fw_comb_plan *p, const fw_contour *part, int npart,
-                         double space_m, bool *good) {
+static fw_status is_free(fw_layout_drawing *d, const fw_layout_comb_plan *p,
+                         const fw_geometry_contour *part, int npart, double space_m, bool *good) {
     int before = (int)(p - d->comb);
     *good = false;
     for (int i = 0; i < npart; i++) {
@@ -229,15 +238,16 @@ static fw_status is_free(fw_drawing *d, const fw_comb_plan *p, const fw_contour 
     return FW_OK;
 }
 
-static fw_status try_lead(fw_drawing *d, fw_comb_plan *p, const fw_contour *electrode,
-                          const candidate *c, double space_m, bool *done) {
-    fw_contour part[3];
+static fw_status try_lead(fw_layout_drawing *d, fw_layout_comb_plan *p,
+                          const fw_geometry_contour *electrode, const candidate *c, double space_m,
+                          bool *done) {
+    fw_geometry_contour part[3];
     int npart;
     *done = false;
     FW_TRY(draw_lead(d, p, c, part, &npart, &p->letter_at));
     FW_TRY(is_free(d, p, part, npart, space_m, done));
     if (!*done) return FW_OK;
-    fw_contour whole;
+    fw_geometry_contour whole;
     FW_TRY(unite(d->arena, electrode, part, npart, &whole, done));
     if (!*done) return FW_OK;
     p->stator = whole;
@@ -247,8 +257,8 @@ static fw_status try_lead(fw_drawing *d, fw_comb_plan *p, const fw_contour *elec
 
 /* the nearest place: straight on first, then round one corner; the drive's id on the pad where that
    is short enough and there is room, else its number */
-static fw_status find_place(fw_drawing *d, fw_comb_plan *p, const fw_contour *electrode,
-                            bool *done) {
+static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
+                            const fw_geometry_contour *electrode, bool *done) {
     static const double ahead[] = {60e-6,  80e-6,  110e-6, 150e-6, 220e-6,
                                    320e-6, 450e-6, 650e-6, 900e-6, 1300e-6},
                         from[] = {0.0, 0.4, -0.4, 0.8, -0.8},
@@ -282,8 +292,8 @@ static fw_status find_place(fw_drawing *d, fw_comb_plan *p, const fw_contour *el
 }
 
 /* what makes a drive impossible whatever is around it */
-static fw_status impossible(fw_drawing *d, const fw_comb_plan *p, const char **why) {
-    const fw_comb *c = p->comb;
+static fw_status impossible(fw_layout_drawing *d, const fw_layout_comb_plan *p, const char **why) {
+    const fw_device_comb *c = p->comb;
     char um[32];
     *why = NULL;
     if (c->body_a >= 0) {
@@ -301,21 +311,22 @@ static fw_status impossible(fw_drawing *d, const fw_comb_plan *p, const char **w
     return FW_OK;
 }
 
-fw_status fw_stator_place(fw_drawing *d, fw_comb_plan *p, const char **why) {
-    fw_contour electrode;
+fw_status fw_layout_stator_place(fw_layout_drawing *d, fw_layout_comb_plan *p, const char **why) {
+    fw_geometry_contour electrode;
     const char *what;
     bool done;
     int before = (int)(p - d->comb);
-    p->stator = (fw_contour){NULL, 0};
+    p->stator = (fw_geometry_contour){NULL, 0};
     FW_TRY(impossible(d, p, why));
     if (*why) return FW_OK;
-    FW_TRY(fw_comb_stator(d->arena, p, &electrode));
+    FW_TRY(fw_layout_comb_stator(d->arena, p, &electrode));
     FW_TRY(stator_crosses(d, &electrode, p->comb->body_b, LEAST_M, before, &what));
     if (!what) {
-        fw_vec2 at;
+        fw_geometry_vec2 at;
         double gap = p->comb->gap_m;
         if (close_by(&electrode, &d->plain[p->comb->body_b], gap * (1.0 - 1e-6), &at))
-            FW_TRY(name(d, at, "its own rotor's body ", fw_body_label(d, p->comb->body_b), &what));
+            FW_TRY(name(d, at, "its own rotor's body ", fw_layout_body_label(d, p->comb->body_b),
+                        &what));
     }
     if (what) {
         FW_NEED(*why =

@@ -4,7 +4,7 @@
  */
 #include "geometry/segment.h"
 #include "layout/content.h"
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,33 +16,33 @@ static const double STROKE_M = 5e-6, HIGH_M = 45e-6, LINE_M = 65e-6;
 typedef struct sheet {
     fw_arena *arena;
     const fw_layout *device;
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int npiece, capacity;
-    fw_box *box; /* (nbox) of the first pieces, as far as they were asked for */
+    fw_geometry_box *box; /* (nbox) of the first pieces, as far as they were asked for */
     int nbox, box_room;
 } sheet;
 
-static bool in_frame(const fw_piece *p) {
+static bool in_frame(const fw_layout_piece *p) {
     return p->role == FW_ROLE_TEXT || p->role == FW_ROLE_MARK || p->role == FW_ROLE_BACK;
 }
 
-static bool apart(fw_box p, fw_box q, double clear) {
+static bool apart(fw_geometry_box p, fw_geometry_box q, double clear) {
     return p.x1 + clear <= q.x0 || q.x1 + clear <= p.x0 || p.y1 + clear <= q.y0 ||
            q.y1 + clear <= p.y0;
 }
 
 /* inside one piece of the frame, clear of every outline */
-static bool is_free(const sheet *s, const fw_contour *place) {
-    fw_box b = fw_contour_box(place);
-    fw_vec2 middle = {0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)};
+static bool is_free(const sheet *s, const fw_geometry_contour *place) {
+    fw_geometry_box b = fw_geometry_contour_box(place);
+    fw_geometry_vec2 middle = {0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)};
     bool inside = false;
     for (int i = 0; i < s->npiece; i++) {
-        const fw_piece *p = &s->piece[i];
+        const fw_layout_piece *p = &s->piece[i];
         if (apart(b, s->box[i], in_frame(p) ? BESIDE_M : CLEAR_M)) continue;
         if (in_frame(p)) return false;
-        if (fw_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
+        if (fw_geometry_contour_distance_below(place, &p->contour, CLEAR_M, NULL, NULL) < CLEAR_M)
             return false;
-        if (!fw_contour_contains(&p->contour, middle)) continue;
+        if (!fw_geometry_contour_contains(&p->contour, middle)) continue;
         if (p->role != FW_ROLE_FRAME) return false;
         inside = true;
     }
@@ -58,13 +58,13 @@ static fw_status find_boxes(sheet *s) {
         s->box_room = more;
     }
     for (; s->nbox < s->npiece; s->nbox++)
-        s->box[s->nbox] = fw_contour_box(&s->piece[s->nbox].contour);
+        s->box[s->nbox] = fw_geometry_contour_box(&s->piece[s->nbox].contour);
     return FW_OK;
 }
 
 /* lower left corner of a free place in an upright; from the top or from below */
 static fw_status find_place(sheet *s, bool right, bool from_top, double width, double height,
-                            fw_vec2 *at, bool *found) {
+                            fw_geometry_vec2 *at, bool *found) {
     const fw_layout *d = s->device;
     double lane = HUGE_VAL; /* the frame begins where the lane ends */
     FW_TRY(find_boxes(s));
@@ -77,37 +77,40 @@ static fw_status find_place(sheet *s, bool right, bool from_top, double width, d
     *found = false;
     for (int i = 0; i <= steps && !*found && x - x0 >= CLEAR_M; i++) {
         double y = from_top ? d->window.y1 - height - i * STEP_M : d->window.y0 + i * STEP_M;
-        *at = (fw_vec2){x, fw_layout_to_grid(y)};
-        fw_contour place;
+        *at = (fw_geometry_vec2){x, fw_layout_to_grid(y)};
+        fw_geometry_contour place;
         fw_mark mark = fw_arena_mark(s->arena);
-        FW_TRY(fw_contour_rectangle(s->arena, (fw_box){at->x, at->y, x + width, at->y + height},
-                                    &place));
+        FW_TRY(fw_geometry_contour_rectangle(
+            s->arena, (fw_geometry_box){at->x, at->y, x + width, at->y + height}, &place));
         *found = is_free(s, &place);
         fw_arena_rewind(s->arena, mark);
     }
     return FW_OK;
 }
 
-static fw_status add_mark(sheet *s, const fw_coupon *c, fw_vec2 at) {
+static fw_status add_mark(sheet *s, const fw_layout_coupon *c, fw_geometry_vec2 at) {
     for (int i = 0; i < c->npiece; i++) {
-        fw_piece piece = c->piece[i];
-        const fw_contour *from = &c->piece[i].contour;
+        fw_layout_piece piece = c->piece[i];
+        const fw_geometry_contour *from = &c->piece[i].contour;
         size_t n = (size_t)from->count;
-        FW_NEED(piece.contour.segment = fw_arena_array(s->arena, fw_segment, n));
+        FW_NEED(piece.contour.segment = fw_arena_array(s->arena, fw_geometry_segment, n));
         for (int k = 0; k < from->count; k++) {
-            fw_segment *e = &piece.contour.segment[k];
+            fw_geometry_segment *e = &piece.contour.segment[k];
             *e = from->segment[k];
-            e->a = (fw_vec2){fw_layout_to_grid(e->a.x + at.x), fw_layout_to_grid(e->a.y + at.y)};
-            e->b = (fw_vec2){fw_layout_to_grid(e->b.x + at.x), fw_layout_to_grid(e->b.y + at.y)};
+            e->a = (fw_geometry_vec2){fw_layout_to_grid(e->a.x + at.x),
+                                      fw_layout_to_grid(e->a.y + at.y)};
+            e->b = (fw_geometry_vec2){fw_layout_to_grid(e->b.x + at.x),
+                                      fw_layout_to_grid(e->b.y + at.y)};
         }
         FW_TRY(fw_layout_add(s->arena, piece, &s->piece, &s->npiece, &s->capacity));
     }
     return FW_OK;
 }
 
-fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
-                              int npattern, double width_rule_m, double space_rule_m,
-                              const fw_layout **out, int *left_out) {
+fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
+                                     const fw_layout_pattern *pattern, int npattern,
+                                     double width_rule_m, double space_rule_m,
+                                     const fw_layout **out, int *left_out) {
     int n = 0;
     *out = device;
     *left_out = 0;
@@ -121,11 +124,11 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
     FW_NEED(s.piece = fw_arena_grow(arena, device->piece, (size_t)device->npiece,
                                     (size_t)s.capacity, sizeof *s.piece));
     for (int i = 0; i < npattern; i++) {
-        fw_coupon c;
+        fw_layout_coupon c;
         if (!pattern[i].kind->on_frame) continue;
-        FW_TRY(fw_pattern_draw(arena, &pattern[i], width_rule_m, space_rule_m, 0, &c));
+        FW_TRY(fw_layout_pattern_draw(arena, &pattern[i], width_rule_m, space_rule_m, 0, &c));
         for (int k = 0; k < pattern[i].kind->on_frame; k++) {
-            fw_vec2 at;
+            fw_geometry_vec2 at;
             bool found;
             FW_TRY(find_place(&s, k == 1, true, c.width_m, c.height_m, &at, &found));
             if (found)
@@ -135,7 +138,7 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
         }
     }
     if (device->fill)
-        FW_TRY(fw_content_in_window(arena, device, pattern, npattern, s.piece, s.npiece));
+        FW_TRY(fw_layout_content_in_window(arena, device, pattern, npattern, s.piece, s.npiece));
     *l = *device;
     l->piece = s.piece;
     l->npiece = s.npiece;
@@ -143,8 +146,8 @@ fw_status fw_content_on_frame(fw_arena *arena, const fw_layout *device, const fw
     return FW_OK;
 }
 
-fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
-                            fw_piece **piece, int *npiece, int *capacity) {
+fw_status fw_layout_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
+                                   fw_layout_piece **piece, int *npiece, int *capacity) {
     sheet s = {.arena = arena,
                .device = device,
                .piece = device->piece,
@@ -153,7 +156,8 @@ fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char
     double room = 0;
     for (int i = 0; i < device->npiece; i++)
         if (device->piece[i].role == FW_ROLE_FRAME)
-            room = fmax(room, device->window.x0 - fw_contour_box(&device->piece[i].contour).x0);
+            room = fmax(room,
+                        device->window.x0 - fw_geometry_contour_box(&device->piece[i].contour).x0);
     room -= 2 * CLEAR_M;
     size_t total = strlen(id), per = total;
     char line[40];
@@ -169,13 +173,14 @@ fw_status fw_content_die_id(fw_arena *arena, const fw_layout *device, const char
     }
     if (per == 0) return FW_OK;
     size_t lines = (total + per - 1) / per;
-    fw_vec2 at;
+    fw_geometry_vec2 at;
     bool found;
     double height = (double)(lines - 1) * LINE_M + HIGH_M;
     FW_TRY(find_place(&s, false, false, width, height, &at, &found));
     for (size_t k = 0; found && k < lines; k++) {
         snprintf(line, sizeof line, "%.*s", (int)per, id + k * per);
-        fw_vec2 origin = {at.x, fw_layout_to_grid(at.y + (double)(lines - 1 - k) * LINE_M)};
+        fw_geometry_vec2 origin = {at.x,
+                                   fw_layout_to_grid(at.y + (double)(lines - 1 - k) * LINE_M)};
         FW_TRY(fw_layout_text(arena, line, origin, HIGH_M, STROKE_M, FW_ROLE_TEXT, "die id", piece,
                               npiece, capacity));
     }
@@ -195,59 +200,59 @@ static const double CELL_M = 20e-6; /* along the thief's edges */
 static const double ROOM_M = 20e-6; /* of an edge's ends: corners, stubs and cuts of the frame */
 
 typedef struct edge { /* of the frame, with the window on its right */
-    fw_vec2 a, along, out;
+    fw_geometry_vec2 a, along, out;
     double length_m;
 } edge;
 
 typedef struct window {
     fw_arena *arena;
     const fw_layout *device;
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int npiece;
-    double thief_m; /* depth of the thief; 0: none */
-    fw_vec2 *path;  /* (npath) what stands on the edge in hand */
+    double thief_m;         /* depth of the thief; 0: none */
+    fw_geometry_vec2 *path; /* (npath) what stands on the edge in hand */
     int npath, room;
 } window;
 
-static fw_vec2 place_on(const edge *e, double t, double depth) {
-    fw_vec2 p = vec_along(vec_along(e->a, t, e->along), depth, e->out);
-    return (fw_vec2){fw_layout_to_grid(p.x), fw_layout_to_grid(p.y)};
+static fw_geometry_vec2 place_on(const edge *e, double t, double depth) {
+    fw_geometry_vec2 p = vec_along(vec_along(e->a, t, e->along), depth, e->out);
+    return (fw_geometry_vec2){fw_layout_to_grid(p.x), fw_layout_to_grid(p.y)};
 }
 
-static fw_box cell_of(const edge *e, double t0, double t1, double d0, double d1) {
-    fw_vec2 p = place_on(e, t0, d0), q = place_on(e, t1, d1);
-    return (fw_box){fmin(p.x, q.x), fmin(p.y, q.y), fmax(p.x, q.x), fmax(p.y, q.y)};
+static fw_geometry_box cell_of(const edge *e, double t0, double t1, double d0, double d1) {
+    fw_geometry_vec2 p = place_on(e, t0, d0), q = place_on(e, t1, d1);
+    return (fw_geometry_box){fmin(p.x, q.x), fmin(p.y, q.y), fmax(p.x, q.x), fmax(p.y, q.y)};
 }
 
-static bool is_frame(const fw_piece *p) {
+static bool is_frame(const fw_layout_piece *p) {
     return p->role == FW_ROLE_FRAME;
 }
 
 /* lettering and marks lie within the frame, or on what is in the way itself */
-static bool is_in_the_way(const fw_piece *p) {
+static bool is_in_the_way(const fw_layout_piece *p) {
     return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_TETHER;
 }
 
 /* in nobody's way: `keep` from the device, `from_frame` from the frame, both outlines apart */
-static fw_status is_clear(const window *w, fw_box box, double keep, double from_frame,
+static fw_status is_clear(const window *w, fw_geometry_box box, double keep, double from_frame,
                           bool *clear) {
-    fw_contour place;
+    fw_geometry_contour place;
     fw_mark mark = fw_arena_mark(w->arena);
     *clear = true;
-    FW_TRY(fw_contour_rectangle(w->arena, box, &place));
+    FW_TRY(fw_geometry_contour_rectangle(w->arena, box, &place));
     for (int i = 0; i < w->npiece && *clear; i++) {
-        const fw_contour *c = &w->piece[i].contour;
+        const fw_geometry_contour *c = &w->piece[i].contour;
         double far = is_frame(&w->piece[i]) ? from_frame : is_in_the_way(&w->piece[i]) ? keep : 0;
-        if (far <= 0 || fw_box_gap(box, fw_contour_box(c)) >= far) continue;
-        *clear = fw_contour_distance_below(&place, c, far, NULL, NULL) >= far &&
-                 !fw_contour_contains(c, place.segment[0].a) &&
-                 !fw_contour_contains(&place, c->segment[0].a);
+        if (far <= 0 || fw_box_gap(box, fw_geometry_contour_box(c)) >= far) continue;
+        *clear = fw_geometry_contour_distance_below(&place, c, far, NULL, NULL) >= far &&
+                 !fw_geometry_contour_contains(c, place.segment[0].a) &&
+                 !fw_geometry_contour_contains(&place, c->segment[0].a);
     }
     fw_arena_rewind(w->arena, mark);
     return FW_OK;
 }
 
-static fw_status go_to(window *w, fw_vec2 p) {
+static fw_status go_to(window *w, fw_geometry_vec2 p) {
     if (w->npath == w->room) {
         int more = w->room ? 2 * w->room : 256;
         FW_NEED(w->path = fw_arena_grow(w->arena, w->path, (size_t)w->npath, (size_t)more,
@@ -259,11 +264,11 @@ static fw_status go_to(window *w, fw_vec2 p) {
 }
 
 /* ---- the thief: cells along the edge that are clear, runs of them are one rectangle ---- */
-static fw_status add_thief(window *w, const edge *e, const fw_pattern *p) {
+static fw_status add_thief(window *w, const edge *e, const fw_layout_pattern *p) {
     double width = fw_layout_to_grid(p->value[0]), keep = p->value[1], run = -1;
-    const fw_box *b = &w->device->window;
+    const fw_geometry_box *b = &w->device->window;
     for (double t = ROOM_M; t <= e->length_m - ROOM_M + 1e-12; t += CELL_M) {
-        fw_box cell = cell_of(e, t, t + CELL_M, 1e-6, width);
+        fw_geometry_box cell = cell_of(e, t, t + CELL_M, 1e-6, width);
         bool clear = t + CELL_M <= e->length_m - ROOM_M + 1e-12;
         if (e->out.x == 0) /* the rims of two sides do not meet in a corner */
             clear = clear && cell.x0 >= b->x0 + 2 * width && cell.x1 <= b->x1 - 2 * width;
@@ -312,25 +317,25 @@ static fw_status draw_chain(window *w, const edge *e, const chain *c) {
 /* how many squares stand clear in the column, away from the edge, up to the middle of the window:
    chains from below and from above meet there, so that none hangs farther than it must */
 static fw_status count_squares(window *w, const edge *e, chain *c) {
-    const fw_box *b = &w->device->window;
+    const fw_geometry_box *b = &w->device->window;
     bool up = e->out.y > 0, clear = true;
     double pitch = c->square + c->gap, s = 0.5 * c->square, middle = 0.5 * (b->y0 + b->y1);
     for (c->count = 0; clear; c->count += clear) {
         double low = c->gap + c->count * pitch;
-        fw_box box = cell_of(e, c->t - s, c->t + s, low, low + c->square);
+        fw_geometry_box box = cell_of(e, c->t - s, c->t + s, low, low + c->square);
         clear = up ? box.y1 <= middle - 0.5 * c->gap : box.y0 >= middle + 0.5 * c->gap;
         if (clear) FW_TRY(is_clear(w, box, c->keep, c->gap - 2e-9, &clear));
     }
     return FW_OK;
 }
 
-static fw_status add_fill(window *w, const edge *e, const fw_pattern *p) {
+static fw_status add_fill(window *w, const edge *e, const fw_layout_pattern *p) {
     chain c = {.square = 2 * fw_layout_to_grid(0.5 * p->value[0]),
                .stem = 2 * fw_layout_to_grid(0.5 * p->value[1]),
                .keep = p->value[3]};
-    const fw_box *b = &w->device->window;
+    const fw_geometry_box *b = &w->device->window;
     if (e->out.y == 0) return FW_OK; /* the uprights have none */
-    c.gap = fw_layout_to_grid(fw_fill_gap_m(c.square, c.stem, p->value[2]));
+    c.gap = fw_layout_to_grid(fw_layout_fill_gap_m(c.square, c.stem, p->value[2]));
     if (!(c.gap > 0)) return FW_OK;
     double pitch = c.square + c.gap;
     int columns = (int)floor((b->x1 - b->x0 - c.gap) / pitch);
@@ -349,12 +354,12 @@ static fw_status add_fill(window *w, const edge *e, const fw_pattern *p) {
 /* ---- edges ---- */
 
 /* a straight edge of the window or of the thief: along an axis, the window's inside on its right */
-static bool edge_of(const window *w, const fw_segment *s, edge *e) {
-    const fw_box *b = &w->device->window;
-    fw_vec2 d = vec_sub(s->b, s->a);
+static bool edge_of(const window *w, const fw_geometry_segment *s, edge *e) {
+    const fw_geometry_box *b = &w->device->window;
+    fw_geometry_vec2 d = vec_sub(s->b, s->a);
     if (s->kind != FW_LINE || s->flags & FW_SEGMENT_JOINT || (d.x != 0 && d.y != 0)) return false;
     *e = (edge){s->a, vec_unit(d), {0, 0}, vec_length(d)};
-    e->out = (fw_vec2){e->along.y, -e->along.x};
+    e->out = (fw_geometry_vec2){e->along.y, -e->along.x};
     double depth = e->out.y > 0   ? s->a.y - b->y0
                    : e->out.y < 0 ? b->y1 - s->a.y
                    : e->out.x > 0 ? s->a.x - b->x0
@@ -363,11 +368,11 @@ static bool edge_of(const window *w, const fw_segment *s, edge *e) {
 }
 
 typedef struct growing { /* an outline */
-    fw_contour contour;
+    fw_geometry_contour contour;
     int room;
 } growing;
 
-static fw_status append(window *w, growing *g, fw_segment s) {
+static fw_status append(window *w, growing *g, fw_geometry_segment s) {
     if (s.kind == FW_LINE && vec_same(s.a, s.b)) return FW_OK;
     if (g->contour.count == g->room) {
         int more = g->room ? 2 * g->room : 256;
@@ -380,17 +385,17 @@ static fw_status append(window *w, growing *g, fw_segment s) {
     return FW_OK;
 }
 
-typedef fw_status (*add_to)(window *w, const edge *e, const fw_pattern *p);
+typedef fw_status (*add_to)(window *w, const edge *e, const fw_layout_pattern *p);
 
 /* the outline of one piece of the frame with what stands on its edges */
-static fw_status grow(window *w, fw_piece *piece, add_to add, const fw_pattern *p) {
+static fw_status grow(window *w, fw_layout_piece *piece, add_to add, const fw_layout_pattern *p) {
     growing out = {{NULL, 0}, 0};
     for (int i = 0; i < piece->contour.count; i++) {
-        fw_segment s = piece->contour.segment[i];
+        fw_geometry_segment s = piece->contour.segment[i];
         edge e;
         w->npath = 0;
         if (edge_of(w, &s, &e)) FW_TRY(add(w, &e, p));
-        fw_segment part = s;
+        fw_geometry_segment part = s;
         for (int k = 0; k < w->npath; k++) {
             part.b = w->path[k];
             FW_TRY(append(w, &out, part));
@@ -403,12 +408,13 @@ static fw_status grow(window *w, fw_piece *piece, add_to add, const fw_pattern *
     return FW_OK;
 }
 
-fw_status fw_content_in_window(fw_arena *arena, const fw_layout *device, const fw_pattern *pattern,
-                               int npattern, fw_piece *piece, int npiece) {
+fw_status fw_layout_content_in_window(fw_arena *arena, const fw_layout *device,
+                                      const fw_layout_pattern *pattern, int npattern,
+                                      fw_layout_piece *piece, int npiece) {
     window w = {.arena = arena, .device = device, .piece = piece, .npiece = npiece};
     for (int round = 0; round < 2; round++) /* the fill stands on the thief, whatever their order */
         for (int k = 0; k < npattern; k++) {
-            bool thief = pattern[k].kind == &fw_pattern_window_thief;
+            bool thief = pattern[k].kind == &fw_layout_pattern_window_thief;
             if (!pattern[k].kind->in_window || thief != (round == 0)) continue;
             for (int i = 0; i < npiece; i++)
                 if (is_frame(&piece[i]))

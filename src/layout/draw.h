@@ -4,298 +4,324 @@
 #define FW_LAYOUT_DRAW_H
 #include "flexure/flexure.h"
 #include "layout/layout.h"
-#include "layout/rules.h"
+#include "layout/layout_rules.h"
 #include <math.h>
 
 /* ---- small vectors ---- */
-static inline fw_vec2 fw_v(double x, double y) {
-    return (fw_vec2){x, y};
+static inline fw_geometry_vec2 fw_v(double x, double y) {
+    return (fw_geometry_vec2){x, y};
 }
-static inline fw_vec2 fw_add(fw_vec2 p, double s, fw_vec2 d) {
-    return (fw_vec2){p.x + s * d.x, p.y + s * d.y};
+static inline fw_geometry_vec2 fw_add(fw_geometry_vec2 p, double s, fw_geometry_vec2 d) {
+    return (fw_geometry_vec2){p.x + s * d.x, p.y + s * d.y};
 }
-static inline fw_vec2 fw_sub(fw_vec2 p, fw_vec2 q) {
-    return (fw_vec2){p.x - q.x, p.y - q.y};
+static inline fw_geometry_vec2 fw_sub(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return (fw_geometry_vec2){p.x - q.x, p.y - q.y};
 }
-static inline double fw_dot(fw_vec2 p, fw_vec2 q) {
+static inline double fw_dot(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x * q.x + p.y * q.y;
 }
-static inline fw_vec2 fw_left(fw_vec2 d) {
-    return (fw_vec2){-d.y, d.x};
+static inline fw_geometry_vec2 fw_left(fw_geometry_vec2 d) {
+    return (fw_geometry_vec2){-d.y, d.x};
 }
-static inline double fw_norm(fw_vec2 p) {
+static inline double fw_norm(fw_geometry_vec2 p) {
     return hypot(p.x, p.y);
 }
-static inline fw_vec2 fw_polar(double angle_rad) {
+static inline fw_geometry_vec2 fw_polar(double angle_rad) {
     return fw_v(cos(angle_rad), sin(angle_rad));
 }
 /* unit vector; (1, 0) when the points coincide */
-static inline fw_vec2 fw_towards(fw_vec2 from, fw_vec2 to) {
-    fw_vec2 d = fw_sub(to, from);
+static inline fw_geometry_vec2 fw_towards(fw_geometry_vec2 from, fw_geometry_vec2 to) {
+    fw_geometry_vec2 d = fw_sub(to, from);
     double n = fw_norm(d);
     return n > 0.0 ? fw_v(d.x / n, d.y / n) : fw_v(1.0, 0.0);
 }
 
 /* local frame: origin, x axis (c, s); mirror: local y points the other way. The same local point
    gives the same world bits whoever asks. */
-typedef struct fw_local {
-    fw_vec2 origin;
+typedef struct fw_layout_local {
+    fw_geometry_vec2 origin;
     double c, s;
     bool mirror;
-} fw_local;
-fw_vec2 fw_local_point(const fw_local *local, fw_vec2 p);
+} fw_layout_local;
+fw_geometry_vec2 fw_layout_local_point(const fw_layout_local *local, fw_geometry_vec2 p);
 
 /* an outline given in local coordinates; closes counter-clockwise whatever the mirror */
-typedef struct fw_sketch {
-    fw_outline outline;
-    const fw_local *local;
-} fw_sketch;
-fw_sketch fw_sketch_start(fw_arena *arena, const fw_local *local, fw_vec2 p);
-void fw_sketch_line(fw_sketch *sketch, fw_vec2 to, unsigned flags);
-void fw_sketch_arc(fw_sketch *sketch, fw_vec2 centre, double sweep_rad, fw_vec2 to);
-fw_status fw_sketch_close(fw_sketch *sketch, fw_contour *contour);
-fw_status fw_layout_polygon(fw_arena *arena, const fw_local *local, const fw_vec2 *p, int n,
-                            int joint,
-                            fw_contour *contour); /* joint: index of a JOINT edge or -1 */
+typedef struct fw_layout_sketch {
+    fw_geometry_outline outline;
+    const fw_layout_local *local;
+} fw_layout_sketch;
+fw_layout_sketch fw_layout_sketch_start(fw_arena *arena, const fw_layout_local *local,
+                                        fw_geometry_vec2 p);
+void fw_layout_sketch_line(fw_layout_sketch *sketch, fw_geometry_vec2 to, unsigned flags);
+void fw_layout_sketch_arc(fw_layout_sketch *sketch, fw_geometry_vec2 centre, double sweep_rad,
+                          fw_geometry_vec2 to);
+fw_status fw_layout_sketch_close(fw_layout_sketch *sketch, fw_geometry_contour *contour);
+fw_status fw_layout_polygon(fw_arena *arena, const fw_layout_local *local,
+                            const fw_geometry_vec2 *p, int n, int joint,
+                            fw_geometry_contour *contour); /* joint: index of a JOINT edge or -1 */
 
 /* ---- hinges ---- */
 /* Flexure and its root at the upper body, in the hinge frame: W at the origin, bulge along +x. The
    root at the lower body is the mirror image. */
-typedef struct fw_hinge_shape {
-    fw_vec2 arc_centre;               /* O */
-    double strip_sweep_rad;           /* of the flexure between the two cuts; 0: straight */
-    double fillet_m, width_m, size_m; /* size: radius, or half the length of a leaf */
-    fw_vec2 joint_in, joint_out;      /* the cut */
-    fw_vec2 outer_start, outer_centre, outer_end; /* fillet on the bulge side */
-    fw_vec2 inner_start, inner_centre, inner_end; /* fillet inside; usually ends at joint_in */
+typedef struct fw_layout_hinge_shape {
+    fw_geometry_vec2 arc_centre;          /* O */
+    double strip_sweep_rad;               /* of the flexure between the two cuts; 0: straight */
+    double fillet_m, width_m, size_m;     /* size: radius, or half the length of a leaf */
+    fw_geometry_vec2 joint_in, joint_out; /* the cut */
+    fw_geometry_vec2 outer_start, outer_centre, outer_end; /* fillet on the bulge side */
+    fw_geometry_vec2 inner_start, inner_centre,
+        inner_end; /* fillet inside; usually ends at joint_in */
     /* edges from the cut to outer_start, and from inner_end to the cut; sweep 0: a line, or none */
-    fw_vec2 edge_centre, inner_edge_centre;
+    fw_geometry_vec2 edge_centre, inner_edge_centre;
     double edge_sweep_rad, inner_edge_sweep_rad;
     double outer_sweep_rad, inner_sweep_rad;
-    fw_vec2 root, face, into; /* middle of the root; along its face; into the block */
-    fw_vec2 inner_corner;     /* end of the root face inside */
-    double reach_m;           /* farthest of flexure and fillets from W */
-    double cut_m;             /* of a path: along the centre line, from the root to the cut */
-    unsigned cut_flags;       /* JOINT, of a path THROUGH as well */
-} fw_hinge_shape;
+    fw_geometry_vec2 root, face, into; /* middle of the root; along its face; into the block */
+    fw_geometry_vec2 inner_corner;     /* end of the root face inside */
+    double reach_m;                    /* farthest of flexure and fillets from W */
+    double cut_m;       /* of a path: along the centre line, from the root to the cut */
+    unsigned cut_flags; /* JOINT, of a path THROUGH as well */
+} fw_layout_hinge_shape;
 
 /* one row per kind of flexure; false: no room for two roots */
-typedef struct fw_hinge_drawer {
-    fw_flexure_kind kind;
-    bool (*shape)(const fw_flexure *flexure, fw_hinge_shape *shape);
-} fw_hinge_drawer;
-bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape);
-bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape);
+typedef struct fw_layout_hinge_drawer {
+    fw_device_flexure_kind kind;
+    bool (*shape)(const fw_device_flexure *flexure, fw_layout_hinge_shape *shape);
+} fw_layout_hinge_drawer;
+bool fw_layout_hinge_shape_csfh(const fw_device_flexure *flexure, fw_layout_hinge_shape *shape);
+bool fw_layout_hinge_shape_leaf(const fw_device_flexure *flexure, fw_layout_hinge_shape *shape);
 /* both roots of a flexure that varies: [0] in the lower body's own (mirrored) frame */
-bool fw_hinge_shape_path(const fw_flexure *flexure, double fillet_m, fw_hinge_shape shape[2]);
+bool fw_layout_hinge_shape_path(const fw_device_flexure *flexure, double fillet_m,
+                                fw_layout_hinge_shape shape[2]);
 /* elastic centre from O, by the same function as the mechanics use */
-double fw_hinge_centre(const fw_flexure *flexure, double fillet_m);
+double fw_layout_hinge_centre(const fw_device_flexure *flexure, double fillet_m);
 
 /* dimensions of a head that are free within limits */
-typedef struct fw_head_form {
+typedef struct fw_layout_head_shape {
     double neck;     /* share of the neck's greatest half width */
     double behind;   /* block behind the root, in flexure widths */
     double longer_m; /* neck */
     double wider_m;  /* disc cut out of the body's own plate */
     bool plain;      /* the neck does not widen towards a plate's corner */
-} fw_head_form;
-fw_head_form fw_layout_head_form(int attempt); /* 0: as wanted; then others, without end */
+} fw_layout_head_shape;
+fw_layout_head_shape fw_layout_head_form(int attempt); /* 0: as wanted; then others, without end */
 
-typedef struct fw_side { /* one body at one hinge */
+typedef struct fw_layout_side { /* one body at one hinge */
     int body;
-    fw_vec2 direction;   /* unit, from W to where its bar or plate lies, world */
-    double own_rad;      /* the same in its own (mirrored) hinge frame, from the bulge */
-    double half_width_m; /* of the bar */
+    fw_geometry_vec2 direction; /* unit, from W to where its bar or plate lies, world */
+    double own_rad;             /* the same in its own (mirrored) hinge frame, from the bulge */
+    double half_width_m;        /* of the bar */
     double ring_in_m, ring_out_m, ring_end_rad;
-    const fw_body *plate; /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
+    const fw_device_body
+        *plate; /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
     double plate_at_m;
     double neck_m;     /* half width of the neck between ring and bar */
     double far_m;      /* the same on the side away from the bulge */
     double corner_m;   /* where far_m > neck_m: of the plate's corner, along `direction` */
     double neck_end_m; /* from W along `direction` */
     double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
-    fw_local local;
-    fw_contour head; /* root block, ring and neck */
-    int attempt;     /* at the head's free dimensions, */
-    fw_head_form form; /* which are these */
-} fw_side;
+    fw_layout_local local;
+    fw_geometry_contour head;  /* root block, ring and neck */
+    int attempt;               /* at the head's free dimensions, */
+    fw_layout_head_shape form; /* which are these */
+} fw_layout_side;
 
-typedef struct fw_hinge_plan {
-    fw_hinge_shape shape[2]; /* as seen by each side: alike but for paths */
-    fw_side side[2];         /* 0 lower, 1 upper */
-    int convex;              /* which side carries the convex surface */
-    fw_contour flexure;
-} fw_hinge_plan;
+typedef struct fw_layout_hinge_plan {
+    fw_layout_hinge_shape shape[2]; /* as seen by each side: alike but for paths */
+    fw_layout_side side[2];         /* 0 lower, 1 upper */
+    int convex;                     /* which side carries the convex surface */
+    fw_geometry_contour flexure;
+} fw_layout_hinge_plan;
 
 /* ---- the whole drawing ---- */
-typedef enum fw_window_side { FW_LEFT, FW_RIGHT, FW_BOTTOM, FW_TOP } fw_window_side;
-typedef struct fw_attachment { /* what meets the frame, from `low` to `high` along the side */
+typedef enum fw_layout_window_side { FW_LEFT, FW_RIGHT, FW_BOTTOM, FW_TOP } fw_layout_window_side;
+typedef struct
+    fw_layout_attachment { /* what meets the frame, from `low` to `high` along the side */
     int body;
-    fw_window_side side;
+    fw_layout_window_side side;
     double low_m, high_m, stub_m;
-    fw_contour finger; /* the way of a tether, from inside the body; count 0 for the base */
-    fw_contour tether; /* from the neck to the frame; count 0 for the base */
-} fw_attachment;
+    fw_geometry_contour
+        finger; /* the way of a tether, from inside the body; count 0 for the base */
+    fw_geometry_contour tether; /* from the neck to the frame; count 0 for the base */
+} fw_layout_attachment;
 
-/* ---- what moves the device: actuators.c, comb.c, eyelet.c ---- */
-typedef struct fw_eyelet_plan { /* one ring; several tendons and scenes may use it */
-    const fw_tendon *tendon;
-    const fw_eyelet *eyelet;
-    fw_vec2 at; /* world */
+/* ---- what moves the device: layout_actuators.c, comb.c, eyelet.c ---- */
+typedef struct fw_layout_eyelet_plan { /* one ring; several tendons and scenes may use it */
+    const fw_device_tendon *tendon;
+    const fw_device_eyelet *eyelet;
+    fw_geometry_vec2 at; /* world */
     double hole_m, ring_m;
-    int wider;      /* row of what is added to the ring; only ever grows */
-    bool off;       /* not drawn, and said why */
-    bool on_frame;  /* of those on the ground: not on a base */
-    fw_contour cap; /* the piece that closes its ring; count 0: not there yet */
-} fw_eyelet_plan;
+    int wider;               /* row of what is added to the ring; only ever grows */
+    bool off;                /* not drawn, and said why */
+    bool on_frame;           /* of those on the ground: not on a base */
+    fw_geometry_contour cap; /* the piece that closes its ring; count 0: not there yet */
+} fw_layout_eyelet_plan;
 
-typedef struct fw_comb_plan { /* one drive; several scenes may use it */
-    const fw_comb *comb;
+typedef struct fw_layout_comb_plan { /* one drive; several scenes may use it */
+    const fw_device_comb *comb;
     double width_m, length_m;
-    fw_local local; /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
+    fw_layout_local
+        local; /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
     bool off;
-    fw_contour rotor, stator; /* rotor: before it is united with its body; stator: with pad */
-    const char *letter;       /* on the pad */
-    fw_vec2 letter_at;
-} fw_comb_plan;
+    fw_geometry_contour rotor,
+        stator;         /* rotor: before it is united with its body; stator: with pad */
+    const char *letter; /* on the pad */
+    fw_geometry_vec2 letter_at;
+} fw_layout_comb_plan;
 
-typedef struct fw_drawing {
+typedef struct fw_layout_drawing {
     fw_arena *arena;
     const fw_device *device;
     fw_diags *diags;
     fw_layout *layout;
     int capacity;
-    fw_vec2 centre; /* mean of the hinge points */
+    fw_geometry_vec2 centre; /* mean of the hinge points */
     double lane_m;
-    fw_hinge_plan *hinge; /* (njoint) */
-    fw_contour *raw;      /* (nslot) united, not rounded: bodies, then one base for all ground
+    fw_layout_hinge_plan *hinge; /* (njoint) */
+    fw_geometry_contour *raw;   /* (nslot) united, not rounded: bodies, then one base for all ground
                              hinges, or one for each when there are more than two */
-    fw_contour *plain;    /* (nslot) rounded, without tethers */
-    fw_contour *held;     /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
-    double *corner_m;     /* (nslot) radius of the rounded corners */
-    bool *beside;         /* (nbody) the hub stands beside the hinges; NULL: nowhere */
+    fw_geometry_contour *plain; /* (nslot) rounded, without tethers */
+    fw_geometry_contour
+        *held;        /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
+    double *corner_m; /* (nslot) radius of the rounded corners */
+    bool *beside;     /* (nbody) the hub stands beside the hinges; NULL: nowhere */
     int nslot;
-    fw_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
+    fw_geometry_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
     int nlug;
-    fw_contour *bare;       /* (nbody) as raw, before actuators; NULL: there are none */
-    fw_eyelet_plan *eyelet; /* (neyelet) */
+    fw_geometry_contour *bare;     /* (nbody) as raw, before actuators; NULL: there are none */
+    fw_layout_eyelet_plan *eyelet; /* (neyelet) */
     int neyelet;
-    fw_comb_plan *comb; /* (ncomb) */
+    fw_layout_comb_plan *comb; /* (ncomb) */
     int ncomb;
-    bool said;                 /* a drawing of this device was commented before */
-    fw_attachment *attachment; /* (nattachment) what meets the frame */
+    bool said;                        /* a drawing of this device was commented before */
+    fw_layout_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
-} fw_drawing;
+} fw_layout_drawing;
 
 /* index into raw, plain and held; the joint tells bases apart */
-int fw_drawing_slot(const fw_drawing *d, int body, int joint);
-const fw_contour *fw_drawing_outline(const fw_drawing *d, int slot); /* held, else plain */
-const char *fw_body_label(fw_drawing *d, int body);                  /* NULL: out of memory */
-fw_place fw_body_place(const fw_drawing *d, int body);
-fw_vec2 fw_joint_point(const fw_device *device, int joint);
+int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
+const fw_geometry_contour *fw_layout_drawing_outline(const fw_layout_drawing *d,
+                                                     int slot);   /* held, else plain */
+const char *fw_layout_body_label(fw_layout_drawing *d, int body); /* NULL: out of memory */
+fw_place fw_layout_body_place(const fw_layout_drawing *d, int body);
+fw_geometry_vec2 fw_layout_joint_point(const fw_device *device, int joint);
 /* joints between a body and the ground, 1 for the ground itself */
-int fw_steps_to_ground(const fw_device *device, int body);
-int fw_body_joints(const fw_device *device, int body, int *joint, int most);
-fw_status fw_drawing_add(fw_drawing *d, fw_role role, int body, int joint, const char *label,
-                         const fw_contour *contour);
+int fw_layout_steps_to_ground(const fw_device *device, int body);
+int fw_layout_body_joints(const fw_device *device, int body, int *joint, int most);
+fw_status fw_layout_drawing_add(fw_layout_drawing *d, fw_layout_role role, int body, int joint,
+                                const char *label, const fw_geometry_contour *contour);
 /* "1234.5" in um */
 const char *fw_layout_um(char buffer[32], double metres);
 
 /* a point `depth` inside the window, at `along` on a side; sides run along +x or +y */
-fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double along, double depth);
-fw_vec2 fw_window_outward(fw_window_side side);
+fw_geometry_vec2 fw_layout_window_point(const fw_layout *layout, fw_layout_window_side side,
+                                        double along, double depth);
+fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side);
 /* strip from `start` (inside the body) to the stub of the frame, cut off by a JOINT segment */
-fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
-                        double along, double half_m, double stub_m, fw_attachment *out);
-fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item);
+fw_status fw_layout_strip_draw(fw_layout_drawing *d, fw_layout_window_side side, double low_start,
+                               double high_start, double along, double half_m, double stub_m,
+                               fw_layout_attachment *out);
+fw_status fw_layout_attachment_add(fw_layout_drawing *d, const fw_layout_attachment *item);
 
-fw_vec2 fw_body_hub(const fw_drawing *d, int body); /* of a body with more than two hinges */
-fw_status fw_hinges_plan(fw_drawing *d);
-fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *flexure, fw_hinge_plan *plan);
+fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d,
+                                    int body); /* of a body with more than two hinges */
+fw_status fw_layout_hinges_plan(fw_layout_drawing *d);
+fw_status fw_layout_flexure_draw(fw_arena *arena, const fw_device_flexure *flexure,
+                                 fw_layout_hinge_plan *plan);
 /* a head that comes nearer than own_space_m to its own flexure beyond the root; and of a path,
    whose roots may point anywhere, one that crosses itself. Of an arc or a leaf, as wide everywhere
    or not, block and ring may overlap: they become one when the body is united, with another head
    where that is unsound */
-bool fw_path_in_the_way(const fw_flexure *flexure, const fw_hinge_plan *plan);
+bool fw_layout_path_in_the_way(const fw_device_flexure *flexure, const fw_layout_hinge_plan *plan);
 /* draws a head with other free dimensions */
-fw_status fw_head_draw(fw_drawing *d, int joint, int body, int attempt);
+fw_status fw_layout_head_draw(fw_layout_drawing *d, int joint, int body, int attempt);
 /* where the root's face, extended outwards, meets the circle of radius q about W */
-fw_vec2 fw_layout_ring_foot(const fw_hinge_shape *shape, double q);
+fw_geometry_vec2 fw_layout_ring_foot(const fw_layout_hinge_shape *shape, double q);
 /* half width and end of the neck; then block, ring and neck in the body's own frame */
-void fw_layout_neck_choose(fw_side *side, double keep_out_m);
-fw_status fw_layout_head_draw(fw_arena *arena, const fw_hinge_shape *shape, fw_side *side);
+void fw_layout_neck_choose(fw_layout_side *side, double keep_out_m);
+fw_status fw_layout_head_draw_shape(fw_arena *arena, const fw_layout_hinge_shape *shape,
+                                    fw_layout_side *side);
 /* joint: the only one of several bases, or FW_NONE */
-fw_status fw_body_draw(fw_drawing *d, int body, int joint, const fw_contour *extra, int nextra);
-fw_status fw_body_round(fw_drawing *d, int body, const fw_contour *in, fw_contour *out,
-                        double *radius_m, fw_vec2 *where);
+fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int joint,
+                              const fw_geometry_contour *extra, int nextra);
+fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry_contour *in,
+                               fw_geometry_contour *out, double *radius_m, fw_geometry_vec2 *where);
 /* how far an outline is from what a mask can show; >= 1 is good, else *where */
-double fw_body_soundness(const fw_contour *c, fw_vec2 *where);
-fw_status fw_body_unite(fw_drawing *d, int body, const fw_contour *part, int npart,
-                        fw_contour *out);
+double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where);
+fw_status fw_layout_body_unite(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                               int npart, fw_geometry_contour *out);
 /* shift_m: of the places along their edges */
-fw_status fw_platform_lugs(fw_drawing *d, int body, double shift_m, fw_contour *lug, int *nlug);
+fw_status fw_layout_platform_lugs(fw_layout_drawing *d, int body, double shift_m,
+                                  fw_geometry_contour *lug, int *nlug);
 
 /* collects the eyelets and drives of all scenes, each place once */
-fw_status fw_actuators_plan(fw_drawing *d);
-bool fw_eyelets_on(const fw_drawing *d, int body);
+fw_status fw_layout_actuators_plan(fw_layout_drawing *d);
+bool fw_layout_eyelets_on(const fw_layout_drawing *d, int body);
 /* bodies with what of their actuators can be drawn, and the stators; after all bodies */
-fw_status fw_actuators_draw(fw_drawing *d);
-bool fw_stators_drawn(const fw_drawing *d);
+fw_status fw_layout_actuators_draw(fw_layout_drawing *d);
+bool fw_layout_stators_drawn(const fw_layout_drawing *d);
 /* nearer than `space_m` to a stator? */
-bool fw_near_stator(const fw_drawing *d, const fw_contour *c, double space_m);
+bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour *c,
+                           double space_m);
 /* all stators are given up, because of `why`; the bodies are to be drawn again */
-void fw_stators_drop(fw_drawing *d, const char *why);
+void fw_layout_stators_drop(fw_layout_drawing *d, const char *why);
 /* rings on the base; for the tethers to avoid: all rings and stators */
-fw_status fw_actuators_on_base(fw_drawing *d);
-fw_status fw_actuators_on_frame(fw_drawing *d, fw_contour *raw);
-fw_status fw_actuators_add(fw_drawing *d); /* pieces */
+fw_status fw_layout_actuators_on_base(fw_layout_drawing *d);
+fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour *raw);
+fw_status fw_layout_actuators_add(fw_layout_drawing *d); /* pieces */
 /* lettering and marks where rings went give way */
-fw_status fw_actuators_letters(fw_drawing *d);
+fw_status fw_layout_actuators_letters(fw_layout_drawing *d);
 
 /* rotor's and stator's electrodes alone: world outlines. docs/theory/layout.md, section 5 */
-fw_status fw_comb_rotor(fw_arena *arena, const fw_comb_plan *plan, fw_contour *rotor);
-fw_status fw_comb_stator(fw_arena *arena, const fw_comb_plan *plan, fw_contour *stator);
+fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *plan,
+                               fw_geometry_contour *rotor);
+fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *plan,
+                                fw_geometry_contour *stator);
 /* the stator with lead and pad where nothing is in the way; else *why (then not drawn) */
-fw_status fw_stator_place(fw_drawing *d, fw_comb_plan *plan, const char **why);
+fw_status fw_layout_stator_place(fw_layout_drawing *d, fw_layout_comb_plan *plan, const char **why);
 /* what a contour of `body` comes nearer to than `space_m`: of other bodies, hinges, drives before
    `before`, and eyelets; NULL: nothing. Names thing and place. */
-fw_status fw_actuator_crosses(fw_drawing *d, const fw_contour *c, int body, double space_m,
-                              int before, const char **what);
+fw_status fw_layout_actuator_crosses(fw_layout_drawing *d, const fw_geometry_contour *c, int body,
+                                     double space_m, int before, const char **what);
 /* adds ring and stem to an outline; *why set: it cannot */
-fw_status fw_eyelet_ring(fw_drawing *d, const fw_eyelet_plan *e, int body, const fw_contour *raw,
-                         fw_contour *out, const char **why);
+fw_status fw_layout_eyelet_ring(fw_layout_drawing *d, const fw_layout_eyelet_plan *e, int body,
+                                const fw_geometry_contour *raw, fw_geometry_contour *out,
+                                const char **why);
 /* opens the hole: `out` is cut from the hole to its edge, `cap` closes the cut again */
-fw_status fw_eyelet_hole(fw_drawing *d, const fw_eyelet_plan *e, const fw_contour *raw,
-                         fw_contour *out, fw_contour *cap, const char **why);
+fw_status fw_layout_eyelet_hole(fw_layout_drawing *d, const fw_layout_eyelet_plan *e,
+                                const fw_geometry_contour *raw, fw_geometry_contour *out,
+                                fw_geometry_contour *cap, const char **why);
 /* Ring and hole on an outline; *why set: they cannot be there. Where a ring's edge nearly coincides
    with another the outline would get a step that no mask can show; then the ring is made wider.
    slot -1: a half of the frame. `least`: soundness of the outline before. */
-fw_status fw_eyelet_fit(fw_drawing *d, int slot, int body, fw_eyelet_plan *e, double least,
-                        fw_contour *raw, const char **why);
+fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                               double least, fw_geometry_contour *raw, const char **why);
 /* the same; where it cannot be, the eyelet is given up and that is said */
-fw_status fw_eyelet_add(fw_drawing *d, int slot, int body, fw_eyelet_plan *e, fw_contour *raw);
-void fw_eyelet_off(fw_drawing *d, fw_eyelet_plan *e, const char *why);
+fw_status fw_layout_eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                               fw_geometry_contour *raw);
+void fw_layout_eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why);
 /* soundness of a half of the frame as it will be rounded; 0: it cannot be */
-fw_status fw_frame_soundness(fw_drawing *d, const fw_contour *raw, double *sound);
-fw_status fw_window_choose(fw_drawing *d);
+fw_status fw_layout_frame_soundness(fw_layout_drawing *d, const fw_geometry_contour *raw,
+                                    double *sound);
+fw_status fw_layout_window_choose(fw_layout_drawing *d);
 /* from the hinge of a base of its own straight to its cut at the frame */
-double fw_base_reach(const fw_drawing *d, int joint);
-fw_status fw_ground_draw(fw_drawing *d);
-fw_status fw_tethers_draw(fw_drawing *d);
-fw_status fw_frame_draw(fw_drawing *d);
-fw_status fw_clearance_check(fw_drawing *d);
-double fw_layout_free_rotation(fw_vec2 w, const fw_contour *p, const fw_contour *q,
-                               double radius_m);
+double fw_layout_base_reach(const fw_layout_drawing *d, int joint);
+fw_status fw_layout_ground_draw(fw_layout_drawing *d);
+fw_status fw_layout_tethers_draw(fw_layout_drawing *d);
+fw_status fw_layout_frame_draw(fw_layout_drawing *d);
+fw_status fw_layout_clearance_check(fw_layout_drawing *d);
+double fw_layout_free_rotation(fw_geometry_vec2 w, const fw_geometry_contour *p,
+                               const fw_geometry_contour *q, double radius_m);
 
 /* where a ray first meets an outline; segment -1: nowhere (eyelet.c) */
-typedef struct fw_ray_hit {
+typedef struct fw_layout_ray_hit {
     int segment;
     double far_m;
-    fw_vec2 at;
-} fw_ray_hit;
-fw_ray_hit fw_first_hit(const fw_contour *c, fw_vec2 from, fw_vec2 u);
+    fw_geometry_vec2 at;
+} fw_layout_ray_hit;
+fw_layout_ray_hit fw_layout_first_hit(const fw_geometry_contour *c, fw_geometry_vec2 from,
+                                      fw_geometry_vec2 u);
 
 /* holes in bodies, where the die asks for them: outlines, caps and moments (release.c). Last of
    all, before the pieces are listed */
-fw_status fw_release_holes(fw_drawing *d);
+fw_status fw_layout_release_holes(fw_layout_drawing *d);
 #endif

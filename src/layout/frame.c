@@ -4,20 +4,21 @@
    Cuts are where both neighbouring edges are square to them (across a frame bar, across a stub), so
    that a process bias moves the edges and leaves the cuts alone on both pieces. */
 #include "layout/draw.h"
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include <math.h>
 
-static bool upright(fw_window_side side) {
+static bool upright(fw_layout_window_side side) {
     return side == FW_LEFT || side == FW_RIGHT;
 }
 
-fw_vec2 fw_window_outward(fw_window_side side) {
-    static const fw_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
+fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side) {
+    static const fw_geometry_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
     return out[side];
 }
 
-fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double along, double depth) {
-    const fw_box *w = &layout->window;
+fw_geometry_vec2 fw_layout_window_point(const fw_layout *layout, fw_layout_window_side side,
+                                        double along, double depth) {
+    const fw_geometry_box *w = &layout->window;
     switch (side) {
     case FW_LEFT:
         return fw_v(w->x0 + depth, along);
@@ -31,7 +32,7 @@ fw_vec2 fw_window_point(const fw_layout *layout, fw_window_side side, double alo
     return fw_v(along, w->y1 - depth);
 }
 
-fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item) {
+fw_status fw_layout_attachment_add(fw_layout_drawing *d, const fw_layout_attachment *item) {
     FW_NEED(d->attachment = fw_arena_grow(d->arena, d->attachment, (size_t)d->nattachment,
                                           (size_t)d->nattachment + 1, sizeof *d->attachment));
     d->attachment[d->nattachment++] = *item;
@@ -39,25 +40,26 @@ fw_status fw_attachment_add(fw_drawing *d, const fw_attachment *item) {
 }
 
 /* low_start, high_start: coordinate across the side where the two edges of the strip begin */
-fw_status fw_strip_draw(fw_drawing *d, fw_window_side side, double low_start, double high_start,
-                        double along, double half_m, double stub_m, fw_attachment *out) {
-    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+fw_status fw_layout_strip_draw(fw_layout_drawing *d, fw_layout_window_side side, double low_start,
+                               double high_start, double along, double half_m, double stub_m,
+                               fw_layout_attachment *out) {
+    const fw_layout_local world = {{0.0, 0.0}, 1.0, 0.0, false};
     double at = fw_layout_to_grid(along), half = fw_layout_to_grid(half_m);
     bool up = upright(side);
     out->side = side;
     out->stub_m = stub_m;
     out->low_m = at - half;
     out->high_m = at + half;
-    fw_vec2 p[4] = {up ? fw_v(low_start, out->low_m) : fw_v(out->low_m, low_start),
-                    fw_window_point(d->layout, side, out->low_m, stub_m),
-                    fw_window_point(d->layout, side, out->high_m, stub_m),
-                    up ? fw_v(high_start, out->high_m) : fw_v(out->high_m, high_start)};
+    fw_geometry_vec2 p[4] = {up ? fw_v(low_start, out->low_m) : fw_v(out->low_m, low_start),
+                             fw_layout_window_point(d->layout, side, out->low_m, stub_m),
+                             fw_layout_window_point(d->layout, side, out->high_m, stub_m),
+                             up ? fw_v(high_start, out->high_m) : fw_v(out->high_m, high_start)};
     return fw_layout_polygon(d->arena, &world, p, 4, 1, &out->finger);
 }
 
 /* ---- window ---- */
 
-static void enclose(fw_box *box, fw_box other) {
+static void enclose(fw_geometry_box *box, fw_geometry_box other) {
     box->x0 = fmin(box->x0, other.x0);
     box->y0 = fmin(box->y0, other.y0);
     box->x1 = fmax(box->x1, other.x1);
@@ -67,9 +69,9 @@ static void enclose(fw_box *box, fw_box other) {
 /* One axis of the window: around what lies between `low` and `high` or, in a die of stated size,
    what frame and lane leave of it, at no less than the clearance: the stated one, else what a
    tether needs at least. */
-static fw_status one_axis(fw_drawing *d, double low, double high, bool wide, double frame,
+static fw_status one_axis(fw_layout_drawing *d, double low, double high, bool wide, double frame,
                           double lane, double *w0, double *w1) {
-    const fw_die *die = &d->device->die;
+    const fw_device_die *die = &d->device->die;
     const fw_layout_rules *rule = &fw_layout_rule;
     bool stated = !isnan(die->clearance_m);
     double clearance = stated ? die->clearance_m : rule->clearance_m, rim = frame + lane;
@@ -100,19 +102,20 @@ static fw_status one_axis(fw_drawing *d, double low, double high, bool wide, dou
 }
 
 /* around all moving bodies, stators and hinges; from the die's size where it is given */
-fw_status fw_window_choose(fw_drawing *d) {
+fw_status fw_layout_window_choose(fw_layout_drawing *d) {
     const fw_device *device = d->device;
-    const fw_die *die = &device->die;
+    const fw_device_die *die = &device->die;
     fw_layout *l = d->layout;
-    fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    fw_geometry_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int b = 0; b < device->nbody; b++)
-        enclose(&box, fw_contour_box(&d->plain[b]));
+        enclose(&box, fw_geometry_contour_box(&d->plain[b]));
     for (int i = 0; i < d->ncomb; i++)
-        if (!d->comb[i].off) enclose(&box, fw_contour_box(&d->comb[i].stator));
-    for (int j = 0; j < device->njoint; j++) {
-        const fw_hinge_layout *h = &l->hinge[j];
+        if (!d->comb[i].off) enclose(&box, fw_geometry_contour_box(&d->comb[i].stator));
+    for (int j = 0; j < device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &l->hinge[j];
         double q = h->keep_out_m;
-        enclose(&box, (fw_box){h->centre.x - q, h->centre.y - q, h->centre.x + q, h->centre.y + q});
+        enclose(&box, (fw_geometry_box){h->centre.x - q, h->centre.y - q, h->centre.x + q,
+                                        h->centre.y + q});
     }
     double frame = fw_layout_to_grid(isnan(die->frame_m) ? fw_layout_rule.frame_m : die->frame_m);
     double lane = fw_layout_to_grid(isnan(die->lane_m) ? fw_layout_rule.lane_m : die->lane_m);
@@ -121,8 +124,9 @@ fw_status fw_window_choose(fw_drawing *d) {
     fw_status y = one_axis(d, box.y0, box.y1, false, frame, lane, &l->window.y0, &l->window.y1);
     FW_TRY(x);
     FW_TRY(y);
-    l->die = (fw_box){fw_layout_to_grid(l->window.x0 - rim), fw_layout_to_grid(l->window.y0 - rim),
-                      fw_layout_to_grid(l->window.x1 + rim), fw_layout_to_grid(l->window.y1 + rim)};
+    l->die = (fw_geometry_box){
+        fw_layout_to_grid(l->window.x0 - rim), fw_layout_to_grid(l->window.y0 - rim),
+        fw_layout_to_grid(l->window.x1 + rim), fw_layout_to_grid(l->window.y1 + rim)};
     d->lane_m = lane;
     return FW_OK;
 }
@@ -130,13 +134,13 @@ fw_status fw_window_choose(fw_drawing *d) {
 /* ---- frame ---- */
 
 /* the inner edge along one side, from `from` (already there) to `to`, with its stubs */
-static void walk_side(const fw_drawing *d, fw_outline *o, fw_window_side side, double from,
-                      double to) {
+static void walk_side(const fw_layout_drawing *d, fw_geometry_outline *o,
+                      fw_layout_window_side side, double from, double to) {
     double at = from, sign = to > from ? 1.0 : -1.0;
     for (;;) {
-        const fw_attachment *next = NULL;
+        const fw_layout_attachment *next = NULL;
         for (int i = 0; i < d->nattachment; i++) {
-            const fw_attachment *a = &d->attachment[i];
+            const fw_layout_attachment *a = &d->attachment[i];
             double ahead = sign * (a->low_m - at);
             if (a->side != side || ahead <= 0.0 || sign * (a->low_m - to) >= 0.0) continue;
             if (!next || ahead < sign * (next->low_m - at)) next = a;
@@ -144,18 +148,20 @@ static void walk_side(const fw_drawing *d, fw_outline *o, fw_window_side side, d
         if (!next) break;
         double first = sign > 0.0 ? next->low_m : next->high_m;
         double last = sign > 0.0 ? next->high_m : next->low_m;
-        fw_outline_line(o, fw_window_point(d->layout, side, first, 0.0), 0);
-        fw_outline_line(o, fw_window_point(d->layout, side, first, next->stub_m), 0);
-        fw_outline_line(o, fw_window_point(d->layout, side, last, next->stub_m), FW_SEGMENT_JOINT);
-        fw_outline_line(o, fw_window_point(d->layout, side, last, 0.0), 0);
+        fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, first, 0.0), 0);
+        fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, first, next->stub_m),
+                                 0);
+        fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, last, next->stub_m),
+                                 FW_SEGMENT_JOINT);
+        fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, last, 0.0), 0);
         at = next->low_m;
     }
-    fw_outline_line(o, fw_window_point(d->layout, side, to, 0.0), 0);
+    fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, to, 0.0), 0);
 }
 
 /* the cut across an upright bar: as near to the middle as the stubs leave 80 um */
-static double cut_height(const fw_drawing *d, fw_window_side side) {
-    const fw_box *w = &d->layout->window;
+static double cut_height(const fw_layout_drawing *d, fw_layout_window_side side) {
+    const fw_geometry_box *w = &d->layout->window;
     double middle = fw_layout_to_grid(0.5 * (w->y0 + w->y1));
     for (int step = 0; step < 200; step++)
         for (int sign = -1; sign <= 1; sign += 2) {
@@ -166,7 +172,7 @@ static double cut_height(const fw_drawing *d, fw_window_side side) {
                     y < d->attachment[i].high_m + 80e-6)
                     clear = false;
             for (int i = 0; i < d->neyelet && clear; i++) {
-                const fw_eyelet_plan *e = &d->eyelet[i];
+                const fw_layout_eyelet_plan *e = &d->eyelet[i];
                 clear = e->off || fabs(y - e->at.y) > 0.5 * e->hole_m + e->ring_m + 80e-6;
             }
             if (clear) return fw_layout_to_grid(y);
@@ -174,33 +180,34 @@ static double cut_height(const fw_drawing *d, fw_window_side side) {
     return middle;
 }
 
-fw_status fw_frame_draw(fw_drawing *d) {
-    const fw_box w = d->layout->window, die = d->layout->die;
+fw_status fw_layout_frame_draw(fw_layout_drawing *d) {
+    const fw_geometry_box w = d->layout->window, die = d->layout->die;
     double lane = d->lane_m, yl = cut_height(d, FW_LEFT), yr = cut_height(d, FW_RIGHT);
-    fw_box out = {fw_layout_to_grid(die.x0 + lane), fw_layout_to_grid(die.y0 + lane),
-                  fw_layout_to_grid(die.x1 - lane), fw_layout_to_grid(die.y1 - lane)};
+    fw_geometry_box out = {fw_layout_to_grid(die.x0 + lane), fw_layout_to_grid(die.y0 + lane),
+                           fw_layout_to_grid(die.x1 - lane), fw_layout_to_grid(die.y1 - lane)};
     for (int half = 0; half < 2; half++) { /* lower, then upper; both counter-clockwise */
         bool low = half == 0;
-        fw_window_side first = low ? FW_RIGHT : FW_LEFT, then = low ? FW_BOTTOM : FW_TOP;
-        fw_window_side last = low ? FW_LEFT : FW_RIGHT;
+        fw_layout_window_side first = low ? FW_RIGHT : FW_LEFT, then = low ? FW_BOTTOM : FW_TOP;
+        fw_layout_window_side last = low ? FW_LEFT : FW_RIGHT;
         double ya = low ? yl : yr, yb = low ? yr : yl, y0 = low ? out.y0 : out.y1;
         double xa = low ? out.x0 : out.x1, xb = low ? out.x1 : out.x0, end = low ? w.y0 : w.y1;
-        fw_outline o = fw_outline_start(d->arena, fw_v(xa, ya));
-        fw_outline_line(&o, fw_v(xa, y0), 0);
-        fw_outline_line(&o, fw_v(xb, y0), 0);
-        fw_outline_line(&o, fw_v(xb, yb), 0);
-        fw_outline_line(&o, fw_v(low ? w.x1 : w.x0, yb), FW_SEGMENT_JOINT);
+        fw_geometry_outline o = fw_geometry_outline_start(d->arena, fw_v(xa, ya));
+        fw_geometry_outline_line(&o, fw_v(xa, y0), 0);
+        fw_geometry_outline_line(&o, fw_v(xb, y0), 0);
+        fw_geometry_outline_line(&o, fw_v(xb, yb), 0);
+        fw_geometry_outline_line(&o, fw_v(low ? w.x1 : w.x0, yb), FW_SEGMENT_JOINT);
         walk_side(d, &o, first, yb, end);
         walk_side(d, &o, then, low ? w.x1 : w.x0, low ? w.x0 : w.x1);
         walk_side(d, &o, last, end, ya);
-        fw_outline_line(&o, fw_v(xa, ya), FW_SEGMENT_JOINT);
-        fw_contour raw, round;
-        fw_vec2 where;
-        FW_TRY(fw_outline_close(&o, &raw));
-        FW_TRY(fw_actuators_on_frame(d, &raw));
-        FW_TRY(fw_contour_round(d->arena, &raw, 0.0, fw_layout_rule.corner_m, &round, &where));
-        FW_TRY(fw_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
-                              low ? "frame, lower half" : "frame, upper half", &round));
+        fw_geometry_outline_line(&o, fw_v(xa, ya), FW_SEGMENT_JOINT);
+        fw_geometry_contour raw, round;
+        fw_geometry_vec2 where;
+        FW_TRY(fw_geometry_outline_close(&o, &raw));
+        FW_TRY(fw_layout_actuators_on_frame(d, &raw));
+        FW_TRY(fw_geometry_contour_round(d->arena, &raw, 0.0, fw_layout_rule.corner_m, &round,
+                                         &where));
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_FRAME, FW_GROUND, FW_NONE,
+                                     low ? "frame, lower half" : "frame, upper half", &round));
     }
     return FW_OK;
 }

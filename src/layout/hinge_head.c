@@ -8,20 +8,22 @@
 /* The free dimensions of a head. Attempt 0 is what is wanted. Where an edge of it nearly coincides
    with another edge of the body, the united outline has a step, a tooth or a slit that no mask can
    show. At which dimensions that happens is known only afterwards, and they are isolated: there is
-   no largest size that fits to bisect for, but almost any other place in the ranges of rules.h is
+   no largest size that fits to bisect for, but almost any other place in the ranges of
+   layout_rules.h is
    good. Further attempts are therefore the points of a Kronecker sequence, x_i = frac(k alpha_i)
    with alpha_i = g^-i and g^5 = g + 1: in all four dimensions, and in each alone, every point is
    far from all before it. Whoever tries counts; what is still wrong at the end is said (FW-D138).
  */
-fw_head_form fw_layout_head_form(int attempt) {
+fw_layout_head_shape fw_layout_head_form(int attempt) {
     static const double alpha[4] = {0.85667488385450291, 0.73389185662709607, 0.62870672103780872,
                                     0.53859725722361010};
     const fw_layout_rules *rule = &fw_layout_rule;
     double x[4];
-    if (attempt == 0) return (fw_head_form){1.0, rule->block_behind_widths, 0.0, 0.0, false};
+    if (attempt == 0)
+        return (fw_layout_head_shape){1.0, rule->block_behind_widths, 0.0, 0.0, false};
     for (int i = 0; i < 4; i++)
         x[i] = fmod(attempt * alpha[i], 1.0);
-    return (fw_head_form){
+    return (fw_layout_head_shape){
         .neck = 1.0 - x[0] * (1.0 - rule->form_neck_least),
         .behind =
             rule->form_behind_least + x[1] * (rule->form_behind_most - rule->form_behind_least),
@@ -30,20 +32,20 @@ fw_head_form fw_layout_head_form(int attempt) {
         .plain = attempt % 2 == 0,
     };
 }
-static double cross(fw_vec2 p, fw_vec2 q) {
+static double cross(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x * q.y - p.y * q.x;
 }
-static double angle_of(fw_vec2 p) {
+static double angle_of(fw_geometry_vec2 p) {
     return atan2(p.y, p.x);
 }
 
 /* where the ray from p along the unit vector d leaves the circle of radius q about W */
-static fw_vec2 on_circle(fw_vec2 p, fw_vec2 d, double q) {
+static fw_geometry_vec2 on_circle(fw_geometry_vec2 p, fw_geometry_vec2 d, double q) {
     double b = fw_dot(p, d);
     return fw_add(p, -b + sqrt(fmax(0.0, b * b - fw_dot(p, p) + q * q)), d);
 }
 
-fw_vec2 fw_layout_ring_foot(const fw_hinge_shape *s, double q) {
+fw_geometry_vec2 fw_layout_ring_foot(const fw_layout_hinge_shape *s, double q) {
     return on_circle(s->outer_end, s->face, q);
 }
 
@@ -51,23 +53,23 @@ fw_vec2 fw_layout_ring_foot(const fw_hinge_shape *s, double q) {
    it turns, from `turn` along `out` */
 typedef struct far_side {
     bool turns;
-    fw_vec2 turn, out;
+    fw_geometry_vec2 turn, out;
 } far_side;
 
 /* The two blocks turn towards each other about W, so the far side follows a ray from W at half the
    free rotation from the symmetry axis. It yields where the block behind the root would become
    thinner than 1.5 t, and stops at half the least space from the axis. */
-static far_side choose_far_side(const fw_hinge_shape *s, double ring_in) {
+static far_side choose_far_side(const fw_layout_hinge_shape *s, double ring_in) {
     far_side far = {false, s->inner_corner, s->into};
     const fw_layout_rules *rule = &fw_layout_rule;
     double half = 0.5 * rule->free_rad;
-    fw_vec2 i = s->inner_corner, u = fw_v(-cos(half), sin(half));
+    fw_geometry_vec2 i = s->inner_corner, u = fw_v(-cos(half), sin(half));
     if (cross(s->into, u) > -1e-9) return far; /* leaves the ray behind */
     double ray = cross(i, u) / -cross(s->into, u), gap = ray;
     if (s->into.y < -1e-9) gap = (i.y - rule->half_space_share * rule->least_space_m) / -s->into.y;
     double along = fmax(fmin(ray, gap), rule->far_side_least_m);
-    fw_vec2 x = fw_add(i, along, s->into);
-    fw_vec2 deep = fw_add(s->root, rule->block_least_widths * s->width_m, s->into);
+    fw_geometry_vec2 x = fw_add(i, along, s->into);
+    fw_geometry_vec2 deep = fw_add(s->root, rule->block_least_widths * s->width_m, s->into);
     if (fw_norm(x) > ring_in - rule->block_ring_clear_m) return far;
     double slope = x.x < 0.0 ? x.y / -x.x : 0.0;
     if (deep.x < x.x) slope = fmin(slope, (deep.y - x.y) / (x.x - deep.x));
@@ -82,25 +84,26 @@ static far_side choose_far_side(const fw_hinge_shape *s, double ring_in) {
 /* the far side from the neck's outer end inwards: a straight edge to `leave`, then an arc about W
    to `arrive` (or none), then the block's own far side */
 typedef struct far_path {
-    fw_vec2 leave, arrive;
+    fw_geometry_vec2 leave, arrive;
     bool arc, turns;
 } far_path;
 
 /* The neck's edge runs on into the block, usually 4.5 t behind the root; where it would come too
    near to the other block it gives way to the block's far side. A block that stands out beside the
    neck keeps its fin; where the neck lies beyond the block the ring runs on to carry it. */
-static far_path choose_far_path(const fw_hinge_shape *s, fw_side *side) {
+static far_path choose_far_path(const fw_layout_hinge_shape *s, fw_layout_side *side) {
     const fw_layout_rules *rule = &fw_layout_rule;
     far_side far = choose_far_side(s, side->ring_in_m);
     double q0 = side->ring_in_m, q1 = side->ring_out_m;
-    fw_vec2 u = fw_polar(side->own_rad), v = fw_left(u), w = fw_v(0.0, 0.0), i = s->inner_corner;
+    fw_geometry_vec2 u = fw_polar(side->own_rad), v = fw_left(u), w = fw_v(0.0, 0.0),
+                     i = s->inner_corner;
     double behind = fmax(side->far_m, fw_dot(s->root, v) + side->form.behind * s->width_m);
-    fw_vec2 end = fw_add(fw_add(w, side->neck_end_m, u), side->far_m, v);
-    fw_vec2 from = fw_add(fw_add(w, fmin(fw_dot(s->root, u), q0), u), behind, v);
-    fw_vec2 along = fw_towards(from, end), out = fw_left(along);
+    fw_geometry_vec2 end = fw_add(fw_add(w, side->neck_end_m, u), side->far_m, v);
+    fw_geometry_vec2 from = fw_add(fw_add(w, fmin(fw_dot(s->root, u), q0), u), behind, v);
+    fw_geometry_vec2 along = fw_towards(from, end), out = fw_left(along);
     double t = fw_dot(fw_sub(from, far.turn), out) / fw_dot(far.out, out);
     double t2 = fw_dot(fw_sub(from, i), out) / fw_dot(s->into, out);
-    fw_vec2 meet = fw_add(far.turn, t, far.out), fin = on_circle(far.turn, far.out, q1);
+    fw_geometry_vec2 meet = fw_add(far.turn, t, far.out), fin = on_circle(far.turn, far.out, q1);
     bool ahead = fw_dot(far.out, out) > 0.0 && t > rule->far_side_ahead_m;
     double beside = rule->neck_beside_block_m;
     if (ahead && fw_dot(meet, u) < side->neck_end_m + beside) {
@@ -108,7 +111,7 @@ static far_path choose_far_path(const fw_hinge_shape *s, fw_side *side) {
         return (far_path){meet, meet, false, far.turns};
     }
     if (!ahead && far.turns && fw_dot(s->into, out) > 0.0 && t2 > rule->far_side_ahead_m) {
-        fw_vec2 at = fw_add(i, t2, s->into);
+        fw_geometry_vec2 at = fw_add(i, t2, s->into);
         return (far_path){at, at, false, false};
     }
     double q = fw_dot(fw_sub(fin, from), out) > 0.0 ? q1 : q0;
@@ -120,7 +123,7 @@ static far_path choose_far_path(const fw_hinge_shape *s, fw_side *side) {
 }
 
 /* how deep inside a plate; negative outside */
-static double plate_depth(const fw_body *b, fw_vec2 p) {
+static double plate_depth(const fw_device_body *b, fw_geometry_vec2 p) {
     double c = cos(b->plate_angle_rad), s = sin(b->plate_angle_rad);
     double x = p.x - b->plate_x_m, y = p.y - b->plate_y_m;
     return fmin(0.5 * b->plate_width_m - fabs(c * x + s * y),
@@ -128,13 +131,13 @@ static double plate_depth(const fw_body *b, fw_vec2 p) {
 }
 
 /* no corner of the neck's end near the plate's edge: that would leave a tiny step */
-static void end_clear_of_edge(fw_side *side) {
+static void end_clear_of_edge(fw_layout_side *side) {
     const fw_layout_rules *rule = &fw_layout_rule;
-    fw_vec2 u = side->direction, v = fw_left(u), w = side->local.origin;
+    fw_geometry_vec2 u = side->direction, v = fw_left(u), w = side->local.origin;
     double sign = side->local.mirror ? -1.0 : 1.0, clear = rule->neck_corner_clear_m;
     for (int i = 0; i < rule->neck_corner_steps;
          i++, side->neck_end_m += rule->neck_corner_step_m) {
-        fw_vec2 end = fw_add(w, side->neck_end_m, u);
+        fw_geometry_vec2 end = fw_add(w, side->neck_end_m, u);
         if (fabs(plate_depth(side->plate, fw_add(end, sign * side->far_m, v))) > clear &&
             fabs(plate_depth(side->plate, fw_add(end, -sign * side->neck_m, v))) > clear)
             return;
@@ -144,13 +147,13 @@ static void end_clear_of_edge(fw_side *side) {
 /* kept sharp in the first pass of rounding; in both passes */
 enum { NOSE = FW_SEGMENT_JOINT | 4, NECK_END = FW_SEGMENT_JOINT | 8 };
 
-static fw_status round_smaller(fw_arena *arena, unsigned release, fw_contour *contour) {
-    fw_contour round = *contour;
-    fw_vec2 where;
+static fw_status round_smaller(fw_arena *arena, unsigned release, fw_geometry_contour *contour) {
+    fw_geometry_contour round = *contour;
+    fw_geometry_vec2 where;
     fw_status status = FW_GEOMETRY;
     for (double radius = fw_layout_rule.corner_m;
          radius > fw_layout_rule.least_head_corner_m && status == FW_GEOMETRY; radius *= 0.5)
-        status = fw_contour_round(arena, contour, radius, radius, &round, &where);
+        status = fw_geometry_contour_round(arena, contour, radius, radius, &round, &where);
     if (status != FW_OK && status != FW_GEOMETRY) return status;
     if (status == FW_OK) *contour = round; /* else the body's rounding will name the corner */
     for (int i = 0; i < contour->count; i++)
@@ -160,26 +163,28 @@ static fw_status round_smaller(fw_arena *arena, unsigned release, fw_contour *co
 
 /* Rounded here already, and the block's nose apart, so that a small hinge does not make all corners
    small. The end of the neck disappears in a bar or plate and stays sharp until then. */
-static fw_status round_head(fw_arena *arena, fw_side *side) {
+static fw_status round_head(fw_arena *arena, fw_layout_side *side) {
     FW_TRY(round_smaller(arena, NOSE, &side->head));
     return round_smaller(arena, NECK_END, &side->head);
 }
 
 /* of the flexure between its cut and a fillet */
-static void edge(fw_sketch *k, fw_vec2 centre, double sweep_rad, fw_vec2 from, fw_vec2 to) {
+static void edge(fw_layout_sketch *k, fw_geometry_vec2 centre, double sweep_rad,
+                 fw_geometry_vec2 from, fw_geometry_vec2 to) {
     if (sweep_rad != 0.0)
-        fw_sketch_arc(k, centre, sweep_rad, to);
+        fw_layout_sketch_arc(k, centre, sweep_rad, to);
     else if (from.x != to.x || from.y != to.y)
-        fw_sketch_line(k, to, 0);
+        fw_layout_sketch_line(k, to, 0);
 }
 
 /* root block, ring and neck of one body, in its own frame (block at positive y) */
-fw_status fw_layout_head_draw(fw_arena *arena, const fw_hinge_shape *s, fw_side *side) {
+fw_status fw_layout_head_draw_shape(fw_arena *arena, const fw_layout_hinge_shape *s,
+                                    fw_layout_side *side) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double q0 = side->ring_in_m, q1 = side->ring_out_m, end = side->ring_end_rad;
-    fw_vec2 w = fw_v(0.0, 0.0), q = fw_layout_ring_foot(s, q0), cap = fw_polar(end);
-    fw_vec2 u = fw_polar(side->own_rad), v = fw_left(u);
-    fw_vec2 near_edge = fw_add(w, -side->neck_m, v), foot = on_circle(near_edge, u, q1);
+    fw_geometry_vec2 w = fw_v(0.0, 0.0), q = fw_layout_ring_foot(s, q0), cap = fw_polar(end);
+    fw_geometry_vec2 u = fw_polar(side->own_rad), v = fw_left(u);
+    fw_geometry_vec2 near_edge = fw_add(w, -side->neck_m, v), foot = on_circle(near_edge, u, q1);
     double turn = side->own_rad - asin(side->neck_m / q1) - end;
     double end_m = side->neck_end_m;
     far_path far = choose_far_path(s, side);
@@ -192,26 +197,26 @@ fw_status fw_layout_head_draw(fw_arena *arena, const fw_hinge_shape *s, fw_side 
     side->solid_m =
         fmax(q0 + rule->solid_ring_share * (q1 - q0), fw_dot(far.leave, u) + rule->solid_past_m);
 
-    fw_sketch k = fw_sketch_start(arena, &side->local, s->joint_in);
-    fw_sketch_line(&k, s->joint_out, s->cut_flags);
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &side->local, s->joint_in);
+    fw_layout_sketch_line(&k, s->joint_out, s->cut_flags);
     edge(&k, s->edge_centre, s->edge_sweep_rad, s->joint_out, s->outer_start);
-    fw_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
-    fw_sketch_line(&k, q, 0);
-    fw_sketch_arc(&k, w, end - angle_of(q), fw_add(w, q0, cap));
-    fw_sketch_line(&k, fw_add(w, q1, cap), 0);
-    fw_sketch_arc(&k, w, turn, foot);
-    fw_sketch_line(&k, fw_add(near_edge, side->neck_end_m, u), 0);
-    fw_sketch_line(&k, fw_add(fw_add(w, side->far_m, v), side->neck_end_m, u), NECK_END);
-    fw_sketch_line(&k, far.leave, 0);
+    fw_layout_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
+    fw_layout_sketch_line(&k, q, 0);
+    fw_layout_sketch_arc(&k, w, end - angle_of(q), fw_add(w, q0, cap));
+    fw_layout_sketch_line(&k, fw_add(w, q1, cap), 0);
+    fw_layout_sketch_arc(&k, w, turn, foot);
+    fw_layout_sketch_line(&k, fw_add(near_edge, side->neck_end_m, u), 0);
+    fw_layout_sketch_line(&k, fw_add(fw_add(w, side->far_m, v), side->neck_end_m, u), NECK_END);
+    fw_layout_sketch_line(&k, far.leave, 0);
     if (far.arc)
-        fw_sketch_arc(&k, w, remainder(angle_of(far.arrive) - angle_of(far.leave), 2.0 * FW_PI),
-                      far.arrive);
-    if (far.turns) fw_sketch_line(&k, choose_far_side(s, q0).turn, 0);
-    fw_sketch_line(&k, s->inner_corner, far.turns ? NOSE : 0);
-    fw_sketch_line(&k, s->inner_start, NOSE);
-    fw_sketch_arc(&k, s->inner_centre, s->inner_sweep_rad, s->inner_end);
+        fw_layout_sketch_arc(
+            &k, w, remainder(angle_of(far.arrive) - angle_of(far.leave), 2.0 * FW_PI), far.arrive);
+    if (far.turns) fw_layout_sketch_line(&k, choose_far_side(s, q0).turn, 0);
+    fw_layout_sketch_line(&k, s->inner_corner, far.turns ? NOSE : 0);
+    fw_layout_sketch_line(&k, s->inner_start, NOSE);
+    fw_layout_sketch_arc(&k, s->inner_centre, s->inner_sweep_rad, s->inner_end);
     edge(&k, s->inner_edge_centre, s->inner_edge_sweep_rad, s->inner_end, s->joint_in);
-    FW_TRY(fw_sketch_close(&k, &side->head));
+    FW_TRY(fw_layout_sketch_close(&k, &side->head));
     return round_head(arena, side);
 }
 
@@ -219,15 +224,16 @@ fw_status fw_layout_head_draw(fw_arena *arena, const fw_hinge_shape *s, fw_side 
 
 /* A plate's rim around the hinge ends at a corner on the far side of the neck. When that leaves
    only a narrow tooth beside the neck, the neck widens over it. */
-static void widen_to_corner(fw_side *side, double disc) {
+static void widen_to_corner(fw_layout_side *side, double disc) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double start = asin(side->neck_m / disc), sign = side->local.mirror ? -1.0 : 1.0;
     double end = start + rule->tooth_search_m / disc, step = rule->tooth_step_m / disc;
     for (double turn = start; turn < end; turn += step) {
         if (side->own_rad + turn > FW_PI - 0.5 * rule->free_rad || turn > rule->tooth_turn_rad)
             return;
-        fw_vec2 e = fw_v(cos(turn) * side->direction.x - sign * sin(turn) * side->direction.y,
-                         cos(turn) * side->direction.y + sign * sin(turn) * side->direction.x);
+        fw_geometry_vec2 e =
+            fw_v(cos(turn) * side->direction.x - sign * sin(turn) * side->direction.y,
+                 cos(turn) * side->direction.y + sign * sin(turn) * side->direction.x);
         if (plate_depth(side->plate, fw_add(side->local.origin, disc, e)) > 0.0) continue;
         side->far_m = fmax(side->neck_m, disc * sin(turn) + rule->tooth_past_m);
         side->corner_m = disc * cos(turn);
@@ -236,9 +242,9 @@ static void widen_to_corner(fw_side *side, double disc) {
     }
 }
 
-void fw_layout_neck_choose(fw_side *side, double keep_out_m) {
+void fw_layout_neck_choose(fw_layout_side *side, double keep_out_m) {
     const fw_layout_rules *rule = &fw_layout_rule;
-    const fw_head_form *c = &side->form;
+    const fw_layout_head_shape *c = &side->form;
     side->neck_m = c->neck * fmin(side->half_width_m - rule->neck_inset_m,
                                   rule->neck_rings * side->ring_out_m);
     side->far_m = side->neck_m;

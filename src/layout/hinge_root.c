@@ -7,7 +7,7 @@
 #include "layout/draw.h"
 #include <math.h>
 
-double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
+double fw_layout_hinge_centre(const fw_device_flexure *flexure, double fillet_m) {
     /* of a uniform modulus: one drawing serves every flow; what a crystal moves is the mechanism's
        business (fw_flexure_result.offset_m) */
     const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
@@ -25,7 +25,7 @@ double fw_hinge_centre(const fw_flexure *flexure, double fillet_m) {
        rho <= (ri^2 - (corner + 1 um)^2)/(2 ri)
    in: flexure (m, rad), shape->fillet_m wanted; out: shape in the hinge frame; false: no room
    docs/theory/layout.md, section 2; test_layout.c hinge_is_exact */
-bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
+bool fw_layout_hinge_shape_csfh(const fw_device_flexure *flexure, fw_layout_hinge_shape *shape) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double flat = rule->root_flat_m;
     double r = flexure->radius_m, t = flexure->width_m, a = 0.5 * flexure->angle_rad;
@@ -45,7 +45,7 @@ bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
     double inner = asin(rho / (ri - rho)), outer = asin(rho / (ro + rho)), cut = a - inner;
     if (!(cut > rule->cut_least_rad)) return false;
     double far_end = sqrt((ro + rho) * (ro + rho) - rho * rho);
-    fw_vec2 o = fw_v(-fw_hinge_centre(flexure, rho), 0.0), e = fw_v(ca, sa);
+    fw_geometry_vec2 o = fw_v(-fw_layout_hinge_centre(flexure, rho), 0.0), e = fw_v(ca, sa);
 
     shape->arc_centre = o;
     shape->strip_sweep_rad = 2.0 * cut;
@@ -77,7 +77,7 @@ bool fw_hinge_shape_csfh(const fw_flexure *flexure, fw_hinge_shape *shape) {
    radius rho tangent to both, cut at L/2 - rho
    in: flexure (m), shape->fillet_m wanted; out: shape in the hinge frame; false: no room
    docs/theory/layout.md, section 2; test_layout.c leaf_is_exact */
-bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
+bool fw_layout_hinge_shape_leaf(const fw_device_flexure *flexure, fw_layout_hinge_shape *shape) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double L = flexure->length_m, t = flexure->width_m, y = 0.5 * L, x = 0.5 * t;
     double rho = fmin(shape->fillet_m, rule->fillet_lengths * L), cut = y - rho;
@@ -115,27 +115,27 @@ bool fw_hinge_shape_leaf(const fw_flexure *flexure, fw_hinge_shape *shape) {
 enum { PLACES = 48 };
 
 /* the strip in the hinge frame, W at the origin */
-static void lay(const fw_flexure *f, double fillet_m, fw_course *p) {
+static void lay(const fw_device_flexure *f, double fillet_m, fw_flexure_course *p) {
     const fw_flexure_input in = fw_flexure_input_of(f, fillet_m);
-    double centre = fw_hinge_centre(f, fillet_m);
-    fw_path_of(&in, p);
+    double centre = fw_layout_hinge_centre(f, fillet_m);
+    fw_flexure_path_of(&in, p);
     for (int i = 0; i <= p->n; i++)
         p->start[i].x_m -= centre;
 }
 
 /* the same as the lower body sees it: mirrored about x, so walked from the other end */
-static void turned(const fw_course *p, fw_course *out) {
-    fw_strip_piece piece[FW_STRIP_MOST], back[FW_STRIP_MOST];
+static void turned(const fw_flexure_course *p, fw_flexure_course *out) {
+    fw_geometry_strip_piece piece[FW_STRIP_MOST], back[FW_STRIP_MOST];
     for (int i = 0; i < p->n; i++)
         piece[i] = p->shape[i].piece;
-    fw_strip_turned(piece, p->n, back);
-    fw_pose start = p->start[p->n], at = {start.x_m, -start.y_m, FW_PI - start.angle_rad};
-    at.angle_rad = fw_angle_near(-start.angle_rad + FW_PI, 0.5 * FW_PI);
+    fw_geometry_strip_turned(piece, p->n, back);
+    fw_geometry_pose start = p->start[p->n], at = {start.x_m, -start.y_m, FW_PI - start.angle_rad};
+    at.angle_rad = fw_geometry_angle_near(-start.angle_rad + FW_PI, 0.5 * FW_PI);
     out->n = p->n;
     for (int i = 0; i < p->n; i++) {
-        fw_strip_shape_of(&back[i], &out->shape[i]);
+        fw_geometry_strip_shape_of(&back[i], &out->shape[i]);
         out->start[i] = at;
-        at = fw_strip_along(at, back[i].curvature_per_m, back[i].length_m);
+        at = fw_geometry_strip_along(at, back[i].curvature_per_m, back[i].length_m);
     }
     out->start[p->n] = at;
 }
@@ -143,12 +143,12 @@ static void turned(const fw_course *p, fw_course *out) {
 /* ---- one fillet ---- */
 
 typedef struct corner { /* root: middle, into the block, to the side of the fillet */
-    fw_vec2 root, into, side;
+    fw_geometry_vec2 root, into, side;
     double half_m;
 } corner;
 
 typedef struct fillet {
-    fw_vec2 centre, on_edge, on_face;
+    fw_geometry_vec2 centre, on_edge, on_face;
     double face_m; /* on_face from the middle of the root */
     double back_m; /* on_edge from the root, along the centre line */
 } fillet;
@@ -159,23 +159,23 @@ typedef struct fillet {
                         the strip
    The fillet's centre is at (-rho, yc), its end on the face at (0, yc). In, out: m. Exact.
    false: no such circle. Test: test_layout_path.c */
-static bool fit(const corner *c, const fw_segment *e, double rho, fillet *out) {
+static bool fit(const corner *c, const fw_geometry_segment *e, double rho, fillet *out) {
     double yc, t = c->half_m;
-    fw_vec2 at;
+    fw_geometry_vec2 at;
     if (e->kind == FW_LINE) {
-        fw_vec2 d = vec_sub(e->b, e->a);
+        fw_geometry_vec2 d = vec_sub(e->b, e->a);
         double m = vec_dot(d, c->side) / vec_dot(d, c->into), root = sqrt(1 + m * m);
         yc = t - m * rho + rho * root;
-        at = (fw_vec2){-rho + rho * m / root, yc - rho / root};
+        at = (fw_geometry_vec2){-rho + rho * m / root, yc - rho / root};
     } else {
-        fw_vec2 to = vec_sub(e->centre, c->root);
+        fw_geometry_vec2 to = vec_sub(e->centre, c->root);
         double X = vec_dot(to, c->into), Y = vec_dot(to, c->side), R = e->radius;
         bool hollow = Y > t;
         double far = hollow ? R - rho : R + rho, in = far * far - (X + rho) * (X + rho);
         if (!(far > 0 && in >= 0)) return false;
         yc = hollow ? Y - sqrt(in) : Y + sqrt(in);
-        fw_vec2 ray = {-rho - X, yc - Y};
-        at = vec_along((fw_vec2){X, Y}, R / vec_length(ray), ray);
+        fw_geometry_vec2 ray = {-rho - X, yc - Y};
+        at = vec_along((fw_geometry_vec2){X, Y}, R / vec_length(ray), ray);
     }
     out->face_m = yc;
     out->centre = vec_along(vec_along(c->root, -rho, c->into), yc, c->side);
@@ -185,40 +185,41 @@ static bool fit(const corner *c, const fw_segment *e, double rho, fillet *out) {
 }
 
 /* how far behind the root, along the last piece's centre line, a point is across from */
-static double back_of(const fw_course *p, fw_vec2 at) {
-    const fw_strip_piece *q = &p->shape[p->n - 1].piece;
-    fw_pose end = p->start[p->n];
-    fw_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
-    fw_vec2 from = vec_sub(at, (fw_vec2){end.x_m, end.y_m});
+static double back_of(const fw_flexure_course *p, fw_geometry_vec2 at) {
+    const fw_geometry_strip_piece *q = &p->shape[p->n - 1].piece;
+    fw_geometry_pose end = p->start[p->n];
+    fw_geometry_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
+    fw_geometry_vec2 from = vec_sub(at, (fw_geometry_vec2){end.x_m, end.y_m});
     double k = q->curvature_per_m, x = vec_dot(from, into), y = vec_dot(from, left);
     return k == 0 ? -x : atan2(-x * k, 1 - y * k) / k;
 }
 
 /* ---- one root ---- */
 
-static double sweep_between(fw_vec2 centre, fw_vec2 from, fw_vec2 to) {
-    return fw_vec_angle(vec_sub(from, centre), vec_sub(to, centre));
+static double sweep_between(fw_geometry_vec2 centre, fw_geometry_vec2 from, fw_geometry_vec2 to) {
+    return fw_geometry_vec_angle(vec_sub(from, centre), vec_sub(to, centre));
 }
 
 /* where the cut, square to the centre line, meets an edge */
-static fw_vec2 across(const fw_course *p, double back_m, double sign) {
-    const fw_strip_shape *f = &p->shape[p->n - 1];
+static fw_geometry_vec2 across(const fw_flexure_course *p, double back_m, double sign) {
+    const fw_geometry_strip_shape *f = &p->shape[p->n - 1];
     double s = f->piece.length_m - back_m;
-    fw_pose at = fw_strip_along(p->start[p->n - 1], f->piece.curvature_per_m, s);
-    double off = fw_strip_aside(f, s) + 0.5 * sign * fw_strip_width(f, s);
-    return (fw_vec2){at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)};
+    fw_geometry_pose at = fw_geometry_strip_along(p->start[p->n - 1], f->piece.curvature_per_m, s);
+    double off = fw_geometry_strip_aside(f, s) + 0.5 * sign * fw_geometry_strip_width(f, s);
+    return (fw_geometry_vec2){at.x_m - off * sin(at.angle_rad), at.y_m + off * cos(at.angle_rad)};
 }
 
 /* an edge between the cut and a fillet's end: about the edge's own centre, or straight */
-static void edge_part(const fw_segment *edge, fw_vec2 from, fw_vec2 to, fw_vec2 *centre,
-                      double *sweep) {
+static void edge_part(const fw_geometry_segment *edge, fw_geometry_vec2 from, fw_geometry_vec2 to,
+                      fw_geometry_vec2 *centre, double *sweep) {
     *centre = edge->centre;
     *sweep = edge->kind == FW_LINE || vec_same(from, to) ? 0 : sweep_between(*centre, from, to);
 }
 
 /* how far the block may reach inside the centre line: 40 um or 4 t, half the radius, and no nearer
    to the other block than half the least space from the axis */
-static double block_depth(const fw_strip_piece *last, fw_vec2 root, fw_vec2 left, double rho) {
+static double block_depth(const fw_geometry_strip_piece *last, fw_geometry_vec2 root,
+                          fw_geometry_vec2 left, double rho) {
     const fw_layout_rules *rule = &fw_layout_rule;
     double t = last->width_m[2], wide = rule->block_depth_widths * t;
     double half_space = rule->half_space_share * rule->least_space_m;
@@ -230,16 +231,16 @@ static double block_depth(const fw_strip_piece *last, fw_vec2 root, fw_vec2 left
     return depth;
 }
 
-static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
+static bool root_shape(const fw_flexure_course *p, double rho, fw_layout_hinge_shape *s) {
     const fw_layout_rules *rule = &fw_layout_rule;
-    const fw_strip_shape *last = &p->shape[p->n - 1];
-    fw_pose end = p->start[p->n];
-    fw_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
-    fw_vec2 root = {end.x_m, end.y_m}, right = vec_scale(-1, left);
+    const fw_geometry_strip_shape *last = &p->shape[p->n - 1];
+    fw_geometry_pose end = p->start[p->n];
+    fw_geometry_vec2 into = {cos(end.angle_rad), sin(end.angle_rad)}, left = vec_left(into);
+    fw_geometry_vec2 root = {end.x_m, end.y_m}, right = vec_scale(-1, left);
     double t = last->piece.width_m[2];
     fillet in, out;
-    const fw_segment edge[2] = {fw_strip_edge(last, p->start[p->n - 1], 0),
-                                fw_strip_edge(last, p->start[p->n - 1], 1)};
+    const fw_geometry_segment edge[2] = {fw_geometry_strip_edge(last, p->start[p->n - 1], 0),
+                                         fw_geometry_strip_edge(last, p->start[p->n - 1], 1)};
     if (!fit(&(corner){root, into, left, 0.5 * t}, &edge[0], rho, &in)) return false;
     if (!fit(&(corner){root, into, right, 0.5 * t}, &edge[1], rho, &out)) return false;
     in.back_m = back_of(p, in.on_edge), out.back_m = back_of(p, out.on_edge);
@@ -250,7 +251,7 @@ static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
     double share = p->n == 1 ? rule->cut_share_only : rule->cut_share_last;
     if (!(cut < share * last->piece.length_m)) return false;
 
-    *s = (fw_hinge_shape){.fillet_m = rho, .width_m = t, .strip_sweep_rad = 0};
+    *s = (fw_layout_hinge_shape){.fillet_m = rho, .width_m = t, .strip_sweep_rad = 0};
     s->cut_flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH;
     s->joint_in = across(p, cut, 1), s->joint_out = across(p, cut, -1);
     s->outer_start = out.on_edge, s->outer_centre = out.centre, s->outer_end = out.on_face;
@@ -266,13 +267,13 @@ static bool root_shape(const fw_course *p, double rho, fw_hinge_shape *s) {
 }
 
 /* farthest of both edges from W at the origin, exact */
-static double farthest(const fw_course *p) {
+static double farthest(const fw_flexure_course *p) {
     double far = 0, t;
     for (int i = 0; i < p->n; i++)
         for (int side = 0; side < 2; side++) {
-            const fw_segment e = fw_strip_edge(&p->shape[i], p->start[i], side);
+            const fw_geometry_segment e = fw_geometry_strip_edge(&p->shape[i], p->start[i], side);
             far = fmax(far, fmax(vec_length(e.a), vec_length(e.b)));
-            if (e.kind == FW_ARC && fw_segment_faces(&e, e.centre, &t))
+            if (e.kind == FW_ARC && fw_geometry_segment_faces(&e, e.centre, &t))
                 far = fmax(far, vec_length(e.centre) + e.radius);
         }
     return far;
@@ -280,17 +281,18 @@ static double farthest(const fw_course *p) {
 
 /* what rings are proportioned by: radius of an arc, half of a line; of a path that of the arc as
    long that turns as much */
-static double size_of(const fw_flexure *f, const fw_course *p, double reach) {
+static double size_of(const fw_device_flexure *f, const fw_flexure_course *p, double reach) {
     double turn = fabs(p->start[p->n].angle_rad - p->start[0].angle_rad);
     if (f->kind == FW_FLEXURE_CSFH) return f->radius_m;
     if (f->kind == FW_FLEXURE_LEAF) return 0.5 * f->length_m;
     return fmin(reach, turn > 1 ? f->length_m / turn : 0.5 * f->length_m);
 }
 
-bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape shape[2]) {
-    fw_course up, low;
+bool fw_layout_hinge_shape_path(const fw_device_flexure *f, double fillet_m,
+                                fw_layout_hinge_shape shape[2]) {
+    fw_flexure_course up, low;
     const fw_layout_rules *rule = &fw_layout_rule;
-    double rho = fillet_m, least = rule->fillet_least_widths * fw_flexure_narrowest_m(f);
+    double rho = fillet_m, least = rule->fillet_least_widths * fw_device_flexure_narrowest_m(f);
     for (; rho > least; rho *= rule->fillet_step) { /* both roots alike; W moves with the fillet */
         lay(f, rho, &up);
         turned(&up, &low);
@@ -305,95 +307,98 @@ bool fw_hinge_shape_path(const fw_flexure *f, double fillet_m, fw_hinge_shape sh
     for (int i = 0; i < 2; i++) {
         shape[i].reach_m = reach;
         shape[i].size_m = size;
-        shape[i].arc_centre = fw_v(-fw_hinge_centre(f, rho), 0);
+        shape[i].arc_centre = fw_v(-fw_layout_hinge_centre(f, rho), 0);
     }
     return true;
 }
 
 /* ---- the strip ---- */
 
-static void add_edge(fw_sketch *k, const fw_segment *e, bool forward, fw_vec2 from, fw_vec2 to) {
+static void add_edge(fw_layout_sketch *k, const fw_geometry_segment *e, bool forward,
+                     fw_geometry_vec2 from, fw_geometry_vec2 to) {
     if (e->kind == FW_LINE) {
-        fw_sketch_line(k, to, 0);
+        fw_layout_sketch_line(k, to, 0);
         return;
     }
     double way = forward ? e->sweep_rad : -e->sweep_rad;
     double sweep = sweep_between(e->centre, from, to);
     if (sweep * way < 0) sweep += copysign(2 * FW_PI, way);
-    fw_sketch_arc(k, e->centre, sweep, to);
+    fw_layout_sketch_arc(k, e->centre, sweep, to);
 }
 
-static fw_vec2 mirrored(fw_vec2 p) {
+static fw_geometry_vec2 mirrored(fw_geometry_vec2 p) {
     return fw_v(p.x, -p.y);
 }
 
-static fw_status draw_path(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *plan) {
-    const fw_hinge_shape *low = &plan->shape[0], *up = &plan->shape[1];
-    fw_course p;
+static fw_status draw_path(fw_arena *arena, const fw_device_flexure *f,
+                           fw_layout_hinge_plan *plan) {
+    const fw_layout_hinge_shape *low = &plan->shape[0], *up = &plan->shape[1];
+    fw_flexure_course p;
     lay(f, up->fillet_m, &p);
-    fw_vec2 at = mirrored(low->joint_out);
-    fw_sketch k = fw_sketch_start(arena, &plan->side[1].local, at);
+    fw_geometry_vec2 at = mirrored(low->joint_out);
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &plan->side[1].local, at);
     for (int i = 0; i < p.n; i++) {
-        const fw_segment e = fw_strip_edge(&p.shape[i], p.start[i], 1);
-        fw_vec2 to = i == p.n - 1 ? up->joint_out : e.b;
+        const fw_geometry_segment e = fw_geometry_strip_edge(&p.shape[i], p.start[i], 1);
+        fw_geometry_vec2 to = i == p.n - 1 ? up->joint_out : e.b;
         add_edge(&k, &e, true, at, to);
         at = to;
     }
-    fw_sketch_line(&k, up->joint_in, up->cut_flags);
+    fw_layout_sketch_line(&k, up->joint_in, up->cut_flags);
     at = up->joint_in;
     for (int i = p.n - 1; i >= 0; i--) {
-        const fw_segment e = fw_strip_edge(&p.shape[i], p.start[i], 0);
-        fw_vec2 to = i == 0 ? mirrored(low->joint_in) : e.a;
+        const fw_geometry_segment e = fw_geometry_strip_edge(&p.shape[i], p.start[i], 0);
+        fw_geometry_vec2 to = i == 0 ? mirrored(low->joint_in) : e.a;
         add_edge(&k, &e, false, at, to);
         at = to;
     }
-    fw_sketch_line(&k, mirrored(low->joint_out), low->cut_flags);
-    return fw_sketch_close(&k, &plan->flexure);
+    fw_layout_sketch_line(&k, mirrored(low->joint_out), low->cut_flags);
+    return fw_layout_sketch_close(&k, &plan->flexure);
 }
 
 /* one arc or line between the two cuts */
-fw_status fw_flexure_draw(fw_arena *arena, const fw_flexure *f, fw_hinge_plan *plan) {
-    if (fw_flexure_varies(f)) return draw_path(arena, f, plan);
-    const fw_hinge_shape *s = &plan->shape[1];
-    fw_vec2 low_in = mirrored(s->joint_in), low_out = mirrored(s->joint_out);
-    fw_sketch k = fw_sketch_start(arena, &plan->side[1].local, low_out);
+fw_status fw_layout_flexure_draw(fw_arena *arena, const fw_device_flexure *f,
+                                 fw_layout_hinge_plan *plan) {
+    if (fw_device_flexure_varies(f)) return draw_path(arena, f, plan);
+    const fw_layout_hinge_shape *s = &plan->shape[1];
+    fw_geometry_vec2 low_in = mirrored(s->joint_in), low_out = mirrored(s->joint_out);
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &plan->side[1].local, low_out);
     if (s->strip_sweep_rad > 0.0)
-        fw_sketch_arc(&k, s->arc_centre, s->strip_sweep_rad, s->joint_out);
+        fw_layout_sketch_arc(&k, s->arc_centre, s->strip_sweep_rad, s->joint_out);
     else
-        fw_sketch_line(&k, s->joint_out, 0);
-    fw_sketch_line(&k, s->joint_in, FW_SEGMENT_JOINT);
+        fw_layout_sketch_line(&k, s->joint_out, 0);
+    fw_layout_sketch_line(&k, s->joint_in, FW_SEGMENT_JOINT);
     if (s->strip_sweep_rad > 0.0)
-        fw_sketch_arc(&k, s->arc_centre, -s->strip_sweep_rad, low_in);
+        fw_layout_sketch_arc(&k, s->arc_centre, -s->strip_sweep_rad, low_in);
     else
-        fw_sketch_line(&k, low_in, 0);
-    fw_sketch_line(&k, low_out, FW_SEGMENT_JOINT);
-    return fw_sketch_close(&k, &plan->flexure);
+        fw_layout_sketch_line(&k, low_in, 0);
+    fw_layout_sketch_line(&k, low_out, FW_SEGMENT_JOINT);
+    return fw_layout_sketch_close(&k, &plan->flexure);
 }
 
 /* ---- what a path may run into ---- */
 
-static bool crosses_itself(const fw_contour *c) {
-    fw_hit hit[FW_MOST_HITS];
+static bool crosses_itself(const fw_geometry_contour *c) {
+    fw_geometry_hit hit[FW_MOST_HITS];
     for (int i = 0; i < c->count; i++)
         for (int j = i + 2; j < c->count; j++)
             if (!(i == 0 && j == c->count - 1) &&
-                fw_segment_intersect(&c->segment[i], &c->segment[j], hit) > 0)
+                fw_geometry_segment_intersect(&c->segment[i], &c->segment[j], hit) > 0)
                 return true;
     return false;
 }
 
-static double distance_to(const fw_contour *c, fw_vec2 from) {
+static double distance_to(const fw_geometry_contour *c, fw_geometry_vec2 from) {
     double least = HUGE_VAL, t;
-    fw_vec2 at;
+    fw_geometry_vec2 at;
     for (int i = 0; i < c->count; i++)
-        least = fmin(least, fw_segment_nearest(&c->segment[i], from, &t, &at));
+        least = fmin(least, fw_geometry_segment_nearest(&c->segment[i], from, &t, &at));
     return least;
 }
 
 /* the strip beyond `clear` behind the root of `upper`: nearer than the least space of one outline
    to that body? on 49 places of each edge and piece */
-static bool near_head(const fw_course *p, const fw_hinge_plan *plan, int upper) {
-    const fw_side *side = &plan->side[upper];
+static bool near_head(const fw_flexure_course *p, const fw_layout_hinge_plan *plan, int upper) {
+    const fw_layout_side *side = &plan->side[upper];
     const fw_layout_rules *rule = &fw_layout_rule;
     double whole = 0, before = 0;
     double clear = plan->shape[upper].cut_m + rule->path_clear_spaces * rule->least_space_m;
@@ -404,18 +409,18 @@ static bool near_head(const fw_course *p, const fw_hinge_plan *plan, int upper) 
             double s = p->shape[i].piece.length_m * k / PLACES;
             if ((upper ? whole - before - s : before + s) < clear) continue;
             for (int sign = -1; sign <= 1; sign += 2) {
-                fw_vec2 q = fw_path_edge(p, i, (double)k / PLACES, sign);
-                q = fw_local_point(&plan->side[1].local, q);
+                fw_geometry_vec2 q = fw_flexure_path_edge(p, i, (double)k / PLACES, sign);
+                q = fw_layout_local_point(&plan->side[1].local, q);
                 if (distance_to(&side->head, q) < rule->own_space_m ||
-                    fw_contour_contains(&side->head, q))
+                    fw_geometry_contour_contains(&side->head, q))
                     return true;
             }
         }
     return false;
 }
 
-bool fw_path_in_the_way(const fw_flexure *f, const fw_hinge_plan *plan) {
-    fw_course p;
+bool fw_layout_path_in_the_way(const fw_device_flexure *f, const fw_layout_hinge_plan *plan) {
+    fw_flexure_course p;
     lay(f, plan->shape[1].fillet_m, &p);
     for (int i = 0; i < 2; i++)
         if (near_head(&p, plan, i) ||

@@ -9,39 +9,39 @@
 #include "device/device.h"
 #include "geometry/contour.h"
 
-typedef enum fw_role {                    /* what a piece is; masks/ maps roles to layers */
-                       FW_ROLE_STRUCTURE, /* links, platform, base: what is left standing */
-                       FW_ROLE_FLEXURE,   /* thin parts; the same material as the structure */
-                       FW_ROLE_FRAME,     /* die frame */
-                       FW_ROLE_TETHER,    /* broken before use */
-                       FW_ROLE_TEXT,      /* title and parameters, polygons */
-                       FW_ROLE_MARK,      /* alignment marks */
-                       FW_ROLE_DICING,    /* lane */
-                       FW_ROLE_BACK,      /* marks of the back side, as seen from the front */
-                       FW_ROLE_COUNT
-} fw_role;
+typedef enum fw_layout_role {                    /* what a piece is; masks/ maps roles to layers */
+                              FW_ROLE_STRUCTURE, /* links, platform, base: what is left standing */
+                              FW_ROLE_FLEXURE, /* thin parts; the same material as the structure */
+                              FW_ROLE_FRAME,   /* die frame */
+                              FW_ROLE_TETHER,  /* broken before use */
+                              FW_ROLE_TEXT,    /* title and parameters, polygons */
+                              FW_ROLE_MARK,    /* alignment marks */
+                              FW_ROLE_DICING,  /* lane */
+                              FW_ROLE_BACK,    /* marks of the back side, as seen from the front */
+                              FW_ROLE_COUNT
+} fw_layout_role;
 
 /* body of a piece that stands on the carrier by itself, insulated from the rest: stators with their
    leads, pads and lettering. In a flow without an insulating carrier it would fall out, and is left
    out of the mask. */
 enum { FW_ISLAND = FW_NONE - 2 };
 
-typedef struct fw_piece {
-    fw_role role;
+typedef struct fw_layout_piece {
+    fw_layout_role role;
     int body;          /* index, FW_GROUND, FW_ISLAND, or FW_NONE - 1 for marks and text */
     int joint;         /* of a flexure piece, else FW_NONE */
     const char *label; /* for messages: "link AB", "flexure of hinge C" */
-    fw_contour contour;
-} fw_piece;
+    fw_geometry_contour contour;
+} fw_layout_piece;
 
-typedef struct fw_hinge_layout { /* per joint */
+typedef struct fw_layout_hinge_layout { /* per joint */
     bool drawn;
-    fw_vec2 centre;          /* W = the hinge point, world */
-    fw_vec2 arc_centre;      /* O, world */
-    double axis_rad;         /* direction O -> W, world */
-    int lower, upper;        /* body at the root of polar angle -a and +a */
-    double fillet_m;         /* as drawn */
-    double surface_radius_m; /* convex conjugate surface, about W; 0 = none */
+    fw_geometry_vec2 centre;     /* W = the hinge point, world */
+    fw_geometry_vec2 arc_centre; /* O, world */
+    double axis_rad;             /* direction O -> W, world */
+    int lower, upper;            /* body at the root of polar angle -a and +a */
+    double fillet_m;             /* as drawn */
+    double surface_radius_m;     /* convex conjugate surface, about W; 0 = none */
     double gap_m;
     double keep_out_m; /* radius about W that belongs to this hinge */
     double free_rad;   /* rotation until solid parts of the two bodies touch, either way */
@@ -49,25 +49,25 @@ typedef struct fw_hinge_layout { /* per joint */
     double facing_rad; /* sector about W in which the surfaces face each other: counter-clockwise */
     double facing_from_rad; /* from here, measured from the axis, where the upper body's ring ends,
                                to where the lower body's ends */
-} fw_hinge_layout;
+} fw_layout_hinge_layout;
 
-typedef struct fw_body_layout { /* per body; area 0 when it is not drawn */
+typedef struct fw_layout_body_layout { /* per body; area 0 when it is not drawn */
     double area_m2, perimeter_m;
-    fw_vec2 centroid; /* world, drawn position */
-    double polar_m4;  /* second moment about the centroid */
-} fw_body_layout;
+    fw_geometry_vec2 centroid; /* world, drawn position */
+    double polar_m4;           /* second moment about the centroid */
+} fw_layout_body_layout;
 
 typedef struct fw_layout {
     bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
     const char *why_not;
-    fw_piece *piece; /* (npiece) */
+    fw_layout_piece *piece; /* (npiece) */
     int npiece;
-    fw_hinge_layout *hinge; /* (device->njoint) */
-    fw_body_layout *body;   /* (device->nbody) */
-    fw_box die;             /* outline of the chip with its lane */
-    fw_box window;          /* inner edge of the frame */
-    double narrowest_gap_m; /* least distance between pieces that move apart */
-    bool fill;              /* the flow's thief and fill are wanted in the window */
+    fw_layout_hinge_layout *hinge; /* (device->njoint) */
+    fw_layout_body_layout *body;   /* (device->nbody) */
+    fw_geometry_box die;           /* outline of the chip with its lane */
+    fw_geometry_box window;        /* inner edge of the frame */
+    double narrowest_gap_m;        /* least distance between pieces that move apart */
+    bool fill;                     /* the flow's thief and fill are wanted in the window */
 } fw_layout;
 
 /* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Test patterns: what is on a plate beside the device, to be measured. A kind is a section of one of
-   the files pattern_*.c and a row of pattern.c; which patterns a flow has, and their sizes, are rows of masks/FLOW.xml.
+/* Test patterns: what is on a plate beside the device, to be measured. A kind is a section of one
+   of
+   the files pattern_*.c and a row of pattern.c; which patterns a flow has, and their sizes, are
+   rows of masks/FLOW.xml.
 
    A pattern is drawn in a box of its own: x to the right from 0, y up from the top edge of the bar
    that it stands on. Whatever touches y = 0 has a foot there (JOINT segments), so that it is joined
@@ -12,16 +14,16 @@
 
 enum { FW_PATTERN_PARAMETERS = 6, FW_PATTERN_SIZES = 48 };
 
-typedef struct fw_pattern_parameter {
+typedef struct fw_layout_pattern_parameter {
     const char *name;   /* attribute of <pattern> */
     double usual;       /* m, or a plain number; NAN: must be stated */
     double least, most; /* what may be stated */
     bool number;        /* a plain number, not a length */
-} fw_pattern_parameter;
+} fw_layout_pattern_parameter;
 
-struct fw_pattern_kind;
-typedef struct fw_pattern { /* a row of the table */
-    const struct fw_pattern_kind *kind;
+struct fw_layout_pattern_kind;
+typedef struct fw_layout_pattern { /* a row of the table */
+    const struct fw_layout_pattern_kind *kind;
     double value[FW_PATTERN_PARAMETERS]; /* in the order of the kind's parameters */
     double size_m[FW_PATTERN_SIZES];     /* (nsize) "sizes", in the order of the file */
     int nsize;
@@ -29,97 +31,101 @@ typedef struct fw_pattern { /* a row of the table */
     const char *id, *title;               /* id: names it in measured values; title: lettering */
     const char *gives, *measure, *source; /* quantity of the process; what to do; may be NULL */
     fw_place place;
-} fw_pattern;
+} fw_layout_pattern;
 
-typedef struct fw_feature { /* one thing to be measured */
-    const char *name;       /* "line", "slot", ... */
-    double drawn_m;         /* on the plate */
-    fw_vec2 from, to;       /* ends of the chord that is drawn_m long, or of what is looked at */
-    const char *label;      /* lettering on the bar below it; NULL: none */
-} fw_feature;
+typedef struct fw_layout_feature { /* one thing to be measured */
+    const char *name;              /* "line", "slot", ... */
+    double drawn_m;                /* on the plate */
+    fw_geometry_vec2 from, to; /* ends of the chord that is drawn_m long, or of what is looked at */
+    const char *label;         /* lettering on the bar below it; NULL: none */
+} fw_layout_feature;
 
-typedef struct fw_pattern_figure { /* a number that the pattern's reading needs */
+typedef struct fw_layout_pattern_figure { /* a number that the pattern's reading needs */
     const char *name, *unit;
     double value; /* in that unit */
-} fw_pattern_figure;
+} fw_layout_pattern_figure;
 
 enum { FW_FIGURES = 4 };
-typedef struct fw_coupon { /* a drawn pattern */
-    const fw_pattern *pattern;
-    fw_piece *piece; /* (npiece) */
-    fw_feature *feature;
-    fw_pattern_figure figure[FW_FIGURES];
+typedef struct fw_layout_coupon { /* a drawn pattern */
+    const fw_layout_pattern *pattern;
+    fw_layout_piece *piece; /* (npiece) */
+    fw_layout_feature *feature;
+    fw_layout_pattern_figure figure[FW_FIGURES];
     const char *formula; /* how the reading gives the quantity; NULL: as it stands */
     int npiece, nfeature, nfigure, piece_room, feature_room;
     double width_m, height_m; /* of its box */
-    fw_vec2 at;               /* the box's origin on the die */
+    fw_geometry_vec2 at;      /* the box's origin on the die */
     bool placed;
-} fw_coupon;
+} fw_layout_coupon;
 
-typedef struct fw_pen { /* what a kind draws with */
+typedef struct fw_layout_pen { /* what a kind draws with */
     fw_arena *arena;
-    const fw_pattern *pattern;
-    fw_coupon *coupon;
+    const fw_layout_pattern *pattern;
+    fw_layout_coupon *coupon;
     double width_rule_m, space_rule_m, bias_m;
-    fw_contour *box; /* (nbox) rectangles of the shape that is being drawn */
+    fw_geometry_contour *box; /* (nbox) rectangles of the shape that is being drawn */
     int nbox, box_room;
-} fw_pen;
+} fw_layout_pen;
 
-typedef struct fw_pattern_kind { /* a row of pattern.c */
+typedef struct fw_layout_pattern_kind { /* a row of pattern.c */
     const char *name, *what;
-    fw_pattern_parameter parameter[FW_PATTERN_PARAMETERS];
+    fw_layout_pattern_parameter parameter[FW_PATTERN_PARAMETERS];
     int nparameter;
     const char *sizes; /* what the list of lengths is; NULL: takes none */
     /* FW_GEOMETRY: cannot be drawn with these numbers */
-    fw_status (*draw)(fw_pen *pen);
+    fw_status (*draw)(fw_layout_pen *pen);
     int on_frame;   /* on the frame of every die, so often; 0: on the test die */
-    bool fills;     /* takes what the others leave of a row: drawn by content.c */
+    bool fills;     /* takes what the others leave of a row: drawn by layout_content.c */
     bool in_window; /* of the device's own die, where it asks for fill: content_frame.c */
-} fw_pattern_kind;
+} fw_layout_pattern_kind;
 
-const fw_pattern_kind *fw_pattern_kind_at(size_t i); /* NULL behind the last row */
-const fw_pattern_kind *fw_pattern_kind_named(const char *name);
+const fw_layout_pattern_kind *fw_layout_pattern_kind_at(size_t i); /* NULL behind the last row */
+const fw_layout_pattern_kind *fw_layout_pattern_kind_named(const char *name);
 
 /* draws one pattern by itself; FW_GEOMETRY: the numbers do not go together */
-fw_status fw_pattern_draw(fw_arena *arena, const fw_pattern *pattern, double width_rule_m,
-                          double space_rule_m, double bias_m, fw_coupon *coupon);
+fw_status fw_layout_pattern_draw(fw_arena *arena, const fw_layout_pattern *pattern,
+                                 double width_rule_m, double space_rule_m, double bias_m,
+                                 fw_layout_coupon *coupon);
 
 /* ---- for the kinds ---- */
 /* a rectangle of the shape that is being drawn; parts of a shape overlap, none only touches */
-fw_status fw_pen_box(fw_pen *pen, double x0, double y0, double x1, double y1);
+fw_status fw_layout_pen_box(fw_layout_pen *pen, double x0, double y0, double x1, double y1);
 /* ends the shape: the rectangles become one piece; what lies on y = 0 is its feet. FW_GEOMETRY when
    they are not one outline without holes */
-fw_status fw_pen_shape(fw_pen *pen, fw_role role, const char *label);
+fw_status fw_layout_pen_shape(fw_layout_pen *pen, fw_layout_role role, const char *label);
 /* one rectangle that is a shape by itself */
-fw_status fw_pen_bar(fw_pen *pen, fw_role role, const char *label, double x0, double y0, double x1,
-                     double y1);
-fw_status fw_pen_outline(fw_pen *pen, fw_role role, const char *label, fw_outline *outline);
+fw_status fw_layout_pen_bar(fw_layout_pen *pen, fw_layout_role role, const char *label, double x0,
+                            double y0, double x1, double y1);
+fw_status fw_layout_pen_outline(fw_layout_pen *pen, fw_layout_role role, const char *label,
+                                fw_geometry_outline *outline);
 /* label NULL: no lettering; FW_PEN_SIZE: the size in um */
-fw_status fw_pen_feature(fw_pen *pen, const char *name, double drawn_m, fw_vec2 from, fw_vec2 to,
-                         const char *label);
+fw_status fw_layout_pen_feature(fw_layout_pen *pen, const char *name, double drawn_m,
+                                fw_geometry_vec2 from, fw_geometry_vec2 to, const char *label);
 extern const char FW_PEN_SIZE[];
-fw_status fw_pen_chord(fw_pen *pen, const char *name, double x0, double y0, double x1, double y1,
-                       const char *label);
-void fw_pen_figure(fw_pen *pen, const char *name, double value, const char *unit);
-double fw_pen_value(const fw_pen *pen, int parameter);
+fw_status fw_layout_pen_chord(fw_layout_pen *pen, const char *name, double x0, double y0, double x1,
+                              double y1, const char *label);
+void fw_layout_pen_figure(fw_layout_pen *pen, const char *name, double value, const char *unit);
+double fw_layout_pen_value(const fw_layout_pen *pen, int parameter);
 
 /* one row per kind: pattern_etch.c, pattern_plating.c, pattern_print.c */
-extern const fw_pattern_kind fw_pattern_ladder, fw_pattern_slots, fw_pattern_pads,
-    fw_pattern_pointer, fw_pattern_cantilevers, fw_pattern_van_der_pauw, fw_pattern_cd_lines,
-    fw_pattern_resolution, fw_pattern_vernier, fw_pattern_back_mark, fw_pattern_contact,
-    fw_pattern_thief, fw_pattern_fill, fw_pattern_holes, fw_pattern_frame_mark,
-    fw_pattern_frame_vernier, fw_pattern_window_thief, fw_pattern_window_fill;
+extern const fw_layout_pattern_kind fw_layout_pattern_ladder, fw_layout_pattern_slots,
+    fw_layout_pattern_pads, fw_layout_pattern_pointer, fw_layout_pattern_cantilevers,
+    fw_layout_pattern_van_der_pauw, fw_layout_pattern_cd_lines, fw_layout_pattern_resolution,
+    fw_layout_pattern_vernier, fw_layout_pattern_back_mark, fw_layout_pattern_contact,
+    fw_layout_pattern_thief, fw_layout_pattern_fill, fw_layout_pattern_holes,
+    fw_layout_pattern_frame_mark, fw_layout_pattern_frame_vernier, fw_layout_pattern_window_thief,
+    fw_layout_pattern_window_fill;
 /* shared by kinds of the test die and of the frame */
-fw_status fw_vernier_draw(fw_pen *pen, bool frame);
-fw_status fw_back_cross_draw(fw_pen *pen, double middle_m, double cross_m, double arm_m,
-                             double window_m);
+fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame);
+fw_status fw_layout_back_cross_draw(fw_layout_pen *pen, double middle_m, double cross_m,
+                                    double arm_m, double window_m);
 
 /* ---- closed forms of what the patterns tell; each beside its drawing ---- */
 /* turn of the rotating pointer per strain, 1 (pattern_etch.c) */
-double fw_pointer_turn_per_strain(double arm_m, double offset_m, double width_m);
+double fw_layout_pointer_turn_per_strain(double arm_m, double offset_m, double width_m);
 /* farthest way from an opening within a plate with holes in a square grid, m (pattern_etch.c) */
-double fw_holes_reach_m(double pitch_m, double hole_m, bool round);
+double fw_layout_holes_reach_m(double pitch_m, double hole_m, bool round);
 /* gap between squares joined in chains for a share of covered area; NAN: there is none */
-double fw_fill_gap_m(double square_m, double stem_m, double density);
+double fw_layout_fill_gap_m(double square_m, double stem_m, double density);
 
 #endif

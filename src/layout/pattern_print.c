@@ -2,7 +2,7 @@
 /* Test patterns of printing and alignment. Each with what it tells, and its row; the table is in
  * pattern.c. */
 #include "layout/pattern.h"
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include <math.h>
 
 /* ---- cd-lines ---- */
@@ -18,42 +18,43 @@ enum { DENSE = 5 };
 static const double CD_LINES_POST_M = 30e-6;
 
 /* five dense lines and an isolated one; x: upright on the bar, side by side */
-static fw_status add_upright(fw_pen *pen, double w, double *x) {
-    double length = fw_pen_value(pen, CD_LINES_LENGTH), apart = fw_pen_value(pen, CD_LINES_APART),
-           y = 0.5 * length;
+static fw_status add_upright(fw_layout_pen *pen, double w, double *x) {
+    double length = fw_layout_pen_value(pen, CD_LINES_LENGTH),
+           apart = fw_layout_pen_value(pen, CD_LINES_APART), y = 0.5 * length;
     for (int i = 0; i < DENSE; i++)
-        FW_TRY(fw_pen_bar(pen, FW_ROLE_STRUCTURE, "dense line", *x + 2 * i * w, 0,
-                          *x + (2 * i + 1) * w, length));
+        FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "dense line", *x + 2 * i * w, 0,
+                                 *x + (2 * i + 1) * w, length));
     double middle = *x + (DENSE - 1) * w;
-    FW_TRY(fw_pen_chord(pen, "dense line x", middle, y, middle + w, y, FW_PEN_SIZE));
-    FW_TRY(fw_pen_chord(pen, "dense space x", middle + w, y, middle + 2 * w, y, NULL));
+    FW_TRY(fw_layout_pen_chord(pen, "dense line x", middle, y, middle + w, y, FW_PEN_SIZE));
+    FW_TRY(fw_layout_pen_chord(pen, "dense space x", middle + w, y, middle + 2 * w, y, NULL));
     *x += (2 * DENSE - 1) * w + apart;
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_STRUCTURE, "isolated line", *x, 0, *x + w, length));
-    FW_TRY(fw_pen_chord(pen, "isolated line x", *x, y, *x + w, y, NULL));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "isolated line", *x, 0, *x + w, length));
+    FW_TRY(fw_layout_pen_chord(pen, "isolated line x", *x, y, *x + w, y, NULL));
     *x += w + apart;
     return FW_OK;
 }
 
 /* the same from a post, above each other */
-static fw_status add_level(fw_pen *pen, double w, double *x) {
-    double length = fw_pen_value(pen, CD_LINES_LENGTH), apart = fw_pen_value(pen, CD_LINES_APART);
+static fw_status add_level(fw_layout_pen *pen, double w, double *x) {
+    double length = fw_layout_pen_value(pen, CD_LINES_LENGTH),
+           apart = fw_layout_pen_value(pen, CD_LINES_APART);
     double x0 = *x, left = x0 + 0.5 * CD_LINES_POST_M, end = x0 + CD_LINES_POST_M + length,
            y = apart;
     double at = x0 + CD_LINES_POST_M + 0.5 * length;
     for (int i = 0; i < DENSE; i++)
-        FW_TRY(fw_pen_box(pen, left, y + 2 * i * w, end, y + (2 * i + 1) * w));
+        FW_TRY(fw_layout_pen_box(pen, left, y + 2 * i * w, end, y + (2 * i + 1) * w));
     double middle = y + (DENSE - 1) * w;
-    FW_TRY(fw_pen_chord(pen, "dense line y", at, middle, at, middle + w, FW_PEN_SIZE));
-    FW_TRY(fw_pen_chord(pen, "dense space y", at, middle + w, at, middle + 2 * w, NULL));
+    FW_TRY(fw_layout_pen_chord(pen, "dense line y", at, middle, at, middle + w, FW_PEN_SIZE));
+    FW_TRY(fw_layout_pen_chord(pen, "dense space y", at, middle + w, at, middle + 2 * w, NULL));
     y += (2 * DENSE - 1) * w + apart;
-    FW_TRY(fw_pen_box(pen, left, y, end, y + w));
-    FW_TRY(fw_pen_chord(pen, "isolated line y", at, y, at, y + w, NULL));
-    FW_TRY(fw_pen_box(pen, x0, 0, x0 + CD_LINES_POST_M, y + w));
+    FW_TRY(fw_layout_pen_box(pen, left, y, end, y + w));
+    FW_TRY(fw_layout_pen_chord(pen, "isolated line y", at, y, at, y + w, NULL));
+    FW_TRY(fw_layout_pen_box(pen, x0, 0, x0 + CD_LINES_POST_M, y + w));
     *x = end + apart;
-    return fw_pen_shape(pen, FW_ROLE_STRUCTURE, "level lines");
+    return fw_layout_pen_shape(pen, FW_ROLE_STRUCTURE, "level lines");
 }
 
-static fw_status draw_cd_lines(fw_pen *pen) {
+static fw_status draw_cd_lines(fw_layout_pen *pen) {
     double x = 0;
     for (int i = 0; i < pen->pattern->nsize; i++) {
         FW_TRY(add_upright(pen, pen->pattern->size_m[i], &x));
@@ -64,7 +65,7 @@ static fw_status draw_cd_lines(fw_pen *pen) {
     return FW_OK;
 }
 
-const fw_pattern_kind fw_pattern_cd_lines = {
+const fw_layout_pattern_kind fw_layout_pattern_cd_lines = {
     .name = "cd-lines",
     .what = "lines and spaces, dense and isolated, across x and y: print bias",
     .parameter = {{"length", 100e-6, 20e-6, 1e-3, false}, {"apart", 40e-6, 4e-6, 500e-6, false}},
@@ -83,26 +84,26 @@ const fw_pattern_kind fw_pattern_cd_lines = {
 enum { RESOLUTION_LENGTH, RESOLUTION_APART };
 enum { NEST = 4 };
 
-static fw_status draw_resolution(fw_pen *pen) {
-    double length = fw_pen_value(pen, RESOLUTION_LENGTH), x = 0;
+static fw_status draw_resolution(fw_layout_pen *pen) {
+    double length = fw_layout_pen_value(pen, RESOLUTION_LENGTH), x = 0;
     for (int i = 0; i < pen->pattern->nsize; i++) {
         double w = pen->pattern->size_m[i], high = length + (2 * NEST - 1) * w;
         double end = x + high;
         for (int k = 0; k < NEST; k++) {
             double left = x + 2 * k * w, top = high - 2 * k * w;
-            FW_TRY(fw_pen_box(pen, left, 0, left + w, top));
-            FW_TRY(fw_pen_box(pen, left, top - w, end, top));
-            FW_TRY(fw_pen_shape(pen, FW_ROLE_STRUCTURE, "nested angle"));
+            FW_TRY(fw_layout_pen_box(pen, left, 0, left + w, top));
+            FW_TRY(fw_layout_pen_box(pen, left, top - w, end, top));
+            FW_TRY(fw_layout_pen_shape(pen, FW_ROLE_STRUCTURE, "nested angle"));
         }
         double y = 0.5 * length;
-        FW_TRY(fw_pen_chord(pen, "line", x, y, x + w, y, FW_PEN_SIZE));
-        FW_TRY(fw_pen_chord(pen, "space", x + w, y, x + 2 * w, y, NULL));
-        x = end + fw_pen_value(pen, RESOLUTION_APART);
+        FW_TRY(fw_layout_pen_chord(pen, "line", x, y, x + w, y, FW_PEN_SIZE));
+        FW_TRY(fw_layout_pen_chord(pen, "space", x + w, y, x + 2 * w, y, NULL));
+        x = end + fw_layout_pen_value(pen, RESOLUTION_APART);
     }
     return FW_OK;
 }
 
-const fw_pattern_kind fw_pattern_resolution = {
+const fw_layout_pattern_kind fw_layout_pattern_resolution = {
     .name = "resolution",
     .what = "nested angles of rising width: finest lines and spaces that print",
     .parameter = {{"length", 50e-6, 10e-6, 500e-6, false}, {"apart", 40e-6, 4e-6, 500e-6, false}},
@@ -134,15 +135,16 @@ typedef struct scale {
 } scale;
 
 /* a rectangle: `along` the scale, `across` towards the second scale */
-static fw_status part(fw_pen *pen, const scale *s, double along0, double along1, double across0,
-                      double across1) {
+static fw_status part(fw_layout_pen *pen, const scale *s, double along0, double along1,
+                      double across0, double across1) {
     if (s->upright)
-        return fw_pen_box(pen, s->x0 + across0, s->y0 + along0, s->x0 + across1, s->y0 + along1);
-    return fw_pen_box(pen, s->x0 + along0, s->y0 + across0, s->x0 + along1, s->y0 + across1);
+        return fw_layout_pen_box(pen, s->x0 + across0, s->y0 + along0, s->x0 + across1,
+                                 s->y0 + along1);
+    return fw_layout_pen_box(pen, s->x0 + along0, s->y0 + across0, s->x0 + along1, s->y0 + across1);
 }
 
 /* teeth end at 0; to: where their bar lies, below zero for the device's scale */
-static fw_status teeth(fw_pen *pen, const scale *s, double pitch, double sign) {
+static fw_status teeth(fw_layout_pen *pen, const scale *s, double pitch, double sign) {
     for (int i = -s->side; i <= s->side; i++) {
         double at = fw_layout_to_grid(i * pitch), far = sign * (LONG_M + MORE_M + 0.5 * BAR_M);
         double near = sign * (i == 0  ? 0
@@ -154,19 +156,19 @@ static fw_status teeth(fw_pen *pen, const scale *s, double pitch, double sign) {
     return FW_OK;
 }
 
-static fw_status first_scale(fw_pen *pen, const scale *s) {
+static fw_status first_scale(fw_layout_pen *pen, const scale *s) {
     double half = s->side * s->pitch + 0.5 * TOOTH_M, bar = LONG_M + MORE_M;
     double foot = s->upright && !s->frame ? -s->y0 : -half;
     FW_TRY(part(pen, s, foot, half, -bar - BAR_M, -bar));
     FW_TRY(teeth(pen, s, s->pitch, -1));
-    if (s->frame) return fw_pen_shape(pen, FW_ROLE_MARK, "vernier, front");
+    if (s->frame) return fw_layout_pen_shape(pen, FW_ROLE_MARK, "vernier, front");
     if (!s->upright) /* a stand below the bar */
-        FW_TRY(fw_pen_box(pen, s->x0 - 0.5 * VERNIER_POST_M, 0, s->x0 + 0.5 * VERNIER_POST_M,
-                          s->y0 - bar - 0.5 * BAR_M));
-    return fw_pen_shape(pen, FW_ROLE_STRUCTURE, "vernier, device layer");
+        FW_TRY(fw_layout_pen_box(pen, s->x0 - 0.5 * VERNIER_POST_M, 0, s->x0 + 0.5 * VERNIER_POST_M,
+                                 s->y0 - bar - 0.5 * BAR_M));
+    return fw_layout_pen_shape(pen, FW_ROLE_STRUCTURE, "vernier, device layer");
 }
 
-static fw_status pair(fw_pen *pen, const scale *s, double step) {
+static fw_status pair(fw_layout_pen *pen, const scale *s, double step) {
     double half = s->side * s->pitch + 0.5 * TOOTH_M, bar = LONG_M + MORE_M;
     FW_TRY(first_scale(pen, s));
     double gap = fmax(pen->space_rule_m, 4e-6);
@@ -175,13 +177,13 @@ static fw_status pair(fw_pen *pen, const scale *s, double step) {
     other.y0 += s->upright ? 0 : gap;
     FW_TRY(part(pen, &other, -half, half, bar, bar + BAR_M));
     FW_TRY(teeth(pen, &other, s->pitch - step, 1));
-    return fw_pen_shape(pen, FW_ROLE_BACK, "vernier, other layer");
+    return fw_layout_pen_shape(pen, FW_ROLE_BACK, "vernier, other layer");
 }
 
 /* side by side on a bar, above each other on a frame */
-fw_status fw_vernier_draw(fw_pen *pen, bool frame) {
-    double pitch = fw_pen_value(pen, PITCH), step = fw_pen_value(pen, STEP);
-    int count = (int)fw_pen_value(pen, TEETH), side = count / 2;
+fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame) {
+    double pitch = fw_layout_pen_value(pen, PITCH), step = fw_layout_pen_value(pen, STEP);
+    int count = (int)fw_layout_pen_value(pen, TEETH), side = count / 2;
     if (count % 2 == 0 || pitch - step < 2 * TOOTH_M) return FW_GEOMETRY;
     double half = side * pitch + 0.5 * TOOTH_M, deep = LONG_M + MORE_M + BAR_M;
     scale across = {half, (frame ? 0 : STAND_M) + deep, false, pitch, side, frame};
@@ -192,22 +194,22 @@ fw_status fw_vernier_draw(fw_pen *pen, bool frame) {
     }
     FW_TRY(pair(pen, &across, step));
     FW_TRY(pair(pen, &up, step));
-    FW_TRY(fw_pen_feature(pen, "offset x", step, (fw_vec2){across.x0, across.y0},
-                          (fw_vec2){across.x0 + step, across.y0}, "X"));
-    FW_TRY(fw_pen_feature(pen, "offset y", step, (fw_vec2){up.x0, up.y0},
-                          (fw_vec2){up.x0, up.y0 + step}, "Y"));
-    fw_pen_figure(pen, "step", step * 1e6, "um");
-    fw_pen_figure(pen, "range", side * step * 1e6, "um");
+    FW_TRY(fw_layout_pen_feature(pen, "offset x", step, (fw_geometry_vec2){across.x0, across.y0},
+                                 (fw_geometry_vec2){across.x0 + step, across.y0}, "X"));
+    FW_TRY(fw_layout_pen_feature(pen, "offset y", step, (fw_geometry_vec2){up.x0, up.y0},
+                                 (fw_geometry_vec2){up.x0, up.y0 + step}, "Y"));
+    fw_layout_pen_figure(pen, "step", step * 1e6, "um");
+    fw_layout_pen_figure(pen, "range", side * step * 1e6, "um");
     pen->coupon->formula = "offset of the second layer = number of the pair in line times step, "
                            "counted from the long teeth to the right and upwards";
     return FW_OK;
 }
 
-static fw_status draw_vernier(fw_pen *pen) {
-    return fw_vernier_draw(pen, false);
+static fw_status draw_vernier(fw_layout_pen *pen) {
+    return fw_layout_vernier_draw(pen, false);
 }
 
-const fw_pattern_kind fw_pattern_vernier = {
+const fw_layout_pattern_kind fw_layout_pattern_vernier = {
     .name = "vernier",
     .what = "pairs of scales on two layers: offset of one against the other",
     .parameter = {{"pitch", 16e-6, 12e-6, 100e-6, false},
@@ -228,28 +230,29 @@ const fw_pattern_kind fw_pattern_vernier = {
 enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM };
 static const double RIM_M = 40e-6;
 
-fw_status fw_back_cross_draw(fw_pen *pen, double m, double cross, double arm, double window) {
+fw_status fw_layout_back_cross_draw(fw_layout_pen *pen, double m, double cross, double arm,
+                                    double window) {
     if (cross > window - 2 * pen->space_rule_m || arm > 0.5 * cross) return FW_GEOMETRY;
-    FW_TRY(fw_pen_box(pen, m - 0.5 * cross, m - 0.5 * arm, m + 0.5 * cross, m + 0.5 * arm));
-    FW_TRY(fw_pen_box(pen, m - 0.5 * arm, m - 0.5 * cross, m + 0.5 * arm, m + 0.5 * cross));
-    FW_TRY(fw_pen_shape(pen, FW_ROLE_BACK, "back side cross"));
+    FW_TRY(fw_layout_pen_box(pen, m - 0.5 * cross, m - 0.5 * arm, m + 0.5 * cross, m + 0.5 * arm));
+    FW_TRY(fw_layout_pen_box(pen, m - 0.5 * arm, m - 0.5 * cross, m + 0.5 * arm, m + 0.5 * cross));
+    FW_TRY(fw_layout_pen_shape(pen, FW_ROLE_BACK, "back side cross"));
     double edge = m - 0.5 * window;
-    FW_TRY(fw_pen_chord(pen, "left", edge, m, m - 0.5 * cross, m, NULL));
-    FW_TRY(fw_pen_chord(pen, "below", m, edge, m, m - 0.5 * cross, NULL));
+    FW_TRY(fw_layout_pen_chord(pen, "left", edge, m, m - 0.5 * cross, m, NULL));
+    FW_TRY(fw_layout_pen_chord(pen, "below", m, edge, m, m - 0.5 * cross, NULL));
     pen->coupon->formula = "offset of the back = (left - right)/2, (below - above)/2";
     return FW_OK;
 }
 
-static fw_status draw_back_mark(fw_pen *pen) {
-    double window = fw_pen_value(pen, BACK_MARK_WINDOW), side = window + 2 * RIM_M;
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M, RIM_M + window,
-                      RIM_M + window));
-    return fw_back_cross_draw(pen, 0.5 * side, fw_pen_value(pen, BACK_MARK_CROSS),
-                              fw_pen_value(pen, BACK_MARK_ARM), window);
+static fw_status draw_back_mark(fw_layout_pen *pen) {
+    double window = fw_layout_pen_value(pen, BACK_MARK_WINDOW), side = window + 2 * RIM_M;
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M,
+                             RIM_M + window, RIM_M + window));
+    return fw_layout_back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
+                                     fw_layout_pen_value(pen, BACK_MARK_ARM), window);
 }
 
-const fw_pattern_kind fw_pattern_back_mark = {
+const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
     .name = "back-mark",
     .what = "cross on the back's own layer in a window of the device layer",
     .parameter = {{"window", 160e-6, 40e-6, 1e-3, false},
@@ -267,14 +270,14 @@ const fw_pattern_kind fw_pattern_back_mark = {
 
 enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM };
 
-static fw_status draw_frame_mark(fw_pen *pen) {
-    double window = fw_pen_value(pen, FRAME_MARK_WINDOW);
-    FW_TRY(fw_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", 0, 0, window, window));
-    return fw_back_cross_draw(pen, 0.5 * window, fw_pen_value(pen, FRAME_MARK_CROSS),
-                              fw_pen_value(pen, FRAME_MARK_ARM), window);
+static fw_status draw_frame_mark(fw_layout_pen *pen) {
+    double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW);
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", 0, 0, window, window));
+    return fw_layout_back_cross_draw(pen, 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
+                                     fw_layout_pen_value(pen, FRAME_MARK_ARM), window);
 }
 
-const fw_pattern_kind fw_pattern_frame_mark = {
+const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
     .name = "frame-mark",
     .what = "windows with a cross of the back on the frame of every die",
     .parameter = {{"window", 120e-6, 40e-6, 1e-3, false},
@@ -290,11 +293,11 @@ const fw_pattern_kind fw_pattern_frame_mark = {
 /* frame-vernier: the scales of `vernier` on the frame of every die, front against back. Parameters,
    numbers and test as there. */
 
-static fw_status draw_frame_vernier(fw_pen *pen) {
-    return fw_vernier_draw(pen, true);
+static fw_status draw_frame_vernier(fw_layout_pen *pen) {
+    return fw_layout_vernier_draw(pen, true);
 }
 
-const fw_pattern_kind fw_pattern_frame_vernier = {
+const fw_layout_pattern_kind fw_layout_pattern_frame_vernier = {
     .name = "frame-vernier",
     .what = "pairs of scales on the frame of every die: offset of front and back",
     .parameter = {{"pitch", 16e-6, 12e-6, 100e-6, false},

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Release holes: what is dissolved below a body has to be reached from an opening. Round holes of
    diameter D in a square grid of pitch p leave no point between four of them farther than
-   p/sqrt 2 - D/2 from one (fw_holes_reach_m); a body nowhere farther than that from its own edge
+   p/sqrt 2 - D/2 from one (fw_layout_holes_reach_m); a body nowhere farther than that from its own
+   edge
    gets none.
 
    The grid lies along the body: on its plate, else on the line between its first two hinges. A hole
@@ -26,65 +27,66 @@ static const double BESIDE_M = 12e-6; /* straight edge that is left beside a cut
 enum { ACROSS = 60, ALONG = 200 };    /* most holes from the middle of the grid */
 
 typedef struct grid {
-    fw_drawing *d;
+    fw_layout_drawing *d;
     int body;
     const char *label;
-    fw_contour outline; /* as it is now */
-    fw_contour before;  /* without holes */
-    fw_box box;         /* of that */
-    fw_vec2 origin, x, y;
+    fw_geometry_contour outline; /* as it is now */
+    fw_geometry_contour before;  /* without holes */
+    fw_geometry_box box;         /* of that */
+    fw_geometry_vec2 origin, x, y;
     double pitch_m, hole_m, rim_m; /* hole: diameter */
-    fw_vec2 *hole;                 /* (nhole) middles of those made */
+    fw_geometry_vec2 *hole;        /* (nhole) middles of those made */
     int nhole, room, dropped;
 } grid;
 
-static fw_vec2 at(const grid *g, double x, double y) {
+static fw_geometry_vec2 at(const grid *g, double x, double y) {
     return fw_add(fw_add(g->origin, x, g->x), y, g->y);
 }
 
-static double distance_to(const fw_contour *c, fw_vec2 p) {
+static double distance_to(const fw_geometry_contour *c, fw_geometry_vec2 p) {
     double least = HUGE_VAL, t;
-    fw_vec2 where;
+    fw_geometry_vec2 where;
     for (int i = 0; i < c->count; i++)
-        least = fmin(least, fw_segment_nearest(&c->segment[i], p, &t, &where));
+        least = fmin(least, fw_geometry_segment_nearest(&c->segment[i], p, &t, &where));
     return least;
 }
 
-static bool in_box(const grid *g, fw_vec2 p) {
+static bool in_box(const grid *g, fw_geometry_vec2 p) {
     return p.x > g->box.x0 && p.x < g->box.x1 && p.y > g->box.y0 && p.y < g->box.y1;
 }
 
-static bool in_hinge(const grid *g, fw_vec2 p, double reach) {
-    for (int j = 0; j < g->d->device->njoint; j++) {
-        const fw_hinge_layout *h = &g->d->layout->hinge[j];
+static bool in_hinge(const grid *g, fw_geometry_vec2 p, double reach) {
+    for (int j = 0; j < g->d->device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &g->d->layout->hinge[j];
         if (fw_norm(fw_sub(p, h->centre)) < h->keep_out_m + reach) return true;
     }
     return false;
 }
 
-static bool may_have_hole(const grid *g, fw_vec2 p) {
+static bool may_have_hole(const grid *g, fw_geometry_vec2 p) {
     double need = 0.5 * g->hole_m + g->rim_m;
-    return in_box(g, p) && !in_hinge(g, p, need) && fw_contour_contains(&g->before, p) &&
+    return in_box(g, p) && !in_hinge(g, p, need) && fw_geometry_contour_contains(&g->before, p) &&
            distance_to(&g->before, p) >= need - SAME_M;
 }
 
-static fw_segment line(fw_vec2 a, fw_vec2 b, bool cut) {
+static fw_geometry_segment line(fw_geometry_vec2 a, fw_geometry_vec2 b, bool cut) {
     unsigned flags = cut ? FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH : 0;
-    return (fw_segment){.kind = FW_LINE, .flags = flags, .a = a, .b = b};
+    return (fw_geometry_segment){.kind = FW_LINE, .flags = flags, .a = a, .b = b};
 }
 
 /* ---- a column ---- */
 
 typedef struct column {
-    int n;         /* holes, from the one at the edge inwards */
-    fw_vec2 first; /* middle of that one */
-    fw_vec2 out, left;
-    fw_vec2 p[2]; /* where the cut leaves through the edge, right and left of it seen outwards */
-    int edge;     /* segment of the outline */
+    int n;                  /* holes, from the one at the edge inwards */
+    fw_geometry_vec2 first; /* middle of that one */
+    fw_geometry_vec2 out, left;
+    fw_geometry_vec2
+        p[2]; /* where the cut leaves through the edge, right and left of it seen outwards */
+    int edge; /* segment of the outline */
 } column;
 
 /* a point of hole k: from its middle `up` towards the edge and `across` to the left */
-static fw_vec2 of_hole(const grid *g, const column *c, int k, double up, double across) {
+static fw_geometry_vec2 of_hole(const grid *g, const column *c, int k, double up, double across) {
     double inward = -k * g->pitch_m;
     return fw_add(fw_add(c->first, inward + up, c->out), across, c->left);
 }
@@ -102,38 +104,38 @@ static bool leaves(const grid *g, column *c) {
     double half = half_cut(g);
     const double across[] = {-half, half, -half - BESIDE_M, half + BESIDE_M};
     for (int i = 0; i < 4; i++) {
-        fw_vec2 from = of_hole(g, c, 0, i < 2 ? deep(g) : 0.0, across[i]);
-        fw_ray_hit hit = fw_first_hit(&g->outline, from, c->out);
+        fw_geometry_vec2 from = of_hole(g, c, 0, i < 2 ? deep(g) : 0.0, across[i]);
+        fw_layout_ray_hit hit = fw_layout_first_hit(&g->outline, from, c->out);
         if (hit.segment < 0 || hit.far_m > 2.0 * g->pitch_m) return false;
         if (i == 0) c->edge = hit.segment;
         if (hit.segment != c->edge) return false;
         if (i < 2) c->p[i] = hit.at;
     }
-    const fw_segment *s = &g->outline.segment[c->edge];
+    const fw_geometry_segment *s = &g->outline.segment[c->edge];
     if (s->kind != FW_LINE || s->flags & FW_SEGMENT_JOINT) return false;
-    return fw_dot(fw_segment_tangent(s, 0.5), c->left) > 0.97;
+    return fw_dot(fw_geometry_segment_tangent(s, 0.5), c->left) > 0.97;
 }
 
 /* part of the edge of hole k, clockwise */
-static fw_segment around(const grid *g, const column *c, int k, fw_vec2 a, fw_vec2 b,
-                         double sweep_rad) {
-    return (fw_segment){.kind = FW_ARC,
-                        .a = a,
-                        .b = b,
-                        .centre = of_hole(g, c, k, 0.0, 0.0),
-                        .radius = 0.5 * g->hole_m,
-                        .sweep_rad = -sweep_rad};
+static fw_geometry_segment around(const grid *g, const column *c, int k, fw_geometry_vec2 a,
+                                  fw_geometry_vec2 b, double sweep_rad) {
+    return (fw_geometry_segment){.kind = FW_ARC,
+                                 .a = a,
+                                 .b = b,
+                                 .centre = of_hole(g, c, k, 0.0, 0.0),
+                                 .radius = 0.5 * g->hole_m,
+                                 .sweep_rad = -sweep_rad};
 }
 
 /* down the right side of the cut, around the holes, and back up the left side */
-static int trace(const grid *g, const column *c, fw_segment *out) {
+static int trace(const grid *g, const column *c, fw_geometry_segment *out) {
     const double third =
         FW_PI / 3.0; /* a cut takes a third of half a turn out of the hole's edge */
     double w = half_cut(g), h = deep(g);
     int n = 0;
-    fw_vec2 from = c->p[0];
+    fw_geometry_vec2 from = c->p[0];
     for (int k = 0; k < c->n; k++) {
-        fw_vec2 high = of_hole(g, c, k, h, -w), low = of_hole(g, c, k, -h, -w);
+        fw_geometry_vec2 high = of_hole(g, c, k, h, -w), low = of_hole(g, c, k, -h, -w);
         out[n++] = line(from, high, true);
         from = high;
         if (k == c->n - 1) break;
@@ -141,7 +143,7 @@ static int trace(const grid *g, const column *c, fw_segment *out) {
         from = low;
     }
     for (int k = c->n - 1; k >= 0; k--) {
-        fw_vec2 high = of_hole(g, c, k, h, w), low = of_hole(g, c, k, -h, w);
+        fw_geometry_vec2 high = of_hole(g, c, k, h, w), low = of_hole(g, c, k, -h, w);
         bool last = k == c->n - 1;
         if (!last) out[n++] = line(from, low, true);
         out[n++] = around(g, c, k, last ? from : low, high, (last ? 5.0 : 2.0) * third);
@@ -155,19 +157,19 @@ static int trace(const grid *g, const column *c, fw_segment *out) {
 static fw_status add_cap(grid *g, const column *c, int k) {
     const double third = FW_PI / 3.0;
     double w = half_cut(g), h = deep(g);
-    fw_vec2 a = k ? of_hole(g, c, k - 1, -h, -w) : c->p[0];
-    fw_vec2 b = k ? of_hole(g, c, k - 1, -h, w) : c->p[1];
-    fw_vec2 e = of_hole(g, c, k, h, w), f = of_hole(g, c, k, h, -w);
-    fw_contour cap = {.count = 4};
-    FW_NEED(cap.segment = fw_arena_array(g->d->arena, fw_segment, 4));
+    fw_geometry_vec2 a = k ? of_hole(g, c, k - 1, -h, -w) : c->p[0];
+    fw_geometry_vec2 b = k ? of_hole(g, c, k - 1, -h, w) : c->p[1];
+    fw_geometry_vec2 e = of_hole(g, c, k, h, w), f = of_hole(g, c, k, h, -w);
+    fw_geometry_contour cap = {.count = 4};
+    FW_NEED(cap.segment = fw_arena_array(g->d->arena, fw_geometry_segment, 4));
     cap.segment[0] = k ? around(g, c, k - 1, a, b, third) : line(a, b, false);
     cap.segment[1] = line(b, e, true);
     cap.segment[2] = around(g, c, k, e, f, third);
     cap.segment[3] = line(f, a, true);
-    return fw_drawing_add(g->d, FW_ROLE_STRUCTURE, g->body, FW_NONE, g->label, &cap);
+    return fw_layout_drawing_add(g->d, FW_ROLE_STRUCTURE, g->body, FW_NONE, g->label, &cap);
 }
 
-static fw_status note_hole(grid *g, fw_vec2 middle) {
+static fw_status note_hole(grid *g, fw_geometry_vec2 middle) {
     if (g->nhole == g->room) {
         int room = g->room ? 2 * g->room : 32;
         FW_NEED(g->hole = fw_arena_grow(g->d->arena, g->hole, (size_t)g->nhole, (size_t)room,
@@ -179,12 +181,12 @@ static fw_status note_hole(grid *g, fw_vec2 middle) {
 }
 
 static fw_status cut_column(grid *g, const column *c) {
-    const fw_contour *from = &g->outline;
-    fw_contour to = {0};
+    const fw_geometry_contour *from = &g->outline;
+    fw_geometry_contour to = {0};
     size_t most = (size_t)(from->count + 8 * c->n + 2);
-    FW_NEED(to.segment = fw_arena_array(g->d->arena, fw_segment, most));
+    FW_NEED(to.segment = fw_arena_array(g->d->arena, fw_geometry_segment, most));
     for (int i = 0; i < from->count; i++) {
-        const fw_segment *s = &from->segment[i];
+        const fw_geometry_segment *s = &from->segment[i];
         if (i != c->edge) {
             to.segment[to.count++] = *s;
             continue;
@@ -232,14 +234,14 @@ static fw_status do_column(grid *g, int i) {
 
 static void along_body(grid *g) {
     const fw_device *device = g->d->device;
-    const fw_body *b = &device->body[g->body];
-    int joint[2] = {0, 0}, n = fw_body_joints(device, g->body, joint, 2);
+    const fw_device_body *b = &device->body[g->body];
+    int joint[2] = {0, 0}, n = fw_layout_body_joints(device, g->body, joint, 2);
     if (b->plate_width_m > 0.0) {
         g->origin = fw_v(b->plate_x_m, b->plate_y_m);
         g->x = fw_polar(b->plate_angle_rad);
     } else {
-        fw_vec2 p = g->d->layout->hinge[joint[0]].centre;
-        fw_vec2 q = n > 1 ? g->d->layout->hinge[joint[1]].centre : g->before.segment[0].a;
+        fw_geometry_vec2 p = g->d->layout->hinge[joint[0]].centre;
+        fw_geometry_vec2 q = n > 1 ? g->d->layout->hinge[joint[1]].centre : g->before.segment[0].a;
         g->origin = fw_add(p, 0.5, fw_sub(q, p));
         g->x = fw_towards(p, q);
     }
@@ -250,8 +252,8 @@ static void along_body(grid *g) {
 static bool is_wide(const grid *g, double reach) {
     for (int i = -ALONG; i <= ALONG; i++)
         for (int j = -ACROSS; j <= ACROSS; j++) {
-            fw_vec2 p = at(g, i * g->pitch_m, j * g->pitch_m);
-            if (in_box(g, p) && fw_contour_contains(&g->before, p) &&
+            fw_geometry_vec2 p = at(g, i * g->pitch_m, j * g->pitch_m);
+            if (in_box(g, p) && fw_geometry_contour_contains(&g->before, p) &&
                 distance_to(&g->before, p) > reach)
                 return true;
         }
@@ -259,40 +261,40 @@ static bool is_wide(const grid *g, double reach) {
 }
 
 static void take_out(grid *g) {
-    fw_body_layout *b = &g->d->layout->body[g->body];
+    fw_layout_body_layout *b = &g->d->layout->body[g->body];
     double r = 0.5 * g->hole_m, each = FW_PI * r * r, area = b->area_m2 - g->nhole * each;
-    fw_vec2 sum = fw_v(b->area_m2 * b->centroid.x, b->area_m2 * b->centroid.y);
+    fw_geometry_vec2 sum = fw_v(b->area_m2 * b->centroid.x, b->area_m2 * b->centroid.y);
     for (int i = 0; i < g->nhole; i++)
         sum = fw_add(sum, -each, g->hole[i]);
-    fw_vec2 centre = fw_v(sum.x / area, sum.y / area), shift = fw_sub(b->centroid, centre);
+    fw_geometry_vec2 centre = fw_v(sum.x / area, sum.y / area), shift = fw_sub(b->centroid, centre);
     double polar = b->polar_m4 + b->area_m2 * fw_dot(shift, shift);
     for (int i = 0; i < g->nhole; i++) {
-        fw_vec2 to = fw_sub(g->hole[i], centre);
+        fw_geometry_vec2 to = fw_sub(g->hole[i], centre);
         polar -= each * (0.5 * r * r + fw_dot(to, to));
     }
-    *b = (fw_body_layout){area, b->perimeter_m + 2.0 * FW_PI * r * g->nhole, centre, polar};
+    *b = (fw_layout_body_layout){area, b->perimeter_m + 2.0 * FW_PI * r * g->nhole, centre, polar};
 }
 
-static bool points_from_centre(const fw_drawing *d, int body) {
-    const fw_body *b = &d->device->body[body];
+static bool points_from_centre(const fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
     if (!isnan(b->x_m) && !isnan(b->y_m)) return false;
     for (int i = 0; i < d->ncomb; i++)
         if (d->comb[i].comb->body_b == body || d->comb[i].comb->body_a == body) return true;
-    return fw_eyelets_on(d, body);
+    return fw_layout_eyelets_on(d, body);
 }
 
-static fw_status do_body(fw_drawing *d, int body, double pitch, double hole) {
+static fw_status do_body(fw_layout_drawing *d, int body, double pitch, double hole) {
     grid g = {.d = d, .body = body, .pitch_m = pitch, .hole_m = hole};
     g.rim_m = fmax(0.5 * (pitch - hole), LEAST_RIM_M);
-    g.before = g.outline = *fw_drawing_outline(d, body);
+    g.before = g.outline = *fw_layout_drawing_outline(d, body);
     if (g.before.count == 0) return FW_OK;
-    g.box = fw_contour_box(&g.before);
+    g.box = fw_geometry_contour_box(&g.before);
     along_body(&g);
-    if (!is_wide(&g, fw_holes_reach_m(pitch, hole, true))) return FW_OK;
-    FW_NEED(g.label = fw_body_label(d, body));
+    if (!is_wide(&g, fw_layout_holes_reach_m(pitch, hole, true))) return FW_OK;
+    FW_NEED(g.label = fw_layout_body_label(d, body));
     if (points_from_centre(d, body)) {
         if (!d->said)
-            fw_diag_warning(d->diags, 189, fw_body_place(d, body),
+            fw_diag_warning(d->diags, 189, fw_layout_body_place(d, body),
                             "%s gets no release holes: points of tendons or drives are given from "
                             "its centre of mass, which the holes would move; state x and y of the "
                             "body",
@@ -303,7 +305,7 @@ static fw_status do_body(fw_drawing *d, int body, double pitch, double hole) {
         FW_TRY(do_column(&g, i));
     if (g.dropped > 0 && !d->said)
         fw_diag_warning(
-            d->diags, 189, fw_body_place(d, body),
+            d->diags, 189, fw_layout_body_place(d, body),
             "%s: %d of %d release holes reach no straight edge from which they could be "
             "opened, and are left out; it comes free later there",
             g.label, g.dropped, g.dropped + g.nhole);
@@ -313,7 +315,7 @@ static fw_status do_body(fw_drawing *d, int body, double pitch, double hole) {
     return FW_OK;
 }
 
-fw_status fw_release_holes(fw_drawing *d) {
+fw_status fw_layout_release_holes(fw_layout_drawing *d) {
     double pitch = d->device->release_pitch_m, hole = d->device->release_hole_m;
     if (!(pitch > 0.0)) return FW_OK;
     if (!(hole > 0.0)) hole = 0.3 * pitch;

@@ -3,26 +3,29 @@
    keeps a short stub; everything beyond the neck stays on the frame. */
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include <math.h>
 
-static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int body) {
+static bool finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contour *finger,
+                            int body) {
     for (int s = 0; s < d->nslot; s++) {
         if (s == body || d->plain[s].count == 0) continue;
-        if (fw_contour_distance_below(finger, &d->plain[s], 20e-6, NULL, NULL) < 20e-6)
+        if (fw_geometry_contour_distance_below(finger, &d->plain[s], 20e-6, NULL, NULL) < 20e-6)
             return false;
     }
     for (int i = 0; i < d->nlug; i++)
-        if (fw_contour_distance_below(finger, &d->lug[i], 20e-6, NULL, NULL) < 20e-6) return false;
+        if (fw_geometry_contour_distance_below(finger, &d->lug[i], 20e-6, NULL, NULL) < 20e-6)
+            return false;
     for (int i = 0; i < d->nattachment; i++) {
-        const fw_attachment *a = &d->attachment[i];
+        const fw_layout_attachment *a = &d->attachment[i];
         if (a->finger.count > 0 &&
-            fw_contour_distance_below(finger, &a->finger, 60e-6, NULL, NULL) < 60e-6)
+            fw_geometry_contour_distance_below(finger, &a->finger, 60e-6, NULL, NULL) < 60e-6)
             return false;
     }
-    fw_box box = fw_contour_box(finger); /* axis-parallel, so the box is the finger */
-    for (int j = 0; j < d->device->njoint; j++) {
-        const fw_hinge_layout *h = &d->layout->hinge[j];
+    fw_geometry_box box =
+        fw_geometry_contour_box(finger); /* axis-parallel, so the box is the finger */
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         double x = fmax(fmax(box.x0 - h->centre.x, h->centre.x - box.x1), 0.0);
         double y = fmax(fmax(box.y0 - h->centre.y, h->centre.y - box.y1), 0.0);
         if (hypot(x, y) < h->keep_out_m + 10e-6) return false;
@@ -33,14 +36,15 @@ static bool finger_is_clear(const fw_drawing *d, const fw_contour *finger, int b
 enum { FEW = 128 };
 
 /* a lower bound of the distance from an outline: no segment's box is nearer */
-static double clear_way(const fw_contour *c, const fw_box *box, fw_vec2 p) {
-    fw_box at = {p.x, p.y, p.x, p.y};
+static double clear_way(const fw_geometry_contour *c, const fw_geometry_box *box,
+                        fw_geometry_vec2 p) {
+    fw_geometry_box at = {p.x, p.y, p.x, p.y};
     double least = HUGE_VAL;
     for (int i = 0; i < c->count; i++) {
-        fw_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
+        fw_geometry_box own = i < FEW ? box[i] : fw_segment_box(&c->segment[i]);
         if (fw_box_apart(&at, &own, least)) continue;
         double gap = fw_box_gap(at, own);
-        if (gap < least) gap = fmax(gap, fw_segment_clear_of(&c->segment[i], &at));
+        if (gap < least) gap = fmax(gap, fw_geometry_segment_clear_of(&c->segment[i], &at));
         if (gap < least) least = gap;
     }
     return least;
@@ -48,12 +52,13 @@ static double clear_way(const fw_contour *c, const fw_box *box, fw_vec2 p) {
 
 /* the finger may leave its own body only once: everything from a little outside on is free. Looked
    at every 2 um, but where no edge is near for longer */
-static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 from) {
-    const fw_contour *body = &d->plain[a->body];
-    fw_vec2 out = fw_window_outward(a->side);
-    fw_vec2 side = fw_left(out);
-    double length = fw_dot(fw_sub(fw_window_point(d->layout, a->side, 0.0, 0.0), from), out);
-    fw_box box = fw_contour_box(body), own[FEW];
+static bool leaves_once(const fw_layout_drawing *d, const fw_layout_attachment *a,
+                        fw_geometry_vec2 from) {
+    const fw_geometry_contour *body = &d->plain[a->body];
+    fw_geometry_vec2 out = fw_layout_window_outward(a->side);
+    fw_geometry_vec2 side = fw_left(out);
+    double length = fw_dot(fw_sub(fw_layout_window_point(d->layout, a->side, 0.0, 0.0), from), out);
+    fw_geometry_box box = fw_geometry_contour_box(body), own[FEW];
     for (int i = 0; i < body->count && i < FEW; i++)
         own[i] = fw_segment_box(&body->segment[i]);
     for (int edge = -1; edge <= 1; edge++) {
@@ -61,28 +66,31 @@ static bool leaves_once(const fw_drawing *d, const fw_attachment *a, fw_vec2 fro
         double known = -1.0; /* up to there nothing changes */
         for (double s = 0.0; s < length; s += 2e-6) {
             if (s < known) continue;
-            fw_vec2 p =
+            fw_geometry_vec2 p =
                 fw_add(fw_add(from, s, out), edge * (0.5 * fw_layout_rule.tether_m + 8e-6), side);
             bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
-                      fw_contour_contains(body, p);
+                      fw_geometry_contour_contains(body, p);
             if (in && !inside) return false;
             inside = in;
             known = s + clear_way(body, own, p) - 1e-9;
         }
         if (inside) return false;
     }
-    return fw_contour_contains(body, from);
+    return fw_geometry_contour_contains(body, from);
 }
 
 /* where a line straight outwards leaves the body, as depth in the window: inside at `deep`, outside
    at the window's edge, once in between */
-static double edge_depth(const fw_drawing *d, const fw_attachment *a, double along, double deep) {
+static double edge_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double along,
+                         double deep) {
     double in = deep, out = 0.0;
-    const fw_contour *body = &d->plain[a->body];
-    if (!fw_contour_contains(body, fw_window_point(d->layout, a->side, along, in))) return deep;
+    const fw_geometry_contour *body = &d->plain[a->body];
+    if (!fw_geometry_contour_contains(body, fw_layout_window_point(d->layout, a->side, along, in)))
+        return deep;
     while (in - out > 1e-9) {
         double middle = 0.5 * (in + out);
-        if (fw_contour_contains(body, fw_window_point(d->layout, a->side, along, middle)))
+        if (fw_geometry_contour_contains(body,
+                                         fw_layout_window_point(d->layout, a->side, along, middle)))
             in = middle;
         else
             out = middle;
@@ -94,7 +102,8 @@ static double edge_depth(const fw_drawing *d, const fw_attachment *a, double alo
    rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. 2 um more
    stay straight, so that the cut is square. Exact for a straight edge. test_layout.c
    tethers_break_at_the_body */
-static double neck_depth(const fw_drawing *d, const fw_attachment *a, double at, double deep) {
+static double neck_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double at,
+                         double deep) {
     double r = d->corner_m[a->body], far = 0.5 * fw_layout_rule.tether_neck_m + r;
     double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
     double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
@@ -103,45 +112,45 @@ static double neck_depth(const fw_drawing *d, const fw_attachment *a, double at,
 }
 
 /* the tether's own outline: 4 um of neck, widened to the finger on 12 um, to the frame's stub */
-static fw_status draw_tether(fw_drawing *d, double at, double cut, fw_attachment *a) {
-    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+static fw_status draw_tether(fw_layout_drawing *d, double at, double cut, fw_layout_attachment *a) {
+    const fw_layout_local world = {{0.0, 0.0}, 1.0, 0.0, false};
     double neck = 0.5 * fw_layout_rule.tether_neck_m,
            wide = cut - 4e-6 - (fw_layout_rule.tether_m - fw_layout_rule.tether_neck_m);
     double along[8] = {at - neck, at - neck, a->low_m,  a->low_m,
                        a->high_m, a->high_m, at + neck, at + neck};
     double depth[8] = {cut, cut - 4e-6, wide, a->stub_m, a->stub_m, wide, cut - 4e-6, cut};
-    fw_sketch sketch = {.local = &world};
-    fw_contour sharp;
-    fw_vec2 where;
+    fw_layout_sketch sketch = {.local = &world};
+    fw_geometry_contour sharp;
+    fw_geometry_vec2 where;
     for (int i = 0; i <= 8; i++) {
-        fw_vec2 p = fw_window_point(d->layout, a->side, along[i % 8], depth[i % 8]);
+        fw_geometry_vec2 p = fw_layout_window_point(d->layout, a->side, along[i % 8], depth[i % 8]);
         if (i == 0)
-            sketch = fw_sketch_start(d->arena, &world, p);
+            sketch = fw_layout_sketch_start(d->arena, &world, p);
         else
-            fw_sketch_line(&sketch, p, i == 4 || i == 8 ? FW_SEGMENT_JOINT : 0);
+            fw_layout_sketch_line(&sketch, p, i == 4 || i == 8 ? FW_SEGMENT_JOINT : 0);
     }
-    FW_TRY(fw_sketch_close(&sketch, &sharp));
-    return fw_contour_round(d->arena, &sharp, fw_layout_rule.corner_m, fw_layout_rule.corner_m,
-                            &a->tether, &where);
+    FW_TRY(fw_layout_sketch_close(&sketch, &sharp));
+    return fw_geometry_contour_round(d->arena, &sharp, fw_layout_rule.corner_m,
+                                     fw_layout_rule.corner_m, &a->tether, &where);
 }
 
 /* body with one more stub, rounded as without it; not done when the stub does not fit there */
-static fw_status add_stub(fw_drawing *d, int body, double at, double cut, double deep,
-                          fw_window_side side, bool *done) {
-    const fw_local world = {{0.0, 0.0}, 1.0, 0.0, false};
+static fw_status add_stub(fw_layout_drawing *d, int body, double at, double cut, double deep,
+                          fw_layout_window_side side, bool *done) {
+    const fw_layout_local world = {{0.0, 0.0}, 1.0, 0.0, false};
     double neck = 0.5 * fw_layout_rule.tether_neck_m, r = d->corner_m[body];
-    fw_vec2 p[4] = {fw_window_point(d->layout, side, at - neck, deep),
-                    fw_window_point(d->layout, side, at - neck, cut),
-                    fw_window_point(d->layout, side, at + neck, cut),
-                    fw_window_point(d->layout, side, at + neck, deep)};
-    fw_contour stub, held;
-    fw_region raw = {&d->raw[body], 1}, add = {&stub, 1}, both;
-    fw_vec2 where;
+    fw_geometry_vec2 p[4] = {fw_layout_window_point(d->layout, side, at - neck, deep),
+                             fw_layout_window_point(d->layout, side, at - neck, cut),
+                             fw_layout_window_point(d->layout, side, at + neck, cut),
+                             fw_layout_window_point(d->layout, side, at + neck, deep)};
+    fw_geometry_contour stub, held;
+    fw_geometry_region raw = {&d->raw[body], 1}, add = {&stub, 1}, both;
+    fw_geometry_vec2 where;
     *done = false;
     FW_TRY(fw_layout_polygon(d->arena, &world, p, 4, 1, &stub));
-    fw_status status = fw_region_boolean(d->arena, &raw, &add, FW_UNION, &both);
+    fw_status status = fw_geometry_region_boolean(d->arena, &raw, &add, FW_UNION, &both);
     if (status == FW_OK && both.count == 1)
-        status = fw_contour_round(d->arena, &both.contour[0], r, r, &held, &where);
+        status = fw_geometry_contour_round(d->arena, &both.contour[0], r, r, &held, &where);
     if (status == FW_GEOMETRY || (status == FW_OK && both.count != 1)) return FW_OK;
     FW_TRY(status);
     d->raw[body] = both.contour[0];
@@ -150,30 +159,32 @@ static fw_status add_stub(fw_drawing *d, int body, double at, double cut, double
     return FW_OK;
 }
 
-static fw_status try_finger(fw_drawing *d, int body, fw_window_side side, fw_vec2 from,
-                            bool *done) {
-    fw_attachment a = {.body = body};
+static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_side side,
+                            fw_geometry_vec2 from, bool *done) {
+    fw_layout_attachment a = {.body = body};
     bool up = side == FW_LEFT || side == FW_RIGHT;
     double start = up ? from.x : from.y, along = up ? from.y : from.x;
     *done = false;
-    FW_TRY(fw_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
-                         fw_layout_rule.tether_stub_m, &a));
+    FW_TRY(fw_layout_strip_draw(d, side, start, start, along, 0.5 * fw_layout_rule.tether_m,
+                                fw_layout_rule.tether_stub_m, &a));
     if (!leaves_once(d, &a, from) || !finger_is_clear(d, &a.finger, body)) return FW_OK;
-    fw_vec2 edge = fw_window_point(d->layout, side, along, 0.0);
+    fw_geometry_vec2 edge = fw_layout_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
     double cut = neck_depth(d, &a, at, deep);
     if (cut < 50e-6) return FW_OK; /* no length for neck, finger and the frame's stub */
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
     FW_TRY(draw_tether(d, at, cut, &a));
-    return fw_attachment_add(d, &a);
+    return fw_layout_attachment_add(d, &a);
 }
 
-static void sides_by_distance(const fw_layout *l, fw_vec2 p, fw_window_side order[4]) {
+static void sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
+                              fw_layout_window_side order[4]) {
     double far[4];
     for (int i = 0; i < 4; i++) {
-        fw_window_side s = (fw_window_side)i;
-        far[i] = fw_dot(fw_sub(fw_window_point(l, s, 0.0, 0.0), p), fw_window_outward(s));
+        fw_layout_window_side s = (fw_layout_window_side)i;
+        far[i] =
+            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
         int k = i;
         for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
             order[k] = order[k - 1];
@@ -182,16 +193,16 @@ static void sides_by_distance(const fw_layout *l, fw_vec2 p, fw_window_side orde
 }
 
 /* two fingers in mirrored places on the nearest side where that works, else any two, else one */
-static fw_status hold_plate(fw_drawing *d, int body, int *held) {
-    const fw_body *b = &d->device->body[body];
+static fw_status hold_plate(fw_layout_drawing *d, int body, int *held) {
+    const fw_device_body *b = &d->device->body[body];
     static const double place[] = {0.14, 0.22, 0.07, 0.3, 0.38};
-    fw_vec2 middle = fw_v(b->plate_x_m, b->plate_y_m), x = fw_polar(b->plate_angle_rad);
-    fw_window_side order[4];
+    fw_geometry_vec2 middle = fw_v(b->plate_x_m, b->plate_y_m), x = fw_polar(b->plate_angle_rad);
+    fw_layout_window_side order[4];
     sides_by_distance(d->layout, middle, order);
     for (int s = 0; s < 4 && *held < 2; s++) {
-        fw_vec2 out = fw_window_outward(order[s]), y = fw_left(x);
+        fw_geometry_vec2 out = fw_layout_window_outward(order[s]), y = fw_left(x);
         bool across = fabs(fw_dot(out, y)) > fabs(fw_dot(out, x));
-        fw_vec2 along = across ? x : y;
+        fw_geometry_vec2 along = across ? x : y;
         double size = across ? b->plate_width_m : b->plate_height_m;
         for (size_t i = 0; i < sizeof place / sizeof place[0] && *held < 2; i++)
             for (int sign = -1; sign <= 1 && *held < 2; sign += 2) {
@@ -205,15 +216,16 @@ static fw_status hold_plate(fw_drawing *d, int body, int *held) {
 }
 
 /* one finger from the bar of a link, near its middle */
-static fw_status hold_bar(fw_drawing *d, int body, int *held) {
+static fw_status hold_bar(fw_layout_drawing *d, int body, int *held) {
     int joint[2];
     static const double place[] = {0.5, 0.42, 0.58, 0.35, 0.65};
-    if (fw_body_joints(d->device, body, joint, 2) != 2) return FW_OK;
-    fw_vec2 p = fw_joint_point(d->device, joint[0]), q = fw_joint_point(d->device, joint[1]);
-    fw_window_side order[4];
+    if (fw_layout_body_joints(d->device, body, joint, 2) != 2) return FW_OK;
+    fw_geometry_vec2 p = fw_layout_joint_point(d->device, joint[0]),
+                     q = fw_layout_joint_point(d->device, joint[1]);
+    fw_layout_window_side order[4];
     sides_by_distance(d->layout, fw_v(0.5 * (p.x + q.x), 0.5 * (p.y + q.y)), order);
     for (int s = 0; s < 4 && *held < 1; s++) {
-        fw_vec2 along = fw_towards(p, q), out = fw_window_outward(order[s]);
+        fw_geometry_vec2 along = fw_towards(p, q), out = fw_layout_window_outward(order[s]);
         if (fabs(fw_dot(along, out)) > 0.8) continue; /* would run along the bar */
         for (size_t i = 0; i < sizeof place / sizeof place[0] && *held < 1; i++) {
             bool done;
@@ -231,15 +243,15 @@ static bool needs_tether(const fw_device *device, int body) {
     bool plates = false;
     for (int b = 0; b < device->nbody; b++) {
         plates = plates || !isnan(device->body[b].plate_width_m);
-        int steps = fw_steps_to_ground(device, b);
+        int steps = fw_layout_steps_to_ground(device, b);
         most = steps > most ? steps : most;
     }
     return plates ? !isnan(device->body[body].plate_width_m)
-                  : fw_steps_to_ground(device, body) == most;
+                  : fw_layout_steps_to_ground(device, body) == most;
 }
 
 /* a body that no finger reaches freely stays without; a platform without is worth a warning */
-fw_status fw_tethers_draw(fw_drawing *d) {
+fw_status fw_layout_tethers_draw(fw_layout_drawing *d) {
     if (!d->device->die.tethers) return FW_OK;
     for (int b = 0; b < d->device->nbody; b++) {
         bool plate = !isnan(d->device->body[b].plate_width_m);
@@ -250,7 +262,7 @@ fw_status fw_tethers_draw(fw_drawing *d) {
         else
             FW_TRY(hold_bar(d, b, &held));
         if (!plate || held > 0) continue;
-        const char *label = fw_body_label(d, b);
+        const char *label = fw_layout_body_label(d, b);
         FW_NEED(label);
         fw_diag_warning(d->diags, 127, d->device->body[b].place,
                         "%s has no tether: no straight finger of the frame reaches it without "

@@ -7,7 +7,7 @@
 
    Source: AutoCAD Release 12 Customization Manual, chapter 11 (groups and entities). */
 #include "geometry/segment.h"
-#include "mask/notes.h"
+#include "mask/mask_notes.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -116,7 +116,7 @@ static void tables(const fw_mask *mask, const char **name, fw_text *out) {
     group(out, 0, "ENDSEC");
 }
 
-static void vertex(const char *layer, fw_vec2 at, double bulge, fw_text *out) {
+static void vertex(const char *layer, fw_geometry_vec2 at, double bulge, fw_text *out) {
     group(out, 0, "VERTEX");
     group(out, 8, layer);
     real(out, 10, at.x * 1e6, 6);
@@ -128,19 +128,20 @@ static void vertex(const char *layer, fw_vec2 at, double bulge, fw_text *out) {
    most a third of a turn, so that also a whole circle has three vertices. In: m. Out: um to 1e-9,
    bulge to 1e-15: the reader's arc stays within 1e-9 um of ours, its radius within 1e-9 of itself
    for sweeps above 0.1 rad. Source: DXF reference, group 42. Test: test_dxf.c. */
-static void segment(const char *layer, const fw_segment *s, fw_text *out) {
+static void segment(const char *layer, const fw_geometry_segment *s, fw_text *out) {
     if (s->kind == FW_LINE) {
         vertex(layer, s->a, 0, out);
         return;
     }
     int parts = (int)ceil(fabs(s->sweep_rad) / (FW_TURN / 3) - 1e-9);
     for (int i = 0; i < parts; i++) {
-        fw_vec2 r = fw_vec_rotate(vec_sub(s->a, s->centre), s->sweep_rad * i / parts);
+        fw_geometry_vec2 r =
+            fw_geometry_vec_rotate(vec_sub(s->a, s->centre), s->sweep_rad * i / parts);
         vertex(layer, i ? vec_add(s->centre, r) : s->a, tan(s->sweep_rad / parts / 4), out);
     }
 }
 
-static void outline(const char *layer, const fw_contour *c, fw_text *out) {
+static void outline(const char *layer, const fw_geometry_contour *c, fw_text *out) {
     group(out, 0, "POLYLINE");
     group(out, 8, layer);
     whole(out, 66, 1); /* vertices follow */

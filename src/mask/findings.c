@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Findings as messages: the worst few of each rule, with their number. */
 #include "mask/rule.h"
-#include "mask/rules.h"
+#include "mask/mask_rules.h"
 #include <stdlib.h>
 
 enum { MOST_TOLD = 4 }; /* of one rule */
@@ -33,13 +33,13 @@ static const char *pieces(fw_arena *arena, const fw_mask_finding *f) {
 
 static const char *sentence(fw_arena *arena, const fw_mask_layer *layer, const fw_mask_finding *f) {
     const fw_mask_rule *rule = f->rule;
-    const fw_rule_row *kind = rule->kind;
-    const char *who = pieces(arena, f), *unit = fw_rule_unit_name(kind);
+    const fw_mask_rule_kind_row *kind = rule->kind;
+    const char *who = pieces(arena, f), *unit = fw_mask_rule_unit_name(kind);
     char at[80], value[32], needed[32], limit[32];
     fw_mask_place_text(at, sizeof at, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
-    fw_number_text(value, sizeof value, fw_rule_shown(kind, f->value), 6);
-    fw_number_text(needed, sizeof needed, fw_rule_shown(kind, f->needed), 6);
-    fw_number_text(limit, sizeof limit, fw_rule_shown(kind, f->limit), 6);
+    fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 6);
+    fw_number_text(needed, sizeof needed, fw_mask_rule_row_shown(kind, f->needed), 6);
+    fw_number_text(limit, sizeof limit, fw_mask_rule_row_shown(kind, f->limit), 6);
     if (!who) return NULL;
     if (kind->built_in)
         return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s", who,
@@ -51,7 +51,7 @@ static const char *sentence(fw_arena *arena, const fw_mask_layer *layer, const f
         rule->formula ? ", " : "", rule->formula ? rule->formula : "", rule->source, kind->advice);
 }
 
-static fw_status tell(fw_rules *r, const fw_mask_finding *f, fw_diags *diags) {
+static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
     const char *text = sentence(r->arena, &r->table->layer[f->rule->layer], f);
     FW_NEED(text);
     fw_place place = {0};
@@ -62,7 +62,7 @@ static fw_status tell(fw_rules *r, const fw_mask_finding *f, fw_diags *diags) {
     return FW_OK;
 }
 
-static void tell_rest(const fw_rules *r, const fw_mask_rule *rule, int more, fw_diags *diags) {
+static void tell_rest(const fw_mask_rules *r, const fw_mask_rule *rule, int more, fw_diags *diags) {
     fw_place place = {0};
     const char *layer = r->table->layer[rule->layer].name, *flow = r->table->flow;
     fw_diag_note(diags, 159, place,
@@ -72,7 +72,7 @@ static void tell_rest(const fw_rules *r, const fw_mask_rule *rule, int more, fw_
                  more, layer, rule->kind->name, flow);
 }
 
-fw_status fw_rules_tell(fw_rules *r, fw_diags *diags, int *nbroken) {
+fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
     *nbroken = 0;
     const fw_mask_finding **list =
         fw_arena_alloc(r->arena, (size_t)r->nfinding, sizeof(const fw_mask_finding *));

@@ -7,6 +7,6 @@
 /* the highest layer up to 60 that the table does not use */
 int fw_mask_marker_layer(const fw_mask_table *table);
 /* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */
-fw_box fw_mask_marker(const fw_mask_finding *finding);
+fw_geometry_box fw_mask_marker(const fw_mask_finding *finding);
 
 #endif

@@ -29,7 +29,7 @@ static void text_value(fw_text *out, const char *name, const char *s) {
     fw_text_add(out, "'</value>\n");
 }
 
-static void numbers(fw_text *out, fw_vec2 p, fw_vec2 q) {
+static void numbers(fw_text *out, fw_geometry_vec2 p, fw_geometry_vec2 q) {
     fw_text_add(out, "(");
     fw_text_number(out, p.x * 1e6, 12);
     fw_text_add(out, ",");
@@ -68,8 +68,8 @@ static void category(fw_text *out, const fw_mask *mask, const fw_mask_finding *f
     fw_text_add(out, ": ");
     xml(out, f->rule->kind->name);
     fw_text_add(out, ", limit ");
-    fw_text_number(out, fw_rule_shown(f->rule->kind, f->limit), 6);
-    fw_text_printf(out, " %s; ", fw_rule_unit_name(f->rule->kind));
+    fw_text_number(out, fw_mask_rule_row_shown(f->rule->kind, f->limit), 6);
+    fw_text_printf(out, " %s; ", fw_mask_rule_unit_name(f->rule->kind));
     xml(out, f->rule->source);
     fw_text_add(out, "</description>\n   <categories>\n   </categories>\n  </category>\n");
 }
@@ -81,19 +81,20 @@ static void item(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
                    "'</category>\n   <cell>%s</cell>\n   <visited>false</visited>\n"
                    "   <multiplicity>1</multiplicity>\n   <image/>\n   <values>\n",
                    mask->cell);
-    fw_box b = fw_mask_marker(f);
-    fw_vec2 low = {b.x0, b.y0}, high = {b.x1, b.y1};
+    fw_geometry_box b = fw_mask_marker(f);
+    fw_geometry_vec2 low = {b.x0, b.y0}, high = {b.x1, b.y1};
     bool chord = !vec_same(f->at[0], f->at[1]) && f->rule->kind->unit == FW_UNIT_LENGTH;
     fw_text_add(out, chord ? "    <value>edge: " : "    <value>box: ");
     numbers(out, chord ? f->at[0] : low, chord ? f->at[1] : high);
     fw_text_add(out, "</value>\n");
     if (chord) {
         fw_text_add(out, "    <value>box: ");
-        numbers(out, (fw_vec2){f->box.x0, f->box.y0}, (fw_vec2){f->box.x1, f->box.y1});
+        numbers(out, (fw_geometry_vec2){f->box.x0, f->box.y0},
+                (fw_geometry_vec2){f->box.x1, f->box.y1});
         fw_text_add(out, "</value>\n");
     }
     char value[32];
-    fw_number_text(value, sizeof value, fw_rule_shown(f->rule->kind, f->value), 9);
+    fw_number_text(value, sizeof value, fw_mask_rule_row_shown(f->rule->kind, f->value), 9);
     text_value(out, f->what, "");
     fw_text_printf(out, "    <value>float: %s</value>\n", value);
     for (int i = 0; i < 2 && f->label[i]; i++)

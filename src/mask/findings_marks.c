@@ -21,12 +21,12 @@ int fw_mask_marker_layer(const fw_mask_table *table) {
     return HIGHEST;
 }
 
-fw_box fw_mask_marker(const fw_mask_finding *f) {
-    const fw_rule_row *kind = f->rule->kind;
+fw_geometry_box fw_mask_marker(const fw_mask_finding *f) {
+    const fw_mask_rule_kind_row *kind = f->rule->kind;
     if (kind->unit == FW_UNIT_SHARE || kind->unit == FW_UNIT_AREA) return f->box;
     double more = fmax(LEAST_M, vec_distance(f->at[0], f->at[1]));
-    fw_box b = fw_box_around(f->at[0], f->at[1]);
-    return (fw_box){b.x0 - more, b.y0 - more, b.x1 + more, b.y1 + more};
+    fw_geometry_box b = fw_mask_box_around(f->at[0], f->at[1]);
+    return (fw_geometry_box){b.x0 - more, b.y0 - more, b.x1 + more, b.y1 + more};
 }
 
 /* what lies beyond 2^30 nm is refused, but there can be findings all the same */
@@ -35,26 +35,27 @@ static int32_t on_grid(double x_dbu) {
 }
 
 static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_mask_shape *out) {
-    fw_box b = fw_mask_marker(f);
+    fw_geometry_box b = fw_mask_marker(f);
     int32_t x0 = on_grid(floor(b.x0 / GRID_M)), x1 = on_grid(ceil(b.x1 / GRID_M));
     int32_t y0 = on_grid(floor(b.y0 / GRID_M)), y1 = on_grid(ceil(b.y1 / GRID_M));
-    fw_piece *piece = fw_arena_one(arena, fw_piece);
+    fw_layout_piece *piece = fw_arena_one(arena, fw_layout_piece);
     FW_NEED(piece);
-    *piece = (fw_piece){.role = FW_ROLE_MARK, .body = FW_NONE, .joint = FW_NONE, .label = f->what};
-    fw_point *v = fw_arena_array(arena, fw_point, 4);
+    *piece = (fw_layout_piece){
+        .role = FW_ROLE_MARK, .body = FW_NONE, .joint = FW_NONE, .label = f->what};
+    fw_geometry_point *v = fw_arena_array(arena, fw_geometry_point, 4);
     FW_NEED(v);
-    v[0] = (fw_point){x0, y0}, v[1] = (fw_point){x1, y0};
-    v[2] = (fw_point){x1, y1}, v[3] = (fw_point){x0, y1};
+    v[0] = (fw_geometry_point){x0, y0}, v[1] = (fw_geometry_point){x1, y0};
+    v[2] = (fw_geometry_point){x1, y1}, v[3] = (fw_geometry_point){x0, y1};
     *out = (fw_mask_shape){.layer = layer, .piece = piece, .polygon = {v, 4}};
-    fw_box grid = {x0 * GRID_M, y0 * GRID_M, x1 * GRID_M, y1 * GRID_M};
-    return fw_contour_rectangle(arena, grid, &out->contour);
+    fw_geometry_box grid = {x0 * GRID_M, y0 * GRID_M, x1 * GRID_M, y1 * GRID_M};
+    return fw_geometry_contour_rectangle(arena, grid, &out->contour);
 }
 
 /* the table with a marker layer for each kind that was found; by[kind's marker]: its index */
 static fw_status marked_table(fw_arena *arena, const fw_mask *mask, int by[64],
                               fw_mask_table *table) {
     size_t kinds = 0;
-    while (fw_rule_kind_at(kinds))
+    while (fw_mask_rule_kind_at(kinds))
         kinds++;
     *table = *mask->table;
     table->layer = fw_arena_array(arena, fw_mask_layer, (size_t)table->nlayer + kinds);
@@ -62,7 +63,7 @@ static fw_status marked_table(fw_arena *arena, const fw_mask *mask, int by[64],
     memcpy(table->layer, mask->table->layer, (size_t)table->nlayer * sizeof *table->layer);
     int number = fw_mask_marker_layer(mask->table);
     for (size_t i = 0; i < kinds; i++) {
-        const fw_rule_row *kind = fw_rule_kind_at(i);
+        const fw_mask_rule_kind_row *kind = fw_mask_rule_kind_at(i);
         by[kind->marker] = -1;
         for (int k = 0; k < mask->nfinding && by[kind->marker] < 0; k++)
             if (mask->finding[k].rule->kind == kind) by[kind->marker] = table->nlayer;
@@ -100,7 +101,7 @@ fw_status fw_mask_marked(fw_arena *arena, const fw_mask *mask, const fw_mask **m
         const fw_mask_finding *f = &mask->finding[i];
         fw_mask_shape *shape = &m->shape[m->nshape++];
         FW_TRY(mark(arena, f, by[f->rule->kind->marker], shape));
-        m->box = fw_box_join(m->box, fw_contour_box(&shape->contour));
+        m->box = fw_box_join(m->box, fw_geometry_contour_box(&shape->contour));
     }
     *marked = m;
     return FW_OK;

@@ -1,26 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/flatten.h"
+#include "mask/mask_flatten.h"
 #include <string.h>
 
 static const char *const names[] = {
     [FW_FLATTEN_INSIDE] = "inside", [FW_FLATTEN_EQUAL_AREA] = "equal-area"};
 
-bool fw_mask_flattening_named(const char *name, fw_flattening *kind) {
+bool fw_mask_flattening_named(const char *name, fw_geometry_flattening *kind) {
     *kind = FW_FLATTEN_INSIDE;
     if (!name || !*name) return true;
     for (int k = 0; k < 2; k++)
         if (strcmp(name, names[k]) == 0) {
-            *kind = (fw_flattening)k;
+            *kind = (fw_geometry_flattening)k;
             return true;
         }
     return false;
 }
 
-const char *fw_mask_flattening_name(fw_flattening kind) {
+const char *fw_mask_flattening_name(fw_geometry_flattening kind) {
     return names[kind];
 }
 
-void fw_mask_set_flattening(fw_mask_shape *shape, int nshape, fw_flattening kind) {
+void fw_mask_set_flattening(fw_mask_shape *shape, int nshape, fw_geometry_flattening kind) {
     for (int k = 0; k < nshape; k++)
         shape[k].flattening = kind;
 }
@@ -29,18 +29,18 @@ void fw_mask_set_flattening(fw_mask_shape *shape, int nshape, fw_flattening kind
    where a microscope finds it. Where a chord square on both, or at an end, is shorter than that, it
    is the one. In: two edges. Out: the chord. Error: some ulp of the coordinates. Cost: 65 feet.
    Test: test_mask_flatten.c. */
-fw_chord fw_mask_narrowest(const fw_segment *p, const fw_segment *q) {
-    fw_chord best = {0}, exact[FW_MOST_CHORDS];
+fw_geometry_chord fw_mask_narrowest(const fw_geometry_segment *p, const fw_geometry_segment *q) {
+    fw_geometry_chord best = {0}, exact[FW_MOST_CHORDS];
     double least = HUGE_VAL;
     for (int k = 0; k <= 64; k++) {
-        fw_chord c = {.tp = 0.5 + (k % 2 ? 1 : -1) * ((k + 1) / 2) / 64.0};
-        c.at_p = fw_segment_point(p, c.tp);
-        double length = fw_segment_nearest(q, c.at_p, &c.tq, &c.at_q);
+        fw_geometry_chord c = {.tp = 0.5 + (k % 2 ? 1 : -1) * ((k + 1) / 2) / 64.0};
+        c.at_p = fw_geometry_segment_point(p, c.tp);
+        double length = fw_geometry_segment_nearest(q, c.at_p, &c.tq, &c.at_q);
         if (length > least - FW_COINCIDENT_M) continue;
         least = length;
         best = c;
     }
-    int n = fw_segment_chords(p, q, exact);
+    int n = fw_geometry_segment_chords(p, q, exact);
     for (int k = 0; k < n; k++) {
         double length = vec_distance(exact[k].at_p, exact[k].at_q);
         if (length > least - FW_COINCIDENT_M || length <= FW_COINCIDENT_M) continue;
@@ -52,7 +52,7 @@ fw_chord fw_mask_narrowest(const fw_segment *p, const fw_segment *q) {
 
 /* Can the arc be divided at t without a part so short that rounding turns its corners? A part of
    one chord needs the sagitta R (1 - cos(w/2)) >= g sqrt 2 / 4 (docs/theory/contours.md). */
-static bool divisible(const fw_segment *s, double t) {
+static bool divisible(const fw_geometry_segment *s, double t) {
     const double least_m = 0.36e-9;
     if (s->kind != FW_ARC || !(t > 0 && t < 1)) return false;
     double sine = sin(0.25 * fmin(t, 1 - t) * fabs(s->sweep_rad));
@@ -60,26 +60,27 @@ static bool divisible(const fw_segment *s, double t) {
 }
 
 /* the outline with one more end on each of two arcs */
-static fw_status divide(fw_arena *arena, const fw_contour *c, const int segment[2],
-                        const double t[2], const fw_vec2 at[2], fw_contour *out) {
+static fw_status divide(fw_arena *arena, const fw_geometry_contour *c, const int segment[2],
+                        const double t[2], const fw_geometry_vec2 at[2], fw_geometry_contour *out) {
     int n = 0;
-    FW_NEED(out->segment = fw_arena_array(arena, fw_segment, (size_t)c->count + 2));
+    FW_NEED(out->segment = fw_arena_array(arena, fw_geometry_segment, (size_t)c->count + 2));
     for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
+        const fw_geometry_segment *s = &c->segment[i];
         int k = i == segment[0] ? 0 : i == segment[1] ? 1 : -1;
         if (k < 0 || !divisible(s, t[k])) {
             out->segment[n++] = *s;
             continue;
         }
-        out->segment[n++] = fw_segment_cut(s, 0, s->a, t[k], at[k]);
-        out->segment[n++] = fw_segment_cut(s, t[k], at[k], 1, s->b);
+        out->segment[n++] = fw_geometry_segment_cut(s, 0, s->a, t[k], at[k]);
+        out->segment[n++] = fw_geometry_segment_cut(s, t[k], at[k], 1, s->b);
     }
     out->count = n;
     return FW_OK;
 }
 
 /* the vertex that a place became; false: there is none within the rounding */
-static bool vertex_at(const fw_polygon *p, fw_vec2 at, fw_point *vertex) {
+static bool vertex_at(const fw_geometry_polygon *p, fw_geometry_vec2 at,
+                      fw_geometry_point *vertex) {
     for (int i = 0; i < p->count; i++) {
         double x = p->vertex[i].x_dbu - at.x * 1e9, y = p->vertex[i].y_dbu - at.y * 1e9;
         if (!(fabs(x) <= 0.5 + 1e-6 && fabs(y) <= 0.5 + 1e-6)) continue;
@@ -90,37 +91,37 @@ static bool vertex_at(const fw_polygon *p, fw_vec2 at, fw_point *vertex) {
 }
 
 /* the narrowest place of a flexure; false: it has none (no two edges face each other) */
-static bool find_neck(const fw_contour *c, int segment[2], fw_chord *chord) {
-    if (!isfinite(fw_contour_clearance(c, true, &segment[0], &segment[1])) || segment[0] < 0 ||
-        segment[0] == segment[1])
+static bool find_neck(const fw_geometry_contour *c, int segment[2], fw_geometry_chord *chord) {
+    if (!isfinite(fw_geometry_contour_clearance(c, true, &segment[0], &segment[1])) ||
+        segment[0] < 0 || segment[0] == segment[1])
         return false;
     *chord = fw_mask_narrowest(&c->segment[segment[0]], &c->segment[segment[1]]);
     return true;
 }
 
 fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m,
-                          fw_wavy_arc *wavy) {
+                          fw_mask_wavy_arc *wavy) {
     int segment[2];
-    fw_chord chord;
-    fw_contour contour = shape->contour;
-    fw_flat_bounds bounds;
+    fw_geometry_chord chord;
+    fw_geometry_contour contour = shape->contour;
+    fw_geometry_flat_bounds bounds;
     fw_mask_neck *neck = &shape->neck;
     *neck = (fw_mask_neck){0};
-    *wavy = (fw_wavy_arc){.there = false};
+    *wavy = (fw_mask_wavy_arc){.there = false};
     if (shape->piece->role == FW_ROLE_FLEXURE && find_neck(&shape->contour, segment, &chord)) {
         *neck = (fw_mask_neck){.at = {chord.at_p, chord.at_q}, .there = true};
         FW_TRY(divide(arena, &shape->contour, segment, (double[]){chord.tp, chord.tq}, neck->at,
                       &contour));
     }
-    fw_status status =
-        fw_flatten(arena, &contour, tolerance_m, shape->flattening, &shape->polygon, &bounds);
+    fw_status status = fw_geometry_flatten(arena, &contour, tolerance_m, shape->flattening,
+                                           &shape->polygon, &bounds);
     if (status == FW_GEOMETRY && bounds.wavy >= 0 && contour.count != shape->contour.count) {
         contour = shape->contour; /* the parts of an arc are shorter than it is */
-        status =
-            fw_flatten(arena, &contour, tolerance_m, shape->flattening, &shape->polygon, &bounds);
+        status = fw_geometry_flatten(arena, &contour, tolerance_m, shape->flattening,
+                                     &shape->polygon, &bounds);
     }
     if (status == FW_GEOMETRY && bounds.wavy >= 0)
-        *wavy = (fw_wavy_arc){true, contour.segment[bounds.wavy], bounds.next_m};
+        *wavy = (fw_mask_wavy_arc){true, contour.segment[bounds.wavy], bounds.next_m};
     FW_TRY(status);
     shape->bound_m2 = bounds.area_m2;
     shape->edge_m = bounds.edge_m;
@@ -132,11 +133,11 @@ fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double toleranc
 void fw_mask_measure_start(fw_mask_measure *m) {
     m->shortest_edge_m = m->sharpest_rad = HUGE_VAL;
     m->sharpest_material_rad = m->sharpest_space_rad = HUGE_VAL;
-    m->box = (fw_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    m->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 }
 
 void fw_mask_measure_add(fw_mask_measure *m, const fw_mask_shape *s) {
-    const fw_polygon_report *r = &s->report;
+    const fw_geometry_polygon_report *r = &s->report;
     m->shortest_edge_m = fmin(m->shortest_edge_m, r->shortest_edge_m);
     m->sharpest_rad = fmin(m->sharpest_rad, r->sharpest_rad);
     m->sharpest_material_rad = fmin(m->sharpest_material_rad, r->sharpest_material_rad);
@@ -145,10 +146,10 @@ void fw_mask_measure_add(fw_mask_measure *m, const fw_mask_shape *s) {
     m->straight += r->straight;
     int32_t x0 = INT32_MAX, y0 = INT32_MAX, x1 = INT32_MIN, y1 = INT32_MIN;
     for (int i = 0; i < s->polygon.count; i++) {
-        fw_point p = s->polygon.vertex[i];
+        fw_geometry_point p = s->polygon.vertex[i];
         x0 = p.x_dbu < x0 ? p.x_dbu : x0, x1 = p.x_dbu > x1 ? p.x_dbu : x1;
         y0 = p.y_dbu < y0 ? p.y_dbu : y0, y1 = p.y_dbu > y1 ? p.y_dbu : y1;
     }
-    m->box = (fw_box){fmin(m->box.x0, 1e-9 * x0), fmin(m->box.y0, 1e-9 * y0),
-                      fmax(m->box.x1, 1e-9 * x1), fmax(m->box.y1, 1e-9 * y1)};
+    m->box = (fw_geometry_box){fmin(m->box.x0, 1e-9 * x0), fmin(m->box.y0, 1e-9 * y0),
+                               fmax(m->box.x1, 1e-9 * x1), fmax(m->box.y1, 1e-9 * y1)};
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/rules.h"
+#include "mask/mask_rules.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -7,20 +7,20 @@ static const double SAME_M = 1e-12;
 static const double GRID_M = 1e-9;
 static const fw_place nowhere;
 
-const char *fw_mask_place_text(char *text, size_t n, fw_vec2 at) {
+const char *fw_mask_place_text(char *text, size_t n, fw_geometry_vec2 at) {
     char x[32], y[32];
     snprintf(text, n, "(%s, %s) um", fw_number_text(x, sizeof x, at.x * 1e6, 7),
              fw_number_text(y, sizeof y, at.y * 1e6, 7));
     return text;
 }
 
-typedef struct joint {  /* one JOINT segment of one shape */
-    int shape, segment; /* segment of the biased contour */
-    fw_vec2 a, b;       /* drawn ends */
-    int partner;        /* -1: none yet */
+typedef struct joint {     /* one JOINT segment of one shape */
+    int shape, segment;    /* segment of the biased contour */
+    fw_geometry_vec2 a, b; /* drawn ends */
+    int partner;           /* -1: none yet */
 } joint;
 
-static int next_joint(const fw_contour *c, int from) {
+static int next_joint(const fw_geometry_contour *c, int from) {
     for (int i = from; i < c->count; i++)
         if (c->segment[i].flags & FW_SEGMENT_JOINT) return i;
     return -1;
@@ -39,7 +39,7 @@ static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int ns
     FW_NEED(list);
     *count = 0;
     for (int s = 0; s < nshape; s++) {
-        const fw_contour *drawn = &shape[s].piece->contour, *biased = &shape[s].contour;
+        const fw_geometry_contour *drawn = &shape[s].piece->contour, *biased = &shape[s].contour;
         int i = next_joint(drawn, 0), k = next_joint(biased, 0);
         for (; i >= 0 && k >= 0; i = next_joint(drawn, i + 1), k = next_joint(biased, k + 1))
             list[(*count)++] = (joint){s, k, drawn->segment[i].a, drawn->segment[i].b, -1};
@@ -49,11 +49,11 @@ static fw_status list_joints(fw_arena *arena, const fw_mask_shape *shape, int ns
     return FW_OK;
 }
 
-static bool same(fw_vec2 p, fw_vec2 q) {
+static bool same(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x == q.x && p.y == q.y;
 }
 
-static double apart(fw_vec2 p, fw_vec2 q) {
+static double apart(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return hypot(p.x - q.x, p.y - q.y);
 }
 
@@ -67,7 +67,7 @@ static void pair_up(const fw_mask_shape *shape, joint *list, int count) {
             }
 }
 
-static void set_start(fw_contour *c, int i, fw_vec2 at) {
+static void set_start(fw_geometry_contour *c, int i, fw_geometry_vec2 at) {
     c->segment[i].a = at;
     c->segment[(i + c->count - 1) % c->count].b = at;
 }
@@ -75,7 +75,7 @@ static void set_start(fw_contour *c, int i, fw_vec2 at) {
 static void no_partner(fw_diags *diags, const fw_mask_shape *shape, const joint *j,
                        const char *why) {
     char at[80];
-    fw_vec2 middle = {0.5 * (j->a.x + j->b.x), 0.5 * (j->a.y + j->b.y)};
+    fw_geometry_vec2 middle = {0.5 * (j->a.x + j->b.x), 0.5 * (j->a.y + j->b.y)};
     fw_diag_error(diags, 146, nowhere,
                   "the joint of %s at %s %s; give both pieces the same edge and the same width "
                   "there",
@@ -96,9 +96,9 @@ fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_dia
         }
         if (p->partner < i) continue;
         const joint *q = &list[p->partner];
-        fw_contour *c = &shape[q->shape].contour;
-        const fw_segment *from = &shape[p->shape].contour.segment[p->segment];
-        fw_segment *to = &c->segment[q->segment];
+        fw_geometry_contour *c = &shape[q->shape].contour;
+        const fw_geometry_segment *from = &shape[p->shape].contour.segment[p->segment];
+        fw_geometry_segment *to = &c->segment[q->segment];
         if (!(apart(from->a, to->b) <= SAME_M && apart(from->b, to->a) <= SAME_M)) {
             no_partner(diags, &shape[p->shape], p, "does not fit its partner after bias");
             continue;
@@ -112,15 +112,16 @@ fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_dia
 }
 
 /* the polygon's edge whose ends round from a and b; false when there is none */
-static bool edge_at(const fw_polygon *polygon, fw_vec2 a, fw_vec2 b, fw_point *u, fw_point *v) {
+static bool edge_at(const fw_geometry_polygon *polygon, fw_geometry_vec2 a, fw_geometry_vec2 b,
+                    fw_geometry_point *u, fw_geometry_point *v) {
     double x = a.x / GRID_M; /* within the grid's range */
     int32_t low = (int32_t)floor(x) - 2, high = low + 5;
     for (int i = 0; i < polygon->count; i++) {
-        fw_point s = polygon->vertex[i];
+        fw_geometry_point s = polygon->vertex[i];
         if (s.x_dbu < low || s.x_dbu > high) continue; /* as nearly all are */
-        fw_point e = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
-        fw_vec2 ps = {s.x_dbu * GRID_M, s.y_dbu * GRID_M},
-                pe = {e.x_dbu * GRID_M, e.y_dbu * GRID_M};
+        fw_geometry_point e = polygon->vertex[i + 1 < polygon->count ? i + 1 : 0];
+        fw_geometry_vec2 ps = {s.x_dbu * GRID_M, s.y_dbu * GRID_M},
+                         pe = {e.x_dbu * GRID_M, e.y_dbu * GRID_M};
         if (fabs(ps.x - a.x) < GRID_M && apart(ps, a) < GRID_M && apart(pe, b) < GRID_M) {
             *u = s;
             *v = e;
@@ -141,8 +142,8 @@ fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int 
         const joint *p = &list[i];
         if (p->partner < i) continue;
         const joint *q = &list[p->partner];
-        const fw_segment *s = &shape[p->shape].contour.segment[p->segment];
-        fw_point u, v, x, y;
+        const fw_geometry_segment *s = &shape[p->shape].contour.segment[p->segment];
+        fw_geometry_point u, v, x, y;
         bool found = edge_at(&shape[p->shape].polygon, s->a, s->b, &u, &v) &&
                      edge_at(&shape[q->shape].polygon, s->b, s->a, &x, &y);
         if (!found || u.x_dbu != y.x_dbu || u.y_dbu != y.y_dbu || v.x_dbu != x.x_dbu ||

@@ -12,7 +12,7 @@
 typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
     int layer, datatype;
     const char *id, *name, *purpose, *tone, *colour; /* tone: "data clear" or "data dark" */
-    unsigned roles;                                  /* bit per fw_role drawn on it */
+    unsigned roles;                                  /* bit per fw_layout_role drawn on it */
     bool biased;                                     /* the process bias applies */
     double min_width_m, min_space_m;                 /* design rule; 0 = none */
     const char *rule_source;
@@ -21,15 +21,15 @@ typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
 } fw_mask_layer;
 
 /* ---- design rules: rows of the table, and what breaks them ---- */
-struct fw_rule_row;       /* a kind of rule: rule.h */
-enum {                    /* what a rule looks at, where it can look at several things */
-       FW_OF_OUTLINE = 1, /* exact lines and arcs */
-       FW_OF_POLYGON = 2, /* what is written */
+struct fw_mask_rule_kind_row; /* a kind of rule: rule.h */
+enum {                        /* what a rule looks at, where it can look at several things */
+       FW_OF_OUTLINE = 1,     /* exact lines and arcs */
+       FW_OF_POLYGON = 2,     /* what is written */
        FW_OF_ISLAND = 4,
        FW_OF_HOLE = 8,
 };
 typedef struct fw_mask_rule {
-    const struct fw_rule_row *kind;
+    const struct fw_mask_rule_kind_row *kind;
     int layer, other;        /* indices into table->layer; other -1: the rule has one layer */
     double least, most;      /* m, rad, m2 or a share; 0 and INFINITY: not asked for */
     double window_m, step_m; /* of a density */
@@ -43,11 +43,12 @@ typedef struct fw_mask_rule {
 typedef struct fw_mask_finding { /* one place where a rule is broken */
     const fw_mask_rule *rule;
     const char *what; /* "width", "space", "corner", ... */
-    fw_vec2 at[2]; /* the two ends of the worst chord or edge; twice the same point of a corner */
-    fw_box box;    /* all of the place, m */
-    double value;  /* in the rule's unit */
-    double limit;  /* what the rule says */
-    double needed; /* the same and what the 1 nm grid takes away */
+    fw_geometry_vec2
+        at[2]; /* the two ends of the worst chord or edge; twice the same point of a corner */
+    fw_geometry_box box;  /* all of the place, m */
+    double value;         /* in the rule's unit */
+    double limit;         /* what the rule says */
+    double needed;        /* the same and what the 1 nm grid takes away */
     const char *label[2]; /* pieces; NULL: none */
     int edge[2];          /* of their outlines; -1: none */
 } fw_mask_finding;
@@ -60,30 +61,30 @@ typedef struct fw_mask_table {
     const char *plate;  /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
     fw_mask_rule *rule; /* (nrule) rows <rule>; the rules of <layer> itself are not among them */
     int nrule;
-    const fw_pattern *pattern; /* (npattern) of the test die, in the order of the file */
+    const fw_layout_pattern *pattern; /* (npattern) of the test die, in the order of the file */
     int npattern;
 } fw_mask_table;
 
 typedef struct fw_mask_neck { /* the narrowest place of a flexure */
     bool there;
-    fw_vec2 at[2];      /* ends of the chord on the exact outline */
-    bool on_vertex[2];  /* a vertex is there: on arcs always, on lines where they end */
-    fw_point vertex[2]; /* it, where it is */
+    fw_geometry_vec2 at[2];      /* ends of the chord on the exact outline */
+    bool on_vertex[2];           /* a vertex is there: on arcs always, on lines where they end */
+    fw_geometry_point vertex[2]; /* it, where it is */
 } fw_mask_neck;
 
 typedef struct fw_mask_shape {
     int layer; /* index into table->layer */
-    const fw_piece *piece;
-    fw_contour contour;       /* biased, exact */
-    fw_box box;               /* of it */
-    fw_polygon polygon;       /* flattened */
-    fw_polygon *part;         /* (npart) the same, cut to the vertex limit of GDSII */
-    int npart;                /* 0: not cut, `polygon` itself */
-    double cut_clear_dbu;     /* no cut is nearer to another vertex; INFINITY: no cut */
-    fw_polygon_report report; /* of the polygon, exact integers */
-    double area_m2, bound_m2; /* of the contour; what flattening may change */
-    double polygon_area_m2;   /* exact, of the polygon */
-    fw_flattening flattening;
+    const fw_layout_piece *piece;
+    fw_geometry_contour contour;       /* biased, exact */
+    fw_geometry_box box;               /* of it */
+    fw_geometry_polygon polygon;       /* flattened */
+    fw_geometry_polygon *part;         /* (npart) the same, cut to the vertex limit of GDSII */
+    int npart;                         /* 0: not cut, `polygon` itself */
+    double cut_clear_dbu;              /* no cut is nearer to another vertex; INFINITY: no cut */
+    fw_geometry_polygon_report report; /* of the polygon, exact integers */
+    double area_m2, bound_m2;          /* of the contour; what flattening may change */
+    double polygon_area_m2;            /* exact, of the polygon */
+    fw_geometry_flattening flattening;
     double edge_m; /* farthest that an edge of the polygon is from the contour, at most */
     fw_mask_neck neck;
 } fw_mask_shape;
@@ -92,14 +93,14 @@ typedef struct fw_mask_measure { /* per layer */
     int shapes, vertices;
     double area_m2, polygon_area_m2, bound_m2; /* exact contours, flattened, proven difference */
     double perimeter_m;                        /* of the union: joints are not counted */
-    double width_m, space_m;              /* least exact ones, square on edges or at corners, below
+    double width_m, space_m; /* least exact ones, square on edges or at corners, below
                                              FW_MASK_LOOK_M; INFINITY beyond */
-    fw_vec2 width_at[2], space_at[2];     /* ends of these chords */
-    double shortest_edge_m, sharpest_rad; /* of the polygons; INFINITY without any */
+    fw_geometry_vec2 width_at[2], space_at[2];        /* ends of these chords */
+    double shortest_edge_m, sharpest_rad;             /* of the polygons; INFINITY without any */
     double sharpest_material_rad, sharpest_space_rad; /* its two sides */
-    double edge_m; /* farthest that an edge of a polygon is from its outline, at most */
-    int straight;  /* vertices exactly between their neighbours */
-    fw_box box;    /* of the polygons, on the grid; x0 > x1 without any */
+    double edge_m;       /* farthest that an edge of a polygon is from its outline, at most */
+    int straight;        /* vertices exactly between their neighbours */
+    fw_geometry_box box; /* of the polygons, on the grid; x0 > x1 without any */
 } fw_mask_measure;
 #define FW_MASK_LOOK_M 100e-6
 
@@ -120,9 +121,9 @@ typedef struct fw_mask {
     fw_mask_shape *shape; /* (nshape) */
     int nshape;
     double bias_m, tolerance_m;
-    fw_flattening flattening;
+    fw_geometry_flattening flattening;
     double thickness_m; /* of the device, for solids; 0: not known */
-    fw_box box;
+    fw_geometry_box box;
     int vertex_limit;  /* of one GDSII boundary */
     bool rejected;     /* every file says REJECTED */
     const char **note; /* (nnote) lines written on the documentation layer */
@@ -136,21 +137,22 @@ typedef struct fw_mask {
     bool whole;  /* every polygon is there and proven */
 } fw_mask;
 
-typedef struct fw_plate_term { /* a layer, and how it joins what stands before it; the first: OR */
+typedef struct
+    fw_mask_plate_term { /* a layer, and how it joins what stands before it; the first: OR */
     int layer;
-    fw_set_rule rule;
-} fw_plate_term;
+    fw_geometry_set_rule rule;
+} fw_mask_plate_term;
 /* what the plate draws, from the left: the terms of table->plate, or the biased layers where it is
    not said */
-fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table, fw_plate_term **term,
-                              int *n);
+fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
+                              fw_mask_plate_term **term, int *n);
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                              fw_diags *diags, fw_mask_table *table);
 typedef struct fw_mask_options {
     double bias_m, tolerance_m; /* 0 tolerance: 5 nm */
     int vertex_limit;           /* 0: 4094; else 8 to 8190 */
-    fw_flattening flattening;
+    fw_geometry_flattening flattening;
     double thickness_m; /* of the device */
     bool rejected;
     const char *title;
@@ -173,18 +175,18 @@ fw_status fw_mask_build(fw_arena *arena, const fw_layout *layout, const fw_mask_
 /* ---- the test die: the patterns of the table on a die of the device's size ---- */
 typedef struct fw_mask_coupons {
     const fw_mask *mask; /* as any other: written, certified and placed on a wafer likewise */
-    const fw_content *content;
+    const fw_layout_content *content;
 } fw_mask_coupons;
-typedef struct fw_coupon_options {
-    fw_box die;             /* with its lane: layout->die of the device */
+typedef struct fw_mask_coupon_options {
+    fw_geometry_box die;    /* with its lane: layout->die of the device */
     double frame_m, lane_m; /* NAN: as devices have them */
     const char *die_id;     /* lettered on the frame; NULL: none */
     fw_mask_options mask;   /* the same as for the device: bias, tolerance, title, notes */
-} fw_coupon_options;
+} fw_mask_coupon_options;
 /* *coupons NULL where the table has no <pattern>. The mask's own bias is 0: the process bias is in
    the outlines of the patterns that ask for it, and in no other. Cell "TEST_FLOW". */
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
-                                const fw_coupon_options *options, fw_diags *diags,
+                                const fw_mask_coupon_options *options, fw_diags *diags,
                                 const fw_mask_coupons **coupons);
 /* the device's drawing with the marks that the table has for its frame; the device itself where it
    has none */
@@ -222,8 +224,8 @@ const fw_mask_format *fw_mask_format_at(size_t i); /* NULL behind the last row *
 bool fw_mask_formats(const char *list, unsigned *set);
 
 /* "inside" (also NULL and "") or "equal-area"; false: neither */
-bool fw_mask_flattening_named(const char *name, fw_flattening *kind);
-const char *fw_mask_flattening_name(fw_flattening kind);
+bool fw_mask_flattening_named(const char *name, fw_geometry_flattening *kind);
+const char *fw_mask_flattening_name(fw_geometry_flattening kind);
 
 /* certificate: counts, areas, minimum edge, angle, hash; JSON */
 fw_status fw_mask_write_certificate(const fw_mask *mask, const char *gds_sha256, fw_text *out);

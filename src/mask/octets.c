@@ -4,7 +4,7 @@
 #include "mask/octets.h"
 #include <string.h>
 
-bool fw_octets_room(fw_octets *o, size_t more) {
+bool fw_mask_octets_room(fw_mask_octets *o, size_t more) {
     if (o->failed) return false;
     if (o->length + more <= o->capacity) return true;
     size_t capacity = o->capacity ? o->capacity : 4096;
@@ -18,25 +18,25 @@ bool fw_octets_room(fw_octets *o, size_t more) {
     return true;
 }
 
-void fw_octets_bytes(fw_octets *o, const void *data, size_t n) {
-    if (n == 0 || !fw_octets_room(o, n)) return;
+void fw_mask_octets_bytes(fw_mask_octets *o, const void *data, size_t n) {
+    if (n == 0 || !fw_mask_octets_room(o, n)) return;
     memcpy(o->data + o->length, data, n);
     o->length += n;
 }
 
-void fw_octets_number(fw_octets *o, uint64_t value) {
-    if (!fw_octets_room(o, FW_OCTETS_INTEGER)) return;
+void fw_mask_octets_number(fw_mask_octets *o, uint64_t value) {
+    if (!fw_mask_octets_room(o, FW_OCTETS_INTEGER)) return;
     o->length = (size_t)(fw_octets_put(o->data + o->length, value) - o->data);
 }
 
-void fw_octets_signed(fw_octets *o, int64_t value) {
-    fw_octets_number(o, fw_octets_folded(value));
+void fw_mask_octets_signed(fw_mask_octets *o, int64_t value) {
+    fw_mask_octets_number(o, fw_octets_folded(value));
 }
 
-void fw_octets_string(fw_octets *o, const char *text) {
+void fw_mask_octets_string(fw_mask_octets *o, const char *text) {
     size_t n = strlen(text);
-    fw_octets_number(o, n);
-    fw_octets_bytes(o, text, n);
+    fw_mask_octets_number(o, n);
+    fw_mask_octets_bytes(o, text, n);
 }
 
 /* ---- displacements ---- */
@@ -58,7 +58,7 @@ static uint64_t longer(int64_t dx, int64_t dy) {
     return x > y ? x : y;
 }
 
-unsigned char *fw_octets_displacement(unsigned char *at, int64_t dx, int64_t dy) {
+unsigned char *fw_mask_octets_displacement(unsigned char *at, int64_t dx, int64_t dy) {
     int direction = octant(dx, dy);
     if (direction >= 0) return fw_octets_put(at, longer(dx, dy) << 4 | (unsigned)direction << 1);
     at = fw_octets_put(at, size_of(dx) << 2 | (dx < 0 ? 2u : 0u) | 1u);
@@ -81,8 +81,8 @@ typedef struct step {
     int64_t dx, dy;
 } step;
 
-static step step_at(const fw_polygon *p, int i) { /* from vertex i to the next one */
-    fw_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+static step step_at(const fw_geometry_polygon *p, int i) { /* from vertex i to the next one */
+    fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
     return (step){(int64_t)b.x_dbu - a.x_dbu, (int64_t)b.y_dbu - a.y_dbu};
 }
 
@@ -91,7 +91,7 @@ typedef struct sizes {
     bool all_manhattan, all_octangular;
 } sizes;
 
-static sizes measure(const fw_polygon *p) {
+static sizes measure(const fw_geometry_polygon *p) {
     sizes s = {.all_manhattan = true, .all_octangular = true};
     step before = {0, 0};
     for (int i = 0; i + 1 < p->count; i++) {
@@ -111,7 +111,7 @@ static sizes measure(const fw_polygon *p) {
 }
 
 /* every edge along an axis, in turn: 0 starts along x, 1 along y, -1 not so */
-static int alternating(const fw_polygon *p) {
+static int alternating(const fw_geometry_polygon *p) {
     if (p->count % 2) return -1;
     int first = step_at(p, 0).dy == 0 ? 0 : 1;
     for (int i = 0; i < p->count; i++) {
@@ -121,7 +121,7 @@ static int alternating(const fw_polygon *p) {
     return first;
 }
 
-static unsigned char *put_alternating(unsigned char *at, const fw_polygon *p, int first) {
+static unsigned char *put_alternating(unsigned char *at, const fw_geometry_polygon *p, int first) {
     *at++ = (unsigned char)first;
     at = fw_octets_put(at, (uint64_t)p->count - 2); /* the reader adds the last corner */
     for (int i = 0; i + 2 < p->count; i++) {
@@ -131,7 +131,7 @@ static unsigned char *put_alternating(unsigned char *at, const fw_polygon *p, in
     return at;
 }
 
-static unsigned char *put_steps(unsigned char *at, const fw_polygon *p, int type) {
+static unsigned char *put_steps(unsigned char *at, const fw_geometry_polygon *p, int type) {
     *at++ = (unsigned char)type;
     at = fw_octets_put(at, (uint64_t)p->count - 1);
     step before = {0, 0};
@@ -141,7 +141,7 @@ static unsigned char *put_steps(unsigned char *at, const fw_polygon *p, int type
         if (type < 4)
             at = fw_octets_put(at, longer(d.dx, d.dy) << type | direction);
         else
-            at = fw_octets_displacement(at, d.dx - before.dx, d.dy - before.dy);
+            at = fw_mask_octets_displacement(at, d.dx - before.dx, d.dy - before.dy);
         if (type == 5) before = d;
     }
     return at;
@@ -151,9 +151,9 @@ static unsigned char *put_steps(unsigned char *at, const fw_polygon *p, int type
    and 1 lengths along x and y in turn, 2 and 3 length and one of four or eight directions, 4 any
    displacement, 5 change of the displacement (short for chords of one arc: about 8 eps instead of
    the chord). Exact: integers. Cost O(n). Source: SEMI P39, 7.7. Test: test_oasis.c. */
-void fw_octets_points(fw_octets *o, const fw_polygon *p) {
+void fw_mask_octets_points(fw_mask_octets *o, const fw_geometry_polygon *p) {
     size_t most = 2 * FW_OCTETS_INTEGER * (size_t)p->count + FW_OCTETS_INTEGER + 1;
-    if (!fw_octets_room(o, most)) return;
+    if (!fw_mask_octets_room(o, most)) return;
     unsigned char *at = o->data + o->length;
     int first = alternating(p);
     if (first >= 0) {

@@ -8,21 +8,21 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct fw_octets {
+typedef struct fw_mask_octets {
     fw_arena *arena;
     unsigned char *data;
     size_t length, capacity;
     bool failed; /* out of memory: sticks */
-} fw_octets;
+} fw_mask_octets;
 
 enum { FW_OCTETS_INTEGER = 10 }; /* the longest integer: ten times 7 bits */
 
 /* room for `more` bytes behind the last one; false: failed */
-bool fw_octets_room(fw_octets *octets, size_t more);
-void fw_octets_bytes(fw_octets *octets, const void *data, size_t n);
-void fw_octets_number(fw_octets *octets, uint64_t value); /* makes room itself */
-void fw_octets_signed(fw_octets *octets, int64_t value);
-void fw_octets_string(fw_octets *octets, const char *text); /* length, bytes */
+bool fw_mask_octets_room(fw_mask_octets *octets, size_t more);
+void fw_mask_octets_bytes(fw_mask_octets *octets, const void *data, size_t n);
+void fw_mask_octets_number(fw_mask_octets *octets, uint64_t value); /* makes room itself */
+void fw_mask_octets_signed(fw_mask_octets *octets, int64_t value);
+void fw_mask_octets_string(fw_mask_octets *octets, const char *text); /* length, bytes */
 
 /* where to write next, the new end; 7 bits per byte, low ones first, high bit set but in the last
  */
@@ -41,9 +41,9 @@ static inline uint64_t fw_octets_folded(int64_t value) {
 }
 
 /* a displacement of any direction ("g-delta"); at most 2 FW_OCTETS_INTEGER bytes */
-unsigned char *fw_octets_displacement(unsigned char *at, int64_t dx, int64_t dy);
+unsigned char *fw_mask_octets_displacement(unsigned char *at, int64_t dx, int64_t dy);
 
 /* the vertices of a polygon behind its first one, in the shortest kind of point list */
-void fw_octets_points(fw_octets *octets, const fw_polygon *polygon);
+void fw_mask_octets_points(fw_mask_octets *octets, const fw_geometry_polygon *polygon);
 
 #endif

@@ -18,7 +18,7 @@ static const char *micrometres(char *text, size_t n, double value_m) {
     return text;
 }
 
-static void head(const fw_mask *mask, const fw_order *order, fw_text *out) {
+static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
     char line[200], number[32];
     if (mask->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
     fw_text_printf(out, "Order sheet of mask %s (flexwright " FW_VERSION ")\n\n", order->name);
@@ -57,13 +57,13 @@ static void box(const fw_mask *mask, fw_text *out) {
     fw_text_add(out, " um\n");
 }
 
-static void layers(const fw_mask *mask, const fw_order *order, fw_text *out) {
+static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
     fw_text_add(out, "\nlayer  name                 tone        on plate  polygons  vertices\n");
     for (int k = 0; k < mask->table->nlayer; k++) {
         const fw_mask_layer *y = &mask->table->layer[k];
         int polygons, vertices;
         char gds[32];
-        fw_order_count(mask, k, &polygons, &vertices);
+        fw_mask_order_count(mask, k, &polygons, &vertices);
         snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
         fw_text_printf(out, "%-6s %-20s %-11s %-9s %8d  %8d\n", gds, y->name,
                        y->documentation ? "-" : y->tone, order->plate[k] ? "yes" : "no", polygons,
@@ -71,13 +71,13 @@ static void layers(const fw_mask *mask, const fw_order *order, fw_text *out) {
     }
 }
 
-static void sites(const fw_mask *mask, const fw_order *order, fw_text *out) {
+static void sites(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
     fw_text_add(out, "\nCD sites: centre of the chord and its direction, um and degrees\n"
                      "site  layer  kind        x            y       angle       CD  what\n");
     for (int i = 0; i < order->nsite; i++) {
-        const fw_order_site *s = &order->site[i];
+        const fw_mask_order_site *s = &order->site[i];
         const fw_mask_layer *y = &mask->table->layer[s->layer];
-        fw_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
+        fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
         char gds[32];
         snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
         double degrees = atan2(along.y, along.x) * 180 / FW_PI;
@@ -92,8 +92,8 @@ static void sites(const fw_mask *mask, const fw_order *order, fw_text *out) {
 
 fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
                                    fw_text *out) {
-    fw_order order;
-    FW_TRY(fw_order_gather(out->arena, mask, &order));
+    fw_mask_order order;
+    FW_TRY(fw_mask_order_gather(out->arena, mask, &order));
     head(mask, &order, out);
     box(mask, out);
     fw_text_printf(out, "%-22s %d, %d vertices, at most %d each\n", "polygons on the plate",

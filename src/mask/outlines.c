@@ -5,18 +5,18 @@
 /* The mask's contour moved by edge - bias: what the mask added, less what the flow took. Edge and
    bias m outside the drawn edge. NaN: not asked for. Test: test_outlines.c, identity. */
 static fw_status fabricated(fw_arena *arena, const fw_mask *mask, const fw_mask_shape *s,
-                            double edge_m, fw_contour *out, int *gone) {
+                            double edge_m, fw_geometry_contour *out, int *gone) {
     double d = edge_m - mask->bias_m;
     int i, j;
-    *out = (fw_contour){0};
+    *out = (fw_geometry_contour){0};
     if (isnan(d)) return FW_OK;
     if (d == 0.0) {
         *out = s->contour;
         return FW_OK;
     }
-    fw_status status = fw_contour_offset(arena, &s->contour, d, out, &i, &j);
+    fw_status status = fw_geometry_contour_offset(arena, &s->contour, d, out, &i, &j);
     if (status != FW_GEOMETRY) return status;
-    *out = (fw_contour){0};
+    *out = (fw_geometry_contour){0};
     ++*gone;
     return FW_OK;
 }

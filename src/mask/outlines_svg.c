@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* As drawn, on the mask and as fabricated, over each other: one picture with true arcs, and two
    places of it enlarged, the narrowest line and the narrowest space. 1 user unit = 1 um. */
-#include "geometry/svg.h"
+#include "geometry/geometry_svg.h"
 #include "mask/outlines.h"
 #include "base/constants.h"
 #include <math.h>
@@ -37,7 +37,7 @@ static fw_geometry_sheet sheet_of(const page *p) {
 
 typedef enum which { DRAWN, ON_MASK, TOP, BOTTOM } which;
 
-static const fw_contour *pick(const fw_mask_outline *o, which w) {
+static const fw_geometry_contour *pick(const fw_mask_outline *o, which w) {
     return w == DRAWN     ? &o->shape->piece->contour
            : w == ON_MASK ? &o->shape->contour
            : w == TOP     ? &o->top
@@ -133,7 +133,7 @@ static void words(const page *p, double x, double y, double size, const char *te
 /* ---- enlargements ---- */
 
 /* a square of the drawing, `across` wide, about the middle of a chord; label below */
-static void enlarge(const page *p, const fw_vec2 *at, double across_um, double x, double y,
+static void enlarge(const page *p, const fw_geometry_vec2 *at, double across_um, double x, double y,
                     const char *const *label, int nlabel) {
     double cx = (0.5 * (at[0].x + at[1].x) - p->x0) * 1e6;
     double cy = (p->y1 - 0.5 * (at[0].y + at[1].y)) * 1e6;

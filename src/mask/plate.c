@@ -22,7 +22,7 @@ static const char *behind_operator(const char *s) {
     return NULL;
 }
 
-bool fw_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong) {
+bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong) {
     const char *s = table->plate;
     *first = -1;
     while (s) {
@@ -40,10 +40,10 @@ bool fw_plate_layers(const fw_mask_table *table, bool *named, int *first, const 
 }
 
 /* the operator before `s` */
-static fw_set_rule rule_before(const char *s) {
+static fw_geometry_set_rule rule_before(const char *s) {
     static const struct {
         const char *word;
-        fw_set_rule rule;
+        fw_geometry_set_rule rule;
     } known[] = {{" AND ", FW_SET_AND}, {" NOT ", FW_SET_NOT}, {" XOR ", FW_SET_XOR}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strncmp(s - strlen(known[i].word), known[i].word, strlen(known[i].word)) == 0)
@@ -51,18 +51,18 @@ static fw_set_rule rule_before(const char *s) {
     return FW_SET_OR;
 }
 
-fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table, fw_plate_term **term,
-                              int *n) {
+fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
+                              fw_mask_plate_term **term, int *n) {
     *n = 0;
     size_t most = table->plate ? strlen(table->plate) / 3 + 1 : (size_t)table->nlayer;
-    FW_NEED(*term = fw_arena_array(arena, fw_plate_term, most));
+    FW_NEED(*term = fw_arena_array(arena, fw_mask_plate_term, most));
     for (int k = 0; !table->plate && k < table->nlayer; k++)
-        if (table->layer[k].biased) (*term)[(*n)++] = (fw_plate_term){k, FW_SET_OR};
+        if (table->layer[k].biased) (*term)[(*n)++] = (fw_mask_plate_term){k, FW_SET_OR};
     for (const char *s = table->plate; s;) {
         char *end;
         int k = layer_named(table, s, &end);
         if (k < 0) return FW_INPUT; /* cannot be: the table was read */
-        (*term)[(*n)++] = (fw_plate_term){k, s == table->plate ? FW_SET_OR : rule_before(s)};
+        (*term)[(*n)++] = (fw_mask_plate_term){k, s == table->plate ? FW_SET_OR : rule_before(s)};
         s = *end ? behind_operator(end) : NULL;
     }
     return FW_OK;

@@ -3,8 +3,8 @@
 #include "mask/references.h"
 #include "mask/records.h"
 
-void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int rows,
-                  fw_point step) {
+void fw_mask_gds_array(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
+                       fw_geometry_point step) {
     bool one = columns == 1 && rows == 1;
     fw_gds_record(out, one ? FW_GDS_SREF : FW_GDS_AREF, 0);
     fw_gds_string(out, FW_GDS_SNAME, cell);
@@ -22,7 +22,8 @@ void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int 
     fw_gds_record(out, FW_GDS_ENDEL, 0);
 }
 
-void fw_gds_note(fw_text *out, const fw_mask_layer *layer, fw_point at, const char *line) {
+void fw_mask_gds_note(fw_text *out, const fw_mask_layer *layer, fw_geometry_point at,
+                      const char *line) {
     fw_gds_record(out, FW_GDS_TEXT, 0);
     fw_gds_number(out, FW_GDS_LAYER, layer->layer);
     fw_gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);

@@ -6,8 +6,9 @@
 
 /* columns and rows at most 32767; both 1: a plain reference (SREF), else an array (AREF) whose
    corners divide by columns and rows exactly */
-void fw_gds_array(fw_text *out, const char *cell, fw_point at, int columns, int rows,
-                  fw_point step);
-void fw_gds_note(fw_text *out, const fw_mask_layer *layer, fw_point at, const char *line);
+void fw_mask_gds_array(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
+                       fw_geometry_point step);
+void fw_mask_gds_note(fw_text *out, const fw_mask_layer *layer, fw_geometry_point at,
+                      const char *line);
 
 #endif

@@ -18,7 +18,7 @@
 enum { MOST_WINDOWS = 1000000 };
 
 /* parameters where an edge crosses x = c or y = c */
-static int crossings(const fw_segment *s, bool x, double c, double *t) {
+static int crossings(const fw_geometry_segment *s, bool x, double c, double *t) {
     int n = 0;
     if (s->kind == FW_LINE) {
         double a = x ? s->a.x : s->a.y, b = x ? s->b.x : s->b.y;
@@ -29,14 +29,15 @@ static int crossings(const fw_segment *s, bool x, double c, double *t) {
     if (!(fabs(d) < 1)) return 0;
     double other = sqrt(1 - d * d);
     for (int side = -1; side <= 1; side += 2) {
-        fw_vec2 ray = x ? (fw_vec2){d, side * other} : (fw_vec2){side * other, d};
-        if (fw_segment_faces(s, ray, &t[n])) n++;
+        fw_geometry_vec2 ray =
+            x ? (fw_geometry_vec2){d, side * other} : (fw_geometry_vec2){side * other, d};
+        if (fw_geometry_segment_faces(s, ray, &t[n])) n++;
     }
     return n;
 }
 
 /* integral of (x - x0) dy from parameter t to u */
-static double below(const fw_segment *s, double t, double u, double x0) {
+static double below(const fw_geometry_segment *s, double t, double u, double x0) {
     if (s->kind == FW_LINE) {
         double x = s->a.x + 0.5 * (t + u) * (s->b.x - s->a.x);
         return (x - x0) * (u - t) * (s->b.y - s->a.y);
@@ -47,7 +48,7 @@ static double below(const fw_segment *s, double t, double u, double x0) {
            0.5 * r * r * (b - a + 0.5 * (sin(2 * b) - sin(2 * a)));
 }
 
-static double edge_area(const fw_segment *s, fw_box w) {
+static double edge_area(const fw_geometry_segment *s, fw_geometry_box w) {
     double t[10] = {0, 1};
     int n = 2;
     n += crossings(s, true, w.x0, t + n);
@@ -57,20 +58,22 @@ static double edge_area(const fw_segment *s, fw_box w) {
     fw_sort_doubles(t, (size_t)n);
     double sum = 0;
     for (int i = 0; i + 1 < n; i++) {
-        fw_vec2 m = fw_segment_point(s, 0.5 * (t[i] + t[i + 1]));
+        fw_geometry_vec2 m = fw_geometry_segment_point(s, 0.5 * (t[i] + t[i + 1]));
         if (m.y < w.y0 || m.y > w.y1 || m.x < w.x0) continue;
         if (m.x <= w.x1)
             sum += below(s, t[i], t[i + 1], w.x0);
         else
-            sum += (w.x1 - w.x0) * (fw_segment_point(s, t[i + 1]).y - fw_segment_point(s, t[i]).y);
+            sum += (w.x1 - w.x0) * (fw_geometry_segment_point(s, t[i + 1]).y -
+                                    fw_geometry_segment_point(s, t[i]).y);
     }
     return sum;
 }
 
-static double covered(const fw_rules *rules, const fw_box *box, int layer, fw_box w) {
+static double covered(const fw_mask_rules *rules, const fw_geometry_box *box, int layer,
+                      fw_geometry_box w) {
     double sum = 0;
     for (int k = 0; k < rules->nshape; k++) {
-        const fw_contour *c = &rules->shape[k].contour;
+        const fw_geometry_contour *c = &rules->shape[k].contour;
         if (rules->shape[k].layer != layer || box[k].x0 >= w.x1 || box[k].x1 <= w.x0 ||
             box[k].y0 >= w.y1 || box[k].y1 <= w.y0)
             continue;
@@ -94,20 +97,21 @@ static double badness(const fw_mask_rule *rule, double share) {
     return fmin(low, share > 0 ? rule->most / share : HUGE_VAL);
 }
 
-static void merge(fw_rules *rules, int first, fw_mask_finding f) {
+static void merge(fw_mask_rules *rules, int first, fw_mask_finding f) {
     for (int i = first; i < rules->nfinding; i++) {
         fw_mask_finding *g = &rules->finding[i];
         if (g->what != f.what || fw_box_gap(g->box, f.box) > FW_COINCIDENT_M) continue;
-        fw_box box = fw_box_join(g->box, f.box);
+        fw_geometry_box box = fw_box_join(g->box, f.box);
         if (badness(f.rule, g->value) < badness(f.rule, f.value)) f = *g;
         f.box = box;
         rules->finding[i] = rules->finding[--rules->nfinding];
         i = first - 1; /* the larger box may reach others */
     }
-    fw_rules_add(rules, f);
+    fw_mask_rules_add(rules, f);
 }
 
-static void judge(fw_rules *rules, const fw_mask_rule *rule, int first, fw_box w, double share) {
+static void judge(fw_mask_rules *rules, const fw_mask_rule *rule, int first, fw_geometry_box w,
+                  double share) {
     static const char thin[] = "low coverage", dense[] = "high coverage";
     if (!(badness(rule, share) < 1 - 1e-12)) return;
     bool low = share < rule->least;
@@ -123,12 +127,12 @@ static void judge(fw_rules *rules, const fw_mask_rule *rule, int first, fw_box w
                             .edge = {-1, -1}});
 }
 
-static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
-    fw_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    fw_box *box = fw_arena_array(rules->arena, fw_box, (size_t)rules->nshape);
+static fw_status check(fw_mask_rules *rules, const fw_mask_rule *rule) {
+    fw_geometry_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    fw_geometry_box *box = fw_arena_array(rules->arena, fw_geometry_box, (size_t)rules->nshape);
     FW_NEED(box);
     for (int k = 0; k < rules->nshape; k++)
-        all = fw_box_join(all, box[k] = fw_contour_box(&rules->shape[k].contour));
+        all = fw_box_join(all, box[k] = fw_geometry_contour_box(&rules->shape[k].contour));
     double step = fmax(rule->step_m, fmax(all.x1 - all.x0, all.y1 - all.y0) / sqrt(MOST_WINDOWS));
     double wide = fmin(rule->window_m, all.x1 - all.x0),
            high = fmin(rule->window_m, all.y1 - all.y0);
@@ -138,7 +142,7 @@ static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
         for (int i = 0; i < nx; i++) {
             double x = start_of(i, all.x0, all.x1, wide, step);
             double y = start_of(j, all.y0, all.y1, high, step);
-            fw_box w = {x, y, x + wide, y + high};
+            fw_geometry_box w = {x, y, x + wide, y + high};
             double share = covered(rules, box, rule->layer, w) / (wide * high);
             share = fmax(0, fmin(1, share)); /* round-off */
             judge(rules, rule, first, w, share);
@@ -146,7 +150,7 @@ static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
     return FW_OK;
 }
 
-const fw_rule_row fw_kind_density = {
+const fw_mask_rule_kind_row fw_mask_kind_density = {
     .name = "density",
     .advice = "fill or empty the place, or spread what is there",
     .number = 157,

@@ -9,45 +9,45 @@
 
 static const double GRID_M = 1e-9;
 
-static void found(fw_rules *rules, const fw_mask_rule *rule, fw_vec2 from, fw_vec2 to,
-                  double length_m, const fw_mask_shape *shape, int edge) {
-    fw_rules_add(rules, (fw_mask_finding){.rule = rule,
-                                          .what = "edge",
-                                          .at = {from, to},
-                                          .box = fw_box_around(from, to),
-                                          .value = length_m,
-                                          .limit = rule->least,
-                                          .needed = rule->least,
-                                          .label = {shape->piece->label, NULL},
-                                          .edge = {edge, -1}});
+static void found(fw_mask_rules *rules, const fw_mask_rule *rule, fw_geometry_vec2 from,
+                  fw_geometry_vec2 to, double length_m, const fw_mask_shape *shape, int edge) {
+    fw_mask_rules_add(rules, (fw_mask_finding){.rule = rule,
+                                               .what = "edge",
+                                               .at = {from, to},
+                                               .box = fw_mask_box_around(from, to),
+                                               .value = length_m,
+                                               .limit = rule->least,
+                                               .needed = rule->least,
+                                               .label = {shape->piece->label, NULL},
+                                               .edge = {edge, -1}});
 }
 
-static void of_polygon(fw_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
-    const fw_polygon *p = &shape->polygon;
+static void of_polygon(fw_mask_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
+    const fw_geometry_polygon *p = &shape->polygon;
     double long_dbu = rule->least / GRID_M;
     if (p->count > 0 && shape->report.shortest_edge_m > rule->least) return;
     for (int i = 0; i < p->count; i++) {
-        fw_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
         if (fabs((double)b.x_dbu - a.x_dbu) > long_dbu ||
             fabs((double)b.y_dbu - a.y_dbu) > long_dbu)
             continue;
         double length = hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu) * GRID_M;
         if (length < rule->least - FW_COINCIDENT_M)
-            found(rules, rule, (fw_vec2){a.x_dbu * GRID_M, a.y_dbu * GRID_M},
-                  (fw_vec2){b.x_dbu * GRID_M, b.y_dbu * GRID_M}, length, shape, -1);
+            found(rules, rule, (fw_geometry_vec2){a.x_dbu * GRID_M, a.y_dbu * GRID_M},
+                  (fw_geometry_vec2){b.x_dbu * GRID_M, b.y_dbu * GRID_M}, length, shape, -1);
     }
 }
 
-static void of_outline(fw_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
+static void of_outline(fw_mask_rules *rules, const fw_mask_rule *rule, const fw_mask_shape *shape) {
     for (int i = 0; i < shape->contour.count; i++) {
-        const fw_segment *s = &shape->contour.segment[i];
-        double length = fw_segment_length(s);
+        const fw_geometry_segment *s = &shape->contour.segment[i];
+        double length = fw_geometry_segment_length(s);
         if (!(s->flags & FW_SEGMENT_JOINT) && length < rule->least - FW_COINCIDENT_M)
             found(rules, rule, s->a, s->b, length, shape, i);
     }
 }
 
-static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
+static fw_status check(fw_mask_rules *rules, const fw_mask_rule *rule) {
     for (int k = 0; k < rules->nshape; k++) {
         if (rules->shape[k].layer != rule->layer) continue;
         if (rule->of == FW_OF_POLYGON)
@@ -58,7 +58,7 @@ static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
     return FW_OK;
 }
 
-const fw_rule_row fw_kind_edge = {
+const fw_mask_rule_kind_row fw_mask_kind_edge = {
     .name = "edge",
     .advice = "leave the step out, or choose another tolerance",
     .number = 155,

@@ -2,13 +2,13 @@
 /* The kinds of design rules: one line each, in the order of docs/theory/masks.md. */
 #include "mask/rule.h"
 
-static const fw_rule_row *const table[] = {
-    &fw_kind_width,     &fw_kind_space,      &fw_kind_notch,   &fw_kind_feature,
-    &fw_kind_angle,     &fw_kind_edge,       &fw_kind_area,    &fw_kind_density,
-    &fw_kind_enclosure, &fw_kind_separation, &fw_kind_overlap,
+static const fw_mask_rule_kind_row *const table[] = {
+    &fw_mask_kind_width,     &fw_mask_kind_space,      &fw_mask_kind_notch,   &fw_mask_kind_feature,
+    &fw_mask_kind_angle,     &fw_mask_kind_edge,       &fw_mask_kind_area,    &fw_mask_kind_density,
+    &fw_mask_kind_enclosure, &fw_mask_kind_separation, &fw_mask_kind_overlap,
 };
 
-const fw_rule_row *fw_rule_kind_at(size_t i) {
+const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i) {
     return i < sizeof table / sizeof table[0] ? table[i] : NULL;
 }
 
@@ -16,7 +16,7 @@ const char *fw_mask_rule_name(const fw_mask_rule *rule) {
     return rule->kind->name;
 }
 
-double fw_rule_shown(const fw_rule_row *kind, double value) {
+double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value) {
     switch (kind->unit) {
     case FW_UNIT_LENGTH:
         return value * 1e6;
@@ -30,15 +30,15 @@ double fw_rule_shown(const fw_rule_row *kind, double value) {
     return value;
 }
 
-const char *fw_rule_unit_name(const fw_rule_row *kind) {
+const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind) {
     static const char *const name[] = {"um", "deg", "um2", "of the window"};
     return name[kind->unit];
 }
 
 double fw_mask_rule_shown(const fw_mask_rule *rule, double value) {
-    return fw_rule_shown(rule->kind, value);
+    return fw_mask_rule_row_shown(rule->kind, value);
 }
 
 const char *fw_mask_rule_unit(const fw_mask_rule *rule) {
-    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_rule_unit_name(rule->kind);
+    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_mask_rule_unit_name(rule->kind);
 }

@@ -8,34 +8,34 @@
 #include "mask/rule.h"
 
 /* runs of one layer's boundary that lie inside the other layer; those that cross it are known */
-static void add_inside(const fw_rules *rules, int layer, int other, bool turned,
-                       fw_rule_search *between) {
-    const fw_rule_search *in = &rules->search[layer], *out = &rules->search[other];
+static void add_inside(const fw_mask_rules *rules, int layer, int other, bool turned,
+                       fw_mask_rule_search *between) {
+    const fw_mask_rule_search *in = &rules->search[layer], *out = &rules->search[other];
     for (int i = 0; i < in->nedge; i++) {
-        const fw_rule_edge *e = &in->edge[i];
-        if (!fw_rules_first(rules, e)) continue;
-        fw_vec2 at = fw_segment_point(&e->s, 0.5);
-        const fw_rule_range *around = fw_rules_holding(rules, other, at);
+        const fw_mask_rule_edge *e = &in->edge[i];
+        if (!fw_mask_rules_first(rules, e)) continue;
+        fw_geometry_vec2 at = fw_geometry_segment_point(&e->s, 0.5);
+        const fw_mask_rule_range *around = fw_mask_rules_holding(rules, other, at);
         if (!around) continue;
-        const fw_rule_edge *q = &out->edge[around->first], *own = turned ? q : e;
+        const fw_mask_rule_edge *q = &out->edge[around->first], *own = turned ? q : e;
         if (turned) q = e;
-        fw_rule_add(between, (fw_finding){.shape = {own->shape, q->shape},
-                                          .segment = {own->segment, q->segment},
-                                          .at = {at, at},
-                                          .edge = {own, q}});
+        fw_mask_rule_add(between, (fw_mask_rule_finding){.shape = {own->shape, q->shape},
+                                                         .segment = {own->segment, q->segment},
+                                                         .at = {at, at},
+                                                         .edge = {own, q}});
     }
 }
 
-static fw_status check(fw_rules *rules, const fw_mask_rule *rule) {
-    fw_rule_search between;
-    FW_TRY(fw_rules_between(rules, rule, &between));
+static fw_status check(fw_mask_rules *rules, const fw_mask_rule *rule) {
+    fw_mask_rule_search between;
+    FW_TRY(fw_mask_rules_between(rules, rule, &between));
     add_inside(rules, rule->layer, rule->other, false, &between);
     add_inside(rules, rule->other, rule->layer, true, &between);
     if (between.no_memory) return FW_NOMEM;
-    return fw_rules_distances(rules, rule, &between);
+    return fw_mask_rules_distances(rules, rule, &between);
 }
 
-const fw_rule_row fw_kind_separation = {
+const fw_mask_rule_kind_row fw_mask_kind_separation = {
     .name = "separation",
     .advice = "move the two apart",
     .number = 154,

@@ -20,10 +20,11 @@ enum { MOST_PARTS = 64 }; /* of 7.5 degrees in a whole turn, and more */
 
 /* ---- findings ---- */
 
-void fw_rule_add(fw_rule_search *in, fw_finding f) {
+void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f) {
     if (in->nfound == in->room) {
         size_t more = in->room ? 2 * (size_t)in->room : 16;
-        fw_finding *grown = fw_arena_grow(in->arena, in->found, (size_t)in->nfound, more, sizeof f);
+        fw_mask_rule_finding *grown =
+            fw_arena_grow(in->arena, in->found, (size_t)in->nfound, more, sizeof f);
         if (!grown) {
             in->no_memory = true;
             return;
@@ -34,31 +35,32 @@ void fw_rule_add(fw_rule_search *in, fw_finding f) {
     in->found[in->nfound++] = f;
 }
 
-void fw_rule_report(fw_rule_search *in, fw_finding f) {
+void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f) {
     if (f.shape[0] > f.shape[1] || (f.shape[0] == f.shape[1] && f.segment[0] > f.segment[1]))
-        f = (fw_finding){
+        f = (fw_mask_rule_finding){
             f.kind,    {f.shape[1], f.shape[0]}, {f.segment[1], f.segment[0]}, f.value_m,
             f.slack_m, {f.at[1], f.at[0]},       {f.edge[1], f.edge[0]},       f.box};
-    fw_rule_add(in, f);
+    fw_mask_rule_add(in, f);
 }
 
-static void judged(fw_rule_search *in, fw_rule_kind what, const fw_rule_edge *p,
-                   const fw_rule_edge *q, double length, fw_vec2 at_p, fw_vec2 at_q) {
+static void judged(fw_mask_rule_search *in, fw_mask_rule_kind what, const fw_mask_rule_edge *p,
+                   const fw_mask_rule_edge *q, double length, fw_geometry_vec2 at_p,
+                   fw_geometry_vec2 at_q) {
     double slack = p->slack_m + q->slack_m;
-    if (length < fw_rule_needed(in, what, slack) - FW_COINCIDENT_M)
-        fw_rule_report(in, (fw_finding){.kind = what,
-                                        .shape = {p->shape, q->shape},
-                                        .segment = {p->segment, q->segment},
-                                        .value_m = length,
-                                        .slack_m = slack,
-                                        .at = {at_p, at_q},
-                                        .edge = {p, q}});
+    if (length < fw_mask_rule_needed(in, what, slack) - FW_COINCIDENT_M)
+        fw_mask_rule_report(in, (fw_mask_rule_finding){.kind = what,
+                                                       .shape = {p->shape, q->shape},
+                                                       .segment = {p->segment, q->segment},
+                                                       .value_m = length,
+                                                       .slack_m = slack,
+                                                       .at = {at_p, at_q},
+                                                       .edge = {p, q}});
 }
 
-static void measured(fw_rule_search *in, fw_rule_kind what, fw_vec2 from, fw_vec2 to,
-                     double length) {
+static void measured(fw_mask_rule_search *in, fw_mask_rule_kind what, fw_geometry_vec2 from,
+                     fw_geometry_vec2 to, double length) {
     double *least = what == FW_RULE_WIDTH ? &in->measure->width_m : &in->measure->space_m;
-    fw_vec2 *at = what == FW_RULE_WIDTH ? in->measure->width_at : in->measure->space_at;
+    fw_geometry_vec2 *at = what == FW_RULE_WIDTH ? in->measure->width_at : in->measure->space_at;
     if (length >= *least) return;
     *least = length;
     at[0] = from;
@@ -68,23 +70,24 @@ static void measured(fw_rule_search *in, fw_rule_kind what, fw_vec2 from, fw_vec
 /* ---- chords ---- */
 
 /* of an edge whose material is on its left, at a point on it: no angle is computed */
-static fw_vec2 outward(const fw_rule_edge *e, fw_vec2 at) {
-    const fw_segment *s = &e->s;
-    if (s->kind == FW_LINE) return (fw_vec2){e->along.y, -e->along.x};
+static fw_geometry_vec2 outward(const fw_mask_rule_edge *e, fw_geometry_vec2 at) {
+    const fw_geometry_segment *s = &e->s;
+    if (s->kind == FW_LINE) return (fw_geometry_vec2){e->along.y, -e->along.x};
     return vec_scale((s->sweep_rad > 0 ? 1 : -1) / s->radius, vec_sub(at, s->centre));
 }
 
 typedef struct crossing { /* a chord, as two edges see it */
-    fw_rule_kind kind;
+    fw_mask_rule_kind kind;
     double length_m;
     double slant_p, slant_q; /* |cosine| of its angle with either edge */
 } crossing;
 
 /* a chord between two edges or parts of them, whose normals are theirs; np: that of p there */
-static bool crosses(const fw_rule_edge *q, const fw_chord *chord, fw_vec2 np, crossing *x) {
-    fw_vec2 nq = outward(q, chord->at_q);
+static bool crosses(const fw_mask_rule_edge *q, const fw_geometry_chord *chord, fw_geometry_vec2 np,
+                    crossing *x) {
+    fw_geometry_vec2 nq = outward(q, chord->at_q);
     if (!(vec_dot(np, nq) < FACING)) return false;
-    fw_vec2 c = vec_sub(chord->at_q, chord->at_p);
+    fw_geometry_vec2 c = vec_sub(chord->at_q, chord->at_p);
     double length = vec_length(c);
     if (length <= FW_COINCIDENT_M) return false;
     double leaves = vec_dot(c, np) / length, arrives = -vec_dot(c, nq) / length;
@@ -94,14 +97,14 @@ static bool crosses(const fw_rule_edge *q, const fw_chord *chord, fw_vec2 np, cr
     return true;
 }
 
-static bool at_corner(const fw_rule_edge *e, double t) {
+static bool at_corner(const fw_mask_rule_edge *e, double t) {
     return (t <= 0 && e->corner_a) || (t >= 1 && e->corner_b);
 }
 
-static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
-                          const fw_chord *chord) {
+static void measure_chord(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                          const fw_mask_rule_edge *q, const fw_geometry_chord *chord) {
     crossing x;
-    fw_vec2 c = vec_sub(chord->at_q, chord->at_p), np = outward(p, chord->at_p);
+    fw_geometry_vec2 c = vec_sub(chord->at_q, chord->at_p), np = outward(p, chord->at_p);
     double least = vec_dot(c, np) > 0 ? in->measure->space_m : in->measure->width_m;
     if (vec_dot(c, c) > least * least * (1 + 1e-12)) return; /* it would not change it */
     if (!crosses(q, chord, np, &x)) return;
@@ -111,21 +114,22 @@ static void measure_chord(fw_rule_search *in, const fw_rule_edge *p, const fw_ru
 }
 
 /* from the corners of p to the farther foot on an arc: the nearer one is among the chords */
-static void measure_far_feet(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+static void measure_far_feet(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                             const fw_mask_rule_edge *q) {
     if (q->s.kind != FW_ARC) return;
     for (int end = 0; end < 2; end++) {
         if (!(end ? p->corner_b : p->corner_a)) continue;
-        fw_chord chord = {.tp = end, .at_p = end ? p->s.b : p->s.a};
-        fw_vec2 ray = vec_unit(vec_sub(q->s.centre, chord.at_p));
-        if (!fw_segment_faces(&q->s, ray, &chord.tq)) continue;
+        fw_geometry_chord chord = {.tp = end, .at_p = end ? p->s.b : p->s.a};
+        fw_geometry_vec2 ray = vec_unit(vec_sub(q->s.centre, chord.at_p));
+        if (!fw_geometry_segment_faces(&q->s, ray, &chord.tq)) continue;
         chord.at_q = vec_along(q->s.centre, q->s.radius, ray);
         measure_chord(in, p, q, &chord);
     }
 }
 
 /* chord (n): of the whole edges */
-static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
-                         const fw_chord *chord, int n) {
+static void measure_pair(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                         const fw_mask_rule_edge *q, const fw_geometry_chord *chord, int n) {
     for (int i = 0; i < n; i++)
         measure_chord(in, p, q, &chord[i]);
     measure_far_feet(in, p, q);
@@ -135,14 +139,14 @@ static void measure_pair(fw_rule_search *in, const fw_rule_edge *p, const fw_rul
 /* ---- the rule ---- */
 
 /* chord (n): of the two edges, or of two parts of them */
-static void judge_chords(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q,
-                         const fw_chord *chord, int n) {
+static void judge_chords(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                         const fw_mask_rule_edge *q, const fw_geometry_chord *chord, int n) {
     crossing x;
     double slack = p->slack_m + q->slack_m,
-           needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, slack),
-                               fw_rule_needed(in, FW_RULE_SPACE, slack));
+           needed = fw_greater(fw_mask_rule_needed(in, FW_RULE_WIDTH, slack),
+                               fw_mask_rule_needed(in, FW_RULE_SPACE, slack));
     for (int i = 0; i < n; i++) {
-        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        fw_geometry_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
         if (vec_dot(c, c) > needed * needed * (1 + 1e-12)) continue;
         if (crosses(q, &chord[i], outward(p, chord[i].at_p), &x))
             judged(in, x.kind, p, q, x.length_m, chord[i].at_p, chord[i].at_q);
@@ -151,42 +155,43 @@ static void judge_chords(fw_rule_search *in, const fw_rule_edge *p, const fw_rul
 
 /* can any two points of parts of at most 7.5 degrees face each other? By the normals of their
    middles, off by 3.75 degrees at most each: cosine of 90 - 7.5 degrees */
-static bool may_face(const fw_segment *s, const fw_segment *t) {
+static bool may_face(const fw_geometry_segment *s, const fw_geometry_segment *t) {
     static const double limit = 0.1306;
-    fw_vec2 u = vec_sub(s->b, s->a), v = vec_sub(t->b, t->a);
+    fw_geometry_vec2 u = vec_sub(s->b, s->a), v = vec_sub(t->b, t->a);
     return vec_dot(u, v) < limit * sqrt(vec_dot(u, u) * vec_dot(v, v));
 }
 
-static void judge_parts(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, int i, int j) {
-    fw_chord chord[FW_MOST_CHORDS];
-    judge_chords(in, p, q, chord, fw_segment_chords(&p->part[i], &q->part[j], chord));
+static void judge_parts(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q, int i,
+                        int j) {
+    fw_geometry_chord chord[FW_MOST_CHORDS];
+    judge_chords(in, p, q, chord, fw_geometry_segment_chords(&p->part[i], &q->part[j], chord));
 }
 
 /* is the least of all chords between edges that do not meet, and with it every chord between parts
    of them, longer than that? */
-static bool all_longer(const fw_chord *chord, int n, double needed) {
+static bool all_longer(const fw_geometry_chord *chord, int n, double needed) {
     for (int i = 0; i < n; i++) {
-        fw_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
+        fw_geometry_vec2 c = vec_sub(chord[i].at_q, chord[i].at_p);
         if (vec_dot(c, c) < needed * needed * (1 + 1e-9)) return false;
     }
     return true;
 }
 
 /* chord (n): of the whole edges; two lines have no others */
-static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, const fw_chord *chord,
-                       int nchord, bool meet) {
-    double needed = fw_greater(fw_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
-                               fw_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
+static void judge_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q,
+                       const fw_geometry_chord *chord, int nchord, bool meet) {
+    double needed = fw_greater(fw_mask_rule_needed(in, FW_RULE_WIDTH, p->slack_m + q->slack_m),
+                               fw_mask_rule_needed(in, FW_RULE_SPACE, p->slack_m + q->slack_m));
     if (!in->everything && (!(fw_box_gap(p->box, q->box) < needed) ||
-                            !(fw_segment_clear_of(&p->s, &q->box) < needed) ||
-                            !(fw_segment_clear_of(&q->s, &p->box) < needed)))
+                            !(fw_geometry_segment_clear_of(&p->s, &q->box) < needed) ||
+                            !(fw_geometry_segment_clear_of(&q->s, &p->box) < needed)))
         return;
     if (!in->everything && !meet && all_longer(chord, nchord, needed)) return;
     if (p->s.kind == FW_LINE && q->s.kind == FW_LINE) {
         if (in->everything || may_face(&p->s, &q->s)) judge_chords(in, p, q, chord, nchord);
         return;
     }
-    if (!fw_rule_parts(in, p) || !fw_rule_parts(in, q)) return;
+    if (!fw_mask_rule_parts(in, p) || !fw_mask_rule_parts(in, q)) return;
     int near[MOST_PARTS], n = 0; /* parts of q that are near p at all */
     for (int j = 0; j < q->nparts; j++)
         if (fw_box_gap(p->box, q->part_box[j]) < needed || in->everything) near[n++] = j;
@@ -201,33 +206,35 @@ static void judge_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q, con
 
 /* concentric arcs that face each other: R1 - R2 is square on both and the least chord of the pair.
    True: that was all there is to say. */
-static bool concentric(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
-    fw_vec2 along;
-    double gap = in->everything ? HUGE_VAL : fw_concentric_gap(&p->s, &q->s, &along);
+static bool concentric(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                       const fw_mask_rule_edge *q) {
+    fw_geometry_vec2 along;
+    double gap = in->everything ? HUGE_VAL : fw_geometry_concentric_gap(&p->s, &q->s, &along);
     if (isinf(gap)) return false;
     bool material = (p->s.radius > q->s.radius) == (p->s.sweep_rad > 0);
-    fw_rule_kind kind = material ? FW_RULE_WIDTH : FW_RULE_SPACE;
-    fw_vec2 at_p = vec_along(p->s.centre, p->s.radius, along);
-    fw_vec2 at_q = vec_along(p->s.centre, q->s.radius, along);
+    fw_mask_rule_kind kind = material ? FW_RULE_WIDTH : FW_RULE_SPACE;
+    fw_geometry_vec2 at_p = vec_along(p->s.centre, p->s.radius, along);
+    fw_geometry_vec2 at_q = vec_along(p->s.centre, q->s.radius, along);
     measured(in, kind, at_p, at_q, gap);
     judged(in, kind, p, q, gap, at_p, at_q);
     return true;
 }
 
-void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
+void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
     static const double half_turn = FW_PI * (1 - 1e-12);
     double sweep = fabs(e->s.sweep_rad);
     if (e->s.kind != FW_ARC || !(cos(fw_lesser(sweep, FW_PI)) < FACING))
         return; /* a rounded corner */
-    fw_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
+    fw_mask_rule_kind kind = e->s.sweep_rad > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE;
     double quarter = sqrt(2) * e->s.radius; /* the chord over a quarter turn, in the middle */
-    if (quarter < fw_rule_needed(in, kind, 2 * e->slack_m)) {
+    if (quarter < fw_mask_rule_needed(in, kind, 2 * e->slack_m)) {
         double eighth = 0.25 * FW_PI / sweep;
-        judged(in, kind, e, e, quarter, fw_segment_point(&e->s, 0.5 - eighth),
-               fw_segment_point(&e->s, 0.5 + eighth));
+        judged(in, kind, e, e, quarter, fw_geometry_segment_point(&e->s, 0.5 - eighth),
+               fw_geometry_segment_point(&e->s, 0.5 + eighth));
     }
     if (sweep >= half_turn) { /* from the middle of the first quarter and across */
-        fw_vec2 from = fw_segment_point(&e->s, 0.5 * fw_greater(0, 1 - FW_PI / sweep));
+        fw_geometry_vec2 from =
+            fw_geometry_segment_point(&e->s, 0.5 * fw_greater(0, 1 - FW_PI / sweep));
         measured(in, kind, from, vec_sub(vec_scale(2, e->s.centre), from), 2 * e->s.radius);
     }
     if (e->corner_a && e->corner_b)
@@ -238,43 +245,46 @@ void fw_rule_own(fw_rule_search *in, fw_rule_edge *e) {
 
 /* p ends where q begins: a corner of the union. Sharper than 90 degrees it is a width or a space
    that goes to nothing. */
-static void look_at_corner(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
-    fw_vec2 before = fw_segment_tangent(&p->s, 1), after = fw_segment_tangent(&q->s, 0);
+static void look_at_corner(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                           const fw_mask_rule_edge *q) {
+    fw_geometry_vec2 before = fw_geometry_segment_tangent(&p->s, 1),
+                     after = fw_geometry_segment_tangent(&q->s, 0);
     if (vec_dot(before, after) < FACING)
         judged(in, vec_cross(before, after) > 0 ? FW_RULE_WIDTH : FW_RULE_SPACE, p, q, 0, p->s.b,
                p->s.b);
 }
 
 /* whether there is any */
-static bool look_at_contacts(fw_rule_search *in, const fw_rule_edge *p, const fw_rule_edge *q) {
+static bool look_at_contacts(fw_mask_rule_search *in, const fw_mask_rule_edge *p,
+                             const fw_mask_rule_edge *q) {
     bool p_then_q = vec_same(p->s.b, q->s.a), q_then_p = vec_same(q->s.b, p->s.a);
     if (p_then_q) look_at_corner(in, p, q);
     if (q_then_p) look_at_corner(in, q, p);
-    fw_hit hit[FW_MOST_HITS];
-    int n = fw_segment_intersect(&p->s, &q->s, hit);
+    fw_geometry_hit hit[FW_MOST_HITS];
+    int n = fw_geometry_segment_intersect(&p->s, &q->s, hit);
     for (int i = 0; i < n; i++) {
         bool corner = (p_then_q && vec_distance(hit[i].at, p->s.b) < NEAR_CORNER_M) ||
                       (q_then_p && vec_distance(hit[i].at, q->s.b) < NEAR_CORNER_M);
         if (!corner)
-            fw_rule_report(in, (fw_finding){.kind = FW_RULE_OVERLAP,
-                                            .shape = {p->shape, q->shape},
-                                            .segment = {p->segment, q->segment},
-                                            .at = {hit[i].at, hit[i].at},
-                                            .edge = {p, q}});
+            fw_mask_rule_report(in, (fw_mask_rule_finding){.kind = FW_RULE_OVERLAP,
+                                                           .shape = {p->shape, q->shape},
+                                                           .segment = {p->segment, q->segment},
+                                                           .at = {hit[i].at, hit[i].at},
+                                                           .edge = {p, q}});
     }
     return n > 0;
 }
 
 /* No two of their normals enclose more than 90 degrees: theirs in the middle and half of either
    sweep together do not. cos(angle) >= sin(halves), less what FACING leaves out anyway. */
-static bool look_away(const fw_rule_edge *p, const fw_rule_edge *q) {
+static bool look_away(const fw_mask_rule_edge *p, const fw_mask_rule_edge *q) {
     if (!(p->cos_half > 0 && q->cos_half > 0)) return false;
     double sine = p->sin_half * q->cos_half + p->cos_half * q->sin_half;
     double cosine = p->cos_half * q->cos_half - p->sin_half * q->sin_half;
     return cosine > 1e-3 && vec_dot(p->along, q->along) >= sine - 4e-7 * cosine;
 }
 
-void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
+void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q) {
     bool touch = fw_box_gap(p->box, q->box) <= FW_COINCIDENT_M;
     if (!in->everything && look_away(p, q)) {
         /* one after the other they run along one direction: they meet at their corner alone */
@@ -282,15 +292,15 @@ void fw_rule_pair(fw_rule_search *in, fw_rule_edge *p, fw_rule_edge *q) {
         if (touch && !joined) look_at_contacts(in, p, q);
         return;
     }
-    double clear =
-        fw_greater(fw_segment_clear_of(&p->s, &q->box), fw_segment_clear_of(&q->s, &p->box));
-    if (!in->everything &&
-        clear > fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE)))
+    double clear = fw_greater(fw_geometry_segment_clear_of(&p->s, &q->box),
+                              fw_geometry_segment_clear_of(&q->s, &p->box));
+    if (!in->everything && clear > fw_greater(fw_mask_rule_bound(in, FW_RULE_WIDTH),
+                                              fw_mask_rule_bound(in, FW_RULE_SPACE)))
         return;
     if (concentric(in, p, q)) return; /* they cannot meet either */
     bool meet = touch && look_at_contacts(in, p, q);
-    fw_chord chord[FW_MOST_CHORDS];
-    int n = fw_segment_chords(&p->s, &q->s, chord);
+    fw_geometry_chord chord[FW_MOST_CHORDS];
+    int n = fw_geometry_segment_chords(&p->s, &q->s, chord);
     measure_pair(in, p, q, chord, n);
     judge_pair(in, p, q, chord, n, meet);
 }

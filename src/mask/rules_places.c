@@ -17,14 +17,14 @@
 enum { MOST_STEPS = 8192 };
 
 typedef struct stretch { /* of both edges */
-    const fw_finding *worst;
+    const fw_mask_rule_finding *worst;
     double from[2], to[2];
-    fw_box box;
+    fw_geometry_box box;
     int place; /* the first stretch of its place */
 } stretch;
 
 static int in_order(const void *left, const void *right) {
-    const fw_finding *p = left, *q = right;
+    const fw_mask_rule_finding *p = left, *q = right;
     for (int k = 0; k < 2; k++)
         if (p->shape[k] != q->shape[k]) return p->shape[k] - q->shape[k];
     for (int k = 0; k < 2; k++) /* of one array each: the order is the same every time */
@@ -34,49 +34,51 @@ static int in_order(const void *left, const void *right) {
     return vec_same(p->at[1], q->at[1]) ? 0 : vec_before(p->at[1], q->at[1]) ? -1 : 1;
 }
 
-static bool same_edges(const fw_finding *f, const fw_finding *g) {
+static bool same_edges(const fw_mask_rule_finding *f, const fw_mask_rule_finding *g) {
     return f->edge[0] == g->edge[0] && f->edge[1] == g->edge[1];
 }
 
-static bool same_shapes(const fw_finding *f, const fw_finding *g) {
+static bool same_shapes(const fw_mask_rule_finding *f, const fw_mask_rule_finding *g) {
     return f->shape[0] == g->shape[0] && f->shape[1] == g->shape[1];
 }
 
 /* how far from t the other edge stays nearer than the limit, in steps of dt */
-static double walk(const fw_segment *s, const fw_segment *other, double t, double dt,
-                   double needed) {
-    fw_vec2 foot;
+static double walk(const fw_geometry_segment *s, const fw_geometry_segment *other, double t,
+                   double dt, double needed) {
+    fw_geometry_vec2 foot;
     double at, end = dt > 0 ? 1 : 0;
     while (t != end) {
         double next = dt > 0 ? fmin(t + dt, 1) : fmax(t + dt, 0);
-        if (!(fw_segment_nearest(other, fw_segment_point(s, next), &at, &foot) < needed)) break;
+        if (!(fw_geometry_segment_nearest(other, fw_geometry_segment_point(s, next), &at, &foot) <
+              needed))
+            break;
         t = next;
     }
     return t;
 }
 
-static fw_box box_of(const stretch *r) {
-    fw_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+static fw_geometry_box box_of(const stretch *r) {
+    fw_geometry_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int k = 0; k < 2; k++) {
-        const fw_segment *s = &r->worst->edge[k]->s;
-        fw_vec2 at = r->worst->at[k], a = fw_segment_point(s, r->from[k]),
-                b = fw_segment_point(s, r->to[k]);
-        box = fw_box_join(box, (fw_box){at.x, at.y, at.x, at.y});
+        const fw_geometry_segment *s = &r->worst->edge[k]->s;
+        fw_geometry_vec2 at = r->worst->at[k], a = fw_geometry_segment_point(s, r->from[k]),
+                         b = fw_geometry_segment_point(s, r->to[k]);
+        box = fw_box_join(box, (fw_geometry_box){at.x, at.y, at.x, at.y});
         if (r->to[k] - r->from[k] > 1e-9) {
-            fw_segment part = fw_segment_cut(s, r->from[k], a, r->to[k], b);
+            fw_geometry_segment part = fw_geometry_segment_cut(s, r->from[k], a, r->to[k], b);
             box = fw_box_join(box, fw_segment_box(&part));
         }
     }
     return box;
 }
 
-static stretch around(const fw_finding *f, double limit_m) {
+static stretch around(const fw_mask_rule_finding *f, double limit_m) {
     stretch r = {.worst = f};
     for (int k = 0; k < 2; k++) {
-        const fw_segment *s = &f->edge[k]->s, *other = &f->edge[1 - k]->s;
-        double needed = limit_m + f->slack_m, length = fw_segment_length(s);
+        const fw_geometry_segment *s = &f->edge[k]->s, *other = &f->edge[1 - k]->s;
+        double needed = limit_m + f->slack_m, length = fw_geometry_segment_length(s);
         double step = fmax(0.25 * needed / length, 1.0 / MOST_STEPS);
-        double t = fw_segment_parameter(s, f->at[k]);
+        double t = fw_geometry_segment_parameter(s, f->at[k]);
         r.from[k] = s == other ? 0 : walk(s, other, t, -step, needed);
         r.to[k] = s == other ? 1 : walk(s, other, t, step, needed);
     }
@@ -84,21 +86,22 @@ static stretch around(const fw_finding *f, double limit_m) {
     return r;
 }
 
-static bool covers(const stretch *r, const fw_finding *f) {
+static bool covers(const stretch *r, const fw_mask_rule_finding *f) {
     for (int k = 0; k < 2; k++) {
-        double t = fw_segment_parameter(&f->edge[k]->s, f->at[k]);
+        double t = fw_geometry_segment_parameter(&f->edge[k]->s, f->at[k]);
         if (t < r->from[k] - 1e-9 || t > r->to[k] + 1e-9) return false;
     }
     return true;
 }
 
 /* do two stretches of edges run into each other, within `near_m` along them? */
-static bool run_on(const fw_segment *s, double from_s, double to_s, const fw_segment *t,
-                   double from_t, double to_t, double near_m) {
-    double length = fw_segment_length(s);
+static bool run_on(const fw_geometry_segment *s, double from_s, double to_s,
+                   const fw_geometry_segment *t, double from_t, double to_t, double near_m) {
+    double length = fw_geometry_segment_length(s);
     if (s == t) return fmax(from_s, from_t) - fmin(to_s, to_t) <= near_m / length;
     double at_end = (1 - to_s) * length, at_start = from_s * length;
-    double t_end = (1 - to_t) * fw_segment_length(t), t_start = from_t * fw_segment_length(t);
+    double t_end = (1 - to_t) * fw_geometry_segment_length(t),
+           t_start = from_t * fw_geometry_segment_length(t);
     return (vec_same(s->b, t->a) && at_end + t_start <= near_m) ||
            (vec_same(t->b, s->a) && t_end + at_start <= near_m);
 }
@@ -114,7 +117,8 @@ static bool one_place(const stretch *p, const stretch *q, double limit_m) {
 }
 
 /* chords of one pair of edges, shortest first: a stretch around each that is in none before */
-static int stretches_of(const fw_finding *f, int n, double limit_m, stretch *out, int count) {
+static int stretches_of(const fw_mask_rule_finding *f, int n, double limit_m, stretch *out,
+                        int count) {
     int first = count;
     for (int i = 0; i < n; i++) {
         bool new = true;
@@ -158,20 +162,20 @@ static fw_status join_places(fw_arena *arena, stretch *list, int n, double limit
 
 /* the shortest chord, moved to the middle of its stretch where it is as short there: between
    parallel lines and concentric arcs */
-static fw_finding centred(const stretch *r) {
-    fw_finding f = *r->worst;
-    const fw_segment *s = &f.edge[0]->s, *other = &f.edge[1]->s;
+static fw_mask_rule_finding centred(const stretch *r) {
+    fw_mask_rule_finding f = *r->worst;
+    const fw_geometry_segment *s = &f.edge[0]->s, *other = &f.edge[1]->s;
     double t;
-    fw_vec2 foot, middle = fw_segment_point(s, 0.5 * (r->from[0] + r->to[0]));
+    fw_geometry_vec2 foot, middle = fw_geometry_segment_point(s, 0.5 * (r->from[0] + r->to[0]));
     f.box = r->box;
     if (s != other &&
-        fabs(fw_segment_nearest(other, middle, &t, &foot) - f.value_m) <= FW_COINCIDENT_M)
+        fabs(fw_geometry_segment_nearest(other, middle, &t, &foot) - f.value_m) <= FW_COINCIDENT_M)
         f.at[0] = middle, f.at[1] = foot;
     return f;
 }
 
 /* the shortest chord of each place, and the box of all of it */
-static int shortest(stretch *list, int n, fw_finding *out) {
+static int shortest(stretch *list, int n, fw_mask_rule_finding *out) {
     int count = 0;
     for (int i = 0; i < n; i++) {
         int first = root(list, i);
@@ -179,8 +183,8 @@ static int shortest(stretch *list, int n, fw_finding *out) {
             list[i].place = -1 - count; /* from now on: where it is in `out` */
             out[count++] = centred(&list[i]);
         } else {
-            fw_finding *f = &out[-1 - list[first].place];
-            fw_box box = fw_box_join(f->box, list[i].box);
+            fw_mask_rule_finding *f = &out[-1 - list[first].place];
+            fw_geometry_box box = fw_box_join(f->box, list[i].box);
             if (list[i].worst->value_m < f->value_m - FW_COINCIDENT_M) *f = centred(&list[i]);
             f->box = box;
         }
@@ -188,10 +192,10 @@ static int shortest(stretch *list, int n, fw_finding *out) {
     return count;
 }
 
-fw_status fw_rule_places(fw_arena *arena, fw_finding *list, int n, double limit_m, fw_finding **out,
-                         int *nout) {
+fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,
+                              fw_mask_rule_finding **out, int *nout) {
     *nout = 0;
-    FW_NEED(*out = fw_arena_array(arena, fw_finding, (size_t)n));
+    FW_NEED(*out = fw_arena_array(arena, fw_mask_rule_finding, (size_t)n));
     fw_mark mark = fw_arena_mark(arena);
     stretch *r = fw_arena_array(arena, stretch, (size_t)n);
     FW_NEED(r);

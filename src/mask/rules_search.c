@@ -4,55 +4,56 @@
    test_rules_search.c. */
 #include "mask/rules_search.h"
 
-double fw_rule_needed(const fw_rule_search *in, fw_rule_kind kind, double slack_m) {
+double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind, double slack_m) {
     double limit = in->limit_m[kind];
     return limit > 0 ? limit + slack_m : 0;
 }
 
-double fw_rule_bound(const fw_rule_search *in, fw_rule_kind kind) {
+double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind) {
     double least = kind == FW_RULE_WIDTH ? in->measure->width_m : in->measure->space_m;
     if (in->everything) return HUGE_VAL;
-    return fw_greater(fw_rule_needed(in, kind, 2 * in->slack_m), fw_lesser(least, in->cap_m));
+    return fw_greater(fw_mask_rule_needed(in, kind, 2 * in->slack_m), fw_lesser(least, in->cap_m));
 }
 
-static double reach(const fw_rule_search *in) {
-    return fw_greater(fw_rule_bound(in, FW_RULE_WIDTH), fw_rule_bound(in, FW_RULE_SPACE));
+static double reach(const fw_mask_rule_search *in) {
+    return fw_greater(fw_mask_rule_bound(in, FW_RULE_WIDTH), fw_mask_rule_bound(in, FW_RULE_SPACE));
 }
 
-static void look_inside(fw_rule_search *in, const fw_rule_range *r) {
-    fw_rule_edge *e = in->edge + r->first;
+static void look_inside(fw_mask_rule_search *in, const fw_mask_rule_range *r) {
+    fw_mask_rule_edge *e = in->edge + r->first;
     for (int i = 0; i < r->count; i++) {
-        fw_rule_own(in, &e[i]);
+        fw_mask_rule_own(in, &e[i]);
         double far = reach(in); /* only a pair that was looked at changes it */
-        fw_box own = e[i].box;
+        fw_geometry_box own = e[i].box;
         for (int j = i + 1; j < r->count && e[j].box.x0 - own.x1 <= far; j++) {
             if (fw_box_gap(own, e[j].box) > far) continue;
-            fw_rule_pair(in, &e[i], &e[j]);
+            fw_mask_rule_pair(in, &e[i], &e[j]);
             far = reach(in);
         }
     }
 }
 
-static void look_between(fw_rule_search *in, const fw_rule_range *r, const fw_rule_range *s) {
+static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
+                         const fw_mask_rule_range *s) {
     for (int i = 0; i < r->count; i++) {
-        fw_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
-        fw_box own = p->box;
+        fw_mask_rule_edge *p = &in->edge[r->first + i], *q = &in->edge[s->first];
+        fw_geometry_box own = p->box;
         double far = reach(in);
         if (fw_box_gap(own, s->box) > far) continue;
         for (int j = 0; j < s->count && q[j].box.x0 - own.x1 <= far; j++) {
             if (fw_box_gap(own, q[j].box) > far) continue;
-            fw_rule_pair(in, p, &q[j]);
+            fw_mask_rule_pair(in, p, &q[j]);
             far = reach(in);
         }
     }
 }
 
-static void look(fw_rule_search *in) {
+static void look(fw_mask_rule_search *in) {
     for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
         look_inside(in, &in->range[i]);
     for (int i = 0; i < in->nrange; i++)
         for (int j = i + 1; j < in->nrange; j++) {
-            const fw_rule_range *r = &in->range[i], *s = &in->range[j];
+            const fw_mask_rule_range *r = &in->range[i], *s = &in->range[j];
             double far = reach(in);
             if (s->box.x0 - r->box.x1 > far) break;
             if (fw_box_gap(r->box, s->box) <= far) look_between(in, r, s);
@@ -62,7 +63,7 @@ static void look(fw_rule_search *in) {
 /* Near pairs first: most layers have a width and a space of some um, and then nothing beyond these
    is looked at. Where they have not, again up to what was found, or with a larger cap. What stands
    in the end is what the last round alone finds, in its order. */
-void fw_rule_look(fw_rule_search *in) {
+void fw_mask_rule_search_run(fw_mask_rule_search *in) {
     for (double cap_m = 12e-6;;) {
         in->cap_m = fw_lesser(cap_m, FW_MASK_LOOK_M);
         in->measure->width_m = in->measure->space_m = HUGE_VAL;

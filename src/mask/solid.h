@@ -5,21 +5,21 @@
 #define FW_MASK_SOLID_H
 #include "mask/mask.h"
 
-typedef struct fw_solid_piece {
+typedef struct fw_mask_solid_piece {
     const fw_mask_shape *shape;
-    fw_polygon polygon;            /* of the shape, or one of its parts */
-    fw_polygon_triangle *triangle; /* (polygon.count - 2) of its top */
+    fw_geometry_polygon polygon;            /* of the shape, or one of its parts */
+    fw_geometry_polygon_triangle *triangle; /* (polygon.count - 2) of its top */
     bool *wall; /* (polygon.count) from vertex i to the next one: false where another
                    piece goes on */
-} fw_solid_piece;
+} fw_mask_solid_piece;
 
-typedef struct fw_solid {
-    fw_solid_piece *piece; /* (npiece) */
+typedef struct fw_mask_solid {
+    fw_mask_solid_piece *piece; /* (npiece) */
     int npiece;
     long triangles; /* of both faces and the walls */
     double thickness_m;
-} fw_solid;
+} fw_mask_solid;
 
-fw_status fw_mask_solid(fw_arena *arena, const fw_mask *mask, fw_solid *solid);
+fw_status fw_mask_solid_build(fw_arena *arena, const fw_mask *mask, fw_mask_solid *solid);
 
 #endif

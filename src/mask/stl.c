@@ -30,7 +30,7 @@ static unsigned char *put_corner(unsigned char *at, corner c) {
     return put_float(put_float(put_float(at, c.x), c.y), c.z);
 }
 
-static corner place(fw_point p, double z) {
+static corner place(fw_geometry_point p, double z) {
     return (corner){1e-3 * p.x_dbu, 1e-3 * p.y_dbu, z};
 }
 
@@ -44,17 +44,17 @@ static unsigned char *facet(unsigned char *at, corner a, corner b, corner c) {
     return at + 2;
 }
 
-static unsigned char *piece(unsigned char *at, const fw_solid_piece *s, double top_um) {
-    const fw_polygon *p = &s->polygon;
+static unsigned char *piece(unsigned char *at, const fw_mask_solid_piece *s, double top_um) {
+    const fw_geometry_polygon *p = &s->polygon;
     for (int i = 0; i < p->count - 2; i++) {
         const int *v = s->triangle[i].vertex;
-        fw_point a = p->vertex[v[0]], b = p->vertex[v[1]], c = p->vertex[v[2]];
+        fw_geometry_point a = p->vertex[v[0]], b = p->vertex[v[1]], c = p->vertex[v[2]];
         at = facet(at, place(a, top_um), place(b, top_um), place(c, top_um));
         at = facet(at, place(a, 0), place(c, 0), place(b, 0));
     }
     for (int i = 0; i < p->count; i++) {
         if (!s->wall[i]) continue;
-        fw_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
         at = facet(at, place(a, 0), place(b, 0), place(b, top_um));
         at = facet(at, place(a, 0), place(b, top_um), place(a, top_um));
     }
@@ -62,8 +62,8 @@ static unsigned char *piece(unsigned char *at, const fw_solid_piece *s, double t
 }
 
 fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out) {
-    fw_solid solid;
-    FW_TRY(fw_mask_solid(out->arena, mask, &solid));
+    fw_mask_solid solid;
+    FW_TRY(fw_mask_solid_build(out->arena, mask, &solid));
     unsigned char *at = fw_text_room(out, HEAD + 4 + FACET * (size_t)solid.triangles);
     if (!at) return FW_NOMEM;
     memset(at, ' ', HEAD);

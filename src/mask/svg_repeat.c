@@ -24,8 +24,8 @@ typedef struct form { /* one segment, from the outline's first point */
     double sweep;
 } form;
 
-static form form_of(const fw_contour *c, int i, fw_vec2 upper_left) {
-    const fw_segment *s = &c->segment[i], *first = c->segment;
+static form form_of(const fw_geometry_contour *c, int i, fw_geometry_vec2 upper_left) {
+    const fw_geometry_segment *s = &c->segment[i], *first = c->segment;
     int64_t x0 = llround((first->a.x - upper_left.x) * PER_M);
     int64_t y0 = llround((upper_left.y - first->a.y) * PER_M);
     form f = {.x = llround((s->b.x - upper_left.x) * PER_M) - x0,
@@ -39,7 +39,7 @@ static form form_of(const fw_contour *c, int i, fw_vec2 upper_left) {
 }
 
 /* of the number of segments and of some of them: what is equal is compared as a whole */
-static uint64_t hash_of(const fw_mask_shape *s, fw_vec2 upper_left) {
+static uint64_t hash_of(const fw_mask_shape *s, fw_geometry_vec2 upper_left) {
     int step = s->contour.count / SAMPLES + 1;
     uint64_t h = 1469598103934665603u ^ (uint64_t)s->contour.count; /* Fowler, Noll and Vo */
     for (int i = 0; i < s->contour.count; i += step) {
@@ -52,7 +52,8 @@ static uint64_t hash_of(const fw_mask_shape *s, fw_vec2 upper_left) {
 }
 
 /* Written ends the same, and arcs the same but for 2 pm of their centres. */
-static bool same_form(const fw_contour *p, const fw_contour *q, fw_vec2 upper_left) {
+static bool same_form(const fw_geometry_contour *p, const fw_geometry_contour *q,
+                      fw_geometry_vec2 upper_left) {
     if (p->count != q->count) return false;
     for (int i = 0; i < p->count; i++) {
         form a = form_of(p, i, upper_left), b = form_of(q, i, upper_left);
@@ -63,7 +64,7 @@ static bool same_form(const fw_contour *p, const fw_contour *q, fw_vec2 upper_le
     return true;
 }
 
-static bool pays(const fw_contour *c) {
+static bool pays(const fw_geometry_contour *c) {
     int bytes = 0;
     for (int i = 0; i < c->count && bytes < LEAST_BYTES; i++)
         bytes += c->segment[i].kind == FW_ARC ? ARC_BYTES : LINE_BYTES;
@@ -79,8 +80,8 @@ static int by_hash(const void *left, const void *right) {
 /* For every shape of a layer the first one that it repeats: itself where others repeat it, -1 where
    none does. In: outlines (m), as they are rounded in the file (1 pm). Out: of (nshape). Cost: O(n
    log n) hashes, then each against the first of its hash. Test: test_svg_repeat.c. */
-fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, fw_vec2 upper_left,
-                         int **out) {
+fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer,
+                              fw_geometry_vec2 upper_left, int **out) {
     int n = 0, *of = fw_arena_array(arena, int, (size_t)mask->nshape);
     entry *list = fw_arena_array(arena, entry, (size_t)mask->nshape);
     FW_NEED(of);
@@ -93,7 +94,7 @@ fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer, f
     qsort(list, (size_t)n, sizeof *list, by_hash);
     for (int i = 0, first = 0; i < n; i++) {
         if (list[i].hash != list[first].hash) first = i;
-        const fw_contour *p = &mask->shape[list[first].shape].contour;
+        const fw_geometry_contour *p = &mask->shape[list[first].shape].contour;
         if (i == first || !same_form(p, &mask->shape[list[i].shape].contour, upper_left)) continue;
         of[list[first].shape] = of[list[i].shape] = list[first].shape;
     }

@@ -2,7 +2,7 @@
 /* <pattern kind="undercut-ladder" id="ladder" title="UNDERCUT" from="4 um" .../>: which test
    patterns a flow has, as data. Which attributes a kind takes is in its own row (layout/pattern.h).
  */
-#include "mask/table.h"
+#include "mask/mask_table.h"
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ static bool is_name_of_quantity(const char *text) {
     return fw_mask_is_plain(text) && strlen(text) <= 100;
 }
 
-static const fw_attribute_row common[] = {
+static const fw_xml_attribute_row common[] = {
     {"kind", .required = true, .sentence = "What is drawn."},
     {"id", .kind = FW_KIND_FORM, .form = is_id, .reason = "plain ASCII of 1 to 32 characters",
      .fallback = "kind", .sentence = "Measured values name it."},
@@ -46,39 +46,40 @@ static const fw_attribute_row common[] = {
 };
 enum { COMMON = sizeof common / sizeof common[0] };
 
-static fw_attribute_row parameter_row(const fw_pattern_parameter *p) {
-    return (fw_attribute_row){p->name,
-                              .kind = FW_KIND_NUMBER,
-                              .dimension = {.m = p->number ? 0 : 1},
-                              .unit = p->number ? "1" : "um",
-                              .ranged = true,
-                              .min = p->least,
-                              .max = p->most,
-                              .reason = "what the pattern is drawn for",
-                              .required = isnan(p->usual),
-                              .sentence = "Of the pattern."};
+static fw_xml_attribute_row parameter_row(const fw_layout_pattern_parameter *p) {
+    return (fw_xml_attribute_row){p->name,
+                                  .kind = FW_KIND_NUMBER,
+                                  .dimension = {.m = p->number ? 0 : 1},
+                                  .unit = p->number ? "1" : "um",
+                                  .ranged = true,
+                                  .min = p->least,
+                                  .max = p->most,
+                                  .reason = "what the pattern is drawn for",
+                                  .required = isnan(p->usual),
+                                  .sentence = "Of the pattern."};
 }
 
-static const fw_pattern_kind *kind_named(fw_xml_reader *r, const fw_element *e) {
-    const fw_attribute *a = fw_xml_attribute(e, "kind");
-    const fw_pattern_kind *kind = a ? fw_pattern_kind_named(a->value) : NULL;
+static const fw_layout_pattern_kind *kind_named(fw_xml_reader *r, const fw_xml_element *e) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "kind");
+    const fw_layout_pattern_kind *kind = a ? fw_layout_pattern_kind_named(a->value) : NULL;
     if (kind) return kind;
     fw_text known = fw_text_new(r->arena);
-    for (size_t i = 0; (kind = fw_pattern_kind_at(i)); i++)
+    for (size_t i = 0; (kind = fw_layout_pattern_kind_at(i)); i++)
         fw_text_printf(&known, "%s%s", i ? " " : "", kind->name);
     fw_diag_error(r->diags, 185, a ? a->place : e->place, "<pattern> needs a kind; there are: %s",
                   fw_text_end(&known) == FW_OK ? known.data : "");
     return NULL;
 }
 
-fw_status fw_mask_pattern_row(fw_xml_reader *r, const fw_element *e, const fw_element_row **row) {
-    const fw_pattern_kind *kind = kind_named(r, e);
-    const fw_element_row *any = *row;
+fw_status fw_mask_pattern_row(fw_xml_reader *r, const fw_xml_element *e,
+                              const fw_xml_element_row **row) {
+    const fw_layout_pattern_kind *kind = kind_named(r, e);
+    const fw_xml_element_row *any = *row;
     *row = NULL;
     if (!kind) return FW_OK;
-    fw_element_row *made = fw_arena_one(r->arena, fw_element_row);
-    fw_attribute_row *list =
-        fw_arena_array(r->arena, fw_attribute_row, COMMON + 1 + (size_t)kind->nparameter);
+    fw_xml_element_row *made = fw_arena_one(r->arena, fw_xml_element_row);
+    fw_xml_attribute_row *list =
+        fw_arena_array(r->arena, fw_xml_attribute_row, COMMON + 1 + (size_t)kind->nparameter);
     FW_NEED(made && list ? made : NULL);
     *made = *any;
     made->attribute = list;
@@ -88,7 +89,7 @@ fw_status fw_mask_pattern_row(fw_xml_reader *r, const fw_element *e, const fw_el
         list[made->nattribute++] = parameter_row(&kind->parameter[i]);
     if (kind->sizes)
         list[made->nattribute++] =
-            (fw_attribute_row){"sizes", .required = true, .sentence = kind->sizes};
+            (fw_xml_attribute_row){"sizes", .required = true, .sentence = kind->sizes};
     FW_NEED(made->name = fw_arena_printf(r->arena, "pattern kind=\"%s\"", kind->name));
     *row = made;
     return FW_OK;
@@ -101,13 +102,13 @@ static bool on_grid(double x_m) {
 }
 
 /* one of "4 um, 6 um, 10 um": n bytes at s */
-static fw_status read_size(fw_xml_reader *r, const fw_attribute *a, const char *s, size_t n,
-                           fw_pattern *p, bool *good) {
-    fw_expression_error error = {0};
-    fw_names none = {0};
+static fw_status read_size(fw_xml_reader *r, const fw_xml_attribute *a, const char *s, size_t n,
+                           fw_layout_pattern *p, bool *good) {
+    fw_quantity_expression_error error = {0};
+    fw_quantity_names none = {0};
     double *value = &p->size_m[p->nsize];
-    fw_status status =
-        fw_expression_evaluate(r->arena, s, n, &none, (fw_dimension){.m = 1}, value, &error);
+    fw_status status = fw_quantity_expression_evaluate(
+        r->arena, s, n, &none, (fw_quantity_dimension){.m = 1}, value, &error);
     if (status == FW_NOMEM) return status;
     *good = status == FW_OK;
     if (!*good)
@@ -115,14 +116,14 @@ static fw_status read_size(fw_xml_reader *r, const fw_attribute *a, const char *
     else if (!(*value >= 1e-6 && *value <= 5e-3)) {
         char text[FW_LABEL];
         fw_diag_error(r->diags, 185, a->place, "sizes: %s is not at least 1 um and at most 5000 um",
-                      fw_in_unit(text, *value, "um"));
+                      fw_xml_in_unit(text, *value, "um"));
     } else if (!on_grid(*value))
         fw_diag_error(r->diags, 185, a->place, "sizes must be multiples of 1 nm");
     p->nsize++;
     return FW_OK;
 }
 
-static fw_status read_sizes(fw_xml_reader *r, const fw_attribute *a, fw_pattern *p) {
+static fw_status read_sizes(fw_xml_reader *r, const fw_xml_attribute *a, fw_layout_pattern *p) {
     bool good = true;
     for (const char *s = a->value; s && good;) {
         size_t n = strcspn(s, ",");
@@ -137,38 +138,38 @@ static fw_status read_sizes(fw_xml_reader *r, const fw_attribute *a, fw_pattern 
     return FW_OK;
 }
 
-static fw_status read_pattern(fw_xml_reader *r, const fw_record *e, fw_pattern *p) {
-    const fw_pattern_kind *kind = fw_pattern_kind_named(fw_text_of(e, "kind"));
-    const char *id = fw_text_of(e, "id"), *title = fw_text_of(e, "title");
-    *p = (fw_pattern){.kind = kind,
-                      .biased = fw_mask_says(e, "bias", "yes"),
-                      .id = id ? id : kind->name,
-                      .title = title ? title : kind->name,
-                      .gives = fw_text_of(e, "gives"),
-                      .measure = fw_text_of(e, "measure"),
-                      .source = fw_text_of(e, "source"),
-                      .place = e->element->place};
+static fw_status read_pattern(fw_xml_reader *r, const fw_xml_record *e, fw_layout_pattern *p) {
+    const fw_layout_pattern_kind *kind = fw_layout_pattern_kind_named(fw_xml_text_of(e, "kind"));
+    const char *id = fw_xml_text_of(e, "id"), *title = fw_xml_text_of(e, "title");
+    *p = (fw_layout_pattern){.kind = kind,
+                             .biased = fw_mask_says(e, "bias", "yes"),
+                             .id = id ? id : kind->name,
+                             .title = title ? title : kind->name,
+                             .gives = fw_xml_text_of(e, "gives"),
+                             .measure = fw_xml_text_of(e, "measure"),
+                             .source = fw_xml_text_of(e, "source"),
+                             .place = e->element->place};
     for (int i = 0; i < kind->nparameter; i++) {
-        const fw_pattern_parameter *from = &kind->parameter[i];
-        const fw_xml_cell *cell = fw_cell_of(e, from->name);
+        const fw_layout_pattern_parameter *from = &kind->parameter[i];
+        const fw_xml_cell *cell = fw_xml_cell_of(e, from->name);
         p->value[i] = cell->ok ? cell->number : from->usual;
         if (cell->ok && !from->number && !on_grid(p->value[i]))
             fw_diag_error(r->diags, 185, cell->given->place, "%s must be a multiple of 1 nm",
                           from->name);
     }
-    const fw_attribute *sizes = fw_cell_of(e, "sizes")->given;
+    const fw_xml_attribute *sizes = fw_xml_cell_of(e, "sizes")->given;
     return sizes ? read_sizes(r, sizes, p) : FW_OK;
 }
 
 fw_status fw_mask_patterns_build(fw_xml_reader *r, fw_mask_table *table) {
-    const fw_record *root = r->record;
-    fw_pattern *row =
-        fw_arena_array(r->arena, fw_pattern, (size_t)fw_xml_children(root, "pattern"));
+    const fw_xml_record *root = r->record;
+    fw_layout_pattern *row =
+        fw_arena_array(r->arena, fw_layout_pattern, (size_t)fw_xml_children(root, "pattern"));
     FW_NEED(row);
     table->pattern = row;
-    for (const fw_record *e = root->first_child; e; e = e->next) {
-        if (!fw_is(e, "pattern")) continue;
-        fw_pattern *p = &row[table->npattern];
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        if (!fw_xml_is(e, "pattern")) continue;
+        fw_layout_pattern *p = &row[table->npattern];
         FW_TRY(read_pattern(r, e, p));
         for (int i = 0; i < table->npattern; i++)
             if (strcmp(row[i].id, p->id) == 0)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows <rule> of a layer table; docs/theory/masks.md lists the kinds and their attributes. */
 #include "mask/rule.h"
-#include "mask/table.h"
+#include "mask/mask_table.h"
 #include <string.h>
 
 const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,
@@ -15,13 +15,13 @@ const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,
 
 /* ---- rows: which attributes there are depends on the kind ---- */
 
-static const fw_dimension length = {.m = 1};
+static const fw_quantity_dimension length = {.m = 1};
 static const char *const severities[] = {"error", "warning", NULL};
 static const char *const sides[] = {"outline", "polygon", NULL};
 static const char *const insides[] = {"island", "hole", NULL};
 
-typedef struct limit_unit { /* of min and max, by fw_rule_unit */
-    fw_dimension dimension;
+typedef struct limit_unit { /* of min and max, by fw_mask_rule_unit_kind */
+    fw_quantity_dimension dimension;
     const char *unit;
     double most;
 } limit_unit;
@@ -37,7 +37,7 @@ enum { ALWAYS = 0 };
 
 static const struct {
     unsigned taken; /* by kinds that take this; ALWAYS: by all */
-    fw_attribute_row row;
+    fw_xml_attribute_row row;
 } attributes[] = {
     {ALWAYS, {"kind", REQUIRED, .sentence = "What is looked at."}},
     {ALWAYS, {"layer", REQUIRED, .sentence = "id of the layer that is looked at."}},
@@ -64,16 +64,16 @@ static const struct {
 };
 enum { NATTRIBUTE = sizeof attributes / sizeof attributes[0] };
 
-static const fw_rule_row *kind_named(fw_xml_reader *r, const fw_element *e) {
-    const fw_attribute *a = fw_xml_attribute(e, "kind");
+static const fw_mask_rule_kind_row *kind_named(fw_xml_reader *r, const fw_xml_element *e) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "kind");
     const char *names[32];
     size_t n = 0;
     if (!a) {
         fw_diag_error(r->diags, 135, e->place, "<rule> needs kind=\"...\": What is looked at.");
         return NULL;
     }
-    const fw_rule_row *row;
-    for (size_t i = 0; (row = fw_rule_kind_at(i)); i++) {
+    const fw_mask_rule_kind_row *row;
+    for (size_t i = 0; (row = fw_mask_rule_kind_at(i)); i++) {
         if (row->built_in) continue;
         if (strcmp(row->name, a->value) == 0) return row;
         names[n++] = row->name;
@@ -90,7 +90,8 @@ static const fw_rule_row *kind_named(fw_xml_reader *r, const fw_element *e) {
 
 /* min and max are in the kind's own unit; where there are names for a formula, min is read when
    they have values */
-static fw_attribute_row attribute_of(const fw_rule_row *kind, fw_attribute_row row) {
+static fw_xml_attribute_row attribute_of(const fw_mask_rule_kind_row *kind,
+                                         fw_xml_attribute_row row) {
     bool min = strcmp(row.name, "min") == 0, max = strcmp(row.name, "max") == 0;
     if (min || max) {
         const limit_unit *unit = &limits[kind->unit];
@@ -103,12 +104,13 @@ static fw_attribute_row attribute_of(const fw_rule_row *kind, fw_attribute_row r
     return row;
 }
 
-fw_status fw_mask_rule_row(fw_xml_reader *r, const fw_element *e, const fw_element_row **row) {
-    const fw_rule_row *kind = kind_named(r, e);
-    fw_element_row *made = fw_arena_one(r->arena, fw_element_row);
-    fw_attribute_row *list = fw_arena_array(r->arena, fw_attribute_row, NATTRIBUTE);
+fw_status fw_mask_rule_row(fw_xml_reader *r, const fw_xml_element *e,
+                           const fw_xml_element_row **row) {
+    const fw_mask_rule_kind_row *kind = kind_named(r, e);
+    fw_xml_element_row *made = fw_arena_one(r->arena, fw_xml_element_row);
+    fw_xml_attribute_row *list = fw_arena_array(r->arena, fw_xml_attribute_row, NATTRIBUTE);
     FW_NEED(made && list ? made : NULL);
-    const fw_element_row *any = *row;
+    const fw_xml_element_row *any = *row;
     *row = NULL;
     if (!kind) return FW_OK;
     *made = *any;
@@ -130,7 +132,7 @@ typedef struct reader {
 } reader;
 
 /* index of the layer with that id; -1: there is none, which is told */
-static int layer_named(reader *r, const fw_attribute *a) {
+static int layer_named(reader *r, const fw_xml_attribute *a) {
     const fw_mask_table *t = r->table;
     const char **names = fw_arena_array(r->r->arena, const char *, (size_t)t->nlayer);
     size_t n = 0;
@@ -146,10 +148,11 @@ static int layer_named(reader *r, const fw_attribute *a) {
     return -1;
 }
 
-static void read_layers(reader *r, const fw_record *e) {
+static void read_layers(reader *r, const fw_xml_record *e) {
     fw_mask_rule *rule = r->rule;
-    const fw_attribute *a = fw_cell_of(e, "layer")->given, *other = fw_cell_of(e, "inside")->given;
-    if (!other) other = fw_cell_of(e, "from")->given;
+    const fw_xml_attribute *a = fw_xml_cell_of(e, "layer")->given,
+                           *other = fw_xml_cell_of(e, "inside")->given;
+    if (!other) other = fw_xml_cell_of(e, "from")->given;
     if (a) rule->layer = layer_named(r, a);
     if (other) rule->other = layer_named(r, other);
     if (a && other && rule->layer >= 0 && rule->layer == rule->other)
@@ -157,27 +160,28 @@ static void read_layers(reader *r, const fw_record *e) {
                       other->name, other->value);
 }
 
-static double value_of(const fw_record *e, const char *name, double absent) {
-    const fw_xml_cell *cell = fw_cell_of(e, name);
+static double value_of(const fw_xml_record *e, const char *name, double absent) {
+    const fw_xml_cell *cell = fw_xml_cell_of(e, name);
     return cell->ok ? cell->number : absent;
 }
 
 /* min as a formula of wavelength, gap and resist */
-static fw_status read_formula(reader *r, const fw_record *e) {
+static fw_status read_formula(reader *r, const fw_xml_record *e) {
     static const char *const print[] = {"wavelength", "gap", "resist"};
     enum { NPRINT = sizeof print / sizeof print[0] };
-    const fw_attribute *a = fw_cell_of(e, "min")->given;
-    fw_name_value name[NPRINT];
+    const fw_xml_attribute *a = fw_xml_cell_of(e, "min")->given;
+    fw_quantity_name_value name[NPRINT];
     for (int i = 0; i < NPRINT; i++)
-        name[i] = (fw_name_value){print[i], value_of(e, print[i], 0.0), length};
+        name[i] = (fw_quantity_name_value){print[i], value_of(e, print[i], 0.0), length};
     const limit_unit *unit = &limits[r->rule->kind->unit];
-    fw_dimension found;
+    fw_quantity_dimension found;
     double value;
     bool ok;
     if (!a) return FW_OK;
-    r->r->names = (fw_names){name, NPRINT};
-    fw_status status = fw_attribute_evaluate(r->r, a, "min", &unit->dimension, &found, &value, &ok);
-    r->r->names = (fw_names){0};
+    r->r->names = (fw_quantity_names){name, NPRINT};
+    fw_status status =
+        fw_xml_attribute_evaluate(r->r, a, "min", &unit->dimension, &found, &value, &ok);
+    r->r->names = (fw_quantity_names){0};
     FW_TRY(status);
     if (!fw_mask_is_plain(a->value))
         fw_diag_error(r->r->diags, 141, a->place, "min must be plain ASCII of 1 to 400 characters");
@@ -186,17 +190,17 @@ static fw_status read_formula(reader *r, const fw_record *e) {
     char number[FW_LABEL], most[FW_LABEL];
     if (ok && !(value > 0 && value <= unit->most))
         fw_diag_error(r->r->diags, 135, a->place, "min is %s; it must be above 0 and at most %s",
-                      fw_in_unit(number, value, unit->unit),
-                      fw_in_unit(most, unit->most, unit->unit));
+                      fw_xml_in_unit(number, value, unit->unit),
+                      fw_xml_in_unit(most, unit->most, unit->unit));
     else if (ok)
         r->rule->least = value;
     return FW_OK;
 }
 
-static fw_status read_limits(reader *r, const fw_record *e) {
-    const fw_rule_row *kind = r->rule->kind;
+static fw_status read_limits(reader *r, const fw_xml_record *e) {
+    const fw_mask_rule_kind_row *kind = r->rule->kind;
     fw_mask_rule *rule = r->rule;
-    if (!fw_given(e, "min") && !fw_given(e, "max"))
+    if (!fw_xml_given(e, "min") && !fw_xml_given(e, "max"))
         fw_diag_error(r->r->diags, 135, e->element->place,
                       "<%s> lacks its limit; add min=\"...\"%s", e->row->name,
                       kind->takes & FW_TAKES_MAX ? " or max=\"...\"" : "");
@@ -206,14 +210,14 @@ static fw_status read_limits(reader *r, const fw_record *e) {
         rule->least = value_of(e, "min", 0.0);
     rule->most = value_of(e, "max", HUGE_VAL);
     if (rule->least > rule->most)
-        fw_diag_error(r->r->diags, 135, fw_place_of(e, "max"), "max=\"%s\" is below min=\"%s\"",
-                      fw_text_of(e, "max"), fw_text_of(e, "min"));
+        fw_diag_error(r->r->diags, 135, fw_xml_place_of(e, "max"), "max=\"%s\" is below min=\"%s\"",
+                      fw_xml_text_of(e, "max"), fw_xml_text_of(e, "min"));
     rule->window_m = value_of(e, "window", 0.0);
     rule->step_m = value_of(e, "step", rule->window_m);
     return FW_OK;
 }
 
-static unsigned of_word(const fw_record *e, unsigned usual) {
+static unsigned of_word(const fw_xml_record *e, unsigned usual) {
     static const struct {
         const char *word;
         unsigned of;
@@ -226,8 +230,8 @@ static unsigned of_word(const fw_record *e, unsigned usual) {
     return usual;
 }
 
-static fw_status read_rule(reader *r, const fw_record *e) {
-    const fw_rule_row *kind = kind_named(r->r, e->element);
+static fw_status read_rule(reader *r, const fw_xml_record *e) {
+    const fw_mask_rule_kind_row *kind = kind_named(r->r, e->element);
     *r->rule =
         (fw_mask_rule){.kind = kind,
                        .layer = -1,
@@ -235,7 +239,7 @@ static fw_status read_rule(reader *r, const fw_record *e) {
                        .most = HUGE_VAL,
                        .of = of_word(e, kind->usual_of),
                        .severity = fw_mask_says(e, "severity", "warning") ? FW_WARNING : FW_ERROR,
-                       .source = fw_text_of(e, "source"),
+                       .source = fw_xml_text_of(e, "source"),
                        .place = e->element->place};
     read_layers(r, e);
     return read_limits(r, e);
@@ -251,8 +255,8 @@ static void check_twice(fw_diags *diags, const fw_mask_table *t) {
         const fw_mask_rule *q = &t->rule[j];
         if (!q->kind || q->layer < 0) continue;
         const fw_mask_layer *l = &t->layer[q->layer];
-        bool own = (q->kind == &fw_kind_width && l->min_width_m > 0) ||
-                   (q->kind == &fw_kind_space && l->min_space_m > 0);
+        bool own = (q->kind == &fw_mask_kind_width && l->min_width_m > 0) ||
+                   (q->kind == &fw_mask_kind_space && l->min_space_m > 0);
         if (own && q->severity == FW_ERROR)
             fw_diag_error(diags, 135, q->place,
                           "layer \"%s\" has min-%s in line %d already; keep one of the two", l->id,
@@ -273,9 +277,9 @@ static void tell_layers(fw_mask_table *t) {
         const fw_mask_rule *r = &t->rule[i];
         if (!r->kind || r->layer < 0 || r->severity != FW_ERROR) continue;
         fw_mask_layer *l = &t->layer[r->layer];
-        double *least = r->kind == &fw_kind_width   ? &l->min_width_m
-                        : r->kind == &fw_kind_space ? &l->min_space_m
-                                                    : NULL;
+        double *least = r->kind == &fw_mask_kind_width   ? &l->min_width_m
+                        : r->kind == &fw_mask_kind_space ? &l->min_space_m
+                                                         : NULL;
         if (!least) continue;
         *least = r->least;
         if (!l->rule_source) l->rule_source = r->source;
@@ -283,12 +287,12 @@ static void tell_layers(fw_mask_table *t) {
 }
 
 fw_status fw_mask_rules_build(fw_xml_reader *r, fw_mask_table *table) {
-    const fw_record *root = r->record;
+    const fw_xml_record *root = r->record;
     reader work = {.r = r, .table = table};
     FW_NEED(table->rule =
                 fw_arena_array(r->arena, fw_mask_rule, (size_t)fw_xml_children(root, "rule")));
-    for (const fw_record *e = root->first_child; e; e = e->next) {
-        if (!fw_is(e, "rule")) continue;
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        if (!fw_xml_is(e, "rule")) continue;
         work.rule = &table->rule[table->nrule++];
         FW_TRY(read_rule(&work, e));
     }

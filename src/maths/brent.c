@@ -7,7 +7,8 @@
    the bracket. Inputs a, b, tolerance in the unit of x; output the root. Error: tolerance + 4 eps
    |x|. Cost: about 6 to 10 evaluations, never more than 200. Source: R. P. Brent, Algorithms for
    Minimization without Derivatives, 1973, ch. 4. Test: test_brent.c. */
-double fw_brent_root(fw_function *f, const void *context, double a, double b, double tolerance) {
+double fw_maths_brent_root(fw_function *f, const void *context, double a, double b,
+                           double tolerance) {
     double fa = f(context, a), fb = f(context, b);
     if (fa == 0) return a;
     if (fb == 0) return b;

@@ -13,8 +13,8 @@
 enum { ENTRIES = sizeof dop_a / sizeof dop_a[0], ROWS = 8, LAST = DOP_STAGES };
 
 typedef struct dop853 {
-    fw_stepper base;
-    const fw_rk_kernels *kernel;
+    fw_maths_stepper base;
+    const fw_maths_rk_kernels *kernel;
     double *y_new, *f_new;       /* (padded) */
     double *k;                   /* (DOP_ALL padded) stages; 0 and 12 are f_old and f instead */
     double *row;                 /* (ROWS padded) dense output */
@@ -26,16 +26,16 @@ typedef struct dop853 {
     bool rejected_last;
 } dop853;
 
-static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
-    size_t width = (size_t)fw_ode_padded(ode->n);
+static fw_status create(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper) {
+    size_t width = (size_t)fw_maths_ode_padded(ode->n);
     dop853 *s = fw_arena_one(arena, dop853);
     FW_NEED(s);
-    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->zero = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->y_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->zero = fw_maths_ode_vector(arena, ode->n));
     FW_NEED(s->k = fw_arena_array(arena, double, DOP_ALL *width));
     FW_NEED(s->row = fw_arena_array(arena, double, ROWS *width));
-    s->kernel = fw_rk_kernels_best();
+    s->kernel = fw_maths_rk_kernels_best();
     for (size_t i = 0; i < ENTRIES; i++) {
         s->a[i] = dop_a[i].a;
         s->list[i] = s->k + (size_t)dop_a[i].stage * width;
@@ -51,11 +51,11 @@ static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper
     return FW_OK;
 }
 
-static void start(fw_stepper *base) {
+static void start(fw_maths_stepper *base) {
     dop853 *s = (dop853 *)base;
     s->err_old = 1e-4;
     s->rejected_last = false;
-    base->h_next = fw_ode_first_step(base, 8, s->k);
+    base->h_next = fw_maths_ode_first_step(base, 8, s->k);
 }
 
 /* out = y + h sum_j a_ij k_j for row i of the table */
@@ -68,7 +68,7 @@ static void combine(const dop853 *s, int i, double h, const double *y, double *o
 /* err = |h| E5^2 / sqrt(n (E5^2 + 0.01 E3^2)) with E the sums of (e_i / scale_i)^2: the step is
    accepted for err <= 1 */
 static double error(const dop853 *s, double h) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     double sum[2];
     s->kernel->errors(b->padded, dop_row[LAST + 1] - dop_row[LAST], s->e, s->list + dop_row[LAST],
                       b->rtol, b->tolerance, b->y, s->y_new, sum);
@@ -86,36 +86,36 @@ static double next_step(const dop853 *s, double h, double err) {
     return s->rejected_last ? fmin(h, next) : next;
 }
 
-static fw_ode_result step(fw_stepper *b) {
+static fw_maths_ode_result step(fw_maths_stepper *b) {
     dop853 *s = (dop853 *)b;
     double h = fmin(b->h_next, b->h_max);
     for (int i = 1; i <= LAST; i++)
         s->list[dop_row[i]] = b->f; /* stage 0 leads every row */
     for (int tries = 0;;) {
-        double t_new = fw_ode_target(b, &h);
+        double t_new = fw_maths_ode_target(b, &h);
         for (int i = 1; i < DOP_STAGES; i++) {
             combine(s, i, h, b->y, s->y_new);
-            fw_ode_evaluate(b, b->t + dop_c[i] * h, s->y_new, s->k + i * b->padded);
+            fw_maths_ode_evaluate(b, b->t + dop_c[i] * h, s->y_new, s->k + i * b->padded);
         }
         combine(s, LAST, h, b->y, s->y_new);
         double err = error(s, h);
         bool good = err <= 1; /* false for a NaN */
-        if (good && fw_ode_finish(b, t_new, s->y_new, s->f_new)) {
+        if (good && fw_maths_ode_finish(b, t_new, s->y_new, s->f_new)) {
             b->h_next = next_step(s, h, err);
             s->err_old = fmax(err, 1e-4);
             s->rejected_last = false;
-            fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
+            fw_maths_ode_accept(b, t_new, &s->y_new, &s->f_new);
             return FW_ODE_STEP;
         }
         h = good || !isfinite(err) ? h / 4 : h / fmin(3, pow(err, 0.117) / 0.9);
         s->rejected_last = true;
-        if (!fw_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
+        if (!fw_maths_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
     }
 }
 
 /* coefficients of the order-7 interpolant; the first four fit y and f at both ends, so that it
    stays continuous with projected end points */
-static void prepare(fw_stepper *b) {
+static void prepare(fw_maths_stepper *b) {
     dop853 *s = (dop853 *)b;
     size_t width = (size_t)b->padded;
     double h = b->h, *r = s->row;
@@ -126,7 +126,7 @@ static void prepare(fw_stepper *b) {
             if (dop_a[j].stage == LAST) s->list[j] = b->f;
         }
         combine(s, i, h, b->y_old, s->y_new);
-        fw_ode_evaluate(b, b->t_old + dop_c[i] * h, s->y_new, s->k + (size_t)i * width);
+        fw_maths_ode_evaluate(b, b->t_old + dop_c[i] * h, s->y_new, s->k + (size_t)i * width);
     }
     for (size_t c = 0; c < (size_t)b->ode.n; c++) {
         double difference = b->y[c] - b->y_old[c], bend = h * b->f_old[c] - difference;
@@ -143,16 +143,16 @@ static void prepare(fw_stepper *b) {
         s->kernel->combine(b->padded, h, DOP_DENSE, dop_d[m], stage, s->zero, r + (4 + m) * width);
 }
 
-static void dense(const fw_stepper *b, double theta, double *y) {
-    fw_ode_nested_dense(b, ROWS, ((const dop853 *)b)->row, theta, y);
+static void dense(const fw_maths_stepper *b, double theta, double *y) {
+    fw_maths_ode_nested_dense(b, ROWS, ((const dop853 *)b)->row, theta, y);
 }
 
-static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
+static void component(const fw_maths_stepper *b, int i, double wi, int j, double wj, double theta,
                       double *value, double *slope) {
     fw_ode_nested_component(b, ROWS, ((const dop853 *)b)->row, i, wi, j, wj, theta, value, slope);
 }
 
-const fw_stepper_row fw_dop853_row = {
+const fw_maths_stepper_row fw_maths_dop853_row = {
     .name = "dop853",
     .summary = "explicit Runge-Kutta 8(5,3) of Dormand and Prince, for tight tolerances",
     .order = 8,

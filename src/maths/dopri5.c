@@ -15,8 +15,8 @@
 enum { ROWS = 5 };
 
 typedef struct dopri5 {
-    fw_stepper base;
-    const fw_rk_kernels *kernel;
+    fw_maths_stepper base;
+    const fw_maths_rk_kernels *kernel;
     double *y_new, *f_new;             /* (padded) */
     double *k;                         /* (DOPRI_STAGES padded) stages; 0 is f_old instead */
     double *row;                       /* (ROWS padded) dense output */
@@ -27,16 +27,16 @@ typedef struct dopri5 {
     bool rejected_last;
 } dopri5;
 
-static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
-    size_t width = (size_t)fw_ode_padded(ode->n);
+static fw_status create(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper) {
+    size_t width = (size_t)fw_maths_ode_padded(ode->n);
     dopri5 *s = fw_arena_one(arena, dopri5);
     FW_NEED(s);
-    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->zero = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->y_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->zero = fw_maths_ode_vector(arena, ode->n));
     FW_NEED(s->k = fw_arena_array(arena, double, DOPRI_STAGES *width));
     FW_NEED(s->row = fw_arena_array(arena, double, ROWS *width));
-    s->kernel = fw_rk_kernels_best();
+    s->kernel = fw_maths_rk_kernels_best();
     for (size_t i = 0; i < DOPRI_STAGES; i++) {
         s->stage[i] = s->k + i * width;
         s->e[2 * i] = dopri_e[i];
@@ -45,11 +45,11 @@ static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper
     return FW_OK;
 }
 
-static void start(fw_stepper *base) {
+static void start(fw_maths_stepper *base) {
     dopri5 *s = (dopri5 *)base;
     s->err_old = 1e-4;
     s->rejected_last = false;
-    base->h_next = fw_ode_first_step(base, 5, s->k);
+    base->h_next = fw_maths_ode_first_step(base, 5, s->k);
 }
 
 /* h / clamp(err^(0.2 - 0.75 beta) err_old^-beta / 0.9, 0.1, 5) with beta = 0.04 */
@@ -62,48 +62,49 @@ static double next_step(const dopri5 *s, double h, double err) {
 
 /* all stages and y_new = Y_7 of a step h; gives the error in units of the tolerance */
 static double attempt(dopri5 *s, double h) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     double sum[2];
     for (int i = 1; i < DOPRI_STAGES; i++) {
         s->kernel->combine(b->padded, h, i, dopri_a[i], s->stage, b->y, s->y_new);
-        fw_ode_evaluate(b, b->t + dopri_c[i] * h, s->y_new, s->k + i * b->padded);
+        fw_maths_ode_evaluate(b, b->t + dopri_c[i] * h, s->y_new, s->k + i * b->padded);
     }
     s->kernel->errors(b->padded, DOPRI_STAGES, s->e, s->stage, b->rtol, b->tolerance, b->y,
                       s->y_new, sum);
     return b->ode.controlled ? h * sqrt(sum[0] / b->ode.controlled) : 0 * sum[0];
 }
 
-static fw_ode_result step(fw_stepper *b) {
+static fw_maths_ode_result step(fw_maths_stepper *b) {
     dopri5 *s = (dopri5 *)b;
     double h = fmin(b->h_next, b->h_max);
     s->stage[0] = b->f;
     for (int tries = 0;;) {
-        double t_new = fw_ode_target(b, &h);
+        double t_new = fw_maths_ode_target(b, &h);
         double err = attempt(s, h);
         bool good = err <= 1, done = good; /* false for a NaN */
         if (good && b->ode.project) {
-            done = fw_ode_finish(b, t_new, s->y_new, s->f_new);
+            done = fw_maths_ode_finish(b, t_new, s->y_new, s->f_new);
         } else if (good) {
             memcpy(s->f_new, s->stage[DOPRI_STAGES - 1], (size_t)b->ode.n * sizeof(double));
-            done = fw_ode_finite(s->f_new, b->ode.n) && fw_ode_finite(s->y_new, b->ode.n);
+            done =
+                fw_maths_ode_finite(s->f_new, b->ode.n) && fw_maths_ode_finite(s->y_new, b->ode.n);
         }
         if (done) {
             b->h_next = next_step(s, h, err);
             s->err_old = fmax(err, 1e-4);
             s->rejected_last = false;
-            fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
+            fw_maths_ode_accept(b, t_new, &s->y_new, &s->f_new);
             s->stage[0] = b->f_old;
             return FW_ODE_STEP;
         }
         h = good || !isfinite(err) ? h / 4 : h / fmin(5, pow(err, 0.17) / 0.9);
         s->rejected_last = true;
-        if (!fw_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
+        if (!fw_maths_ode_retry(b, h, &tries)) return isfinite(err) ? FW_ODE_SMALL : FW_ODE_NAN;
     }
 }
 
 /* the first four coefficients fit y and f at both ends, projected or not; the fifth makes the
    interpolant exact to order 4 */
-static void prepare(fw_stepper *b) {
+static void prepare(fw_maths_stepper *b) {
     dopri5 *s = (dopri5 *)b;
     size_t width = (size_t)b->padded;
     double *r = s->row;
@@ -117,16 +118,16 @@ static void prepare(fw_stepper *b) {
     s->kernel->combine(b->padded, b->h, DOPRI_STAGES, dopri_d, s->stage, s->zero, r + 4 * width);
 }
 
-static void dense(const fw_stepper *b, double theta, double *y) {
-    fw_ode_nested_dense(b, ROWS, ((const dopri5 *)b)->row, theta, y);
+static void dense(const fw_maths_stepper *b, double theta, double *y) {
+    fw_maths_ode_nested_dense(b, ROWS, ((const dopri5 *)b)->row, theta, y);
 }
 
-static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
+static void component(const fw_maths_stepper *b, int i, double wi, int j, double wj, double theta,
                       double *value, double *slope) {
     fw_ode_nested_component(b, ROWS, ((const dopri5 *)b)->row, i, wi, j, wj, theta, value, slope);
 }
 
-const fw_stepper_row fw_dopri5_row = {
+const fw_maths_stepper_row fw_maths_dopri5_row = {
     .name = "dopri5",
     .summary = "explicit Runge-Kutta 5(4) of Dormand and Prince, for loose tolerances",
     .order = 5,

@@ -30,11 +30,11 @@ static void transpose(int n, double *a) {
 
 /* dgeev, balanced. Error of a value: round-off times |a| times its condition. Cost about 25 n^3.
    Test: test_eigen.c. */
-fw_status fw_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
-                           double *vector) {
+fw_status fw_maths_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
+                                 double *vector) {
     if (n == 0) return FW_OK;
     if (!finite_all(a, (size_t)n * (size_t)n)) return FW_SOLVER;
-    FW_TRY(fw_lapack_ready());
+    FW_TRY(fw_maths_lapack_ready());
     transpose(n, a);
     double size = 0, *work;
     int info = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', n, a, n, re, im, NULL, 1, vector, n,

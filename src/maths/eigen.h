@@ -8,7 +8,7 @@
 /* a x = value x for any a (n x n, row-major), overwritten; re, im (n), conjugate pairs together,
    the one with im > 0 first; vector (n x n): row k is the eigenvector of a real value; of a pair k,
    k + 1 the rows are real and imaginary part of that of k. FW_SOLVER: not finite, or not found. */
-fw_status fw_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
-                           double *vector);
+fw_status fw_maths_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
+                                 double *vector);
 
 #endif

@@ -23,7 +23,7 @@
 enum { ITERATIONS = 8 };
 
 typedef struct alpha {
-    fw_stepper base;
+    fw_maths_stepper base;
     double am, af, gamma, beta;
     double *j;                        /* (n x controlled) */
     double *matrix;                   /* (positions x positions) */
@@ -38,19 +38,19 @@ typedef struct alpha {
     bool have_j, fresh_j, first;
 } alpha;
 
-static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
+static fw_status create(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper) {
     size_t n = (size_t)ode->positions;
     alpha *s = fw_arena_one(arena, alpha);
     FW_NEED(s);
     FW_NEED(s->j = fw_arena_array(arena, double, (size_t)ode->n *(size_t)ode->controlled));
     FW_NEED(s->matrix = fw_arena_array(arena, double, n *n));
     FW_NEED(s->pivot = fw_arena_array(arena, int, n));
-    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->e = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->work = fw_ode_vector(arena, 2 * fw_ode_padded(ode->n)));
-    FW_NEED(s->g_old = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->g = fw_ode_vector(arena, ode->n));
+    FW_NEED(s->y_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->e = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->work = fw_maths_ode_vector(arena, 2 * fw_maths_ode_padded(ode->n)));
+    FW_NEED(s->g_old = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->g = fw_maths_ode_vector(arena, ode->n));
     FW_NEED(s->a_old = fw_arena_array(arena, double, n));
     FW_NEED(s->a = fw_arena_array(arena, double, n));
     FW_NEED(s->a_new = fw_arena_array(arena, double, n));
@@ -62,7 +62,7 @@ static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper
 }
 
 /* p_0 - a_0 = (am - af) h a', with a' from a short explicit Euler step */
-static void start(fw_stepper *b) {
+static void start(fw_maths_stepper *b) {
     alpha *s = (alpha *)b;
     int n = b->ode.positions;
     double rho = fmin(1, fmax(0, b->spectral_radius)), *y = s->work, *f = y + b->padded;
@@ -70,11 +70,11 @@ static void start(fw_stepper *b) {
     s->af = rho / (rho + 1);
     s->gamma = 0.5 - s->am + s->af;
     s->beta = (1 - s->am + s->af) * (1 - s->am + s->af) / 4;
-    b->h_next = s->h_lead = fw_ode_first_step(b, 2, s->work);
+    b->h_next = s->h_lead = fw_maths_ode_first_step(b, 2, s->work);
     double d = 0.01 * b->h_next;
     for (int c = 0; c < b->ode.n; c++)
         y[c] = b->y[c] + d * b->f[c];
-    fw_ode_evaluate(b, b->t + d, y, f);
+    fw_maths_ode_evaluate(b, b->t + d, y, f);
     for (int i = 0; i < n; i++) {
         double jerk = (f[n + i] - b->f[n + i]) / d;
         s->a[i] = b->f[n + i];
@@ -87,12 +87,12 @@ static void start(fw_stepper *b) {
 }
 
 /* (1 - am)/(1 - af) I - h^2 beta a_u - h gamma a_v */
-static fw_ode_result linearise(alpha *s, double h) {
-    fw_stepper *b = &s->base;
+static fw_maths_ode_result linearise(alpha *s, double h) {
+    fw_maths_stepper *b = &s->base;
     size_t n = (size_t)b->ode.positions, columns = (size_t)b->ode.controlled;
     if (!s->have_j) {
         s->h_factored = 0;
-        if (!fw_ode_jacobian(b, b->t, b->y, b->f, s->j, s->work)) return FW_ODE_NAN;
+        if (!fw_maths_ode_jacobian(b, b->t, b->y, b->f, s->j, s->work)) return FW_ODE_NAN;
         s->have_j = s->fresh_j = true;
     }
     if (fabs(h - s->h_factored) <= 1e-6 * h) return FW_ODE_STEP;
@@ -104,14 +104,14 @@ static fw_ode_result linearise(alpha *s, double h) {
         }
     b->factorisations++;
     s->h_factored = 0;
-    if (!fw_lu_factor((int)n, s->matrix, s->pivot)) return FW_ODE_NEWTON;
+    if (!fw_maths_lu_factor((int)n, s->matrix, s->pivot)) return FW_ODE_NEWTON;
     s->h_factored = h;
     return FW_ODE_STEP;
 }
 
 /* u, v and a at the end from p_1 */
 static void from_p(alpha *s, double h) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     int n = b->ode.positions;
     for (int i = 0; i < n; i++) {
         double p0 = s->p[i], p1 = s->p_new[i];
@@ -135,18 +135,18 @@ static void predict(alpha *s, double h) {
 }
 
 /* increments below a thousandth of the tolerance, or round-off, end it */
-static fw_ode_result newton(alpha *s, double h, double t_new) {
-    fw_stepper *b = &s->base;
+static fw_maths_ode_result newton(alpha *s, double h, double t_new) {
+    fw_maths_stepper *b = &s->base;
     int n = b->ode.positions;
     double enough = fmax(1e-3, 20 * DBL_EPSILON / b->rtol), before = 0;
     double *f = s->work + b->padded, *r = s->work;
     s->rate = 0;
     for (int k = 1; k <= ITERATIONS; k++) {
-        fw_ode_evaluate(b, t_new, s->y_new, f);
+        fw_maths_ode_evaluate(b, t_new, s->y_new, f);
         for (int i = 0; i < n; i++)
             r[i] = f[n + i] - s->a_new[i];
-        if (!fw_ode_finite(r, n)) return FW_ODE_NAN;
-        fw_lu_solve(n, s->matrix, s->pivot, r);
+        if (!fw_maths_ode_finite(r, n)) return FW_ODE_NAN;
+        fw_maths_lu_solve(n, s->matrix, s->pivot, r);
         b->newton++;
         for (int c = 0; c < b->ode.n; c++)
             s->e[c] = 0;
@@ -156,7 +156,7 @@ static fw_ode_result newton(alpha *s, double h, double t_new) {
             s->e[n + i] = h * s->gamma * r[i];
         }
         from_p(s, h);
-        double size = fw_ode_norm(b, s->e, b->y, s->y_new);
+        double size = fw_maths_ode_norm(b, s->e, b->y, s->y_new);
         if (!isfinite(size)) return FW_ODE_NAN;
         if (k > 1) s->rate = fmax(s->rate, size / fmax(before, DBL_MIN));
         if (size <= enough) return FW_ODE_STEP;
@@ -168,7 +168,7 @@ static fw_ode_result newton(alpha *s, double h, double t_new) {
 
 /* local errors of u and v, see the head of this file; units of the tolerance */
 static double error(alpha *s, double h) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     int n = b->ode.positions;
     for (int i = 0; i < n; i++) {
         double d12 = (s->a_new[i] - s->a[i]) / h;
@@ -179,22 +179,22 @@ static double error(alpha *s, double h) {
         s->e[i] = s->y_new[i] - b->y[i] - du;
         s->e[n + i] = s->y_new[n + i] - b->y[n + i] - dv;
     }
-    return fw_ode_norm(b, s->e, b->y, s->y_new);
+    return fw_maths_ode_norm(b, s->e, b->y, s->y_new);
 }
 
 /* z += h/6 (z'_0 + 4 z'_m + z'_1) with the middle on the interpolant */
 static bool quadratures(alpha *s, double h, double t_new) {
-    fw_stepper *b = &s->base;
-    const fw_ode_span span = {h, b->y, s->g, s->y_new, s->f_new, false};
+    fw_maths_stepper *b = &s->base;
+    const fw_maths_ode_span span = {h, b->y, s->g, s->y_new, s->f_new, false};
     double *y = s->work, *f = y + b->padded, slope;
     int first = 2 * b->ode.positions;
     if (first == b->ode.n) return true;
     for (int c = 0; c < b->ode.n; c++)
-        fw_ode_span_value(&b->ode, &span, c, 0.5, &y[c], &slope);
-    fw_ode_evaluate(b, (b->t + t_new) / 2, y, f);
+        fw_maths_ode_span_value(&b->ode, &span, c, 0.5, &y[c], &slope);
+    fw_maths_ode_evaluate(b, (b->t + t_new) / 2, y, f);
     for (int c = first; c < b->ode.n; c++)
         s->y_new[c] = b->y[c] + h / 6 * (b->f[c] + 4 * f[c] + s->f_new[c]);
-    return fw_ode_finite(s->y_new, b->ode.n);
+    return fw_maths_ode_finite(s->y_new, b->ode.n);
 }
 
 static void swap(double **x, double **y) {
@@ -204,7 +204,7 @@ static void swap(double **x, double **y) {
 }
 
 static void accepted(alpha *s, double h, double err) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     int n = b->ode.positions;
     for (int i = 0; i < n; i++)
         s->lead[i] = s->p_new[i] - s->a_new[i];
@@ -220,63 +220,64 @@ static void accepted(alpha *s, double h, double err) {
     s->fresh_j = s->first = false;
 }
 
-static fw_ode_result step(fw_stepper *b) {
+static fw_maths_ode_result step(fw_maths_stepper *b) {
     alpha *s = (alpha *)b;
     double h = fmin(b->h_next, b->h_max);
     for (int tries = 0;;) {
-        double t_new = fw_ode_target(b, &h), shrink = 0.25;
-        fw_ode_result cause = linearise(s, h);
+        double t_new = fw_maths_ode_target(b, &h), shrink = 0.25;
+        fw_maths_ode_result cause = linearise(s, h);
         if (cause == FW_ODE_STEP) {
             predict(s, h);
             cause = newton(s, h, t_new);
         }
         if (cause == FW_ODE_STEP) {
             double err = error(s, h);
-            if (err <= 1 && fw_ode_finish(b, t_new, s->y_new, s->f_new) &&
+            if (err <= 1 && fw_maths_ode_finish(b, t_new, s->y_new, s->f_new) &&
                 quadratures(s, h, t_new)) {
-                fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
+                fw_maths_ode_accept(b, t_new, &s->y_new, &s->f_new);
                 accepted(s, h, err);
                 return FW_ODE_STEP;
             }
             if (err > 1) shrink = fmax(0.2, 0.9 / cbrt(err));
-            cause = err <= 1 && !fw_ode_finite(s->f_new, b->ode.n) ? FW_ODE_NAN : FW_ODE_SMALL;
+            cause =
+                err <= 1 && !fw_maths_ode_finite(s->f_new, b->ode.n) ? FW_ODE_NAN : FW_ODE_SMALL;
         }
         h *= shrink;
         if (!s->fresh_j) s->have_j = false;
-        if (!fw_ode_retry(b, h, &tries)) return cause;
+        if (!fw_maths_ode_retry(b, h, &tries)) return cause;
     }
 }
 
 /* ---- dense output: Hermite with the scheme's own accelerations, in which the error of stiff
    components is not multiplied with their stiffness ---- */
 
-static fw_ode_span span_of(const fw_stepper *b) {
+static fw_maths_ode_span span_of(const fw_maths_stepper *b) {
     const alpha *s = (const alpha *)b;
-    return (fw_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, true};
+    return (fw_maths_ode_span){b->h, b->y_old, s->g_old, b->y, s->g, true};
 }
 
-static void prepare(fw_stepper *s) {
+static void prepare(fw_maths_stepper *s) {
     (void)s;
 }
 
-static void dense(const fw_stepper *b, double theta, double *y) {
-    const fw_ode_span span = span_of(b);
+static void dense(const fw_maths_stepper *b, double theta, double *y) {
+    const fw_maths_ode_span span = span_of(b);
     double slope;
     for (int c = 0; c < b->ode.n; c++)
-        fw_ode_span_value(&b->ode, &span, c, theta, &y[c], &slope);
+        fw_maths_ode_span_value(&b->ode, &span, c, theta, &y[c], &slope);
 }
 
-static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
+static void component(const fw_maths_stepper *b, int i, double wi, int j, double wj, double theta,
                       double *value, double *slope) {
-    const fw_ode_span span = span_of(b);
+    const fw_maths_ode_span span = span_of(b);
     double p = 0, d = 0;
-    fw_ode_span_value(&b->ode, &span, i, theta, value, slope);
-    if (j >= 0) fw_ode_span_value(&b->ode, &span, j, theta, &p, &d);
+    fw_maths_ode_span_value(&b->ode, &span, i, theta, value, slope);
+    if (j >= 0) fw_maths_ode_span_value(&b->ode, &span, j, theta, &p, &d);
     *value = wi * *value + wj * p;
     *slope = wi * *slope + wj * d;
 }
 
-const fw_stepper_row fw_generalised_alpha_row = {
+const fw_maths_stepper_row fw_maths_generalised_alpha_row = {
     .name = "generalised-alpha",
     .summary =
         "implicit generalised-alpha of order 2 with chosen damping of fast oscillations, for "

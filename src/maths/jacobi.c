@@ -47,7 +47,7 @@ static void sort(int n, double *v, double *value) {
    ones, so that small eigenvalues of a graded positive matrix are accurate too. Error a few eps of
    the entries; cost about 8 sweeps of 6 n^3. Source: Golub and Van Loan, Matrix Computations, 8.5;
    Demmel and Veselic 1992. Test: test_jacobi.c. */
-bool fw_jacobi(int n, double *a, double *value, double *v) {
+bool fw_maths_jacobi(int n, double *a, double *value, double *v) {
     bool done = false;
     memset(v, 0, (size_t)n * (size_t)n * sizeof *v);
     for (int i = 0; i < n; i++)

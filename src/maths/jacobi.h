@@ -7,6 +7,6 @@
 
 /* a (n x n, symmetric, used up) = sum of value[k] v_k v_k^T: value (n) ascending, v_k in row k of
    vector (n x n). false: not finite, or not found */
-bool fw_jacobi(int n, double *a, double *value, double *vector);
+bool fw_maths_jacobi(int n, double *a, double *value, double *vector);
 
 #endif

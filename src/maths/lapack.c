@@ -39,7 +39,7 @@ static bool take_buffer(void) {
     return LAPACKE_dsyev_work(column_major, 'N', 'L', 3, a, 3, value, work, 32) == 0;
 }
 
-fw_status fw_lapack_ready(void) {
+fw_status fw_maths_lapack_ready(void) {
     static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER; /* designs run in parallel */
     static bool ready;
     pthread_mutex_lock(&alone);
@@ -52,15 +52,16 @@ fw_status fw_lapack_ready(void) {
     return good ? FW_OK : FW_NOMEM;
 }
 
-static fw_status space_of(fw_arena *arena, int info, double ask, fw_lapack_space *space) {
+static fw_status space_of(fw_arena *arena, int info, double ask, fw_maths_lapack_space *space) {
     if (info != 0 || !(ask >= 0) || ask > 1e8) return FW_SOLVER;
-    FW_TRY(fw_lapack_ready());
+    FW_TRY(fw_maths_lapack_ready());
     space->size = at_least_one((int)ask);
     FW_NEED(space->work = fw_arena_array(arena, double, (size_t)space->size));
     return FW_OK;
 }
 
-fw_status fw_svd_space(fw_arena *arena, int m, int n, bool full, fw_lapack_space *space) {
+fw_status fw_maths_svd_space(fw_arena *arena, int m, int n, bool full,
+                             fw_maths_lapack_space *space) {
     double ask = 0, none = 0;
     int k = least(m, n);
     int info = LAPACKE_dgesvd_work(column_major, 'S', full ? 'A' : 'S', m, n, &none,
@@ -69,27 +70,27 @@ fw_status fw_svd_space(fw_arena *arena, int m, int n, bool full, fw_lapack_space
     return space_of(arena, info, ask, space);
 }
 
-bool fw_svd(int m, int n, bool full, double *a, double *s, double *u, double *vt,
-            const fw_lapack_space *space) {
+bool fw_maths_svd(int m, int n, bool full, double *a, double *s, double *u, double *vt,
+                  const fw_maths_lapack_space *space) {
     int k = least(m, n);
     return LAPACKE_dgesvd_work(column_major, 'S', full ? 'A' : 'S', m, n, a, at_least_one(m), s, u,
                                at_least_one(m), vt, at_least_one(full ? n : k), space->work,
                                space->size) == 0;
 }
 
-fw_status fw_eigen_space(fw_arena *arena, int n, fw_lapack_space *space) {
+fw_status fw_maths_eigen_space(fw_arena *arena, int n, fw_maths_lapack_space *space) {
     double ask = 0, none = 0;
     int info =
         LAPACKE_dsyev_work(column_major, 'V', 'L', n, &none, at_least_one(n), &none, &ask, -1);
     return space_of(arena, info, ask, space);
 }
 
-bool fw_eigen(int n, double *a, double *value, const fw_lapack_space *space) {
+bool fw_maths_eigen(int n, double *a, double *value, const fw_maths_lapack_space *space) {
     return LAPACKE_dsyev_work(column_major, 'V', 'L', n, a, at_least_one(n), value, space->work,
                               space->size) == 0;
 }
 
-fw_status fw_qr_space(fw_arena *arena, int m, int n, fw_lapack_space *space) {
+fw_status fw_maths_qr_space(fw_arena *arena, int m, int n, fw_maths_lapack_space *space) {
     double ask = 0, apply = 0, none = 0;
     int pivot = 0, k = least(m, n);
     int info =
@@ -100,7 +101,8 @@ fw_status fw_qr_space(fw_arena *arena, int m, int n, fw_lapack_space *space) {
     return space_of(arena, info, fmax(ask, apply), space);
 }
 
-bool fw_qr(int m, int n, double *a, int *pivot, double *tau, const fw_lapack_space *space) {
+bool fw_maths_qr(int m, int n, double *a, int *pivot, double *tau,
+                 const fw_maths_lapack_space *space) {
     for (int j = 0; j < n; j++)
         pivot[j] = 0; /* free to move */
     if (LAPACKE_dgeqp3_work(column_major, m, n, a, at_least_one(m), pivot, tau, space->work,
@@ -111,50 +113,50 @@ bool fw_qr(int m, int n, double *a, int *pivot, double *tau, const fw_lapack_spa
     return true;
 }
 
-bool fw_qr_apply(bool transposed, int m, int n, const double *a, const double *tau, double *x,
-                 const fw_lapack_space *space) {
+bool fw_maths_qr_apply(bool transposed, int m, int n, const double *a, const double *tau, double *x,
+                       const fw_maths_lapack_space *space) {
     return LAPACKE_dormqr_work(column_major, 'L', transposed ? 'T' : 'N', m, 1, least(m, n), a,
                                at_least_one(m), tau, x, at_least_one(m), space->work,
                                space->size) == 0;
 }
 
-bool fw_triangle_solve(bool transposed, int n, const double *a, int ld, double *x) {
+bool fw_maths_triangle_solve(bool transposed, int n, const double *a, int ld, double *x) {
     return LAPACKE_dtrtrs_work(column_major, 'U', transposed ? 'T' : 'N', 'N', n, 1, a,
                                at_least_one(ld), x, at_least_one(n)) == 0;
 }
 
-fw_status fw_indefinite_space(fw_arena *arena, int n, fw_lapack_space *space) {
+fw_status fw_maths_indefinite_space(fw_arena *arena, int n, fw_maths_lapack_space *space) {
     double ask = 0, none = 0;
     int pivot = 0;
     int info = LAPACKE_dsytrf_work(column_major, 'L', n, &none, at_least_one(n), &pivot, &ask, -1);
     return space_of(arena, info, ask, space);
 }
 
-bool fw_indefinite(int n, double *a, int *pivot, const fw_lapack_space *space) {
+bool fw_maths_indefinite(int n, double *a, int *pivot, const fw_maths_lapack_space *space) {
     return LAPACKE_dsytrf_work(column_major, 'L', n, a, at_least_one(n), pivot, space->work,
                                space->size) == 0;
 }
 
-bool fw_indefinite_solve(int n, const double *a, const int *pivot, double *x) {
+bool fw_maths_indefinite_solve(int n, const double *a, const int *pivot, double *x) {
     return LAPACKE_dsytrs_work(column_major, 'L', n, 1, a, at_least_one(n), pivot, x,
                                at_least_one(n)) == 0;
 }
 
-bool fw_cholesky(int n, double *a) {
+bool fw_maths_cholesky(int n, double *a) {
     return LAPACKE_dpotrf_work(column_major, 'L', n, a, at_least_one(n)) == 0;
 }
 
-bool fw_cholesky_solve(int n, const double *a, double *x) {
+bool fw_maths_cholesky_solve(int n, const double *a, double *x) {
     return LAPACKE_dpotrs_work(column_major, 'L', n, 1, a, at_least_one(n), x, at_least_one(n)) ==
            0;
 }
 
-bool fw_lapack_lu(int n, double *a, int *pivot) {
+bool fw_maths_lapack_lu(int n, double *a, int *pivot) {
     return LAPACKE_dgetrf_work(column_major, n, n, a, at_least_one(n), pivot) == 0;
 }
 
-bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
-                        double *x) {
+bool fw_maths_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
+                              double *x) {
     return LAPACKE_dgetrs_work(column_major, transposed ? 'T' : 'N', n, count, a, at_least_one(n),
                                pivot, x, at_least_one(n)) == 0;
 }
@@ -169,8 +171,8 @@ static void swap(int *order, int i, int j) {
    largest of what is left in front at every k. Cost m n min(m, n). Among equals the first, so that
    the order does not depend on anything but the matrix. Source: Golub and Van Loan, section 3.4.
    Test: test_lapack.c. */
-int fw_complete_pivoting(int m, int n, double *a, int *row, int *column, double stop,
-                         double *last) {
+int fw_maths_complete_pivoting(int m, int n, double *a, int *row, int *column, double stop,
+                               double *last) {
     double first = 0;
     for (int i = 0; i < m; i++)
         row[i] = i;

@@ -12,50 +12,53 @@
 /* before the first use: where OpenBLAS is the BLAS, one thread for the whole process, and
    FW_NOMEM where its buffer cannot be had, for which it would wait for ever. The functions that
    give workspace do it by themselves. */
-fw_status fw_lapack_ready(void);
+fw_status fw_maths_lapack_ready(void);
 
-typedef struct fw_lapack_space { /* of one factorisation of one size */
+typedef struct fw_maths_lapack_space { /* of one factorisation of one size */
     double *work;
     int size;
-} fw_lapack_space;
+} fw_maths_lapack_space;
 
 /* a (m x n, used up) = u diag(s) vt, s (min(m, n)) descending. u (m x min). vt: `full` (n x n),
    else (min x n) */
-fw_status fw_svd_space(fw_arena *arena, int m, int n, bool full, fw_lapack_space *space);
-bool fw_svd(int m, int n, bool full, double *a, double *s, double *u, double *vt,
-            const fw_lapack_space *space);
+fw_status fw_maths_svd_space(fw_arena *arena, int m, int n, bool full,
+                             fw_maths_lapack_space *space);
+bool fw_maths_svd(int m, int n, bool full, double *a, double *s, double *u, double *vt,
+                  const fw_maths_lapack_space *space);
 
 /* symmetric a (n x n, lower part read) = w diag(value) w^T: values ascending, a becomes w */
-fw_status fw_eigen_space(fw_arena *arena, int n, fw_lapack_space *space);
-bool fw_eigen(int n, double *a, double *value, const fw_lapack_space *space);
+fw_status fw_maths_eigen_space(fw_arena *arena, int n, fw_maths_lapack_space *space);
+bool fw_maths_eigen(int n, double *a, double *value, const fw_maths_lapack_space *space);
 
 /* a (m x n) P = Q R with column pivoting: a keeps R above the diagonal and the reflectors below,
    tau (min(m, n)); column j of a P was column pivot[j] of a */
-fw_status fw_qr_space(fw_arena *arena, int m, int n, fw_lapack_space *space);
-bool fw_qr(int m, int n, double *a, int *pivot, double *tau, const fw_lapack_space *space);
+fw_status fw_maths_qr_space(fw_arena *arena, int m, int n, fw_maths_lapack_space *space);
+bool fw_maths_qr(int m, int n, double *a, int *pivot, double *tau,
+                 const fw_maths_lapack_space *space);
 /* x (m) = Q x, or Q^T x; n the columns that were factored */
-bool fw_qr_apply(bool transposed, int m, int n, const double *a, const double *tau, double *x,
-                 const fw_lapack_space *space);
+bool fw_maths_qr_apply(bool transposed, int m, int n, const double *a, const double *tau, double *x,
+                       const fw_maths_lapack_space *space);
 /* x (n) = R^-1 x, or R^-T x, of the upper triangle of a with leading dimension ld */
-bool fw_triangle_solve(bool transposed, int n, const double *a, int ld, double *x);
+bool fw_maths_triangle_solve(bool transposed, int n, const double *a, int ld, double *x);
 
 /* symmetric indefinite a (n x n, lower part) = L D L^T, Bunch and Kaufman; pivot (n) */
-fw_status fw_indefinite_space(fw_arena *arena, int n, fw_lapack_space *space);
-bool fw_indefinite(int n, double *a, int *pivot, const fw_lapack_space *space);
-bool fw_indefinite_solve(int n, const double *a, const int *pivot, double *x);
+fw_status fw_maths_indefinite_space(fw_arena *arena, int n, fw_maths_lapack_space *space);
+bool fw_maths_indefinite(int n, double *a, int *pivot, const fw_maths_lapack_space *space);
+bool fw_maths_indefinite_solve(int n, const double *a, const int *pivot, double *x);
 
 /* positive definite a (n x n, lower part) = L L^T; false: not positive */
-bool fw_cholesky(int n, double *a);
-bool fw_cholesky_solve(int n, const double *a, double *x);
+bool fw_maths_cholesky(int n, double *a);
+bool fw_maths_cholesky_solve(int n, const double *a, double *x);
 
 /* a (n x n) = P L U; x (n x count) = a^-1 x, or a^-T x. false: exactly singular */
-bool fw_lapack_lu(int n, double *a, int *pivot);
-bool fw_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
-                        double *x);
+bool fw_maths_lapack_lu(int n, double *a, int *pivot);
+bool fw_maths_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
+                              double *x);
 
 /* Gaussian elimination of a (m x n, row-major, used up) with complete pivoting, up to the first
    pivot that is 0 or below `stop` times the largest. Returns the pivots taken; row (m) and column
    (n) are the order that was found; *last the smallest pivot taken over the first. */
-int fw_complete_pivoting(int m, int n, double *a, int *row, int *column, double stop, double *last);
+int fw_maths_complete_pivoting(int m, int n, double *a, int *row, int *column, double stop,
+                               double *last);
 
 #endif

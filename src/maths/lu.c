@@ -23,7 +23,7 @@ static int largest(int n, const double *re, const double *im, int k) {
 
 /* Gaussian elimination with partial pivoting. Error: round-off times the growth and the condition;
    cost 2 n^3/3. Source: Golub and Van Loan, Matrix Computations, 3.4. Test: test_lu.c */
-bool fw_lu_factor(int n, double *a, int *pivot) {
+bool fw_maths_lu_factor(int n, double *a, int *pivot) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
         int p = pivot[k] = largest(n, a, NULL, k);
@@ -42,7 +42,7 @@ bool fw_lu_factor(int n, double *a, int *pivot) {
     return true;
 }
 
-void fw_lu_solve(int n, const double *a, const int *pivot, double *x) {
+void fw_maths_lu_solve(int n, const double *a, const int *pivot, double *x) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++)
         swap(&x[k], &x[pivot[k]]);
@@ -64,7 +64,7 @@ static void divide(double *x, double *y, double a, double b) {
 }
 
 /* as above with |re| + |im| as size of a pivot; cost 8 n^3/3 */
-bool fw_lu_factor_complex(int n, double *re, double *im, int *pivot) {
+bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
         int p = pivot[k] = largest(n, re, im, k);
@@ -88,8 +88,8 @@ bool fw_lu_factor_complex(int n, double *re, double *im, int *pivot) {
     return true;
 }
 
-void fw_lu_solve_complex(int n, const double *re, const double *im, const int *pivot, double *x,
-                         double *y) {
+void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const int *pivot,
+                               double *x, double *y) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
         swap(&x[k], &x[pivot[k]]);

@@ -7,11 +7,12 @@
 #include <stdbool.h>
 
 /* P a = L U in place, a (n x n) by rows, pivot (n); false: exactly singular, or not finite */
-bool fw_lu_factor(int n, double *a, int *pivot);
-void fw_lu_solve(int n, const double *a, const int *pivot, double *x); /* x (n): right side in */
+bool fw_maths_lu_factor(int n, double *a, int *pivot);
+void fw_maths_lu_solve(int n, const double *a, const int *pivot,
+                       double *x); /* x (n): right side in */
 /* the same for re + i im */
-bool fw_lu_factor_complex(int n, double *re, double *im, int *pivot);
-void fw_lu_solve_complex(int n, const double *re, const double *im, const int *pivot, double *x,
-                         double *y);
+bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot);
+void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const int *pivot,
+                               double *x, double *y);
 
 #endif

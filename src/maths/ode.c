@@ -6,30 +6,31 @@
 
 /* ---- the interface ---- */
 
-int fw_ode_padded(int n) {
+int fw_maths_ode_padded(int n) {
     return (n + 7) / 8 * 8;
 }
 
-double *fw_ode_vector(fw_arena *arena, int n) {
-    return fw_arena_array(arena, double, (size_t)fw_ode_padded(n));
+double *fw_maths_ode_vector(fw_arena *arena, int n) {
+    return fw_arena_array(arena, double, (size_t)fw_maths_ode_padded(n));
 }
 
-static bool contradicts(const fw_stepper_row *row, const fw_ode *ode) {
+static bool contradicts(const fw_maths_stepper_row *row, const fw_maths_ode *ode) {
     return ode->n < 1 || ode->controlled < 0 || ode->controlled > ode->n || ode->positions < 0 ||
            2 * ode->positions > ode->controlled || (row->second_order && ode->positions < 1);
 }
 
-fw_status fw_stepper_new(fw_arena *arena, const fw_stepper_row *row, const fw_ode *ode, double rtol,
-                         const double *atol, fw_stepper **stepper) {
-    fw_stepper *s = NULL;
+fw_status fw_maths_stepper_new(fw_arena *arena, const fw_maths_stepper_row *row,
+                               const fw_maths_ode *ode, double rtol, const double *atol,
+                               fw_maths_stepper **stepper) {
+    fw_maths_stepper *s = NULL;
     double *y_old, *y, *f_old, *f, *tolerance;
     *stepper = NULL;
     if (contradicts(row, ode)) return FW_INPUT;
-    FW_NEED(y_old = fw_ode_vector(arena, ode->n));
-    FW_NEED(y = fw_ode_vector(arena, ode->n));
-    FW_NEED(f_old = fw_ode_vector(arena, ode->n));
-    FW_NEED(f = fw_ode_vector(arena, ode->n));
-    FW_NEED(tolerance = fw_ode_vector(arena, ode->n));
+    FW_NEED(y_old = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(y = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(f_old = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(f = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(tolerance = fw_maths_ode_vector(arena, ode->n));
     FW_TRY(row->create(arena, ode, &s)); /* last: what it holds outside the arena has an owner */
     s->row = row;
     s->ode = *ode;
@@ -37,17 +38,17 @@ fw_status fw_stepper_new(fw_arena *arena, const fw_stepper_row *row, const fw_od
     s->atol = atol;
     s->h_max = (double)INFINITY;
     s->spectral_radius = 0.9;
-    s->padded = fw_ode_padded(ode->n);
+    s->padded = fw_maths_ode_padded(ode->n);
     s->y_old = y_old, s->y = y, s->f_old = f_old, s->f = f, s->tolerance = tolerance;
     *stepper = s;
     return FW_OK;
 }
 
-void fw_stepper_free(fw_stepper *s) {
+void fw_maths_stepper_free(fw_maths_stepper *s) {
     if (s && s->row->destroy) s->row->destroy(s);
 }
 
-void fw_stepper_start(fw_stepper *s, double t, const double *y, double t_end) {
+void fw_maths_stepper_start(fw_maths_stepper *s, double t, const double *y, double t_end) {
     size_t bytes = (size_t)s->ode.n * sizeof *y;
     for (int c = 0; c < s->padded; c++) /* never zero: 0/0 is not an error of zero */
         s->tolerance[c] = c < s->ode.controlled ? fmax(s->atol[c], DBL_MIN) : (double)INFINITY;
@@ -57,23 +58,23 @@ void fw_stepper_start(fw_stepper *s, double t, const double *y, double t_end) {
     s->t_end = t_end;
     s->h = 0;
     s->dense_ready = false;
-    fw_ode_evaluate(s, t, s->y, s->f);
+    fw_maths_ode_evaluate(s, t, s->y, s->f);
     memcpy(s->f_old, s->f, bytes);
     s->row->start(s);
 }
 
-fw_ode_result fw_stepper_step(fw_stepper *s) {
+fw_maths_ode_result fw_maths_stepper_step(fw_maths_stepper *s) {
     if (s->t >= s->t_end) return FW_ODE_STEP;
     s->dense_ready = false;
     return s->row->step(s);
 }
 
-static void ready(fw_stepper *s) {
+static void ready(fw_maths_stepper *s) {
     if (!s->dense_ready && s->h > 0) s->row->prepare(s);
     s->dense_ready = true;
 }
 
-void fw_stepper_dense(fw_stepper *s, double theta, double *y) {
+void fw_maths_stepper_dense(fw_maths_stepper *s, double theta, double *y) {
     ready(s);
     if (s->h > 0)
         s->row->dense(s, theta, y);
@@ -81,8 +82,8 @@ void fw_stepper_dense(fw_stepper *s, double theta, double *y) {
         memcpy(y, s->y, (size_t)s->ode.n * sizeof *y);
 }
 
-void fw_stepper_component(fw_stepper *s, int a, double wa, int b, double wb, double theta,
-                          double *value, double *slope) {
+void fw_maths_stepper_component(fw_maths_stepper *s, int a, double wa, int b, double wb,
+                                double theta, double *value, double *slope) {
     ready(s);
     *slope = 0;
     if (s->h > 0)
@@ -93,7 +94,8 @@ void fw_stepper_component(fw_stepper *s, int a, double wa, int b, double wb, dou
 
 /* ---- shared by the integrators ---- */
 
-double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const double *z) {
+double fw_maths_ode_norm(const fw_maths_stepper *s, const double *e, const double *y,
+                         const double *z) {
     double sum = 0;
     for (int c = 0; c < s->ode.controlled; c++) {
         double x = e[c] / (s->tolerance[c] + s->rtol * fmax(fabs(y[c]), fabs(z[c])));
@@ -102,17 +104,17 @@ double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const 
     return s->ode.controlled ? sqrt(sum / s->ode.controlled) : 0;
 }
 
-void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f) {
+void fw_maths_ode_evaluate(fw_maths_stepper *s, double t, const double *y, double *f) {
     s->ode.rhs(s->ode.context, t, y, f);
     s->rhs++;
 }
 
-void fw_ode_evaluate_lean(fw_stepper *s, double t, const double *y, double *f) {
+void fw_maths_ode_evaluate_lean(fw_maths_stepper *s, double t, const double *y, double *f) {
     (s->ode.lean ? s->ode.lean : s->ode.rhs)(s->ode.context, t, y, f);
     s->rhs++;
 }
 
-bool fw_ode_finite(const double *y, int n) {
+bool fw_maths_ode_finite(const double *y, int n) {
     double sum[4] = {0};
     int c = 0;
     for (; c + 4 <= n; c += 4)
@@ -127,42 +129,43 @@ bool fw_ode_finite(const double *y, int n) {
    in a step of this order, whichever is less; never so short that t would stay. Inputs y, f at t;
    work 2 padded. Cost one evaluation. Source: Hairer, Norsett and Wanner I, II.4. Test:
    test_ode_step.c */
-double fw_ode_first_step(fw_stepper *s, int order, double *work) {
+double fw_maths_ode_first_step(fw_maths_stepper *s, int order, double *work) {
     double span = s->t_end - s->t, *y = work, *f = work + s->padded;
-    double size = fw_ode_norm(s, s->y, s->y, s->y), slope = fw_ode_norm(s, s->f, s->y, s->y);
+    double size = fw_maths_ode_norm(s, s->y, s->y, s->y),
+           slope = fw_maths_ode_norm(s, s->f, s->y, s->y);
     double h = size < 1e-5 || slope < 1e-5 ? 1e-6 * span : 0.01 * size / slope;
     h = fmin(h, fmin(span, s->h_max));
     for (int c = 0; c < s->ode.n; c++)
         y[c] = s->y[c] + h * s->f[c];
-    fw_ode_evaluate(s, s->t + h, y, f);
+    fw_maths_ode_evaluate(s, s->t + h, y, f);
     for (int c = 0; c < s->ode.n; c++)
         f[c] -= s->f[c];
-    double worst = fmax(slope, fw_ode_norm(s, f, s->y, s->y) / h);
+    double worst = fmax(slope, fw_maths_ode_norm(s, f, s->y, s->y) / h);
     double other = worst <= 1e-15 ? fmax(1e-6 * span, h * 1e-3) : pow(0.01 / worst, 1.0 / order);
     h = fmin(100 * h, other);
     h = isfinite(h) && h > 0 ? fmin(h, fmin(span, s->h_max)) : 1e-6 * span;
     return fmin(span, fmax(h, 64 * DBL_EPSILON * fabs(s->t)));
 }
 
-double fw_ode_target(const fw_stepper *s, double *h) {
+double fw_maths_ode_target(const fw_maths_stepper *s, double *h) {
     bool last = s->t + 1.01 * *h >= s->t_end;
     double end = last ? s->t_end : s->t + *h;
     *h = end - s->t;
     return end;
 }
 
-bool fw_ode_finish(fw_stepper *s, double t_new, double *y_new, double *f_new) {
+bool fw_maths_ode_finish(fw_maths_stepper *s, double t_new, double *y_new, double *f_new) {
     bool good = true;
     if (s->ode.project) {
         good = s->ode.project(s->ode.context, t_new, y_new, f_new);
         s->rhs++;
     } else {
-        fw_ode_evaluate(s, t_new, y_new, f_new);
+        fw_maths_ode_evaluate(s, t_new, y_new, f_new);
     }
-    return good && fw_ode_finite(f_new, s->ode.n) && fw_ode_finite(y_new, s->ode.n);
+    return good && fw_maths_ode_finite(f_new, s->ode.n) && fw_maths_ode_finite(y_new, s->ode.n);
 }
 
-void fw_ode_accept(fw_stepper *s, double t_new, double **y_new, double **f_new) {
+void fw_maths_ode_accept(fw_maths_stepper *s, double t_new, double **y_new, double **f_new) {
     double *free_y = s->y_old, *free_f = s->f_old;
     s->y_old = s->y, s->y = *y_new, *y_new = free_y;
     s->f_old = s->f, s->f = *f_new, *f_new = free_f;
@@ -173,13 +176,13 @@ void fw_ode_accept(fw_stepper *s, double t_new, double **y_new, double **f_new) 
     s->steps++;
 }
 
-bool fw_ode_too_small(const fw_stepper *s, double h) {
+bool fw_maths_ode_too_small(const fw_maths_stepper *s, double h) {
     return !(h > 16 * DBL_EPSILON * fabs(s->t)) || h < 1e10 * DBL_MIN;
 }
 
-bool fw_ode_retry(fw_stepper *s, double h, int *tries) {
+bool fw_maths_ode_retry(fw_maths_stepper *s, double h, int *tries) {
     s->rejected++;
-    return ++*tries < 100 && !fw_ode_too_small(s, h);
+    return ++*tries < 100 && !fw_maths_ode_too_small(s, h);
 }
 
 /* ---- interpolation ---- */
@@ -202,8 +205,8 @@ static void hermite5(const double p[2], const double d[2], const double b[2], do
     out[2] = b[0] + x * (6 * c3 + x * (12 * c4 + x * 20 * c5));
 }
 
-void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double theta,
-                       double *value, double *slope) {
+void fw_maths_ode_span_value(const fw_maths_ode *ode, const fw_maths_ode_span *span, int c,
+                             double theta, double *value, double *slope) {
     double h = span->h, out[3];
     int n = ode->positions;
     if (c >= 2 * n || (c >= n && span->v_alone)) {
@@ -222,29 +225,29 @@ void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double
     *slope = c < n ? out[1] : out[2] / h;
 }
 
-static fw_ode_span whole_step(const fw_stepper *s) {
-    return (fw_ode_span){s->h, s->y_old, s->f_old, s->y, s->f, false};
+static fw_maths_ode_span whole_step(const fw_maths_stepper *s) {
+    return (fw_maths_ode_span){s->h, s->y_old, s->f_old, s->y, s->f, false};
 }
 
-void fw_ode_hermite(const fw_stepper *s, double theta, double *y) {
-    const fw_ode_span span = whole_step(s);
+void fw_maths_ode_hermite(const fw_maths_stepper *s, double theta, double *y) {
+    const fw_maths_ode_span span = whole_step(s);
     double slope;
     for (int c = 0; c < s->ode.n; c++)
-        fw_ode_span_value(&s->ode, &span, c, theta, &y[c], &slope);
+        fw_maths_ode_span_value(&s->ode, &span, c, theta, &y[c], &slope);
 }
 
-void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
-                              double *value, double *slope) {
-    const fw_ode_span span = whole_step(s);
+void fw_maths_ode_hermite_component(const fw_maths_stepper *s, int a, double wa, int b, double wb,
+                                    double theta, double *value, double *slope) {
+    const fw_maths_ode_span span = whole_step(s);
     double p = 0, d = 0;
-    fw_ode_span_value(&s->ode, &span, a, theta, value, slope);
-    if (b >= 0) fw_ode_span_value(&s->ode, &span, b, theta, &p, &d);
+    fw_maths_ode_span_value(&s->ode, &span, a, theta, value, slope);
+    if (b >= 0) fw_maths_ode_span_value(&s->ode, &span, b, theta, &p, &d);
     *value = wa * *value + wb * p;
     *slope = wa * *slope + wb * d;
 }
 
-void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, double theta,
-                         double *y) {
+void fw_maths_ode_nested_dense(const fw_maths_stepper *s, int rows, const double *row, double theta,
+                               double *y) {
     double weight[FW_ODE_NESTED_MOST] = {1};
     for (int i = 1; i < rows; i++)
         weight[i] = weight[i - 1] * (i % 2 ? theta : 1 - theta);

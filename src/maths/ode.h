@@ -2,7 +2,7 @@
 /* Integrators of y' = f(t, y) behind one interface: one file and one row in the table each
    (ode_table.c). All of them keep the last step and can be asked for any time in it (dense output),
    move every accepted state onto a manifold when the problem has one, end exactly at t_end, and
-   allocate nothing after fw_stepper_new. */
+   allocate nothing after fw_maths_stepper_new. */
 #ifndef FW_MATHS_ODE_H
 #define FW_MATHS_ODE_H
 #include "base/arena.h"
@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-typedef struct fw_ode { /* the problem */
+typedef struct fw_maths_ode { /* the problem */
     void *context;
     void (*rhs)(void *context, double t, const double *y, double *f);
     /* moves y (n) onto the manifold and sets f = f(t, y) there; false: the step is not acceptable.
@@ -27,48 +27,51 @@ typedef struct fw_ode { /* the problem */
                        factor matrices of half the size (when controlled = 2 positions) */
     /* j (n x controlled), by rows: df_i/dy_j at (t, y). NULL: by differences */
     void (*jacobian)(void *context, double t, const double *y, double *j);
-} fw_ode;
+} fw_maths_ode;
 
-typedef enum fw_ode_result {
+typedef enum fw_maths_ode_result {
     FW_ODE_STEP,
     FW_ODE_SMALL, /* the step became too small */
     FW_ODE_NAN,   /* f is not a number */
     FW_ODE_NEWTON /* an implicit step does not converge at any step size */
-} fw_ode_result;
+} fw_maths_ode_result;
 
-typedef struct fw_stepper fw_stepper;
+typedef struct fw_maths_stepper fw_maths_stepper;
 
 enum { FW_ODE_OWN = 4 };
-typedef struct fw_stepper_row { /* one row per integrator; feeds --help and the reference page */
+typedef struct
+    fw_maths_stepper_row { /* one row per integrator; feeds --help and the reference page */
     const char *name, *summary;
     /* order p: the error at the end falls with h^p. dense_order q: in a step from exact values the
        dense output is off by O(h^(q+1)); dense_order_u is that of the u of second order problems
        (their v have at least dense_order). Proven for every row in test_ode_order.c */
     int order, dense_order, dense_order_u;
     bool implicit;       /* stable for stiff problems */
-    bool fixed_step;     /* takes fw_stepper.h_fixed and knows no error */
+    bool fixed_step;     /* takes fw_maths_stepper.h_fixed and knows no error */
     bool second_order;   /* only for problems with positions */
     bool variable_order; /* `order` is the highest, chosen by the error */
-    fw_status (*create)(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper);
-    void (*start)(fw_stepper *s);         /* y, t, t_end are set: f, first step, history */
-    fw_ode_result (*step)(fw_stepper *s); /* one accepted step */
-    void (*prepare)(fw_stepper *s);       /* dense output of the last step; may evaluate rhs */
-    void (*dense)(const fw_stepper *s, double theta, double *y); /* after prepare; theta in [0,1] */
+    fw_status (*create)(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper);
+    void (*start)(fw_maths_stepper *s); /* y, t, t_end are set: f, first step, history */
+    fw_maths_ode_result (*step)(fw_maths_stepper *s); /* one accepted step */
+    void (*prepare)(fw_maths_stepper *s); /* dense output of the last step; may evaluate rhs */
+    void (*dense)(const fw_maths_stepper *s, double theta,
+                  double *y); /* after prepare; theta in [0,1] */
     /* value and d/dtheta of w_a y[a] + w_b y[b] (b < 0: only a): for peaks and events */
-    void (*component)(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
+    void (*component)(const fw_maths_stepper *s, int a, double wa, int b, double wb, double theta,
                       double *value, double *slope);
     /* where inside the last step states are the method's own and not interpolated, if only these
        fit what is stiff: theta (FW_ODE_OWN), how many of them; 0: all are equally good. NULL: 0 */
-    int (*own)(const fw_stepper *s, double *theta);
-    void (*destroy)(fw_stepper *s); /* gives back what is not in the arena; NULL: nothing */
-} fw_stepper_row;
+    int (*own)(const fw_maths_stepper *s, double *theta);
+    void (*destroy)(fw_maths_stepper *s); /* gives back what is not in the arena; NULL: nothing */
+} fw_maths_stepper_row;
 
-struct fw_stepper { /* first member of every integrator's own struct */
-    const fw_stepper_row *row;
-    fw_ode ode;
+struct fw_maths_stepper { /* first member of every integrator's own struct */
+    const fw_maths_stepper_row *row;
+    fw_maths_ode ode;
     double rtol;
     const double *atol; /* (n) */
-    /* may be changed before fw_stepper_start. h_max: infinite; h_fixed: of fixed_step integrators,
+    /* may be changed before fw_maths_stepper_start. h_max: infinite; h_fixed: of fixed_step
+       integrators,
        0 means a thousandth of the way; spectral_radius: of generalised-alpha, 0.9 */
     double h_max, h_fixed, spectral_radius;
     double t_old, t, h, h_next, t_end;
@@ -81,68 +84,74 @@ struct fw_stepper { /* first member of every integrator's own struct */
 };
 
 /* by name; NULL: unknown */
-const fw_stepper_row *fw_stepper_find(const char *name);
-const fw_stepper_row *const *fw_stepper_table(size_t *count);
+const fw_maths_stepper_row *fw_maths_stepper_find(const char *name);
+const fw_maths_stepper_row *const *fw_maths_stepper_table(size_t *count);
 /* memory for ode->n components; atol (n) is read at every start and must live as long as the
    stepper. FW_INPUT: the integrator needs positions, or sizes contradict each other. The arena owns
-   the stepper, but not what GSL takes from malloc: call fw_stepper_free before the arena goes. */
-fw_status fw_stepper_new(fw_arena *arena, const fw_stepper_row *row, const fw_ode *ode, double rtol,
-                         const double *atol, fw_stepper **stepper);
-void fw_stepper_free(fw_stepper *s); /* NULL and twice allowed */
+   the stepper, but not what GSL takes from malloc: call fw_maths_stepper_free before the arena
+   goes. */
+fw_status fw_maths_stepper_new(fw_arena *arena, const fw_maths_stepper_row *row,
+                               const fw_maths_ode *ode, double rtol, const double *atol,
+                               fw_maths_stepper **stepper);
+void fw_maths_stepper_free(fw_maths_stepper *s); /* NULL and twice allowed */
 /* (re)start at t < t_end with y (n), on the manifold; counts go on */
-void fw_stepper_start(fw_stepper *s, double t, const double *y, double t_end);
-fw_ode_result fw_stepper_step(fw_stepper *s);
-void fw_stepper_dense(fw_stepper *s, double theta, double *y); /* prepares when needed */
-void fw_stepper_component(fw_stepper *s, int a, double wa, int b, double wb, double theta,
-                          double *value, double *slope);
+void fw_maths_stepper_start(fw_maths_stepper *s, double t, const double *y, double t_end);
+fw_maths_ode_result fw_maths_stepper_step(fw_maths_stepper *s);
+void fw_maths_stepper_dense(fw_maths_stepper *s, double theta,
+                            double *y); /* prepares when needed */
+void fw_maths_stepper_component(fw_maths_stepper *s, int a, double wa, int b, double wb,
+                                double theta, double *value, double *slope);
 
 /* ---- shared by the integrators (ode.c) ---- */
 
-extern const fw_stepper_row fw_dop853_row, fw_dopri5_row, fw_radau5_row, fw_generalised_alpha_row,
-    fw_rk4_row, fw_gsl_rkf45_row, fw_gsl_rk8pd_row, fw_gsl_msadams_row, fw_gsl_bsimp_row;
+extern const fw_maths_stepper_row fw_maths_dop853_row, fw_maths_dopri5_row, fw_maths_radau5_row,
+    fw_maths_generalised_alpha_row, fw_maths_rk4_row, fw_maths_gsl_rkf45_row,
+    fw_maths_gsl_rk8pd_row, fw_maths_gsl_msadams_row, fw_maths_gsl_bsimp_row;
 
-int fw_ode_padded(int n);
-double *fw_ode_vector(fw_arena *arena, int n); /* zeros, padded; NULL when memory is short */
+int fw_maths_ode_padded(int n);
+double *fw_maths_ode_vector(fw_arena *arena, int n); /* zeros, padded; NULL when memory is short */
 /* weighted rms of e over the controlled components, scale_i = atol_i + rtol max(|y_i|, |z_i|) */
-double fw_ode_norm(const fw_stepper *s, const double *e, const double *y, const double *z);
+double fw_maths_ode_norm(const fw_maths_stepper *s, const double *e, const double *y,
+                         const double *z);
 /* first step for a method of this order: Hairer, Norsett and Wanner I, II.4; work: 2 padded */
-double fw_ode_first_step(fw_stepper *s, int order, double *work);
-void fw_ode_evaluate(fw_stepper *s, double t, const double *y, double *f); /* counts */
+double fw_maths_ode_first_step(fw_maths_stepper *s, int order, double *work);
+void fw_maths_ode_evaluate(fw_maths_stepper *s, double t, const double *y, double *f); /* counts */
 /* f of the controlled components alone; counts */
-void fw_ode_evaluate_lean(fw_stepper *s, double t, const double *y, double *f);
-bool fw_ode_finite(const double *y, int n);
+void fw_maths_ode_evaluate_lean(fw_maths_stepper *s, double t, const double *y, double *f);
+bool fw_maths_ode_finite(const double *y, int n);
 /* where a step of about h ends: t_end when it comes close, else t + h; h becomes the difference of
    the two times as they are stored, so that rounding t does not shift the phase of long runs */
-double fw_ode_target(const fw_stepper *s, double *h);
+double fw_maths_ode_target(const fw_maths_stepper *s, double *h);
 /* projects or evaluates: f_new = f(t_new, y_new); false: not acceptable, or not a number */
-bool fw_ode_finish(fw_stepper *s, double t_new, double *y_new, double *f_new);
+bool fw_maths_ode_finish(fw_maths_stepper *s, double t_new, double *y_new, double *f_new);
 /* accepts y_new, f_new as the state at t_new (swaps buffers), counts the step */
-void fw_ode_accept(fw_stepper *s, double t_new, double **y_new, double **f_new);
+void fw_maths_ode_accept(fw_maths_stepper *s, double t_new, double **y_new, double **f_new);
 /* is h too small to go on at t? */
-bool fw_ode_too_small(const fw_stepper *s, double h);
+bool fw_maths_ode_too_small(const fw_maths_stepper *s, double h);
 /* counts a rejected step; is it worth trying h instead? tries: rejections of this step so far */
-bool fw_ode_retry(fw_stepper *s, double h, int *tries);
+bool fw_maths_ode_retry(fw_maths_stepper *s, double h, int *tries);
 /* dense output for steppers without one of their own: u by the quintic through (u, v, a) at both
    ends, v by its derivative, the rest by the cubic through (y, f) */
-void fw_ode_hermite(const fw_stepper *s, double theta, double *y);
-void fw_ode_hermite_component(const fw_stepper *s, int a, double wa, int b, double wb, double theta,
-                              double *value, double *slope);
+void fw_maths_ode_hermite(const fw_maths_stepper *s, double theta, double *y);
+void fw_maths_ode_hermite_component(const fw_maths_stepper *s, int a, double wa, int b, double wb,
+                                    double theta, double *value, double *slope);
 /* the same for component c between any two states h apart */
-typedef struct fw_ode_span {
+typedef struct fw_maths_ode_span {
     double h;
     const double *y_old, *f_old, *y, *f;
     bool v_alone; /* v by its own cubic: where the local error of u over h would hurt u' */
-} fw_ode_span;
-void fw_ode_span_value(const fw_ode *ode, const fw_ode_span *span, int c, double theta,
-                       double *value, double *slope);
+} fw_maths_ode_span;
+void fw_maths_ode_span_value(const fw_maths_ode *ode, const fw_maths_ode_span *span, int c,
+                             double theta, double *value, double *slope);
 /* p(theta) = r_0 + theta (r_1 + (1 - theta) (r_2 + theta (r_3 + ...))) of every component, the
    coefficients one row of `padded` after the other; and a weighted pair of components with slope */
 enum { FW_ODE_NESTED_MOST = 8 }; /* rows */
-void fw_ode_nested_dense(const fw_stepper *s, int rows, const double *row, double theta, double *y);
+void fw_maths_ode_nested_dense(const fw_maths_stepper *s, int rows, const double *row, double theta,
+                               double *y);
 /* in the header, so that `rows` is a constant where it is called: peaks ask often */
-static inline void fw_ode_nested_component(const fw_stepper *s, int rows, const double *row, int a,
-                                           double wa, int b, double wb, double theta, double *value,
-                                           double *slope) {
+static inline void fw_ode_nested_component(const fw_maths_stepper *s, int rows, const double *row,
+                                           int a, double wa, int b, double wb, double theta,
+                                           double *value, double *slope) {
     const double rest = 1 - theta;
     double p = 0, d = 0, r[FW_ODE_NESTED_MOST];
     _Pragma("GCC unroll 8") for (int i = 0; i < rows; i++) r[i] = wa * row[i * s->padded + a];

@@ -9,14 +9,14 @@
    below which y_j does not matter bounds the increment from below. Error about sqrt(eps) |J| for
    components of their expected size; controlled evaluations. Source: Hairer and Wanner II, IV.8.
    Test: test_ode_stiff.c */
-bool fw_ode_jacobian(fw_stepper *s, double t, const double *y, const double *f, double *j,
-                     double *work) {
+bool fw_maths_ode_jacobian(fw_maths_stepper *s, double t, const double *y, const double *f,
+                           double *j, double *work) {
     int n = s->ode.n, columns = s->ode.controlled;
     double *at = work, *g = work + s->padded;
     s->jacobians++;
     if (s->ode.jacobian) {
         s->ode.jacobian(s->ode.context, t, y, j);
-        return fw_ode_finite(j, n * columns);
+        return fw_maths_ode_finite(j, n * columns);
     }
     const double least = sqrt(DBL_EPSILON);
     memcpy(at, y, (size_t)n * sizeof *y);
@@ -24,15 +24,16 @@ bool fw_ode_jacobian(fw_stepper *s, double t, const double *y, const double *f, 
         double size = fmax(fabs(y[c]), fmax(s->tolerance[c] / s->rtol, least));
         at[c] = y[c] + (f[c] < 0 ? -least : least) * size; /* the way the state is going */
         double d = at[c] - y[c];
-        fw_ode_evaluate_lean(s, t, at, g);
+        fw_maths_ode_evaluate_lean(s, t, at, g);
         at[c] = y[c];
         for (int i = 0; i < columns; i++)
             j[(size_t)i * (size_t)columns + (size_t)c] = (g[i] - f[i]) / d;
     }
-    return fw_ode_finite(j, columns * columns);
+    return fw_maths_ode_finite(j, columns * columns);
 }
 
-fw_status fw_ode_shifted_new(fw_arena *arena, const fw_ode *ode, bool complex, fw_ode_shifted *m) {
+fw_status fw_maths_ode_shifted_new(fw_arena *arena, const fw_maths_ode *ode, bool complex,
+                                   fw_maths_ode_shifted *m) {
     m->half = ode->positions > 0 && 2 * ode->positions == ode->controlled;
     m->size = m->half ? ode->positions : ode->controlled;
     size_t size = (size_t)m->size;
@@ -45,7 +46,8 @@ fw_status fw_ode_shifted_new(fw_arena *arena, const fw_ode *ode, bool complex, f
 }
 
 /* sigma I - J, or with J = [0 I; K_u K_v] its Schur complement sigma^2 I - sigma K_v - K_u */
-bool fw_ode_shifted_factor(fw_stepper *s, const double *j, double a, double b, fw_ode_shifted *m) {
+bool fw_maths_ode_shifted_factor(fw_maths_stepper *s, const double *j, double a, double b,
+                                 fw_maths_ode_shifted *m) {
     size_t size = (size_t)m->size, columns = (size_t)s->ode.controlled;
     m->a = a;
     m->b = b;
@@ -63,15 +65,15 @@ bool fw_ode_shifted_factor(fw_stepper *s, const double *j, double a, double b, f
             }
         }
     s->factorisations++;
-    return m->im ? fw_lu_factor_complex(m->size, m->re, m->im, m->pivot)
-                 : fw_lu_factor(m->size, m->re, m->pivot);
+    return m->im ? fw_maths_lu_factor_complex(m->size, m->re, m->im, m->pivot)
+                 : fw_maths_lu_factor(m->size, m->re, m->pivot);
 }
 
-static void factored(const fw_ode_shifted *m, double *x, double *y) {
+static void factored(const fw_maths_ode_shifted *m, double *x, double *y) {
     if (m->im)
-        fw_lu_solve_complex(m->size, m->re, m->im, m->pivot, x, y);
+        fw_maths_lu_solve_complex(m->size, m->re, m->im, m->pivot, x, y);
     else
-        fw_lu_solve(m->size, m->re, m->pivot, x);
+        fw_maths_lu_solve(m->size, m->re, m->pivot, x);
 }
 
 static double product(size_t n, const double *row, const double *x) {
@@ -82,8 +84,8 @@ static double product(size_t n, const double *row, const double *x) {
 }
 
 /* du from (sigma^2 - sigma K_v - K_u) du = r_v + (sigma - K_v) r_u, then dv = sigma du - r_u */
-static void solve_half(const fw_stepper *s, const double *j, const fw_ode_shifted *m, double *x,
-                       double *y) {
+static void solve_half(const fw_maths_stepper *s, const double *j, const fw_maths_ode_shifted *m,
+                       double *x, double *y) {
     size_t n = (size_t)m->size, columns = (size_t)s->ode.controlled;
     double a = m->a, b = m->b, *p = m->right[0], *q = m->right[1];
     for (size_t r = 0; r < n; r++) {
@@ -103,8 +105,8 @@ static void solve_half(const fw_stepper *s, const double *j, const fw_ode_shifte
     }
 }
 
-void fw_ode_shifted_solve(const fw_stepper *s, const double *j, const fw_ode_shifted *m, double *x,
-                          double *y) {
+void fw_maths_ode_shifted_solve(const fw_maths_stepper *s, const double *j,
+                                const fw_maths_ode_shifted *m, double *x, double *y) {
     if (m->half)
         solve_half(s, j, m, x, y);
     else

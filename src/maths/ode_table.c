@@ -2,18 +2,20 @@
 #include "maths/ode.h"
 #include <string.h>
 
-static const fw_stepper_row *const table[] = {
-    &fw_dop853_row,    &fw_dopri5_row,    &fw_radau5_row,    &fw_generalised_alpha_row,
-    &fw_rk4_row,       &fw_gsl_rkf45_row, &fw_gsl_rk8pd_row, &fw_gsl_msadams_row,
-    &fw_gsl_bsimp_row,
+static const fw_maths_stepper_row *const table[] = {
+    &fw_maths_dop853_row,    &fw_maths_dopri5_row,
+    &fw_maths_radau5_row,    &fw_maths_generalised_alpha_row,
+    &fw_maths_rk4_row,       &fw_maths_gsl_rkf45_row,
+    &fw_maths_gsl_rk8pd_row, &fw_maths_gsl_msadams_row,
+    &fw_maths_gsl_bsimp_row,
 };
 
-const fw_stepper_row *const *fw_stepper_table(size_t *count) {
+const fw_maths_stepper_row *const *fw_maths_stepper_table(size_t *count) {
     *count = sizeof table / sizeof table[0];
     return table;
 }
 
-const fw_stepper_row *fw_stepper_find(const char *name) {
+const fw_maths_stepper_row *fw_maths_stepper_find(const char *name) {
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
         if (strcmp(table[i]->name, name) == 0) return table[i];
     return NULL;

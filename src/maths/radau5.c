@@ -20,8 +20,8 @@
 enum { ITERATIONS = 7 };
 
 typedef struct radau5 {
-    fw_stepper base;
-    fw_ode_shifted real, complex;
+    fw_maths_stepper base;
+    fw_maths_ode_shifted real, complex;
     double *j;                  /* (n x controlled) */
     double *y_new, *f_new;      /* (padded) */
     double *z[3], *w[3], *r[3]; /* (padded) stages minus y, W = T^-1 z, right sides */
@@ -36,44 +36,44 @@ typedef struct radau5 {
     bool have_j, fresh_j, first, rejected_last;
 } radau5;
 
-static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
+static fw_status create(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper) {
     radau5 *s = fw_arena_one(arena, radau5);
     FW_NEED(s);
-    FW_TRY(fw_ode_shifted_new(arena, ode, false, &s->real));
-    FW_TRY(fw_ode_shifted_new(arena, ode, true, &s->complex));
+    FW_TRY(fw_maths_ode_shifted_new(arena, ode, false, &s->real));
+    FW_TRY(fw_maths_ode_shifted_new(arena, ode, true, &s->complex));
     FW_NEED(s->j = fw_arena_array(arena, double, (size_t)ode->n *(size_t)ode->controlled));
-    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->work = fw_ode_vector(arena, 2 * fw_ode_padded(ode->n)));
+    FW_NEED(s->y_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->work = fw_maths_ode_vector(arena, 2 * fw_maths_ode_padded(ode->n)));
     FW_NEED(s->smooth = fw_arena_array(arena, bool, (size_t)ode->positions));
     for (int i = 0; i < 3; i++) {
-        FW_NEED(s->z[i] = fw_ode_vector(arena, ode->n));
-        FW_NEED(s->w[i] = fw_ode_vector(arena, ode->n));
-        FW_NEED(s->r[i] = fw_ode_vector(arena, ode->n));
-        FW_NEED(s->row[i] = fw_ode_vector(arena, ode->n));
+        FW_NEED(s->z[i] = fw_maths_ode_vector(arena, ode->n));
+        FW_NEED(s->w[i] = fw_maths_ode_vector(arena, ode->n));
+        FW_NEED(s->r[i] = fw_maths_ode_vector(arena, ode->n));
+        FW_NEED(s->row[i] = fw_maths_ode_vector(arena, ode->n));
     }
     *stepper = &s->base;
     return FW_OK;
 }
 
-static void start(fw_stepper *b) {
+static void start(fw_maths_stepper *b) {
     radau5 *s = (radau5 *)b;
     s->gap = 0.34 * pow(b->rtol, 0.8) / b->rtol;
     s->have_j = s->fresh_j = s->rejected_last = false;
     s->first = true;
     s->h_factored = 0;
     s->eta = 1;
-    b->h_next = fw_ode_first_step(b, 3, s->work);
+    b->h_next = fw_maths_ode_first_step(b, 3, s->work);
 }
 
 /* in units of the inner tolerance */
 static double size_of(const radau5 *s, const double *e) {
-    return fw_ode_norm(&s->base, e, s->base.y, s->base.y) / s->gap;
+    return fw_maths_ode_norm(&s->base, e, s->base.y, s->base.y) / s->gap;
 }
 
 /* the polynomial of the last step, continued: z_i = p(1 + c_i h/h_old) - p(1); zeros at a start */
 static void guess(radau5 *s, double h) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     for (int i = 0; i < 3; i++) {
         double x = 1 + radau_c[i] * h / s->h_old;
         for (int c = 0; c < b->ode.n; c++)
@@ -92,13 +92,13 @@ static void guess(radau5 *s, double h) {
 
 /* r = T^-1 F - (1/h) T^-1 A^-1 T W, the residual of the transformed stages; false: not finite */
 static bool residual(radau5 *s, double h) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     int n = b->ode.n;
     for (int i = 0; i < 3; i++) {
         for (int c = 0; c < n; c++)
             s->work[c] = b->y[c] + (c < b->ode.controlled ? s->z[i][c] : 0);
-        fw_ode_evaluate_lean(b, b->t + radau_c[i] * h, s->work, s->r[i]);
-        if (!fw_ode_finite(s->r[i], b->ode.controlled)) return false;
+        fw_maths_ode_evaluate_lean(b, b->t + radau_c[i] * h, s->work, s->r[i]);
+        if (!fw_maths_ode_finite(s->r[i], b->ode.controlled)) return false;
     }
     const double real = radau_gamma / h, alpha = radau_alpha / h, beta = radau_beta / h;
     for (int c = 0; c < b->ode.controlled; c++) {
@@ -114,9 +114,9 @@ static bool residual(radau5 *s, double h) {
 
 /* solves for the increment, adds it, and gives its size */
 static double improve(radau5 *s) {
-    fw_stepper *b = &s->base;
-    fw_ode_shifted_solve(b, s->j, &s->real, s->r[0], NULL);
-    fw_ode_shifted_solve(b, s->j, &s->complex, s->r[1], s->r[2]);
+    fw_maths_stepper *b = &s->base;
+    fw_maths_ode_shifted_solve(b, s->j, &s->real, s->r[0], NULL);
+    fw_maths_ode_shifted_solve(b, s->j, &s->complex, s->r[1], s->r[2]);
     double sum = 0;
     for (int i = 0; i < 3; i++) {
         double size = size_of(s, s->r[i]);
@@ -179,7 +179,7 @@ static newton_result newton(radau5 *s, double h) {
 /* (gamma/h - J)^-1 (f(t, y) + sum e_i z_i / h), and once more with f at y + that in steps that
    would otherwise be refused for an error which the filter had not seen */
 static double error(radau5 *s, double h) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     int n = b->ode.controlled;
     memcpy(s->work, b->y, (size_t)b->ode.n * sizeof(double));
     double *e = s->r[0], *g = s->r[1], size = 0;
@@ -189,25 +189,25 @@ static double error(radau5 *s, double h) {
             e[c] =
                 f[c] +
                 (radau_e[0] * s->z[0][c] + radau_e[1] * s->z[1][c] + radau_e[2] * s->z[2][c]) / h;
-        fw_ode_shifted_solve(b, s->j, &s->real, e, NULL);
+        fw_maths_ode_shifted_solve(b, s->j, &s->real, e, NULL);
         size = fmax(size_of(s, e), 1e-10);
         if (!isfinite(size) || size < 1 || !(s->first || s->rejected_last) || pass == 1) break;
         for (int c = 0; c < n; c++)
             s->work[c] = b->y[c] + e[c];
-        fw_ode_evaluate_lean(b, b->t, s->work, g);
+        fw_maths_ode_evaluate_lean(b, b->t, s->work, g);
     }
     return size;
 }
 
 /* z_i = h sum_j a_ij g_j for the quadratures, with g_3 from the accepted end; false: not finite */
 static bool quadratures(radau5 *s, double h) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     int first = b->ode.controlled, n = b->ode.n;
     if (first == n) return true;
     for (int i = 0; i < 2; i++) {
         for (int c = 0; c < n; c++)
             s->work[c] = b->y[c] + (c < first ? s->z[i][c] : 0);
-        fw_ode_evaluate(b, b->t + radau_c[i] * h, s->work, s->r[i]);
+        fw_maths_ode_evaluate(b, b->t + radau_c[i] * h, s->work, s->r[i]);
     }
     for (int c = first; c < n; c++) {
         for (int i = 0; i < 3; i++)
@@ -215,12 +215,12 @@ static bool quadratures(radau5 *s, double h) {
                               radau_a[i][2] * s->f_new[c]);
         s->y_new[c] = b->y[c] + s->z[2][c];
     }
-    return fw_ode_finite(s->y_new, n);
+    return fw_maths_ode_finite(s->y_new, n);
 }
 
 /* rows of the polynomial through 0, z_1, z_2 and the (projected) end */
 static void keep_polynomial(radau5 *s) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     const double c1 = radau_c[0], c2 = radau_c[1];
     for (int c = 0; c < b->ode.n; c++) {
         double z3 = b->y[c] - b->y_old[c];
@@ -234,7 +234,7 @@ static void keep_polynomial(radau5 *s) {
 
 /* largest sum of a row of |h^2 K_u| + |h K_v|, for first order problems of |h J| */
 static double stiffness(const radau5 *s, double h) {
-    const fw_ode *ode = &s->base.ode;
+    const fw_maths_ode *ode = &s->base.ode;
     bool second = s->real.half;
     int columns = ode->controlled, first = second ? ode->positions : 0;
     double most = 0;
@@ -248,17 +248,17 @@ static double stiffness(const radau5 *s, double h) {
 }
 
 /* J and factors for h; 0: good, else what went wrong */
-static fw_ode_result linearise(radau5 *s, double h) {
-    fw_stepper *b = &s->base;
+static fw_maths_ode_result linearise(radau5 *s, double h) {
+    fw_maths_stepper *b = &s->base;
     if (!s->have_j) {
         s->h_factored = 0;
-        if (!fw_ode_jacobian(b, b->t, b->y, b->f, s->j, s->work)) return FW_ODE_NAN;
+        if (!fw_maths_ode_jacobian(b, b->t, b->y, b->f, s->j, s->work)) return FW_ODE_NAN;
         s->have_j = s->fresh_j = true;
     }
     if (fabs(h - s->h_factored) <= 1e-6 * h) return FW_ODE_STEP; /* rounded times, last steps */
     s->h_factored = 0;
-    if (!fw_ode_shifted_factor(b, s->j, radau_gamma / h, 0, &s->real) ||
-        !fw_ode_shifted_factor(b, s->j, radau_alpha / h, radau_beta / h, &s->complex))
+    if (!fw_maths_ode_shifted_factor(b, s->j, radau_gamma / h, 0, &s->real) ||
+        !fw_maths_ode_shifted_factor(b, s->j, radau_alpha / h, radau_beta / h, &s->complex))
         return FW_ODE_NEWTON;
     s->h_factored = h;
     s->stiffness = stiffness(s, h);
@@ -272,7 +272,7 @@ static double next_step(double h, double err, int iterations) {
 }
 
 static void accepted(radau5 *s, double h, double err, int iterations) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     double next = next_step(h, err, iterations);
     if (!s->first) {
         double trend = s->h_old / h * pow(err * err / s->err_old, 0.25) / 0.9;
@@ -288,12 +288,12 @@ static void accepted(radau5 *s, double h, double err, int iterations) {
     keep_polynomial(s);
 }
 
-static fw_ode_result step(fw_stepper *b) {
+static fw_maths_ode_result step(fw_maths_stepper *b) {
     radau5 *s = (radau5 *)b;
     double h = fmin(b->h_next, b->h_max);
     for (int tries = 0;;) {
-        double t_new = fw_ode_target(b, &h);
-        fw_ode_result cause = linearise(s, h);
+        double t_new = fw_maths_ode_target(b, &h);
+        fw_maths_ode_result cause = linearise(s, h);
         double shrink = 0.5;
         if (cause == FW_ODE_STEP) {
             guess(s, h);
@@ -302,13 +302,13 @@ static fw_ode_result step(fw_stepper *b) {
             if (result.converged && err < 1) {
                 for (int c = 0; c < b->ode.n; c++)
                     s->y_new[c] = b->y[c] + (c < b->ode.controlled ? s->z[2][c] : 0);
-                if (fw_ode_finish(b, t_new, s->y_new, s->f_new) && quadratures(s, h)) {
-                    fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
+                if (fw_maths_ode_finish(b, t_new, s->y_new, s->f_new) && quadratures(s, h)) {
+                    fw_maths_ode_accept(b, t_new, &s->y_new, &s->f_new);
                     accepted(s, h, err, result.iterations);
                     return FW_ODE_STEP;
                 }
                 shrink = 0.25;
-                cause = fw_ode_finite(s->f_new, b->ode.n) ? FW_ODE_SMALL : FW_ODE_NAN;
+                cause = fw_maths_ode_finite(s->f_new, b->ode.n) ? FW_ODE_SMALL : FW_ODE_NAN;
             } else if (result.converged) {
                 shrink = s->first ? 0.1 : next_step(h, err, result.iterations) / h;
                 if (!isfinite(err)) shrink = 0.25;
@@ -322,7 +322,7 @@ static fw_ode_result step(fw_stepper *b) {
         h *= shrink;
         s->rejected_last = true;
         if (!s->fresh_j) s->have_j = false;
-        if (!fw_ode_retry(b, h, &tries)) return cause;
+        if (!fw_maths_ode_retry(b, h, &tries)) return cause;
     }
 }
 
@@ -336,11 +336,11 @@ static void polynomial(const radau5 *s, int c, double x, double *value, double *
 }
 
 static void one(const radau5 *s, int c, double x, double *value, double *slope) {
-    const fw_stepper *b = &s->base;
+    const fw_maths_stepper *b = &s->base;
     int n = b->ode.positions;
     if (c < 2 * n && s->smooth[c < n ? c : c - n]) {
-        const fw_ode_span span = {b->h, b->y_old, b->f_old, b->y, b->f, false};
-        fw_ode_span_value(&b->ode, &span, c, x, value, slope);
+        const fw_maths_ode_span span = {b->h, b->y_old, b->f_old, b->y, b->f, false};
+        fw_maths_ode_span_value(&b->ode, &span, c, x, value, slope);
     } else {
         polynomial(s, c, x, value, slope);
     }
@@ -348,29 +348,29 @@ static void one(const radau5 *s, int c, double x, double *value, double *slope) 
 
 /* accelerations at the ends carry the error of stiff components times their stiffness: the quintic
    serves where it differs from the collocation polynomial by less than the tolerance of the step */
-static void prepare(fw_stepper *b) {
+static void prepare(fw_maths_stepper *b) {
     radau5 *s = (radau5 *)b;
-    const fw_ode_span span = {b->h, b->y_old, b->f_old, b->y, b->f, false};
+    const fw_maths_ode_span span = {b->h, b->y_old, b->f_old, b->y, b->f, false};
     for (int u = 0; u < b->ode.positions; u++) {
         s->smooth[u] = true;
         for (int k = 0; k < 2; k++) {
             int c = k ? u + b->ode.positions : u;
             double quintic, cubic, slope;
             double scale = b->tolerance[c] + b->rtol * fmax(fabs(b->y_old[c]), fabs(b->y[c]));
-            fw_ode_span_value(&b->ode, &span, c, 0.5, &quintic, &slope);
+            fw_maths_ode_span_value(&b->ode, &span, c, 0.5, &quintic, &slope);
             polynomial(s, c, 0.5, &cubic, &slope);
             if (!(fabs(quintic - cubic) <= s->gap * scale)) s->smooth[u] = false;
         }
     }
 }
 
-static void dense(const fw_stepper *b, double theta, double *y) {
+static void dense(const fw_maths_stepper *b, double theta, double *y) {
     double slope;
     for (int c = 0; c < b->ode.n; c++)
         one((const radau5 *)b, c, theta, &y[c], &slope);
 }
 
-static void component(const fw_stepper *b, int i, double wi, int j, double wj, double theta,
+static void component(const fw_maths_stepper *b, int i, double wi, int j, double wj, double theta,
                       double *value, double *slope) {
     double p = 0, d = 0;
     one((const radau5 *)b, i, theta, value, slope);
@@ -381,13 +381,13 @@ static void component(const fw_stepper *b, int i, double wi, int j, double wj, d
 
 /* stiff components are in balance at the stages; between them the polynomial is off by less than
    the tolerance, but a stiffness multiplies that */
-static int own(const fw_stepper *b, double *theta) {
+static int own(const fw_maths_stepper *b, double *theta) {
     if (((const radau5 *)b)->stiffness < 100) return 0;
     theta[0] = radau_c[0], theta[1] = radau_c[1];
     return 2;
 }
 
-const fw_stepper_row fw_radau5_row = {
+const fw_maths_stepper_row fw_maths_radau5_row = {
     .name = "radau5",
     .summary = "implicit Radau IIA of order 5, L-stable, for stiff mechanisms",
     .order = 5,

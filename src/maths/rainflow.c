@@ -2,7 +2,7 @@
 #include "maths/rainflow.h"
 #include <math.h>
 
-static void push(fw_turning *t, fw_arena *arena, double value) {
+static void push(fw_maths_turning *t, fw_arena *arena, double value) {
     if (t->count == t->room) {
         size_t room = t->room ? 2 * t->room : 64;
         double *more = fw_arena_grow(arena, t->value, t->count, room, sizeof *more);
@@ -17,7 +17,7 @@ static void push(fw_turning *t, fw_arena *arena, double value) {
 }
 
 /* a turn is one when the history has come back by more than the gate */
-static void follow(fw_turning *t, fw_arena *arena, double value) {
+static void follow(fw_maths_turning *t, fw_arena *arena, double value) {
     if (t->count == 0) {
         push(t, arena, value);
         t->latest = value;
@@ -36,7 +36,7 @@ static void follow(fw_turning *t, fw_arena *arena, double value) {
 }
 
 /* extreme of the parabola through three samples, where the middle one is the outermost */
-static bool vertex(const fw_turning *p, double t, double s, double *value) {
+static bool vertex(const fw_maths_turning *p, double t, double s, double *value) {
     double a = p->t[1] - p->t[0], b = t - p->t[1], up = p->s[1] - p->s[0], down = s - p->s[1];
     if (!(a > 0) || !(b > 0) || !(up * down < 0)) return false;
     double slope = (up * b / a + down * a / b) / (a + b);
@@ -47,7 +47,7 @@ static bool vertex(const fw_turning *p, double t, double s, double *value) {
 
 /* One more sample. in: times s, values of any unit; out: t->value; error of a turning point
    O(spacing^3), turns below the gate are lost. Test: test_rainflow.c turning_points_of_a_sine */
-void fw_turning_add(fw_turning *p, fw_arena *arena, double t, double s) {
+void fw_maths_turning_add(fw_maths_turning *p, fw_arena *arena, double t, double s) {
     double top;
     if (p->seen >= 2 && vertex(p, t, s, &top)) follow(p, arena, top);
     follow(p, arena, s);
@@ -58,11 +58,11 @@ void fw_turning_add(fw_turning *p, fw_arena *arena, double t, double s) {
     p->seen++;
 }
 
-void fw_turning_jump(fw_turning *p) {
+void fw_maths_turning_jump(fw_maths_turning *p) {
     p->seen = 0;
 }
 
-void fw_turning_end(fw_turning *p, fw_arena *arena) {
+void fw_maths_turning_end(fw_maths_turning *p, fw_arena *arena) {
     if (p->direction != 0) push(p, arena, p->latest);
     p->direction = 0;
 }
@@ -72,14 +72,14 @@ void fw_turning_end(fw_turning *p, fw_arena *arena) {
    stays at the end are half cycles.
    in: turn (n), in turn peaks and valleys; out: cycles; exact; cost O(n)
    source: ASTM E1049-85 (2017), the algorithm is described there; test_rainflow.c astm_example */
-size_t fw_rainflow(const double *turn, size_t n, double *work, fw_cycle *cycle) {
+size_t fw_maths_rainflow(const double *turn, size_t n, double *work, fw_maths_cycle *cycle) {
     size_t top = 0, cycles = 0; /* work[0..top-1] is the stack */
     for (size_t i = 0; i < n; i++) {
         work[top++] = turn[i];
         while (top >= 3) {
             double a = work[top - 3], b = work[top - 2], c = work[top - 1];
             if (fabs(c - b) < fabs(b - a)) break;
-            cycle[cycles++] = (fw_cycle){fabs(b - a), 0.5 * (a + b), top == 3 ? 0.5 : 1.0};
+            cycle[cycles++] = (fw_maths_cycle){fabs(b - a), 0.5 * (a + b), top == 3 ? 0.5 : 1.0};
             if (top == 3) {
                 work[0] = b;
                 work[1] = c;
@@ -92,7 +92,7 @@ size_t fw_rainflow(const double *turn, size_t n, double *work, fw_cycle *cycle) 
     }
     for (size_t i = 0; i + 1 < top; i++)
         cycle[cycles++] =
-            (fw_cycle){fabs(work[i + 1] - work[i]), 0.5 * (work[i + 1] + work[i]), 0.5};
+            (fw_maths_cycle){fabs(work[i + 1] - work[i]), 0.5 * (work[i + 1] + work[i]), 0.5};
     return cycles;
 }
 
@@ -100,7 +100,8 @@ size_t fw_rainflow(const double *turn, size_t n, double *work, fw_cycle *cycle) 
    cycles are left, and closed there. Where its end is no turning point (end and beginning rise, or
    fall, into each other) it is left out.
    Test: test_rainflow.c astm_example_repeating */
-size_t fw_rainflow_repeating(const double *turn, size_t n, double *work, fw_cycle *cycle) {
+size_t fw_maths_rainflow_repeating(const double *turn, size_t n, double *work,
+                                   fw_maths_cycle *cycle) {
     size_t from = 0, m = 0;
     if (n < 2) return 0;
     for (size_t i = 1; i < n; i++)
@@ -114,7 +115,7 @@ size_t fw_rainflow_repeating(const double *turn, size_t n, double *work, fw_cycl
         work[m++] = v;
     }
     /* the stack of the plain count grows behind what it reads */
-    size_t cycles = fw_rainflow(work, m, work, cycle), half = 0, whole = 0;
+    size_t cycles = fw_maths_rainflow(work, m, work, cycle), half = 0, whole = 0;
     for (size_t i = 0; i < cycles; i++) { /* two halves of the largest make one */
         if (cycle[i].count < 1 && half++ % 2) continue;
         cycle[whole] = cycle[i];

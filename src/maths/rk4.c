@@ -9,7 +9,7 @@
 #include <math.h>
 
 typedef struct rk4 {
-    fw_stepper base;
+    fw_maths_stepper base;
     double *y_new, *f_new, *k; /* (padded), (padded), (3 padded) k2 to k4 */
     double t_start, count;     /* steps from t_start to t_end */
     double done;
@@ -17,23 +17,23 @@ typedef struct rk4 {
     double wanted; /* step that the division is made for */
 } rk4;
 
-static fw_status create(fw_arena *arena, const fw_ode *ode, fw_stepper **stepper) {
+static fw_status create(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper) {
     rk4 *s = fw_arena_one(arena, rk4);
     FW_NEED(s);
-    FW_NEED(s->y_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->f_new = fw_ode_vector(arena, ode->n));
-    FW_NEED(s->k = fw_arena_array(arena, double, 3 * (size_t)fw_ode_padded(ode->n)));
+    FW_NEED(s->y_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->f_new = fw_maths_ode_vector(arena, ode->n));
+    FW_NEED(s->k = fw_arena_array(arena, double, 3 * (size_t)fw_maths_ode_padded(ode->n)));
     *stepper = &s->base;
     return FW_OK;
 }
 
-static double wanted(const fw_stepper *b, double span) {
+static double wanted(const fw_maths_stepper *b, double span) {
     return fmin(b->h_fixed > 0 ? b->h_fixed : span / 1000, b->h_max);
 }
 
 /* the way from here to t_end in equal steps of at most h */
 static void divide(rk4 *s, double h) {
-    fw_stepper *b = &s->base;
+    fw_maths_stepper *b = &s->base;
     double span = b->t_end - b->t;
     s->t_start = b->t;
     s->wanted = h;
@@ -42,13 +42,13 @@ static void divide(rk4 *s, double h) {
     b->h_next = span / s->count;
 }
 
-static void start(fw_stepper *b) {
+static void start(fw_maths_stepper *b) {
     rk4 *s = (rk4 *)b;
     s->whole = b->t_end - b->t;
     divide(s, wanted(b, s->whole));
 }
 
-static fw_ode_result step(fw_stepper *b) {
+static fw_maths_ode_result step(fw_maths_stepper *b) {
     rk4 *s = (rk4 *)b;
     int n = b->ode.n, width = b->padded;
     if (wanted(b, s->whole) != s->wanted) divide(s, wanted(b, s->whole));
@@ -58,28 +58,29 @@ static fw_ode_result step(fw_stepper *b) {
     if (!(h > 0)) return FW_ODE_SMALL;
     for (int c = 0; c < n; c++)
         s->y_new[c] = b->y[c] + h / 2 * b->f[c];
-    fw_ode_evaluate(b, b->t + h / 2, s->y_new, k2);
+    fw_maths_ode_evaluate(b, b->t + h / 2, s->y_new, k2);
     for (int c = 0; c < n; c++)
         s->y_new[c] = b->y[c] + h / 2 * k2[c];
-    fw_ode_evaluate(b, b->t + h / 2, s->y_new, k3);
+    fw_maths_ode_evaluate(b, b->t + h / 2, s->y_new, k3);
     for (int c = 0; c < n; c++)
         s->y_new[c] = b->y[c] + h * k3[c];
-    fw_ode_evaluate(b, t_new, s->y_new, k4);
+    fw_maths_ode_evaluate(b, t_new, s->y_new, k4);
     for (int c = 0; c < n; c++)
         s->y_new[c] = b->y[c] + h / 6 * (b->f[c] + 2 * k2[c] + (2 * k3[c] + k4[c]));
-    if (!fw_ode_finite(s->y_new, n)) return FW_ODE_NAN;
-    if (!fw_ode_finish(b, t_new, s->y_new, s->f_new))
-        return fw_ode_finite(s->y_new, n) && fw_ode_finite(s->f_new, n) ? FW_ODE_SMALL : FW_ODE_NAN;
-    fw_ode_accept(b, t_new, &s->y_new, &s->f_new);
+    if (!fw_maths_ode_finite(s->y_new, n)) return FW_ODE_NAN;
+    if (!fw_maths_ode_finish(b, t_new, s->y_new, s->f_new))
+        return fw_maths_ode_finite(s->y_new, n) && fw_maths_ode_finite(s->f_new, n) ? FW_ODE_SMALL
+                                                                                    : FW_ODE_NAN;
+    fw_maths_ode_accept(b, t_new, &s->y_new, &s->f_new);
     s->done++;
     return FW_ODE_STEP;
 }
 
-static void prepare(fw_stepper *s) {
+static void prepare(fw_maths_stepper *s) {
     (void)s;
 }
 
-const fw_stepper_row fw_rk4_row = {
+const fw_maths_stepper_row fw_maths_rk4_row = {
     .name = "rk4",
     .summary = "classical Runge-Kutta of order 4 with equal steps and no error control: a baseline",
     .order = 4,
@@ -90,6 +91,6 @@ const fw_stepper_row fw_rk4_row = {
     .start = start,
     .step = step,
     .prepare = prepare,
-    .dense = fw_ode_hermite,
-    .component = fw_ode_hermite_component,
+    .dense = fw_maths_ode_hermite,
+    .component = fw_maths_ode_hermite_component,
 };

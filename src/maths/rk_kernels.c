@@ -88,7 +88,7 @@ static int has_avx512(void) {
 }
 #endif
 
-static const fw_rk_kernels table[] = {
+static const fw_maths_rk_kernels table[] = {
     {"narrow", always, combine_narrow, errors_narrow},
 #if defined(__x86_64__)
     {"avx2", has_avx2, combine_avx2, errors_avx2},
@@ -96,13 +96,13 @@ static const fw_rk_kernels table[] = {
 #endif
 };
 
-const fw_rk_kernels *fw_rk_kernels_table(size_t *count) {
+const fw_maths_rk_kernels *fw_maths_rk_kernels_table(size_t *count) {
     *count = sizeof table / sizeof table[0];
     return table;
 }
 
-const fw_rk_kernels *fw_rk_kernels_best(void) {
-    const fw_rk_kernels *best = table;
+const fw_maths_rk_kernels *fw_maths_rk_kernels_best(void) {
+    const fw_maths_rk_kernels *best = table;
     for (size_t i = 1; i < sizeof table / sizeof table[0]; i++)
         if (table[i].usable()) best = &table[i];
     return best;

@@ -6,7 +6,7 @@
 #define FW_MATHS_RK_KERNELS_H
 #include <stddef.h>
 
-typedef struct fw_rk_kernels {
+typedef struct fw_maths_rk_kernels {
     const char *name;
     int (*usable)(void); /* on this processor */
     /* out = y + h sum_j a_j k_j, j < count */
@@ -16,10 +16,10 @@ typedef struct fw_rk_kernels {
        {0, 1}: two error estimates at once, their weights side by side in e (2 count) */
     void (*errors)(int n, int count, const double *e, const double *const *k, double rtol,
                    const double *tolerance, const double *y, const double *z, double sum[2]);
-} fw_rk_kernels;
+} fw_maths_rk_kernels;
 
 /* narrowest first */
-const fw_rk_kernels *fw_rk_kernels_table(size_t *count);
-const fw_rk_kernels *fw_rk_kernels_best(void);
+const fw_maths_rk_kernels *fw_maths_rk_kernels_table(size_t *count);
+const fw_maths_rk_kernels *fw_maths_rk_kernels_best(void);
 
 #endif

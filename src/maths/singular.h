@@ -8,12 +8,12 @@
 /* a = U diag(sigma) V^T. `a` (rows x columns) has its rows contiguous; sigma (min(rows, columns))
    from the largest down; u: left vector i at u + i rows; v: right vector i at v + i columns, all
    `columns` of them, so that those behind the rank span the null space. */
-typedef struct fw_singular {
+typedef struct fw_maths_singular {
     int rows, columns;
     double *sigma, *u, *v;
-} fw_singular;
+} fw_maths_singular;
 /* rows 0 gives the unit matrix in v. FW_SOLVER where it does not converge or `a` is not finite. */
-fw_status fw_singular_new(fw_arena *arena, int rows, int columns, const double *a,
-                          fw_singular *out);
+fw_status fw_maths_singular_new(fw_arena *arena, int rows, int columns, const double *a,
+                                fw_maths_singular *out);
 
 #endif

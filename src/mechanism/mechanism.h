@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The mechanism as the equations of motion see it: bodies with mass, pins (revolute joints) with
-   springs, dampers and stops, ties (prismatic, distance, weld), drivers, point-to-point springs.
+   springs, dampers and stops, joints (prismatic, distance, weld), drivers, point-to-point springs.
    Built from the description, the laid-out shapes (mass) and the flexures (stiffness) for one
    variant: a material and a thickness.
 
@@ -14,28 +14,30 @@
 #include "flexure/path.h"
 #include "layout/layout.h"
 
-typedef struct fw_variant { /* what the device is made of, in one flow */
-    const char *flow;       /* flow id or NULL */
-    fw_material material;
+typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
+    const char *flow;                 /* flow id or NULL */
+    fw_device_material material;
     const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
     fw_quantity substrate_expansion; /* of it, 1/K */
     double thickness_m;
     double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
-} fw_variant;
+} fw_mechanism_variant;
 
-typedef struct fw_mass { /* per body */
+typedef struct fw_mechanism_mass { /* per body */
     const char *id;
     double mass_kg, inertia_kg_m2;
     double x_m, y_m, phi_rad; /* initial pose of the centre of mass */
-} fw_mass;
+} fw_mechanism_mass;
 
-typedef struct fw_shape { /* per body, as drawn: area, its polar second moment about the centre of
+typedef struct
+    fw_mechanism_shape { /* per body, as drawn: area, its polar second moment about the centre of
                              mass, perimeter; NaN where it is not drawn */
     double area_m2, polar_m4, perimeter_m;
-} fw_shape;
+} fw_mechanism_shape;
 
-typedef struct fw_pin { /* per revolute joint; local points in the body frames (ground: world) */
+typedef struct
+    fw_mechanism_pin { /* per revolute joint; local points in the body frames (ground: world) */
     const char *id;
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m;
@@ -43,15 +45,18 @@ typedef struct fw_pin { /* per revolute joint; local points in the body frames (
     int hinge; /* index into mechanism->hinge, or FW_NONE */
     /* stops at these joint angles; stiffness 0: none; NaN: not on this side */
     double stop_min_rad, stop_max_rad, stop_stiffness_Nm_per_rad, stop_damping_Nms_per_rad;
-} fw_pin;
+} fw_mechanism_pin;
 
-typedef struct fw_hinge { /* a pin that is a flexure */
+typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
     int pin, flexure;
     fw_flexure_input input; /* what the closed form was asked, for other levels */
     fw_flexure_result closed_form;
-    fw_limits limits; /* what it bears; closed_form.limit_angle_rad is that of the governing one */
-    fw_path_strain section; /* of a flexure that varies (flexure/path.h); n 0: one arc or line */
-    fw_hinge_law law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
+    fw_flexure_limits
+        limits; /* what it bears; closed_form.limit_angle_rad is that of the governing one */
+    fw_flexure_path_strain
+        section; /* of a flexure that varies (flexure/path.h); n 0: one arc or line */
+    fw_flexure_hinge_law
+        law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
        (leaf: across it); `first` is the body at polar angle -a from there (element frame of
        flexure.h) */
@@ -61,7 +66,7 @@ typedef struct fw_hinge { /* a pin that is a flexure */
        drawn: pin less drawn point (centre of both conjugate surfaces), in the frames of body a and
        b; else
        0 */
-    fw_vec2 off_a_m, off_b_m;
+    fw_geometry_vec2 off_a_m, off_b_m;
     double surface_radius_m; /* of the convex conjugate surface; 0: none */
     /* directions, in body a's frame and the drawn pose, in which they can touch, counter-clockwise;
        NaN: not drawn. Where they begin the surface of the body at polar angle +a ends, where they
@@ -70,27 +75,30 @@ typedef struct fw_hinge { /* a pin that is a flexure */
     bool convex_is_a;    /* the convex surface belongs to body a */
     bool stated;         /* the file states the stiffness: the flexure's own law is not asked for */
     bool damping_stated; /* and the damping: no loss factor is asked for */
-} fw_hinge;
+} fw_mechanism_hinge;
 
 typedef struct fw_mechanism {
     const fw_device *device;
-    const fw_variant *variant;
-    fw_mass *body;   /* (nbody) */
-    fw_shape *shape; /* (nbody) or NULL: nothing is drawn */
-    fw_pin *pin;     /* (npin) */
-    fw_tie *tie;     /* (ntie) all values known (angle, length: as drawn where the file leaves them
+    const fw_mechanism_variant *variant;
+    fw_mechanism_mass *body;   /* (nbody) */
+    fw_mechanism_shape *shape; /* (nbody) or NULL: nothing is drawn */
+    fw_mechanism_pin *pin;     /* (npin) */
+    fw_device_joint
+        *joint; /* (njoint) all values known (angle, length: as drawn where the file leaves them
                         open; 0 where they mean nothing); local points refer to centres of mass */
-    fw_driver *driver; /* (ndriver) joint is an index of pin, tie of tie */
-    fw_spring *spring; /* (nspring) local points refer to centres of mass */
-    fw_hinge *hinge;   /* (nhinge) */
-    int nbody, npin, ntie, ndriver, nspring, nhinge;
+    fw_device_driver *driver;  /* (ndriver) joint is an index of pin, joint of joint */
+    fw_device_spring *spring;  /* (nspring) local points refer to centres of mass */
+    fw_mechanism_hinge *hinge; /* (nhinge) */
+    int nbody, npin, njoint, ndriver, nspring, nhinge;
 } fw_mechanism;
 
 /* world position, in the drawn pose, that body a (side 0) or body b (side 1) gives to a pin */
-fw_vec2 fw_pin_place(const fw_mechanism *mechanism, const fw_pin *pin, int side);
+fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *mechanism, const fw_mechanism_pin *pin,
+                                        int side);
 
 /* the same of any local point (ground: world) */
-fw_vec2 fw_local_place(const fw_mechanism *mechanism, int body, double x_m, double y_m);
+fw_geometry_vec2 fw_mechanism_local_place(const fw_mechanism *mechanism, int body, double x_m,
+                                          double y_m);
 
 /* the same with every local arm of body b longer by strain[b], points of the ground (strain[nbody])
    away from their mean; springs stay at rest where they were. Initial poses are not closed again.
@@ -98,20 +106,22 @@ fw_vec2 fw_local_place(const fw_mechanism *mechanism, int body, double x_m, doub
 fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *mechanism,
                                 const double *strain, const fw_mechanism **strained);
 
-/* mean of the ground's points (of pins, ties and springs): what a strain of the ground is about */
-fw_vec2 fw_ground_centre(const fw_mechanism *mechanism);
+/* mean of the ground's points (of pins, joints and springs): what a strain of the ground is
+   about */
+fw_geometry_vec2 fw_mechanism_ground_centre(const fw_mechanism *mechanism);
 /* a local point (ground: world) of a body that has become longer by strain[body], that of the
    ground (strain[nbody]) away from the centre */
-void fw_strain_point(const double *strain, int nbody, fw_vec2 centre, int body, double *x_m,
-                     double *y_m);
+void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
+                               double *x_m, double *y_m);
 
-/* what the closed form of a joint's flexure takes in this variant: the file's sizes, with the fillet
+/* what the closed form of a joint's flexure takes in this variant: the file's sizes, with the
+   fillet
    that was drawn (layout may be NULL) */
 fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
-                                      const fw_variant *variant, int joint);
+                                      const fw_mechanism_variant *variant, int joint);
 
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_variant *variant, fw_diags *diags,
+                             const fw_mechanism_variant *variant, fw_diags *diags,
                              const fw_mechanism **mechanism);
 
 #endif

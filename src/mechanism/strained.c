@@ -4,7 +4,7 @@
 #include "mechanism/mechanism.h"
 
 typedef struct mean {
-    fw_vec2 sum;
+    fw_geometry_vec2 sum;
     int count;
 } mean;
 
@@ -14,29 +14,29 @@ static void count_in(mean *m, int body, double x_m, double y_m) {
     m->count++;
 }
 
-fw_vec2 fw_ground_centre(const fw_mechanism *m) {
+fw_geometry_vec2 fw_mechanism_ground_centre(const fw_mechanism *m) {
     mean all = {.count = 0};
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
+        const fw_mechanism_pin *p = &m->pin[i];
         count_in(&all, p->body_a, p->ax_m, p->ay_m);
         count_in(&all, p->body_b, p->bx_m, p->by_m);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
         count_in(&all, t->body_a, t->ax_m, t->ay_m);
         count_in(&all, t->body_b, t->bx_m, t->by_m);
     }
     for (int i = 0; i < m->nspring; i++) {
-        const fw_spring *s = &m->spring[i];
+        const fw_device_spring *s = &m->spring[i];
         count_in(&all, s->body_a, s->ax_m, s->ay_m);
         count_in(&all, s->body_b, s->bx_m, s->by_m);
     }
-    if (all.count == 0) return (fw_vec2){0, 0};
-    return (fw_vec2){all.sum.x / all.count, all.sum.y / all.count};
+    if (all.count == 0) return (fw_geometry_vec2){0, 0};
+    return (fw_geometry_vec2){all.sum.x / all.count, all.sum.y / all.count};
 }
 
-void fw_strain_point(const double *strain, int nbody, fw_vec2 centre, int body, double *x_m,
-                     double *y_m) {
+void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
+                               double *x_m, double *y_m) {
     bool ground = body == FW_GROUND;
     double e = strain[ground ? nbody : body];
     *x_m += e * (*x_m - (ground ? centre.x : 0));
@@ -49,29 +49,29 @@ void fw_strain_point(const double *strain, int nbody, fw_vec2 centre, int body, 
 fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *from, const double *strain,
                                 const fw_mechanism **strained) {
     fw_mechanism *to = fw_arena_one(arena, fw_mechanism);
-    fw_vec2 centre = fw_ground_centre(from);
+    fw_geometry_vec2 centre = fw_mechanism_ground_centre(from);
     FW_NEED(to);
     *to = *from;
-    FW_NEED(to->pin = fw_arena_array(arena, fw_pin, (size_t)from->npin));
-    FW_NEED(to->tie = fw_arena_array(arena, fw_tie, (size_t)from->ntie));
-    FW_NEED(to->spring = fw_arena_array(arena, fw_spring, (size_t)from->nspring));
+    FW_NEED(to->pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)from->npin));
+    FW_NEED(to->joint = fw_arena_array(arena, fw_device_joint, (size_t)from->njoint));
+    FW_NEED(to->spring = fw_arena_array(arena, fw_device_spring, (size_t)from->nspring));
     for (int i = 0; i < from->npin; i++) {
-        fw_pin *p = &to->pin[i];
+        fw_mechanism_pin *p = &to->pin[i];
         *p = from->pin[i];
-        fw_strain_point(strain, from->nbody, centre, p->body_a, &p->ax_m, &p->ay_m);
-        fw_strain_point(strain, from->nbody, centre, p->body_b, &p->bx_m, &p->by_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_a, &p->ax_m, &p->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_b, &p->bx_m, &p->by_m);
     }
-    for (int i = 0; i < from->ntie; i++) {
-        fw_tie *t = &to->tie[i];
-        *t = from->tie[i];
-        fw_strain_point(strain, from->nbody, centre, t->body_a, &t->ax_m, &t->ay_m);
-        fw_strain_point(strain, from->nbody, centre, t->body_b, &t->bx_m, &t->by_m);
+    for (int i = 0; i < from->njoint; i++) {
+        fw_device_joint *t = &to->joint[i];
+        *t = from->joint[i];
+        fw_mechanism_strain_point(strain, from->nbody, centre, t->body_a, &t->ax_m, &t->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, t->body_b, &t->bx_m, &t->by_m);
     }
     for (int i = 0; i < from->nspring; i++) {
-        fw_spring *s = &to->spring[i];
+        fw_device_spring *s = &to->spring[i];
         *s = from->spring[i];
-        fw_strain_point(strain, from->nbody, centre, s->body_a, &s->ax_m, &s->ay_m);
-        fw_strain_point(strain, from->nbody, centre, s->body_b, &s->bx_m, &s->by_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, s->body_a, &s->ax_m, &s->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, s->body_b, &s->bx_m, &s->by_m);
     }
     *strained = to;
     return FW_OK;

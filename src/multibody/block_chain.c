@@ -7,8 +7,8 @@
 
 /* with p(r) = (-r_y, r_x) the rows of pin i on body b are +-[I, p(r_i)], so the block of pins i, j
    that share b is +-(I/m + p(r_i) p(r_j)^T / J); 15 flops per pin and body */
-static void assemble_pins(fw_model *m) {
-    fw_chain *restrict c = &m->chain;
+static void assemble_pins(fw_multibody_model *m) {
+    fw_multibody_chain *restrict c = &m->chain;
     const double *restrict arm = m->arm, *restrict minv = m->minv, *restrict jinv = m->jinv;
     for (int i = 0; i < c->pins; i++) {
         int a = m->body[2 * i], b = m->body[2 * i + 1];
@@ -19,7 +19,7 @@ static void assemble_pins(fw_model *m) {
         c->diagonal[3 * i + 2] = mass + ja * ax * ax + jb * bx * bx;
     }
     for (int i = 0; i < c->ncoupling; i++) {
-        const fw_coupling *k = &c->coupling[i];
+        const fw_multibody_coupling *k = &c->coupling[i];
         const double *r = arm + 2 * k->row_arm, *s = arm + 2 * k->column_arm;
         double *to = c->block + 4 * k->block;
         double mass = k->sign * minv[k->body], j = k->sign * jinv[k->body];
@@ -38,11 +38,11 @@ static double weighted(const double *g, int k, const double *h, int l, double mi
     return minv * (g[0] * h[0] + g[1] * h[1]) + jinv * g[2] * h[2];
 }
 
-static void assemble_any(fw_model *m) {
-    fw_chain *c = &m->chain;
+static void assemble_any(fw_multibody_model *m) {
+    fw_multibody_chain *c = &m->chain;
     for (int i = 0; i < c->pins; i++) {
         double *d = c->diagonal + 3 * i;
-        fw_rows rows = m->block[i].rows;
+        fw_multibody_rows rows = m->block[i].rows;
         d[0] = d[1] = 0;
         d[2] = rows == FW_ROWS_PIN || rows == FW_ROWS_SLIDE ? 0 : 1; /* an empty row: lambda = 0 */
         for (int side = 0; side < 2; side++) {
@@ -55,7 +55,7 @@ static void assemble_any(fw_model *m) {
         }
     }
     for (int i = 0; i < c->ncoupling; i++) {
-        const fw_coupling *k = &c->coupling[i];
+        const fw_multibody_coupling *k = &c->coupling[i];
         const double *g = m->jac + 6 * k->row_arm, *h = m->jac + 6 * k->column_arm;
         double *to = c->block + 4 * k->block, minv = m->minv[k->body], jinv = m->jinv[k->body];
         for (int e = 0; e < 4; e++)
@@ -67,7 +67,7 @@ static void assemble_any(fw_model *m) {
    outputs diagonal (3 pins), block (4 blocks). Exact but for rounding. Cost O(pins). Source:
    reference-point coordinates, e.g. Garcia de Jalon and Bayo 1994, ch. 2 and 5. Test:
    test_block_chain.c. */
-void fw_chain_assemble(fw_model *m) {
+void fw_multibody_chain_assemble(fw_multibody_model *m) {
     memset(m->chain.block, 0, 4 * (size_t)m->chain.blocks * sizeof *m->chain.block);
     if (m->plain)
         assemble_pins(m);
@@ -81,7 +81,7 @@ void fw_chain_assemble(fw_model *m) {
    `block` is used up. Error: backward stable, S + eps D is positive definite. Cost: chains and
    rings O(pins). Source: Golub and Van Loan, Matrix Computations, ch. 4. Test: test_block_chain.c.
  */
-bool fw_chain_factor(fw_chain *c, double epsilon) {
+bool fw_multibody_chain_factor(fw_multibody_chain *c, double epsilon) {
     double *restrict d = c->diagonal, *restrict block = c->block, *restrict factor = c->factor;
     c->shift = epsilon;
     for (int i = 0; i < c->pins; i++) {
@@ -119,7 +119,7 @@ bool fw_chain_factor(fw_chain *c, double epsilon) {
     return positive;
 }
 
-void fw_chain_solve(const fw_chain *c, double *restrict x) {
+void fw_multibody_chain_solve(const fw_multibody_chain *c, double *restrict x) {
     const double *restrict factor = c->factor;
     for (int k = 0; k < c->pins; k++) {
         double x0 = x[2 * k], x1 = x[2 * k + 1];
@@ -147,10 +147,10 @@ void fw_chain_solve(const fw_chain *c, double *restrict x) {
 
 /* out = S p = G M^-1 G^T p at the pose, from the Jacobian and not from the blocks; an empty row
    gives 0, as its right side is 0 */
-static void multiply(fw_model *m, const double *p, double *out) {
+static void multiply(fw_multibody_model *m, const double *p, double *out) {
     memset(m->product, 0, (size_t)m->nq * sizeof *m->product);
-    fw_model_apply(m, p, m->product);
-    fw_model_jacobian(m, m->product, out);
+    fw_multibody_model_apply(m, p, m->product);
+    fw_multibody_model_jacobian(m, m->product, out);
     for (int i = 0; i < 2 * m->nblock; i++)
         out[i] = -out[i];
 }
@@ -162,7 +162,7 @@ static void multiply(fw_model *m, const double *p, double *out) {
    0 are redundant rows and do not move a body, and weak ones near a singular position are damped.
    Inputs right (2 nblock, kept), pose and factor; output x. Source: proximal point algorithm,
    Rockafellar 1976; Carpentier et al., RSS 2021. Test: test_block_chain.c. */
-void fw_chain_proximal(fw_model *m, const double *right, double *x) {
+void fw_multibody_chain_proximal(fw_multibody_model *m, const double *right, double *x) {
     int n = 2 * m->nblock;
     double *more = m->more, *left = m->residual, size = 0, before = (double)INFINITY;
     for (int i = 0; i < n; i++) {
@@ -172,7 +172,7 @@ void fw_chain_proximal(fw_model *m, const double *right, double *x) {
     }
     for (int sweep = 0; sweep < 6; sweep++) {
         double worst = 0;
-        fw_chain_solve(&m->chain, more);
+        fw_multibody_chain_solve(&m->chain, more);
         for (int i = 0; i < n; i++)
             x[i] += more[i];
         if (sweep == 5) return;

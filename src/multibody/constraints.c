@@ -23,19 +23,19 @@ static double dot(const double a[2], const double b[2]) {
 }
 
 /* value, first and second derivative of what a block keeps, scaled */
-static void kept(const fw_model *m, const fw_block *b, double t, double f[3]) {
+static void kept(const fw_multibody_model *m, const fw_multibody_block *b, double t, double f[3]) {
     f[0] = b->value, f[1] = f[2] = 0;
     if (!b->law) return;
     double law[3], unit = m->scale.time_s;
-    fw_law_value(b->law, t * unit, m->piece, law);
+    fw_quantity_law_value(b->law, t * unit, m->piece, law);
     f[0] += law[0] / b->unit;
     f[1] = law[1] / b->unit * unit;
     f[2] = law[2] / b->unit * unit * unit;
 }
 
-void fw_model_frame(const fw_model *m, int i, const double *u, double d[2], double e[2],
-                    double n[2]) {
-    const fw_block *b = &m->block[i];
+void fw_multibody_model_frame(const fw_multibody_model *m, int i, const double *u, double d[2],
+                              double e[2], double n[2]) {
+    const fw_multibody_block *b = &m->block[i];
     const double *r = m->arm + 4 * i;
     d[0] = r[2] - r[0] - m->offset[2 * i];
     d[1] = r[3] - r[1] - m->offset[2 * i + 1];
@@ -54,12 +54,12 @@ static void point_row(double *g, const double direction[2], const double arm[2],
 }
 
 /* the 2 x 3 Jacobians of block i for a (6), then for b (6) */
-static void block_jacobian(const fw_model *m, int i, const double *u, double *g) {
-    const fw_block *b = &m->block[i];
+static void block_jacobian(const fw_multibody_model *m, int i, const double *u, double *g) {
+    const fw_multibody_block *b = &m->block[i];
     const double *ra = m->arm + 4 * i, *rb = ra + 2;
     double d[2], e[2], n[2];
     memset(g, 0, 12 * sizeof *g);
-    fw_model_frame(m, i, u, d, e, n);
+    fw_multibody_model_frame(m, i, u, d, e, n);
     switch (b->rows) {
     case FW_ROWS_PIN:
         g[0] = g[4] = 1, g[2] = -ra[1], g[5] = ra[0];
@@ -93,7 +93,7 @@ static void block_jacobian(const fw_model *m, int i, const double *u, double *g)
     }
 }
 
-void fw_model_pose(fw_model *m, const double *u) {
+void fw_multibody_model_pose(fw_multibody_model *m, const double *u) {
     const double *origin = m->origin;
     m->posed = u;
     for (int b = 0; b < m->nbody; b++) {
@@ -112,14 +112,15 @@ void fw_model_pose(fw_model *m, const double *u) {
 }
 
 /* angle of b against a less that at the origin */
-static double turned(const fw_model *m, const fw_block *b, const double *u) {
+static double turned(const fw_multibody_model *m, const fw_multibody_block *b, const double *u) {
     return (b->b < m->nbody ? u[3 * b->b + 2] : 0) - (b->a < m->nbody ? u[3 * b->a + 2] : 0);
 }
 
-static void block_residual(const fw_model *m, int i, double t, const double *u, double psi[2]) {
-    const fw_block *b = &m->block[i];
+static void block_residual(const fw_multibody_model *m, int i, double t, const double *u,
+                           double psi[2]) {
+    const fw_multibody_block *b = &m->block[i];
     double d[2], e[2], n[2], f[3];
-    fw_model_frame(m, i, u, d, e, n);
+    fw_multibody_model_frame(m, i, u, d, e, n);
     psi[0] = -d[0], psi[1] = -d[1];
     if (b->rows == FW_ROWS_PIN) return;
     kept(m, b, t, f);
@@ -141,9 +142,9 @@ static void block_residual(const fw_model *m, int i, double t, const double *u, 
     }
 }
 
-double fw_model_residual(fw_model *m, double t, const double *u, double *psi) {
-    fw_model_at(m, t);
-    fw_model_pose(m, u);
+double fw_multibody_model_residual(fw_multibody_model *m, double t, const double *u, double *psi) {
+    fw_multibody_model_at(m, t);
+    fw_multibody_model_pose(m, u);
     double worst = 0;
     for (int i = 0; i < m->nblock; i++) {
         block_residual(m, i, t, u, psi + 2 * i);
@@ -157,11 +158,11 @@ double fw_model_residual(fw_model *m, double t, const double *u, double *psi) {
 
 static const double still[3] = {0};
 
-static const double *of(const fw_model *m, const double *v, int body) {
+static const double *of(const fw_multibody_model *m, const double *v, int body) {
     return body < m->nbody ? v + 3 * body : still;
 }
 
-void fw_model_jacobian(const fw_model *m, const double *v, double *r) {
+void fw_multibody_model_jacobian(const fw_multibody_model *m, const double *v, double *r) {
     for (int i = 0; i < m->nblock; i++) {
         const double *p = of(m, v, m->body[2 * i]), *q = of(m, v, m->body[2 * i + 1]);
         if (m->plain) {
@@ -185,7 +186,7 @@ static void add_transpose(const double *g, const double *lambda, double scale, d
     to[2] += turn * (g[2] * x + g[5] * y);
 }
 
-void fw_model_apply(const fw_model *m, const double *lambda, double *a) {
+void fw_multibody_model_apply(const fw_multibody_model *m, const double *lambda, double *a) {
     for (int i = 0; i < m->nblock; i++) {
         int p = m->body[2 * i], q = m->body[2 * i + 1];
         if (!m->plain) {
@@ -211,7 +212,7 @@ void fw_model_apply(const fw_model *m, const double *lambda, double *a) {
 }
 
 /* Jacobian of block i, side 0 or 1, also where only arms are kept */
-static void side_jacobian(const fw_model *m, int i, int side, double g[6]) {
+static void side_jacobian(const fw_multibody_model *m, int i, int side, double g[6]) {
     if (!m->plain) {
         memcpy(g, m->jac + 12 * i + 6 * side, 6 * sizeof *g);
         return;
@@ -222,7 +223,8 @@ static void side_jacobian(const fw_model *m, int i, int side, double g[6]) {
     memcpy(g, row, sizeof row);
 }
 
-void fw_model_transpose(const fw_model *m, const double *lambda, double *force) {
+void fw_multibody_model_transpose(const fw_multibody_model *m, const double *lambda,
+                                  double *force) {
     for (int i = 0; i < 2 * m->nblock; i++) {
         double g[6];
         if (m->body[i] == m->nbody) continue;
@@ -233,7 +235,7 @@ void fw_model_transpose(const fw_model *m, const double *lambda, double *force) 
 
 /* ---- time derivatives ---- */
 
-void fw_model_drift(const fw_model *m, double t, double *r) {
+void fw_multibody_model_drift(const fw_multibody_model *m, double t, double *r) {
     memset(r, 0, 2 * (size_t)m->nblock * sizeof *r);
     for (int i = 0; m->driven && i < m->nblock; i++) {
         double f[3];
@@ -241,12 +243,13 @@ void fw_model_drift(const fw_model *m, double t, double *r) {
         kept(m, &m->block[i], t, f);
         r[2 * i] = -f[1];
     }
-    if (m->stretch.law) fw_stretch_drift(m, r);
+    if (m->stretch.law) fw_multibody_stretch_drift(m, r);
 }
 
 /* (G v)' at a = 0, of one block that is not a pin */
-static void other_gamma(const fw_model *m, int i, double t, const double *v, double r[2]) {
-    const fw_block *b = &m->block[i];
+static void other_gamma(const fw_multibody_model *m, int i, double t, const double *v,
+                        double r[2]) {
+    const fw_multibody_block *b = &m->block[i];
     const double *p = of(m, v, b->a), *q = of(m, v, b->b), *ra = m->arm + 4 * i, *rb = ra + 2;
     double f[3], wa = p[2], wb = q[2];
     kept(m, b, t, f);
@@ -254,7 +257,7 @@ static void other_gamma(const fw_model *m, int i, double t, const double *v, dou
     if (b->rows == FW_ROWS_TURN) return;
     /* d, its rate and its second derivative without accelerations */
     double d[2], e[2], n[2];
-    fw_model_frame(m, i, m->posed, d, e, n);
+    fw_multibody_model_frame(m, i, m->posed, d, e, n);
     double rate[2] = {q[0] - wb * rb[1] - p[0] + wa * ra[1], q[1] + wb * rb[0] - p[1] - wa * ra[0]};
     double bend[2] = {wa * wa * ra[0] - wb * wb * rb[0], wa * wa * ra[1] - wb * wb * rb[1]};
     for (int k = 0; k < 2 && m->stretch.law; k++) {
@@ -271,7 +274,7 @@ static void other_gamma(const fw_model *m, int i, double t, const double *v, dou
     }
 }
 
-void fw_model_gamma(const fw_model *m, double t, const double *v, double *r) {
+void fw_multibody_model_gamma(const fw_multibody_model *m, double t, const double *v, double *r) {
     for (int i = 0; i < m->nblock; i++) {
         if (m->block[i].rows != FW_ROWS_PIN) {
             other_gamma(m, i, t, v, r + 2 * i);
@@ -290,11 +293,11 @@ void fw_model_gamma(const fw_model *m, double t, const double *v, double *r) {
 
 /* ---- dense, without the empty rows ---- */
 
-static bool two_rows(const fw_block *b) {
+static bool two_rows(const fw_multibody_block *b) {
     return b->rows == FW_ROWS_PIN || b->rows == FW_ROWS_SLIDE;
 }
 
-void fw_model_dense_jacobian(const fw_model *m, double *g) {
+void fw_multibody_model_dense_jacobian(const fw_multibody_model *m, double *g) {
     memset(g, 0, (size_t)m->rows * (size_t)m->nq * sizeof *g);
     for (int i = 0, row = 0; i < m->nblock; i++) {
         int count = two_rows(&m->block[i]) ? 2 : 1;
@@ -312,14 +315,14 @@ void fw_model_dense_jacobian(const fw_model *m, double *g) {
     }
 }
 
-void fw_model_pack(const fw_model *m, const double *block, double *rows) {
+void fw_multibody_model_pack(const fw_multibody_model *m, const double *block, double *rows) {
     for (int i = 0, row = 0; i < m->nblock; i++) {
         rows[row++] = block[2 * i];
         if (two_rows(&m->block[i])) rows[row++] = block[2 * i + 1];
     }
 }
 
-void fw_model_unpack(const fw_model *m, const double *rows, double *block) {
+void fw_multibody_model_unpack(const fw_multibody_model *m, const double *rows, double *block) {
     for (int i = 0, row = 0; i < m->nblock; i++) {
         block[2 * i] = rows[row++];
         block[2 * i + 1] = two_rows(&m->block[i]) ? rows[row++] : 0;

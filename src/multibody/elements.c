@@ -8,34 +8,36 @@
    force (f, r x f + couple). Positions are counted from the model's centre, so that far-away
    coordinates cost no digits. Units: model.h in, SI to the classes, scaled units out. Error:
    round-off. Cost: the classes', and some twenty operations per port; nothing is allocated after
-   fw_model_elements_new. Test: test_elements.c. */
+   fw_multibody_model_elements_new. Test: test_elements.c. */
 #include "multibody/build.h"
 #include "multibody/reactions.h"
 #include <math.h>
 #include <string.h>
 
-static fw_status element_new(fw_arena *arena, const fw_model *m, const fw_force_element *own,
-                             fw_vec2 centre, fw_model_element *e) {
+static fw_status element_new(fw_arena *arena, const fw_multibody_model *m,
+                             const fw_effects_force_element *own, fw_geometry_vec2 centre,
+                             fw_multibody_model_element *e) {
     size_t ports = (size_t)own->ports;
     double length = m->scale.length_m;
-    *e = (fw_model_element){.own = own, .electrodes = own->class_->electrodes, .scaled = *own};
-    FW_NEED(e->scaled.port = fw_arena_array(arena, fw_port, ports));
+    *e = (fw_multibody_model_element){
+        .own = own, .electrodes = own->class_->electrodes, .scaled = *own};
+    FW_NEED(e->scaled.port = fw_arena_array(arena, fw_effects_port, ports));
     FW_NEED(e->body = fw_arena_array(arena, int, ports));
     FW_NEED(e->on = fw_arena_array(arena, bool, (size_t)own->switches));
     FW_NEED(e->f = fw_arena_array(arena, double, 3 * ports));
     for (int i = 0; i < own->ports; i++) {
-        const fw_port *p = &own->port[i];
+        const fw_effects_port *p = &own->port[i];
         bool ground = p->body == FW_GROUND;
         e->body[i] = ground ? m->nbody : p->body;
-        e->scaled.port[i] = (fw_port){.body = p->body,
-                                      .x_m = (p->x_m - (ground ? centre.x : 0)) / length,
-                                      .y_m = (p->y_m - (ground ? centre.y : 0)) / length};
+        e->scaled.port[i] = (fw_effects_port){.body = p->body,
+                                              .x_m = (p->x_m - (ground ? centre.x : 0)) / length,
+                                              .y_m = (p->y_m - (ground ? centre.y : 0)) / length};
     }
     return FW_OK;
 }
 
-static fw_status work_new(fw_arena *arena, fw_model *m, size_t ports) {
-    fw_element_work *k = &m->port;
+static fw_status work_new(fw_arena *arena, fw_multibody_model *m, size_t ports) {
+    fw_multibody_element_work *k = &m->port;
     FW_NEED(k->p = fw_arena_array(arena, double, 3 * ports));
     FW_NEED(k->w = fw_arena_array(arena, double, 3 * ports));
     FW_NEED(k->arm = fw_arena_array(arena, double, 2 * ports));
@@ -46,14 +48,15 @@ static fw_status work_new(fw_arena *arena, fw_model *m, size_t ports) {
     return FW_OK;
 }
 
-fw_status fw_model_elements_new(fw_arena *arena, fw_model *m, const fw_terms *terms,
-                                fw_vec2 centre) {
+fw_status fw_multibody_model_elements_new(fw_arena *arena, fw_multibody_model *m,
+                                          const fw_effects_loads *loads, fw_geometry_vec2 centre) {
     int most = 0;
-    if (terms->nelement == 0) return FW_OK;
-    FW_NEED(m->element = fw_arena_array(arena, fw_model_element, (size_t)terms->nelement));
-    m->nelement = terms->nelement;
+    if (loads->nelement == 0) return FW_OK;
+    FW_NEED(m->element =
+                fw_arena_array(arena, fw_multibody_model_element, (size_t)loads->nelement));
+    m->nelement = loads->nelement;
     for (int i = 0; i < m->nelement; i++) {
-        const fw_force_element *own = &terms->element[i];
+        const fw_effects_force_element *own = &loads->element[i];
         FW_TRY(element_new(arena, m, own, centre, &m->element[i]));
         most = own->ports > most ? own->ports : most;
         m->nswitch += own->switches;
@@ -63,12 +66,13 @@ fw_status fw_model_elements_new(fw_arena *arena, fw_model *m, const fw_terms *te
 }
 
 /* what an element sees at y; also the arms of its ports. The model is posed at y. */
-static fw_seen look(const fw_model *m, const fw_model_element *e, double t, const double *y) {
-    const fw_element_work *k = &m->port;
+static fw_effects_port_state look(const fw_multibody_model *m, const fw_multibody_model_element *e,
+                                  double t, const double *y) {
+    const fw_multibody_element_work *k = &m->port;
     const double length = m->scale.length_m, per_s = 1 / m->scale.time_s;
     for (int i = 0; i < e->own->ports; i++) {
         const int b = e->body[i];
-        const fw_port *at = &e->scaled.port[i];
+        const fw_effects_port *at = &e->scaled.port[i];
         double rx = m->cosine[b] * at->x_m - m->sine[b] * at->y_m;
         double ry = m->sine[b] * at->x_m + m->cosine[b] * at->y_m;
         double *p = k->p + 3 * i, *w = k->w + 3 * i;
@@ -79,7 +83,7 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
             if (m->stretch.law) { /* and moves */
                 const double local[2] = {at->x_m, at->y_m};
                 double gain[2];
-                fw_stretch_gain(m, local, gain);
+                fw_multibody_stretch_gain(m, local, gain);
                 for (int c = 0; c < 2; c++) {
                     p[c] += length * gain[c] * m->stretch.now[0];
                     w[c] = m->held_s < 0 ? length * per_s * gain[c] * m->stretch.now[1] : 0;
@@ -93,20 +97,20 @@ static fw_seen look(const fw_model *m, const fw_model_element *e, double t, cons
         w[1] = length * per_s * (v[1] + v[2] * rx);
         w[2] = per_s * v[2];
     }
-    return (fw_seen){.t_s = m->held_s >= 0 ? m->held_s : t * m->scale.time_s,
-                     .piece_s = m->piece,
-                     .load = e->electrodes ? m->drive : m->actuation,
-                     .p = k->p,
-                     .w = k->w,
-                     .on = e->on,
-                     .still = m->held_s >= 0};
+    return (fw_effects_port_state){.t_s = m->held_s >= 0 ? m->held_s : t * m->scale.time_s,
+                                   .piece_s = m->piece,
+                                   .load = e->electrodes ? m->drive : m->actuation,
+                                   .p = k->p,
+                                   .w = k->w,
+                                   .on = e->on,
+                                   .still = m->held_s >= 0};
 }
 
-void fw_model_element_forces(fw_model *m, double t, const double *y) {
-    const double unit = 1 / fw_newton(m), per_length = 1 / m->scale.length_m;
+void fw_multibody_model_element_forces(fw_multibody_model *m, double t, const double *y) {
+    const double unit = 1 / fw_multibody_newton(m), per_length = 1 / m->scale.length_m;
     for (int i = 0; i < m->nelement; i++) {
-        fw_model_element *e = &m->element[i];
-        const fw_seen seen = look(m, e, t, y);
+        fw_multibody_model_element *e = &m->element[i];
+        const fw_effects_port_state seen = look(m, e, t, y);
         e->own->class_->force(e->own, &seen, e->f);
         for (int k = 0; k < e->own->ports; k++) { /* the ground has no mass terms: 0 */
             const int b = e->body[k];
@@ -120,8 +124,8 @@ void fw_model_element_forces(fw_model *m, double t, const double *y) {
 }
 
 /* force += generalised forces of m->port.f, N and N m at the ports that were looked at last */
-static void push(const fw_model *m, const fw_model_element *e, double *force) {
-    const double unit = 1 / fw_newton(m), per_length = 1 / m->scale.length_m;
+static void push(const fw_multibody_model *m, const fw_multibody_model_element *e, double *force) {
+    const double unit = 1 / fw_multibody_newton(m), per_length = 1 / m->scale.length_m;
     for (int k = 0; k < e->own->ports; k++) {
         const int b = e->body[k];
         const double *r = m->port.arm + 2 * k, *f = m->port.f + 3 * k;
@@ -133,22 +137,24 @@ static void push(const fw_model *m, const fw_model_element *e, double *force) {
     }
 }
 
-void fw_model_element_driven(fw_model *m, double t, const double *y, double *force) {
+void fw_multibody_model_element_driven(fw_multibody_model *m, double t, const double *y,
+                                       double *force) {
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
+        const fw_multibody_model_element *e = &m->element[i];
         if (!e->own->works) continue;
-        const fw_seen seen = look(m, e, t, y);
+        const fw_effects_port_state seen = look(m, e, t, y);
         e->own->class_->force(e->own, &seen, m->port.f);
         push(m, e, force);
     }
 }
 
-void fw_model_element_slope(fw_model *m, double t, const double *y, double *force) {
+void fw_multibody_model_element_slope(fw_multibody_model *m, double t, const double *y,
+                                      double *force) {
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
+        const fw_multibody_model_element *e = &m->element[i];
         double rate = e->electrodes ? m->drive_rate : m->actuation_rate;
         if (!e->own->class_->slope || rate == 0) continue;
-        const fw_seen seen = look(m, e, t, y);
+        const fw_effects_port_state seen = look(m, e, t, y);
         e->own->class_->slope(e->own, &seen, m->port.f);
         for (int k = 0; k < 3 * e->own->ports; k++)
             m->port.f[k] *= rate;
@@ -157,7 +163,8 @@ void fw_model_element_slope(fw_model *m, double t, const double *y, double *forc
 }
 
 /* W: what the moving ground gives through the ports on it */
-static double fed_by_ground(const fw_model *m, const fw_model_element *e, const fw_seen *seen) {
+static double fed_by_ground(const fw_multibody_model *m, const fw_multibody_model_element *e,
+                            const fw_effects_port_state *seen) {
     double power = 0;
     e->own->class_->force(e->own, seen, m->port.f);
     for (int k = 0; k < e->own->ports; k++)
@@ -167,34 +174,37 @@ static double fed_by_ground(const fw_model *m, const fw_model_element *e, const 
 }
 
 /* W per scaled unit of power: newton L / T */
-void fw_model_element_power(const fw_model *m, double t, const double *y, double power[2]) {
-    const double unit = m->scale.time_s / (fw_newton(m) * m->scale.length_m);
+void fw_multibody_model_element_power(const fw_multibody_model *m, double t, const double *y,
+                                      double power[2]) {
+    const double unit = m->scale.time_s / (fw_multibody_newton(m) * m->scale.length_m);
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
+        const fw_multibody_model_element *e = &m->element[i];
         double now[2] = {0, 0};
         if (!e->own->class_->power && !m->stretch.law) continue;
-        const fw_seen seen = look(m, e, t, y);
+        const fw_effects_port_state seen = look(m, e, t, y);
         if (e->own->class_->power) e->own->class_->power(e->own, &seen, now);
         if (m->stretch.law) now[1] += fed_by_ground(m, e, &seen);
         power[0] += unit * now[0], power[1] += unit * now[1];
     }
 }
 
-double fw_model_element_energy(const fw_model *m, double t, const double *y, bool driven) {
-    const double unit = 1 / (fw_newton(m) * m->scale.length_m);
+double fw_multibody_model_element_energy(const fw_multibody_model *m, double t, const double *y,
+                                         bool driven) {
+    const double unit = 1 / (fw_multibody_newton(m) * m->scale.length_m);
     double energy = 0;
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
+        const fw_multibody_model_element *e = &m->element[i];
         if (!e->own->class_->energy || (e->own->works && !driven)) continue;
-        const fw_seen seen = look(m, e, t, y);
+        const fw_effects_port_state seen = look(m, e, t, y);
         energy += unit * e->own->class_->energy(e->own, &seen);
     }
     return energy;
 }
 
 /* SI to scaled: row i times 1/(newton, newton, newton L), column j times (L, L, 1), rates over T */
-static void scale_tangent(const fw_model *m, int n) {
-    const double length = m->scale.length_m, force = 1 / fw_newton(m), per_s = 1 / m->scale.time_s;
+static void scale_tangent(const fw_multibody_model *m, int n) {
+    const double length = m->scale.length_m, force = 1 / fw_multibody_newton(m),
+                 per_s = 1 / m->scale.time_s;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             double unit = force * (i % 3 == 2 ? 1 / length : 1) * (j % 3 == 2 ? 1 : length);
@@ -205,49 +215,53 @@ static void scale_tangent(const fw_model *m, int n) {
         m->port.f[i] *= force * (i % 3 == 2 ? 1 / length : 1);
 }
 
-void fw_model_element_tangent(const fw_model *m, double t, const double *y, double *stiffness,
-                              double *damping) {
-    const fw_element_work *k = &m->port;
+void fw_multibody_model_element_tangent(const fw_multibody_model *m, double t, const double *y,
+                                        double *stiffness, double *damping) {
+    const fw_multibody_element_work *k = &m->port;
     for (int i = 0; i < m->nq; i++)
         k->pose[i] = m->origin[i] + y[i];
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
-        const fw_seen seen = look(m, e, t, y);
+        const fw_multibody_model_element *e = &m->element[i];
+        const fw_effects_port_state seen = look(m, e, t, y);
         e->own->class_->force(e->own, &seen, k->f);
         e->own->class_->tangent(e->own, &seen, k->stiffness, k->damping);
         scale_tangent(m, 3 * e->own->ports);
-        fw_element_spread(&e->scaled, m->nbody, k->pose, y + m->nq, k->f, k->stiffness, k->damping,
-                          stiffness, damping);
+        fw_effects_element_spread(&e->scaled, m->nbody, k->pose, y + m->nq, k->f, k->stiffness,
+                                  k->damping, stiffness, damping);
     }
 }
 
-fw_model_element *fw_model_element_switch(const fw_model *m, int i, int *which) {
-    fw_model_element *e = m->element;
+fw_multibody_model_element *fw_multibody_model_element_switch(const fw_multibody_model *m, int i,
+                                                              int *which) {
+    fw_multibody_model_element *e = m->element;
     while (i >= e->own->switches)
         i -= e->own->switches, e++;
     *which = i;
     return e;
 }
 
-double fw_model_element_switch_value(const fw_model *m, const fw_model_element *e, double t, int i,
-                                     const double *y) {
-    const fw_seen seen = look(m, e, t, y);
+double fw_multibody_model_element_switch_value(const fw_multibody_model *m,
+                                               const fw_multibody_model_element *e, double t, int i,
+                                               const double *y) {
+    const fw_effects_port_state seen = look(m, e, t, y);
     return e->own->class_->switch_value(e->own, &seen, i);
 }
 
-const fw_force_element *fw_model_element_invalid(const fw_model *m, double t, const double *y,
-                                                 const char **why) {
+const fw_effects_force_element *fw_multibody_model_element_invalid(const fw_multibody_model *m,
+                                                                   double t, const double *y,
+                                                                   const char **why) {
     for (int i = 0; i < m->nelement; i++) {
-        const fw_model_element *e = &m->element[i];
+        const fw_multibody_model_element *e = &m->element[i];
         if (!e->own->class_->valid) continue;
-        const fw_seen seen = look(m, e, t, y);
+        const fw_effects_port_state seen = look(m, e, t, y);
         if (!e->own->class_->valid(e->own, &seen, why)) return e->own;
     }
     return NULL;
 }
 
-double fw_model_element_pressing(const fw_model *m, int i, double t, const double *y) {
-    const fw_model_element *e = &m->element[i];
-    const fw_seen seen = look(m, e, t, y);
-    return e->own->class_->pressing(e->own, &seen) / fw_newton(m);
+double fw_multibody_model_element_pressing(const fw_multibody_model *m, int i, double t,
+                                           const double *y) {
+    const fw_multibody_model_element *e = &m->element[i];
+    const fw_effects_port_state seen = look(m, e, t, y);
+    return e->own->class_->pressing(e->own, &seen) / fw_multibody_newton(m);
 }

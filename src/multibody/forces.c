@@ -15,29 +15,31 @@
 #include <float.h>
 #include <math.h>
 
-static void push(fw_model *m, int body, double rx, double ry, double fx, double fy) {
+static void push(fw_multibody_model *m, int body, double rx, double ry, double fx, double fy) {
     double *a = m->accel + 3 * body;
     a[0] += m->minv[body] * fx;
     a[1] += m->minv[body] * fy;
     a[2] += m->jinv[body] * (rx * fy - ry * fx);
 }
 
-static void twist(fw_model *m, int a, int b, double torque) {
+static void twist(fw_multibody_model *m, int a, int b, double torque) {
     m->accel[3 * a + 2] -= m->jinv[a] * torque;
     m->accel[3 * b + 2] += m->jinv[b] * torque;
 }
 
-static double difference(const fw_model *m, const double *x, int a, int b) {
+static double difference(const fw_multibody_model *m, const double *x, int a, int b) {
     return (b < m->nbody ? x[3 * b + 2] : 0) - (a < m->nbody ? x[3 * a + 2] : 0);
 }
 
-double fw_spring_round_off(const fw_model *m, const fw_model_spring *s) {
+double fw_multibody_spring_round_off(const fw_multibody_model *m,
+                                     const fw_multibody_model_spring *s) {
     const double *a = m->origin + 3 * s->a, *b = m->origin + 3 * s->b;
     double reach = fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]);
     return 64 * DBL_EPSILON * (reach + fabs(s->ax) + fabs(s->ay) + fabs(s->bx) + fabs(s->by));
 }
 
-fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double *y) {
+fw_multibody_pull fw_multibody_model_pull(const fw_multibody_model *m,
+                                          const fw_multibody_model_spring *s, const double *y) {
     const double *u = y, *v = y + m->nq;
     double state[2][6] = {{0}}; /* x, y, vx, vy of each point, then the arm */
     const int body[2] = {s->a, s->b};
@@ -61,18 +63,19 @@ fw_pull fw_model_pull(const fw_model *m, const fw_model_spring *s, const double 
     double dx = state[1][0] - state[0][0], dy = state[1][1] - state[0][1];
     double wx = state[1][2] - state[0][2], wy = state[1][3] - state[0][3];
     double length = sqrt(dx * dx + dy * dy), size = length;
-    if (length <= fw_spring_round_off(m, s) && (wx != 0 || wy != 0))
+    if (length <= fw_multibody_spring_round_off(m, s) && (wx != 0 || wy != 0))
         dx = wx, dy = wy, size = sqrt(wx * wx + wy * wy);
     double inverse = size > 0 ? 1 / size : 0, ux = dx * inverse, uy = dy * inverse;
     double rate = ux * wx + uy * wy;
-    return (fw_pull){state[0][4], state[0][5], state[1][4], state[1][5], ux, uy, length, rate};
+    return (fw_multibody_pull){state[0][4], state[0][5], state[1][4], state[1][5],
+                               ux,          uy,          length,      rate};
 }
 
-void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y, double *travel,
-                     double *rate) {
+void fw_multibody_model_travel(const fw_multibody_model *m, const fw_multibody_model_slide *s,
+                               const double *y, double *travel, double *rate) {
     double d[2], e[2], n[2], psi_rate = 0;
     const double *v = y + m->nq, *arm = m->arm + 4 * s->block;
-    fw_model_frame(m, s->block, y, d, e, n);
+    fw_multibody_model_frame(m, s->block, y, d, e, n);
     *travel = e[0] * d[0] + e[1] * d[1] - s->free;
     for (int side = 0; side < 2; side++) {
         int b = side ? s->b : s->a;
@@ -88,111 +91,112 @@ void fw_model_travel(const fw_model *m, const fw_model_slide *s, const double *y
     *rate = psi_rate;
 }
 
-void fw_model_stopped(const fw_model *m, const fw_model_stop *s, const double *y, double *past,
-                      double *rate) {
+void fw_multibody_model_stopped(const fw_multibody_model *m, const fw_multibody_model_stop *s,
+                                const double *y, double *past, double *rate) {
     *past = s->side * (difference(m, y, s->a, s->b) - s->at);
     *rate = s->side * difference(m, y + m->nq, s->a, s->b);
 }
 
-static void turning(fw_model *m, const double *y) {
+static void turning(fw_multibody_model *m, const double *y) {
     const double *u = y, *v = y + m->nq;
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *t = &m->torsion[i];
+        const fw_multibody_model_torsion *t = &m->torsion[i];
         double angle = t->angle0 + difference(m, u, t->a, t->b);
         twist(m, t->a, t->b, -t->k * angle - t->c * difference(m, v, t->a, t->b));
     }
     for (int i = 0; i < m->nstop; i++) {
-        const fw_model_stop *s = &m->stop[i];
+        const fw_multibody_model_stop *s = &m->stop[i];
         double past, rate;
         if (!s->on) continue;
-        fw_model_stopped(m, s, y, &past, &rate);
+        fw_multibody_model_stopped(m, s, y, &past, &rate);
         twist(m, s->a, s->b, -s->side * (s->k * past + s->c * rate));
     }
 }
 
-static void loads(fw_model *m, double t) {
+static void loads(fw_multibody_model *m, double t) {
     for (int i = 0; i < m->nload; i++) {
-        const fw_model_load *l = &m->load[i];
+        const fw_multibody_model_load *l = &m->load[i];
         double c = m->cosine[l->body], s = m->sine[l->body];
         push(m, l->body, c * l->x - s * l->y, s * l->x + c * l->y, l->fx, l->fy);
     }
     for (int i = 0; i < m->ntimed; i++) {
-        const fw_model_timed *l = &m->timed[i];
+        const fw_multibody_model_timed *l = &m->timed[i];
         double c = m->cosine[l->body], s = m->sine[l->body], factor[3];
-        fw_law_value(l->law, t * m->scale.time_s, m->piece, factor);
+        fw_quantity_law_value(l->law, t * m->scale.time_s, m->piece, factor);
         push(m, l->body, c * l->x - s * l->y, s * l->x + c * l->y, factor[0] * l->fx,
              factor[0] * l->fy);
         m->accel[3 * l->body + 2] += m->jinv[l->body] * factor[0] * l->torque;
     }
 }
 
-static void springs(fw_model *m, const double *y) {
+static void springs(fw_multibody_model *m, const double *y) {
     for (int i = 0; i < m->nspring; i++) {
-        const fw_model_spring *s = &m->spring[i];
+        const fw_multibody_model_spring *s = &m->spring[i];
         if (!s->on) continue;
-        fw_pull p = fw_model_pull(m, s, y);
+        fw_multibody_pull p = fw_multibody_model_pull(m, s, y);
         double f = s->k * (p.length - s->length) + s->c * p.rate;
         push(m, s->a, p.ax, p.ay, f * p.ux, f * p.uy);
         push(m, s->b, p.bx, p.by, -f * p.ux, -f * p.uy);
     }
     for (int i = 0; i < m->nslide; i++) { /* acts where both bodies have the joint's point b */
-        const fw_model_slide *s = &m->slide[i];
+        const fw_multibody_model_slide *s = &m->slide[i];
         const double *r = m->arm + 4 * s->block;
         double d[2], e[2], n[2], travel, rate;
-        fw_model_frame(m, s->block, y, d, e, n);
-        fw_model_travel(m, s, y, &travel, &rate);
+        fw_multibody_model_frame(m, s->block, y, d, e, n);
+        fw_multibody_model_travel(m, s, y, &travel, &rate);
         double f = s->k * travel + s->c * rate;
         push(m, s->a, r[0] + d[0], r[1] + d[1], f * e[0], f * e[1]);
         push(m, s->b, r[2], r[3], -f * e[0], -f * e[1]);
     }
 }
 
-void fw_model_forces(fw_model *m, double t, const double *y) {
+void fw_multibody_model_forces(fw_multibody_model *m, double t, const double *y) {
     for (int i = 0; i < m->nq + 3; i++) /* the ground's three zeros too */
         m->accel[i] = m->constant[i];
     turning(m, y);
     loads(m, t);
     springs(m, y);
-    if (m->nelement > 0) fw_model_element_forces(m, t, y);
+    if (m->nelement > 0) fw_multibody_model_element_forces(m, t, y);
 }
 
-static double taken(const fw_model *m, const double *y) {
+static double taken(const fw_multibody_model *m, const double *y) {
     double power = 0, a, rate;
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *t = &m->torsion[i];
+        const fw_multibody_model_torsion *t = &m->torsion[i];
         rate = difference(m, y + m->nq, t->a, t->b);
         power += t->c * rate * rate;
     }
     for (int i = 0; i < m->nstop; i++)
         if (m->stop[i].on && m->stop[i].c > 0) {
-            fw_model_stopped(m, &m->stop[i], y, &a, &rate);
+            fw_multibody_model_stopped(m, &m->stop[i], y, &a, &rate);
             power += m->stop[i].c * rate * rate;
         }
     for (int i = 0; i < m->nspring; i++)
         if (m->spring[i].on && m->spring[i].c > 0) {
-            rate = fw_model_pull(m, &m->spring[i], y).rate;
+            rate = fw_multibody_model_pull(m, &m->spring[i], y).rate;
             power += m->spring[i].c * rate * rate;
         }
     for (int i = 0; i < m->nslide; i++)
         if (m->slide[i].c > 0) {
-            fw_model_travel(m, &m->slide[i], y, &a, &rate);
+            fw_multibody_model_travel(m, &m->slide[i], y, &a, &rate);
             power += m->slide[i].c * rate * rate;
         }
     return power;
 }
 
-void fw_model_power(const fw_model *m, double t, const double *y, double power[2]) {
+void fw_multibody_model_power(const fw_multibody_model *m, double t, const double *y,
+                              double power[2]) {
     power[0] = m->dissipated >= 0 ? taken(m, y) : 0;
     power[1] = 0;
     for (int i = 0; i < m->ntimed; i++) {
-        const fw_model_timed *l = &m->timed[i];
+        const fw_multibody_model_timed *l = &m->timed[i];
         const double *v = y + m->nq + 3 * l->body;
         double c = m->cosine[l->body], s = m->sine[l->body], factor[3];
         double rx = c * l->x - s * l->y, ry = s * l->x + c * l->y;
-        fw_law_value(l->law, t * m->scale.time_s, m->piece, factor);
+        fw_quantity_law_value(l->law, t * m->scale.time_s, m->piece, factor);
         power[1] += factor[0] *
                     (l->fx * (v[0] - v[2] * ry) + l->fy * (v[1] + v[2] * rx) + l->torque * v[2]);
     }
-    if (m->nelement > 0) fw_model_element_power(m, t, y, power);
-    if (m->stretch.law) power[1] += fw_stretch_power(m, y);
+    if (m->nelement > 0) fw_multibody_model_element_power(m, t, y, power);
+    if (m->stretch.law) power[1] += fw_multibody_stretch_power(m, y);
 }

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coulomb friction of joints: what friction.c (the equations) and stick.c (who sticks) share.
+/* Coulomb friction of joints: what multibody_friction.c (the equations) and stick.c (who sticks)
+   share.
    Private to multibody/. Theory: docs/theory/effects/friction.md. */
 #ifndef FW_MULTIBODY_FRICTION_H
 #define FW_MULTIBODY_FRICTION_H
 #include "multibody/model.h"
 
-typedef struct fw_model_friction { /* scaled */
-    int a, b;                      /* bodies */
-    int block;                     /* of the joint; FW_NONE: an element stands for the pin */
-    bool slides;                   /* along a prismatic joint; else it turns about a pin */
-    int element;                   /* what presses, or FW_NONE: the joint's own force */
-    double rest, slide;            /* coefficient times radius (travel: 1), static and kinetic */
+typedef struct fw_multibody_model_friction { /* scaled */
+    int a, b;                                /* bodies */
+    int block;          /* of the joint; FW_NONE: an element stands for the pin */
+    bool slides;        /* along a prismatic joint; else it turns about a pin */
+    int element;        /* what presses, or FW_NONE: the joint's own force */
+    double rest, slide; /* coefficient times radius (travel: 1), static and kinetic */
     double preload;
     const char *id;
     fw_place place;
@@ -20,11 +21,11 @@ typedef struct fw_model_friction { /* scaled */
     double held; /* coordinate at which it came to rest */
     /* at the last evaluation */
     double torque, press;
-} fw_model_friction;
+} fw_multibody_model_friction;
 
-struct fw_frictions {
+struct fw_multibody_frictions {
     int n;
-    fw_model_friction *item;  /* (n) */
+    fw_multibody_model_friction *item; /* (n) */
     double *row;              /* (6 n) h of bodies a, b: rate = h.v, generalised force = h T */
     double *bias, *rate;      /* (n) relative acceleration at a = 0; h.v */
     double *accel;            /* (n) relative acceleration without friction */
@@ -56,23 +57,24 @@ struct fw_frictions {
 };
 
 /* rows, rates, responses and gains at the pose and factor of the model; velocities of y */
-void fw_friction_respond(fw_model *m, const double *y);
+void fw_multibody_friction_respond(fw_multibody_model *m, const double *y);
 /* with the accelerations and multipliers without friction in the model: what presses, and c */
-void fw_friction_look(fw_model *m, double t, const double *y);
+void fw_multibody_friction_evaluate(fw_multibody_model *m, double t, const double *y);
 /* torques for the present flags; false: there is none, or perhaps more than one */
-bool fw_friction_solve(fw_model *m);
+bool fw_multibody_friction_solve(fw_multibody_model *m);
 /* the joint's own force that presses entry i, and all that does, at the torques found */
-void fw_friction_force(const fw_model *m, int i, double force[2]);
-double fw_friction_press(const fw_model *m, int i);
+void fw_multibody_friction_force(const fw_multibody_model *m, int i, double force[2]);
+double fw_multibody_friction_press(const fw_multibody_model *m, int i);
 /* x of least norm with gain x = right among the `count` entries of `which` (both in that order) */
-bool fw_friction_hold(struct fw_frictions *s, int count, const int *which);
-void fw_friction_holding(struct fw_frictions *s, int count, const int *which, const double *right,
-                         double *x);
-/* friction_box.c: flags and torques of the entries at rest for the limits of the `press` that they have;
+bool fw_multibody_friction_hold(struct fw_multibody_frictions *s, int count, const int *which);
+void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, const int *which,
+                                   const double *right, double *x);
+/* friction_box.c: flags and torques of the entries at rest for the limits of the `press` that they
+   have;
    the others keep their torques */
-bool fw_friction_box(struct fw_frictions *s);
-double fw_friction_coordinate(const fw_model *m, int i, const double *u);
-void fw_friction_rates(fw_model *m, const double *v);
-void fw_friction_rows(fw_model *m, const double *y); /* posed */
+bool fw_multibody_friction_box(struct fw_multibody_frictions *s);
+double fw_multibody_friction_coordinate(const fw_multibody_model *m, int i, const double *u);
+void fw_multibody_friction_rates(fw_multibody_model *m, const double *v);
+void fw_multibody_friction_rows(fw_multibody_model *m, const double *y); /* posed */
 
 #endif

@@ -22,11 +22,11 @@
 #include <math.h>
 
 enum { PROXIMAL = 8, PATIENCE = 5 };
-static const double fw_proximal = 1e-6; /* of `loose`, as fw_friction_hold has it */
+static const double fw_proximal = 1e-6; /* of `loose`, as fw_multibody_friction_hold has it */
 static const double fw_noise = 1e-12, fw_still = 1e-9, fw_floor = 1e-15;
 
 /* (A T)_i + c_i over all that rest; *size: what it adds up from */
-static double acceleration(const struct fw_frictions *s, int i, int rests, double *size) {
+static double acceleration(const struct fw_multibody_frictions *s, int i, int rests, double *size) {
     double a = s->shift[i];
     *size = s->size[i] + fabs(a);
     for (int k = 0; k < rests; k++) {
@@ -37,7 +37,7 @@ static double acceleration(const struct fw_frictions *s, int i, int rests, doubl
 }
 
 /* T of those inside their limits while the others stand at theirs */
-static bool stand(struct fw_frictions *s, int rests) {
+static bool stand(struct fw_multibody_frictions *s, int rests) {
     int free = 0;
     for (int k = 0; k < rests; k++) {
         int i = s->inside[k];
@@ -46,7 +46,7 @@ static bool stand(struct fw_frictions *s, int rests) {
         else
             s->free[free++] = i;
     }
-    if (!fw_friction_hold(s, free, s->free)) return false;
+    if (!fw_multibody_friction_hold(s, free, s->free)) return false;
     for (int e = 0; e < free; e++) {
         int i = s->free[e];
         s->right[e] = fw_proximal * s->loose[i] * s->centre[i] - s->shift[i];
@@ -55,14 +55,14 @@ static bool stand(struct fw_frictions *s, int rests) {
             if (s->side[j]) s->right[e] -= s->gain[i * s->n + j] * s->torque[j];
         }
     }
-    if (free) fw_cholesky_solve(free, s->factor, s->right);
+    if (free) fw_maths_cholesky_solve(free, s->factor, s->right);
     for (int e = 0; e < free; e++)
         s->torque[s->free[e]] = s->right[e];
     return true;
 }
 
 /* where entry i should stand instead of where it does; the same: it is right */
-static int better(const struct fw_frictions *s, int i, int rests) {
+static int better(const struct fw_multibody_frictions *s, int i, int rests) {
     if (!s->side[i]) {
         bool over = fabs(s->torque[i]) > s->most[i] * (1 + fw_noise) + fw_floor;
         return over ? s->torque[i] > 0 ? 1 : -1 : 0;
@@ -73,7 +73,7 @@ static int better(const struct fw_frictions *s, int i, int rests) {
 }
 
 /* the strictly convex problem about `centre`, from the sides at hand */
-static bool pivot(struct fw_frictions *s, int rests) {
+static bool pivot(struct fw_multibody_frictions *s, int rests) {
     int fewest = rests + 1, patience = PATIENCE;
     for (int round = 0; round < 100 + 20 * rests; round++) {
         int wrong = 0, last = 0;
@@ -92,7 +92,7 @@ static bool pivot(struct fw_frictions *s, int rests) {
     return false;
 }
 
-static bool nearest(struct fw_frictions *s, int rests) {
+static bool nearest(struct fw_multibody_frictions *s, int rests) {
     for (int k = 0; k < rests; k++)
         s->centre[s->inside[k]] = 0;
     for (int pass = 0; pass < PROXIMAL; pass++) {
@@ -110,11 +110,11 @@ static bool nearest(struct fw_frictions *s, int rests) {
 }
 
 /* flags of what was found; whether one moves that had the static limit: it gets the kinetic one */
-static bool take_flags(struct fw_frictions *s, int rests) {
+static bool take_flags(struct fw_multibody_frictions *s, int rests) {
     bool again = false;
     for (int k = 0; k < rests; k++) {
         int i = s->inside[k];
-        fw_model_friction *f = &s->item[i];
+        fw_multibody_model_friction *f = &s->item[i];
         double size, a = acceleration(s, i, rests, &size);
         f->slip = -s->side[i];
         f->yields = f->slip && fabs(a) <= fw_still * size;
@@ -125,7 +125,7 @@ static bool take_flags(struct fw_frictions *s, int rests) {
     return again;
 }
 
-bool fw_friction_box(struct fw_frictions *s) {
+bool fw_multibody_friction_box(struct fw_multibody_frictions *s) {
     int rests = 0;
     for (int i = 0; i < s->n; i++)
         if (s->rests[i]) s->inside[rests++] = i;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The small system of friction: torques T for given flags (friction.c has the equations). Inputs,
+/* The small system of friction: torques T for given flags (multibody_friction.c has the
+   equations). Inputs,
    scaled: gains, accelerations without friction, what presses; output T. Valid while the spectral
    radius of K is below 1, else refused. Error: round-off times cond(A_stick); of T where it is not
    unique, 1e-9. Cost (entries)^3. Test: test_friction_model.c. */
@@ -13,7 +14,7 @@ enum { SWEEPS = 50, ITERATIONS = 200, POWERS = 40 };
 static const double fw_tight = 0.9999;      /* nearly jammed: forces grow as 1/(1 - radius) */
 static const double fw_hold_epsilon = 1e-6; /* of `loose` */
 
-bool fw_friction_hold(struct fw_frictions *s, int count, const int *which) {
+bool fw_multibody_friction_hold(struct fw_multibody_frictions *s, int count, const int *which) {
     for (int i = 0; i < count; i++)
         for (int j = 0; j < count; j++) {
             double both = s->gain[which[i] * s->n + which[j]];
@@ -22,11 +23,11 @@ bool fw_friction_hold(struct fw_frictions *s, int count, const int *which) {
         }
     for (int i = 0; i < count; i++)
         if (!(s->factor[i + i * count] > 0)) return false;
-    return count == 0 || fw_cholesky(count, s->factor);
+    return count == 0 || fw_maths_cholesky(count, s->factor);
 }
 
-void fw_friction_holding(struct fw_frictions *s, int count, const int *which, const double *right,
-                         double *x) {
+void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, const int *which,
+                                   const double *right, double *x) {
     double size = 0, before = (double)INFINITY;
     for (int i = 0; i < count; i++) {
         size = fmax(size, fabs(right[i]));
@@ -34,7 +35,7 @@ void fw_friction_holding(struct fw_frictions *s, int count, const int *which, co
     }
     for (int sweep = 0; sweep < SWEEPS && count > 0; sweep++) {
         double worst = 0;
-        fw_cholesky_solve(count, s->factor, s->more);
+        fw_maths_cholesky_solve(count, s->factor, s->more);
         for (int i = 0; i < count; i++)
             x[i] += s->more[i];
         for (int i = 0; i < count; i++) {
@@ -48,23 +49,23 @@ void fw_friction_holding(struct fw_frictions *s, int count, const int *which, co
     }
 }
 
-static double coefficient(const fw_model_friction *f) {
+static double coefficient(const fw_multibody_model_friction *f) {
     return f->yields ? f->rest : f->slide;
 }
 
 /* eliminates what sticks: T_stuck = start - hold T_moving; reach (2 per pair): what presses a
    moving entry for unit T of another one while the stuck ones hold; more than `left` gains */
-static void eliminate(struct fw_frictions *s, int stuck, int moving) {
+static void eliminate(struct fw_multibody_frictions *s, int stuck, int moving) {
     double *press = s->press;
     for (int e = 0; e < stuck; e++) {
         int i = s->stuck[e];
         s->right[e] = -(s->accel[i] + s->creep[i]);
     }
-    fw_friction_holding(s, stuck, s->stuck, s->right, s->start);
+    fw_multibody_friction_holding(s, stuck, s->stuck, s->right, s->start);
     for (int c = 0; c < moving; c++) {
         for (int e = 0; e < stuck; e++)
             s->right[e] = s->gain[s->stuck[e] * s->n + s->moving[c]];
-        fw_friction_holding(s, stuck, s->stuck, s->right, s->hold + c * stuck);
+        fw_multibody_friction_holding(s, stuck, s->stuck, s->right, s->hold + c * stuck);
     }
     for (int r = 0; r < moving; r++) {
         int i = s->moving[r];
@@ -89,7 +90,7 @@ static void eliminate(struct fw_frictions *s, int stuck, int moving) {
 /* is the spectral radius of K, K_rc = mu_r |reach_rc|, below 1? (K x)_r / x_r of any positive x has
    it below its largest; x by powers of K. *worst: the entry that matters most. Source: Collatz
    1942, Wielandt 1950. */
-static bool contracts(struct fw_frictions *s, int moving, int *worst) {
+static bool contracts(struct fw_multibody_frictions *s, int moving, int *worst) {
     double *x = s->right, *kx = s->step;
     bool below = moving == 0;
     s->tight = -1;
@@ -98,7 +99,7 @@ static bool contracts(struct fw_frictions *s, int moving, int *worst) {
     for (int k = 0; k < POWERS; k++) {
         double bound = 0, largest = 0;
         for (int r = 0; r < moving; r++) {
-            const fw_model_friction *f = &s->item[s->moving[r]];
+            const fw_multibody_model_friction *f = &s->item[s->moving[r]];
             kx[r] = 0;
             for (int c = 0; c < moving; c++) {
                 const double *reach = s->reach + 2 * (r * moving + c);
@@ -118,11 +119,11 @@ static bool contracts(struct fw_frictions *s, int moving, int *worst) {
 }
 
 /* F_r = T_r + sign mu N_r(T) at x, and its largest; with `slopes` the Jacobian too (by columns) */
-static double mismatch(struct fw_frictions *s, int moving, const double *x, double *f,
+static double mismatch(struct fw_multibody_frictions *s, int moving, const double *x, double *f,
                        double *slopes) {
     double worst = 0;
     for (int r = 0; r < moving; r++) {
-        const fw_model_friction *item = &s->item[s->moving[r]];
+        const fw_multibody_model_friction *item = &s->item[s->moving[r]];
         double mu = item->slip * coefficient(item), rho[2] = {s->press[2 * r], s->press[2 * r + 1]};
         const double *reach = s->reach + 2 * r * moving;
         for (int c = 0; c < moving; c++)
@@ -140,7 +141,7 @@ static double mismatch(struct fw_frictions *s, int moving, const double *x, doub
 
 /* the fixed point of the contraction by Newton's method; where a step does not bring F down to 0.9,
    a plain iteration x - F, which does by the spectral radius of K in some norm */
-static bool fixed_point(struct fw_frictions *s, int moving, double *x) {
+static bool fixed_point(struct fw_multibody_frictions *s, int moving, double *x) {
     double *f = s->right, *step = s->step, *trial = s->value;
     memset(x, 0, (size_t)moving * sizeof *x);
     for (int k = 0; k < ITERATIONS; k++) {
@@ -151,8 +152,8 @@ static bool fixed_point(struct fw_frictions *s, int moving, double *x) {
         if (now <= 4 * DBL_EPSILON * size) return true;
         memcpy(step, f, (size_t)moving * sizeof *f);
         memcpy(s->more, f, (size_t)moving * sizeof *f);
-        bool newton = fw_lapack_lu(moving, s->jacobian, s->pivot) &&
-                      fw_lapack_lu_solve(false, moving, 1, s->jacobian, s->pivot, step);
+        bool newton = fw_maths_lapack_lu(moving, s->jacobian, s->pivot) &&
+                      fw_maths_lapack_lu_solve(false, moving, 1, s->jacobian, s->pivot, step);
         for (int r = 0; r < moving; r++)
             trial[r] = x[r] - step[r];
         double next = newton ? mismatch(s, moving, trial, f, NULL) : (double)INFINITY;
@@ -166,8 +167,8 @@ static bool fixed_point(struct fw_frictions *s, int moving, double *x) {
     return false;
 }
 
-bool fw_friction_solve(fw_model *m) {
-    struct fw_frictions *s = m->friction;
+bool fw_multibody_friction_solve(fw_multibody_model *m) {
+    struct fw_multibody_frictions *s = m->friction;
     int stuck = 0, moving = 0, worst = 0;
     for (int i = 0; i < s->n; i++)
         if (s->item[i].slip)
@@ -178,7 +179,7 @@ bool fw_friction_solve(fw_model *m) {
     for (int i = 0; i < s->n; i++) /* a state that is no number is no jam */
         if (!isfinite(s->accel[i]) || !isfinite(s->base[2 * i] + s->base[2 * i + 1])) return false;
     s->jam = moving ? s->moving[0] : s->stuck[0];
-    if (!fw_friction_hold(s, stuck, s->stuck)) return false;
+    if (!fw_multibody_friction_hold(s, stuck, s->stuck)) return false;
     eliminate(s, stuck, moving);
     if (!contracts(s, moving, &worst)) {
         s->jam = worst;
@@ -195,7 +196,7 @@ bool fw_friction_solve(fw_model *m) {
     for (int r = 0; r < moving; r++)
         s->torque[s->moving[r]] = x[r];
     for (int i = 0; i < s->n; i++)
-        s->item[i].torque = s->torque[i], s->item[i].press = fw_friction_press(m, i);
+        s->item[i].torque = s->torque[i], s->item[i].press = fw_multibody_friction_press(m, i);
     s->jam = -1;
     return true;
 }

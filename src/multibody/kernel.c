@@ -5,18 +5,18 @@
 #include <math.h>
 #include <string.h>
 
-struct fw_lanes {
-    const fw_core_ops *ops;
+struct fw_multibody_lanes {
+    const fw_multibody_core_ops *ops;
     int count, width, groups, ny;
-    fw_core *core; /* (groups) */
+    fw_multibody_core *core; /* (groups) */
 };
 
-bool fw_core_plain(const fw_model *m) {
+bool fw_multibody_core_plain(const fw_multibody_model *m) {
     return m->plain && m->nblock > 0 && !m->driven && m->worked < 0 && m->nload == 0 &&
            m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0 && !m->special;
 }
 
-double fw_pin_floor(const fw_model *m, int pin) {
+double fw_multibody_pin_floor(const fw_multibody_model *m, int pin) {
     double masses = 0, trace = 0;
     for (int side = 0; side < 2; side++) {
         int b = m->body[2 * pin + side];
@@ -32,8 +32,9 @@ double fw_pin_floor(const fw_model *m, int pin) {
 
 /* the first coupling of every block goes into the table by block, further ones into a list;
    a block without any (fill) gets a sign of zero */
-static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_kernel_plan *p) {
-    const fw_chain *c = &m->chain;
+static fw_status plan_couplings(fw_arena *arena, const fw_multibody_model *m,
+                                fw_multibody_kernel_plan *p) {
+    const fw_multibody_chain *c = &m->chain;
     int *arm, *extra;
     size_t blocks = (size_t)c->blocks, more = (size_t)(c->ncoupling);
     FW_NEED(arm = fw_arena_array(arena, int, 2 * blocks));
@@ -41,7 +42,7 @@ static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_kernel_pl
     for (int e = 0; e < 2 * c->blocks; e++)
         arm[e] = -1;
     for (int i = 0; i < c->ncoupling; i++) {
-        const fw_coupling *from = &c->coupling[i];
+        const fw_multibody_coupling *from = &c->coupling[i];
         int *to = arm + 2 * from->block;
         if (to[0] >= 0) {
             to = extra + 3 * p->extras++;
@@ -56,7 +57,7 @@ static fw_status plan_couplings(fw_arena *arena, const fw_model *m, fw_kernel_pl
 }
 
 /* from the ground along the pins, every body once and back to the ground? */
-static bool follow_loop(const fw_model *m, fw_kernel_plan *p) {
+static bool follow_loop(const fw_multibody_model *m, fw_multibody_kernel_plan *p) {
     int pin = -1, body = m->nbody;
     for (int i = 0; i <= m->nbody; i++) {
         int next = -1;
@@ -76,14 +77,15 @@ static bool follow_loop(const fw_model *m, fw_kernel_plan *p) {
 }
 
 /* is the model one closed loop of few bodies, with every spring across one of its pins? */
-static fw_status plan_loop(fw_arena *arena, const fw_model *m, fw_kernel_plan *p) {
+static fw_status plan_loop(fw_arena *arena, const fw_multibody_model *m,
+                           fw_multibody_kernel_plan *p) {
     int *place;
     if (m->nbody < FW_LOOP_LEAST || m->nbody > FW_LOOP_MOST || m->nblock != m->nbody + 1 ||
         !follow_loop(m, p))
         return FW_OK;
     FW_NEED(place = fw_arena_array(arena, int, (size_t)m->ntorsion));
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *s = &m->torsion[i];
+        const fw_multibody_model_torsion *s = &m->torsion[i];
         place[i] = -1;
         for (int k = 0; k < m->nblock; k++) {
             int a = p->loop_body[k], b = p->loop_body[k + 1];
@@ -96,21 +98,22 @@ static fw_status plan_loop(fw_arena *arena, const fw_model *m, fw_kernel_plan *p
     return FW_OK;
 }
 
-static fw_status new_plan(fw_arena *arena, const fw_model *m, fw_kernel_plan *p) {
-    const fw_chain *c = &m->chain;
+static fw_status new_plan(fw_arena *arena, const fw_multibody_model *m,
+                          fw_multibody_kernel_plan *p) {
+    const fw_multibody_chain *c = &m->chain;
     int *torsion;
-    *p = (fw_kernel_plan){.bodies = m->nbody,
-                          .pins = m->nblock,
-                          .blocks = c->blocks,
-                          .torsions = m->ntorsion,
-                          .nq = m->nq,
-                          .ny = m->ny,
-                          .dissipates = m->dissipated >= 0,
-                          .body = m->body,
-                          .column = c->column,
-                          .row = c->row,
-                          .first = c->first,
-                          .update = c->update};
+    *p = (fw_multibody_kernel_plan){.bodies = m->nbody,
+                                    .pins = m->nblock,
+                                    .blocks = c->blocks,
+                                    .torsions = m->ntorsion,
+                                    .nq = m->nq,
+                                    .ny = m->ny,
+                                    .dissipates = m->dissipated >= 0,
+                                    .body = m->body,
+                                    .column = c->column,
+                                    .row = c->row,
+                                    .first = c->first,
+                                    .update = c->update};
     FW_TRY(plan_couplings(arena, m, p));
     FW_NEED(torsion = fw_arena_array(arena, int, 2 * (size_t)m->ntorsion));
     for (int i = 0; i < m->ntorsion; i++)
@@ -122,7 +125,7 @@ static fw_status new_plan(fw_arena *arena, const fw_model *m, fw_kernel_plan *p)
 /* ---- numbers ---- */
 
 /* sign of a block's coupling: same sides of the two pins add, opposite ones subtract */
-static void fill_block(const fw_model *m, const int arm[2], double *to, int w) {
+static void fill_block(const fw_multibody_model *m, const int arm[2], double *to, int w) {
     int body = m->body[arm[0]];
     double sign = arm[0] % 2 == arm[1] % 2 ? 1 : -1;
     bool shared = body == m->body[arm[1]] && arm[0] / 2 != arm[1] / 2;
@@ -130,17 +133,17 @@ static void fill_block(const fw_model *m, const int arm[2], double *to, int w) {
     to[w] = shared ? sign * m->jinv[body] : 0;
 }
 
-static void fill_pin(const fw_model *m, int i, double *to, int w) {
+static void fill_pin(const fw_multibody_model *m, int i, double *to, int w) {
     for (int c = 0; c < 4; c++)
         to[w * (FW_LOCAL + c)] = m->local[4 * i + c];
     to[w * FW_MASSES] = m->minv[m->body[2 * i]] + m->minv[m->body[2 * i + 1]];
-    to[w * FW_FLOOR] = fw_pin_floor(m, i);
+    to[w * FW_FLOOR] = fw_multibody_pin_floor(m, i);
     to[w * FW_OFFSET] = m->offset[2 * i];
     to[w * (FW_OFFSET + 1)] = m->offset[2 * i + 1];
 }
 
-static void fill_core(fw_core *k, const fw_model *m, int lane) {
-    const fw_kernel_plan *p = &k->plan;
+static void fill_core(fw_multibody_core *k, const fw_multibody_model *m, int lane) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     const int w = k->ops->width;
     for (int b = 0; b <= p->bodies; b++) {
         double *to = k->body + w * FW_BODY * b + lane;
@@ -160,7 +163,7 @@ static void fill_core(fw_core *k, const fw_model *m, int lane) {
         fill_block(m, p->extra + 3 * e + 1, k->extra + w * FW_BLOCK * e + lane, w);
     for (int i = 0; i < p->torsions; i++) {
         double *to = k->torsion + w * FW_TORSION * i + lane;
-        const fw_model_torsion *t = &m->torsion[i];
+        const fw_multibody_model_torsion *t = &m->torsion[i];
         to[0] = t->k, to[w] = t->c, to[2 * w] = t->k * t->angle0;
     }
     k->size[lane] = m->size;
@@ -169,7 +172,7 @@ static void fill_core(fw_core *k, const fw_model *m, int lane) {
 }
 
 /* rows that depend on each other in two poses picked without regard to the joints do so in all */
-static fw_status examine(fw_arena *arena, fw_core *k) {
+static fw_status examine(fw_arena *arena, fw_multibody_core *k) {
     const int n = k->plan.nq, w = k->ops->width;
     fw_mark mark = fw_arena_mark(arena);
     double *u;
@@ -185,11 +188,12 @@ static fw_status examine(fw_arena *arena, fw_core *k) {
 }
 
 /* `ops->width` models of one topology */
-static fw_status new_core(fw_arena *arena, const fw_kernel_plan *plan, const fw_core_ops *ops,
-                          const fw_model *const *models, fw_core *k) {
-    const fw_kernel_plan *p = plan;
+static fw_status new_core(fw_arena *arena, const fw_multibody_kernel_plan *plan,
+                          const fw_multibody_core_ops *ops, const fw_multibody_model *const *models,
+                          fw_multibody_core *k) {
+    const fw_multibody_kernel_plan *p = plan;
     size_t w = (size_t)ops->width, n = (size_t)p->bodies + 1, m = (size_t)p->pins;
-    *k = (fw_core){.plan = *plan, .ops = ops, .healthy = fw_healthy};
+    *k = (fw_multibody_core){.plan = *plan, .ops = ops, .healthy = fw_healthy};
     FW_NEED(k->body = fw_arena_array(arena, double, w *FW_BODY *n));
     FW_NEED(k->pin = fw_arena_array(arena, double, w *FW_PIN *m));
     FW_NEED(k->block = fw_arena_array(arena, double, w *FW_BLOCK *(size_t)p->blocks));
@@ -209,53 +213,54 @@ static fw_status new_core(fw_arena *arena, const fw_kernel_plan *plan, const fw_
 
 /* ---- one design ---- */
 
-fw_status fw_kernel_new(fw_arena *arena, const fw_model *m, fw_kernel **kernel) {
+fw_status fw_multibody_kernel_new(fw_arena *arena, const fw_multibody_model *m,
+                                  fw_multibody_kernel **kernel) {
     *kernel = NULL;
-    if (!fw_core_plain(m)) return FW_OK;
-    fw_kernel *k = fw_arena_one(arena, fw_kernel);
-    fw_kernel_plan plan;
+    if (!fw_multibody_core_plain(m)) return FW_OK;
+    fw_multibody_kernel *k = fw_arena_one(arena, fw_multibody_kernel);
+    fw_multibody_kernel_plan plan;
     FW_NEED(k);
     FW_TRY(new_plan(arena, m, &plan));
-    FW_TRY(new_core(arena, &plan, &fw_core_single, &m, &k->core));
+    FW_TRY(new_core(arena, &plan, &fw_multibody_core_single, &m, &k->core));
     FW_NEED(k->lambda = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     *kernel = k;
     return FW_OK;
 }
 
-void fw_kernel_rhs(fw_kernel *k, const double *y, double *f) {
+void fw_multibody_kernel_rhs(fw_multibody_kernel *k, const double *y, double *f) {
     k->core.ops->rhs(&k->core, y, f);
 }
 
-bool fw_kernel_project(fw_kernel *k, double *y, double *f) {
+bool fw_multibody_kernel_project(fw_multibody_kernel *k, double *y, double *f) {
     return k->core.ops->project(&k->core, y, f);
 }
 
-static void lambda_of(const fw_core *k, int lane, double *lambda) {
+static void lambda_of(const fw_multibody_core *k, int lane, double *lambda) {
     const int w = k->ops->width;
     for (int i = 0; i < k->plan.pins; i++)
         for (int c = 0; c < 2; c++)
             lambda[2 * i + c] = k->row[w * (FW_ROW * i + FW_X + c) + lane];
 }
 
-const double *fw_kernel_lambda(fw_kernel *k) {
+const double *fw_multibody_kernel_lambda(fw_multibody_kernel *k) {
     lambda_of(&k->core, 0, k->lambda);
     return k->lambda;
 }
 
-fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k) {
+fw_multibody_kernel_norms fw_multibody_kernel_norms_of(const fw_multibody_kernel *k) {
     return k->core.norms;
 }
 
 /* ---- lanes: instruction sets ---- */
 
 /* best first, NULL after the last */
-static const fw_core_ops *const *available(void) {
-    static const fw_core_ops *const all[] = {
+static const fw_multibody_core_ops *const *available(void) {
+    static const fw_multibody_core_ops *const all[] = {
 #if defined(__x86_64__)
-        &fw_core_avx512,
-        &fw_core_avx2,
+        &fw_multibody_core_avx512,
+        &fw_multibody_core_avx2,
 #endif
-        &fw_core_single,
+        &fw_multibody_core_single,
         NULL,
     };
 #if defined(__x86_64__)
@@ -268,15 +273,15 @@ static const fw_core_ops *const *available(void) {
     return all;
 }
 
-const char *fw_lanes_set(int i) {
-    const fw_core_ops *const *row = available();
+const char *fw_multibody_lanes_set(int i) {
+    const fw_multibody_core_ops *const *row = available();
     while (i > 0 && *row)
         row++, i--;
     return *row ? (*row)->name : NULL;
 }
 
-static const fw_core_ops *find_set(const char *name) {
-    const fw_core_ops *const *row = available();
+static const fw_multibody_core_ops *find_set(const char *name) {
+    const fw_multibody_core_ops *const *row = available();
     while (name && *row && strcmp((*row)->name, name) != 0)
         row++;
     return *row;
@@ -284,7 +289,7 @@ static const fw_core_ops *find_set(const char *name) {
 
 /* ---- lanes: a batch ---- */
 
-static bool same_topology(const fw_model *a, const fw_model *b) {
+static bool same_topology(const fw_multibody_model *a, const fw_multibody_model *b) {
     bool same = a->nbody == b->nbody && a->nblock == b->nblock && a->ntorsion == b->ntorsion &&
                 a->ny == b->ny;
     for (int i = 0; same && i < 2 * a->nblock; i++)
@@ -294,9 +299,10 @@ static bool same_topology(const fw_model *a, const fw_model *b) {
     return same;
 }
 
-static fw_status new_group(fw_arena *arena, fw_lanes *l, const fw_kernel_plan *plan,
-                           const fw_model *const *models, int g) {
-    const fw_model *of[FW_WIDTH_MOST];
+static fw_status new_group(fw_arena *arena, fw_multibody_lanes *l,
+                           const fw_multibody_kernel_plan *plan,
+                           const fw_multibody_model *const *models, int g) {
+    const fw_multibody_model *of[FW_WIDTH_MOST];
     for (int lane = 0; lane < l->width; lane++) {
         int design = g * l->width + lane;
         of[lane] = models[design < l->count ? design : l->count - 1];
@@ -304,66 +310,69 @@ static fw_status new_group(fw_arena *arena, fw_lanes *l, const fw_kernel_plan *p
     return new_core(arena, plan, l->ops, of, &l->core[g]);
 }
 
-fw_status fw_lanes_new(fw_arena *arena, const fw_model *const *models, int count, const char *name,
-                       fw_lanes **lanes) {
-    const fw_core_ops *chosen = find_set(name);
-    fw_kernel_plan plan;
+fw_status fw_multibody_lanes_new(fw_arena *arena, const fw_multibody_model *const *models,
+                                 int count, const char *name, fw_multibody_lanes **lanes) {
+    const fw_multibody_core_ops *chosen = find_set(name);
+    fw_multibody_kernel_plan plan;
     *lanes = NULL;
     if (!chosen || count <= 0) return FW_USAGE;
     for (int i = 0; i < count; i++)
-        if (!fw_core_plain(models[i]) || !same_topology(models[0], models[i])) return FW_OK;
-    fw_lanes *l = fw_arena_one(arena, fw_lanes);
+        if (!fw_multibody_core_plain(models[i]) || !same_topology(models[0], models[i]))
+            return FW_OK;
+    fw_multibody_lanes *l = fw_arena_one(arena, fw_multibody_lanes);
     FW_NEED(l);
     FW_TRY(new_plan(arena, models[0], &plan));
     l->ops = chosen;
     l->count = count, l->width = chosen->width;
     l->groups = (count + l->width - 1) / l->width;
     l->ny = plan.ny;
-    FW_NEED(l->core = fw_arena_array(arena, fw_core, (size_t)l->groups));
+    FW_NEED(l->core = fw_arena_array(arena, fw_multibody_core, (size_t)l->groups));
     for (int g = 0; g < l->groups; g++)
         FW_TRY(new_group(arena, l, &plan, models, g));
     *lanes = l;
     return FW_OK;
 }
 
-int fw_lanes_width(const fw_lanes *l) {
+int fw_multibody_lanes_width(const fw_multibody_lanes *l) {
     return l->width;
 }
 
-const char *fw_lanes_set_name(const fw_lanes *l) {
+const char *fw_multibody_lanes_set_name(const fw_multibody_lanes *l) {
     return l->ops->name;
 }
 
-static size_t group_size(const fw_lanes *l) {
+static size_t group_size(const fw_multibody_lanes *l) {
     return (size_t)l->ny * (size_t)l->width;
 }
 
-size_t fw_lanes_size(const fw_lanes *l) {
+size_t fw_multibody_lanes_size(const fw_multibody_lanes *l) {
     return group_size(l) * (size_t)l->groups;
 }
 
-static size_t place(const fw_lanes *l, int design) {
+static size_t place(const fw_multibody_lanes *l, int design) {
     return (size_t)(design / l->width) * group_size(l) + (size_t)(design % l->width);
 }
 
-void fw_lanes_put(const fw_lanes *l, int design, const double *y, double *batch) {
+void fw_multibody_lanes_put(const fw_multibody_lanes *l, int design, const double *y,
+                            double *batch) {
     int end = design + 1 == l->count ? l->groups * l->width : design + 1;
     for (int d = design; d < end; d++)
         for (int i = 0; i < l->ny; i++)
             batch[place(l, d) + (size_t)(i * l->width)] = y[i];
 }
 
-void fw_lanes_get(const fw_lanes *l, int design, const double *batch, double *y) {
+void fw_multibody_lanes_get(const fw_multibody_lanes *l, int design, const double *batch,
+                            double *y) {
     for (int i = 0; i < l->ny; i++)
         y[i] = batch[place(l, design) + (size_t)(i * l->width)];
 }
 
-void fw_lanes_rhs(fw_lanes *l, const double *y, double *f) {
+void fw_multibody_lanes_rhs(fw_multibody_lanes *l, const double *y, double *f) {
     for (int g = 0; g < l->groups; g++)
         l->ops->rhs(&l->core[g], y + (size_t)g * group_size(l), f + (size_t)g * group_size(l));
 }
 
-bool fw_lanes_project(fw_lanes *l, double *y, double *f) {
+bool fw_multibody_lanes_project(fw_multibody_lanes *l, double *y, double *f) {
     bool good = true;
     for (int g = 0; g < l->groups; g++) {
         size_t at = (size_t)g * group_size(l);
@@ -372,60 +381,62 @@ bool fw_lanes_project(fw_lanes *l, double *y, double *f) {
     return good;
 }
 
-void fw_lanes_lambda(const fw_lanes *l, int design, double *lambda) {
+void fw_multibody_lanes_lambda(const fw_multibody_lanes *l, int design, double *lambda) {
     lambda_of(&l->core[design / l->width], design % l->width, lambda);
 }
 
 /* ---- lanes: lockstep ---- */
 
 static void ode_rhs(void *context, double t, const double *y, double *f) {
-    fw_core *k = context;
+    fw_multibody_core *k = context;
     (void)t; /* plain models do not depend on time */
     k->ops->rhs(k, y, f);
 }
 
 static bool ode_project(void *context, double t, double *y, double *f) {
-    fw_core *k = context;
+    fw_multibody_core *k = context;
     (void)t;
     return k->ops->project(k, y, f);
 }
 
 /* duration NULL: 1 */
-static void set_rate(fw_lanes *l, int g, const double *duration) {
+static void set_rate(fw_multibody_lanes *l, int g, const double *duration) {
     for (int lane = 0; lane < l->width; lane++) {
         int design = g * l->width + lane;
         l->core[g].rate[lane] = duration ? duration[design < l->count ? design : l->count - 1] : 1;
     }
 }
 
-static fw_status integrate_group(fw_arena *arena, fw_core *k, double rtol, const double *atol,
-                                 double *y, fw_lanes_run *run) {
+static fw_status integrate_group(fw_arena *arena, fw_multibody_core *k, double rtol,
+                                 const double *atol, double *y, fw_multibody_lanes_run *run) {
     const int w = k->ops->width, n = k->plan.ny * w;
-    const fw_ode ode = {.context = k,
-                        .rhs = ode_rhs,
-                        .project = ode_project,
-                        .n = n,
-                        .controlled = 2 * k->plan.nq * w};
+    const fw_maths_ode ode = {.context = k,
+                              .rhs = ode_rhs,
+                              .project = ode_project,
+                              .n = n,
+                              .controlled = 2 * k->plan.nq * w};
     double *wide, share = 1 / sqrt(w);
-    fw_stepper *s;
+    fw_maths_stepper *s;
     FW_NEED(wide = fw_arena_array(arena, double, (size_t)n));
     for (int i = 0; i < n; i++)
         wide[i] = share * atol[i / w];
-    FW_TRY(fw_stepper_new(arena, fw_stepper_find("dop853"), &ode, share * rtol, wide, &s));
-    fw_stepper_start(s, 0, y, 1);
-    fw_ode_result result = FW_ODE_STEP;
+    FW_TRY(
+        fw_maths_stepper_new(arena, fw_maths_stepper_find("dop853"), &ode, share * rtol, wide, &s));
+    fw_maths_stepper_start(s, 0, y, 1);
+    fw_maths_ode_result result = FW_ODE_STEP;
     while (s->t < s->t_end && result == FW_ODE_STEP)
-        result = fw_stepper_step(s);
+        result = fw_maths_stepper_step(s);
     memcpy(y, s->y, (size_t)n * sizeof *y);
-    fw_stepper_free(s);
+    fw_maths_stepper_free(s);
     run->steps += s->steps, run->rejected += s->rejected, run->rhs += s->rhs;
     return result == FW_ODE_STEP ? FW_OK : FW_SOLVER;
 }
 
-fw_status fw_lanes_integrate(fw_arena *arena, fw_lanes *l, const double *duration, double rtol,
-                             const double *atol, double *y, fw_lanes_run *run) {
+fw_status fw_multibody_lanes_integrate(fw_arena *arena, fw_multibody_lanes *l,
+                                       const double *duration, double rtol, const double *atol,
+                                       double *y, fw_multibody_lanes_run *run) {
     fw_status status = FW_OK;
-    *run = (fw_lanes_run){0};
+    *run = (fw_multibody_lanes_run){0};
     fw_mark mark = fw_arena_mark(arena);
     for (int g = 0; g < l->groups && status == FW_OK; g++) {
         set_rate(l, g, duration);

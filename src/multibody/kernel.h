@@ -9,7 +9,7 @@
 #define FW_MULTIBODY_KERNEL_H
 #include "multibody/model.h"
 
-typedef struct fw_kernel fw_kernel;
+typedef struct fw_multibody_kernel fw_multibody_kernel;
 
 /* A pivot block is healthy when its smaller eigenvalue exceeds this share of 1/m_a + 1/m_b; with
    all of them healthy one plain solve is enough. Near a singular position the pivot falls with the
@@ -21,20 +21,21 @@ typedef struct fw_kernel fw_kernel;
    (windows). */
 static const double fw_healthy = 1e-6;
 
-typedef struct fw_kernel_norms { /* after the last projection; scaled */
+typedef struct fw_multibody_kernel_norms { /* after the last projection; scaled */
     double position, velocity;
-} fw_kernel_norms;
+} fw_multibody_kernel_norms;
 
 /* *kernel = NULL when the model is not plain. The model must live as long as the kernel. */
-fw_status fw_kernel_new(fw_arena *arena, const fw_model *model, fw_kernel **kernel);
+fw_status fw_multibody_kernel_new(fw_arena *arena, const fw_multibody_model *model,
+                                  fw_multibody_kernel **kernel);
 /* f (ny) = y' at y (ny); NaN where the equations cannot be solved. Allocates nothing. */
-void fw_kernel_rhs(fw_kernel *k, const double *y, double *f);
+void fw_multibody_kernel_rhs(fw_multibody_kernel *k, const double *y, double *f);
 /* an accepted step: y onto Psi = 0 and G v = 0 in place, then f there; starts with the factor of
    the last evaluation. false: it does not get there; y is not usable */
-bool fw_kernel_project(fw_kernel *k, double *y, double *f);
+bool fw_multibody_kernel_project(fw_multibody_kernel *k, double *y, double *f);
 /* (2 npin) joint forces of the last evaluation, pins in the order of the model */
-const double *fw_kernel_lambda(fw_kernel *k);
-fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k);
+const double *fw_multibody_kernel_lambda(fw_multibody_kernel *k);
+fw_multibody_kernel_norms fw_multibody_kernel_norms_of(const fw_multibody_kernel *k);
 
 /* ---- lanes ----
 
@@ -46,38 +47,43 @@ fw_kernel_norms fw_kernel_norms_of(const fw_kernel *k);
    A batch is laid out in groups of `width` designs. A state vector y holds group after group, in a
    group component after component (ny of them, as in model.h), in a component lane after lane.
    Lanes that no design fills repeat the last design. */
-typedef struct fw_lanes fw_lanes;
+typedef struct fw_multibody_lanes fw_multibody_lanes;
 
 /* names of the instruction sets of this processor, best first; NULL after the last */
-const char *fw_lanes_set(int i);
+const char *fw_multibody_lanes_set(int i);
 /* *lanes = NULL when a model is not plain, or has not the joints, springs and state of the first.
    `set` NULL: the best; FW_USAGE for one that this processor has not. count > 0. */
-fw_status fw_lanes_new(fw_arena *arena, const fw_model *const *models, int count, const char *set,
-                       fw_lanes **lanes);
-int fw_lanes_width(const fw_lanes *l);
-const char *fw_lanes_set_name(const fw_lanes *l);
-size_t fw_lanes_size(const fw_lanes *l); /* doubles in a state vector of the batch */
+fw_status fw_multibody_lanes_new(fw_arena *arena, const fw_multibody_model *const *models,
+                                 int count, const char *set, fw_multibody_lanes **lanes);
+int fw_multibody_lanes_width(const fw_multibody_lanes *l);
+const char *fw_multibody_lanes_set_name(const fw_multibody_lanes *l);
+size_t
+fw_multibody_lanes_size(const fw_multibody_lanes *l); /* doubles in a state vector of the batch */
 
 /* state y (ny) of one design into the batch, and out of it */
-void fw_lanes_put(const fw_lanes *l, int design, const double *y, double *batch);
-void fw_lanes_get(const fw_lanes *l, int design, const double *batch, double *y);
+void fw_multibody_lanes_put(const fw_multibody_lanes *l, int design, const double *y,
+                            double *batch);
+void fw_multibody_lanes_get(const fw_multibody_lanes *l, int design, const double *batch,
+                            double *y);
 
 /* f = y' of every design, all with the vectors aligned as the arena aligns them. Allocates nothing.
    A design that has no solution gets NaN accelerations, the others are not touched by it. */
-void fw_lanes_rhs(fw_lanes *l, const double *y, double *f);
+void fw_multibody_lanes_rhs(fw_multibody_lanes *l, const double *y, double *f);
 /* an accepted step of all designs: y onto the constraints in place, then f there; false: some
    design does not get there */
-bool fw_lanes_project(fw_lanes *l, double *y, double *f);
-void fw_lanes_lambda(const fw_lanes *l, int design, double *lambda); /* (2 nblock), after rhs */
+bool fw_multibody_lanes_project(fw_multibody_lanes *l, double *y, double *f);
+void fw_multibody_lanes_lambda(const fw_multibody_lanes *l, int design,
+                               double *lambda); /* (2 nblock), after rhs */
 
-typedef struct fw_lanes_run {
+typedef struct fw_multibody_lanes_run {
     long steps, rejected, rhs; /* over all groups */
-} fw_lanes_run;
+} fw_multibody_lanes_run;
 /* every design from y over its own duration (scaled), group by group in lockstep: all designs of a
    group share the fraction of the duration that a step covers. The tolerance of the group's step is
    rtol / sqrt(width), so that no design's own error norm exceeds what rtol allows alone. atol (ny)
    for all designs. Integrator dop853. FW_SOLVER: some design stops. */
-fw_status fw_lanes_integrate(fw_arena *arena, fw_lanes *l, const double *duration, double rtol,
-                             const double *atol, double *y, fw_lanes_run *run);
+fw_status fw_multibody_lanes_integrate(fw_arena *arena, fw_multibody_lanes *l,
+                                       const double *duration, double rtol, const double *atol,
+                                       double *y, fw_multibody_lanes_run *run);
 
 #endif

@@ -18,7 +18,7 @@
 #ifndef FW_W
 #define FW_W         1
 #define FW_BRIEF     0
-#define FW_CORE      fw_core_single
+#define FW_CORE      fw_multibody_core_single
 #define FW_CORE_NAME "portable"
 #endif
 #include "multibody/kernel_plan.h"
@@ -31,7 +31,7 @@
 
 /* ---- pose ---- */
 
-static __attribute__((noinline)) void sines_of_far(fw_core *k, const real *u) {
+static __attribute__((noinline)) void sines_of_far(fw_multibody_core *k, const real *u) {
     for (int b = 0; b < k->plan.bodies; b++) {
         real angle = CONST(body)[FW_BODY * b + FW_PHI0] + u[3 * b + 2], *w;
         w = WORK(state) + FW_STATE * b;
@@ -44,7 +44,7 @@ static __attribute__((noinline)) void sines_of_far(fw_core *k, const real *u) {
     }
 }
 
-static void set_sines(fw_core *k, const real *u) {
+static void set_sines(fw_multibody_core *k, const real *u) {
     bits outside = {0};
     for (int b = 0; b < k->plan.bodies; b++) {
         real angle = CONST(body)[FW_BODY * b + FW_PHI0] + u[3 * b + 2];
@@ -56,7 +56,7 @@ static void set_sines(fw_core *k, const real *u) {
 }
 
 /* arms in world axes */
-static inline void set_arms(const fw_core *k, int i, real arm[4]) {
+static inline void set_arms(const fw_multibody_core *k, int i, real arm[4]) {
     const int a = k->plan.body[2 * i], b = k->plan.body[2 * i + 1];
     const real *l = CONST(pin) + FW_PIN * i + FW_LOCAL;
     const real *p = CONST(state) + FW_STATE * a, *q = CONST(state) + FW_STATE * b;
@@ -66,7 +66,7 @@ static inline void set_arms(const fw_core *k, int i, real arm[4]) {
     arm[3] = q[FW_S] * l[2] + q[FW_C] * l[3];
 }
 
-static void set_pose(fw_core *k, const real *u) {
+static void set_pose(fw_multibody_core *k, const real *u) {
     set_sines(k, u);
     for (int i = 0; i < k->plan.pins; i++)
         set_arms(k, i, WORK(row) + FW_ROW * i + FW_ARM);
@@ -74,7 +74,7 @@ static void set_pose(fw_core *k, const real *u) {
 
 /* ---- S ---- */
 
-static inline void set_diagonal(const fw_core *k, int i, real *w) {
+static inline void set_diagonal(const fw_multibody_core *k, int i, real *w) {
     const real *a = CONST(body) + FW_BODY * k->plan.body[2 * i];
     const real *b = CONST(body) + FW_BODY * k->plan.body[2 * i + 1];
     const real *r = w + FW_ARM;
@@ -86,7 +86,7 @@ static inline void set_diagonal(const fw_core *k, int i, real *w) {
     w[FW_DIAGONAL + 2] = mass + (ax * r[0] + bx * r[2]);
 }
 
-static inline void couple(const fw_core *k, int row_arm, int column_arm, const real *sign,
+static inline void couple(const fw_multibody_core *k, int row_arm, int column_arm, const real *sign,
                           real out[4]) {
     const real *r = CONST(row) + FW_ROW * (row_arm / 2) + 2 * (row_arm % 2);
     const real *s = CONST(row) + FW_ROW * (column_arm / 2) + 2 * (column_arm % 2);
@@ -97,8 +97,8 @@ static inline void couple(const fw_core *k, int row_arm, int column_arm, const r
     out[3] = m + jx * s[0];
 }
 
-static void set_blocks(fw_core *k) {
-    const fw_kernel_plan *p = &k->plan;
+static void set_blocks(fw_multibody_core *k) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     for (int e = 0; e < p->blocks; e++)
         couple(k, p->arm[2 * e], p->arm[2 * e + 1], CONST(block) + FW_BLOCK * e,
                WORK(coupling) + FW_COUPLING * e + FW_B);
@@ -110,7 +110,7 @@ static void set_blocks(fw_core *k) {
     }
 }
 
-static void set_matrix(fw_core *k) {
+static void set_matrix(fw_multibody_core *k) {
     for (int i = 0; i < k->plan.pins; i++)
         set_diagonal(k, i, WORK(row) + FW_ROW * i);
     set_blocks(k);
@@ -122,8 +122,8 @@ static void set_matrix(fw_core *k) {
    substitution. The inverse of the determinant is kept off the longest path of dependent
    operations: B adj B^T is formed while the division runs. Lanes in which a pivot is not above
    `limit` (relative to the masses) are set in the answer; NaN passes and shows in the result. */
-FW_INLINE bits eliminate(fw_core *k, double epsilon, double limit, bool forward) {
-    const fw_kernel_plan *p = &k->plan;
+FW_INLINE bits eliminate(fw_multibody_core *k, double epsilon, double limit, bool forward) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real *const rows = WORK(row), *const couplings = WORK(coupling);
     bits sick = {0};
     for (int i = 0; i < p->pins; i++) {
@@ -162,7 +162,7 @@ FW_INLINE bits eliminate(fw_core *k, double epsilon, double limit, bool forward)
             }
         }
         for (int u = p->first[i]; u < p->first[i + 1]; u++) {
-            const fw_update *n = &p->update[u];
+            const fw_multibody_update *n = &p->update[u];
             const real *l = couplings + FW_COUPLING * n->left + FW_L;
             const real *b = couplings + FW_COUPLING * n->right + FW_B;
             real *to = couplings + FW_COUPLING * n->to + FW_B;
@@ -175,8 +175,8 @@ FW_INLINE bits eliminate(fw_core *k, double epsilon, double limit, bool forward)
     return bits_negative(sick);
 }
 
-static void substitute_forward(fw_core *k) {
-    const fw_kernel_plan *p = &k->plan;
+static void substitute_forward(fw_multibody_core *k) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     for (int i = 0; i < p->pins; i++) {
         real *w = WORK(row) + FW_ROW * i;
         real x0 = w[FW_X], x1 = w[FW_X + 1];
@@ -191,8 +191,8 @@ static void substitute_forward(fw_core *k) {
     }
 }
 
-static void substitute_backward(fw_core *k) {
-    const fw_kernel_plan *p = &k->plan;
+static void substitute_backward(fw_multibody_core *k) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     for (int i = p->pins - 1; i >= 0; i--) {
         real *w = WORK(row) + FW_ROW * i;
         real x0 = w[FW_X], x1 = w[FW_X + 1];
@@ -207,8 +207,8 @@ static void substitute_backward(fw_core *k) {
 }
 
 /* to -= M^-1 G^T x; `to` holds triples `stride` apart, the ground's too when it has them */
-FW_INLINE void apply(const fw_core *k, real *to, int stride, bool ground) {
-    const fw_kernel_plan *p = &k->plan;
+FW_INLINE void apply(const fw_multibody_core *k, real *to, int stride, bool ground) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     for (int i = 0; i < p->pins; i++) {
         const real *w = CONST(row) + FW_ROW * i, *r = w + FW_ARM;
         const int a = p->body[2 * i], b = p->body[2 * i + 1];
@@ -233,8 +233,8 @@ FW_INLINE void apply(const fw_core *k, real *to, int stride, bool ground) {
 /* ---- right-hand side ---- */
 
 /* angles, speeds and accelerations M^-1 Q of every body; the power that is dissipated */
-static real set_accelerations(fw_core *k, const real *u, const real *v) {
-    const fw_kernel_plan *p = &k->plan;
+static real set_accelerations(fw_multibody_core *k, const real *u, const real *v) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real *state = WORK(state);
     for (int b = 0; b < p->bodies; b++) {
         const real *c = CONST(body) + FW_BODY * b;
@@ -259,7 +259,7 @@ static real set_accelerations(fw_core *k, const real *u, const real *v) {
     return power;
 }
 
-static inline void set_right(const fw_core *k, int i, real *w) {
+static inline void set_right(const fw_multibody_core *k, int i, real *w) {
     const real *p = CONST(state) + FW_STATE * k->plan.body[2 * i];
     const real *q = CONST(state) + FW_STATE * k->plan.body[2 * i + 1];
     const real *r = w + FW_ARM, *a = p + FW_A, *b = q + FW_A;
@@ -270,8 +270,9 @@ static inline void set_right(const fw_core *k, int i, real *w) {
 
 /* the proximal iteration for the lanes that are sick; the others keep their plain solution. Answers
    the lanes that have no solution at all. */
-static __attribute__((noinline)) bits solve_with_care(fw_core *k, bits sick, bool assembled) {
-    const fw_kernel_plan *p = &k->plan;
+static __attribute__((noinline)) bits solve_with_care(fw_multibody_core *k, bits sick,
+                                                      bool assembled) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real size = {0};
     if (!assembled) set_matrix(k);
     bits broken = assembled ? (bits){0} : eliminate(k, fw_epsilon, DBL_MIN, false);
@@ -306,8 +307,8 @@ static __attribute__((noinline)) bits solve_with_care(fw_core *k, bits sick, boo
 }
 
 /* lambda is known: f = (v, a, power) times the rate of each lane */
-static void finish(fw_core *k, bits broken, real power, const real *y, real *f) {
-    const fw_kernel_plan *p = &k->plan;
+static void finish(fw_multibody_core *k, bits broken, real power, const real *y, real *f) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real *state = WORK(state);
     apply(k, state + FW_A, FW_STATE, true);
     const real *v = y + p->nq;
@@ -324,8 +325,8 @@ static void finish(fw_core *k, bits broken, real power, const real *y, real *f) 
             a[i] = real_select(broken, nothing, a[i]);
 }
 
-static void blocks_rhs(fw_core *k, const real *y, real *f) {
-    const fw_kernel_plan *p = &k->plan;
+static void blocks_rhs(fw_multibody_core *k, const real *y, real *f) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     set_sines(k, y);
     real power = set_accelerations(k, y, y + p->nq);
     for (int i = 0; i < p->pins; i++) {
@@ -346,7 +347,7 @@ static void blocks_rhs(fw_core *k, const real *y, real *f) {
 
 #include "multibody/kernel_loop.h"
 
-static void core_rhs(fw_core *k, const real *y, real *f) {
+static void core_rhs(fw_multibody_core *k, const real *y, real *f) {
     if (k->loop)
         loop_or_blocks(k, y, f);
     else
@@ -356,8 +357,8 @@ static void core_rhs(fw_core *k, const real *y, real *f) {
 /* ---- projection ---- */
 
 /* Psi into the rows; the largest |Psi| of any design, and that relative to its size */
-static double residual(fw_core *k, const real *u, double *relative) {
-    const fw_kernel_plan *p = &k->plan;
+static double residual(fw_multibody_core *k, const real *u, double *relative) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     static const double still[3 * FW_W] __attribute__((aligned(64))) = {0};
     set_pose(k, u);
     real worst = {0};
@@ -377,7 +378,7 @@ static double residual(fw_core *k, const real *u, double *relative) {
 }
 
 /* the factor of this pose, the shifted one where a pivot is small; lanes without one in *broken */
-static bits factor(fw_core *k, bits *broken) {
+static bits factor(fw_multibody_core *k, bits *broken) {
     bits sick = ~(bits){0};
     if (!k->redundant) {
         set_matrix(k);
@@ -392,7 +393,7 @@ static bits factor(fw_core *k, bits *broken) {
 }
 
 /* u -= M^-1 G^T (S + eps D)^-1 Psi until round-off; see project.c */
-static bool project_position(fw_core *k, real *u, double *norm) {
+static bool project_position(fw_multibody_core *k, real *u, double *norm) {
     double before = (double)INFINITY, relative = 0;
     bits broken;
     for (int i = 0; i < 20; i++) {
@@ -414,8 +415,8 @@ static bool project_position(fw_core *k, real *u, double *norm) {
 }
 
 /* v -= M^-1 G^T S^-1 G v with the factor of the pose */
-static bool project_velocity(fw_core *k, real *v, double *norm) {
-    const fw_kernel_plan *p = &k->plan;
+static bool project_velocity(fw_multibody_core *k, real *v, double *norm) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     static const double still[3 * FW_W] __attribute__((aligned(64))) = {0};
     real size = real_of(DBL_MIN);
     double before = (double)INFINITY;
@@ -445,15 +446,15 @@ static bool project_velocity(fw_core *k, real *v, double *norm) {
 }
 
 /* position, velocity, then f with the same factor */
-static bool core_project(fw_core *k, double *at, double *slope) {
-    const fw_kernel_plan *p = &k->plan;
+static bool core_project(fw_multibody_core *k, double *at, double *slope) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real *y = (real *)at;
     double position, velocity;
     bits broken, sick;
     if (!project_position(k, y, &position)) return false;
     sick = factor(k, &broken);
     if (bits_any(broken) || !project_velocity(k, y + p->nq, &velocity)) return false;
-    k->norms = (fw_kernel_norms){position, velocity};
+    k->norms = (fw_multibody_kernel_norms){position, velocity};
     real power = set_accelerations(k, y, y + p->nq);
     if (bits_any(sick)) {
         solve_with_care(k, ~(bits){0}, true);
@@ -474,25 +475,26 @@ static bool core_project(fw_core *k, double *at, double *slope) {
 #define END_OF_VECTORS() ((void)0)
 #endif
 
-static void rhs(fw_core *k, const double *y, double *f) {
+static void rhs(fw_multibody_core *k, const double *y, double *f) {
     core_rhs(k, (const real *)y, (real *)f);
     END_OF_VECTORS();
 }
-static bool project(fw_core *k, double *y, double *f) {
+static bool project(fw_multibody_core *k, double *y, double *f) {
     bool good = core_project(k, y, f);
     END_OF_VECTORS();
     return good;
 }
-static bool core_singular(fw_core *k, const double *u) {
+static bool core_singular(fw_multibody_core *k, const double *u) {
     set_pose(k, (const real *)u);
     set_matrix(k);
     return bits_any(eliminate(k, 0, k->healthy, false));
 }
 
-const fw_core_ops FW_CORE = {FW_CORE_NAME, FW_W, rhs, core_singular, project, loop_new, loop_fill};
+const fw_multibody_core_ops FW_CORE = {FW_CORE_NAME, FW_W,     rhs,      core_singular,
+                                       project,      loop_new, loop_fill};
 
 #if FW_W == 1
-void fw_kernel_sincos(double angle_rad, double *sine, double *cosine) {
+void fw_multibody_kernel_sincos(double angle_rad, double *sine, double *cosine) {
     real_sincos(angle_rad, sine, cosine);
     if (!(fabs(angle_rad) <= fw_sincos_range)) sincos(angle_rad, sine, cosine);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Part of kernel_blocks.c: the right-hand side of one closed loop of 3 to 6 bodies, both ends on the
+/* Part of kernel_blocks.c: the right-hand side of one closed loop of 3 to 6 bodies, both ends on
+   the
    ground, by cutting it at a pin in the middle into two open chains.
 
    In an open chain the angular accelerations alpha are minimal coordinates. With T_k from a body's
@@ -19,7 +20,8 @@
    the blocks; other lanes, and angles beyond fw_sincos_range, take the blocks. Error of the
    accelerations, of the largest that a joint force gives to the lightest body: 4e-16 at worst for
    masses alike, 3e-12 for masses over four decades; in the median a fifth of the blocks' or less.
-   Cost for 5 bodies: 412 arithmetic operations, brief sines included. Source: Wittenburg, Dynamics of
+   Cost for 5 bodies: 412 arithmetic operations, brief sines included. Source: Wittenburg, Dynamics
+   of
    Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_kernel.c,
    test_lanes.c. */
 
@@ -132,15 +134,15 @@ FW_INLINE bits loop_factor(const loop_body *body, const int step, const int n, c
     return sick;
 }
 
-FW_INLINE void loop_put(fw_core *k, int pin, double sign, real x, real y) {
+FW_INLINE void loop_put(fw_multibody_core *k, int pin, double sign, real x, real y) {
     real *row = WORK(row) + FW_ROW * pin + FW_X;
     row[0] = sign * x, row[1] = sign * y;
 }
 
 /* accelerations of one chain under the force (-h, v) at its tip, and the joint forces, which begin
    with that force */
-FW_INLINE void loop_results(fw_core *core, const loop_body *body, const int step, const int n,
-                            const chain *c, real h, real v, real *a) {
+FW_INLINE void loop_results(fw_multibody_core *core, const loop_body *body, const int step,
+                            const int n, const chain *c, real h, real v, real *a) {
     real alpha[HALF_MOST], ax[HALF_MOST], ay[HALF_MOST], px = {0}, py = {0};
     UNROLL for (int k = 0; k < n; k++) {
         alpha[k] = c->zb[k] + (c->zx[k] * h + c->zy[k] * v);
@@ -162,7 +164,7 @@ FW_INLINE void loop_results(fw_core *core, const loop_body *body, const int step
 }
 
 /* answers the lanes that it cannot do */
-FW_INLINE bits loop_rhs(fw_core *core, const int nl, const int nr, const real *restrict y,
+FW_INLINE bits loop_rhs(fw_multibody_core *core, const int nl, const int nr, const real *restrict y,
                         real *restrict f) {
     const struct loop *q = core->loop;
     const int n = nl + nr, nq = 3 * n;
@@ -194,22 +196,23 @@ FW_INLINE bits loop_rhs(fw_core *core, const int nl, const int nr, const real *r
 }
 
 /* one function per number of bodies, so that the registers hold what the chains share */
-static __attribute__((noinline)) bits loop_of_3(fw_core *k, const real *y, real *f) {
+static __attribute__((noinline)) bits loop_of_3(fw_multibody_core *k, const real *y, real *f) {
     return loop_rhs(k, 2, 1, y, f);
 }
-static __attribute__((noinline)) bits loop_of_4(fw_core *k, const real *y, real *f) {
+static __attribute__((noinline)) bits loop_of_4(fw_multibody_core *k, const real *y, real *f) {
     return loop_rhs(k, 2, 2, y, f);
 }
-static __attribute__((noinline)) bits loop_of_5(fw_core *k, const real *y, real *f) {
+static __attribute__((noinline)) bits loop_of_5(fw_multibody_core *k, const real *y, real *f) {
     return loop_rhs(k, 3, 2, y, f);
 }
-static __attribute__((noinline)) bits loop_of_6(fw_core *k, const real *y, real *f) {
+static __attribute__((noinline)) bits loop_of_6(fw_multibody_core *k, const real *y, real *f) {
     return loop_rhs(k, 3, 3, y, f);
 }
 
 /* the sick lanes once more by the blocks; the others keep what they have */
-static __attribute__((noinline)) void blocks_for(fw_core *k, bits sick, const real *y, real *to) {
-    const fw_kernel_plan *p = &k->plan;
+static __attribute__((noinline)) void blocks_for(fw_multibody_core *k, bits sick, const real *y,
+                                                 real *to) {
+    const fw_multibody_kernel_plan *p = &k->plan;
     real *other = k->loop->spare, *keep = other + p->ny;
     for (int i = 0; i < p->pins; i++)
         for (int c = 0; c < 2; c++)
@@ -224,18 +227,19 @@ static __attribute__((noinline)) void blocks_for(fw_core *k, bits sick, const re
         }
 }
 
-static void loop_or_blocks(fw_core *k, const real *y, real *f) {
-    static bits (*const of[])(fw_core *, const real *, real *) = {loop_of_3, loop_of_4, loop_of_5,
-                                                                  loop_of_6};
+static void loop_or_blocks(fw_multibody_core *k, const real *y, real *f) {
+    static bits (*const of[])(fw_multibody_core *, const real *, real *) = {loop_of_3, loop_of_4,
+                                                                            loop_of_5, loop_of_6};
     bits sick = of[k->loop->bodies - FW_LOOP_LEAST](k, y, f);
     if (bits_any(sick)) blocks_for(k, sick, y, f);
 }
 
 /* ---- numbers ---- */
 
-/* body k of a chain of n; `at` and `pin`: bodies and pins of the model from the ground to the cut */
-static void fill_loop_body(loop_body *r, const fw_model *m, const int *at, const int *pin, int k,
-                           int n, int lane) {
+/* body k of a chain of n; `at` and `pin`: bodies and pins of the model from the ground to the
+   cut */
+static void fill_loop_body(loop_body *r, const fw_multibody_model *m, const int *at, const int *pin,
+                           int k, int n, int lane) {
     const int b = at[k];
     const bool second = m->body[2 * pin[k]] != b; /* of the two bodies of the pin before */
     const double *ground = m->local + 4 * pin[k] + (second ? 2 : 0);
@@ -264,9 +268,9 @@ static void fill_loop_body(loop_body *r, const fw_model *m, const int *at, const
     LANE(r->by_sine, lane) = -(cx * own_x + cy * own_y) - (tx * fx + ty * fy);
 }
 
-static void loop_fill(fw_core *k, const fw_model *m, int lane) {
+static void loop_fill(fw_multibody_core *k, const fw_multibody_model *m, int lane) {
     struct loop *q = k->loop;
-    const fw_kernel_plan *p = &k->plan;
+    const fw_multibody_kernel_plan *p = &k->plan;
     const int n = q->bodies, nl = (n + 1) / 2, nr = n / 2;
     int at[HALF_MOST], pin[HALF_MOST + 1];
     for (int side = 0; side < 2; side++) {
@@ -280,9 +284,9 @@ static void loop_fill(fw_core *k, const fw_model *m, int lane) {
     }
     q->cut = p->loop_pin[nl];
     q->sign = m->body[2 * q->cut] == p->loop_body[nl + 1] ? 1 : -1;
-    LANE(q->floor, lane) = fw_pin_floor(m, q->cut);
+    LANE(q->floor, lane) = fw_multibody_pin_floor(m, q->cut);
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *s = &m->torsion[i];
+        const fw_multibody_model_torsion *s = &m->torsion[i];
         loop_pin *to = &q->pin[p->loop_torsion[i]];
         LANE(to->k, lane) += s->k, LANE(to->c, lane) += s->c;
         LANE(to->torque0, lane) +=
@@ -290,7 +294,7 @@ static void loop_fill(fw_core *k, const fw_model *m, int lane) {
     }
 }
 
-static fw_status loop_new(fw_arena *arena, fw_core *k) {
+static fw_status loop_new(fw_arena *arena, fw_multibody_core *k) {
     struct loop *q = fw_arena_one(arena, struct loop);
     FW_NEED(q);
     FW_NEED(q->spare = fw_arena_array(arena, real, (size_t)(k->plan.ny + 2 * k->plan.pins)));

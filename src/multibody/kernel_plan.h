@@ -7,7 +7,7 @@
 
 enum { FW_LOOP_LEAST = 3, FW_LOOP_MOST = 6, FW_WIDTH_MOST = 8 };
 
-typedef struct fw_kernel_plan {
+typedef struct fw_multibody_kernel_plan {
     int bodies, pins, blocks, extras, torsions;
     int nq, ny;
     bool dissipates;
@@ -17,7 +17,7 @@ typedef struct fw_kernel_plan {
     const int *arm;    /* (2 blocks) arms of row and column at the shared body, 2 pin + side */
     const int *extra;  /* (3 extras) further shared bodies: block and its two arms */
     const int *first;  /* (pins + 1) first update of each column */
-    const fw_update *update;
+    const fw_multibody_update *update;
     const int *torsion; /* (2 torsions) */
     /* one closed loop of all bodies, both ends on the ground, every spring across one of its pins:
        pin i of the loop lies between its bodies i and i + 1, of which the first and last are the
@@ -25,7 +25,7 @@ typedef struct fw_kernel_plan {
     bool loop;
     int loop_pin[FW_LOOP_MOST + 1], loop_body[FW_LOOP_MOST + 2];
     const int *loop_torsion; /* (torsions) the place of their pins in the loop */
-} fw_kernel_plan;
+} fw_multibody_kernel_plan;
 
 enum { /* records of constants */
        FW_MINV,
@@ -61,21 +61,21 @@ enum { /* records of work */
        FW_KEEP = 4      /* per pin: plain solution, sum */
 };
 
-typedef struct fw_core fw_core;
-typedef struct fw_core_ops { /* one row per width and instruction set */
+typedef struct fw_multibody_core fw_multibody_core;
+typedef struct fw_multibody_core_ops { /* one row per width and instruction set */
     const char *name;
     int width;
-    void (*rhs)(fw_core *k, const double *y, double *f);
-    bool (*singular)(fw_core *k, const double *u); /* is a pivot sick at this pose? */
-    bool (*project)(fw_core *k, double *y, double *f);
+    void (*rhs)(fw_multibody_core *k, const double *y, double *f);
+    bool (*singular)(fw_multibody_core *k, const double *u); /* is a pivot sick at this pose? */
+    bool (*project)(fw_multibody_core *k, double *y, double *f);
     /* the form of closed loops: memory, and the numbers of one lane */
-    fw_status (*loop_new)(fw_arena *arena, fw_core *k);
-    void (*loop_fill)(fw_core *k, const fw_model *model, int lane);
-} fw_core_ops;
+    fw_status (*loop_new)(fw_arena *arena, fw_multibody_core *k);
+    void (*loop_fill)(fw_multibody_core *k, const fw_multibody_model *model, int lane);
+} fw_multibody_core_ops;
 
-struct fw_core {
-    fw_kernel_plan plan;
-    const fw_core_ops *ops;
+struct fw_multibody_core {
+    fw_multibody_kernel_plan plan;
+    const fw_multibody_core_ops *ops;
     double *body, *pin, *block, *extra, *torsion; /* constants */
     double *size;                                 /* (1) largest |offset| + arms of each design */
     double *rate;                                 /* (1) y' is multiplied by it */
@@ -83,25 +83,25 @@ struct fw_core {
     struct loop *loop;                            /* NULL: by the blocks alone */
     double healthy;
     bool redundant; /* some pivot vanishes in every pose: no use to try the plain solution */
-    fw_kernel_norms norms;
+    fw_multibody_kernel_norms norms;
 };
 
-struct fw_kernel {
-    fw_core core;   /* of width 1 */
-    double *lambda; /* (2 pins) */
+struct fw_multibody_kernel {
+    fw_multibody_core core; /* of width 1 */
+    double *lambda;         /* (2 pins) */
 };
 
-bool fw_core_plain(const fw_model *model);
+bool fw_multibody_core_plain(const fw_multibody_model *model);
 /* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much
    larger that its round-off would reach fw_healthy of that, 1e-8 of its trace (which does not
    depend on the pose). The pivot of a pin is measured against it. */
-double fw_pin_floor(const fw_model *model, int pin);
+double fw_multibody_pin_floor(const fw_multibody_model *model, int pin);
 
 /* one design, and lanes of them where the processor has neither of the others */
-extern const fw_core_ops fw_core_single;
-extern const fw_core_ops fw_core_avx2, fw_core_avx512;
+extern const fw_multibody_core_ops fw_multibody_core_single;
+extern const fw_multibody_core_ops fw_multibody_core_avx2, fw_multibody_core_avx512;
 
 /* sine and cosine of one angle, as the kernel of one design takes them (kernel_vector.h) */
-void fw_kernel_sincos(double angle_rad, double *sine, double *cosine);
+void fw_multibody_kernel_sincos(double angle_rad, double *sine, double *cosine);
 
 #endif

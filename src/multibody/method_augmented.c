@@ -4,13 +4,14 @@
        [ I   A^T ] [ w      ]   [ w0 ]
        [ A  -eps ] [ lambda ] = [ b + eps lambda_before ]
 
-   in mass-weighted coordinates (multibody/dense.h), swept until A w = b. The matrix is symmetric and
+   in mass-weighted coordinates (multibody/multibody_dense.h), swept until A w = b. The matrix is
+   symmetric and
    quasi-definite whatever the rank of A, so that it always has a factorisation. Bunch and Kaufman's
    L D L^T, once per evaluation. Error: round-off times 1/sqrt(eps), refined by the sweeps. Cost
    (n + rows)^3/3. Source: Lagrange multipliers in index-1 form, Haug 1989, ch. 11; quasi-definite
    matrices, Vanderbei 1995; the proximal sweeps, Carpentier, Budhiraja and Mansard 2021. Test:
    test_methods.c. */
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
 #include "maths/lapack.h"
 
@@ -18,10 +19,10 @@ typedef struct augmented {
     double *matrix; /* (size x size), lower part */
     int *pivot;
     double *more, *start;
-    fw_lapack_space lapack;
+    fw_maths_lapack_space lapack;
 } augmented;
 
-static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
+static fw_status kernel_prepare(fw_arena *arena, fw_multibody_dense *d) {
     augmented *s;
     size_t size = (size_t)d->n + (size_t)d->rows;
     FW_NEED(s = fw_arena_one(arena, augmented));
@@ -30,10 +31,10 @@ static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
     FW_NEED(s->more = fw_arena_array(arena, double, size));
     FW_NEED(s->start = fw_arena_array(arena, double, (size_t)d->n));
     d->space = s;
-    return fw_indefinite_space(arena, d->n + d->rows, &s->lapack);
+    return fw_maths_indefinite_space(arena, d->n + d->rows, &s->lapack);
 }
 
-static bool kernel_factor(fw_dense *d) {
+static bool kernel_factor(fw_multibody_dense *d) {
     augmented *s = d->space;
     size_t n = (size_t)d->n, rows = (size_t)d->rows, size = n + rows;
     for (size_t j = 0; j < size; j++)
@@ -42,36 +43,38 @@ static bool kernel_factor(fw_dense *d) {
             if (j < n && i >= n) value = d->a[i - n + j * rows];
             s->matrix[i + j * size] = value;
         }
-    return fw_indefinite((int)size, s->matrix, s->pivot, &s->lapack);
+    return fw_maths_indefinite((int)size, s->matrix, s->pivot, &s->lapack);
 }
 
-static bool step(fw_dense *d, double *r1, double *r2) {
+static bool step(fw_multibody_dense *d, double *r1, double *r2) {
     augmented *s = d->space;
     (void)r2; /* follows r1 in memory */
-    return fw_indefinite_solve(d->n + d->rows, s->matrix, s->pivot, r1);
+    return fw_maths_indefinite_solve(d->n + d->rows, s->matrix, s->pivot, r1);
 }
 
-static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, double *lambda,
+                         int sweeps) {
     augmented *s = d->space;
-    return fw_dense_sweep(d, b, w, lambda, sweeps, s->more, s->start, step);
+    return fw_multibody_dense_sweep(d, b, w, lambda, sweeps, s->more, s->start, step);
 }
 
-const fw_dense_kernel fw_augmented_kernel = {kernel_prepare, kernel_factor, kernel_solve};
+const fw_multibody_dense_kernel fw_multibody_augmented_kernel = {kernel_prepare, kernel_factor,
+                                                                 kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism;
     (void)diags;
-    return fw_dense_model_prepare(arena, m, &fw_augmented_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_augmented_kernel, work);
 }
 
-const fw_method fw_method_augmented = {
+const fw_multibody_method fw_multibody_method_augmented = {
     .name = "augmented",
     .summary = "accelerations and multipliers from one symmetric system, regularised; redundant "
                "joints and singular positions allowed",
     .source = "Haug 1989; Carpentier, Budhiraja and Mansard 2021",
     .prepare = prepare,
-    .factor = fw_dense_model_factor,
-    .accelerate = fw_dense_model_accelerate,
-    .correct = fw_dense_model_correct,
+    .factor = fw_multibody_dense_model_factor,
+    .accelerate = fw_multibody_dense_model_accelerate,
+    .correct = fw_multibody_dense_model_correct,
 };

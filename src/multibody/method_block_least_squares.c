@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* block-least-squares: Gauss' principle and the constraints as one stacked least-squares problem in
-   mass-weighted coordinates (multibody/dense.h),
+   mass-weighted coordinates (multibody/multibody_dense.h),
 
        min over w of  | [ A / sqrt(eps) ]     [ b / sqrt(eps) ] |
                       | [ I             ] w - [ w0            ] | ,
@@ -22,7 +22,7 @@
    accelerations are the same in any case, as the minimum is unique. Source: Gauss 1829; Van Loan,
    SIAM J. Numer. Anal. 22 (1985) 851-864 (weighting); Bjorck, Numerical Methods for Least Squares
    Problems, 1996, ch. 5. Test: test_methods.c. */
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
 #include "maths/lapack.h"
 #include <math.h>
@@ -33,10 +33,10 @@ typedef struct stack {
     int *pivot;               /* (n) */
     double *right, *residual; /* (rows + n), (rows) */
     double *more, *start;     /* (n + rows), (n) */
-    fw_lapack_space lapack;
+    fw_maths_lapack_space lapack;
 } stack;
 
-static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
+static fw_status kernel_prepare(fw_arena *arena, fw_multibody_dense *d) {
     stack *p;
     size_t rows = (size_t)d->rows, n = (size_t)d->n, tall = rows + n;
     FW_NEED(p = fw_arena_one(arena, stack));
@@ -48,10 +48,10 @@ static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
     FW_NEED(p->more = fw_arena_array(arena, double, tall));
     FW_NEED(p->start = fw_arena_array(arena, double, n));
     d->space = p;
-    return fw_qr_space(arena, (int)tall, d->n, &p->lapack);
+    return fw_maths_qr_space(arena, (int)tall, d->n, &p->lapack);
 }
 
-static bool kernel_factor(fw_dense *d) {
+static bool kernel_factor(fw_multibody_dense *d) {
     stack *p = d->space;
     size_t rows = (size_t)d->rows, n = (size_t)d->n, tall = rows + n;
     const double weight = 1 / sqrt(fw_epsilon);
@@ -61,47 +61,50 @@ static bool kernel_factor(fw_dense *d) {
             p->qr[i + j * tall] = weight * d->a[i + j * rows];
         p->qr[rows + j + j * tall] = 1;
     }
-    return fw_qr((int)tall, d->n, p->qr, p->pivot, p->tau, &p->lapack);
+    return fw_maths_qr((int)tall, d->n, p->qr, p->pivot, p->tau, &p->lapack);
 }
 
-static bool step(fw_dense *d, double *r1, double *r2) {
+static bool step(fw_multibody_dense *d, double *r1, double *r2) {
     stack *p = d->space;
     int rows = d->rows, n = d->n, tall = rows + n;
     const double weight = 1 / sqrt(fw_epsilon);
     for (int i = 0; i < rows; i++)
         p->right[i] = weight * r2[i];
     memcpy(p->right + rows, r1, (size_t)n * sizeof *r1);
-    if (!fw_qr_apply(true, tall, n, p->qr, p->tau, p->right, &p->lapack) ||
-        !fw_triangle_solve(false, n, p->qr, tall, p->right))
+    if (!fw_maths_qr_apply(true, tall, n, p->qr, p->tau, p->right, &p->lapack) ||
+        !fw_maths_triangle_solve(false, n, p->qr, tall, p->right))
         return false;
     for (int j = 0; j < n; j++)
         r1[p->pivot[j]] = p->right[j];
-    fw_dense_times(d, r1, p->residual);
+    fw_multibody_dense_times(d, r1, p->residual);
     for (int i = 0; i < rows; i++)
         r2[i] = (p->residual[i] - r2[i]) / fw_epsilon;
     return true;
 }
 
-static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, double *lambda,
+                         int sweeps) {
     stack *p = d->space;
-    return fw_dense_sweep(d, b, w, lambda, sweeps, p->more, p->start, step);
+    return fw_multibody_dense_sweep(d, b, w, lambda, sweeps, p->more, p->start, step);
 }
 
-const fw_dense_kernel fw_block_least_squares_kernel = {kernel_prepare, kernel_factor, kernel_solve};
+const fw_multibody_dense_kernel fw_multibody_block_least_squares_kernel = {
+    kernel_prepare, kernel_factor, kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism;
     (void)diags;
-    return fw_dense_model_prepare(arena, m, &fw_block_least_squares_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_block_least_squares_kernel,
+                                            work);
 }
 
-const fw_method fw_method_block_least_squares = {
+const fw_multibody_method fw_multibody_method_block_least_squares = {
     .name = "block-least-squares",
     .summary = "Gauss' principle and the constraints as one stacked least-squares problem",
     .source = "Gauss 1829; Van Loan 1985; after Pennestri",
     .prepare = prepare,
-    .factor = fw_dense_model_factor,
-    .accelerate = fw_dense_model_accelerate,
-    .correct = fw_dense_model_correct,
+    .factor = fw_multibody_dense_model_factor,
+    .accelerate = fw_multibody_dense_model_accelerate,
+    .correct = fw_multibody_dense_model_correct,
 };

@@ -5,7 +5,8 @@
        A = [ A_u  A_v ]        w_u = c - X w_v,   X = A_u^-1 A_v,   c = A_u^-1 b_1,
            [ A_lu A_lv ]       (I + X^T X) w_v = w0_v - X^T (w0_u - c)
 
-   in mass-weighted coordinates (multibody/dense.h), where B = [-X; I] spans the null space of the
+   in mass-weighted coordinates (multibody/multibody_dense.h), where B = [-X; I] spans the null
+   space of the
    first rows and B^T B is the reduced mass matrix. The partition stays until it degrades: until the
    ratio of the smallest to the largest pivot of A_u is a tenth of what it was when it was chosen,
    or below 1e-3. (X says nothing about that: it stays bounded at a singular position, while A_u^-1
@@ -25,7 +26,7 @@
    Error: round-off times |X|^2. Cost rows^2 n + n_v^2 n; complete pivoting, rows^2 n, when the
    partition changes. Source: Wehage and Haug, J. Mech. Des. 104 (1982) 247-255. Test:
    test_methods.c. */
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
 #include "maths/lapack.h"
 #include <math.h>
@@ -52,7 +53,7 @@ typedef struct partition {
     bool chosen;
 } partition;
 
-static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
+static fw_status kernel_prepare(fw_arena *arena, fw_multibody_dense *d) {
     partition *p;
     size_t rows = (size_t)d->rows, n = (size_t)d->n, k = rows < n ? rows : n;
     FW_NEED(p = fw_arena_one(arena, partition));
@@ -77,7 +78,7 @@ static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
     return FW_OK;
 }
 
-static double entry(const fw_dense *d, int row, int column) {
+static double entry(const fw_multibody_dense *d, int row, int column) {
     return d->a[(size_t)row + (size_t)column * (size_t)d->rows];
 }
 
@@ -88,13 +89,14 @@ static bool contains(const int *order, int count, int value) {
 }
 
 /* a change is one of the set of independent coordinates, not of their order */
-static void choose(fw_dense *d) {
+static void choose(fw_multibody_dense *d) {
     partition *p = d->space;
     double last;
     int k = p->k;
     memcpy(p->before, p->column, (size_t)d->n * sizeof *p->column);
     memcpy(p->copy, d->g, (size_t)d->rows * (size_t)d->n * sizeof *d->g);
-    p->k = fw_complete_pivoting(d->rows, d->n, p->copy, p->row, p->column, least_pivot, &last);
+    p->k =
+        fw_maths_complete_pivoting(d->rows, d->n, p->copy, p->row, p->column, least_pivot, &last);
     p->left = d->rows - p->k;
     p->free = d->n - p->k;
     bool other = p->chosen && k != p->k;
@@ -105,17 +107,18 @@ static void choose(fw_dense *d) {
 }
 
 /* A_u = L U, X, H; false: A_u is singular */
-static bool eliminate(fw_dense *d) {
+static bool eliminate(fw_multibody_dense *d) {
     partition *p = d->space;
     size_t k = (size_t)p->k;
     for (int j = 0; j < p->k; j++)
         for (int i = 0; i < p->k; i++)
             p->lu[(size_t)i + (size_t)j * k] = entry(d, p->row[i], p->column[j]);
-    if (k > 0 && !fw_lapack_lu(p->k, p->lu, p->pivot)) return false;
+    if (k > 0 && !fw_maths_lapack_lu(p->k, p->lu, p->pivot)) return false;
     for (int j = 0; j < p->free; j++)
         for (int i = 0; i < p->k; i++)
             p->x[(size_t)i + (size_t)j * k] = entry(d, p->row[i], p->column[p->k + j]);
-    if (k > 0 && p->free > 0 && !fw_lapack_lu_solve(false, p->k, p->free, p->lu, p->pivot, p->x))
+    if (k > 0 && p->free > 0 &&
+        !fw_maths_lapack_lu_solve(false, p->k, p->free, p->lu, p->pivot, p->x))
         return false;
     for (int l = 0; l < p->left; l++)
         for (int j = 0; j < p->free; j++) {
@@ -139,7 +142,7 @@ static double condition(const partition *p) {
 }
 
 /* largest |H| in unweighted coordinates: what could be a pivot again */
-static double left_over(const fw_dense *d) {
+static double left_over(const fw_multibody_dense *d) {
     const partition *p = d->space;
     double largest = 0;
     for (int l = 0; l < p->left; l++)
@@ -149,15 +152,15 @@ static double left_over(const fw_dense *d) {
     return largest;
 }
 
-static bool degraded(const fw_dense *d) {
+static bool degraded(const fw_multibody_dense *d) {
     const partition *p = d->space;
-    double largest = fw_dense_largest(d->g, d->rows * d->n);
+    double largest = fw_multibody_dense_largest(d->g, d->rows * d->n);
     return !(condition(p) >= fmax(p->condition / worse, least_pivot)) ||
            left_over(d) > worse * least_pivot * largest;
 }
 
 /* Cholesky factors of I + X^T X and of S = H (I + X^T X)^-1 H^T + eps */
-static bool reduce(fw_dense *d) {
+static bool reduce(fw_multibody_dense *d) {
     partition *p = d->space;
     size_t k = (size_t)p->k, free = (size_t)p->free, left = (size_t)p->left;
     for (size_t j = 0; j < free; j++)
@@ -167,11 +170,11 @@ static bool reduce(fw_dense *d) {
                 sum += p->x[e + i * k] * p->x[e + j * k];
             p->mass[i + j * free] = sum;
         }
-    if (free > 0 && !fw_cholesky(p->free, p->mass)) return false;
+    if (free > 0 && !fw_maths_cholesky(p->free, p->mass)) return false;
     if (left == 0 || free == 0) return true;
     memcpy(p->y, p->h, free * left * sizeof *p->y);
     for (size_t l = 0; l < left; l++)
-        if (!fw_cholesky_solve(p->free, p->mass, p->y + l * free)) return false;
+        if (!fw_maths_cholesky_solve(p->free, p->mass, p->y + l * free)) return false;
     for (size_t j = 0; j < left; j++)
         for (size_t i = j; i < left; i++) {
             double sum = i == j ? fw_epsilon : 0;
@@ -179,10 +182,10 @@ static bool reduce(fw_dense *d) {
                 sum += p->h[e + i * free] * p->y[e + j * free];
             p->s[i + j * left] = sum;
         }
-    return fw_cholesky(p->left, p->s);
+    return fw_maths_cholesky(p->left, p->s);
 }
 
-static bool kernel_factor(fw_dense *d) {
+static bool kernel_factor(fw_multibody_dense *d) {
     partition *p = d->space;
     bool fresh = !p->chosen;
     if (fresh) choose(d);
@@ -197,11 +200,11 @@ static bool kernel_factor(fw_dense *d) {
 }
 
 /* c = A_u^-1 b_1 (k), r = h (left) */
-static bool particular(fw_dense *d, const double *b) {
+static bool particular(fw_multibody_dense *d, const double *b) {
     partition *p = d->space;
     for (int i = 0; i < p->k; i++)
         p->c[i] = b[p->row[i]];
-    if (p->k > 0 && !fw_lapack_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c)) return false;
+    if (p->k > 0 && !fw_maths_lapack_lu_solve(false, p->k, 1, p->lu, p->pivot, p->c)) return false;
     for (int l = 0; l < p->left; l++) {
         double sum = b[p->row[p->k + l]];
         for (int i = 0; i < p->k; i++)
@@ -220,7 +223,7 @@ static bool left_rows(partition *p, const double *h, int sweeps) {
             for (int j = 0; j < p->free; j++)
                 step[l] -= p->h[j + l * p->free] * p->z[j];
         }
-        if (!fw_cholesky_solve(p->left, p->s, step)) return false;
+        if (!fw_maths_cholesky_solve(p->left, p->s, step)) return false;
         for (int l = 0; l < p->left; l++) {
             p->mu[l] -= step[l];
             for (int j = 0; j < p->free; j++)
@@ -230,7 +233,7 @@ static bool left_rows(partition *p, const double *h, int sweeps) {
     return true;
 }
 
-static void place(fw_dense *d, double *w) { /* w_u = c - X z, w_v = z */
+static void place(fw_multibody_dense *d, double *w) { /* w_u = c - X z, w_v = z */
     partition *p = d->space;
     for (int i = 0; i < p->k; i++) {
         double sum = p->c[i];
@@ -242,7 +245,8 @@ static void place(fw_dense *d, double *w) { /* w_u = c - X z, w_v = z */
         w[p->column[p->k + j]] = p->z[j];
 }
 
-static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, double *lambda,
+                         int sweeps) {
     partition *p = d->space;
     if (!particular(d, b)) return false;
     for (int j = 0; j < p->free; j++) {
@@ -251,7 +255,7 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
             sum -= p->x[i + j * p->k] * (w[p->column[i]] - p->c[i]);
         p->z[j] = sum;
     }
-    if (p->free > 0 && !fw_cholesky_solve(p->free, p->mass, p->z)) return false;
+    if (p->free > 0 && !fw_maths_cholesky_solve(p->free, p->mass, p->z)) return false;
     memset(p->mu, 0, (size_t)d->rows * sizeof *p->mu);
     if (p->left > 0 && p->free > 0 && !left_rows(p, p->r, sweeps)) return false;
     /* A_u^T lambda_1 = w0_u - w_u - A_lu^T mu */
@@ -264,34 +268,35 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int l = 0; l < p->left; l++)
             force[i] -= entry(d, p->row[p->k + l], p->column[i]) * p->mu[l];
     }
-    if (p->k > 0 && !fw_lapack_lu_solve(true, p->k, 1, p->lu, p->pivot, force)) return false;
+    if (p->k > 0 && !fw_maths_lapack_lu_solve(true, p->k, 1, p->lu, p->pivot, force)) return false;
     for (int i = 0; i < d->rows; i++)
         lambda[p->row[i]] = i < p->k ? force[i] : p->mu[i - p->k];
     return true;
 }
 
-const fw_dense_kernel fw_coordinate_partitioning_kernel = {kernel_prepare, kernel_factor,
-                                                           kernel_solve};
+const fw_multibody_dense_kernel fw_multibody_coordinate_partitioning_kernel = {
+    kernel_prepare, kernel_factor, kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism;
     (void)diags;
-    return fw_dense_model_prepare(arena, m, &fw_coordinate_partitioning_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_coordinate_partitioning_kernel,
+                                            work);
 }
 
 /* the independent coordinates stay where they are, except near singular positions: what a step
    left in the motion that is about to become free would be pushed into them */
-static void correct(fw_model *m, const double *r, double *correction) {
-    fw_dense *d = m->work;
+static void correct(fw_multibody_model *m, const double *r, double *correction) {
+    fw_multibody_dense *d = m->work;
     partition *p = d->space;
     if (d->rows > 0 && condition(p) < near) {
-        fw_dense_model_correct(m, r, correction);
+        fw_multibody_dense_model_correct(m, r, correction);
         return;
     }
     memset(correction, 0, (size_t)d->n * sizeof *correction);
     if (d->rows == 0) return;
-    fw_model_pack(m, r, d->gamma);
+    fw_multibody_model_pack(m, r, d->gamma);
     for (int i = 0; i < d->rows; i++)
         d->b[i] = -d->row[i] * d->gamma[i];
     bool good = particular(d, d->b);
@@ -304,9 +309,9 @@ static void correct(fw_model *m, const double *r, double *correction) {
         correction[j] *= d->root[j];
 }
 
-static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_text *out) {
+static fw_status report(const fw_multibody_model *m, const fw_mechanism *mechanism, fw_text *out) {
     static const char *const axis[] = {"x", "y", "phi"};
-    const fw_dense *d = m->work;
+    const fw_multibody_dense *d = m->work;
     const partition *p = d->space;
     if (!p || !p->chosen) return FW_OK;
     fw_text_add(out, p->free > 0 ? "independent coordinates: " : "no independent coordinate");
@@ -325,15 +330,15 @@ static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_tex
     return fw_text_end(out);
 }
 
-const fw_method fw_method_coordinate_partitioning = {
+const fw_multibody_method fw_multibody_method_coordinate_partitioning = {
     .name = "coordinate-partitioning",
     .independent = true,
     .summary =
         "independent coordinates chosen by complete pivoting, changed when the pivots degrade",
     .source = "Wehage and Haug 1982",
     .prepare = prepare,
-    .factor = fw_dense_model_factor,
-    .accelerate = fw_dense_model_accelerate,
+    .factor = fw_multibody_dense_model_factor,
+    .accelerate = fw_multibody_dense_model_accelerate,
     .correct = correct,
     .report = report,
 };

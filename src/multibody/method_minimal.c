@@ -31,7 +31,7 @@
 static const double flat = 1e-9;
 
 typedef struct minimal {
-    fw_placing_plan plan;
+    fw_multibody_placing_plan plan;
     double *mass;        /* (nq) */
     double *n;           /* (nq x rates) N */
     double *reduced;     /* (rates x rates) Cholesky factor of N^T M N */
@@ -43,11 +43,11 @@ typedef struct minimal {
     double *determinant; /* (steps) D of a dyad */
 } minimal;
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     minimal *p;
     FW_NEED(p = fw_arena_one(arena, minimal));
-    FW_TRY(fw_placing_find(arena, m, mechanism, diags, &p->plan));
+    FW_TRY(fw_multibody_placing_find(arena, m, mechanism, diags, &p->plan));
     size_t nq = (size_t)m->nq, rates = (size_t)p->plan.rates;
     FW_NEED(p->mass = fw_arena_array(arena, double, nq));
     FW_NEED(p->n = fw_arena_array(arena, double, nq *rates));
@@ -62,17 +62,17 @@ static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mecha
         p->mass[3 * b] = p->mass[3 * b + 1] = 1 / m->minv[b];
         p->mass[3 * b + 2] = 1 / m->jinv[b];
     }
-    FW_TRY(fw_lapack_ready());
+    FW_TRY(fw_maths_lapack_ready());
     *work = p;
     return FW_OK;
 }
 
-static const double *arm_of(const fw_model *m, int block, int body) {
-    return m->arm + 4 * block + 2 * fw_side(m, block, body);
+static const double *arm_of(const fw_multibody_model *m, int block, int body) {
+    return m->arm + 4 * block + 2 * fw_layout_side(m, block, body);
 }
 
-static double sign_of(const fw_model *m, int block, int body) { /* rows are a - b */
-    return fw_side(m, block, body) == 0 ? 1 : -1;
+static double sign_of(const fw_multibody_model *m, int block, int body) { /* rows are a - b */
+    return fw_layout_side(m, block, body) == 0 ? 1 : -1;
 }
 
 static double cross(const double a[2], const double b[2]) {
@@ -80,7 +80,8 @@ static double cross(const double a[2], const double b[2]) {
 }
 
 /* from the pin that holds body i of a dyad to the pin between the two */
-static void dyad_vector(const fw_model *m, const fw_placing *s, int i, double e[2]) {
+static void dyad_vector(const fw_multibody_model *m, const fw_multibody_placing *s, int i,
+                        double e[2]) {
     const double *from = arm_of(m, s->block[2 * i], s->body[i]);
     const double *to = arm_of(m, s->block[1], s->body[i]);
     e[0] = to[0] - from[0], e[1] = to[1] - from[1];
@@ -89,8 +90,8 @@ static void dyad_vector(const fw_model *m, const fw_placing *s, int i, double e[
 /* ---- G d = right ---- */
 
 /* velocity that a body must have at a pin to a placed one */
-static void point_rate(const fw_model *m, const double *d, const double *right, int block, int body,
-                       double rate[2]) {
+static void point_rate(const fw_multibody_model *m, const double *d, const double *right, int block,
+                       int body, double rate[2]) {
     int other = fw_across(m, block, body);
     const double *v = d + 3 * other, *s = arm_of(m, block, other);
     double sign = sign_of(m, block, body);
@@ -98,16 +99,16 @@ static void point_rate(const fw_model *m, const double *d, const double *right, 
     rate[1] = v[1] + v[2] * s[0] + sign * right[2 * block + 1];
 }
 
-static void set_rate(const fw_model *m, double *d, int block, int body, const double point[2],
-                     double turn) {
+static void set_rate(const fw_multibody_model *m, double *d, int block, int body,
+                     const double point[2], double turn) {
     const double *s = arm_of(m, block, body);
     d[3 * body] = point[0] + turn * s[1];
     d[3 * body + 1] = point[1] - turn * s[0];
     d[3 * body + 2] = turn;
 }
 
-static void sweep_dyad(const fw_model *m, const fw_placing *s, double determinant,
-                       const double *right, double *d) {
+static void sweep_dyad(const fw_multibody_model *m, const fw_multibody_placing *s,
+                       double determinant, const double *right, double *d) {
     double p[2][2], e[2][2];
     for (int i = 0; i < 2; i++) {
         point_rate(m, d, right, s->block[2 * i], s->body[i], p[i]);
@@ -123,10 +124,10 @@ static void sweep_dyad(const fw_model *m, const fw_placing *s, double determinan
 }
 
 /* d (nq + 3) with G d = right, the independent angles at `rates` */
-static void sweep(const fw_model *m, const minimal *p, const double *right, const double *rates,
-                  double *d) {
+static void sweep(const fw_multibody_model *m, const minimal *p, const double *right,
+                  const double *rates, double *d) {
     for (int i = 0; i < p->plan.count; i++) {
-        const fw_placing *s = &p->plan.step[i];
+        const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
             sweep_dyad(m, s, p->determinant[i], right, d);
             continue;
@@ -149,9 +150,9 @@ static void sweep(const fw_model *m, const minimal *p, const double *right, cons
 
 /* ---- factor: N and N^T M N at the pose ---- */
 
-static bool determinants(const fw_model *m, minimal *p) {
+static bool determinants(const fw_multibody_model *m, minimal *p) {
     for (int i = 0; i < p->plan.count; i++) {
-        const fw_placing *s = &p->plan.step[i];
+        const fw_multibody_placing *s = &p->plan.step[i];
         double e[2][2];
         if (!s->dyad) continue;
         for (int k = 0; k < 2; k++)
@@ -163,7 +164,7 @@ static bool determinants(const fw_model *m, minimal *p) {
     return true;
 }
 
-static bool factor(fw_model *m) {
+static bool factor(fw_multibody_model *m) {
     minimal *p = m->work;
     size_t nq = (size_t)m->nq;
     int rates = p->plan.rates;
@@ -184,13 +185,14 @@ static bool factor(fw_model *m) {
                 sum += p->mass[j] * a[j] * b[j];
             p->reduced[l + k * rates] = sum;
         }
-    return rates == 0 || (isfinite(p->reduced[0]) && fw_cholesky(rates, p->reduced));
+    return rates == 0 || (isfinite(p->reduced[0]) && fw_maths_cholesky(rates, p->reduced));
 }
 
 /* ---- multipliers ---- */
 
 /* takes the force of a pin on `body` off the body across */
-static void pass_on(const fw_model *m, int block, int body, const double pull[2], double *force) {
+static void pass_on(const fw_multibody_model *m, int block, int body, const double pull[2],
+                    double *force) {
     int other = fw_across(m, block, body);
     const double *s = arm_of(m, block, other);
     force[3 * other] += pull[0];
@@ -198,15 +200,15 @@ static void pass_on(const fw_model *m, int block, int body, const double pull[2]
     force[3 * other + 2] += cross(s, pull);
 }
 
-static void set_lambda(const fw_model *m, int block, int body, const double pull[2],
+static void set_lambda(const fw_multibody_model *m, int block, int body, const double pull[2],
                        double *lambda) {
     double sign = sign_of(m, block, body);
     lambda[2 * block] = sign * pull[0];
     lambda[2 * block + 1] = sign * pull[1];
 }
 
-static void dyad_lambda(const fw_model *m, const fw_placing *s, double determinant, double *force,
-                        double *lambda) {
+static void dyad_lambda(const fw_multibody_model *m, const fw_multibody_placing *s,
+                        double determinant, double *force, double *lambda) {
     double e[2][2], moment[2];
     for (int i = 0; i < 2; i++) { /* about the pin that holds it */
         const double *f = force + 3 * s->body[i];
@@ -226,9 +228,10 @@ static void dyad_lambda(const fw_model *m, const fw_placing *s, double determina
 }
 
 /* G^T lambda = force (nq + 3, used up), last placed first */
-static void multipliers(const fw_model *m, const minimal *p, double *force, double *lambda) {
+static void multipliers(const fw_multibody_model *m, const minimal *p, double *force,
+                        double *lambda) {
     for (int i = p->plan.count - 1; i >= 0; i--) {
-        const fw_placing *s = &p->plan.step[i];
+        const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
             dyad_lambda(m, s, p->determinant[i], force, lambda);
             continue;
@@ -246,7 +249,7 @@ static void multipliers(const fw_model *m, const minimal *p, double *force, doub
     }
 }
 
-static void accelerate(fw_model *m, const double *gamma, double *a, double *lambda) {
+static void accelerate(fw_multibody_model *m, const double *gamma, double *a, double *lambda) {
     minimal *p = m->work;
     size_t nq = (size_t)m->nq;
     int rates = p->plan.rates;
@@ -259,7 +262,8 @@ static void accelerate(fw_model *m, const double *gamma, double *a, double *lamb
         for (size_t j = 0; j < nq; j++)
             p->rates[k] += n[j] * p->mass[j] * (a[j] - p->part[j]);
     }
-    if (rates > 0 && !fw_cholesky_solve(rates, p->reduced, p->rates)) p->rates[0] = (double)NAN;
+    if (rates > 0 && !fw_maths_cholesky_solve(rates, p->reduced, p->rates))
+        p->rates[0] = (double)NAN;
     sweep(m, p, p->right, p->rates, p->part);
     memset(p->force, 0, (nq + 3) * sizeof *p->force);
     for (size_t j = 0; j < nq; j++) {
@@ -270,7 +274,7 @@ static void accelerate(fw_model *m, const double *gamma, double *a, double *lamb
 }
 
 /* the independent angles stay */
-static void correct(fw_model *m, const double *r, double *d) {
+static void correct(fw_multibody_model *m, const double *r, double *d) {
     minimal *p = m->work;
     for (int i = 0; i < 2 * m->nblock; i++)
         p->right[i] = -r[i];
@@ -280,20 +284,22 @@ static void correct(fw_model *m, const double *r, double *d) {
 
 /* ---- positions ---- */
 
-static void turn_arms(fw_model *m, const fw_placing *s, int i, const double *u) {
+static void turn_arms(fw_multibody_model *m, const fw_multibody_placing *s, int i,
+                      const double *u) {
     int body = s->body[i];
     sincos(m->origin[3 * body + 2] + u[3 * body + 2], &m->sine[body], &m->cosine[body]);
 }
 
-static void arm_at(const fw_model *m, int block, int body, double arm[2]) {
-    const double *local = m->local + 4 * block + 2 * fw_side(m, block, body);
+static void arm_at(const fw_multibody_model *m, int block, int body, double arm[2]) {
+    const double *local = m->local + 4 * block + 2 * fw_layout_side(m, block, body);
     double c = m->cosine[body], s = m->sine[body];
     arm[0] = c * local[0] - s * local[1];
     arm[1] = s * local[0] + c * local[1];
 }
 
 /* displacement of a body plus its arm at a pin, from the placed body across */
-static void point_at(const fw_model *m, const double *u, int block, int body, double point[2]) {
+static void point_at(const fw_multibody_model *m, const double *u, int block, int body,
+                     double point[2]) {
     int other = fw_across(m, block, body);
     double arm[2], sign = sign_of(m, block, body);
     arm_at(m, block, other, arm);
@@ -302,7 +308,8 @@ static void point_at(const fw_model *m, const double *u, int block, int body, do
             arm[k] - sign * m->offset[2 * block + k] + (other < m->nbody ? u[3 * other + k] : 0);
 }
 
-static void put(fw_model *m, const fw_placing *s, int i, const double point[2], double *u) {
+static void put(fw_multibody_model *m, const fw_multibody_placing *s, int i, const double point[2],
+                double *u) {
     double arm[2];
     int body = s->body[i];
     turn_arms(m, s, i, u);
@@ -313,7 +320,7 @@ static void put(fw_model *m, const fw_placing *s, int i, const double point[2], 
 
 /* e_1 - e_2 = h with the lengths of the e: two circles, the side of the guess. The bodies turn by
    the angles between the guessed and the found vectors. false: out of reach, or flat. */
-static bool close_dyad(fw_model *m, const fw_placing *s, double *u) {
+static bool close_dyad(fw_multibody_model *m, const fw_multibody_placing *s, double *u) {
     double point[2][2], guess[2][2], e[2][2];
     for (int i = 0; i < 2; i++) {
         double from[2], to[2];
@@ -345,12 +352,13 @@ static bool close_dyad(fw_model *m, const fw_placing *s, double *u) {
     return true;
 }
 
-static double rotation(const fw_model *m, const double *u, int body) {
+static double rotation(const fw_multibody_model *m, const double *u, int body) {
     return body < m->nbody ? u[3 * body + 2] : 0;
 }
 
 /* what the turns keep now: angle of b less that of a, counted from the origin */
-static void turn_values(const fw_model *m, minimal *p, const double *u, const double *psi) {
+static void turn_values(const fw_multibody_model *m, minimal *p, const double *u,
+                        const double *psi) {
     for (int i = 0; i < p->plan.count; i++) {
         int turn = p->plan.step[i].turn;
         if (turn == FW_NONE) continue;
@@ -359,9 +367,9 @@ static void turn_values(const fw_model *m, minimal *p, const double *u, const do
     }
 }
 
-static bool place_all(fw_model *m, minimal *p, double *u) {
+static bool place_all(fw_multibody_model *m, minimal *p, double *u) {
     for (int i = 0; i < p->plan.count; i++) {
-        const fw_placing *s = &p->plan.step[i];
+        const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
             if (!close_dyad(m, s, u)) return false;
             continue;
@@ -378,14 +386,14 @@ static bool place_all(fw_model *m, minimal *p, double *u) {
     return true;
 }
 
-static bool close(fw_model *m, double t, double *u) {
+static bool close(fw_multibody_model *m, double t, double *u) {
     minimal *p = m->work;
-    double norm = fw_model_residual(m, t, u, p->right);
+    double norm = fw_multibody_model_residual(m, t, u, p->right);
     if (!(norm < (double)INFINITY)) return false;
     turn_values(m, p, u, p->right);
     if (!place_all(m, p, u)) return false;
     for (int i = 0;; i++) {
-        norm = fw_model_residual(m, t, u, p->right);
+        norm = fw_multibody_model_residual(m, t, u, p->right);
         if (!(norm < (double)INFINITY)) return false;
         if (norm <= 2 * DBL_EPSILON * m->size || i == 2) break;
         if (!determinants(m, p)) return false;
@@ -398,7 +406,7 @@ static bool close(fw_model *m, double t, double *u) {
     return norm <= 1e-12;
 }
 
-static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_text *out) {
+static fw_status report(const fw_multibody_model *m, const fw_mechanism *mechanism, fw_text *out) {
     static const char *const axis[] = {"x", "y", "phi"};
     const minimal *p = m->work;
     int dyads = 0;
@@ -412,7 +420,7 @@ static fw_status report(const fw_model *m, const fw_mechanism *mechanism, fw_tex
     return fw_text_end(out);
 }
 
-const fw_method fw_method_minimal = {
+const fw_multibody_method fw_multibody_method_minimal = {
     .name = "minimal",
     .independent = true,
     .summary =

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* qr: A^T P = [Q_1 Q_2] [R; 0] with column pivoting. N = M^-1/2 Q_2 spans the null space of G and
    carries the independent rates c_2 = Q_2^T w0, whose reduced mass matrix N^T M N is I in
-   mass-weighted coordinates (multibody/dense.h). In the range, w = Q_1 y, the constraints ask
+   mass-weighted coordinates (multibody/multibody_dense.h). In the range, w = Q_1 y, the
+   constraints ask
    R^T y = P^T b, y closest to Q_1^T w0:
 
        y += R dl,   (R^T R + eps) dl = P^T b - R^T y,   lambda = -P sum dl,
@@ -11,7 +12,7 @@
    |R| |R^-1|. Cost 2 n rows^2 + (4/3) rows^3 and 4 n rows per solve. Source: Kim and Vanderploeg,
    J. Mech. Transm. Autom. Des. 108 (1986) 183-188; Golub and Van Loan, section 5.4. Test:
    test_methods.c. */
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
 #include "maths/lapack.h"
 #include <math.h>
@@ -24,10 +25,10 @@ typedef struct ranges {
     double *damped;     /* ((k + rows) x rows) */
     double *damped_tau, *diagonal;
     double *c, *dl, *sorted; /* (n), (rows), (rows) */
-    fw_lapack_space lapack, damped_lapack;
+    fw_maths_lapack_space lapack, damped_lapack;
 } ranges;
 
-static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
+static fw_status kernel_prepare(fw_arena *arena, fw_multibody_dense *d) {
     ranges *p;
     size_t rows = (size_t)d->rows, n = (size_t)d->n;
     FW_NEED(p = fw_arena_one(arena, ranges));
@@ -41,17 +42,17 @@ static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
     for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++)
         FW_NEED(*vectors[i] = fw_arena_array(arena, double, rows));
     d->space = p;
-    FW_TRY(fw_qr_space(arena, d->n, d->rows, &p->lapack));
-    return fw_qr_space(arena, p->k + d->rows, d->rows, &p->damped_lapack);
+    FW_TRY(fw_maths_qr_space(arena, d->n, d->rows, &p->lapack));
+    return fw_maths_qr_space(arena, p->k + d->rows, d->rows, &p->damped_lapack);
 }
 
-static bool kernel_factor(fw_dense *d) {
+static bool kernel_factor(fw_multibody_dense *d) {
     ranges *p = d->space;
     size_t rows = (size_t)d->rows, n = (size_t)d->n, k = (size_t)p->k, tall = k + rows;
     for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j < n; j++)
             p->qr[j + i * n] = d->a[i + j * rows];
-    if (!fw_qr(d->n, d->rows, p->qr, p->pivot, p->tau, &p->lapack)) return false;
+    if (!fw_maths_qr(d->n, d->rows, p->qr, p->pivot, p->tau, &p->lapack)) return false;
     memset(p->damped, 0, tall * rows * sizeof *p->damped);
     for (size_t j = 0; j < rows; j++) {
         for (size_t i = 0; i < k && i <= j; i++)
@@ -60,8 +61,8 @@ static bool kernel_factor(fw_dense *d) {
     }
     for (size_t i = 0; i < k; i++)
         p->diagonal[i] = fabs(p->qr[i + i * n]);
-    fw_dense_watch(d, p->diagonal, p->k, fw_round_off);
-    return fw_qr((int)tall, d->rows, p->damped, p->again, p->damped_tau, &p->damped_lapack);
+    fw_multibody_dense_monitor(d, p->diagonal, p->k, fw_round_off);
+    return fw_maths_qr((int)tall, d->rows, p->damped, p->again, p->damped_tau, &p->damped_lapack);
 }
 
 /* dl = (R^T R + eps)^-1 dl, with R^T R + eps = P' T^T T P'^T */
@@ -69,20 +70,21 @@ static bool damped_solve(ranges *p, int rows, double *dl) {
     int tall = p->k + rows;
     for (int i = 0; i < rows; i++)
         p->sorted[i] = dl[p->again[i]];
-    if (!fw_triangle_solve(true, rows, p->damped, tall, p->sorted) ||
-        !fw_triangle_solve(false, rows, p->damped, tall, p->sorted))
+    if (!fw_maths_triangle_solve(true, rows, p->damped, tall, p->sorted) ||
+        !fw_maths_triangle_solve(false, rows, p->damped, tall, p->sorted))
         return false;
     for (int i = 0; i < rows; i++)
         dl[p->again[i]] = p->sorted[i];
     return true;
 }
 
-static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, double *lambda,
+                         int sweeps) {
     ranges *p = d->space;
     size_t n = (size_t)d->n;
     double *y = p->c, size = 0;
     memcpy(p->c, w, n * sizeof *w);
-    if (!fw_qr_apply(true, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
+    if (!fw_maths_qr_apply(true, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
     memset(lambda, 0, (size_t)d->rows * sizeof *lambda);
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int i = 0; i < d->rows; i++) { /* P^T b - R^T y */
@@ -91,7 +93,7 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
                 sum -= p->qr[(size_t)j + (size_t)i * n] * y[j];
             p->dl[i] = sum;
         }
-        double left = fw_dense_largest(p->dl, d->rows);
+        double left = fw_multibody_dense_largest(p->dl, d->rows);
         if (sweep == 0) size = left;
         if (sweep > 1 && left <= 1e-14 * size) break;
         if (!damped_solve(p, d->rows, p->dl)) return false;
@@ -101,27 +103,28 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         for (int i = 0; i < d->rows; i++)
             lambda[p->pivot[i]] -= p->dl[i];
     }
-    if (!fw_qr_apply(false, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
+    if (!fw_maths_qr_apply(false, d->n, d->rows, p->qr, p->tau, p->c, &p->lapack)) return false;
     memcpy(w, p->c, n * sizeof *w);
     return true;
 }
 
-const fw_dense_kernel fw_qr_kernel = {kernel_prepare, kernel_factor, kernel_solve};
+const fw_multibody_dense_kernel fw_multibody_qr_kernel = {kernel_prepare, kernel_factor,
+                                                          kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism;
     (void)diags;
-    return fw_dense_model_prepare(arena, m, &fw_qr_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_qr_kernel, work);
 }
 
-const fw_method fw_method_qr = {
+const fw_multibody_method fw_multibody_method_qr = {
     .name = "qr",
     .summary = "independent rates along the null space from Householder's QR of the Jacobian",
     .source = "Kim and Vanderploeg 1986",
     .prepare = prepare,
-    .factor = fw_dense_model_factor,
-    .accelerate = fw_dense_model_accelerate,
-    .correct = fw_dense_model_correct,
-    .report = fw_dense_model_report,
+    .factor = fw_multibody_dense_model_factor,
+    .accelerate = fw_multibody_dense_model_accelerate,
+    .correct = fw_multibody_dense_model_correct,
+    .report = fw_multibody_dense_model_report,
 };

@@ -4,12 +4,13 @@
        a = a0 + M^-1/2 (G M^-1/2)^+ (-gamma - G a0),   lambda = -(A A^T)^+ (b - A w0)
 
    with the Moore-Penrose inverse from the singular value decomposition A = U diag(s) V^T: the
-   reciprocal of s is s * share(s^2) (multibody/dense.h), which is 1/s to round-off where s > 1e-3
+   reciprocal of s is s * share(s^2) (multibody/multibody_dense.h), which is 1/s to round-off where
+   s > 1e-3
    and 0 where s is round-off, without a jump between the two. Balancing the rows changes
    neither a nor, at full rank, lambda. Error: round-off times s_1/s_r. Cost about 6 rows^2 n +
    20 rows^3 by QR iteration. Source: Udwadia and Kalaba, Proc. R. Soc. A 439 (1992) 407-410.
    Test: test_methods.c. */
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
 #include "maths/lapack.h"
 #include <string.h>
@@ -18,10 +19,10 @@ typedef struct pseudo {
     int k;                     /* singular values */
     double *copy, *s, *u, *vt; /* u (rows x k), vt (k x n) */
     double *right;
-    fw_lapack_space lapack;
+    fw_maths_lapack_space lapack;
 } pseudo;
 
-static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
+static fw_status kernel_prepare(fw_arena *arena, fw_multibody_dense *d) {
     pseudo *p;
     size_t rows = (size_t)d->rows, n = (size_t)d->n;
     FW_NEED(p = fw_arena_one(arena, pseudo));
@@ -33,20 +34,21 @@ static fw_status kernel_prepare(fw_arena *arena, fw_dense *d) {
     FW_NEED(p->vt = fw_arena_array(arena, double, k *n));
     FW_NEED(p->right = fw_arena_array(arena, double, rows));
     d->space = p;
-    return fw_svd_space(arena, d->rows, d->n, false, &p->lapack);
+    return fw_maths_svd_space(arena, d->rows, d->n, false, &p->lapack);
 }
 
-static bool kernel_factor(fw_dense *d) {
+static bool kernel_factor(fw_multibody_dense *d) {
     pseudo *p = d->space;
     memcpy(p->copy, d->a, (size_t)d->rows * (size_t)d->n * sizeof *d->a);
-    if (!fw_svd(d->rows, d->n, false, p->copy, p->s, p->u, p->vt, &p->lapack)) return false;
-    fw_dense_watch(d, p->s, p->k, fw_round_off);
+    if (!fw_maths_svd(d->rows, d->n, false, p->copy, p->s, p->u, p->vt, &p->lapack)) return false;
+    fw_multibody_dense_monitor(d, p->s, p->k, fw_round_off);
     return true;
 }
 
-static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda, int sweeps) {
+static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, double *lambda,
+                         int sweeps) {
     pseudo *p = d->space;
-    fw_dense_times(d, w, p->right);
+    fw_multibody_dense_times(d, w, p->right);
     for (int i = 0; i < d->rows; i++) {
         p->right[i] = b[i] - p->right[i];
         lambda[i] = 0;
@@ -56,7 +58,7 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
         double c = 0;
         for (int j = 0; j < d->rows; j++)
             c += u[j] * p->right[j];
-        c *= fw_dense_share(p->s[i] * p->s[i], sweeps);
+        c *= fw_multibody_dense_share(p->s[i] * p->s[i], sweeps);
         for (int j = 0; j < d->rows; j++)
             lambda[j] -= c * u[j];
         for (int j = 0; j < d->n; j++)
@@ -65,22 +67,23 @@ static bool kernel_solve(fw_dense *d, const double *b, double *w, double *lambda
     return true;
 }
 
-const fw_dense_kernel fw_udwadia_kalaba_kernel = {kernel_prepare, kernel_factor, kernel_solve};
+const fw_multibody_dense_kernel fw_multibody_udwadia_kalaba_kernel = {kernel_prepare, kernel_factor,
+                                                                      kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_model *m, const fw_mechanism *mechanism,
+static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
                          fw_diags *diags, void **work) {
     (void)mechanism;
     (void)diags;
-    return fw_dense_model_prepare(arena, m, &fw_udwadia_kalaba_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_udwadia_kalaba_kernel, work);
 }
 
-const fw_method fw_method_udwadia_kalaba = {
+const fw_multibody_method fw_multibody_method_udwadia_kalaba = {
     .name = "udwadia-kalaba",
     .summary = "explicit equation of constrained motion with the pseudo-inverse of G M^-1/2",
     .source = "Udwadia and Kalaba 1992",
     .prepare = prepare,
-    .factor = fw_dense_model_factor,
-    .accelerate = fw_dense_model_accelerate,
-    .correct = fw_dense_model_correct,
-    .report = fw_dense_model_report,
+    .factor = fw_multibody_dense_model_factor,
+    .accelerate = fw_multibody_dense_model_accelerate,
+    .correct = fw_multibody_dense_model_correct,
+    .report = fw_multibody_dense_model_report,
 };

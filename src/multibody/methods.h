@@ -4,8 +4,9 @@
 #define FW_MULTIBODY_METHODS_H
 #include "multibody/model.h"
 
-extern const fw_method fw_method_chain, fw_method_augmented, fw_method_coordinate_partitioning,
-    fw_method_udwadia_kalaba, fw_method_svd, fw_method_qr, fw_method_schur,
-    fw_method_block_least_squares, fw_method_minimal;
+extern const fw_multibody_method fw_multibody_method_chain, fw_multibody_method_augmented,
+    fw_multibody_method_coordinate_partitioning, fw_multibody_method_udwadia_kalaba,
+    fw_multibody_method_svd, fw_multibody_method_qr, fw_multibody_method_schur,
+    fw_multibody_method_block_least_squares, fw_multibody_method_minimal;
 
 #endif

@@ -23,9 +23,9 @@ typedef struct links { /* blocks of each body: item[first[b] .. first[b + 1]) */
 } links;
 
 typedef struct search {
-    const fw_model *m;
+    const fw_multibody_model *m;
     links links;
-    fw_placing_plan *plan;
+    fw_multibody_placing_plan *plan;
     bool *placed; /* (nbody + 1) */
     int *held;    /* (nbody) pins to placed bodies */
     int *queue;   /* bodies to look at */
@@ -34,7 +34,7 @@ typedef struct search {
     int deepest, culprit; /* most steps reached, and the body that stopped it there */
 } search;
 
-static fw_status link_bodies(fw_arena *arena, const fw_model *m, links *l) {
+static fw_status link_bodies(fw_arena *arena, const fw_multibody_model *m, links *l) {
     size_t bodies = (size_t)m->nbody + 1;
     FW_NEED(l->first = fw_arena_array(arena, int, bodies + 1));
     FW_NEED(l->item = fw_arena_array(arena, int, 2 * (size_t)m->nblock));
@@ -49,12 +49,12 @@ static fw_status link_bodies(fw_arena *arena, const fw_model *m, links *l) {
     return FW_OK;
 }
 
-static bool is_pin(const fw_model *m, int block) {
+static bool is_pin(const fw_multibody_model *m, int block) {
     return m->block[block].rows == FW_ROWS_PIN;
 }
 
 /* a body's block of this kind to a placed body, or FW_NONE */
-static int holding(const search *s, int body, fw_rows rows) {
+static int holding(const search *s, int body, fw_multibody_rows rows) {
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
         int block = s->links.item[i];
         if (s->m->block[block].rows == rows && s->placed[fw_across(s->m, block, body)])
@@ -75,12 +75,12 @@ static void mark_placed(search *s, int body, int change) {
     }
 }
 
-static int blocks_of(const fw_placing *step) {
+static int blocks_of(const fw_multibody_placing *step) {
     return step->dyad ? 3 : step->loose ? 0 : 1 + (step->turn != FW_NONE);
 }
 
-static void add_step(search *s, fw_placing step) {
-    fw_placing_plan *plan = s->plan;
+static void add_step(search *s, fw_multibody_placing step) {
+    fw_multibody_placing_plan *plan = s->plan;
     for (int axis = step.loose ? 0 : 2; axis < 3 && step.rate != FW_NONE; axis++) {
         plan->rate_body[plan->rates] = step.body[0];
         plan->rate_axis[plan->rates++] = axis;
@@ -95,9 +95,9 @@ static void add_step(search *s, fw_placing step) {
 }
 
 static void take_back(search *s, int count) {
-    fw_placing_plan *plan = s->plan;
+    fw_multibody_placing_plan *plan = s->plan;
     while (plan->count > count) {
-        const fw_placing *step = &plan->step[--plan->count];
+        const fw_multibody_placing *step = &plan->step[--plan->count];
         if (step->rate != FW_NONE) plan->rates -= step->loose ? 3 : 1;
         s->used -= blocks_of(step);
         for (int i = 0; i <= step->dyad; i++)
@@ -115,15 +115,15 @@ static bool stopped(search *s, int body) {
 
 /* the forced move at a body; false: it is held by two placed bodies, so nothing can be solved */
 static bool look_at(search *s, int body) {
-    const fw_model *m = s->m;
+    const fw_multibody_model *m = s->m;
     if (s->placed[body] || s->held[body] == 0) return true;
     if (s->held[body] > 1) return stopped(s, body);
     int pin = holding(s, body, FW_ROWS_PIN), turn = holding(s, body, FW_ROWS_TURN);
     if (turn != FW_NONE) {
-        add_step(s, (fw_placing){.body = {body, FW_NONE},
-                                 .block = {pin, FW_NONE, FW_NONE},
-                                 .turn = turn,
-                                 .rate = FW_NONE});
+        add_step(s, (fw_multibody_placing){.body = {body, FW_NONE},
+                                           .block = {pin, FW_NONE, FW_NONE},
+                                           .turn = turn,
+                                           .rate = FW_NONE});
         return true;
     }
     for (int i = s->links.first[body]; i < s->links.first[body + 1]; i++) {
@@ -132,11 +132,11 @@ static bool look_at(search *s, int body) {
             continue;
         int end = holding(s, other, FW_ROWS_PIN);
         if (holding(s, other, FW_ROWS_TURN) != FW_NONE) continue; /* led, at its own turn */
-        add_step(s, (fw_placing){.dyad = true,
-                                 .body = {body, other},
-                                 .block = {pin, block, end},
-                                 .turn = FW_NONE,
-                                 .rate = FW_NONE});
+        add_step(s, (fw_multibody_placing){.dyad = true,
+                                           .body = {body, other},
+                                           .block = {pin, block, end},
+                                           .turn = FW_NONE,
+                                           .rate = FW_NONE});
         return true;
     }
     return true;
@@ -181,11 +181,11 @@ static bool find_rest(search *s) { /* depth: one level per body that moves by it
     for (int b = first; b != FW_NONE && s->tries < FW_TRIES; b = next_body(s, pins, b + 1)) {
         int before = s->plan->count, pin = pins ? holding(s, b, FW_ROWS_PIN) : FW_NONE;
         s->tries++;
-        add_step(s, (fw_placing){.body = {b, FW_NONE},
-                                 .block = {pin, FW_NONE, FW_NONE},
-                                 .turn = FW_NONE,
-                                 .rate = s->plan->rates,
-                                 .loose = !pins});
+        add_step(s, (fw_multibody_placing){.body = {b, FW_NONE},
+                                           .block = {pin, FW_NONE, FW_NONE},
+                                           .turn = FW_NONE,
+                                           .rate = s->plan->rates,
+                                           .loose = !pins});
         if (find_rest(s)) return true;
         take_back(s, before);
     }
@@ -201,12 +201,13 @@ static fw_status refuse(fw_diags *diags, fw_place place, const char *what, const
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-static fw_status refuse_joint(const fw_mechanism *m, fw_diags *diags, const fw_block *b) {
-    if (b->tie != FW_NONE) return refuse(diags, m->tie[b->tie].place, "joint", m->tie[b->tie].id);
+static fw_status refuse_joint(const fw_mechanism *m, fw_diags *diags, const fw_multibody_block *b) {
+    if (b->joint != FW_NONE)
+        return refuse(diags, m->joint[b->joint].place, "joint", m->joint[b->joint].id);
     if (b->driver != FW_NONE)
         return refuse(diags, m->driver[b->driver].place, "driver", m->driver[b->driver].id);
     const fw_device *d = m->device;
-    fw_place place = d && b->pin < d->njoint ? d->joint[b->pin].place : (fw_place){0};
+    fw_place place = d && b->pin < d->nrevolute ? d->revolute[b->pin].place : (fw_place){0};
     return refuse(diags, place, "joint", m->pin[b->pin].id);
 }
 
@@ -219,7 +220,7 @@ static fw_status refuse_body(const fw_mechanism *m, fw_diags *diags, int body) {
 /* a joint that is no pin, or the second pin between two bodies, of those the one that comes later
    in the file; FW_NONE: all fit */
 static int misfit(const search *s) {
-    const fw_model *m = s->m;
+    const fw_multibody_model *m = s->m;
     for (int i = 0; i < m->nblock; i++) {
         if (m->block[i].rows == FW_ROWS_TURN) continue;
         if (!is_pin(m, i)) return i;
@@ -234,12 +235,13 @@ static int misfit(const search *s) {
     return FW_NONE;
 }
 
-fw_status fw_placing_find(fw_arena *arena, const fw_model *m, const fw_mechanism *mechanism,
-                          fw_diags *diags, fw_placing_plan *plan) {
+fw_status fw_multibody_placing_find(fw_arena *arena, const fw_multibody_model *m,
+                                    const fw_mechanism *mechanism, fw_diags *diags,
+                                    fw_multibody_placing_plan *plan) {
     search s = {.m = m, .plan = plan, .dof = m->nq - m->rows};
     size_t bodies = (size_t)m->nbody + 1;
-    *plan = (fw_placing_plan){0};
-    FW_NEED(plan->step = fw_arena_array(arena, fw_placing, bodies));
+    *plan = (fw_multibody_placing_plan){0};
+    FW_NEED(plan->step = fw_arena_array(arena, fw_multibody_placing, bodies));
     FW_NEED(plan->rate_body = fw_arena_array(arena, int, 3 * bodies));
     FW_NEED(plan->rate_axis = fw_arena_array(arena, int, 3 * bodies));
     FW_NEED(s.placed = fw_arena_array(arena, bool, bodies));

@@ -9,10 +9,10 @@
 #include "effects/effects.h"
 #include "mechanism/mechanism.h"
 
-typedef struct fw_method_row { /* feeds --help and reference pages */
+typedef struct fw_multibody_method_row { /* feeds --help and reference pages */
     const char *name, *summary;
-} fw_method_row;
+} fw_multibody_method_row;
 /* the i-th method; name NULL behind the last */
-fw_method_row fw_method_at(size_t i);
+fw_multibody_method_row fw_multibody_method_at(size_t i);
 
 #endif

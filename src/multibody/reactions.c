@@ -2,21 +2,21 @@
 /* Forces of the joints from the multipliers that the model holds. */
 #include "multibody/reactions.h"
 
-double fw_newton(const fw_model *m) {
-    const fw_scale s = m->scale;
+double fw_multibody_newton(const fw_multibody_model *m) {
+    const fw_multibody_scale s = m->scale;
     return s.mass_kg * s.length_m / (s.time_s * s.time_s);
 }
 
 /* force of every pin on its body b, world axes: the multipliers at the last right-hand side, and
    what the element that stands for the pin does to the body of its last port */
-void fw_pin_forces(const fw_model *m, double *out) {
-    double unit = fw_newton(m);
+void fw_multibody_pin_forces(const fw_multibody_model *m, double *out) {
+    double unit = fw_multibody_newton(m);
     for (int i = 0; i < m->npin; i++) {
         int block = m->pin_block[i], element = m->pin_element[i];
         for (int k = 0; k < 2; k++)
             out[2 * i + k] = block != FW_NONE ? unit * m->lambda[2 * block + k] : 0;
         if (element == FW_NONE) continue;
-        const fw_model_element *e = &m->element[element];
+        const fw_multibody_model_element *e = &m->element[element];
         for (int k = 0; k < 2; k++)
             out[2 * i + k] += e->f[3 * (e->own->ports - 1) + k];
     }
@@ -25,12 +25,12 @@ void fw_pin_forces(const fw_model *m, double *out) {
 /* -G_b^T lambda of one block, as force and torque about its point b. Where b is the ground, which
    has no rows, the opposite of what a gets: G_a^T lambda, its torque moved from a's centre of mass
    by the arm of a and d to point b. */
-static void add_block_force(const fw_model *m, int block, double *out) {
+static void add_block_force(const fw_multibody_model *m, int block, double *out) {
     bool ground = m->body[2 * block + 1] == m->nbody;
     const double *g = m->jac + 12 * block + (ground ? 0 : 6), *l = m->lambda + 2 * block;
     const double *r = m->arm + 4 * block + (ground ? 0 : 2);
-    double d[2] = {0}, e[2], n[2], sign = ground ? 1 : -1, force = fw_newton(m);
-    if (ground) fw_model_frame(m, block, m->posed, d, e, n);
+    double d[2] = {0}, e[2], n[2], sign = ground ? 1 : -1, force = fw_multibody_newton(m);
+    if (ground) fw_multibody_model_frame(m, block, m->posed, d, e, n);
     double fx = sign * (g[0] * l[0] + g[3] * l[1]), fy = sign * (g[1] * l[0] + g[4] * l[1]);
     double turn = sign * (g[2] * l[0] + g[5] * l[1]);
     out[0] += force * fx;
@@ -38,17 +38,18 @@ static void add_block_force(const fw_model *m, int block, double *out) {
     out[2] += force * m->scale.length_m * (turn - (r[0] + d[0]) * fy + (r[1] + d[1]) * fx);
 }
 
-void fw_tie_forces(const fw_model *m, const fw_mechanism *mechanism, double *tie, double *driver) {
-    for (int i = 0; i < m->ntie; i++) {
-        int block = m->tie_block[i];
-        tie[3 * i] = tie[3 * i + 1] = tie[3 * i + 2] = 0;
-        add_block_force(m, block, tie + 3 * i);
-        for (int k = 0; k < m->nblock && mechanism->tie[i].kind == FW_TIE_WELD; k++)
-            if (m->block[k].tie == i && k != block) add_block_force(m, k, tie + 3 * i);
+void fw_multibody_joint_forces(const fw_multibody_model *m, const fw_mechanism *mechanism,
+                               double *joint, double *driver) {
+    for (int i = 0; i < m->njoint; i++) {
+        int block = m->joint_block[i];
+        joint[3 * i] = joint[3 * i + 1] = joint[3 * i + 2] = 0;
+        add_block_force(m, block, joint + 3 * i);
+        for (int k = 0; k < m->nblock && mechanism->joint[i].kind == FW_JOINT_WELD; k++)
+            if (m->block[k].joint == i && k != block) add_block_force(m, k, joint + 3 * i);
     }
     for (int i = 0; i < m->ndriver; i++) {
-        const fw_block *b = &m->block[m->driver_block[i]];
-        double unit = fw_newton(m) * (b->rows == FW_ROWS_TURN ? m->scale.length_m : 1);
+        const fw_multibody_block *b = &m->block[m->driver_block[i]];
+        double unit = fw_multibody_newton(m) * (b->rows == FW_ROWS_TURN ? m->scale.length_m : 1);
         driver[i] = -unit * m->lambda[2 * m->driver_block[i]];
     }
 }

@@ -14,12 +14,12 @@ static double scene_length(const fw_mechanism *m) {
     double sum = 0, inertia = 0, mass = 0;
     int count = 0;
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
+        const fw_mechanism_pin *p = &m->pin[i];
         add_arm(p->body_a, p->ax_m, p->ay_m, &sum, &count);
         add_arm(p->body_b, p->bx_m, p->by_m, &sum, &count);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
         add_arm(t->body_a, t->ax_m, t->ay_m, &sum, &count);
         add_arm(t->body_b, t->bx_m, t->by_m, &sum, &count);
     }
@@ -31,49 +31,49 @@ static double scene_length(const fw_mechanism *m) {
 
 /* 1/T^2 = (sum k + sum k_s L^2 + L sum |F| + sum |torque|) / sum (J + m L^2) + (v/L)^2 + omega^2.
    Elements add the stiffness and the force that they state. */
-static double scene_time(const fw_mechanism *m, const fw_terms *terms, double length,
+static double scene_time(const fw_mechanism *m, const fw_effects_loads *loads, double length,
                          double duration) {
-    if (!terms) return 1;
+    if (!loads) return 1;
     double inertia = 0, torque = 0, speed = 0;
     for (int b = 0; b < m->nbody; b++) {
-        const double *f = terms->constant + 3 * b, *v = terms->velocity + 3 * b;
+        const double *f = loads->constant + 3 * b, *v = loads->velocity + 3 * b;
         inertia += m->body[b].inertia_kg_m2 + m->body[b].mass_kg * length * length;
         torque += length * hypot(f[0], f[1]) + fabs(f[2]);
         speed = fmax(speed, fmax(hypot(v[0], v[1]) / length, fabs(v[2])));
     }
-    for (int i = 0; i < terms->ntorsion; i++)
-        torque += terms->torsion[i].stiffness_Nm_per_rad;
-    for (int i = 0; i < terms->nspring; i++)
-        torque += terms->spring[i].stiffness_N_per_m * length * length;
-    for (int i = 0; i < terms->nslide; i++)
-        torque += terms->slide[i].stiffness_N_per_m * length * length;
-    for (int i = 0; i < terms->nload; i++)
-        torque += length * hypot(terms->load[i].fx_N, terms->load[i].fy_N);
-    for (int i = 0; i < terms->ntimed; i++) {
-        const fw_timed_load *l = &terms->timed[i];
+    for (int i = 0; i < loads->ntorsion; i++)
+        torque += loads->torsion[i].stiffness_Nm_per_rad;
+    for (int i = 0; i < loads->nspring; i++)
+        torque += loads->spring[i].stiffness_N_per_m * length * length;
+    for (int i = 0; i < loads->nslide; i++)
+        torque += loads->slide[i].stiffness_N_per_m * length * length;
+    for (int i = 0; i < loads->nload; i++)
+        torque += length * hypot(loads->load[i].fx_N, loads->load[i].fy_N);
+    for (int i = 0; i < loads->ntimed; i++) {
+        const fw_effects_timed_load *l = &loads->timed[i];
         torque += length * hypot(l->fx_N, l->fy_N) + fabs(l->torque_Nm);
     }
-    for (int i = 0; i < terms->nelement; i++) {
-        const fw_force_element *e = &terms->element[i];
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
         torque += length * (e->size_N_per_m * length + e->force_N);
     }
     double square = torque / inertia + speed * speed;
     return square > 0 && isfinite(square) ? 1 / sqrt(square) : duration;
 }
 
-void fw_model_scale(const fw_mechanism *mechanism, const fw_terms *terms, double duration_s,
-                    fw_scale *scale) {
+void fw_multibody_model_scale(const fw_mechanism *mechanism, const fw_effects_loads *loads,
+                              double duration_s, fw_multibody_scale *scale) {
     double mass = 0;
     for (int b = 0; b < mechanism->nbody; b++)
         mass += mechanism->body[b].mass_kg;
     scale->mass_kg = mass / mechanism->nbody;
     scale->length_m = scene_length(mechanism);
-    scale->time_s = scene_time(mechanism, terms, scale->length_m, duration_s);
+    scale->time_s = scene_time(mechanism, loads, scale->length_m, duration_s);
 }
 
 /* ---- arrays ---- */
 
-fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m) {
+fw_status fw_multibody_model_body_arrays(fw_arena *arena, fw_multibody_model *m) {
     size_t n = (size_t)m->nbody;
     FW_NEED(m->origin = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->mass = fw_arena_array(arena, double, n));
@@ -88,15 +88,15 @@ fw_status fw_model_body_arrays(fw_arena *arena, fw_model *m) {
     FW_NEED(m->product = fw_arena_array(arena, double, 3 * (n + 1)));
     FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
     FW_NEED(m->pin_element = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(m->tie_block = fw_arena_array(arena, int, (size_t)m->ntie));
+    FW_NEED(m->joint_block = fw_arena_array(arena, int, (size_t)m->njoint));
     FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
     return FW_OK;
 }
 
-fw_status fw_model_block_arrays(fw_arena *arena, fw_model *m, int nblock) {
+fw_status fw_multibody_model_block_arrays(fw_arena *arena, fw_multibody_model *m, int nblock) {
     size_t p = (size_t)nblock;
     m->nblock = nblock;
-    FW_NEED(m->block = fw_arena_array(arena, fw_block, p));
+    FW_NEED(m->block = fw_arena_array(arena, fw_multibody_block, p));
     FW_NEED(m->body = fw_arena_array(arena, int, 2 * p));
     FW_NEED(m->local = fw_arena_array(arena, double, 4 * p));
     FW_NEED(m->offset = fw_arena_array(arena, double, 2 * p));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which joints with friction stick and which slip. Flags are held during a step; run.c looks on the
+/* Which joints with friction stick and which slip. Flags are held during a step; dynamics_run.c looks on the
    dense output for the first time at which one no longer fits:
 
      slips   its rate crosses 0
@@ -12,7 +12,8 @@
    by a convex problem for the forces that press now (friction_box.c, which always has an answer),
    and what presses is found for that answer (friction_solve.c), in turns until both agree: a fixed
    point of N, plain at first, then by halves. It exists and is unique while N depends on T weakly
-   enough (friction.c); where it is not found the run ends with FW-D244. A joint that can stick
+   enough (multibody_friction.c); where it is not found the run ends with FW-D244. A joint that can
+   stick
    does. Cost at an event: n solutions, rounds times n^3.
    Source: Lotstedt 1982; Pfeiffer and Glocker, Multibody Dynamics with Unilateral Contacts, 1996.
    Test: test_friction.c, test_friction_model.c, test_hard_friction.c. */
@@ -24,35 +25,35 @@
 enum { ROUNDS = 60, PLAIN = 8 };
 /* relative to the largest velocity, to mu_s r N; the search for events is twice as patient as the
    decision, so that no decision is an event at once */
-static const double fw_rate_noise = 1e-13, fw_rest = 1e-12, fw_still = 1e-6;
+static const double fw_rate_noise = 1e-13, fw_statics_equilibrium = 1e-12, fw_still = 1e-6;
 static const double fw_limit_noise = 1e-12, fw_floor = 1e-15, fw_can_move = 1e-6;
 
 /* ---- how well flags fit ---- */
 
-void fw_friction_watch(fw_model *m, const double *y) {
+void fw_multibody_friction_track(fw_multibody_model *m, const double *y) {
     if (!m->friction) return;
     for (int i = 0; i < m->nq; i++)
         m->friction->speed = fmax(m->friction->speed, fabs(y[m->nq + i]));
 }
 
-static double limit(const fw_model_friction *f, double noise) {
+static double limit(const fw_multibody_model_friction *f, double noise) {
     return f->rest * f->press * (1 + noise) + fw_floor;
 }
 
-void fw_friction_fits(fw_model *m, double t, const double *y, double *fit) {
-    struct fw_frictions *s = m->friction;
+void fw_multibody_friction_fits(fw_multibody_model *m, double t, const double *y, double *fit) {
+    struct fw_multibody_frictions *s = m->friction;
     bool held = false;
     for (int i = 0; i < s->n; i++)
         held = held || !s->item[i].slip;
-    fw_model_pose(m, y);
+    fw_multibody_model_pose(m, y);
     if (held) {
-        fw_model_rhs(m, t, y, s->state); /* torques; rates too */
-        if (m->method->closes_stages) fw_model_pose(m, y);
+        fw_multibody_model_rhs(m, t, y, s->state); /* torques; rates too */
+        if (m->method->closes_stages) fw_multibody_model_pose(m, y);
     }
-    fw_friction_rows(m, y);
-    fw_friction_rates(m, y + m->nq);
+    fw_multibody_friction_rows(m, y);
+    fw_multibody_friction_rates(m, y + m->nq);
     for (int i = 0; i < s->n; i++) {
-        const fw_model_friction *f = &s->item[i];
+        const fw_multibody_model_friction *f = &s->item[i];
         if (!f->slip)
             fit[i] = m->broken ? -1 : limit(f, 2 * fw_limit_noise) - fabs(f->torque);
         else if (f->yields)
@@ -62,44 +63,45 @@ void fw_friction_fits(fw_model *m, double t, const double *y, double *fit) {
     }
 }
 
-bool fw_friction_slips(const fw_model *m) {
-    for (int i = 0; i < fw_friction_count(m); i++)
+bool fw_multibody_friction_slips(const fw_multibody_model *m) {
+    for (int i = 0; i < fw_multibody_friction_count(m); i++)
         if (m->friction->item[i].slip) return true;
     return false;
 }
 
-void fw_friction_pressing(fw_model *m, double t, const double *y, double *force) {
-    struct fw_frictions *s = m->friction;
-    fw_model_lean_rhs(m, t, y, s->state);
+void fw_multibody_friction_pressing(fw_multibody_model *m, double t, const double *y,
+                                    double *force) {
+    struct fw_multibody_frictions *s = m->friction;
+    fw_multibody_model_lean_rhs(m, t, y, s->state);
     for (int i = 0; i < s->n; i++) {
         bool slips = s->item[i].slip && !m->broken;
         force[2 * i] = force[2 * i + 1] = 0;
-        if (slips) fw_friction_force(m, i, force + 2 * i);
+        if (slips) fw_multibody_friction_force(m, i, force + 2 * i);
     }
 }
 
-void fw_friction_drags(const fw_model *m, int i, double *accel) {
-    const struct fw_frictions *s = m->friction;
-    const fw_model_friction *f = &s->item[i];
+void fw_multibody_friction_drags(const fw_multibody_model *m, int i, double *accel) {
+    const struct fw_multibody_frictions *s = m->friction;
+    const fw_multibody_model_friction *f = &s->item[i];
     double coefficient = f->yields ? f->rest : f->slide;
     const double *a = s->response + (size_t)i * (size_t)(m->nq + 3);
     for (int c = 0; c < m->nq; c++)
         accel[c] = coefficient * a[c];
 }
 
-static int goes(const fw_model_friction *f) {
+static int goes(const fw_multibody_model_friction *f) {
     return f->yields ? 0 : f->slip;
 }
 
-void fw_friction_meet(fw_model *m, int i) {
-    fw_model_friction *f = &m->friction->item[i];
+void fw_multibody_friction_meet(fw_multibody_model *m, int i) {
+    fw_multibody_model_friction *f = &m->friction->item[i];
     m->friction->met = i;
     m->friction->met_slip = goes(f);
     if (f->yields) return;
     f->slip = 0, f->held = (double)NAN; /* at rest here; where it lets go, without a pull back */
 }
 
-void fw_friction_begin(fw_model *m) {
+void fw_multibody_friction_begin(fw_multibody_model *m) {
     if (!m->friction) return;
     for (int i = 0; i < m->friction->n; i++)
         m->friction->item[i].slip = 1, m->friction->item[i].yields = false;
@@ -111,17 +113,17 @@ void fw_friction_begin(fw_model *m) {
 
 /* one that sticks or yields is at rest unless something has torn it away; one that slips, when its
    rate is round-off. Whether further ones came to rest by that. */
-static bool find_rests(struct fw_frictions *s, bool first) {
+static bool find_rests(struct fw_multibody_frictions *s, bool first) {
     bool more = false;
     for (int i = 0; i < s->n; i++) {
-        fw_model_friction *f = &s->item[i];
+        fw_multibody_model_friction *f = &s->item[i];
         bool held = !f->slip || f->yields, was = s->rests[i];
-        double most = (first && held ? fw_still : fw_rest) * s->speed + fw_floor;
+        double most = (first && held ? fw_still : fw_statics_equilibrium) * s->speed + fw_floor;
         s->rests[i] = (was && !first) || fabs(s->rate[i]) <= most;
         more = more || (s->rests[i] && !was);
     }
     for (int i = 0; i < s->n; i++) {
-        fw_model_friction *f = &s->item[i];
+        fw_multibody_model_friction *f = &s->item[i];
         f->yields = false;
         f->slip = s->rests[i] ? 0 : s->rate[i] > 0 ? 1 : -1;
     }
@@ -133,9 +135,9 @@ static bool find_rests(struct fw_frictions *s, bool first) {
 typedef enum contradiction { NONE, ABOVE, BACKWARDS, FREE } contradiction;
 
 /* what is wrong with entry i at the torques found, and how much */
-static contradiction wrong(const fw_model *m, int i, double *how) {
-    const struct fw_frictions *s = m->friction;
-    const fw_model_friction *f = &s->item[i];
+static contradiction wrong(const fw_multibody_model *m, int i, double *how) {
+    const struct fw_multibody_frictions *s = m->friction;
+    const fw_multibody_model_friction *f = &s->item[i];
     *how = 0;
     if (!s->rests[i]) return NONE;
     if (!f->slip) {
@@ -154,8 +156,8 @@ static contradiction wrong(const fw_model *m, int i, double *how) {
     return f->yields ? FREE : NONE;
 }
 
-static void mend(struct fw_frictions *s, int i, contradiction what) {
-    fw_model_friction *f = &s->item[i];
+static void mend(struct fw_multibody_frictions *s, int i, contradiction what) {
+    fw_multibody_model_friction *f = &s->item[i];
     if (what == ABOVE)
         f->slip = f->torque > 0 ? -1 : 1, f->yields = true;
     else if (what == BACKWARDS)
@@ -165,7 +167,7 @@ static void mend(struct fw_frictions *s, int i, contradiction what) {
 }
 
 /* the worst of the most pressing kind; with `lowest` the first entry (no cycles that way) */
-static int choose(const fw_model *m, bool lowest, contradiction *what) {
+static int choose(const fw_multibody_model *m, bool lowest, contradiction *what) {
     int found = -1;
     double most = 0;
     *what = NONE;
@@ -180,7 +182,7 @@ static int choose(const fw_model *m, bool lowest, contradiction *what) {
     return found;
 }
 
-static bool nothing_wrong(const fw_model *m) {
+static bool nothing_wrong(const fw_multibody_model *m) {
     contradiction what;
     return choose(m, true, &what) < 0;
 }
@@ -188,80 +190,80 @@ static bool nothing_wrong(const fw_model *m) {
 /* the flags at hand, the worst contradiction mended one after the other: after the box problem only
    who is held by others and who can move by itself, told apart by what is left of it while those
    that stick hold */
-static bool mended(fw_model *m) {
-    struct fw_frictions *s = m->friction;
+static bool mended(fw_multibody_model *m) {
+    struct fw_multibody_frictions *s = m->friction;
     for (int round = 0; round < 8 * s->n + 8; round++) {
         contradiction what;
         int i = choose(m, round > 4 * s->n, &what);
         if (i < 0) return true;
         mend(s, i, what);
-        if (!fw_friction_solve(m)) return false;
+        if (!fw_multibody_friction_solve(m)) return false;
     }
     return false;
 }
 
 /* flags by the box problem, forces by the flags, until both agree */
-static bool agree(fw_model *m, int *jam) {
-    struct fw_frictions *s = m->friction;
+static bool agree(fw_multibody_model *m, int *jam) {
+    struct fw_multibody_frictions *s = m->friction;
     for (int round = 0; round < ROUNDS; round++) {
         for (int i = 0; i < s->n; i++)
             s->before[i] = s->item[i].press;
-        if (!fw_friction_box(s)) return false;
-        bool solved = fw_friction_solve(m);
+        if (!fw_multibody_friction_box(s)) return false;
+        bool solved = fw_multibody_friction_solve(m);
         if (solved && mended(m)) return true;
         if (!solved) *jam = s->jam;
         for (int i = 0; i < s->n; i++) {
-            fw_model_friction *f = &s->item[i];
+            fw_multibody_model_friction *f = &s->item[i];
             if (!s->rests[i]) s->torque[i] = -f->slip * f->slide * s->before[i];
-            if (!solved) f->press = fw_friction_press(m, i);
+            if (!solved) f->press = fw_multibody_friction_press(m, i);
             if (round >= PLAIN) f->press = 0.5 * (f->press + s->before[i]);
         }
     }
     return false;
 }
 
-static bool sort(fw_model *m) {
-    struct fw_frictions *s = m->friction;
+static bool sort(fw_multibody_model *m) {
+    struct fw_multibody_frictions *s = m->friction;
     int jam = -1;
-    bool solved = fw_friction_solve(m);
+    bool solved = fw_multibody_friction_solve(m);
     if (solved && nothing_wrong(m)) return true;
     if (!solved) {
         jam = s->jam;
         if (jam < 0) return false;
         memset(s->torque, 0, (size_t)s->n * sizeof *s->torque);
         for (int i = 0; i < s->n; i++)
-            s->item[i].press = fw_friction_press(m, i);
+            s->item[i].press = fw_multibody_friction_press(m, i);
     }
     if (agree(m, &jam)) return true;
     for (int i = 0; i < s->n; i++) /* where torques are not unique, others may do */
         if (s->rests[i]) s->item[i].slip = 0, s->item[i].yields = false;
-    if (fw_friction_solve(m) && mended(m)) return true;
+    if (fw_multibody_friction_solve(m) && mended(m)) return true;
     s->jam = jam >= 0 ? jam : 0;
     return false;
 }
 
 /* a0, lambda0, rows, responses at the state; the pose is there already */
-static void evaluate(fw_model *m, double t, const double *y) {
-    fw_model_free(m, t, y);
-    fw_friction_respond(m, y);
-    fw_friction_look(m, t, y);
+static void evaluate(fw_multibody_model *m, double t, const double *y) {
+    fw_multibody_model_free(m, t, y);
+    fw_multibody_friction_respond(m, y);
+    fw_multibody_friction_evaluate(m, t, y);
 }
 
-bool fw_friction_decide(fw_model *m, double t, double *y) {
-    struct fw_frictions *s = m->friction;
+bool fw_multibody_friction_decide(fw_multibody_model *m, double t, double *y) {
+    struct fw_multibody_frictions *s = m->friction;
     if (!s) return true;
-    fw_friction_watch(m, y);
-    fw_model_pose(m, y);
+    fw_multibody_friction_track(m, y);
+    fw_multibody_model_pose(m, y);
     m->broken = !m->method->factor(m);
     if (m->broken) return false;
     for (int i = 0; i < s->n; i++) /* those that stay at rest keep their place */
         s->rests[i] = false, s->held[i] = !s->item[i].slip || s->item[i].yields;
-    fw_friction_respond(m, y);
+    fw_multibody_friction_respond(m, y);
     for (int pass = 0; pass <= s->n && find_rests(s, pass == 0); pass++)
-        fw_friction_settle(m, y);
+        fw_multibody_friction_settle(m, y);
     for (int i = 0; i < s->n; i++)
         if (s->rests[i] && (!s->held[i] || isnan(s->item[i].held)))
-            s->item[i].held = fw_friction_coordinate(m, i, y);
+            s->item[i].held = fw_multibody_friction_coordinate(m, i, y);
     evaluate(m, t, y);
     if (!sort(m)) {
         if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
@@ -274,8 +276,9 @@ bool fw_friction_decide(fw_model *m, double t, double *y) {
     return true;
 }
 
-bool fw_friction_jammed(const fw_model *m, double *t, const char **id, fw_place *place) {
-    const struct fw_frictions *s = m->friction;
+bool fw_multibody_friction_jammed(const fw_multibody_model *m, double *t, const char **id,
+                                  fw_place *place) {
+    const struct fw_multibody_frictions *s = m->friction;
     if (!s || s->jammed < 0) return false;
     *t = s->jam_time, *id = s->item[s->jammed].id, *place = s->item[s->jammed].place;
     return true;

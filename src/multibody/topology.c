@@ -101,7 +101,8 @@ static candidate pop(heap *h) {
    both ends at once (half the dependent inversions); then the lowest index. Chains and rings have
    no fill beyond one block per pin. Inputs the joint graph; output order (n). Cost O(n log n) for
    bounded degrees, once per topology. Test: test_block_chain.c. */
-fw_status fw_topology_order(fw_arena *arena, int n, const int *body, int ground, int *order) {
+fw_status fw_multibody_topology_order(fw_arena *arena, int n, const int *body, int ground,
+                                      int *order) {
     set *graph;
     int *level;
     char *done;
@@ -144,14 +145,14 @@ static fw_status fill_in(fw_arena *arena, int npin, const set *graph, set *below
     return FW_OK;
 }
 
-static int find_block(const fw_chain *c, int column, int row) {
+static int find_block(const fw_multibody_chain *c, int column, int row) {
     for (int e = c->column[column]; e < c->column[column + 1]; e++)
         if (c->row[e] == row) return e;
     return -1;
 }
 
-static fw_status couplings(fw_arena *arena, fw_model *m) {
-    fw_chain *c = &m->chain;
+static fw_status couplings(fw_arena *arena, fw_multibody_model *m) {
+    fw_multibody_chain *c = &m->chain;
     set *arms_of;
     FW_NEED(arms_of = fw_arena_array(arena, set, (size_t)m->nbody + 1));
     int count = 0;
@@ -160,50 +161,50 @@ static fw_status couplings(fw_arena *arena, fw_model *m) {
             count += arms_of[m->body[i]].count;
             FW_TRY(insert(arena, &arms_of[m->body[i]], i));
         }
-    FW_NEED(c->coupling = fw_arena_array(arena, fw_coupling, (size_t)count));
+    FW_NEED(c->coupling = fw_arena_array(arena, fw_multibody_coupling, (size_t)count));
     for (int b = 0; b < m->nbody; b++)
         for (int j = 0; j < arms_of[b].count; j++)
             for (int i = 0; i < j; i++) {
                 int row = arms_of[b].item[j], column = arms_of[b].item[i]; /* row > column */
                 int block = find_block(c, column / 2, row / 2);
                 double sign = row % 2 == column % 2 ? 1 : -1;
-                c->coupling[c->ncoupling++] = (fw_coupling){block, row, column, b, sign};
+                c->coupling[c->ncoupling++] = (fw_multibody_coupling){block, row, column, b, sign};
             }
     return FW_OK;
 }
 
-static fw_status updates(fw_arena *arena, fw_chain *c) {
+static fw_status updates(fw_arena *arena, fw_multibody_chain *c) {
     size_t count = 0;
     for (int k = 0; k < c->pins; k++) {
         size_t rows = (size_t)(c->column[k + 1] - c->column[k]);
         count += rows * (rows - 1) / 2 * (rows > 0);
     }
     FW_NEED(c->first = fw_arena_array(arena, int, (size_t)c->pins + 1));
-    FW_NEED(c->update = fw_arena_array(arena, fw_update, count));
+    FW_NEED(c->update = fw_arena_array(arena, fw_multibody_update, count));
     int at = 0;
     for (int k = 0; k < c->pins; k++) {
         c->first[k] = at;
         for (int j = c->column[k]; j < c->column[k + 1]; j++)
             for (int i = j + 1; i < c->column[k + 1]; i++)
-                c->update[at++] = (fw_update){find_block(c, c->row[j], c->row[i]), i, j};
+                c->update[at++] = (fw_multibody_update){find_block(c, c->row[j], c->row[i]), i, j};
     }
     c->first[c->pins] = at;
     return FW_OK;
 }
 
 /* D of the proximal term: the size of a row of S that no arm has lengthened; 1 for an empty row */
-static void proximal_weights(const fw_model *m, int i, double weight[2]) {
+static void proximal_weights(const fw_multibody_model *m, int i, double weight[2]) {
     int a = m->body[2 * i], b = m->body[2 * i + 1];
     double move = m->minv[a] + m->minv[b], turn = m->jinv[a] + m->jinv[b];
-    fw_rows rows = m->block[i].rows;
+    fw_multibody_rows rows = m->block[i].rows;
     weight[0] = rows == FW_ROWS_TURN || rows == FW_ROWS_SLIDE ? turn : move;
     weight[1] = rows == FW_ROWS_PIN || rows == FW_ROWS_SLIDE ? move : 1;
 }
 
 /* the flat schedule: block columns with their fill-in, which bodies add to which block, which block
    products an elimination step needs */
-fw_status fw_chain_compile(fw_arena *arena, fw_model *m) {
-    fw_chain *c = &m->chain;
+fw_status fw_multibody_chain_compile(fw_arena *arena, fw_multibody_model *m) {
+    fw_multibody_chain *c = &m->chain;
     size_t p = (size_t)m->nblock;
     set *graph, *below;
     FW_NEED(graph = fw_arena_array(arena, set, p));

@@ -27,8 +27,8 @@ fw_status fw_plan_assume(fw_plan *plan, const char *format, ...) {
 }
 
 /* a crystal: which way it lies, and what is known of its stress */
-static fw_status of_crystal(fw_plan *plan, const fw_variant_verdict *judged) {
-    const fw_variant *v = judged->variant;
+static fw_status of_crystal(fw_plan *plan, const fw_verdict_variant_verdict *judged) {
+    const fw_mechanism_variant *v = judged->variant;
     const fw_mechanism *m = judged->mechanism;
     double most = 0;
     for (int k = 0; m && k < m->nhinge; k++)
@@ -48,9 +48,9 @@ static fw_status of_crystal(fw_plan *plan, const fw_variant_verdict *judged) {
         fw_number_text(off, sizeof off, most * 1e6, 2));
 }
 
-static fw_status of_variant(fw_plan *plan, const fw_variant_verdict *judged) {
-    const fw_variant *v = judged->variant;
-    if (fw_material_is_crystal(&v->material) && plan->device->nflexure > 0)
+static fw_status of_variant(fw_plan *plan, const fw_verdict_variant_verdict *judged) {
+    const fw_mechanism_variant *v = judged->variant;
+    if (fw_device_material_is_crystal(&v->material) && plan->device->nflexure > 0)
         FW_TRY(of_crystal(plan, judged));
     bool scaled =
         fabs(v->explicit_stiffness_scale - 1.0) > 1e-9 || fabs(v->explicit_mass_scale - 1.0) > 1e-9;
@@ -72,7 +72,7 @@ static fw_status of_variant(fw_plan *plan, const fw_variant_verdict *judged) {
 /* a strength above the pack's own is the number that the verdict rests on most: say so twice */
 static fw_status strength_override(fw_plan *plan) {
     const fw_device *d = plan->device;
-    const fw_material *pack = fw_material_find(&plan->materials, d->material_ref);
+    const fw_device_material *pack = fw_device_material_find(&plan->materials, d->material_ref);
     const fw_quantity *own = &d->material.strength;
     if (!pack || own->unknown || pack->strength.unknown || own->value <= pack->strength.value)
         return FW_OK;
@@ -93,7 +93,7 @@ static fw_status strength_override(fw_plan *plan) {
 
 /* what asking for cycles, a probability or survival rests on */
 static fw_status repetitions(fw_plan *plan) {
-    const fw_limits_asked *asked = &plan->device->limits;
+    const fw_device_limits_asked *asked = &plan->device->limits;
     char n[32];
     if (asked->cycles > 0)
         FW_TRY(fw_plan_assume(
@@ -125,12 +125,12 @@ typedef struct taken {
 static taken how_taken(const fw_plan *plan) {
     taken t = {0};
     for (int i = 0; i < plan->verdict.nvariant; i++) {
-        const fw_variant_verdict *v = &plan->verdict.variant[i];
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
         for (int k = 0; v->motion && k < plan->device->nscene; k++) {
             if (!v->motion[k]) continue;
             t.motions++;
             t.level[v->motion[k]->ledger.hinge.used]++;
-            t.error = fmax(t.error, fw_motion_model_error(v->mechanism, v->motion[k]));
+            t.error = fmax(t.error, fw_verdict_motion_model_error(v->mechanism, v->motion[k]));
         }
     }
     return t;
@@ -167,12 +167,12 @@ static fw_status how_hinges_move(fw_plan *plan) {
 }
 
 /* what the corners of the flows are, and what they are not */
-static fw_status as_made(fw_plan *plan) {
+static fw_status as_fabricated(fw_plan *plan) {
     bool any = false;
     for (int i = 0; i < plan->verdict.nvariant; i++) {
-        const fw_variant_verdict *v = &plan->verdict.variant[i];
-        any = any || v->made;
-        for (int k = 0; v->made && k < v->ninput; k++)
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
+        any = any || v->fabricated;
+        for (int k = 0; v->fabricated && k < v->ninput; k++)
             if (v->input[k].unknown)
                 FW_TRY(fw_plan_assume(plan,
                                       "Flow %s: %s is not known (%s). The corners take an assumed "
@@ -189,7 +189,7 @@ static fw_status as_made(fw_plan *plan) {
 }
 
 fw_status fw_plan_assumptions(fw_plan *plan) {
-    const fw_model_error *e = &fw_verdict_model_error;
+    const fw_verdict_model_errors *e = &fw_verdict_model_error;
     char sf[32];
     if (plan->nassumption > 0) return FW_OK; /* said already, for another document */
     for (int i = 0; i < plan->verdict.nvariant; i++)
@@ -217,5 +217,5 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                                   100.0 * e->workspace));
             break;
         }
-    return as_made(plan);
+    return as_fabricated(plan);
 }

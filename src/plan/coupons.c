@@ -5,17 +5,17 @@
 
 fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf) {
     const fw_device *device = plan->device;
-    fw_coupon_options options = {.die = plan->layout->die,
-                                 .frame_m = device->die.frame_m,
-                                 .lane_m = device->die.lane_m,
-                                 .mask = {.bias_m = pf->mask->bias_m,
-                                          .tolerance_m = pf->mask->tolerance_m,
-                                          .vertex_limit = pf->mask->vertex_limit,
-                                          .flattening = pf->mask->flattening,
-                                          .thickness_m = pf->mask->thickness_m,
-                                          .rejected = pf->mask->rejected,
-                                          .note = pf->mask->note,
-                                          .nnote = pf->mask->nnote}};
+    fw_mask_coupon_options options = {.die = plan->layout->die,
+                                      .frame_m = device->die.frame_m,
+                                      .lane_m = device->die.lane_m,
+                                      .mask = {.bias_m = pf->mask->bias_m,
+                                               .tolerance_m = pf->mask->tolerance_m,
+                                               .vertex_limit = pf->mask->vertex_limit,
+                                               .flattening = pf->mask->flattening,
+                                               .thickness_m = pf->mask->thickness_m,
+                                               .rejected = pf->mask->rejected,
+                                               .note = pf->mask->note,
+                                               .nnote = pf->mask->nnote}};
     fw_diags said = fw_diags_new(plan->arena);
     fw_status status = fw_mask_coupons_build(plan->arena, pf->table, &options, &said, &pf->coupons);
     if (status == FW_NOMEM || said.failed) return FW_NOMEM;

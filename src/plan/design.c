@@ -40,7 +40,7 @@ const char *fw_status_name(int status) {
     return "unknown status";
 }
 
-fw_plan *fw_design_plan(fw_design *design) {
+fw_plan *fw_plan_design_plan(fw_design *design) {
     return design ? design->plan : NULL;
 }
 
@@ -53,7 +53,7 @@ void fw_design_options_init(fw_design_options *options, size_t size) {
     memcpy(options, &all, size < sizeof all ? size : sizeof all);
 }
 
-static bool known(const char *name, fw_method_row (*at)(size_t)) {
+static bool known(const char *name, fw_multibody_method_row (*at)(size_t)) {
     for (size_t i = 0; name && at(i).name; i++)
         if (strcmp(name, at(i).name) == 0) return true;
     return !name;
@@ -61,8 +61,9 @@ static bool known(const char *name, fw_method_row (*at)(size_t)) {
 
 /* -1: there is no such model */
 static int hinge_model_of(const char *text) {
-    for (size_t i = 0; i < fw_hinge_model_count(); i++)
-        if (!text || strcmp(text, fw_hinge_model_text((fw_hinge_model)i)) == 0) return (int)i;
+    for (size_t i = 0; i < fw_effects_hinge_model_count(); i++)
+        if (!text || strcmp(text, fw_effects_hinge_model_text((fw_effects_hinge_model)i)) == 0)
+            return (int)i;
     return -1;
 }
 
@@ -93,20 +94,21 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!fw_mask_formats(o->mask_formats, &formats))
         return "mask_formats must name some of the formats that flexwright plan --help lists, with "
                "commas between, or be \"all\"";
-    fw_flattening flattening;
+    fw_geometry_flattening flattening;
     if (!fw_mask_flattening_named(o->mask_flatten, &flattening))
         return "mask_flatten must be \"inside\" or \"equal-area\"";
     if (o->mask_vertices != 0 && o->mask_vertices != 199 && o->mask_vertices != 4094 &&
         o->mask_vertices != 8190)
         return "mask_vertices must be 0 (default), 199, 4094 or 8190";
-    fw_calendar day;
-    if (o->day && !fw_calendar_parse(o->day, &day))
+    fw_schedule_calendar day;
+    if (o->day && !fw_schedule_calendar_parse(o->day, &day))
         return "day must be like \"08:00-18:00\", or \"none\" for round the clock";
     if (o->wafers < 0 || o->wafers > 50 || o->operators < 0 || o->operators > 50)
         return "wafers and operators must be 0 (default) or between 1 and 50";
-    if (!known(o->method, fw_method_at)) return "method is not known in this version";
-    if (!known(o->integrator, fw_integrator_at)) return "integrator is not known in this version";
-    if (!known(o->stabilise, fw_stabilisation_at)) return "there is no such stabilisation";
+    if (!known(o->method, fw_multibody_method_at)) return "method is not known in this version";
+    if (!known(o->integrator, fw_dynamics_integrator_at))
+        return "integrator is not known in this version";
+    if (!known(o->stabilise, fw_dynamics_stabilisation_at)) return "there is no such stabilisation";
     if (!auto_or_none(o->corners)) return "corners must be auto or none";
     if (!auto_or_none(o->advice)) return "advice must be auto or none";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
@@ -155,7 +157,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
     fw_plan_options *p = &d->plan->options;
-    fw_motion_options *m = &p->verdict.motion;
+    fw_dynamics_motion_options *m = &p->verdict.motion;
     p->data_directory = o.data_directory;
     p->flow = o.flow;
     p->scene = o.scene;
@@ -176,7 +178,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     if (is_none(o.corners)) p->verdict.corners = FW_CORNERS_NONE;
     if (is_none(o.advice)) p->verdict.with_advice = false;
     m->effects = effects_of(o.effects);
-    if (!d->wrong_option) m->effects.hinge = (fw_hinge_model)hinge_model_of(o.hinge_model);
+    if (!d->wrong_option) m->effects.hinge = (fw_effects_hinge_model)hinge_model_of(o.hinge_model);
     m->method = o.method;
     m->integrator = o.integrator;
     m->stabilise = o.stabilise;
@@ -222,20 +224,21 @@ void fw_design_free(fw_design *design) {
 
 /* ---- calls ---- */
 
-fw_status fw_design_usage(fw_design *d, const char *what) {
+fw_status fw_plan_design_usage(fw_design *d, const char *what) {
     fw_status status = fw_diag_error(&d->plan->diags, 230, (fw_place){0}, "%s", what);
     return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
 }
 
 /* all work runs in the "C" locale of this thread, so that the caller's cannot change a byte */
-int fw_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument), void *argument) {
+int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument),
+                       void *argument) {
     locale_t before = uselocale(d->locale);
     fw_status status = work(d, argument);
     uselocale(before);
     return (int)status;
 }
 
-void fw_design_forget_documents(fw_design *d) {
+void fw_plan_design_forget_documents(fw_design *d) {
     for (int i = 0; i < NDOCUMENT; i++)
         d->document[i] = (fw_text){0};
 }
@@ -249,42 +252,42 @@ static double seconds_since(clock_t start) {
 static int stage(fw_design *d, unsigned before, const char *missing, unsigned self,
                  fw_status (*work)(fw_design *d, void *argument)) {
     if (!d) return FW_STATUS_USAGE;
-    if (!(d->done & before)) return (int)fw_design_usage(d, missing);
+    if (!(d->done & before)) return (int)fw_plan_design_usage(d, missing);
     if (d->done & self) return FW_STATUS_OK;
     clock_t before_work = clock();
-    int status = fw_design_run(d, work, NULL);
+    int status = fw_plan_design_run(d, work, NULL);
     if (status == FW_STATUS_OK) d->done |= self;
     if (self == JUDGED) d->judge_s = seconds_since(before_work);
     if (self == SIMULATED) d->simulate_s = seconds_since(before_work);
-    fw_design_forget_documents(d);
+    fw_plan_design_forget_documents(d);
     return status;
 }
 
 int fw_design_set(fw_design *design, const char *path, const char *value) {
     if (!design) return FW_STATUS_USAGE;
     if (!path || !value || !path[0])
-        return (int)fw_design_usage(design, "set needs a path and a value");
+        return (int)fw_plan_design_usage(design, "set needs a path and a value");
     if (design->tried)
-        return (int)fw_design_usage(design, "set values before the description is read");
+        return (int)fw_plan_design_usage(design, "set values before the description is read");
     fw_plan_options *o = &design->plan->options;
     fw_arena *arena = design->plan->arena;
     if (o->nset == design->set_capacity) {
         int more = design->set_capacity ? 2 * design->set_capacity : 16;
-        fw_set *grown =
+        fw_device_set *grown =
             fw_arena_grow(arena, design->set, (size_t)o->nset, (size_t)more, sizeof *grown);
         if (!grown) return FW_STATUS_NOMEM;
         design->set = grown;
         design->set_capacity = more;
         o->set = grown;
     }
-    fw_set set = {fw_arena_strdup(arena, path), fw_arena_strdup(arena, value)};
+    fw_device_set set = {fw_arena_strdup(arena, path), fw_arena_strdup(arena, value)};
     if (!set.path || !set.value) return FW_STATUS_NOMEM;
     design->set[o->nset++] = set;
     return FW_STATUS_OK;
 }
 
 static fw_status read_work(fw_design *d, void *argument) {
-    const fw_bytes *in = argument;
+    const fw_plan_bytes *in = argument;
     fw_arena *arena = d->plan->arena;
     const char *name = fw_arena_strdup(arena, in->name);
     FW_NEED(name);
@@ -294,12 +297,12 @@ static fw_status read_work(fw_design *d, void *argument) {
     return fw_plan_load_memory(d->plan, name, copy, in->n);
 }
 
-static int read_from(fw_design *d, fw_bytes in) {
-    if (d->tried) return (int)fw_design_usage(d, "one design reads one description");
-    if (d->wrong_option) return (int)fw_design_usage(d, d->wrong_option);
+static int read_from(fw_design *d, fw_plan_bytes in) {
+    if (d->tried) return (int)fw_plan_design_usage(d, "one design reads one description");
+    if (d->wrong_option) return (int)fw_plan_design_usage(d, d->wrong_option);
     d->tried = true;
     clock_t start = clock();
-    int status = fw_design_run(d, read_work, &in);
+    int status = fw_plan_design_run(d, read_work, &in);
     d->read_s = seconds_since(start);
     if (status == FW_STATUS_OK) d->done |= READ;
     return status;
@@ -307,18 +310,19 @@ static int read_from(fw_design *d, fw_bytes in) {
 
 int fw_design_read(fw_design *design, const char *path) {
     if (!design) return FW_STATUS_USAGE;
-    if (!path) return (int)fw_design_usage(design, "read needs the name of a file");
-    return read_from(design, (fw_bytes){.name = path});
+    if (!path) return (int)fw_plan_design_usage(design, "read needs the name of a file");
+    return read_from(design, (fw_plan_bytes){.name = path});
 }
 
 int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n) {
     if (!design) return FW_STATUS_USAGE;
     if (!xml)
-        return (int)fw_design_usage(design, "fw_design_read_memory needs the text of a "
-                                            "description: the pointer is NULL or the length is 0");
+        return (int)fw_plan_design_usage(design,
+                                         "fw_design_read_memory needs the text of a "
+                                         "description: the pointer is NULL or the length is 0");
     if (n > SIZE_MAX / 2)
-        return (int)fw_design_usage(design, "read_memory: the length is not possible");
-    return read_from(design, (fw_bytes){name ? name : "memory", xml, n});
+        return (int)fw_plan_design_usage(design, "read_memory: the length is not possible");
+    return read_from(design, (fw_plan_bytes){name ? name : "memory", xml, n});
 }
 
 const char *fw_design_name(const fw_design *design) {
@@ -354,7 +358,8 @@ int fw_design_fabricate(fw_design *design) {
 }
 
 /* kept only of stages that succeeded, so that an earlier one's documents stay whole */
-static fw_status subject(fw_design *d, const fw_mechanism *mechanism, const fw_scene *scene) {
+static fw_status subject(fw_design *d, const fw_mechanism *mechanism,
+                         const fw_device_scene *scene) {
     d->mechanism = mechanism;
     d->scene = scene;
     return FW_OK;
@@ -363,7 +368,7 @@ static fw_status subject(fw_design *d, const fw_mechanism *mechanism, const fw_s
 static fw_status modes_work(fw_design *d, void *argument) {
     (void)argument;
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
+    const fw_device_scene *scene;
     FW_TRY(fw_plan_modes(d->plan, &d->modes, &mechanism, &scene));
     return subject(d, mechanism, scene);
 }
@@ -376,7 +381,7 @@ int fw_design_modes(fw_design *design) {
 static fw_status statics_work(fw_design *d, void *argument) {
     (void)argument;
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
+    const fw_device_scene *scene;
     FW_TRY(fw_plan_statics(d->plan, &d->statics, &mechanism, &scene));
     return subject(d, mechanism, scene);
 }
@@ -389,7 +394,7 @@ int fw_design_statics(fw_design *design) {
 static fw_status simulate_work(fw_design *d, void *argument) {
     (void)argument;
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
+    const fw_device_scene *scene;
     FW_TRY(fw_plan_simulate(d->plan, &d->motion, &mechanism, &scene));
     return subject(d, mechanism, scene);
 }
@@ -436,14 +441,17 @@ static fw_status write_work(fw_design *d, void *argument) {
 
 int fw_design_write(fw_design *design, const char *directory, unsigned what) {
     if (!design) return FW_STATUS_USAGE;
-    if (!directory || !directory[0]) return (int)fw_design_usage(design, "write needs a directory");
+    if (!directory || !directory[0])
+        return (int)fw_plan_design_usage(design, "write needs a directory");
     if (what & ~(unsigned)FW_DESIGN_EVERYTHING)
-        return (int)fw_design_usage(design, "write knows the bits of FW_DESIGN_EVERYTHING only");
+        return (int)fw_plan_design_usage(design,
+                                         "write knows the bits of FW_DESIGN_EVERYTHING only");
     if (!(design->done & JUDGED))
-        return (int)fw_design_usage(design, "judge a design before writing it");
+        return (int)fw_plan_design_usage(design, "judge a design before writing it");
     if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FABRICATED))
-        return (int)fw_design_usage(design, "call fabricate before masks and recipes are written");
-    return fw_design_run(design, write_work, &(target){directory, what});
+        return (int)fw_plan_design_usage(design,
+                                         "call fabricate before masks and recipes are written");
+    return fw_plan_design_run(design, write_work, &(target){directory, what});
 }
 
 int fw_design_files_written(const fw_design *design) {
@@ -476,6 +484,6 @@ void fw_design_cancel_clear(fw_design *design) {
     if (design) fw_cancel_clear(&design->cancel);
 }
 
-void fw_design_cancel_with(fw_design *design, const fw_cancel *above) {
+void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above) {
     design->cancel.above = above;
 }

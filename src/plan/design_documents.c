@@ -2,8 +2,8 @@
 /* The documents of the public library: one row each, composed when first asked for. */
 #include "plan/design_state.h"
 #include "plan/stages.h"
-#include "report/json.h"
-#include "report/rest.h"
+#include "report/report_json.h"
+#include "report/report_equilibrium.h"
 #include <string.h>
 
 static fw_status verdict_json(fw_design *d, fw_text *out) {
@@ -194,7 +194,7 @@ static const struct {
     [FW_DOCUMENT_WORKSPACE_SVG] = {WORKSPACE, workspace_svg},
     [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
     [FW_DOCUMENT_TABLE_JSON] = {0, table_json},
-    [FW_DOCUMENT_PREVIEW_JSON] = {READ, fw_design_preview_json},
+    [FW_DOCUMENT_PREVIEW_JSON] = {READ, fw_plan_design_preview_json},
     [FW_DOCUMENT_TRADEOFF_JSON] = {TRADEOFF, tradeoff_json},
     [FW_DOCUMENT_TRADEOFF_TEXT] = {TRADEOFF, tradeoff_text},
     [FW_DOCUMENT_TRADEOFF_CSV] = {TRADEOFF, tradeoff_csv},
@@ -215,15 +215,16 @@ int fw_design_document(fw_design *design, int document, const char **text, size_
     if (text) *text = NULL;
     if (length) *length = 0;
     if (!design) return FW_STATUS_USAGE;
-    if (!text) return (int)fw_design_usage(design, "document needs a place for the text");
+    if (!text) return (int)fw_plan_design_usage(design, "document needs a place for the text");
     if (document < 0 || document >= NDOCUMENT || !document_table[document].compose)
-        return (int)fw_design_usage(design, "no such document");
+        return (int)fw_plan_design_usage(design, "no such document");
     unsigned needs = document_table[document].needs;
     if ((design->done & needs) != needs)
-        return (int)fw_design_usage(design, "the stage that makes this document was not called");
+        return (int)fw_plan_design_usage(design,
+                                         "the stage that makes this document was not called");
     fw_text *have = &design->document[document];
     if (!have->data || document == FW_DOCUMENT_DIAGNOSTICS_TEXT) { /* these come at any time */
-        int status = fw_design_run(design, document_work, &document);
+        int status = fw_plan_design_run(design, document_work, &document);
         if (status != FW_STATUS_OK) return status;
     }
     *text = have->data;
@@ -232,7 +233,7 @@ int fw_design_document(fw_design *design, int document, const char **text, size_
 }
 
 static fw_status save_work(fw_design *d, void *argument) {
-    const fw_bytes *b = argument;
+    const fw_plan_bytes *b = argument;
     const char *path = fw_arena_strdup(d->plan->arena, b->name); /* diagnostics keep it */
     FW_NEED(path);
     return fw_output_single(d->plan->arena, path, b->data, b->n, &d->plan->diags);
@@ -240,19 +241,20 @@ static fw_status save_work(fw_design *d, void *argument) {
 
 int fw_design_save(fw_design *design, int document, const char *path) {
     if (!design) return FW_STATUS_USAGE;
-    if (!path || !path[0]) return (int)fw_design_usage(design, "save needs the name of a file");
+    if (!path || !path[0])
+        return (int)fw_plan_design_usage(design, "save needs the name of a file");
     const char *text;
     size_t n;
     int status = fw_design_document(design, document, &text, &n);
     if (status != FW_STATUS_OK) return status;
-    return fw_design_run(design, save_work, &(fw_bytes){path, text, n});
+    return fw_plan_design_run(design, save_work, &(fw_plan_bytes){path, text, n});
 }
 
 int fw_design_text_style(fw_design *design, int detail, int colour) {
     if (!design) return FW_STATUS_USAGE;
     if (detail < FW_DETAIL_QUIET || detail > FW_DETAIL_VERBOSE)
-        return (int)fw_design_usage(design, "detail is -1, 0 or 1");
-    design->style = (fw_terminal_style){detail, colour != 0};
-    fw_design_forget_documents(design);
+        return (int)fw_plan_design_usage(design, "detail is -1, 0 or 1");
+    design->style = (fw_report_terminal_style){detail, colour != 0};
+    fw_plan_design_forget_documents(design);
     return FW_STATUS_OK;
 }

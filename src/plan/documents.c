@@ -3,7 +3,7 @@
 #include "base/json.h"
 #include "plan/ladder.h"
 #include "plan/stages.h"
-#include "report/json.h"
+#include "report/report_json.h"
 
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
@@ -32,24 +32,24 @@ fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {
     return fw_report_verdict_json(&input, out);
 }
 
-fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *out) {
+fw_status fw_plan_verdict_text(fw_plan *plan, fw_report_terminal_style style, fw_text *out) {
     fw_report_input input = fw_plan_report_input(plan);
     FW_NEED(input.flow);
     return fw_report_verdict_text(&input, style, out);
 }
 
 /* mechanisms are built again: what there is to say of them has been said by the verdict */
-static fw_status report_ladders(fw_plan *plan, fw_ladders *ladders) {
+static fw_status report_ladders(fw_plan *plan, fw_plan_ladders *ladders) {
     fw_diags said = plan->diags;
     plan->diags = fw_diags_new(plan->arena);
-    fw_status status = fw_plan_ladders(plan, FW_LADDER_ONCE, ladders);
+    fw_status status = fw_plan_ladders_run(plan, FW_LADDER_ONCE, ladders);
     plan->diags = said;
     return status;
 }
 
 fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
     FW_TRY(fw_plan_assumptions(plan));
-    fw_ladders ladders;
+    fw_plan_ladders ladders;
     fw_report_hinge *hinge;
     fw_report_input input = fw_plan_report_input(plan);
     FW_NEED(input.flow);

@@ -27,15 +27,15 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
 }
 
 /* the pack's corners that move edges, in words */
-static fw_status range_of(fw_plan *plan, const fw_flow *flow, const char **out) {
+static fw_status range_of(fw_plan *plan, const fw_process_flow *flow, const char **out) {
     fw_text range = fw_text_new(plan->arena);
     for (int i = 0; i < flow->ncorner; i++) {
-        const fw_corner *c = &flow->corner[i];
+        const fw_process_corner *c = &flow->corner[i];
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
         if (c->of == FW_CORNER_THICKNESS || c->of == FW_CORNER_YOUNGS || !q || q->unknown) continue;
         fw_quantity low = *q, high = *q;
         char a[32], b[32];
-        fw_quantity_range(q, &low.value, &high.value);
+        fw_process_quantity_range(q, &low.value, &high.value);
         fw_text_printf(&range, "%s%s %s to %s%s%s%s", range.length ? "; " : "", c->name,
                        fw_number_text(a, sizeof a, fw_quantity_in_unit(&low), 4),
                        fw_number_text(b, sizeof b, fw_quantity_in_unit(&high), 4),
@@ -51,14 +51,14 @@ static fw_status range_of(fw_plan *plan, const fw_flow *flow, const char **out) 
 }
 
 /* what the flow leaves of the edges, for the picture of the outlines */
-static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edges **out) {
-    const fw_fixed_point *p = &flow->edges;
+static fw_status edges_of(fw_plan *plan, const fw_process_flow *flow, const fw_mask_edges **out) {
+    const fw_process_fixed_point *p = &flow->edges;
     fw_mask_edges *e = fw_arena_one(plan->arena, fw_mask_edges);
     FW_NEED(e);
     *out = e;
     *e = (fw_mask_edges){.least_m = (double)NAN, .most_m = (double)NAN, .range = ""};
     if (p->ncls == 0) return FW_OK;
-    const fw_edge_class *field = &p->cls[p->field], *narrow = &p->cls[0];
+    const fw_process_edge_class *field = &p->cls[p->field], *narrow = &p->cls[0];
     e->top_m = field->edge.top_m;
     e->bottom_m = field->edge.bottom_m;
     e->least_m = field->low.top_m;
@@ -81,7 +81,7 @@ static fw_status edges_of(fw_plan *plan, const fw_flow *flow, const fw_mask_edge
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
-        return fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
+        return fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
     }
     if (!plan->layout->drawn) {
         pf->mask_error = plan->layout->why_not ? plan->layout->why_not : "the device has no shapes";
@@ -112,22 +112,22 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     pf->mask = status == FW_OK || (mask && mask->whole && plan->options.force) ? mask : NULL;
     if (status == FW_OK) return FW_OK;
     pf->mask_error = "the mask breaks a design rule or cannot be biased; see the diagnostics";
-    return fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
+    return fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
 }
 
 fw_status fw_plan_compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
-    fw_mask_facts facts;
+    fw_process_mask_facts facts;
     FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
     facts.dies = plan->dies;
     if (pf->wafer) FW_TRY(fw_plan_wafer_facts(plan->arena, pf->wafer, &facts));
-    FW_TRY(fw_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
-    fw_drive_facts *drive;
+    FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
+    fw_process_drive_facts *drive;
     int n;
     FW_TRY(fw_plan_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));
-    return fw_flow_judge_drives(plan->arena, pf->flow, pf->use && pf->use->insulating_carrier,
-                                drive, n, diags);
+    return fw_process_flow_judge_drives(plan->arena, pf->flow,
+                                        pf->use && pf->use->insulating_carrier, drive, n, diags);
 }
 
 fw_status fw_plan_compute_flows(fw_plan *plan) {
@@ -145,7 +145,8 @@ static fw_status compute_wafers(fw_plan *plan) {
         if (!pf->flow || !pf->wafer) continue;
         fw_diags said = fw_diags_new(plan->arena);
         FW_TRY(fw_plan_compute_flow(plan, pf, &said));
-        if (pf->mask_error) FW_TRY(fw_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error));
+        if (pf->mask_error)
+            FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error));
     }
     return FW_OK;
 }

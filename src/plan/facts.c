@@ -4,16 +4,16 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_structure(fw_role role) {
+static bool is_structure(fw_layout_role role) {
     return role == FW_ROLE_STRUCTURE || role == FW_ROLE_FLEXURE || role == FW_ROLE_FRAME ||
            role == FW_ROLE_TETHER;
 }
 
 /* edges of the material: a joint is a cut between two pieces, not an edge */
-static double free_perimeter(const fw_contour *contour) {
+static double free_perimeter(const fw_geometry_contour *contour) {
     double length = 0.0;
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
+        const fw_geometry_segment *s = &contour->segment[i];
         if (s->flags & FW_SEGMENT_JOINT) continue;
         length += s->kind == FW_ARC ? s->radius * fabs(s->sweep_rad)
                                     : hypot(s->b.x - s->a.x, s->b.y - s->a.y);
@@ -26,47 +26,49 @@ bool fw_plan_insulated(const fw_plan_flow *pf) {
     return (pf->use && pf->use->insulating_carrier) || (pf->flow && pf->flow->insulating);
 }
 
-static void add_areas(const fw_layout *layout, bool islands, fw_mask_facts *facts) {
+static void add_areas(const fw_layout *layout, bool islands, fw_process_mask_facts *facts) {
     for (int i = 0; i < layout->npiece; i++)
         if (layout->piece[i].body == FW_ISLAND && !islands) {
             continue;
         } else if (is_structure(layout->piece[i].role)) {
-            facts->structure_area_m2 += fw_contour_area(&layout->piece[i].contour);
+            facts->structure_area_m2 += fw_geometry_contour_area(&layout->piece[i].contour);
             facts->perimeter_m += free_perimeter(&layout->piece[i].contour);
         } else if (layout->piece[i].role == FW_ROLE_TEXT || layout->piece[i].role == FW_ROLE_MARK) {
             /* lettering and marks lie in the frame and are taken out of it */
-            facts->structure_area_m2 -= fw_contour_area(&layout->piece[i].contour);
-            facts->perimeter_m += fw_contour_perimeter(&layout->piece[i].contour);
+            facts->structure_area_m2 -= fw_geometry_contour_area(&layout->piece[i].contour);
+            facts->perimeter_m += fw_geometry_contour_perimeter(&layout->piece[i].contour);
         }
     facts->die_area_m2 = (layout->die.x1 - layout->die.x0) * (layout->die.y1 - layout->die.y0);
 }
 
-static void narrowest(const fw_device *device, const fw_layout *layout, fw_mask_facts *facts) {
+static void narrowest(const fw_device *device, const fw_layout *layout,
+                      fw_process_mask_facts *facts) {
     facts->narrowest_slot_m = layout->narrowest_gap_m;
     facts->narrowest_line_m = (double)INFINITY;
-    for (int j = 0; j < device->njoint; j++)
-        if (device->joint[j].flexure != FW_NONE)
+    for (int j = 0; j < device->nrevolute; j++)
+        if (device->revolute[j].flexure != FW_NONE)
             facts->narrowest_line_m =
                 fmin(facts->narrowest_line_m,
-                     fw_flexure_narrowest_m(&device->flexure[device->joint[j].flexure]));
+                     fw_device_flexure_narrowest_m(&device->flexure[device->revolute[j].flexure]));
     facts->deepest_hinge_width_m = facts->narrowest_line_m;
 }
 
 /* conjugate gaps of hinges, gaps of the comb drives that hold in this flow */
 static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                           const char *flow, fw_mask_facts *facts) {
-    fw_drive_facts *drive;
+                           const char *flow, fw_process_mask_facts *facts) {
+    fw_process_drive_facts *drive;
     int ndrive, n = 0;
     FW_TRY(fw_plan_drives(arena, device, flow, &drive, &ndrive));
-    fw_mask_gap *gap = fw_arena_array(arena, fw_mask_gap, (size_t)device->njoint + (size_t)ndrive);
+    fw_process_mask_gap *gap =
+        fw_arena_array(arena, fw_process_mask_gap, (size_t)device->nrevolute + (size_t)ndrive);
     FW_NEED(gap);
-    for (int j = 0; j < device->njoint; j++) {
+    for (int j = 0; j < device->nrevolute; j++) {
         if (!layout->hinge[j].drawn || !(layout->hinge[j].gap_m > 0.0)) continue;
-        gap[n] = (fw_mask_gap){.kind = FW_GAP_HINGE, .gap_m = layout->hinge[j].gap_m};
-        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of hinge %s", device->joint[j].id));
+        gap[n] = (fw_process_mask_gap){.kind = FW_GAP_HINGE, .gap_m = layout->hinge[j].gap_m};
+        FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of hinge %s", device->revolute[j].id));
     }
     for (int i = 0; i < ndrive; i++) {
-        gap[n] = (fw_mask_gap){.kind = FW_GAP_COMB, .gap_m = drive[i].gap_m};
+        gap[n] = (fw_process_mask_gap){.kind = FW_GAP_COMB, .gap_m = drive[i].gap_m};
         FW_NEED(gap[n++].name = fw_arena_printf(arena, "gap of comb drive %s",
                                                 drive[i].id ? drive[i].id : "(unnamed)"));
     }
@@ -76,9 +78,9 @@ static fw_status name_gaps(fw_arena *arena, const fw_device *device, const fw_la
 }
 
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_variant *variant, const fw_mask_table *table, bool insulated,
-                             fw_mask_facts *facts) {
-    *facts = (fw_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
+                             const fw_mechanism_variant *variant, const fw_mask_table *table,
+                             bool insulated, fw_process_mask_facts *facts) {
+    *facts = (fw_process_mask_facts){.dies = 1, .device_thickness_m = variant->thickness_m};
     if (!layout || !layout->drawn) return FW_OK;
     const fw_layout *marked; /* marks of the flow are taken out of the frame */
     int left_out;
@@ -90,20 +92,21 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
 
 /* what one mask leaves standing, as drawn: + where a term of the plate draws, - where it takes away
    (lettering and marks lie within what they are taken out of) */
-static void add_mask(const fw_mask *mask, const fw_plate_term *term, int nterm, int times,
-                     fw_mask_facts *facts) {
+static void add_mask(const fw_mask *mask, const fw_mask_plate_term *term, int nterm, int times,
+                     fw_process_mask_facts *facts) {
     for (int t = 0; t < nterm; t++)
         for (int i = 0; i < mask->nshape; i++) {
-            const fw_contour *c = &mask->shape[i].piece->contour;
+            const fw_geometry_contour *c = &mask->shape[i].piece->contour;
             if (mask->shape[i].layer != term[t].layer) continue;
             double sign = term[t].rule == FW_SET_NOT ? -1.0 : 1.0;
-            facts->wafer_structure_m2 += sign * times * fw_contour_area(c);
+            facts->wafer_structure_m2 += sign * times * fw_geometry_contour_area(c);
             facts->wafer_perimeter_m += times * free_perimeter(c);
         }
 }
 
-fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_mask_facts *facts) {
-    fw_plate_term *term;
+fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
+                              fw_process_mask_facts *facts) {
+    fw_mask_plate_term *term;
     int n;
     FW_TRY(fw_mask_plate_terms(arena, wafer->table, &term, &n));
     facts->wafer_structure_m2 = facts->wafer_perimeter_m = 0.0;
@@ -116,22 +119,22 @@ fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_mask_fa
 }
 
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *d, const char *flow,
-                         fw_drive_facts **drive, int *n) {
+                         fw_process_drive_facts **drive, int *n) {
     size_t most = 0;
     *n = 0;
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncomb;
-    FW_NEED(*drive = fw_arena_array(arena, fw_drive_facts, most));
+    FW_NEED(*drive = fw_arena_array(arena, fw_process_drive_facts, most));
     for (int i = 0; i < d->nscene; i++) {
-        const fw_scene *s = &d->scene[i];
+        const fw_device_scene *s = &d->scene[i];
         if (!fw_device_in_flow(s->flow, flow)) continue;
         for (int k = 0; k < s->ncomb; k++) {
-            const fw_comb *c = &s->comb[k];
+            const fw_device_comb *c = &s->comb[k];
             bool there = false;
             for (int l = 0; l < *n && !there; l++)
                 there = c->id && (*drive)[l].id && strcmp((*drive)[l].id, c->id) == 0 &&
                         (*drive)[l].gap_m == c->gap_m;
-            if (!there) (*drive)[(*n)++] = (fw_drive_facts){c->id, c->gap_m, c->place};
+            if (!there) (*drive)[(*n)++] = (fw_process_drive_facts){c->id, c->gap_m, c->place};
         }
     }
     return FW_OK;

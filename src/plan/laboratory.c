@@ -34,13 +34,14 @@ static fw_status read_packs(fw_plan *plan) {
     return FW_OK;
 }
 
-fw_status fw_plan_lab(fw_plan *plan, fw_flow *flow) {
+fw_status fw_plan_lab(fw_plan *plan, fw_process_flow *flow) {
     if (!plan->options.laboratory) return FW_OK;
     if (!plan->lab) FW_TRY(read_packs(plan));
     for (int i = 0; i < plan->nlab; i++) {
         fw_plan_lab_pack *pack = &plan->lab[i];
         int before = flow->noverride;
-        FW_TRY(fw_lab_apply(plan->arena, pack->file, pack->xml, pack->n, flow, &plan->diags));
+        FW_TRY(
+            fw_process_lab_apply(plan->arena, pack->file, pack->xml, pack->n, flow, &plan->diags));
         pack->used = pack->used || flow->noverride > before;
     }
     return FW_OK;
@@ -57,9 +58,9 @@ fw_status fw_plan_lab_used(fw_plan *plan) {
 
 fw_status fw_plan_lab_assumptions(fw_plan *plan) {
     for (int i = 0; i < plan->nflow; i++) {
-        const fw_flow *flow = plan->flow[i].flow;
+        const fw_process_flow *flow = plan->flow[i].flow;
         for (int k = 0; flow && k < flow->noverride; k++) {
-            const fw_override *o = &flow->override[k];
+            const fw_process_override *o = &flow->override[k];
             FW_TRY(fw_plan_assume(plan,
                                   "Flow %s: the laboratory's %s = %s stands for %s of the process "
                                   "pack. Source: %s.",

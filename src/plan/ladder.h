@@ -7,86 +7,87 @@
 #include "plan/plan.h"
 #include "report/report.h"
 
-typedef struct fw_ladder_case {
+typedef struct fw_plan_ladder_case {
     fw_arena *arena; /* of this evaluation: freed when it has been measured */
     const fw_mechanism *mechanism;
-    const fw_hinge *hinge; /* its input is what every level starts from */
-    fw_diags *diags;       /* for what a level has to say */
-} fw_ladder_case;
+    const fw_mechanism_hinge *hinge; /* its input is what every level starts from */
+    fw_diags *diags;                 /* for what a level has to say */
+} fw_plan_ladder_case;
 
-typedef struct fw_ladder_level {
+typedef struct fw_plan_ladder_level {
     const char *name, *summary;
     bool external; /* takes seconds and a program that need not be installed */
     /* fills a row but cpu_s and centre_m; row->state says whether there is one */
-    fw_status (*work)(const fw_ladder_case *c, fw_report_level *row);
-} fw_ladder_level;
+    fw_status (*work)(const fw_plan_ladder_case *c, fw_report_level *row);
+} fw_plan_ladder_level;
 
 enum { FW_LADDER_LEVELS = 4 };
-const fw_ladder_level *fw_ladder_levels(size_t *count);
+const fw_plan_ladder_level *fw_plan_ladder_levels(size_t *count);
 
-typedef enum fw_ladder_wanted {
+typedef enum fw_plan_ladder_wanted {
     FW_LADDER_CHEAP = -1, /* all but those of external programs */
     FW_LADDER_AUTO = -2,  /* the same, and external ones where those do not reach the accuracy */
     FW_LADDER_ALL = -3,
-    FW_LADDER_ONCE = -4 /* as CHEAP, each level run once: what it costs is not wanted */
-} fw_ladder_wanted;     /* else: index of the one level */
+    FW_LADDER_ONCE = -4  /* as CHEAP, each level run once: what it costs is not wanted */
+} fw_plan_ladder_wanted; /* else: index of the one level */
 
 enum { FW_DRIFT_POINTS = 41 };
-typedef struct fw_ladder_drift {
-    fw_surfaces surfaces;   /* aside_rad NaN: not drawn */
-    double limit_rad;       /* the range: +- this */
-    double contact_rad[2];  /* pure moment: at what rotations of the pin, - and +; NaN: none in
+typedef struct fw_plan_ladder_drift {
+    fw_flexure_surfaces surfaces; /* aside_rad NaN: not drawn */
+    double limit_rad;             /* the range: +- this */
+    double contact_rad[2]; /* pure moment: at what rotations of the pin, - and +; NaN: none in
                                the range up to half a turn */
-    double closing_N[2];    /* force along and across that closes the gap at rest; NaN: no gap */
-    fw_drift_advice advice; /* for +- limit */
-    fw_drift_point point[FW_DRIFT_POINTS]; /* from - to + limit, rotation of the pin */
-} fw_ladder_drift;
+    double closing_N[2];   /* force along and across that closes the gap at rest; NaN: no gap */
+    fw_flexure_drift_advice advice;                /* for +- limit */
+    fw_flexure_drift_point point[FW_DRIFT_POINTS]; /* from - to + limit, rotation of the pin */
+} fw_plan_ladder_drift;
 
-typedef struct fw_ladder { /* of one hinge in one flow */
+typedef struct fw_plan_ladder { /* of one hinge in one flow */
     const char *flow;
     const fw_mechanism *mechanism;
-    const fw_hinge *hinge;
+    const fw_mechanism_hinge *hinge;
     fw_report_level row[FW_LADDER_LEVELS]; /* (rows) */
     int rows;
     int picked;   /* cheapest row whose own error is below the accuracy; where none is, the best */
     bool reached; /* it is below */
     double reaches; /* error of the picked row's stiffness */
     int shared;     /* index of the ladder that was solved for this one too; -1: its own */
-    fw_ladder_drift drift;
-} fw_ladder;
+    fw_plan_ladder_drift drift;
+} fw_plan_ladder;
 
-typedef struct fw_ladders {
-    fw_ladder *item; /* (count) */
+typedef struct fw_plan_ladders {
+    fw_plan_ladder *item; /* (count) */
     int count;
     double accuracy; /* wanted, relative, of the rotation that a moment makes: of the stiffness */
-} fw_ladders;
+} fw_plan_ladders;
 
 /* every hinge in every flow of a loaded plan; hinges that are alike are solved once */
-fw_status fw_plan_ladders(fw_plan *plan, int wanted, fw_ladders *out);
+fw_status fw_plan_ladders_run(fw_plan *plan, int wanted, fw_plan_ladders *out);
 /* the same for the report */
-fw_status fw_plan_report_hinges(fw_plan *plan, const fw_ladders *all, fw_report_hinge **out);
-const char *fw_ladder_id(const fw_ladder *ladder);
+fw_status fw_plan_report_hinges(fw_plan *plan, const fw_plan_ladders *all, fw_report_hinge **out);
+const char *fw_plan_ladder_id(const fw_plan_ladder *ladder);
 
 /* one level; measured: repeated until the clock can see it, at most for 2 ms */
-fw_status fw_ladder_climb(const fw_ladder_case *c, const fw_ladder_level *level, bool measured,
-                          fw_report_level *row);
+fw_status fw_plan_ladder_climb(const fw_plan_ladder_case *c, const fw_plan_ladder_level *level,
+                               bool measured, fw_report_level *row);
 /* hinge frame to world: where the pin + (along, across) is in the drawn pose; the pin is at W */
-void fw_ladder_place(const fw_mechanism *mechanism, const fw_hinge *hinge, const double at_m[2],
-                     double world_m[2]);
-bool fw_ladder_alike(const fw_ladder_case *a, const fw_ladder_case *b);
-void fw_ladder_pick(fw_ladder *ladder, double accuracy);
+void fw_plan_ladder_place(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
+                          const double at_m[2], double world_m[2]);
+bool fw_plan_ladder_alike(const fw_plan_ladder_case *a, const fw_plan_ladder_case *b);
+void fw_plan_ladder_pick(fw_plan_ladder *ladder, double accuracy);
 
 /* Of an arc of an isotropic material the levels show strain and limit of the printed closed form,
    to its digits (converged solids: 8 % below to 4.3 % above it, below by 12 % where deeper than 10
    t). Elsewhere, where solids are up to 15 % (leaves) and 43 % (silicon) above it, and in every
    verdict, they are its upper bound over solids (strain_bound_per_rad). */
-void fw_ladder_printed(const fw_flexure_input *in, fw_flexure_result *r);
-fw_status fw_ladder_closed_form(const fw_ladder_case *c, fw_report_level *row);
-fw_status fw_ladder_compliance(const fw_ladder_case *c, fw_report_level *row);
-fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row);
-fw_status fw_ladder_continuum(const fw_ladder_case *c, fw_report_level *row);
+void fw_plan_ladder_printed(const fw_flexure_input *in, fw_flexure_result *r);
+fw_status fw_plan_ladder_closed_form(const fw_plan_ladder_case *c, fw_report_level *row);
+fw_status fw_plan_ladder_compliance(const fw_plan_ladder_case *c, fw_report_level *row);
+fw_status fw_plan_ladder_elastica(const fw_plan_ladder_case *c, fw_report_level *row);
+fw_status fw_plan_ladder_continuum(const fw_plan_ladder_case *c, fw_report_level *row);
 
 /* ladder_drift.c: what the finite rotation does, on either side of rest */
-void fw_ladder_drift_of(const fw_mechanism *mechanism, const fw_hinge *hinge, fw_ladder_drift *out);
+void fw_plan_ladder_drift_of(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
+                             fw_plan_ladder_drift *out);
 
 #endif

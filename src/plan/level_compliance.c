@@ -7,24 +7,24 @@
    uses it, at the limit angle: what it then is against small displacements, the moment over the
    angle as its stiffness, W of the second body where it has drifted to. Its error is that of the
    closed form it is made from, and the drift's 0.006 um of 0.7 against finite elements, 1 % */
-fw_status fw_ladder_compliance(const fw_ladder_case *c, fw_report_level *row) {
-    const fw_hinge_law *law = &c->hinge->law;
+fw_status fw_plan_ladder_compliance(const fw_plan_ladder_case *c, fw_report_level *row) {
+    const fw_flexure_hinge_law *law = &c->hinge->law;
     fw_flexure_result own = c->hinge->closed_form;
     const fw_flexure_result *r = &own;
-    fw_ladder_printed(&c->hinge->input, &own);
-    const fw_hinge_rest rest = fw_hinge_rest_of(law);
+    fw_plan_ladder_printed(&c->hinge->input, &own);
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(law);
     double limit = r->limit_angle_rad, most = 2 * (FW_PI - law->half_angle_rad) / law->share;
     if (!(limit < fmin(0.95 * most, FW_PI))) {
         *row = (fw_report_level){.state = FW_LEVEL_NONE,
                                  .why = "the arc would close before the limit angle"};
         return FW_OK;
     }
-    fw_hinge_at at;
+    fw_flexure_hinge_at at;
     double u[2], wrench[3], tangent[3][3];
-    fw_drift_displacement(law, limit, NULL, u);
+    fw_flexure_drift_displacement(law, limit, NULL, u);
     const double twist[3] = {limit, u[0], u[1]};
-    fw_hinge_law_wrench(law, &rest, twist, wrench, tangent);
-    fw_hinge_law_at(law, limit, &at);
+    fw_flexure_hinge_law_wrench(law, &rest, twist, wrench, tangent);
+    fw_flexure_hinge_law_at(law, limit, &at);
     *row = (fw_report_level){.stiffness_Nm_per_rad = wrench[0] / limit,
                              .kx_N_per_m = at.kx_N_per_m.value,
                              .ky_N_per_m = at.ky_N_per_m.value,

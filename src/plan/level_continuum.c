@@ -4,9 +4,9 @@
 #include <math.h>
 
 /* [100] lies at minus the angle that the hinge's axis has from it */
-static fw_continuum_material material_of(const fw_ladder_case *c) {
+static fw_continuum_material material_of(const fw_plan_ladder_case *c) {
     const fw_flexure_input *in = &c->hinge->input;
-    const fw_material *m = &c->mechanism->variant->material;
+    const fw_device_material *m = &c->mechanism->variant->material;
     if (!in->crystal.known)
         return (fw_continuum_material){.youngs_Pa = in->youngs_Pa, .poisson = in->poisson};
     return (fw_continuum_material){.cubic = true,
@@ -17,7 +17,7 @@ static fw_continuum_material material_of(const fw_ladder_case *c) {
                                        -0.25 * atan2(in->crystal.sin4, in->crystal.cos4)};
 }
 
-static const char *unfit(const fw_ladder_case *c) {
+static const char *unfit(const fw_plan_ladder_case *c) {
     const fw_flexure_input *in = &c->hinge->input;
     if (in->crystal.known && !in->crystal.aligned)
         return "the direction of the hinge in the crystal is not known";
@@ -29,7 +29,7 @@ static const char *unfit(const fw_ladder_case *c) {
    the meshes differ by and what the model leaves open: whether the blocks' sides are held (2.7e-4
    of K of H2, 0.028 um of W), of which kx and ky feel up to five times as much; peak strains
    scatter by 1 % with the mesh. docs/theory/continuum.md */
-fw_status fw_ladder_continuum(const fw_ladder_case *c, fw_report_level *row) {
+fw_status fw_plan_ladder_continuum(const fw_plan_ladder_case *c, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     const fw_flexure_result *r = &c->hinge->closed_form;
     *row = (fw_report_level){.state = FW_LEVEL_NONE, .why = unfit(c)};

@@ -7,20 +7,20 @@
 static const double tolerance = 1e-9;
 
 typedef struct turned {
-    fw_elastica *e;
+    fw_flexure_elastica *e;
     double per_moment; /* strain at a root, per N m there */
-    fw_elastica_result at;
+    fw_flexure_elastica_result at;
 } turned;
 
 /* strain at the roots of the second body turned by `angle_rad`, no force on it: the moments of both
    roots and what the closed form makes of them at the fillet; NaN: not solved */
 static double strain_at(turned *t, double angle_rad) {
-    const fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY}, {angle_rad, 0, 0}};
-    fw_elastica_solve(t->e, &task, tolerance, true, &t->at);
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY}, {angle_rad, 0, 0}};
+    fw_flexure_elastica_solve(t->e, &task, tolerance, true, &t->at);
     if (t->at.code != FW_ELASTICA_OK && t->at.code != FW_ELASTICA_ROUGH) return (double)NAN;
-    fw_elastica_state first, second;
-    fw_elastica_at(t->e, 0, &first);
-    fw_elastica_at(t->e, fw_elastica_linear(t->e)->length_m, &second);
+    fw_flexure_elastica_state first, second;
+    fw_flexure_elastica_at(t->e, 0, &first);
+    fw_flexure_elastica_at(t->e, fw_flexure_elastica_linear(t->e)->length_m, &second);
     return t->per_moment * fmax(fabs(first.moment_Nm), fabs(second.moment_Nm));
 }
 
@@ -43,7 +43,8 @@ static double limit_angle(turned *t, double guess_rad, double limit) {
    a section's axial force does not bend it here. W then misses the neutral radius, r u^2/3
    sin(a)/a, u = t/2r; kx and ky miss up to 2 u^2 and 4 u^2. The beam's own error is told and far
    smaller */
-static void errors_of(const fw_ladder_case *c, const fw_elastica_result *at, fw_report_level *row) {
+static void errors_of(const fw_plan_ladder_case *c, const fw_flexure_elastica_result *at,
+                      fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     bool arc = in->kind == FW_FLEXURE_CSFH;
     double u = arc ? 0.5 * in->width_m / in->radius_m : 0, a = 0.5 * in->angle_rad;
@@ -63,15 +64,15 @@ static void errors_of(const fw_ladder_case *c, const fw_elastica_result *at, fw_
    and drift of W there. Strain per rad is the limit strain over the limit angle.
    in: hinge; out SI. Valid below half a turn and where the beam has a primary branch. Cost 1 ms,
    most of it the solution's tables. Test: tests/cli/test_hinge.py */
-fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row) {
+fw_status fw_plan_ladder_elastica(const fw_plan_ladder_case *c, fw_report_level *row) {
     const fw_flexure_input *in = &c->hinge->input;
     fw_flexure_result own = c->hinge->closed_form;
     const fw_flexure_result *r = &own;
-    fw_ladder_printed(in, &own);
-    fw_beam beam;
+    fw_plan_ladder_printed(in, &own);
+    fw_flexure_beam beam;
     turned t = {.per_moment = r->strain_per_rad / r->stiffness_Nm_per_rad};
-    FW_TRY(fw_flexure_beam(c->arena, in, r, &beam));
-    FW_TRY(fw_elastica_new(c->arena, &beam, NULL, false, &t.e));
+    FW_TRY(fw_flexure_beam_of_input(c->arena, in, r, &beam));
+    FW_TRY(fw_flexure_elastica_new(c->arena, &beam, NULL, false, &t.e));
     double limit = in->strength_Pa / (in->safety_factor * in->youngs_Pa);
     double angle =
         r->limit_angle_rad < FW_PI ? limit_angle(&t, r->limit_angle_rad, limit) : (double)NAN;
@@ -81,7 +82,7 @@ fw_status fw_ladder_elastica(const fw_ladder_case *c, fw_report_level *row) {
                                         "half a turn"};
         return FW_OK;
     }
-    const fw_beam_linear *at_rest = fw_elastica_linear(t.e);
+    const fw_flexure_beam_linear *at_rest = fw_flexure_elastica_linear(t.e);
     *row = (fw_report_level){.at_m = {at_rest->centre_m[0] - r->centre_m - r->offset_m[0],
                                       at_rest->centre_m[1] - r->offset_m[1]},
                              .stiffness_Nm_per_rad = 1 / at_rest->c[0][0],

@@ -12,22 +12,22 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct fw_live_posed {
+typedef struct fw_plan_live_posed {
     fw_design *design; /* its arena holds this struct and the mechanisms */
     char key[65];      /* of text, sets and options */
     fw_status status;  /* of reading and building: FW_OK, or the description is no good */
     const fw_mechanism **mechanism; /* (nflow) closed */
-} fw_live_posed;
+} fw_plan_live_posed;
 
-void fw_live_posed_free(fw_live_posed *posed) {
+void fw_plan_live_posed_free(fw_plan_live_posed *posed) {
     if (posed) fw_design_free(posed->design);
 }
 
 /* ---- the mechanisms of a text ---- */
 
 static fw_status build(fw_design *d, void *argument) {
-    fw_live_posed *posed = argument;
-    fw_plan *plan = fw_design_plan(d);
+    fw_plan_live_posed *posed = argument;
+    fw_plan *plan = fw_plan_design_plan(d);
     const fw_mechanism *first;
     size_t n = (size_t)plan->nflow;
     FW_NEED(posed->mechanism = fw_arena_alloc(plan->arena, n, sizeof *posed->mechanism));
@@ -38,7 +38,7 @@ static fw_status build(fw_design *d, void *argument) {
         const fw_mechanism *m;
         FW_TRY(fw_mechanism_build(plan->arena, plan->device, plan->layout, &plan->flow[i].variant,
                                   &again, &m));
-        FW_TRY(fw_assembled(plan->arena, m, diags, &posed->mechanism[i], NULL));
+        FW_TRY(fw_assembly_assembled(plan->arena, m, diags, &posed->mechanism[i], NULL));
     }
     return FW_OK;
 }
@@ -78,7 +78,7 @@ static void copied(fw_json *json, const char *key, const json_t *value) {
     }
 }
 
-static fw_status key_of(fw_live_request *r, char key[65]) {
+static fw_status key_of(fw_plan_live_request *r, char key[65]) {
     fw_text all = fw_text_new(r->arena);
     fw_text_bytes(&all, r->text, r->length);
     fw_text_add(&all, "\n");
@@ -89,22 +89,23 @@ static fw_status key_of(fw_live_request *r, char key[65]) {
     if (r->options) copied(&json, NULL, r->options);
     fw_json_end(&json);
     fw_status status = fw_json_finish(&json, "");
-    if (status == FW_INTERNAL) return fw_live_wrong(r, "nested too deeply:", "set or options");
+    if (status == FW_INTERNAL) return fw_plan_live_wrong(r, "nested too deeply:", "set or options");
     FW_TRY(status);
     fw_sha256(all.data, all.length, key);
     return FW_OK;
 }
 
 /* live->posed holds the mechanisms of this request */
-static fw_status prepare(fw_live *live, fw_live_request *r) {
+static fw_status prepare(fw_plan_live *live, fw_plan_live_request *r) {
     char key[65];
     FW_TRY(key_of(r, key));
     if (live->posed && strcmp(live->posed->key, key) == 0) return FW_OK;
-    fw_live_posed_free(live->posed);
+    fw_plan_live_posed_free(live->posed);
     live->posed = NULL;
     fw_design *design;
-    FW_TRY(fw_live_design(live, r, &design));
-    fw_live_posed *posed = fw_arena_one(fw_design_plan(design)->arena, fw_live_posed);
+    FW_TRY(fw_plan_live_design(live, r, &design));
+    fw_plan_live_posed *posed =
+        fw_arena_one(fw_plan_design_plan(design)->arena, fw_plan_live_posed);
     if (!posed) {
         fw_design_free(design);
         return FW_NOMEM;
@@ -112,9 +113,10 @@ static fw_status prepare(fw_live *live, fw_live_request *r) {
     posed->design = design;
     live->posed = posed;
     int status = fw_design_read_memory(posed->design, "device.xml", r->text, r->length);
-    if (status == FW_STATUS_OK) status = fw_design_run(posed->design, build, posed);
+    if (status == FW_STATUS_OK) status = fw_plan_design_run(posed->design, build, posed);
     if (status == FW_STATUS_USAGE)
-        return fw_live_wrong(r, design->wrong_option ? design->wrong_option : "wrong usage", NULL);
+        return fw_plan_live_wrong(r, design->wrong_option ? design->wrong_option : "wrong usage",
+                                  NULL);
     if (status == FW_STATUS_NOMEM || status == FW_STATUS_CANCELLED) return (fw_status)status;
     posed->status = (fw_status)status;
     memcpy(posed->key, key, sizeof key); /* only now is it whole */
@@ -123,20 +125,21 @@ static fw_status prepare(fw_live *live, fw_live_request *r) {
 
 /* ---- the request ---- */
 
-static fw_status asked_of(fw_live_request *r, double asked[3]) {
+static fw_status asked_of(fw_plan_live_request *r, double asked[3]) {
     static const char *const name[] = {"x_m", "y_m", "phi_rad"};
     const json_t *platform = json_object_get(r->root, "platform");
-    if (!json_is_object(platform)) return fw_live_wrong(r, "an object is wanted for", "platform");
+    if (!json_is_object(platform))
+        return fw_plan_live_wrong(r, "an object is wanted for", "platform");
     for (int k = 0; k < 3; k++) {
         asked[k] = k < 2 ? 0.0 : (double)NAN; /* any angle */
-        FW_TRY(fw_live_real(r, platform, name[k], &asked[k]));
-        if (fabs(asked[k]) > 1e6) return fw_live_wrong(r, "too far away:", name[k]);
+        FW_TRY(fw_plan_live_real(r, platform, name[k], &asked[k]));
+        if (fabs(asked[k]) > 1e6) return fw_plan_live_wrong(r, "too far away:", name[k]);
     }
     return FW_OK;
 }
 
 /* the poses to start from, as the last answer gave them; NULL: none */
-static fw_status start_of(fw_live_request *r, const fw_mechanism *m, const double **from) {
+static fw_status start_of(fw_plan_live_request *r, const fw_mechanism *m, const double **from) {
     const json_t *list = json_object_get(r->root, "q");
     *from = NULL;
     if (!list || json_is_null(list)) return FW_OK;
@@ -146,7 +149,7 @@ static fw_status start_of(fw_live_request *r, const fw_mechanism *m, const doubl
     FW_NEED(q);
     for (size_t i = 0; i < n; i++) {
         const json_t *v = json_array_get(list, i);
-        if (!json_is_number(v)) return fw_live_wrong(r, "numbers are wanted in", "q");
+        if (!json_is_number(v)) return fw_plan_live_wrong(r, "numbers are wanted in", "q");
         q[i] = json_number_value(v);
         if (!(fabs(q[i]) <= 1e6)) return FW_OK;
     }
@@ -154,30 +157,31 @@ static fw_status start_of(fw_live_request *r, const fw_mechanism *m, const doubl
     return FW_OK;
 }
 
-static fw_status body_of(fw_live_request *r, const fw_mechanism *m, int *body) {
+static fw_status body_of(fw_plan_live_request *r, const fw_mechanism *m, int *body) {
     const char *name = NULL;
-    FW_TRY(fw_live_string(r, r->root, "body", &name));
-    *body = fw_pose_body(m);
-    if (!name && *body == FW_NONE) return fw_live_wrong(r, "the device has no body to move", NULL);
+    FW_TRY(fw_plan_live_string(r, r->root, "body", &name));
+    *body = fw_plan_pose_body(m);
+    if (!name && *body == FW_NONE)
+        return fw_plan_live_wrong(r, "the device has no body to move", NULL);
     for (int b = 0; name && b < m->nbody; b++)
         if (strcmp(m->body[b].id, name) == 0) {
             *body = b;
             return FW_OK;
         }
-    return name ? fw_live_wrong(r, "there is no body", name) : FW_OK;
+    return name ? fw_plan_live_wrong(r, "there is no body", name) : FW_OK;
 }
 
 /* the flow whose mechanism is moved: the one that is named, else the first */
-static fw_status flow_of(fw_live_request *r, const fw_plan *plan, int *flow) {
+static fw_status flow_of(fw_plan_live_request *r, const fw_plan *plan, int *flow) {
     const char *name = NULL;
-    FW_TRY(fw_live_string(r, r->root, "flow", &name));
+    FW_TRY(fw_plan_live_string(r, r->root, "flow", &name));
     *flow = 0;
     for (int i = 0; name && i < plan->nflow; i++)
         if (plan->flow[i].variant.flow && strcmp(plan->flow[i].variant.flow, name) == 0) {
             *flow = i;
             return FW_OK;
         }
-    return name ? fw_live_wrong(r, "there is no flow", name) : FW_OK;
+    return name ? fw_plan_live_wrong(r, "there is no flow", name) : FW_OK;
 }
 
 /* ---- the answer ---- */
@@ -234,9 +238,9 @@ static void flow_json(fw_json *out, const fw_mechanism *m, const double *angle) 
     fw_json_end(out);
 }
 
-static void answer(fw_json *out, const fw_live_posed *posed, int flow, int body,
-                   const double asked[3], const fw_posed *p) {
-    const fw_plan *plan = fw_design_plan(posed->design);
+static void answer(fw_json *out, const fw_plan_live_posed *posed, int flow, int body,
+                   const double asked[3], const fw_plan_posed *p) {
+    const fw_plan *plan = fw_plan_design_plan(posed->design);
     const fw_mechanism *m = posed->mechanism[flow];
     fw_json_line(out, 0);
     fw_json_text(out, "body", m->body[body].id);
@@ -259,13 +263,13 @@ static void answer(fw_json *out, const fw_live_posed *posed, int flow, int body,
     fw_json_end(out);
 }
 
-static fw_status pose(fw_live *live, fw_live_request *r, fw_text *text) {
+static fw_status pose(fw_plan_live *live, fw_plan_live_request *r, fw_text *text) {
     double asked[3];
     FW_TRY(asked_of(r, asked));
     FW_TRY(prepare(live, r));
-    fw_live_posed *posed = live->posed;
-    const fw_plan *plan = fw_design_plan(posed->design);
-    fw_posed p = {.reachable = false};
+    fw_plan_live_posed *posed = live->posed;
+    const fw_plan *plan = fw_plan_design_plan(posed->design);
+    fw_plan_posed p = {.reachable = false};
     const double *from = NULL;
     int flow = 0, body = FW_NONE;
     fw_status status = posed->status;
@@ -273,7 +277,7 @@ static fw_status pose(fw_live *live, fw_live_request *r, fw_text *text) {
         FW_TRY(flow_of(r, plan, &flow));
         FW_TRY(body_of(r, posed->mechanism[flow], &body));
         FW_TRY(start_of(r, posed->mechanism[flow], &from));
-        status = fw_pose_solve(r->arena, posed->mechanism[flow], body, asked, from, &p);
+        status = fw_plan_pose_solve(r->arena, posed->mechanism[flow], body, asked, from, &p);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     }
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
@@ -290,8 +294,8 @@ static fw_status pose(fw_live *live, fw_live_request *r, fw_text *text) {
     return fw_json_finish(out, "\n");
 }
 
-fw_live_answer fw_live_pose(fw_live *live, const char *request, size_t n) {
+fw_plan_live_answer fw_plan_live_pose(fw_plan_live *live, const char *request, size_t n) {
     static const char *const keys[] = {"text", "set",      "options", "flow",
                                        "body", "platform", "q",       NULL};
-    return fw_live_call(live, request, n, keys, pose);
+    return fw_plan_live_call(live, request, n, keys, pose);
 }

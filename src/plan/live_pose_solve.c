@@ -15,11 +15,12 @@ static void rest_of(const fw_mechanism *m, double *q) {
     }
 }
 
-double fw_pose_size(const fw_mechanism *m) {
+double fw_plan_pose_size(const fw_mechanism *m) {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (int i = -m->nbody; i < m->npin; i++) {
-        fw_vec2 p = i < 0 ? (fw_vec2){m->body[i + m->nbody].x_m, m->body[i + m->nbody].y_m}
-                          : fw_pin_place(m, &m->pin[i], 0);
+        fw_geometry_vec2 p =
+            i < 0 ? (fw_geometry_vec2){m->body[i + m->nbody].x_m, m->body[i + m->nbody].y_m}
+                  : fw_mechanism_pin_place(m, &m->pin[i], 0);
         low[0] = fmin(low[0], p.x), high[0] = fmax(high[0], p.x);
         low[1] = fmin(low[1], p.y), high[1] = fmax(high[1], p.y);
     }
@@ -27,7 +28,7 @@ double fw_pose_size(const fw_mechanism *m) {
     return size > 0 && isfinite(size) ? size : 1e-3;
 }
 
-int fw_pose_body(const fw_mechanism *m) {
+int fw_plan_pose_body(const fw_mechanism *m) {
     int heaviest = FW_NONE;
     for (int b = 0; b < m->nbody; b++) {
         if (m->device->body[b].platform) return b;
@@ -38,7 +39,7 @@ int fw_pose_body(const fw_mechanism *m) {
 
 static void angles_of(const fw_mechanism *m, const double *q, double *angle) {
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
+        const fw_mechanism_pin *p = &m->pin[i];
         angle[i] = (p->body_b == FW_GROUND ? 0.0 : q[3 * p->body_b + 2]) -
                    (p->body_a == FW_GROUND ? 0.0 : q[3 * p->body_a + 2]) - p->free_angle_rad;
     }
@@ -47,7 +48,7 @@ static void angles_of(const fw_mechanism *m, const double *q, double *angle) {
 /* ---- six-bar ---- */
 
 /* puts body b of a pin where the pin's angle and body a say, or body a likewise */
-static void place(const fw_pin *p, double angle, bool put_b, double *q) {
+static void place(const fw_mechanism_pin *p, double angle, bool put_b, double *q) {
     int from = put_b ? p->body_a : p->body_b, to = put_b ? p->body_b : p->body_a;
     double fx = put_b ? p->ax_m : p->bx_m, fy = put_b ? p->ay_m : p->by_m;
     double tx = put_b ? p->bx_m : p->ax_m, ty = put_b ? p->by_m : p->ay_m;
@@ -70,7 +71,7 @@ static void place_all(const fw_mechanism *m, const double *angle, bool *stands, 
     for (bool more = true; more;) {
         more = false;
         for (int i = 0; i < m->npin; i++) {
-            const fw_pin *p = &m->pin[i];
+            const fw_mechanism_pin *p = &m->pin[i];
             bool a = p->body_a == FW_GROUND || stands[p->body_a];
             bool b = p->body_b == FW_GROUND || stands[p->body_b];
             if (a == b) continue;
@@ -87,32 +88,34 @@ static void place_all(const fw_mechanism *m, const double *angle, bool *stands, 
    solutions of 1 us each. Test: test_live_pose.c (forward kinematics, joints closed, random poses).
  */
 static fw_status six_bar(fw_arena *arena, const fw_mechanism *m, const double asked[3],
-                         fw_posed *out) {
+                         fw_plan_posed *out) {
     enum { PARTS = 64, HALVINGS = 34 };
     double angle[FW_SIX], share = 1.0;
     int leg = 0, blamed = 0;
     bool *stands = fw_arena_array(arena, bool, (size_t)m->nbody);
     FW_NEED(stands);
-    out->reachable = fw_six_bar_inverse(m, asked[0], asked[1], asked[2], angle, &blamed);
+    out->reachable = fw_workspace_six_bar_inverse(m, asked[0], asked[1], asked[2], angle, &blamed);
     if (!out->reachable) {
         double low = 0.0, high = 1.0;
         for (int i = 1; i <= PARTS; i++) {
             double s = (double)i / PARTS;
             high = s;
-            if (!fw_six_bar_inverse(m, s * asked[0], s * asked[1], s * asked[2], angle, &leg))
+            if (!fw_workspace_six_bar_inverse(m, s * asked[0], s * asked[1], s * asked[2], angle,
+                                              &leg))
                 break;
             low = s;
         }
         for (int i = 0; i < HALVINGS; i++) {
             double s = 0.5 * (low + high);
-            if (fw_six_bar_inverse(m, s * asked[0], s * asked[1], s * asked[2], angle, &leg))
+            if (fw_workspace_six_bar_inverse(m, s * asked[0], s * asked[1], s * asked[2], angle,
+                                             &leg))
                 low = s;
             else
                 high = s, blamed = leg;
         }
         share = low;
-        if (!fw_six_bar_inverse(m, share * asked[0], share * asked[1], share * asked[2], angle,
-                                &leg))
+        if (!fw_workspace_six_bar_inverse(m, share * asked[0], share * asked[1], share * asked[2],
+                                          angle, &leg))
             return FW_SOLVER;
         out->reason = fw_arena_printf(arena, "leg %s-%s-%s is stretched or folded there",
                                       m->pin[blamed ? 5 : 0].id, m->pin[blamed ? 4 : 1].id,
@@ -138,7 +141,7 @@ static fw_status held(fw_arena *arena, const fw_mechanism *from, int body, bool 
                       fw_mechanism *to) {
     *to = *from;
     to->ndriver = 0;
-    FW_NEED(to->body = fw_arena_array(arena, fw_mass, (size_t)from->nbody));
+    FW_NEED(to->body = fw_arena_array(arena, fw_mechanism_mass, (size_t)from->nbody));
     for (int b = 0; b < from->nbody; b++) {
         to->body[b] = from->body[b];
         to->body[b].mass_kg = b == body ? heavy : 1.0;
@@ -162,7 +165,7 @@ static fw_status close_at(fw_arena *arena, const fw_mechanism *m, int body, cons
         fw_mark mark = fw_arena_mark(arena);
         fw_diags quiet = fw_diags_new(arena);
         memcpy(q + (size_t)3 * (size_t)body, aim, sizeof aim);
-        fw_status status = fw_assemble(arena, m, q, &moved, &quiet);
+        fw_status status = fw_assembly_assemble(arena, m, q, &moved, &quiet);
         fw_arena_rewind(arena, mark);
         FW_TRY(status);
         double off = apart(q + (size_t)3 * (size_t)body, target, turns, size);
@@ -180,10 +183,10 @@ static fw_status close_at(fw_arena *arena, const fw_mechanism *m, int body, cons
    and body. Source: docs/theory/assembly.md. Test: test_live_pose.c (against the closed form of the
    six-bar, four-bar against its coupler curve). */
 static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const double asked[3],
-                         const double *from, fw_posed *out) {
+                         const double *from, fw_plan_posed *out) {
     enum { STEPS_MOST = 40 };
     fw_mechanism free_mechanism;
-    double size = fw_pose_size(m), *rest, target[3], start[3];
+    double size = fw_plan_pose_size(m), *rest, target[3], start[3];
     size_t n = 3 * (size_t)m->nbody;
     FW_NEED(rest = fw_arena_array(arena, double, n));
     rest_of(m, rest);
@@ -218,14 +221,14 @@ static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const
     return FW_OK;
 }
 
-fw_status fw_pose_solve(fw_arena *arena, const fw_mechanism *m, int body, const double asked[3],
-                        const double *from, fw_posed *out) {
-    *out = (fw_posed){0};
+fw_status fw_plan_pose_solve(fw_arena *arena, const fw_mechanism *m, int body,
+                             const double asked[3], const double *from, fw_plan_posed *out) {
+    *out = (fw_plan_posed){0};
     FW_NEED(out->q = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     FW_NEED(out->angle_rad = fw_arena_array(arena, double, (size_t)m->npin));
     if (body < 0 || body >= m->nbody) return FW_USAGE;
     /* further joints would take freedom from the platform */
-    bool plain = m->device->six_bar && m->npin == FW_SIX && m->ntie == 0 && m->nbody == 5;
+    bool plain = m->device->six_bar && m->npin == FW_SIX && m->njoint == 0 && m->nbody == 5;
     const double upright[3] = {asked[0], asked[1], isnan(asked[2]) ? 0.0 : asked[2]};
     if (plain && body == 2) return six_bar(arena, m, upright, out);
     return closing(arena, m, body, asked, from, out);

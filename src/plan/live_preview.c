@@ -15,7 +15,8 @@ static fw_status flows_of(fw_plan *plan, bool judged, fw_report_preview *in) {
     }
     size_t n = (size_t)plan->nflow;
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, n);
-    fw_variant_verdict *verdict = fw_arena_array(plan->arena, fw_variant_verdict, n);
+    fw_verdict_variant_verdict *verdict =
+        fw_arena_array(plan->arena, fw_verdict_variant_verdict, n);
     FW_NEED(flow && verdict ? flow : NULL);
     for (size_t i = 0; i < n; i++) {
         verdict[i].variant = &plan->flow[i].variant;
@@ -74,11 +75,14 @@ static int leave_out(const fw_plan *plan, bool judged, fw_report_left_out *item)
             "not run.",
             true};
     if (!plan->options.verdict.with_advice)
-        item[n++] = (fw_report_left_out){"advice", "No change that would be accepted was "
-                                                   "searched for.", false};
+        item[n++] = (fw_report_left_out){"advice",
+                                         "No change that would be accepted was "
+                                         "searched for.",
+                                         false};
     item[n++] = (fw_report_left_out){
-        "masks", "No mask was computed, so no design rule was checked; the verdict covers the "
-                 "hinges only.",
+        "masks",
+        "No mask was computed, so no design rule was checked; the verdict covers the "
+        "hinges only.",
         false};
     return n;
 }
@@ -98,10 +102,10 @@ static fw_status verdict_of(fw_design *d, fw_report_preview *in) {
 static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
     const char *wanted = plan->options.scene;
     for (int k = 0; k < in->device->nscene; k++) {
-        const fw_scene *scene = &in->device->scene[k];
+        const fw_device_scene *scene = &in->device->scene[k];
         if (wanted && strcmp(wanted, scene->name) != 0) continue;
         for (int i = 0; i < plan->nflow; i++) {
-            const fw_variant_verdict *v = &plan->verdict.variant[i];
+            const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
             if (!v->motion || !v->motion[k]) continue;
             in->mechanism = v->mechanism, in->motion = v->motion[k], in->scene = scene;
             return;
@@ -150,7 +154,7 @@ static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
     return fw_report_preview_json(plan->arena, &in, out);
 }
 
-fw_status fw_design_preview_json(fw_design *design, fw_text *out) {
+fw_status fw_plan_design_preview_json(fw_design *design, fw_text *out) {
     return compose(design, FW_OK, out);
 }
 
@@ -175,16 +179,16 @@ static fw_status document(fw_design *d, void *argument) {
 /* so many rows that a page can still take them: fewer of a mechanism with hundreds of bodies */
 static void shorten(fw_plan *plan) {
     enum { NUMBERS_MOST = 400000 };
-    int each = 3 * plan->device->nbody + plan->device->njoint + 6;
+    int each = 3 * plan->device->nbody + plan->device->nrevolute + 6;
     int most = NUMBERS_MOST / each > 2 ? NUMBERS_MOST / each : 2, *samples;
     samples = &plan->options.verdict.motion.samples;
     if (*samples > most) *samples = most;
 }
 
-static fw_status look(fw_design *d, fw_live_request *request, fw_text *out) {
+static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out) {
     int status = fw_design_read_memory(d, "device.xml", request->text, request->length);
     if (status == FW_STATUS_USAGE && d->wrong_option)
-        return fw_live_wrong(request, d->wrong_option, NULL);
+        return fw_plan_live_wrong(request, d->wrong_option, NULL);
     if (status == FW_STATUS_OK) {
         bool scenes = d->plan->device->nscene > 0;
         shorten(d->plan);
@@ -196,18 +200,18 @@ static fw_status look(fw_design *d, fw_live_request *request, fw_text *out) {
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;
-    return (fw_status)fw_design_run(d, document, &(work){(fw_status)status, out});
+    return (fw_status)fw_plan_design_run(d, document, &(work){(fw_status)status, out});
 }
 
-static fw_status preview(fw_live *live, fw_live_request *request, fw_text *out) {
+static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
     fw_design *design;
-    FW_TRY(fw_live_design(live, request, &design));
+    FW_TRY(fw_plan_live_design(live, request, &design));
     fw_status status = look(design, request, out);
     fw_design_free(design);
     return status;
 }
 
-fw_live_answer fw_live_preview(fw_live *live, const char *request, size_t n) {
+fw_plan_live_answer fw_plan_live_preview(fw_plan_live *live, const char *request, size_t n) {
     static const char *const keys[] = {"text", "set", "options", NULL};
-    return fw_live_call(live, request, n, keys, preview);
+    return fw_plan_live_call(live, request, n, keys, preview);
 }

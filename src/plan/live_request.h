@@ -15,40 +15,43 @@ enum {
     FW_LIVE_SAMPLES_MOST = 2001
 };
 
-struct fw_live {
+struct fw_plan_live {
     fw_arena *self; /* holds this struct */
-    fw_live_settings settings;
-    fw_arena *answer;            /* of the last one, NULL: none */
-    struct fw_live_posed *posed; /* the mechanism that was last posed, NULL: none */
+    fw_plan_live_settings settings;
+    fw_arena *answer;                 /* of the last one, NULL: none */
+    struct fw_plan_live_posed *posed; /* the mechanism that was last posed, NULL: none */
 };
 
-typedef struct fw_live_request {
+typedef struct fw_plan_live_request {
     fw_arena *arena; /* the answer's */
     json_t *root;    /* strings below belong to it */
     const char *text;
     size_t length;
     json_t *set, *options; /* objects or NULL */
-    bool full;             /* options.detail, after fw_live_design */
+    bool full;             /* options.detail, after fw_plan_live_design */
     const char *wrong;     /* a sentence; NULL: nothing is */
-} fw_live_request;
+} fw_plan_live_request;
 
 /* takes the request apart; keys: those allowed beside "text", NULL at the end. FW_USAGE: `wrong` */
-fw_status fw_live_request_read(fw_arena *arena, const char *json, size_t n, const char *const *keys,
-                               fw_live_request *request);
-void fw_live_request_free(fw_live_request *request);
+fw_status fw_plan_live_request_read(fw_arena *arena, const char *json, size_t n,
+                                    const char *const *keys, fw_plan_live_request *request);
+void fw_plan_live_request_free(fw_plan_live_request *request);
 /* what is wrong: FW_USAGE */
-fw_status fw_live_wrong(fw_live_request *request, const char *what, const char *key);
+fw_status fw_plan_live_wrong(fw_plan_live_request *request, const char *what, const char *key);
 /* a design with the options and sets of the request, not read yet */
-fw_status fw_live_design(const fw_live *live, fw_live_request *request, fw_design **design);
+fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *request,
+                              fw_design **design);
 /* optional members of an object: absent leaves *value alone */
-fw_status fw_live_string(fw_live_request *r, const json_t *object, const char *key,
-                         const char **value);
-fw_status fw_live_real(fw_live_request *r, const json_t *object, const char *key, double *value);
+fw_status fw_plan_live_string(fw_plan_live_request *r, const json_t *object, const char *key,
+                              const char **value);
+fw_status fw_plan_live_real(fw_plan_live_request *r, const json_t *object, const char *key,
+                            double *value);
 
-void fw_live_posed_free(struct fw_live_posed *posed); /* NULL allowed */
+void fw_plan_live_posed_free(struct fw_plan_live_posed *posed); /* NULL allowed */
 
 /* one call: `work` fills `out` in a fresh arena */
-typedef fw_status (*fw_live_work)(fw_live *live, fw_live_request *request, fw_text *out);
-fw_live_answer fw_live_call(fw_live *live, const char *json, size_t n, const char *const *keys,
-                            fw_live_work work);
+typedef fw_status (*fw_plan_live_work)(fw_plan_live *live, fw_plan_live_request *request,
+                                       fw_text *out);
+fw_plan_live_answer fw_plan_live_call(fw_plan_live *live, const char *json, size_t n,
+                                      const char *const *keys, fw_plan_live_work work);
 #endif

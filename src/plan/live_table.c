@@ -19,7 +19,7 @@ static void item(fw_json *out, const char *name) {
     fw_json_text(out, "name", name);
 }
 
-static void names(fw_json *out, const char *key, fw_method_row (*at)(size_t)) {
+static void names(fw_json *out, const char *key, fw_multibody_method_row (*at)(size_t)) {
     begin(out, key);
     for (size_t i = 0; at(i).name; i++) {
         item(out, at(i).name);
@@ -43,10 +43,10 @@ static void effects(fw_json *out) {
     fw_json_end(out);
 }
 
-static fw_method_row hinge_model(size_t i) {
-    if (i >= fw_hinge_model_count()) return (fw_method_row){NULL, NULL};
-    return (fw_method_row){fw_hinge_model_text((fw_hinge_model)i),
-                           fw_hinge_model_summary((fw_hinge_model)i)};
+static fw_multibody_method_row hinge_model(size_t i) {
+    if (i >= fw_effects_hinge_model_count()) return (fw_multibody_method_row){NULL, NULL};
+    return (fw_multibody_method_row){fw_effects_hinge_model_text((fw_effects_hinge_model)i),
+                                     fw_effects_hinge_model_summary((fw_effects_hinge_model)i)};
 }
 
 static void formats(fw_json *out) {
@@ -64,7 +64,7 @@ static void formats(fw_json *out) {
 
 static void units(fw_json *out) {
     size_t count;
-    const char *const *name = fw_unit_names(&count);
+    const char *const *name = fw_quantity_unit_names(&count);
     begin(out, "units");
     for (size_t i = 0; i < count; i++)
         fw_json_text(out, NULL, name[i]);
@@ -87,14 +87,14 @@ fw_status fw_plan_table_json(fw_text *text) {
     fw_json_text(out, "namespace", "urn:flexwright:device:1");
     fw_json_line(out, 0);
     FW_TRY(fw_device_table_json(fw_json_value(out, "elements")));
-    names(out, "methods", fw_method_at);
-    names(out, "integrators", fw_integrator_at);
-    names(out, "stabilisations", fw_stabilisation_at);
+    names(out, "methods", fw_multibody_method_at);
+    names(out, "integrators", fw_dynamics_integrator_at);
+    names(out, "stabilisations", fw_dynamics_stabilisation_at);
     names(out, "hinge_models", hinge_model);
     effects(out);
     formats(out);
     units(out);
-    const fw_motion_options usual = fw_plan_options_default().verdict.motion;
+    const fw_dynamics_motion_options usual = fw_plan_options_default().verdict.motion;
     fw_json_line(out, 0);
     fw_json_object(out, "limits");
     limit(out, "accuracy", FW_ACCURACY_LEAST, FW_ACCURACY_MOST, usual.accuracy);
@@ -105,11 +105,11 @@ fw_status fw_plan_table_json(fw_text *text) {
     return fw_json_finish(out, "\n");
 }
 
-static fw_status table(fw_live *live, fw_live_request *request, fw_text *out) {
+static fw_status table(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
     (void)live, (void)request;
     return fw_plan_table_json(out);
 }
 
-fw_live_answer fw_live_table(fw_live *live) {
-    return fw_live_call(live, NULL, 0, NULL, table);
+fw_plan_live_answer fw_plan_live_table(fw_plan_live *live) {
+    return fw_plan_live_call(live, NULL, 0, NULL, table);
 }

@@ -36,8 +36,8 @@ fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, si
     if (plan->ninput == (int)(sizeof plan->input / sizeof plan->input[0])) return FW_OK;
     char hash[65];
     fw_sha256(data, n, hash);
-    fw_input_file *input = &plan->input[plan->ninput];
-    *input = (fw_input_file){name, fw_arena_strdup(plan->arena, hash), n};
+    fw_plan_input_file *input = &plan->input[plan->ninput];
+    *input = (fw_plan_input_file){name, fw_arena_strdup(plan->arena, hash), n};
     FW_NEED(input->sha256);
     plan->ninput++;
     return FW_OK;
@@ -67,11 +67,11 @@ fw_status fw_plan_need_material(fw_plan *plan) {
 }
 
 /* the variant of the description itself: what explicit masses and stiffnesses refer to */
-static fw_status own_material(fw_plan *plan, fw_material *material) {
+static fw_status own_material(fw_plan *plan, fw_device_material *material) {
     const fw_device *d = plan->device;
     FW_TRY(fw_plan_need_material(plan));
-    const fw_material *found = fw_material_find(&plan->materials, d->material_ref);
-    *material = fw_material_with(found, &d->material);
+    const fw_device_material *found = fw_device_material_find(&plan->materials, d->material_ref);
+    *material = fw_device_material_with(found, &d->material);
     return FW_OK;
 }
 
@@ -89,7 +89,8 @@ static bool same(const char *a, const char *b) {
 }
 
 /* thickness of the variant: of the <flow>, else of the device, else of the pack */
-static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_flow *flow) {
+static double thickness_of(const fw_device *d, const fw_device_flow_use *use,
+                           const fw_process_flow *flow) {
     if (use && !isnan(use->thickness_m)) return use->thickness_m;
     if (!isnan(d->thickness_m)) return d->thickness_m;
     if (flow && flow->thickness && !flow->thickness->unknown) return flow->thickness->value;
@@ -97,20 +98,22 @@ static double thickness_of(const fw_device *d, const fw_flow_use *use, const fw_
 }
 
 /* of a wafer as it is usually cut: the flat, along <110>, parallel to x */
-static double orientation_of(const fw_device *d, const fw_flow_use *use) {
+static double orientation_of(const fw_device *d, const fw_device_flow_use *use) {
     if (use && !isnan(use->orientation_rad)) return use->orientation_rad;
     return isnan(d->orientation_rad) ? 0.25 * FW_PI : d->orientation_rad;
 }
 
 /* an orientation that nothing goes by is worth a word */
-static void check_orientation(fw_plan *plan, const fw_flow_use *use, const fw_material *m) {
+static void check_orientation(fw_plan *plan, const fw_device_flow_use *use,
+                              const fw_device_material *m) {
     bool asked = use && !isnan(use->orientation_rad);
-    if (fw_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad))) return;
+    if (fw_device_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad)))
+        return;
     if (!asked && !same(m->id, plan->device->material_ref)) return; /* it is not about this one */
-    const fw_material *pack = fw_material_find(&plan->materials, m->id);
+    const fw_device_material *pack = fw_device_material_find(&plan->materials, m->id);
     fw_diag_warning(
         &plan->diags, 210, asked ? use->place : plan->device->material_place,
-        pack && fw_material_is_crystal(pack)
+        pack && fw_device_material_is_crystal(pack)
             ? "orientation has no effect on '%s', because youngs-modulus is stated and "
               "holds in every direction; leave one of them out"
             : "orientation has no effect on '%s', which has no crystal constants in the "
@@ -120,33 +123,34 @@ static void check_orientation(fw_plan *plan, const fw_flow_use *use, const fw_ma
 
 /* what the anchors are held by: silicon, unless the flow says that the carrier stays and insulates:
    that is glass */
-static void stand_on_substrate(fw_plan *plan, const fw_flow_use *use, fw_variant *v) {
+static void stand_on_substrate(fw_plan *plan, const fw_device_flow_use *use,
+                               fw_mechanism_variant *v) {
     bool glass = use && use->insulating_carrier;
-    const fw_material *of =
-        fw_material_find(&plan->materials, glass ? "glass-carrier" : "silicon-substrate");
+    const fw_device_material *of =
+        fw_device_material_find(&plan->materials, glass ? "glass-carrier" : "silicon-substrate");
     if (!of) return; /* a pack without it: not known */
     v->substrate = of->name;
     v->substrate_expansion = of->expansion;
 }
 
-static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material *own) {
+static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_material *own) {
     const fw_device *d = plan->device;
-    const fw_flow_use *use = pf->use;
-    fw_variant *v = &pf->variant;
+    const fw_device_flow_use *use = pf->use;
+    fw_mechanism_variant *v = &pf->variant;
     fw_place place = use ? use->place : d->material_place;
-    *v = (fw_variant){.flow = use ? use->ref : NULL,
-                      .material = *own,
-                      .substrate_expansion = {.unknown = true},
-                      .thickness_m = thickness_of(d, use, pf->flow),
-                      .orientation_rad = orientation_of(d, use)};
+    *v = (fw_mechanism_variant){.flow = use ? use->ref : NULL,
+                                .material = *own,
+                                .substrate_expansion = {.unknown = true},
+                                .thickness_m = thickness_of(d, use, pf->flow),
+                                .orientation_rad = orientation_of(d, use)};
     if (use && use->material && !same(use->material, d->material_ref))
-        v->material = *fw_material_find(&plan->materials, use->material);
+        v->material = *fw_device_material_find(&plan->materials, use->material);
     stand_on_substrate(plan, use, v);
     if (isnan(v->thickness_m))
         return fw_diag_error(&plan->diags, 226, place,
                              "the thickness of the device layer is not known: give thickness on "
                              "<material> or <flow>");
-    const fw_material *m = &v->material;
+    const fw_device_material *m = &v->material;
     if (m->youngs.unknown || m->density.unknown || m->strength.unknown || m->poisson.unknown)
         return fw_diag_error(
             &plan->diags, 225, place,
@@ -170,27 +174,27 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_material
 
 /* a mechanism that states all its masses and has no flexure moves without a material; a verdict
    asks for one (fw_plan_need_material) */
-static fw_variant mechanism_alone(void) {
+static fw_mechanism_variant mechanism_alone(void) {
     const fw_quantity unknown = {.unknown = true};
-    const fw_material none = {.id = "none",
-                              .name = "no material",
-                              .youngs = unknown,
-                              .poisson = unknown,
-                              .density = unknown,
-                              .strength = unknown,
-                              .criterion = "",
-                              .loss = unknown,
-                              .expansion = unknown,
-                              .modulus_change = unknown,
-                              .c11 = unknown,
-                              .c12 = unknown,
-                              .c44 = unknown};
-    return (fw_variant){.material = none,
-                        .substrate_expansion = unknown,
-                        .thickness_m = 1, /* nothing is made of it */
-                        .explicit_mass_scale = 1,
-                        .explicit_stiffness_scale = 1,
-                        .explicit_damping_scale = 1};
+    const fw_device_material none = {.id = "none",
+                                     .name = "no material",
+                                     .youngs = unknown,
+                                     .poisson = unknown,
+                                     .density = unknown,
+                                     .strength = unknown,
+                                     .criterion = "",
+                                     .loss = unknown,
+                                     .expansion = unknown,
+                                     .modulus_change = unknown,
+                                     .c11 = unknown,
+                                     .c12 = unknown,
+                                     .c44 = unknown};
+    return (fw_mechanism_variant){.material = none,
+                                  .substrate_expansion = unknown,
+                                  .thickness_m = 1, /* nothing is made of it */
+                                  .explicit_mass_scale = 1,
+                                  .explicit_stiffness_scale = 1,
+                                  .explicit_damping_scale = 1};
 }
 
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
@@ -200,8 +204,8 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     size_t n;
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
-    FW_TRY(fw_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length, name, xml,
-                        n, &plan->diags, &pf->flow));
+    FW_TRY(fw_process_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length,
+                                name, xml, n, &plan->diags, &pf->flow));
     FW_TRY(fw_plan_lab(plan, pf->flow));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -225,7 +229,7 @@ static fw_status load_flows(fw_plan *plan) {
     const fw_device *d = plan->device;
     int most = d->nflow > 0 ? d->nflow : 1;
     FW_NEED(plan->flow = fw_arena_array(plan->arena, fw_plan_flow, (size_t)most));
-    fw_material own;
+    fw_device_material own;
     if (d->nflow == 0 && !d->material_ref) {
         plan->nflow = 1;
         plan->flow[0].variant = mechanism_alone();
@@ -251,10 +255,10 @@ static fw_status load_flows(fw_plan *plan) {
 }
 
 /* a plan of its own for messages and memory, over the packs of this one */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *set,
-                           const fw_device **device, fw_variant_verdict *variant) {
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
+                           const fw_device **device, fw_verdict_variant_verdict *variant) {
     size_t n = (size_t)plan->options.nset;
-    fw_set *sets = fw_arena_array(arena, fw_set, n + 1);
+    fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + 1);
     fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
     FW_NEED(sets && flow ? sets : NULL);
     if (n > 0) memcpy(sets, plan->options.set, n * sizeof *sets);
@@ -266,13 +270,13 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *s
     FW_TRY(fw_device_read(arena, plan->source_file, plan->source, plan->source_length, sets,
                           plan->options.nset + 1, &other.diags, device));
     other.device = *device;
-    fw_material own;
+    fw_device_material own;
     FW_TRY(own_material(&other, &own));
     for (int i = 0; i < plan->nflow; i++) {
         flow[i] = plan->flow[i];
         if (flow[i].use) flow[i].use = &(*device)->flow[flow[i].use - plan->device->flow];
         FW_TRY(make_variant(&other, &flow[i], &own));
-        FW_TRY(fw_plan_made_of(arena, &flow[i], &variant[i]));
+        FW_TRY(fw_plan_fabricated_of(arena, &flow[i], &variant[i]));
     }
     return FW_OK;
 }
@@ -288,12 +292,12 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
  */
 static fw_status check_references(fw_plan *plan, const fw_device *d) {
     fw_status status = FW_OK;
-    if (d->material_ref && !fw_material_find(&plan->materials, d->material_ref))
+    if (d->material_ref && !fw_device_material_find(&plan->materials, d->material_ref))
         status =
             fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
                           d->material_ref, plan->base_file, fw_plan_material_names(plan));
     for (int i = 0; i < d->nflow; i++) {
-        const fw_flow_use *use = &d->flow[i];
+        const fw_device_flow_use *use = &d->flow[i];
         const char *name =
             use->ref ? fw_arena_printf(plan->arena, "processes/%s.xml", use->ref) : "";
         FW_NEED(name);
@@ -304,7 +308,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
                                    "there is no process pack %s: correct the name, or set "
                                    "FLEXWRIGHT_DATA to the directory that holds it",
                                    name);
-        if (use->material && !fw_material_find(&plan->materials, use->material))
+        if (use->material && !fw_device_material_find(&plan->materials, use->material))
             status = fw_diag_error(&plan->diags, 225, use->material_place,
                                    "material '%s' is not in %s: %s", use->material, plan->base_file,
                                    fw_plan_material_names(plan));
@@ -331,8 +335,8 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     FW_TRY(
         read_data(plan, plan->base_file, (fw_place){.file = file}, &base_xml, &plan->base_length));
     plan->base_xml = base_xml;
-    FW_TRY(fw_materials_read(plan->arena, plan->base_file, base_xml, plan->base_length,
-                             &plan->diags, &plan->materials));
+    FW_TRY(fw_device_materials_read(plan->arena, plan->base_file, base_xml, plan->base_length,
+                                    &plan->diags, &plan->materials));
     fw_status references = check_references(plan, device);
     if (read != FW_OK) return read; /* a device with mistakes is for nobody else */
     FW_TRY(references);

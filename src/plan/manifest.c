@@ -25,7 +25,7 @@ static void schedule(fw_json *json, const fw_schedule_options *c) {
 }
 
 static void options(fw_json *json, const fw_plan_options *o) {
-    const fw_motion_options *motion = &o->verdict.motion;
+    const fw_dynamics_motion_options *motion = &o->verdict.motion;
     fw_json_object(json, "options");
     fw_json_real(json, "mask_tolerance_nm",
                  o->mask_tolerance_m > 0 ? o->mask_tolerance_m * 1e9 : 5.0);
@@ -33,7 +33,7 @@ static void options(fw_json *json, const fw_plan_options *o) {
     fw_json_whole(json, "mask_vertices", o->mask_vertices ? o->mask_vertices : 4094);
     fw_json_real(json, "accuracy", motion->accuracy);
     fw_json_text(json, "effects", effects_text(&motion->effects));
-    fw_json_text(json, "hinge_model", fw_hinge_model_text(motion->effects.hinge));
+    fw_json_text(json, "hinge_model", fw_effects_hinge_model_text(motion->effects.hinge));
     fw_json_text(json, "flow", o->flow);
     fw_json_truth(json, "force", o->force);
     fw_json_text(json, "method", motion->method);

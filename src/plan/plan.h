@@ -9,9 +9,9 @@
 #include "assembly/kinematics.h"
 #include "statics/modes.h"
 #include "wafer/wafer.h"
-#include "report/assembly.h"
+#include "report/report_assembly.h"
 #include "report/terminal.h"
-#include "report/workspace.h"
+#include "report/report_workspace.h"
 #include "recipe/recipe.h"
 #include "schedule/schedule.h"
 
@@ -24,7 +24,7 @@ typedef struct fw_plan_options {
     const char *mask_formats;   /* fw_mask_formats; NULL: the usual ones */
     int mask_vertices;          /* most of one GDSII boundary; 0: 4094 */
     const char *mask_flatten;   /* fw_mask_flattening_named; NULL: "inside" */
-    const fw_set *set;          /* (nset) */
+    const fw_device_set *set;   /* (nset) */
     int nset;
     bool force; /* masks and recipes of a rejected design too */
     int dies;   /* above 0: this is one device of a wafer of so many; <wafer> is left alone */
@@ -40,9 +40,9 @@ typedef struct fw_plan_options {
 fw_plan_options fw_plan_options_default(void);
 
 typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, mask and recipe */
-    const fw_flow_use *use;   /* NULL: the device's own material without a flow */
-    fw_variant variant;
-    fw_flow *flow; /* NULL: none */
+    const fw_device_flow_use *use; /* NULL: the device's own material without a flow */
+    fw_mechanism_variant variant;
+    fw_process_flow *flow; /* NULL: none */
     const fw_mask_table *table;
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
@@ -60,10 +60,10 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */
 } fw_plan_flow;
 
-typedef struct fw_input_file { /* for the manifest */
+typedef struct fw_plan_input_file { /* for the manifest */
     const char *name, *sha256;
     size_t size;
-} fw_input_file;
+} fw_plan_input_file;
 
 typedef struct fw_plan {
     fw_arena *arena;
@@ -72,7 +72,7 @@ typedef struct fw_plan {
     const char *source_file, *source; /* the device file as read, for carets */
     size_t source_length;
     const fw_device *device;
-    fw_materials materials;
+    fw_device_materials materials;
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
     int nflow;
     const fw_layout *layout; /* NULL: cannot be drawn */
@@ -82,7 +82,7 @@ typedef struct fw_plan {
     int nassumption, assumption_capacity;
     int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made
                         */
-    fw_input_file input[16];
+    fw_plan_input_file input[16];
     int ninput;
     struct fw_plan_lab *lab; /* (nlab) laboratory packs as read */
     int nlab;
@@ -114,22 +114,22 @@ enum { /* what fw_plan_write writes */
 /* the directory appears complete or not at all, with its manifest */
 fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
 /* one scene of one variant, for simulate; *mechanism too */
-fw_status fw_plan_simulate(fw_plan *plan, const fw_motion **motion, const fw_mechanism **mechanism,
-                           const fw_scene **scene);
+fw_status fw_plan_simulate(fw_plan *plan, const fw_dynamics_motion **motion,
+                           const fw_mechanism **mechanism, const fw_device_scene **scene);
 /* modes and equilibrium likewise */
-fw_status fw_plan_modes(fw_plan *plan, const fw_modes **modes, const fw_mechanism **mechanism,
-                        const fw_scene **scene);
+fw_status fw_plan_modes(fw_plan *plan, const fw_statics_modes **modes,
+                        const fw_mechanism **mechanism, const fw_device_scene **scene);
 fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_mechanism **mechanism,
-                          const fw_scene **scene);
+                          const fw_device_scene **scene);
 
 /* the reachable set and the required poses in every flow, proved where that can be */
 fw_status fw_plan_workspace(fw_plan *plan, fw_report_workspace *workspace);
 
 typedef struct fw_plan_assembly {
-    const fw_scene *scene;         /* its loads; NULL: the device has none */
+    const fw_device_scene *scene;  /* its loads; NULL: the device has none */
     const fw_mechanism *mechanism; /* stands in the guess: as the description states it */
     const fw_assembly *assembly;   /* NULL: not even started */
-    const fw_kinematics *kinematics;
+    const fw_assembly_kinematics *kinematics;
     bool closed, motion;
 } fw_plan_assembly;
 /* the position problem, and velocities, accelerations and forces for the given rates */
@@ -137,7 +137,7 @@ fw_status fw_plan_assemble(fw_plan *plan, fw_plan_assembly *assembly);
 
 /* ---- documents: the first three after fw_plan_judge, the others after fw_plan_fabricate ---- */
 fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out);
-fw_status fw_plan_verdict_text(fw_plan *plan, fw_terminal_style style, fw_text *out);
+fw_status fw_plan_verdict_text(fw_plan *plan, fw_report_terminal_style style, fw_text *out);
 fw_status fw_plan_report_html(fw_plan *plan, fw_text *out);
 fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out);
 fw_status fw_plan_recipes_json(fw_plan *plan, fw_text *out);

@@ -39,7 +39,7 @@ fw_status fw_plan_schedules(fw_plan *plan) {
         if (pf->schedule->feasible || pf->schedule->pause_s) continue;
         const char *why = fw_arena_printf(
             plan->arena, "the hold windows of the steps cannot be kept: %s", pf->schedule->why);
-        FW_TRY(fw_flow_add_reason(plan->arena, pf->flow, 0, why));
+        FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, why));
     }
     return FW_OK;
 }

@@ -9,7 +9,7 @@ const char *fw_plan_material_names(fw_plan *plan);
 /* an input file, for the manifest */
 fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n);
 /* the laboratory packs of the options, into one flow */
-fw_status fw_plan_lab(fw_plan *plan, fw_flow *flow);
+fw_status fw_plan_lab(fw_plan *plan, fw_process_flow *flow);
 /* a sentence for every value that they replace */
 fw_status fw_plan_lab_assumptions(fw_plan *plan);
 /* after all flows were read: warns of packs that no flow of the device took */
@@ -21,23 +21,24 @@ fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* the description of a loaded plan read again with one more --set, and its variants, in `arena`;
    what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_set *set,
-                           const fw_device **device, fw_variant_verdict *variant);
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
+                           const fw_device **device, fw_verdict_variant_verdict *variant);
 /* the variant of a flow, and what that may make of a device that is not drawn yet */
-fw_status fw_plan_made_of(fw_arena *arena, const fw_plan_flow *flow, fw_variant_verdict *v);
+fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
+                                fw_verdict_variant_verdict *v);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* what the plate of a wafer places, added to the facts of its die: exact areas and edges as drawn
  */
-fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_mask_facts *facts);
+fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_process_mask_facts *facts);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                             const fw_variant *variant, const fw_mask_table *table, bool insulated,
-                             fw_mask_facts *facts);
+                             const fw_mechanism_variant *variant, const fw_mask_table *table,
+                             bool insulated, fw_process_mask_facts *facts);
 /* facts of a flow, computed with them; the wafer's own where it is laid out */
 fw_status fw_plan_compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags);
 /* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
 fw_status fw_plan_drives(fw_arena *arena, const fw_device *device, const char *flow,
-                         fw_drive_facts **drive, int *n);
+                         fw_process_drive_facts **drive, int *n);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
@@ -53,19 +54,20 @@ fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size
                            fw_text *out);
 fw_report_input fw_plan_report_input(fw_plan *plan);
 /* the named scene, else the first one that holds in a flow of this plan; NULL: said why not */
-const fw_scene *fw_plan_scene(fw_plan *plan);
+const fw_device_scene *fw_plan_scene(fw_plan *plan);
 /* the mechanism in the variant that the scene (NULL: any) holds for, with its drawing in
    plan->layout where there is one */
-fw_status fw_plan_mechanism(fw_plan *plan, const fw_scene *scene, const fw_mechanism **mechanism);
+fw_status fw_plan_mechanism(fw_plan *plan, const fw_device_scene *scene,
+                            const fw_mechanism **mechanism);
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf);
 
 /* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if possible
  */
-fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism, const fw_scene **scene,
-                        double *moved_m);
+fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
+                        const fw_device_scene **scene, double *moved_m);
 
 /* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
-   the narrowest gap of a hinge; stays NULL where there is neither (sections.c) */
+   the narrowest gap of a hinge; stays NULL where there is neither (plan_sections.c) */
 fw_status fw_plan_cut(fw_plan *plan, fw_plan_flow *pf);
 
 /* the test die of a flow whose mask is made (coupons.c) */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-static int steps_of(const fw_wafer_asked *w) {
+static int steps_of(const fw_device_wafer_asked *w) {
     int n = 1;
     for (int k = 0; k < w->nsweep; k++)
         n *= w->sweep[k].steps;
@@ -13,30 +13,30 @@ static int steps_of(const fw_wafer_asked *w) {
 }
 
 /* value of the sweep at step k, in its unit, as --set takes it */
-static fw_status value_of(fw_arena *arena, const fw_sweep *s, int k, double *value,
+static fw_status value_of(fw_arena *arena, const fw_device_sweep *s, int k, double *value,
                           const char **text) {
-    fw_unit u = {.factor = 1};
-    if (*s->unit) fw_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
-    double from = fw_unit_from_si(&u, s->from), to = fw_unit_from_si(&u, s->to);
+    fw_quantity_unit u = {.factor = 1};
+    if (*s->unit) fw_quantity_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
+    double from = fw_quantity_unit_from_si(&u, s->from), to = fw_quantity_unit_from_si(&u, s->to);
     char number[40];
     fw_number_text(number, sizeof number, from + (to - from) * k / (s->steps - 1), 12);
     double shown;
     if (!fw_number_parse(number, strlen(number), &shown)) return FW_INTERNAL;
-    *value = fw_unit_to_si(&u, shown);
+    *value = fw_quantity_unit_to_si(&u, shown);
     FW_NEED(*text = fw_arena_printf(arena, "%s%s%s", number, *s->unit ? " " : "", s->unit));
     return FW_OK;
 }
 
 /* the settings of a plan and those of step v behind them: of two for one parameter the last holds
  */
-static fw_status settings(fw_plan *plan, int v, fw_set **out, double *value) {
-    const fw_wafer_asked *w = &plan->device->wafer;
+static fw_status settings(fw_plan *plan, int v, fw_device_set **out, double *value) {
+    const fw_device_wafer_asked *w = &plan->device->wafer;
     size_t n = (size_t)plan->options.nset;
-    fw_set *set = fw_arena_array(plan->arena, fw_set, n + 2);
+    fw_device_set *set = fw_arena_array(plan->arena, fw_device_set, n + 2);
     FW_NEED(set);
     if (n > 0) memcpy(set, plan->options.set, n * sizeof *set);
     for (int k = 0, rest = v; k < w->nsweep; rest /= w->sweep[k++].steps) {
-        const fw_sweep *s = &w->sweep[k];
+        const fw_device_sweep *s = &w->sweep[k];
         set[n + (size_t)k].path = plan->device->parameter[s->parameter].name;
         FW_TRY(value_of(plan->arena, s, rest % s->steps, &value[k], &set[n + (size_t)k].value));
     }
@@ -58,7 +58,7 @@ static const char *first_error(const fw_plan *step, fw_status status) {
 /* *why: NULL when the step was planned */
 static fw_status run_step(fw_plan *plan, int v, double *value, const char **why) {
     fw_plan_options options = plan->options;
-    fw_set *set;
+    fw_device_set *set;
     FW_TRY(settings(plan, v, &set, value));
     options.set = set;
     options.nset = plan->options.nset + plan->device->wafer.nsweep;
@@ -82,9 +82,9 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
 
 static fw_wafer_variant variant_of(const fw_plan *plan, int flow) {
     const fw_plan_flow *pf = &plan->flow[flow];
-    const fw_variant_verdict *judged = &plan->verdict.variant[flow];
+    const fw_verdict_variant_verdict *judged = &plan->verdict.variant[flow];
     fw_wafer_variant v = {.mask = pf->mask,
-                          .decision = fw_decision_text(judged->decision),
+                          .decision = fw_verdict_decision_text(judged->decision),
                           .utilisation = (double)NAN,
                           .why = pf->mask_error};
     for (int k = 0; k < judged->nhinge; k++)
@@ -97,16 +97,16 @@ static fw_wafer_variant variant_of(const fw_plan *plan, int flow) {
 }
 
 /* what is said of a step whose dies are other ones */
-static void say(fw_plan *plan, const fw_wafer_asked *w, const fw_wafer_variant *v, int index,
+static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_variant *v, int index,
                 const char *flow) {
     char name[160] = "";
     size_t used = 0;
     for (int k = 0; k < w->nsweep; k++) {
-        const fw_sweep *s = &w->sweep[k];
-        fw_unit u = {.factor = 1};
+        const fw_device_sweep *s = &w->sweep[k];
+        fw_quantity_unit u = {.factor = 1};
         char number[40];
-        if (*s->unit) fw_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
-        fw_number_text(number, sizeof number, fw_unit_from_si(&u, v->value[k]), 9);
+        if (*s->unit) fw_quantity_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
+        fw_number_text(number, sizeof number, fw_quantity_unit_from_si(&u, v->value[k]), 9);
         const char *part =
             fw_arena_printf(plan->arena, "%s%.60s = %s %s", k ? ", " : "",
                             plan->device->parameter[s->parameter].name, number, s->unit);
@@ -122,7 +122,7 @@ static void say(fw_plan *plan, const fw_wafer_asked *w, const fw_wafer_variant *
 
 static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const char *const *why) {
     fw_plan_flow *pf = &plan->flow[flow];
-    const fw_wafer_asked *w = &plan->device->wafer;
+    const fw_device_wafer_asked *w = &plan->device->wafer;
     int n = steps_of(w);
     fw_wafer_variant *v = fw_arena_array(plan->arena, fw_wafer_variant, (size_t)n);
     FW_NEED(v);
@@ -155,7 +155,7 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
 }
 
 fw_status fw_plan_wafers(fw_plan *plan) {
-    const fw_wafer_asked *w = &plan->device->wafer;
+    const fw_device_wafer_asked *w = &plan->device->wafer;
     bool any = false;
     for (int i = 0; i < plan->nflow; i++)
         any = any || plan->flow[i].mask;
@@ -178,11 +178,11 @@ fw_status fw_plan_wafers(fw_plan *plan) {
 /* the outline of step v, as far as it can be drawn; what is wrong with it is said when it is
  * planned
  */
-static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_box *die) {
+static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_geometry_box *die) {
     fw_diags silent = fw_diags_new(arena);
     const fw_device *device;
     const fw_layout *layout;
-    fw_set *set;
+    fw_device_set *set;
     double value[2];
     FW_TRY(settings(plan, v, &set, value));
     fw_status status =
@@ -197,12 +197,12 @@ static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_box *die) {
 }
 
 fw_status fw_plan_count_dies(fw_plan *plan) {
-    const fw_wafer_asked *w = &plan->device->wafer;
+    const fw_device_wafer_asked *w = &plan->device->wafer;
     plan->dies = plan->options.dies > 0 ? plan->options.dies : 1;
     if (plan->options.dies > 0 || !w->asked || !plan->layout || !plan->layout->drawn) return FW_OK;
     fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
     FW_NEED(scratch);
-    fw_box die = plan->layout->die;
+    fw_geometry_box die = plan->layout->die;
     fw_status status = FW_OK;
     for (int v = 0; w->nsweep > 0 && v < steps_of(w) && status == FW_OK; v++) {
         fw_mark empty = fw_arena_mark(scratch);

@@ -148,7 +148,8 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
-        fw_status (*write)(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
+        fw_status (*write)(const fw_process_flow *flow, const fw_recipe_header *header,
+                           fw_text *out);
         bool of_schedule, of_cut;
     } format[] = {{".html", fw_recipe_write_html, .of_cut = false},
                   {".csv", fw_recipe_write_csv, .of_cut = false},
@@ -176,10 +177,10 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
 static fw_status write_motions(writer *w) {
     fw_plan *plan = w->plan;
     for (int s = 0; s < plan->device->nscene; s++) {
-        const fw_scene *scene = &plan->device->scene[s];
+        const fw_device_scene *scene = &plan->device->scene[s];
         int written = 0;
         for (int i = 0; i < plan->verdict.nvariant; i++) {
-            const fw_variant_verdict *v = &plan->verdict.variant[i];
+            const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
             if (!v->motion || !v->motion[s]) continue;
             const char *name = scene->name;
             if (written++ > 0)

@@ -5,52 +5,57 @@
 #define FW_PROCESS_CALIBRATE_H
 #include "process/process.h"
 
-typedef struct fw_measurement { /* one row of the table; SI */
+typedef struct fw_process_measurement { /* one row of the table; SI */
     const char *coupon, *feature;
     double drawn_m;            /* NaN: not given */
     double value, uncertainty; /* standard, > 0 */
     double at, at_uncertainty; /* under which time, depth, charge, speed; NaN: not given */
-    fw_dimension dimension, at_dimension;
+    fw_quantity_dimension dimension, at_dimension;
     fw_place place;
-} fw_measurement;
+} fw_process_measurement;
 
-typedef struct fw_calibrated {
+typedef struct fw_process_calibrated {
     const char *id;            /* quantity of the flow */
     double value, uncertainty; /* SI, standard */
     const char *coupon;
     const char *note;               /* how, and what it is correlated with */
     double chi_square, probability; /* of the residuals; probability of a larger one */
     int rows, freedom;              /* freedom 0: nothing to test */
-} fw_calibrated;
+} fw_process_calibrated;
 
-typedef struct fw_calibration {
-    const fw_calibrated *item; /* (count) one for every id */
+typedef struct fw_process_calibration {
+    const fw_process_calibrated *item; /* (count) one for every id */
     int count;
-} fw_calibration;
+} fw_process_calibration;
 
 /* CSV with the header coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit (docs/theory/
    calibrate.md); lines that start with # are comments. All mistakes in diags: FW-D211. */
-fw_status fw_measurements_read(fw_arena *arena, const char *file, const char *text, size_t n,
-                               fw_diags *diags, fw_measurement **row, int *nrow);
+fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
+                                       size_t n, fw_diags *diags, fw_process_measurement **row,
+                                       int *nrow);
 /* every coupon of the table. FW_INPUT with FW-D211 (a row that does not fit its coupon) or FW-D212
    (the data contradict the law, or each other). */
-fw_status fw_calibrate(fw_arena *arena, const fw_flow *flow, const fw_measurement *row, int nrow,
-                       fw_diags *diags, fw_calibration *calibration);
+fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
+                               const fw_process_measurement *row, int nrow, fw_diags *diags,
+                               fw_process_calibration *calibration);
 /* the laboratory pack: <process flow="..."> with a <q status="measured"> for each */
-fw_status fw_calibration_pack(const fw_flow *flow, const fw_calibration *calibration,
-                              const char *measured_file, const char *measured_sha256, fw_text *out);
+fw_status fw_process_calibration_pack(const fw_process_flow *flow,
+                                      const fw_process_calibration *calibration,
+                                      const char *measured_file, const char *measured_sha256,
+                                      fw_text *out);
 /* a table for people: old value, new value, test */
-fw_status fw_calibration_text(const fw_flow *flow, const fw_calibration *calibration, fw_text *out);
+fw_status fw_process_calibration_text(const fw_process_flow *flow,
+                                      const fw_process_calibration *calibration, fw_text *out);
 
 /* name and what it is, of the i-th kind of coupon; NULL after the last */
-const char *fw_coupon_name(int i);
+const char *fw_process_coupon_name(int i);
 
 /* ---- laboratory packs ---- */
 
 /* Replaces quantities of the flow by id, adds each to flow->override and says it (FW-D198). A pack
    for another flow changes nothing. FW_INPUT with FW-D211: no such id, another dimension, or an id
    that the mask or a step computes. */
-fw_status fw_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n, fw_flow *flow,
-                       fw_diags *diags);
+fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n,
+                               fw_process_flow *flow, fw_diags *diags);
 
 #endif

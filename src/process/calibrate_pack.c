@@ -5,11 +5,11 @@
 
 /* value and uncertainty in the unit of the flow's own quantity */
 static bool in_unit(const fw_quantity *q, double value, double u, double *shown, double *u_shown) {
-    fw_unit unit;
-    if (!fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) return false;
-    *shown = fw_unit_from_si(&unit, value);
+    fw_quantity_unit unit;
+    if (!fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) return false;
+    *shown = fw_quantity_unit_from_si(&unit, value);
     unit.offset = 0.0;
-    *u_shown = fw_unit_from_si(&unit, u);
+    *u_shown = fw_quantity_unit_from_si(&unit, u);
     return true;
 }
 
@@ -19,7 +19,7 @@ static void attribute(fw_text *out, const char *name, const char *value) {
     fw_text_add(out, "\"");
 }
 
-static void put_test(fw_text *out, const fw_calibrated *c) {
+static void put_test(fw_text *out, const fw_process_calibrated *c) {
     if (c->freedom == 0) {
         fw_text_add(out, "no residual to test");
         return;
@@ -31,9 +31,10 @@ static void put_test(fw_text *out, const fw_calibrated *c) {
     fw_text_number(out, c->probability, 2);
 }
 
-fw_status fw_calibration_pack(const fw_flow *flow, const fw_calibration *calibration,
-                              const char *measured_file, const char *measured_sha256,
-                              fw_text *out) {
+fw_status fw_process_calibration_pack(const fw_process_flow *flow,
+                                      const fw_process_calibration *calibration,
+                                      const char *measured_file, const char *measured_sha256,
+                                      fw_text *out) {
     fw_text_add(
         out,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Values of a laboratory. Each "
@@ -45,8 +46,8 @@ fw_status fw_calibration_pack(const fw_flow *flow, const fw_calibration *calibra
     fw_text_escaped(out, measured_file);
     fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
     for (int i = 0; i < calibration->count; i++) {
-        const fw_calibrated *c = &calibration->item[i];
-        const fw_quantity *q = fw_flow_quantity(flow, c->id);
+        const fw_process_calibrated *c = &calibration->item[i];
+        const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
         double value, u;
         if (!q || !in_unit(q, c->value, c->uncertainty, &value, &u)) return FW_INTERNAL;
         fw_text_add(out, "  <q");
@@ -78,11 +79,11 @@ static void put_amount(fw_text *out, const fw_quantity *q, double value, double 
     if (strcmp(q->unit, "1") != 0) fw_text_printf(out, " %s", q->unit);
 }
 
-fw_status fw_calibration_text(const fw_flow *flow, const fw_calibration *calibration,
-                              fw_text *out) {
+fw_status fw_process_calibration_text(const fw_process_flow *flow,
+                                      const fw_process_calibration *calibration, fw_text *out) {
     for (int i = 0; i < calibration->count; i++) {
-        const fw_calibrated *c = &calibration->item[i];
-        const fw_quantity *q = fw_flow_quantity(flow, c->id);
+        const fw_process_calibrated *c = &calibration->item[i];
+        const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
         if (!q) return FW_INTERNAL;
         fw_text_printf(out, "%s: ", c->id);
         put_amount(out, q, c->value, c->uncertainty);
@@ -91,7 +92,7 @@ fw_status fw_calibration_text(const fw_flow *flow, const fw_calibration *calibra
             fw_text_add(out, "unknown");
         else {
             put_amount(out, q, q->value, q->uncertainty);
-            fw_text_printf(out, " (%s)", fw_value_status_text(q->status));
+            fw_text_printf(out, " (%s)", fw_quantity_value_status_text(q->status));
         }
         fw_text_printf(out, "\n  %s, %d row%s: %s; ", c->coupon, c->rows, c->rows > 1 ? "s" : "",
                        c->note);

@@ -85,14 +85,14 @@ static bool number(table *t, const char *text, int k, double *value) {
 
 /* value and standard uncertainty with a unit, to SI; false: said what is wrong */
 static bool amount(table *t, const char *const *cell, int value_at, double *value, double *u,
-                   fw_dimension *dimension) {
-    fw_unit unit;
+                   fw_quantity_dimension *dimension) {
+    fw_quantity_unit unit;
     const char *of = cell[value_at + 2];
     if (!number(t, cell[value_at], value_at, value) ||
         !number(t, cell[value_at + 1], value_at + 1, u))
         return false;
     if (isnan(*value) && isnan(*u) && !*of) return true;
-    if (isnan(*value) || !fw_unit_parse(of, strlen(of), &unit, NULL, NULL)) {
+    if (isnan(*value) || !fw_quantity_unit_parse(of, strlen(of), &unit, NULL, NULL)) {
         fw_diag_error(t->diags, 211, t->place,
                       "%s='%s' with %s='%s': a number and its unit are needed", column[value_at],
                       cell[value_at], column[value_at + 2], of);
@@ -104,28 +104,29 @@ static bool amount(table *t, const char *const *cell, int value_at, double *valu
                       column[value_at + 1], value_at == MEASURED ? "above 0" : "of 0 or more");
         return false;
     }
-    *value = fw_unit_to_si(&unit, *value);
+    *value = fw_quantity_unit_to_si(&unit, *value);
     unit.offset = 0.0;
-    *u = fw_unit_to_si(&unit, *u);
+    *u = fw_quantity_unit_to_si(&unit, *u);
     *dimension = unit.dimension;
     return true;
 }
 
-static fw_status one_row(table *t, const char *line, fw_measurement *r, bool *good) {
+static fw_status one_row(table *t, const char *line, fw_process_measurement *r, bool *good) {
     const char *name[MOST_FIELDS], *cell[COLUMNS];
     int n;
     FW_TRY(fields(t, line, name, &n));
     for (int k = 0; k < COLUMNS; k++)
         cell[k] = t->where[k] >= 0 && t->where[k] < n ? name[t->where[k]] : "";
-    *r = (fw_measurement){.coupon = cell[COUPON], .feature = cell[FEATURE], .place = t->place};
+    *r = (fw_process_measurement){
+        .coupon = cell[COUPON], .feature = cell[FEATURE], .place = t->place};
     /* a line of the ladder that is gone or stands was looked at, not measured */
     bool seen = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
     if (seen && !*cell[MEASURED])
-        *r = (fw_measurement){.coupon = cell[COUPON],
-                              .feature = cell[FEATURE],
-                              .place = t->place,
-                              .uncertainty = 1.0,
-                              .dimension = {.m = 1}};
+        *r = (fw_process_measurement){.coupon = cell[COUPON],
+                                      .feature = cell[FEATURE],
+                                      .place = t->place,
+                                      .uncertainty = 1.0,
+                                      .dimension = {.m = 1}};
     *good = number(t, cell[DRAWN], DRAWN, &r->drawn_m);
     r->drawn_m *= 1e-6;
     if (!(seen && !*cell[MEASURED]))
@@ -142,8 +143,9 @@ static bool blank(const char *line) {
     return line[strspn(line, " \t,")] == '\0' || line[strspn(line, " \t")] == '#';
 }
 
-fw_status fw_measurements_read(fw_arena *arena, const char *file, const char *text, size_t n,
-                               fw_diags *diags, fw_measurement **row, int *nrow) {
+fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
+                                       size_t n, fw_diags *diags, fw_process_measurement **row,
+                                       int *nrow) {
     table t = {.arena = arena, .diags = diags, .place = {.file = file}};
     size_t before = diags->errors, lines = 1;
     bool headed = false;
@@ -156,7 +158,7 @@ fw_status fw_measurements_read(fw_arena *arena, const char *file, const char *te
         lines += *c == '\n';
     if (lines > MOST_ROWS)
         return fw_diag_error(diags, 211, t.place, "more than %d lines", MOST_ROWS);
-    FW_NEED(*row = fw_arena_array(arena, fw_measurement, lines));
+    FW_NEED(*row = fw_arena_array(arena, fw_process_measurement, lines));
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         size_t length = (size_t)((stop ? stop : end) - at);

@@ -15,8 +15,8 @@ enum { OTHER = FW_STACK_STRUCTURE + FW_STACK_FIELD }; /* OTHER - column: the oth
 
 typedef struct maker {
     fw_arena *arena;
-    const fw_flow *flow;
-    fw_films *films;
+    const fw_process_flow *flow;
+    fw_process_films *films;
     double device_m; /* thickness of the device layer */
     int note_room;
 } maker;
@@ -29,14 +29,14 @@ static bool same(const char *a, const char *b) {
     return strcmp(a, b) == 0;
 }
 
-static bool touches(const fw_change *c, int column) {
+static bool touches(const fw_process_change *c, int column) {
     if (same(c->where, "all")) return true;
     return same(c->where, "structure") == (column == FW_STACK_STRUCTURE);
 }
 
 static fw_status note(maker *m, const char *sentence) {
     FW_NEED(sentence);
-    fw_films *f = m->films;
+    fw_process_films *f = m->films;
     for (int i = 0; i < f->nnote; i++)
         if (same(f->note[i], sentence)) return FW_OK;
     if (f->nnote == m->note_room) {
@@ -49,8 +49,8 @@ static fw_status note(maker *m, const char *sentence) {
     return FW_OK;
 }
 
-static fw_status add_film(maker *m, fw_film film) {
-    fw_films *f = m->films;
+static fw_status add_film(maker *m, fw_process_film film) {
+    fw_process_films *f = m->films;
     if (f->n == f->capacity) {
         int more = f->capacity ? 2 * f->capacity : 16;
         FW_NEED(f->film =
@@ -62,18 +62,18 @@ static fw_status add_film(maker *m, fw_film film) {
 }
 
 /* what narrow openings have left of a film that is gone from wide ones */
-static bool is_floor(const fw_film *f) {
+static bool is_floor(const fw_process_film *f) {
     return f->cut && !f->in[FW_STACK_STRUCTURE];
 }
 
-static double top_of(const fw_films *f, int column) {
+static double top_of(const fw_process_films *f, int column) {
     double top = 0.0;
     for (int i = 0; i < f->n; i++)
         if (f->film[i].in[column] && !is_floor(&f->film[i])) top = fmax(top, f->film[i].top_m);
     return top;
 }
 
-static double floor_of(const fw_films *f) {
+static double floor_of(const fw_process_films *f) {
     double low = 0.0;
     for (int i = 0; i < f->n; i++)
         low = fmin(low, f->film[i].bottom_m);
@@ -99,16 +99,16 @@ static double printed_slope(const maker *m) {
     return device_is_cut(m) || !(m->device_m > 0.0) ? 0.0 : -m->flow->edges.flare_m / m->device_m;
 }
 
-static double wall_at(const fw_film *f, double z_m) {
+static double wall_at(const fw_process_film *f, double z_m) {
     double h = f->top_m - f->bottom_m;
     return h > 0.0 ? f->foot_m + (f->head_m - f->foot_m) * (z_m - f->bottom_m) / h : f->foot_m;
 }
 
 /* the film in `column` alone that lies next above z (from z on); NULL */
-static const fw_film *mask_above(const fw_films *f, int column, double z_m) {
-    const fw_film *best = NULL;
+static const fw_process_film *mask_above(const fw_process_films *f, int column, double z_m) {
+    const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
-        const fw_film *c = &f->film[i];
+        const fw_process_film *c = &f->film[i];
         if (c->in[column] && !c->in[OTHER - column] && c->bottom_m >= z_m - TOUCH_M &&
             (!best || c->bottom_m < best->bottom_m))
             best = c;
@@ -117,27 +117,28 @@ static const fw_film *mask_above(const fw_films *f, int column, double z_m) {
 }
 
 /* edge of what covers `column` above a film, that is of the mask of whatever is done beside it */
-static double mask_edge(const maker *m, const fw_film *film, int column) {
-    const fw_film *mask = mask_above(m->films, column, film->top_m);
+static double mask_edge(const maker *m, const fw_process_film *film, int column) {
+    const fw_process_film *mask = mask_above(m->films, column, film->top_m);
     return mask ? mask->foot_m : printed_m(m);
 }
 
 /* a film in both columns becomes one in each; *at is the one in `column` */
 static fw_status split(maker *m, int i, int column, double edge_m, int *at) {
-    fw_film twin = m->films->film[i];
+    fw_process_film twin = m->films->film[i];
     *at = i;
     if (!twin.in[OTHER - column]) return FW_OK;
     twin.in[column] = false;
     twin.foot_m = twin.head_m = edge_m;
-    fw_film *f = &m->films->film[i];
+    fw_process_film *f = &m->films->film[i];
     f->in[OTHER - column] = false;
     f->foot_m = f->head_m = edge_m;
     return add_film(m, twin);
 }
 
-static void set_wall(fw_films *f, const fw_film *like, double foot_m, double head_m) {
+static void set_wall(fw_process_films *f, const fw_process_film *like, double foot_m,
+                     double head_m) {
     for (int i = 0; i < f->n; i++) {
-        fw_film *c = &f->film[i];
+        fw_process_film *c = &f->film[i];
         if (same(c->material, like->material) && c->in[0] != c->in[1] &&
             fabs(c->bottom_m - like->bottom_m) <= TOUCH_M) {
             c->foot_m = foot_m;
@@ -149,10 +150,10 @@ static void set_wall(fw_films *f, const fw_film *like, double foot_m, double hea
 /* ---- what is added ---- */
 
 /* far from everything: the flow adds it as a whole and takes it away as a whole, if at all */
-static bool is_background(const maker *m, const fw_change *add) {
+static bool is_background(const maker *m, const fw_process_change *add) {
     for (int i = 0; i < m->flow->nstep; i++)
         for (int k = 0; k < m->flow->step[i].nchange; k++) {
-            const fw_change *c = &m->flow->step[i].change[k];
+            const fw_process_change *c = &m->flow->step[i].change[k];
             if (same(c->kind, "remove") && same(c->material, add->material) &&
                 (c->thickness || !same(c->where, "all")))
                 return false;
@@ -160,14 +161,15 @@ static bool is_background(const maker *m, const fw_change *add) {
     return same(add->where, "all");
 }
 
-static fw_status drawn_height(maker *m, const fw_change *c, double *height_m, bool *shortened) {
+static fw_status drawn_height(maker *m, const fw_process_change *c, double *height_m,
+                              bool *shortened) {
     double t = known(c->thickness);
     *shortened = false;
     *height_m = t;
     if (isnan(t) || !(t > 0.0)) {
         *height_m = UNKNOWN_PART * m->device_m;
         return note(m, fw_arena_printf(m->arena, "The thickness of %s is not known",
-                                       fw_flow_material_name(m->flow, c->material)));
+                                       fw_process_flow_material_name(m->flow, c->material)));
     }
     if (t > THICK * m->device_m && is_background(m, c)) {
         *shortened = true;
@@ -180,7 +182,7 @@ static fw_status drawn_height(maker *m, const fw_change *c, double *height_m, bo
 static double wall_beside(const maker *m, int column, double beside_m, double z_m) {
     double best = printed_m(m), near = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++) {
-        const fw_film *f = &m->films->film[i];
+        const fw_process_film *f = &m->films->film[i];
         if (f->in[0] == f->in[1]) continue;
         bool beside =
             f->in[OTHER - column] && f->bottom_m <= beside_m + TOUCH_M && f->top_m > beside_m;
@@ -192,12 +194,13 @@ static double wall_beside(const maker *m, int column, double beside_m, double z_
     return best;
 }
 
-static fw_status add_front(maker *m, const fw_change *c, fw_film film, double height_m) {
+static fw_status add_front(maker *m, const fw_process_change *c, fw_process_film film,
+                           double height_m) {
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
     bool whole = same(c->where, "all") && fabs(top[0] - top[1]) <= TOUCH_M;
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
         if (!touches(c, column)) continue;
-        fw_film f = film;
+        fw_process_film f = film;
         f.in[column] = true;
         if (whole) f.in[OTHER - column] = true;
         f.bottom_m = top[column];
@@ -210,8 +213,8 @@ static fw_status add_front(maker *m, const fw_change *c, fw_film film, double he
     return FW_OK;
 }
 
-static fw_status add(maker *m, const fw_change *c) {
-    fw_film film = {.material = c->material, .thickness_m = known(c->thickness)};
+static fw_status add(maker *m, const fw_process_change *c) {
+    fw_process_film film = {.material = c->material, .thickness_m = known(c->thickness)};
     double height;
     FW_TRY(drawn_height(m, c, &height, &film.shortened));
     if (!c->back) return add_front(m, c, film, height);
@@ -226,7 +229,7 @@ static fw_status add(maker *m, const fw_change *c) {
 /* ---- what is changed ---- */
 
 /* a latent image: what of the film lies in one column becomes exposed */
-static fw_status expose(maker *m, const fw_change *c) {
+static fw_status expose(maker *m, const fw_process_change *c) {
     double slope = printed_slope(m),
            foot = printed_m(m) + (slope != 0.0 ? 0.5 * m->flow->edges.flare_m : 0.0);
     double base = (double)INFINITY;
@@ -240,7 +243,7 @@ static fw_status expose(maker *m, const fw_change *c) {
                 !m->films->film[i].in[column])
                 continue;
             if (!same(c->where, "all")) FW_TRY(split(m, i, column, foot, &at));
-            fw_film *f = &m->films->film[at];
+            fw_process_film *f = &m->films->film[at];
             f->exposed = true;
             set_wall(m->films, f, foot + slope * (f->bottom_m - base),
                      foot + slope * (f->top_m - base));
@@ -249,7 +252,7 @@ static fw_status expose(maker *m, const fw_change *c) {
 }
 
 /* the upper part of the topmost film of `from` becomes `material` */
-static fw_status convert(maker *m, const fw_change *c) {
+static fw_status convert(maker *m, const fw_process_change *c) {
     double height, t = known(c->thickness);
     bool shortened;
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
@@ -262,36 +265,36 @@ static fw_status convert(maker *m, const fw_change *c) {
         FW_TRY(drawn_height(m, c, &height, &shortened));
         if (!same(c->where, "all"))
             FW_TRY(split(m, at, column, mask_edge(m, &m->films->film[at], OTHER - column), &at));
-        fw_film *f = &m->films->film[at], made = *f;
+        fw_process_film *f = &m->films->film[at], fabricated = *f;
         height = fmin(height, 0.6 * (f->top_m - f->bottom_m));
-        made.material = c->material;
-        made.thickness_m = t;
-        made.shortened = false;
-        made.bottom_m = f->top_m = f->top_m - height;
-        made.foot_m = f->head_m = wall_at(f, made.bottom_m);
+        fabricated.material = c->material;
+        fabricated.thickness_m = t;
+        fabricated.shortened = false;
+        fabricated.bottom_m = f->top_m = f->top_m - height;
+        fabricated.foot_m = f->head_m = wall_at(f, fabricated.bottom_m);
         if (!isnan(t)) f->thickness_m -= t;
-        FW_TRY(add_film(m, made));
-        if (made.in[OTHER - column]) break; /* both columns at once */
+        FW_TRY(add_film(m, fabricated));
+        if (fabricated.in[OTHER - column]) break; /* both columns at once */
     }
     return FW_OK;
 }
 
 /* ---- what is removed ---- */
 
-static void drop(fw_films *f, int i) {
+static void drop(fw_process_films *f, int i) {
     memmove(f->film + i, f->film + i + 1, (size_t)(f->n - i - 1) * sizeof *f->film);
     f->n--;
 }
 
 /* Walls after a cut: top (1 - A) E, foot (1 - A) (E - D - lag of the open field) behind the edge of
    the mask, that of a cut through another layer than the device's with its foot alone, as in
-   fw_fixed_point_edge; an unknown A counts as 1. */
-static fw_status cut_walls(maker *m, const fw_change *c, const fw_cut *cut, double edge_m,
-                           double way, fw_film *f) {
-    const fw_fixed_point *p = &m->flow->edges;
+   fw_process_fixed_point_edge; an unknown A counts as 1. */
+static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_process_cut *cut,
+                           double edge_m, double way, fw_process_film *f) {
+    const fw_process_fixed_point *p = &m->flow->edges;
     double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
     double loss = isnan(cut->anisotropy) || isnan(cut->etched_m) ? 0.0 : 1.0 - cut->anisotropy;
-    double foot = fw_cut_foot(cut, field), flare = cut->device ? 0.5 * p->flare_m : 0.0;
+    double foot = fw_process_cut_foot(cut, field), flare = cut->device ? 0.5 * p->flare_m : 0.0;
     f->mask_edge_m = edge_m;
     f->cut = cut;
     f->foot_m = edge_m - way * (loss > 0.0 ? loss * foot : 0.0) + flare;
@@ -306,20 +309,21 @@ static fw_status cut_walls(maker *m, const fw_change *c, const fw_cut *cut, doub
 }
 
 /* one film, of which `column` is etched beside a mask on the other column */
-static fw_status etch_beside(maker *m, const fw_step *s, const fw_change *c, int i, int column) {
+static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
+                             int column) {
     double edge = mask_edge(m, &m->films->film[i], OTHER - column);
     double way = column == FW_STACK_FIELD ? 1.0 : -1.0; /* the structure shrinks, or the field */
-    const fw_cut *cut = fw_fixed_point_cut(&m->flow->edges, c->anisotropy);
+    const fw_process_cut *cut = fw_process_fixed_point_cut(&m->flow->edges, c->anisotropy);
     int at;
     FW_TRY(split(m, i, column, edge, &at));
-    fw_film gone = m->films->film[at], walls = gone;
+    fw_process_film gone = m->films->film[at], walls = gone;
     walls.foot_m = walls.head_m = edge;
     if (c->isotropic && !isnan(known(c->thickness)))
         walls.foot_m = walls.head_m = edge - way * known(c->thickness) * (1.0 + s->overrun);
     if (cut) FW_TRY(cut_walls(m, c, cut, edge, way, &walls));
     set_wall(m->films, &gone, walls.foot_m, walls.head_m);
     for (int k = 0; cut && k < m->films->n; k++) { /* what stays beside it has a foot of its own */
-        fw_film *f = &m->films->film[k];
+        fw_process_film *f = &m->films->film[k];
         if (f->in[OTHER - column] && !f->in[column] && same(f->material, gone.material) &&
             fabs(f->bottom_m - gone.bottom_m) <= TOUCH_M) {
             f->cut = cut;
@@ -334,17 +338,17 @@ static fw_status etch_beside(maker *m, const fw_step *s, const fw_change *c, int
     }
     m->films->film[at].cut = cut; /* stays as what narrow openings have left */
     m->films->film[at].mask_edge_m = edge;
-    if (!fw_lag_is_guess(cut->lag_quantity)) return FW_OK;
+    if (!fw_process_lag_is_guess(cut->lag_quantity)) return FW_OK;
     return note(
         m, fw_arena_printf(m->arena, "The lag of narrow openings in step %s is assumed (%s)",
                            cut->step->id, cut->lag_quantity->id ? cut->lag_quantity->id : "lag"));
 }
 
 /* an etch that runs sideways from every opening: out of the field, and from below the structure */
-static fw_status undercut(maker *m, const fw_step *s, const fw_change *c) {
+static fw_status undercut(maker *m, const fw_process_step *s, const fw_process_change *c) {
     double reach = known(c->reach);
     for (int i = m->films->n - 1; i >= 0; i--) {
-        fw_film *f = &m->films->film[i];
+        fw_process_film *f = &m->films->film[i];
         if (!same(f->material, c->material)) continue;
         if (isnan(reach) || !f->in[FW_STACK_STRUCTURE]) {
             drop(m->films, i);
@@ -364,12 +368,12 @@ static fw_status undercut(maker *m, const fw_step *s, const fw_change *c) {
 }
 
 /* a stated depth that is less than the film's thickness */
-static bool is_shallow(const fw_change *c, const fw_film *f) {
+static bool is_shallow(const fw_process_change *c, const fw_process_film *f) {
     double t = known(c->thickness);
     return !c->anisotropy && !c->isotropic && t > 0.0 && t < 0.98 * f->thickness_m && !f->shortened;
 }
 
-static void thin(const fw_change *c, fw_film *f) {
+static void thin(const fw_process_change *c, fw_process_film *f) {
     double t = known(c->thickness), left = f->thickness_m - t;
     if (c->back)
         f->bottom_m += t;
@@ -380,12 +384,12 @@ static void thin(const fw_change *c, fw_film *f) {
     f->thickness_m = left;
 }
 
-static fw_status take_away(maker *m, const fw_step *s, const fw_change *c) {
+static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_change *c) {
     bool whole = same(c->where, "all"), etch = c->isotropic || c->anisotropy;
     int column = same(c->where, "structure") ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
     if (c->reach) return undercut(m, s, c);
     for (int i = m->films->n - 1; i >= 0; i--) { /* what is split off comes behind */
-        fw_film *f = &m->films->film[i];
+        fw_process_film *f = &m->films->film[i];
         if (!same(f->material, c->material) || (!whole && !f->in[column])) continue;
         if (is_shallow(c, f)) {
             int at = i;
@@ -400,15 +404,16 @@ static fw_status take_away(maker *m, const fw_step *s, const fw_change *c) {
     return FW_OK;
 }
 
-/* what the step's chemical takes of films that lie open on top (fw_exposed_loss), and of the
+/* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
+   the
    device's walls where it is a liquid (wear.h) */
-static fw_status wear(maker *m, const fw_step *s, const fw_exposed *x) {
-    double most, loss = fw_exposed_loss(s, x, &most);
+static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
+    double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
-    bool open = false, walls = fw_step_is_wet(s) && x->rate && m->flow->material &&
+    bool open = false, walls = fw_process_step_is_wet(s) && x->rate && m->flow->material &&
                                same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
-        fw_film *f = &m->films->film[i];
+        fw_process_film *f = &m->films->film[i];
         bool up = (f->in[0] && fabs(f->top_m - top[0]) <= TOUCH_M) ||
                   (f->in[1] && fabs(f->top_m - top[1]) <= TOUCH_M);
         if (!same(f->material, x->material) || !up || f->shortened || isnan(f->thickness_m))
@@ -428,30 +433,30 @@ static fw_status wear(maker *m, const fw_step *s, const fw_exposed *x) {
     }
     if (!open || !isnan(loss)) return FW_OK;
     return note(m, fw_arena_printf(m->arena, "How much %s step %s takes is not known",
-                                   fw_flow_material_name(m->flow, x->material), s->id));
+                                   fw_process_flow_material_name(m->flow, x->material), s->id));
 }
 
 /* ---- all steps ---- */
 
-static fw_status apply(maker *m, const fw_step *s, const fw_change *c) {
+static fw_status apply(maker *m, const fw_process_step *s, const fw_process_change *c) {
     if (same(c->kind, "add")) return add(m, c);
     if (same(c->kind, "remove")) return take_away(m, s, c);
     if (same(c->kind, "pattern")) return expose(m, c);
     return convert(m, c);
 }
 
-bool fw_films_is_new(const fw_films *now, const fw_films *before, int i) {
+bool fw_process_films_is_new(const fw_process_films *now, const fw_process_films *before, int i) {
     for (int k = 0; k < before->nnote; k++)
         if (same(before->note[k], now->note[i])) return false;
     return true;
 }
 
-bool fw_step_changes(const fw_step *step) {
+bool fw_process_step_changes(const fw_process_step *step) {
     return step->nchange > 0 || step->nexposed > 0;
 }
 
 static int by_height(const void *left, const void *right) {
-    const fw_film *p = left, *q = right;
+    const fw_process_film *p = left, *q = right;
     int order = fw_order_doubles(p->bottom_m, q->bottom_m);
     return order ? order : fw_order_wholes(q->in[FW_STACK_STRUCTURE], p->in[FW_STACK_STRUCTURE]);
 }
@@ -459,14 +464,15 @@ static int by_height(const void *left, const void *right) {
 /* Every change of every step up to `index`, in order. Heights add up from the first film, the back
    of the wafer downward. Cost O(steps x films). Source of walls and depths:
    process/fixed_point.c. Test: test_films.c: the three packs step by step, walls against
-   fw_fixed_point_edge, depths against t(w). */
-fw_status fw_flow_films(fw_arena *arena, const fw_flow *flow, int index, fw_films *films) {
+   fw_process_fixed_point_edge, depths against t(w). */
+fw_status fw_process_flow_films(fw_arena *arena, const fw_process_flow *flow, int index,
+                                fw_process_films *films) {
     double device = known(flow->thickness);
     maker m = {arena, flow, films, device > 0.0 ? device : 10e-6, 0};
-    *films = (fw_films){0};
+    *films = (fw_process_films){0};
     for (int i = 0; i < flow->nstep && i <= index; i++) {
-        const fw_step *s = &flow->step[i];
-        films->changed = fw_step_changes(s);
+        const fw_process_step *s = &flow->step[i];
+        films->changed = fw_process_step_changes(s);
         for (int k = 0; k < s->nchange; k++)
             FW_TRY(apply(&m, s, &s->change[k]));
         for (int k = 0; k < s->nexposed; k++)
@@ -478,16 +484,16 @@ fw_status fw_flow_films(fw_arena *arena, const fw_flow *flow, int index, fw_film
 
 /* z + lag(w, z) = E by bisection: the left side rises with z. In: the cut with its E, the opening w
    m. Out: m, error 1e-15 of the depth. Test: test_films.c, depth: z = D and E where they should. */
-double fw_cut_depth(const fw_cut *cut, double w_m) {
+double fw_process_cut_depth(const fw_process_cut *cut, double w_m) {
     double E = cut->etched_m;
     if (isnan(E)) return cut->depth_m;
-    double lag = fw_cut_lag(cut, w_m, cut->depth_m);
+    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m);
     if (isnan(lag)) return fmin(E, cut->depth_m);
     if (cut->depth_m + lag <= E) return cut->depth_m;
     double low = 0.0, high = cut->depth_m;
     for (int i = 0; i < 50; i++) {
         double z = 0.5 * (low + high);
-        if (z + fw_cut_lag(cut, w_m, z) <= E)
+        if (z + fw_process_cut_lag(cut, w_m, z) <= E)
             low = z;
         else
             high = z;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer after a step, as films with heights and walls: what the <change>s of the pack make of
    it, with what the fixed point knows of edges, depths and lags. Where the walls lie on the wafer
-   follows from the mask (recipe/profile.h). Call after fw_flow_compute.
+   follows from the mask (recipe/recipe_profile.h). Call after fw_process_flow_compute.
 
    A film lies in one of two columns, or in both: the structure, which is what the plate draws, and
    the field around it. Where it is in one only, its wall stands beside the drawn edge by a known
@@ -11,7 +11,7 @@
 #define FW_PROCESS_FILMS_H
 #include "process/stack.h"
 
-typedef struct fw_film {
+typedef struct fw_process_film {
     const char *material;
     bool in[FW_STACK_COLUMNS];
     double bottom_m, top_m; /* as drawn: to scale but where `thickness_m` says otherwise */
@@ -19,29 +19,31 @@ typedef struct fw_film {
     bool shortened;         /* drawn thinner than it is: far from everything that is made */
     bool exposed;           /* latent image in resist */
     double foot_m, head_m;  /* the structure's wall at bottom and top, outside the drawn edge */
-    const fw_cut *cut;  /* of the field: etched by this; what the lag leaves is its floor. In the
+    const fw_process_cut
+        *cut;           /* of the field: etched by this; what the lag leaves is its floor. In the
                            structure: its foot follows the width of the opening beside it */
     double mask_edge_m; /* with a cut: edge of what masked it */
     double reach_m;     /* above 0: an etch from every opening has taken the film so far
                            sideways, out of the field and from below the structure */
-} fw_film;
+} fw_process_film;
 
-typedef struct fw_films {
-    fw_film *film; /* (n) by bottom_m */
+typedef struct fw_process_films {
+    fw_process_film *film; /* (n) by bottom_m */
     int n, capacity;
     bool changed;      /* the last step changed something */
     const char **note; /* (nnote) what the picture of this step cannot know, each a sentence */
     int nnote;
-} fw_films;
+} fw_process_films;
 
 /* after step `index` (-1: before the first) */
-fw_status fw_flow_films(fw_arena *arena, const fw_flow *flow, int index, fw_films *films);
+fw_status fw_process_flow_films(fw_arena *arena, const fw_process_flow *flow, int index,
+                                fw_process_films *films);
 /* how deep an opening of w_m gets: z + lag(w, z) = E, at most the cut's depth; m. An unknown lag
    counts as none. */
-double fw_cut_depth(const fw_cut *cut, double w_m);
+double fw_process_cut_depth(const fw_process_cut *cut, double w_m);
 /* is note i not among those of the films before? */
-bool fw_films_is_new(const fw_films *now, const fw_films *before, int i);
+bool fw_process_films_is_new(const fw_process_films *now, const fw_process_films *before, int i);
 /* does the step change the wafer's films? */
-bool fw_step_changes(const fw_step *step);
+bool fw_process_step_changes(const fw_process_step *step);
 
 #endif

@@ -6,8 +6,8 @@
 
 /* m = sum(y/s^2)/sum(1/s^2), u = 1/sqrt(sum(1/s^2)), chi^2 = sum((y - m)^2/s^2). Any one unit.
    Source: textbook, e.g. Bevington and Robinson, ch. 4. Test: test_fit.c, mean. */
-fw_fit fw_fit_mean(const double *y, const double *s, int n) {
-    fw_fit f = {.freedom = n - 1};
+fw_process_fit fw_process_fit_mean(const double *y, const double *s, int n) {
+    fw_process_fit f = {.freedom = n - 1};
     double weight = 0.0, sum = 0.0;
     for (int i = 0; i < n; i++) {
         weight += 1.0 / (s[i] * s[i]);
@@ -24,8 +24,9 @@ fw_fit fw_fit_mean(const double *y, const double *s, int n) {
    adjusted x^ = x + R s_x^2 (y - R x)/v, solved by a fixed point that contracts by (s_x/x)^2.
    u = 1/sqrt(sum(x^2/v)). Source: York, Can. J. Phys. 44 (1966) 1079, through the origin.
    Test: test_fit.c, ratio; test_calibrate.c, coverage. */
-fw_fit fw_fit_ratio(const double *y, const double *s_y, const double *x, const double *s_x, int n) {
-    fw_fit f = {.freedom = n - 1};
+fw_process_fit fw_process_fit_ratio(const double *y, const double *s_y, const double *x,
+                                    const double *s_x, int n) {
+    fw_process_fit f = {.freedom = n - 1};
     double R = 0.0, above = 0.0, below = 0.0;
     for (int i = 0; i < n; i++) {
         above += y[i] * x[i] / (s_y[i] * s_y[i]);
@@ -55,8 +56,9 @@ fw_fit fw_fit_ratio(const double *y, const double *s_y, const double *x, const d
 
 /* Normal equations of two parameters: [pp pq; pq qq] [a b] = [py qy], sums weighted with 1/s^2; the
    inverse of the matrix is the covariance. Test: test_fit.c, plane. */
-fw_fit fw_fit_plane(const double *y, const double *s, const double *p, const double *q, int n) {
-    fw_fit f = {.freedom = n - 2};
+fw_process_fit fw_process_fit_plane(const double *y, const double *s, const double *p,
+                                    const double *q, int n) {
+    fw_process_fit f = {.freedom = n - 2};
     double pp = 0, pq = 0, qq = 0, py = 0, qy = 0;
     for (int i = 0; i < n; i++) {
         double w = 1.0 / (s[i] * s[i]);
@@ -83,7 +85,7 @@ fw_fit fw_fit_plane(const double *y, const double *s, const double *p, const dou
 /* Q(n/2, x/2) for whole n, a finite sum: even n exp(-h) sum h^k/k!, k < n/2; odd n erfc(sqrt h) +
    exp(-h) sum h^(k+1/2)/Gamma(k + 3/2), k < (n - 1)/2; h = x/2. Source: Abramowitz and
    Stegun 26.4.4 and 26.4.5. Error 1e-14. Test: test_fit.c, chi_square (table 26.8). */
-double fw_chi_square_above(double x, int n) {
+double fw_process_chi_square_above(double x, int n) {
     if (n <= 0) return 1.0;
     bool odd = n % 2 == 1;
     double h = 0.5 * x, sum = odd ? erfc(sqrt(h)) : 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/fixed_point.h"
-#include "process/law.h"
+#include "process/process_law.h"
 #include "process/wear.h"
 #include <math.h>
 #include <string.h>
@@ -14,13 +14,14 @@ static double known(const fw_quantity *q) {
     return q && !q->unknown ? q->value : (double)NAN;
 }
 
-static const fw_quantity *argument(const fw_argument *list, int n, const char *name) {
+static const fw_quantity *argument(const fw_process_argument *list, int n, const char *name) {
     for (int i = 0; i < n; i++)
         if (strcmp(list[i].name, name) == 0) return list[i].q;
     return NULL;
 }
 
-static double depth_of(const fw_flow *flow, const fw_change *c, double thickness_m) {
+static double depth_of(const fw_process_flow *flow, const fw_process_change *c,
+                       double thickness_m) {
     bool own =
         c->thickness && flow->thickness &&
         (c->thickness == flow->thickness || (c->thickness->id && flow->thickness->id &&
@@ -30,14 +31,14 @@ static double depth_of(const fw_flow *flow, const fw_change *c, double thickness
 
 /* A time that rests on a guess is nobody's plan: such a lag is shown, and judged, beside the time
    of wide openings, until it is measured. */
-bool fw_lag_is_guess(const fw_quantity *lag) {
+bool fw_process_lag_is_guess(const fw_quantity *lag) {
     return lag && !lag->unknown && lag->status == FW_ASSUMED;
 }
 
 /* how narrow openings fall behind: the step's own law, else the one it derives on the way */
-static void read_lag(const fw_step *s, fw_cut *cut) {
+static void read_lag(const fw_process_step *s, fw_process_cut *cut) {
     bool own = s->law && strcmp(s->law, "arde") == 0;
-    const fw_argument *list = s->argument;
+    const fw_process_argument *list = s->argument;
     int n = s->nargument;
     const char *shape = s->shape;
     for (int i = 0; !own && i < s->nderive; i++)
@@ -54,48 +55,49 @@ static void read_lag(const fw_step *s, fw_cut *cut) {
                                                 : FW_LAG_SLOT;
     cut->lag_quantity = argument(list, n, linear ? "lag" : "probability");
     cut->lag_value = known(cut->lag_quantity);
-    cut->own = own = own && !fw_lag_is_guess(cut->lag_quantity);
+    cut->own = own = own && !fw_process_lag_is_guess(cut->lag_quantity);
     const fw_quantity *width = own ? argument(list, n, "width") : NULL;
     cut->follows = width && width->id && strcmp(width->id, FW_MASK_OPENING) == 0;
     if (own && !cut->follows) cut->width_m = known(width);
 }
 
 /* the range of the anisotropy: the corner's, so that the verdict looks at the same one */
-static void read_range(const fw_flow *flow, const fw_quantity *A, fw_cut *cut) {
+static void read_range(const fw_process_flow *flow, const fw_quantity *A, fw_process_cut *cut) {
     cut->low = cut->high = cut->anisotropy;
     for (int i = 0; i < flow->ncorner; i++) {
-        const fw_corner *c = &flow->corner[i];
+        const fw_process_corner *c = &flow->corner[i];
         if (c->of != FW_CORNER_ANISOTROPY || c->q != A) continue;
         const fw_quantity *q = A->unknown ? c->assumed : A;
         if (!q || q->unknown) return;
-        fw_quantity_range(q, &cut->low, &cut->high);
+        fw_process_quantity_range(q, &cut->low, &cut->high);
         cut->high = fmin(cut->high, 1.0);
     }
 }
 
-static void read_cut(const fw_flow *flow, const fw_step *s, const fw_change *c, double depth_m,
-                     fw_cut *cut) {
-    *cut = (fw_cut){.step = s,
-                    .quantity = c->anisotropy,
-                    .device = !flow->material || strcmp(c->material, flow->material) == 0,
-                    .depth_m = depth_m,
-                    .overrun = s->overrun,
-                    .anisotropy = known(c->anisotropy),
-                    .compensate = c->compensate,
-                    .lag_value = 0.0};
+static void read_cut(const fw_process_flow *flow, const fw_process_step *s,
+                     const fw_process_change *c, double depth_m, fw_process_cut *cut) {
+    *cut = (fw_process_cut){.step = s,
+                            .quantity = c->anisotropy,
+                            .device = !flow->material || strcmp(c->material, flow->material) == 0,
+                            .depth_m = depth_m,
+                            .overrun = s->overrun,
+                            .anisotropy = known(c->anisotropy),
+                            .compensate = c->compensate,
+                            .lag_value = 0.0};
     read_lag(s, cut);
     read_range(flow, c->anisotropy, cut);
 }
 
 /* where edges are known to come out, and the ranges of both edges and walls */
-static void read_corners(const fw_flow *flow, double thickness_m, fw_fixed_point *p) {
+static void read_corners(const fw_process_flow *flow, double thickness_m,
+                         fw_process_fixed_point *p) {
     for (int i = 0; i < flow->ncorner; i++) {
-        const fw_corner *c = &flow->corner[i];
+        const fw_process_corner *c = &flow->corner[i];
         bool edge = c->of == FW_CORNER_EDGE, wall = c->of == FW_CORNER_TAPER;
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
         if ((!edge && !wall) || !q || q->unknown || (wall && isnan(thickness_m))) continue;
         double low, high, x = c->q->unknown ? 0.0 : q->value;
-        fw_quantity_range(q, &low, &high);
+        fw_process_quantity_range(q, &low, &high);
         if (edge) {
             p->printed_m -= x;
             p->off_low_m += low - x;
@@ -107,11 +109,11 @@ static void read_corners(const fw_flow *flow, double thickness_m, fw_fixed_point
     }
 }
 
-static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p) {
+static void read_flow(const fw_process_flow *flow, double thickness_m, fw_process_fixed_point *p) {
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         for (int k = 0; k < s->nchange; k++) {
-            const fw_change *c = &s->change[k];
+            const fw_process_change *c = &s->change[k];
             double depth = depth_of(flow, c, thickness_m);
             if (c->isotropic) {
                 p->wet_open = p->wet_open || isnan(depth);
@@ -121,7 +123,7 @@ static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p
                 read_cut(flow, s, c, depth, &p->cut[p->ncut++]);
         }
     }
-    fw_wear wear = fw_flow_wear(flow);
+    fw_process_wear wear = fw_process_flow_wear(flow);
     p->worn_m = wear.loss_m;
     p->worn_open = wear.missing != NULL;
     read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
@@ -129,7 +131,8 @@ static void read_flow(const fw_flow *flow, double thickness_m, fw_fixed_point *p
 
 /* ---- openings ---- */
 
-static void add_class(fw_fixed_point *p, fw_gap_kind kind, const char *name, double gap_m) {
+static void add_class(fw_process_fixed_point *p, fw_process_gap_kind kind, const char *name,
+                      double gap_m) {
     if (!(gap_m > 0.0) || !isfinite(gap_m)) return;
     int at = p->ncls;
     for (int i = 0; i < p->ncls; i++) {
@@ -139,14 +142,15 @@ static void add_class(fw_fixed_point *p, fw_gap_kind kind, const char *name, dou
         if (at == p->ncls && gap_m < p->cls[i].drawn_m) at = i;
     }
     memmove(&p->cls[at + 1], &p->cls[at], (size_t)(p->ncls - at) * sizeof *p->cls);
-    p->cls[at] = (fw_edge_class){.kind = kind, .name = name, .drawn_m = gap_m};
+    p->cls[at] = (fw_process_edge_class){.kind = kind, .name = name, .drawn_m = gap_m};
     p->ncls++;
 }
 
 /* the mean opening of the field, 2 A/P: a slot of length L and width w has A = L w, P = 2 L */
-static fw_status list_classes(fw_arena *arena, const fw_mask_facts *f, fw_fixed_point *p) {
+static fw_status list_classes(fw_arena *arena, const fw_process_mask_facts *f,
+                              fw_process_fixed_point *p) {
     if (!f || (f->structure_area_m2 == 0.0 && f->die_area_m2 == 0.0)) return FW_OK;
-    FW_NEED(p->cls = fw_arena_array(arena, fw_edge_class, (size_t)f->ngap + 2));
+    FW_NEED(p->cls = fw_arena_array(arena, fw_process_edge_class, (size_t)f->ngap + 2));
     for (int i = 0; i < f->ngap; i++)
         add_class(p, f->gap[i].kind, f->gap[i].name, f->gap[i].gap_m);
     add_class(p, FW_GAP_SLOT, "narrowest slot", f->narrowest_slot_m);
@@ -159,7 +163,7 @@ static fw_status list_classes(fw_arena *arena, const fw_mask_facts *f, fw_fixed_
     return FW_OK;
 }
 
-static double reference_m(const fw_fixed_point *p) {
+static double reference_m(const fw_process_fixed_point *p) {
     return p->ncls ? p->cls[p->field].drawn_m : (double)INFINITY;
 }
 
@@ -167,39 +171,41 @@ static double reference_m(const fw_fixed_point *p) {
 
 /* S J(w, D) or c D^2/(2 w), from t = (D + lag)/R: see law_arde.c for formula, source and error.
    w, D m, result m; 0 at w = INFINITY, NaN where S or c is not known. Test: test_law.c, arde. */
-double fw_cut_lag(const fw_cut *cut, double w_m, double depth_m) {
+double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m) {
     if (cut->lag == FW_LAG_NONE) return 0.0;
     if (isnan(cut->lag_value)) return (double)NAN;
     if (w_m == (double)INFINITY) return 0.0;
     if (cut->lag == FW_LAG_LINEAR) return cut->lag_value * depth_m * depth_m / (2.0 * w_m);
-    return cut->lag_value * fw_arde_integral(w_m, depth_m, cut->lag == FW_LAG_CYLINDER);
+    return cut->lag_value * fw_process_arde_integral(w_m, depth_m, cut->lag == FW_LAG_CYLINDER);
 }
 
-double fw_cut_foot(const fw_cut *cut, double w_m) {
-    double lag = fw_cut_lag(cut, w_m, cut->depth_m), left = cut->etched_m - cut->depth_m;
+double fw_process_cut_foot(const fw_process_cut *cut, double w_m) {
+    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m), left = cut->etched_m - cut->depth_m;
     return isnan(left) ? left : fmax(0.0, left - (isnan(lag) ? 0.0 : lag));
 }
 
 /* d(lag)/dw, 1: J = w j(D/w) with j' = 1/K - 1, hence dJ/dw = J/w - x (1/K(x) - 1), x = D/w */
-static double lag_slope(const fw_cut *cut, double w_m, double lag_m) {
+static double lag_slope(const fw_process_cut *cut, double w_m, double lag_m) {
     if (cut->lag == FW_LAG_NONE || w_m == (double)INFINITY) return 0.0;
     if (cut->lag == FW_LAG_LINEAR) return -lag_m / w_m;
     double x = cut->depth_m / w_m;
-    double K = cut->lag == FW_LAG_CYLINDER ? fw_knudsen_cylinder(2.0 * x) : fw_knudsen_slot(x);
+    double K = cut->lag == FW_LAG_CYLINDER ? fw_process_knudsen_cylinder(2.0 * x)
+                                           : fw_process_knudsen_slot(x);
     return lag_m / w_m - cut->lag_value * x * (1.0 / K - 1.0);
 }
 
 /* E = (1 + overrun) (D + lag(w)) at the narrowest opening w, and what the mask adds, with slopes in
    the edge m of the masking layer: openings are gap - 2 m. `field` is the opening beside flexures,
    whose edges the mask brings to where they are drawn. */
-static void cut_at(fw_cut *c, double A, double narrow_m, double field_m, double *mask_slope) {
+static void cut_at(fw_process_cut *c, double A, double narrow_m, double field_m,
+                   double *mask_slope) {
     double w = c->follows ? narrow_m : c->width_m;
-    double lag = c->own ? fw_cut_lag(c, w, c->depth_m) : 0.0;
-    double wide = fw_cut_lag(c, field_m, c->depth_m), more = 1.0 + c->overrun;
+    double lag = c->own ? fw_process_cut_lag(c, w, c->depth_m) : 0.0;
+    double wide = fw_process_cut_lag(c, field_m, c->depth_m), more = 1.0 + c->overrun;
     c->planned_m = c->depth_m + lag;
     c->etched_m = more * c->planned_m;
     c->reach_slope = c->follows ? -2.0 * more * lag_slope(c, w, lag) : 0.0;
-    double foot = fw_cut_foot(c, field_m);
+    double foot = fw_process_cut_foot(c, field_m);
     double foot_slope =
         foot > 0.0 ? c->reach_slope + (isnan(wide) ? 0.0 : 2.0 * lag_slope(c, field_m, wide)) : 0.0;
     double share = !c->device || c->compensate == FW_FACE_BOTTOM ? 1.0
@@ -224,7 +230,8 @@ static void cut_at(fw_cut *c, double A, double narrow_m, double field_m, double 
    (quadratic). Cost: 3 lags per cut and step, 3 to 6 steps; at the fold some 20. Valid for A in
    [0, 1]. Source: docs/theory/etching.md. Test: test_fixed_point.c, against plain iteration on
    random packs, and at the fold. */
-static bool newton(fw_fixed_point *p, const double *A, double gap_m, double field_m, double *m) {
+static bool newton(fw_process_fixed_point *p, const double *A, double gap_m, double field_m,
+                   double *m) {
     *m = 0.0;
     p->slope = 0.0;
     for (p->iterations = 1; p->iterations <= MOST_STEPS; p->iterations++) {
@@ -246,15 +253,16 @@ static bool newton(fw_fixed_point *p, const double *A, double gap_m, double fiel
     return false;
 }
 
-static bool solvable(const fw_fixed_point *p, const double *A, double gap_m) {
-    fw_fixed_point trial = *p;
+static bool solvable(const fw_process_fixed_point *p, const double *A, double gap_m) {
+    fw_process_fixed_point trial = *p;
     double m, W = fmax(reference_m(p), gap_m);
     return newton(&trial, A, gap_m, W, &m) &&
            gap_m > 2.0 * (m + p->wet_m + p->printed_m + p->worn_m);
 }
 
 /* by bisection: the least of x in [bad, good] that has a solution; NaN when `good` has none */
-static double least(const fw_fixed_point *p, const double *A, double bad, double good, bool gap) {
+static double least(const fw_process_fixed_point *p, const double *A, double bad, double good,
+                    bool gap) {
     double own[FW_CUTS];
     for (int i = 0; i <= HALVINGS; i++) {
         double x = i == 0 ? good : 0.5 * (bad + good);
@@ -269,7 +277,7 @@ static double least(const fw_fixed_point *p, const double *A, double bad, double
     return good;
 }
 
-static void nearest_change(fw_fixed_point *p, const double *A) {
+static void nearest_change(fw_process_fixed_point *p, const double *A) {
     if (p->ncls == 0) return;
     double g = p->cls[0].drawn_m,
            widest = 1e3 * (g + 2.0 * (p->wet_m + p->worn_m + fabs(p->printed_m)));
@@ -287,13 +295,14 @@ static void nearest_change(fw_fixed_point *p, const double *A) {
    until the end, at the constant rate (1 - A) R. Top z = 0, bottom z = D (0 where the floor has
    not come through). Edges outward, m. The wall between is taken straight: off by at most
    (1 - A) |lag(D)/2 - lag(D/2)|. */
-fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A) {
+fw_process_edge fw_process_fixed_point_edge(const fw_process_fixed_point *p, double w_m,
+                                            const double *A) {
     double m = p->etch_m;
-    fw_edge e = {m - 0.5 * p->flare_m, 0.0, m + 0.5 * p->flare_m};
+    fw_process_edge e = {m - 0.5 * p->flare_m, 0.0, m + 0.5 * p->flare_m};
     for (int k = 0; k < p->ncut; k++) {
-        const fw_cut *c = &p->cut[k];
+        const fw_process_cut *c = &p->cut[k];
         if (isnan(A[k]) || isnan(c->etched_m)) continue; /* its known part: nothing */
-        double foot = fw_cut_foot(c, w_m);
+        double foot = fw_process_cut_foot(c, w_m);
         e.top_m -= (1.0 - A[k]) * (c->device ? c->etched_m : foot);
         e.bottom_m -= (1.0 - A[k]) * foot;
     }
@@ -301,51 +310,55 @@ fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A
     return e;
 }
 
-const fw_cut *fw_fixed_point_cut(const fw_fixed_point *p, const fw_quantity *anisotropy) {
+const fw_process_cut *fw_process_fixed_point_cut(const fw_process_fixed_point *p,
+                                                 const fw_quantity *anisotropy) {
     for (int k = 0; k < p->ncut; k++)
         if (anisotropy && p->cut[k].quantity == anisotropy) return &p->cut[k];
     return NULL;
 }
 
-static const fw_cut *device_cut(const fw_fixed_point *p) {
+static const fw_process_cut *device_cut(const fw_process_fixed_point *p) {
     for (int k = 0; k < p->ncut; k++)
         if (p->cut[k].device) return &p->cut[k];
     return NULL;
 }
 
 /* the corners of edges and walls move a face besides */
-static fw_edge shifted(fw_edge e, double off_m, double wall_m) {
-    return (fw_edge){e.top_m + off_m + 0.5 * wall_m, e.middle_m + off_m,
-                     e.bottom_m + off_m + 0.5 * wall_m};
+static fw_process_edge shifted(fw_process_edge e, double off_m, double wall_m) {
+    return (fw_process_edge){e.top_m + off_m + 0.5 * wall_m, e.middle_m + off_m,
+                             e.bottom_m + off_m + 0.5 * wall_m};
 }
 
-static void place_edges(fw_fixed_point *p, const double *A, const double *low, const double *high) {
-    const fw_cut *cut = device_cut(p);
-    const fw_edge none = {(double)NAN, (double)NAN, (double)NAN};
+static void place_edges(fw_process_fixed_point *p, const double *A, const double *low,
+                        const double *high) {
+    const fw_process_cut *cut = device_cut(p);
+    const fw_process_edge none = {(double)NAN, (double)NAN, (double)NAN};
     bool ranged = true;
     for (int k = 0; k < p->ncut; k++)
         ranged = ranged && !isnan(low[k]) && !isnan(high[k]) && !isnan(p->cut[k].etched_m);
     for (int i = 0; i < p->ncls; i++) {
-        fw_edge_class *c = &p->cls[i];
+        fw_process_edge_class *c = &p->cls[i];
         c->plate_m = c->drawn_m - 2.0 * p->bias_m;
         c->opening_m = c->drawn_m - 2.0 * p->etch_m;
         double reach =
-            cut ? cut->depth_m + fw_cut_lag(cut, c->opening_m, cut->depth_m) : (double)NAN;
+            cut ? cut->depth_m + fw_process_cut_lag(cut, c->opening_m, cut->depth_m) : (double)NAN;
         c->reach_m = reach;
         c->through_s = (double)NAN;
         c->over_etch = cut ? cut->etched_m / reach - 1.0 : (double)NAN;
-        c->edge = fw_fixed_point_edge(p, c->opening_m, A);
+        c->edge = fw_process_fixed_point_edge(p, c->opening_m, A);
         c->low = c->high = none;
         if (!ranged) continue;
-        c->low = shifted(fw_fixed_point_edge(p, c->opening_m, low), p->off_low_m, -p->flare_off_m);
-        c->high =
-            shifted(fw_fixed_point_edge(p, c->opening_m, high), p->off_high_m, p->flare_off_m);
+        c->low = shifted(fw_process_fixed_point_edge(p, c->opening_m, low), p->off_low_m,
+                         -p->flare_off_m);
+        c->high = shifted(fw_process_fixed_point_edge(p, c->opening_m, high), p->off_high_m,
+                          p->flare_off_m);
     }
 }
 
 /* the bias that other anisotropies would ask for; NaN: none is possible */
-static double bias_at(const fw_fixed_point *p, const double *A, double gap_m, double field_m) {
-    fw_fixed_point other = *p;
+static double bias_at(const fw_process_fixed_point *p, const double *A, double gap_m,
+                      double field_m) {
+    fw_process_fixed_point other = *p;
     double m;
     for (int k = 0; k < p->ncut; k++)
         if (isnan(A[k])) return (double)NAN;
@@ -353,11 +366,12 @@ static double bias_at(const fw_fixed_point *p, const double *A, double gap_m, do
                                                  : (double)NAN;
 }
 
-fw_status fw_fixed_point_solve(fw_arena *arena, const fw_flow *flow, const fw_mask_facts *facts,
-                               double thickness_m, fw_fixed_point *out) {
-    fw_fixed_point *p = out;
+fw_status fw_process_fixed_point_solve(fw_arena *arena, const fw_process_flow *flow,
+                                       const fw_process_mask_facts *facts, double thickness_m,
+                                       fw_process_fixed_point *out) {
+    fw_process_fixed_point *p = out;
     double A[FW_CUTS] = {0}, low[FW_CUTS] = {0}, high[FW_CUTS] = {0}, m;
-    *p = (fw_fixed_point){.least_gap_m = (double)NAN, .least_anisotropy = (double)NAN};
+    *p = (fw_process_fixed_point){.least_gap_m = (double)NAN, .least_anisotropy = (double)NAN};
     read_flow(flow, thickness_m, p);
     FW_TRY(list_classes(arena, facts, p));
     for (int k = 0; k < p->ncut; k++) {

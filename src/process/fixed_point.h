@@ -10,33 +10,38 @@
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
-struct fw_flow;
-struct fw_step;
-struct fw_mask_facts;
+struct fw_process_flow;
+struct fw_process_step;
+struct fw_process_mask_facts;
 
-typedef enum fw_gap_kind { /* of openings in the drawn layout */
-                           FW_GAP_FIELD,
-                           FW_GAP_SLOT,
-                           FW_GAP_HINGE,
-                           FW_GAP_COMB
-} fw_gap_kind;
+typedef enum fw_process_gap_kind { /* of openings in the drawn layout */
+                                   FW_GAP_FIELD,
+                                   FW_GAP_SLOT,
+                                   FW_GAP_HINGE,
+                                   FW_GAP_COMB
+} fw_process_gap_kind;
 
-typedef struct fw_mask_gap { /* an opening of the drawing, between edges of the material */
-    fw_gap_kind kind;
+typedef struct fw_process_mask_gap { /* an opening of the drawing, between edges of the material */
+    fw_process_gap_kind kind;
     const char *name; /* "gap of hinge C" */
     double gap_m;     /* as drawn, > 0 */
-} fw_mask_gap;
+} fw_process_mask_gap;
 
-typedef enum fw_face { FW_FACE_MIDDLE, FW_FACE_TOP, FW_FACE_BOTTOM } fw_face;
+typedef enum fw_process_face { FW_FACE_MIDDLE, FW_FACE_TOP, FW_FACE_BOTTOM } fw_process_face;
 
-typedef struct fw_edge { /* m outside the drawn edge; middle is the mean of the faces */
+typedef struct fw_process_edge { /* m outside the drawn edge; middle is the mean of the faces */
     double top_m, middle_m, bottom_m;
-} fw_edge;
+} fw_process_edge;
 
-typedef enum fw_lag_kind { FW_LAG_NONE, FW_LAG_SLOT, FW_LAG_CYLINDER, FW_LAG_LINEAR } fw_lag_kind;
+typedef enum fw_process_lag_kind {
+    FW_LAG_NONE,
+    FW_LAG_SLOT,
+    FW_LAG_CYLINDER,
+    FW_LAG_LINEAR
+} fw_process_lag_kind;
 
-typedef struct fw_cut { /* a masked etch downward: a <change> with an anisotropy */
-    const struct fw_step *step;
+typedef struct fw_process_cut { /* a masked etch downward: a <change> with an anisotropy */
+    const struct fw_process_step *step;
     const fw_quantity *quantity; /* A as the pack has it, perhaps unknown */
     bool device;                 /* through the device layer; else through a masking layer,
                                     of which the foot alone counts */
@@ -44,34 +49,35 @@ typedef struct fw_cut { /* a masked etch downward: a <change> with an anisotropy
     double anisotropy; /* NaN: not known; nothing is then compensated */
     double low, high;  /* of the anisotropy: what is assumed where it is not known, else itself;
                           NaN where nothing is assumed */
-    fw_lag_kind lag;   /* how narrow openings fall behind */
-    double lag_value;  /* S, or c of the linear law; NaN: not known */
+    fw_process_lag_kind lag;         /* how narrow openings fall behind */
+    double lag_value;                /* S, or c of the linear law; NaN: not known */
     const fw_quantity *lag_quantity; /* the same; NULL: no lag is stated */
-    bool own;           /* the lag is in the time of the step; else it is derived beside it */
-    bool follows;       /* the time is that of the narrowest opening of the mask */
-    double width_m;     /* else of this opening; INFINITY: of a wide one */
-    fw_face compensate; /* the face whose edge the mask brings to where it is drawn */
-    double planned_m;   /* R T as planned, without overrun. NaN: the lag is not known */
+    bool own;       /* the lag is in the time of the step; else it is derived beside it */
+    bool follows;   /* the time is that of the narrowest opening of the mask */
+    double width_m; /* else of this opening; INFINITY: of a wide one */
+    fw_process_face compensate; /* the face whose edge the mask brings to where it is drawn */
+    double planned_m;           /* R T as planned, without overrun. NaN: the lag is not known */
     double etched_m;    /* E = R T with overrun: the floor of a wide opening would be so deep */
     double mask_m;      /* what the mask adds at every edge for this etch */
     double reach_slope; /* d E/d(edge in the masking layer), 1 */
-} fw_cut;
+} fw_process_cut;
 
-typedef struct fw_edge_class { /* one width of opening, in ascending order of `drawn_m` */
-    fw_gap_kind kind;
+typedef struct fw_process_edge_class { /* one width of opening, in ascending order of `drawn_m` */
+    fw_process_gap_kind kind;
     const char *name;
     double drawn_m, plate_m; /* as drawn; on the mask */
     double opening_m;        /* in the layer that masks the last etch: what that etch sees */
     double reach_m;          /* R t until its floor is through, of the cut of the device; NaN */
     double through_s;        /* the same as a time; NaN until steps are computed */
     double over_etch;        /* E/reach - 1; below 0: not through in the whole time. NaN */
-    fw_edge edge;            /* where the edges of the material stand: the known part */
-    fw_edge low, high;       /* at the ends of all ranges of the pack's corners; NaN: A has none */
-} fw_edge_class;
+    fw_process_edge edge;    /* where the edges of the material stand: the known part */
+    fw_process_edge low,
+        high; /* at the ends of all ranges of the pack's corners; NaN: A has none */
+} fw_process_edge_class;
 
 enum { FW_CUTS = 4 };
 
-typedef struct fw_fixed_point {
+typedef struct fw_process_fixed_point {
     bool solved;          /* false: no mask brings the edges to where they are drawn */
     double bias_m;        /* of the mask, per edge outward: sum of printed, wet, etch and worn */
     double printed_m;     /* against what is known of printing */
@@ -85,33 +91,35 @@ typedef struct fw_fixed_point {
     int iterations;       /* of Newton's method */
     double off_low_m, off_high_m; /* range of the <corner>s of edges about what is known, <= 0 <= */
     double flare_off_m;           /* the same of the walls: either way */
-    double flare_m;      /* known slope of the walls: bottom wider than top by twice this */
-    fw_cut cut[FW_CUTS]; /* (ncut) */
+    double flare_m;              /* known slope of the walls: bottom wider than top by twice this */
+    fw_process_cut cut[FW_CUTS]; /* (ncut) */
     int ncut;
-    fw_edge_class *cls;      /* (ncls) narrowest first, the open field last */
-    int ncls;                /* 0: nothing is drawn yet */
-    int field;               /* the class of the open field, beside which flexures stand */
-    double least_gap_m;      /* not solved: drawn narrowest gap from which on it is. NaN */
+    fw_process_edge_class *cls; /* (ncls) narrowest first, the open field last */
+    int ncls;                   /* 0: nothing is drawn yet */
+    int field;                  /* the class of the open field, beside which flexures stand */
+    double least_gap_m;         /* not solved: drawn narrowest gap from which on it is. NaN */
     double least_anisotropy; /* not solved: the same for the anisotropy of the device's cut. NaN */
-} fw_fixed_point;
+} fw_process_fixed_point;
 
 /* In: a flow as read (its steps need not be computed), what the mask says of the drawing (NULL:
    nothing drawn), the device layer's thickness in m (0 or NaN: the pack's). FW_OK also when there
    is no solution. Pure: the same inputs give the same doubles. */
-fw_status fw_fixed_point_solve(fw_arena *arena, const struct fw_flow *flow,
-                               const struct fw_mask_facts *facts, double thickness_m,
-                               fw_fixed_point *out);
+fw_status fw_process_fixed_point_solve(fw_arena *arena, const struct fw_process_flow *flow,
+                                       const struct fw_process_mask_facts *facts,
+                                       double thickness_m, fw_process_fixed_point *out);
 /* is this lag (S, or c) only assumed? Then neither the step's time nor the bias contains it. */
-bool fw_lag_is_guess(const fw_quantity *lag);
+bool fw_process_lag_is_guess(const fw_quantity *lag);
 /* extra depth R (t - D/R) that an opening of w_m needs until its floor is at depth_m; m */
-double fw_cut_lag(const fw_cut *cut, double w_m, double depth_m);
+double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m);
 /* E - D - lag, at least 0: what of the whole time is left when the floor is through; m. A lag that
    is not known counts as none. */
-double fw_cut_foot(const fw_cut *cut, double w_m);
+double fw_process_cut_foot(const fw_process_cut *cut, double w_m);
 /* where the edges beside an opening of w_m stand if the anisotropies of the cuts were A[i]
    (ncut); NaN counts as 1 */
-fw_edge fw_fixed_point_edge(const fw_fixed_point *p, double w_m, const double *A);
+fw_process_edge fw_process_fixed_point_edge(const fw_process_fixed_point *p, double w_m,
+                                            const double *A);
 /* the cut whose anisotropy is this quantity; NULL */
-const fw_cut *fw_fixed_point_cut(const fw_fixed_point *p, const fw_quantity *anisotropy);
+const fw_process_cut *fw_process_fixed_point_cut(const fw_process_fixed_point *p,
+                                                 const fw_quantity *anisotropy);
 
 #endif

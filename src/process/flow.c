@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
-#include "process/law.h"
+#include "process/process_law.h"
 #include "process/lint.h"
 #include <math.h>
 #include <string.h>
 
-static fw_quantity *find(const fw_flow *flow, const char *id) {
+static fw_quantity *find(const fw_process_flow *flow, const char *id) {
     for (int i = flow->nquantity - 1; i >= 0; i--) /* the flow's own come after the shared ones */
         if (flow->quantity[i]->id && strcmp(flow->quantity[i]->id, id) == 0)
             return flow->quantity[i];
     return NULL;
 }
 
-const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id) {
+const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id) {
     return find(flow, id);
 }
 
-const fw_process_material *fw_flow_material(const fw_flow *flow, const char *id) {
+const fw_process_material *fw_process_flow_material(const fw_process_flow *flow, const char *id) {
     for (int i = flow->nprocess_material - 1; i >= 0; i--)
         if (strcmp(flow->process_material[i].id, id) == 0) return &flow->process_material[i];
     return NULL;
 }
 
-const char *fw_flow_material_name(const fw_flow *flow, const char *id) {
-    const fw_process_material *m = fw_flow_material(flow, id);
+const char *fw_process_flow_material_name(const fw_process_flow *flow, const char *id) {
+    const fw_process_material *m = fw_process_flow_material(flow, id);
     return m ? m->name : id;
 }
 
@@ -31,7 +31,8 @@ static bool usable(double x) {
     return isfinite(x) && x > 0.0;
 }
 
-static fw_status bad_fact(const fw_flow *flow, fw_diags *diags, const char *name, double value) {
+static fw_status bad_fact(const fw_process_flow *flow, fw_diags *diags, const char *name,
+                          double value) {
     char text[32];
     return fw_diag_error(diags, 179, flow->place, "the mask's %s is %s; it must be above zero",
                          name, fw_number_text(text, sizeof text, value, 6));
@@ -41,7 +42,8 @@ static double none_if_zero(double x) {
     return x == 0.0 || isnan(x) ? HUGE_VAL : x;
 }
 
-static fw_status check_facts(const fw_flow *flow, const fw_mask_facts *m, fw_diags *diags) {
+static fw_status check_facts(const fw_process_flow *flow, const fw_process_mask_facts *m,
+                             fw_diags *diags) {
     const struct {
         const char *name;
         double value;
@@ -65,7 +67,7 @@ static fw_status check_facts(const fw_flow *flow, const fw_mask_facts *m, fw_dia
 }
 
 /* a quantity that the pack leaves to the mask; absent in packs that do not need it */
-static void fill(fw_flow *flow, const char *id, double value, double uncertainty) {
+static void fill(fw_process_flow *flow, const char *id, double value, double uncertainty) {
     fw_quantity *q = find(flow, id);
     if (!q) return;
     q->unknown = !isfinite(value) || !isfinite(uncertainty);
@@ -76,24 +78,24 @@ static void fill(fw_flow *flow, const char *id, double value, double uncertainty
 }
 
 /* everything that is on the wafer at once */
-static double all_structure(const fw_mask_facts *m) {
+static double all_structure(const fw_process_mask_facts *m) {
     return m->wafer_area_m2 > 0.0 ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies;
 }
-static double all_perimeter(const fw_mask_facts *m) {
+static double all_perimeter(const fw_process_mask_facts *m) {
     return m->wafer_area_m2 > 0.0 ? m->wafer_perimeter_m : m->perimeter_m * m->dies;
 }
-static double all_area(const fw_mask_facts *m) {
+static double all_area(const fw_process_mask_facts *m) {
     return m->wafer_area_m2 > 0.0 ? m->wafer_area_m2 : m->die_area_m2 * m->dies;
 }
 
 /* A = n A_die + ring + thief; u^2 = (P u_edge)^2 + u_ring^2 + u_thief^2, since A(b) = A + P b for
    an edge that prints b further out. The mask's own area is exact. All m2. */
-static void fill_plated(fw_flow *flow, const fw_mask_facts *m) {
+static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
     const fw_quantity *edge = find(flow, "litho.edge");
     double area = all_structure(m);
     double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
-    fw_value_status worst = FW_DERIVED;
+    fw_quantity_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
         const fw_quantity *q = find(flow, extra[i]);
         if (!q) continue;
@@ -108,7 +110,7 @@ static void fill_plated(fw_flow *flow, const fw_mask_facts *m) {
     whole->source = "this device's own mask, contact ring and thief of the pack";
 }
 
-static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {
+static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     const fw_quantity *edge = find(flow, "litho.edge");
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
@@ -122,14 +124,15 @@ static void fill_mask(fw_flow *flow, const fw_mask_facts *m) {
     fill_plated(flow, m);
 }
 
-static void forget_mask(fw_flow *flow) {
+static void forget_mask(fw_process_flow *flow) {
     for (int i = 0; i < flow->nquantity; i++)
         if (flow->quantity[i]->id && strncmp(flow->quantity[i]->id, "mask.", 5) == 0)
             fill(flow, flow->quantity[i]->id, (double)NAN, (double)NAN);
 }
 
 /* the device file may ask for another thickness than the pack's own */
-static fw_status set_thickness(fw_arena *arena, fw_flow *flow, const fw_mask_facts *m) {
+static fw_status set_thickness(fw_arena *arena, fw_process_flow *flow,
+                               const fw_process_mask_facts *m) {
     fw_quantity *q = find(flow, flow->thickness->id);
     if (!q || !usable(m->device_thickness_m) ||
         fabs(m->device_thickness_m - q->value) < 1e-9 * q->value)
@@ -137,7 +140,7 @@ static fw_status set_thickness(fw_arena *arena, fw_flow *flow, const fw_mask_fac
     char was[32];
     fw_number_text(was, sizeof was, q->unknown ? 0.0 : fw_quantity_in_unit(q), 6);
     FW_NEED(q->note = fw_arena_printf(arena, "the pack's own value is %s %s (%s)", was, q->unit,
-                                      fw_value_status_text(q->status)));
+                                      fw_quantity_value_status_text(q->status)));
     q->uncertainty *= q->unknown || q->value == 0.0 ? 0.0 : m->device_thickness_m / q->value;
     q->value = m->device_thickness_m;
     q->unknown = false;
@@ -146,26 +149,26 @@ static fw_status set_thickness(fw_arena *arena, fw_flow *flow, const fw_mask_fac
     return FW_OK;
 }
 
-static fw_status derive_all(fw_arena *arena, fw_step *s) {
+static fw_status derive_all(fw_arena *arena, fw_process_step *s) {
     for (int i = 0; i < s->nderive; i++) {
-        const fw_derive *d = &s->derive[i];
-        fw_law_use use = {.law = fw_law_find(d->law),
-                          .shape = d->shape,
-                          .expression = d->expression,
-                          .wanted = d->dimension,
-                          .argument = d->argument,
-                          .nargument = d->nargument,
-                          .setting = s->setting,
-                          .nsetting = s->nsetting};
-        fw_law_answer answer;
-        FW_TRY(fw_law_evaluate(arena, &use, &answer));
+        const fw_process_derive *d = &s->derive[i];
+        fw_process_law_use use = {.law = fw_process_law_find(d->law),
+                                  .shape = d->shape,
+                                  .expression = d->expression,
+                                  .wanted = d->dimension,
+                                  .argument = d->argument,
+                                  .nargument = d->nargument,
+                                  .setting = s->setting,
+                                  .nsetting = s->nsetting};
+        fw_process_law_answer answer;
+        FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
         double value = answer.computable ? answer.value : (double)NAN;
         const char *source = "";
-        FW_NEED(source =
-                    fw_arena_printf(arena, "computed: %s",
-                                    use.law == &fw_law_expr ? d->expression : use.law->formula));
-        FW_TRY(fw_step_derive(arena, s, d->name, value, answer.uncertainty, d->dimension, d->unit,
-                              answer.status, source));
+        FW_NEED(source = fw_arena_printf(arena, "computed: %s",
+                                         use.law == &fw_process_law_expr ? d->expression
+                                                                         : use.law->formula));
+        FW_TRY(fw_process_step_derive(arena, s, d->name, value, answer.uncertainty, d->dimension,
+                                      d->unit, answer.status, source));
         fw_quantity *shown = (fw_quantity *)s->derived[s->nderived - 1];
         for (int j = 0; j < answer.nmissing && !shown->note; j++)
             FW_NEED(shown->note = fw_arena_printf(arena, "missing: %s", answer.missing[j]));
@@ -185,14 +188,15 @@ static fw_status derive_all(fw_arena *arena, fw_step *s) {
 }
 
 /* the arguments of an arde law whose lag is only assumed, without lag: the time of wide openings */
-static const fw_argument *without_guess(const fw_step *s, fw_argument *list, fw_quantity *none) {
+static const fw_process_argument *without_guess(const fw_process_step *s, fw_process_argument *list,
+                                                fw_quantity *none) {
     bool guess = false;
     if (strcmp(s->law, "arde") != 0 || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
     for (int i = 0; i < s->nargument; i++) {
-        const fw_argument *a = &s->argument[i];
+        const fw_process_argument *a = &s->argument[i];
         bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;
         list[i] = *a;
-        if (!lag || !fw_lag_is_guess(a->q)) continue;
+        if (!lag || !fw_process_lag_is_guess(a->q)) continue;
         *none = *a->q;
         none->value = none->uncertainty = 0.0;
         none->status = FW_MEASURED; /* no part of the answer */
@@ -202,35 +206,36 @@ static const fw_argument *without_guess(const fw_step *s, fw_argument *list, fw_
     return guess ? list : s->argument;
 }
 
-static fw_status compute_step(fw_arena *arena, fw_step *s) {
-    fw_argument list[FW_LAW_ARGUMENTS];
+static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
+    fw_process_argument list[FW_LAW_ARGUMENTS];
     fw_quantity none;
     s->derived = NULL;
     s->nderived = 0;
     FW_TRY(derive_all(arena, s));
-    fw_law_use use = {.law = fw_law_find(s->law),
-                      .shape = s->shape,
-                      .expression = s->expression,
-                      .wanted = FW_DIM_TIME,
-                      .argument = without_guess(s, list, &none),
-                      .nargument = s->nargument,
-                      .need = s->need,
-                      .nneed = s->nneed,
-                      .setting = s->setting,
-                      .nsetting = s->nsetting};
-    fw_law_answer answer;
-    FW_TRY(fw_law_evaluate(arena, &use, &answer));
-    fw_law_window(&answer, s->k, s->overrun, &s->time);
+    fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                              .shape = s->shape,
+                              .expression = s->expression,
+                              .wanted = FW_DIM_TIME,
+                              .argument = without_guess(s, list, &none),
+                              .nargument = s->nargument,
+                              .need = s->need,
+                              .nneed = s->nneed,
+                              .setting = s->setting,
+                              .nsetting = s->nsetting};
+    fw_process_law_answer answer;
+    FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
+    fw_process_law_window(&answer, s->k, s->overrun, &s->time);
     return use.law->derive ? use.law->derive(arena, &use, &answer, s) : FW_OK;
 }
 
 /* ---- edges ---- */
 
 /* edges, bias and gaps; the narrowest opening goes to the laws of the steps */
-static fw_status solve_edges(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts) {
-    fw_fixed_point *p = &flow->edges;
+static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
+                             const fw_process_mask_facts *facts) {
+    fw_process_fixed_point *p = &flow->edges;
     double thickness = facts ? facts->device_thickness_m : 0.0;
-    FW_TRY(fw_fixed_point_solve(arena, flow, facts, thickness, p));
+    FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, thickness, p));
     flow->bias_m = p->bias_m;
     const fw_quantity *edge = find(flow, "litho.edge");
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
@@ -239,25 +244,26 @@ static fw_status solve_edges(fw_arena *arena, fw_flow *flow, const fw_mask_facts
     return FW_OK;
 }
 
-static fw_status derive_class(fw_arena *arena, fw_step *s, const fw_edge_class *c) {
+static fw_status derive_class(fw_arena *arena, fw_process_step *s, const fw_process_edge_class *c) {
     char width[32];
     const char *name =
         fw_arena_printf(arena, "floor through, %s, %s um wide under the mask", c->name,
                         fw_number_text(width, sizeof width, c->opening_m * 1e6, 4));
     FW_NEED(name);
-    return fw_step_derive(arena, s, name, c->through_s, 0.0, (fw_dimension)FW_DIM_TIME, "min",
-                          s->time.status, "computed with bias and gap of this mask");
+    return fw_process_step_derive(arena, s, name, c->through_s, 0.0,
+                                  (fw_quantity_dimension)FW_DIM_TIME, "min", s->time.status,
+                                  "computed with bias and gap of this mask");
 }
 
 /* when each width of opening is through, in the step that cuts the device layer */
-static fw_status show_edges(fw_arena *arena, fw_flow *flow) {
-    fw_fixed_point *p = &flow->edges;
+static fw_status show_edges(fw_arena *arena, fw_process_flow *flow) {
+    fw_process_fixed_point *p = &flow->edges;
     for (int k = 0; k < p->ncut; k++) {
-        const fw_cut *cut = &p->cut[k];
-        fw_step *s = (fw_step *)cut->step;
+        const fw_process_cut *cut = &p->cut[k];
+        fw_process_step *s = (fw_process_step *)cut->step;
         if (!cut->device || !p->solved || !s->time.computable) continue;
         for (int i = 0; i < p->ncls; i++) {
-            fw_edge_class *c = &p->cls[i];
+            fw_process_edge_class *c = &p->cls[i];
             c->through_s = s->time.nominal_s * c->reach_m / cut->planned_m;
             if (cut->lag != FW_LAG_NONE) FW_TRY(derive_class(arena, s, c));
         }
@@ -266,7 +272,7 @@ static fw_status show_edges(fw_arena *arena, fw_flow *flow) {
     return FW_OK;
 }
 
-static void forget_derived(fw_flow *flow) {
+static void forget_derived(fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++)
         for (int j = 0; j < flow->step[i].nderive; j++)
             if (flow->step[i].derive[j].q) flow->step[i].derive[j].q->unknown = true;
@@ -278,7 +284,8 @@ static bool seen(const fw_quantity **list, int n, const fw_quantity *q) {
     return false;
 }
 
-static void count_one(fw_flow *flow, const fw_quantity **list, int *n, const fw_quantity *q) {
+static void count_one(fw_process_flow *flow, const fw_quantity **list, int *n,
+                      const fw_quantity *q) {
     if (seen(list, *n, q)) return;
     list[(*n)++] = q;
     if (q->unknown)
@@ -288,14 +295,14 @@ static void count_one(fw_flow *flow, const fw_quantity **list, int *n, const fw_
 }
 
 /* every quantity that a step sets, computes with or needs, once */
-static fw_status count_quantities(fw_arena *arena, fw_flow *flow) {
+static fw_status count_quantities(fw_arena *arena, fw_process_flow *flow) {
     const fw_quantity **list = fw_arena_array(arena, const fw_quantity *, (size_t)flow->nquantity);
     FW_NEED(list);
     int n = 0;
     memset(flow->count, 0, sizeof flow->count);
     flow->unknown = 0;
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         for (int j = 0; j < s->nsetting; j++)
             count_one(flow, list, &n, s->setting[j].q);
         for (int j = 0; j < s->nargument; j++)
@@ -306,7 +313,7 @@ static fw_status count_quantities(fw_arena *arena, fw_flow *flow) {
     return FW_OK;
 }
 
-static fw_status tell(fw_arena *arena, const fw_flow *flow, fw_diags *diags) {
+static fw_status tell(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags) {
     if (flow->not_computable == 0) return FW_OK;
     fw_text text = fw_text_new(arena);
     for (int i = 0; i < flow->nstep; i++)
@@ -322,8 +329,8 @@ static fw_status tell(fw_arena *arena, const fw_flow *flow, fw_diags *diags) {
     return FW_OK;
 }
 
-fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
-                          fw_diags *diags) {
+fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
+                                  const fw_process_mask_facts *facts, fw_diags *diags) {
     forget_mask(flow);
     forget_derived(flow);
     if (facts) FW_TRY(set_thickness(arena, flow, facts));
@@ -345,8 +352,8 @@ fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *f
     }
     FW_TRY(show_edges(arena, flow));
     FW_TRY(count_quantities(arena, flow));
-    FW_TRY(fw_flow_judge(arena, flow, facts, diags));
-    FW_TRY(fw_lint_computed(arena, flow, diags));
+    FW_TRY(fw_process_flow_judge(arena, flow, facts, diags));
+    FW_TRY(fw_process_lint_computed(arena, flow, diags));
     FW_TRY(tell(arena, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

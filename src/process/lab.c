@@ -13,24 +13,24 @@ static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text
     if (q->unknown)
         fw_text_add(&out, "unknown");
     else {
-        fw_unit unit;
+        fw_quantity_unit unit;
         double u = q->uncertainty;
-        if (fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) {
+        if (fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) {
             unit.offset = 0.0;
-            u = fw_unit_from_si(&unit, u);
+            u = fw_quantity_unit_from_si(&unit, u);
         }
         fw_text_number(&out, fw_quantity_in_unit(q), 6);
         fw_text_add(&out, " +- ");
         fw_text_number(&out, u, 2);
         if (strcmp(q->unit, "1") != 0) fw_text_printf(&out, " %s", q->unit);
     }
-    if (!q->unknown) fw_text_printf(&out, " (%s)", fw_value_status_text(q->status));
+    if (!q->unknown) fw_text_printf(&out, " (%s)", fw_quantity_value_status_text(q->status));
     FW_TRY(fw_text_end(&out));
     *text = out.data;
     return FW_OK;
 }
 
-static fw_status no_such(fw_flow *flow, fw_diags *diags, const fw_attribute *id) {
+static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_attribute *id) {
     const char *best = NULL;
     int least = 3;
     for (int i = 0; i < flow->nquantity; i++) {
@@ -44,9 +44,9 @@ static fw_status no_such(fw_flow *flow, fw_diags *diags, const fw_attribute *id)
                          best ? "'?" : "");
 }
 
-static fw_status replace(fw_arena *arena, fw_flow *flow, fw_diags *diags, const fw_attribute *id,
-                         const fw_quantity *new) {
-    fw_quantity *old = (fw_quantity *)fw_flow_quantity(flow, id->value);
+static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags,
+                         const fw_xml_attribute *id, const fw_quantity *new) {
+    fw_quantity *old = (fw_quantity *)fw_process_flow_quantity(flow, id->value);
     if (!old) return no_such(flow, diags, id);
     if (computed_id(old))
         return fw_diag_error(diags, 211, id->place,
@@ -54,14 +54,14 @@ static fw_status replace(fw_arena *arena, fw_flow *flow, fw_diags *diags, const 
                              "laboratory pack cannot replace it; state the quantities that it "
                              "is computed from",
                              id->value);
-    if (!fw_dimension_equal(old->dimension, new->dimension)) {
-        const char *is = fw_dimension_text(arena, new->dimension),
-                   *want = fw_dimension_text(arena, old->dimension);
+    if (!fw_quantity_dimension_equal(old->dimension, new->dimension)) {
+        const char *is = fw_quantity_dimension_text(arena, new->dimension),
+                   *want = fw_quantity_dimension_text(arena, old->dimension);
         FW_NEED(is ? want : NULL);
         return fw_diag_error(diags, 211, id->place, "'%s' is %s in the process pack, not %s",
                              id->value, want, is);
     }
-    fw_override o = {.id = old->id, .source = new->source};
+    fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const char *name = old->id;
     fw_place place = old->place;
@@ -71,26 +71,26 @@ static fw_status replace(fw_arena *arena, fw_flow *flow, fw_diags *diags, const 
     FW_TRY(amount(arena, old, &o.is));
     fw_diag_note(diags, 198, id->place, "%s: %s = %s replaces %s; %s", flow->id, o.id, o.is, o.was,
                  o.source);
-    fw_override *grown = fw_arena_grow(arena, flow->override, (size_t)flow->noverride,
-                                       (size_t)flow->noverride + 1, sizeof *grown);
+    fw_process_override *grown = fw_arena_grow(arena, flow->override, (size_t)flow->noverride,
+                                               (size_t)flow->noverride + 1, sizeof *grown);
     FW_NEED(grown);
     flow->override = grown;
     flow->override[flow->noverride++] = o;
     return FW_OK;
 }
 
-static fw_status replace_all(fw_arena *arena, const fw_record *root, fw_flow *flow,
+static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
                              fw_diags *diags) {
     size_t before = diags->errors;
-    fw_source_text *source;
+    fw_xml_source_text *source;
     int nsource;
-    fw_status status = fw_sources_read(arena, root->element, diags, &source, &nsource);
+    fw_status status = fw_xml_sources_read(arena, root->element, diags, &source, &nsource);
     if (status != FW_OK && status != FW_INPUT) return status;
-    for (const fw_record *e = root->first_child; e; e = e->next) {
-        const fw_attribute *id = fw_pack_get(e, "id");
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        const fw_xml_attribute *id = fw_process_pack_get(e, "id");
         fw_quantity q;
-        if (!fw_is(e, "q")) continue;
-        status = fw_quantity_read(arena, e->element, source, nsource, diags, &q);
+        if (!fw_xml_is(e, "q")) continue;
+        status = fw_xml_quantity_read(arena, e->element, source, nsource, diags, &q);
         if (status == FW_INPUT) continue;
         FW_TRY(status);
         if (id && (status = replace(arena, flow, diags, id, &q)) != FW_OK && status != FW_INPUT)
@@ -99,12 +99,12 @@ static fw_status replace_all(fw_arena *arena, const fw_record *root, fw_flow *fl
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 
-fw_status fw_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n, fw_flow *flow,
-                       fw_diags *diags) {
+fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n,
+                               fw_process_flow *flow, fw_diags *diags) {
     fw_xml_reader r = {.arena = arena, .diags = diags, .table = &fw_process_laboratory_table};
     size_t before = diags->errors;
     FW_TRY(fw_xml_read(arena, file, xml, n, diags, &r.root));
-    const fw_attribute *of = fw_xml_attribute(r.root, "flow");
+    const fw_xml_attribute *of = fw_xml_attribute_of(r.root, "flow");
     bool other = of && strcmp(of->value, flow->id) != 0; /* of another flow of the device */
     if (other && strcmp(r.root->name, r.table->root) == 0 &&
         strcmp(r.root->space, r.table->urn) == 0)

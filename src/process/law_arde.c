@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/law.h"
+#include "process/process_law.h"
 #include <math.h>
 #include <string.h>
 
@@ -11,7 +11,7 @@ enum { DEPTH, RATE, WIDTH, PROBABILITY, LAG, LOADING, OPEN_AREA, REFERENCE_AREA 
    and b the divisor, K = 1/(2 (s + x)) + (b - 3 (x - A)^2)/(2 b).
    Error < 1e-14 relative from 1e-6 to 1e4. Source: Berman, J. Appl. Phys. 36 (1965) 3356.
    Test: test_law.c, knudsen. */
-double fw_knudsen_slot(double x) {
+double fw_process_knudsen_slot(double x) {
     if (x < 1e-3) return 1.0 - x / 2.0 + x * x / 4.0 - x * x * x / 24.0 - x * x * x * x / 16.0;
     double s = sqrt(1.0 + x * x), A = asinh(x), over = 1.0 / (s + x);
     if (x < 20.0) {
@@ -27,7 +27,7 @@ double fw_knudsen_slot(double x) {
    part is s/(l + s), the bracket 4 l^3 (2 + l/(s + 2))/((s + 2) (s + l)). Beyond 20 the bracket is
    6 l - w, w = 16 - 8 d - 2 l e with d = 4/(s + l), e = d/(s + l), and the halves are taken out as
    above. Series below 1e-3. Error < 1e-14 relative from 1e-6 to 1e4. Source as above. */
-double fw_knudsen_cylinder(double l) {
+double fw_process_knudsen_cylinder(double l) {
     if (l < 1e-3)
         return 1.0 - l / 2.0 + l * l / 4.0 - 5.0 * l * l * l / 48.0 + l * l * l * l / 32.0;
     double s = sqrt(l * l + 4.0), A = asinh(l / 2.0), below = 72.0 * l * s - 288.0 * A;
@@ -46,7 +46,7 @@ static const double weight[] = {0.2955242247147529, 0.2692667193099964, 0.219086
                                 0.1494513491505806, 0.0666713443086881};
 
 static double slowing(double x, bool cylinder) {
-    double K = cylinder ? fw_knudsen_cylinder(2.0 * x) : fw_knudsen_slot(x);
+    double K = cylinder ? fw_process_knudsen_cylinder(2.0 * x) : fw_process_knudsen_slot(x);
     return 1.0 / K - 1.0;
 }
 
@@ -60,7 +60,7 @@ static double panel(double from, double to, bool cylinder) {
 
 /* J = int_0^D (1/K(z/w) - 1) dz over panels that double in length, 10 points each.
    w, D m; J m. Error < 1e-9 relative. Cost: 10 K per factor of two in D/w. Test: arde_integral. */
-double fw_arde_integral(double width_m, double depth_m, bool cylinder) {
+double fw_process_arde_integral(double width_m, double depth_m, bool cylinder) {
     double end = depth_m / width_m, sum = 0.0, from = 0.0, to = 0.25;
     while (from < end) {
         sum += panel(from, fmin(to, end), cylinder);
@@ -75,7 +75,7 @@ double fw_arde_integral(double width_m, double depth_m, bool cylinder) {
    m, R0 m/s at zero aspect ratio, S and c 1; t s. The narrowest opening of the mask decides. In
    SF6/O2 the lag may come from ions, not radicals (Jansen et al. 1997): S is empirical, to be read
    off two slots of different width. Optional loading factor. Test: test_law.c, arde. */
-static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
+static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
     bool linear = strcmp(call->shape, "linear") == 0;
     bool cylinder = strcmp(call->shape, "cylinder") == 0;
     if (!linear && !cylinder && call->shape[0] && strcmp(call->shape, "slot") != 0) {
@@ -90,14 +90,14 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
         return FW_INPUT;
     }
     double more = linear ? lag * x[DEPTH] * x[DEPTH] / (2.0 * x[WIDTH])
-                         : lag * fw_arde_integral(x[WIDTH], x[DEPTH], cylinder);
+                         : lag * fw_process_arde_integral(x[WIDTH], x[DEPTH], cylinder);
     *result = (x[DEPTH] + more) / x[RATE];
     if (!isnan(x[LOADING]) && !isnan(x[OPEN_AREA]) && !isnan(x[REFERENCE_AREA]))
-        *result *= fw_loading_factor(x[LOADING], x[OPEN_AREA], x[REFERENCE_AREA]);
+        *result *= fw_process_loading_factor(x[LOADING], x[OPEN_AREA], x[REFERENCE_AREA]);
     return FW_OK;
 }
 
-static const fw_law_argument argument[] = {
+static const fw_process_law_argument argument[] = {
     [DEPTH] = {"depth", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     [RATE] = {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
     [WIDTH] = {"width", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
@@ -106,5 +106,5 @@ static const fw_law_argument argument[] = {
     [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_OPTIONAL, false, NULL},
     [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL},
     [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
-const fw_process_law fw_law_arde = {
+const fw_process_law fw_process_law_arde = {
     "arde", "t = (D + S J(w, D))/R0", argument, 8, evaluate, NULL, NULL, NULL};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/law.h"
+#include "process/process_law.h"
 #include <math.h>
 
 enum { INTENSITY, DOSE, THICKNESS, FIRST, PAIRS = 6 };
@@ -9,7 +9,7 @@ static bool dose_of(const double *x, double *dose, const char **why) {
         *dose = x[DOSE];
         return true;
     }
-    return fw_table_between(x + FIRST, PAIRS, x[THICKNESS], dose, why);
+    return fw_process_table_between(x + FIRST, PAIRS, x[THICKNESS], dose, why);
 }
 
 /* t = D/I; D given, or linear between pairs of resist thickness and dose, never beyond them.
@@ -17,7 +17,7 @@ static bool dose_of(const double *x, double *dose, const char **why) {
    Error: the doses of one table rise and fall together (lamp meter, resist lot, developer), so that
    a table with 7 % gives a dose with 7 %, which stands for a coat as thick as looked up: whether it
    is that thick, its own step accepts or not. Test: test_law.c, dose. */
-static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
+static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
     double dose = 0.0;
     if (x[INTENSITY] <= 0.0) {
         call->why = "the lamp gives no light";
@@ -34,16 +34,17 @@ static void slope(const double *x, double result, double *dx) {
     dx[THICKNESS] = 0.0; /* see above; the others by difference */
 }
 
-static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
-                        fw_step *step) {
-    const fw_quantity *intensity = fw_law_input(use, "intensity");
+static fw_status derive(fw_arena *arena, const fw_process_law_use *use,
+                        const fw_process_law_answer *answer, fw_process_step *step) {
+    const fw_quantity *intensity = fw_process_law_input(use, "intensity");
     if (!answer->computable || !intensity) return FW_OK;
     double dose = answer->value * intensity->value;
     double share = answer->uncertainty / answer->value,
            share_lamp = intensity->uncertainty / intensity->value;
     double share_dose = sqrt(fmax(0.0, share * share - share_lamp * share_lamp));
-    return fw_step_derive(arena, step, "dose", dose, dose * share_dose, (fw_dimension)FW_DIM_DOSE,
-                          "mJ/cm2", answer->status, "computed: dose law");
+    return fw_process_step_derive(arena, step, "dose", dose, dose * share_dose,
+                                  (fw_quantity_dimension)FW_DIM_DOSE, "mJ/cm2", answer->status,
+                                  "computed: dose law");
 }
 
 #define PAIR(i)                                                                                    \
@@ -51,7 +52,7 @@ static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_ans
         "dose_" #i, FW_DIM_DOSE, FW_LAW_OPTIONAL, false, dose_table                                \
     }
 static const char dose_table[] = "dose table";
-static const fw_law_argument argument[] = {
+static const fw_process_law_argument argument[] = {
     [INTENSITY] = {"intensity", FW_DIM_INTENSITY, FW_LAW_REQUIRED, false, NULL},
     [DOSE] = {"dose", FW_DIM_DOSE, FW_LAW_OPTIONAL, false, NULL},
     [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_OPTIONAL, false, NULL},
@@ -61,6 +62,6 @@ static const fw_law_argument argument[] = {
     PAIR(4),
     PAIR(5),
     PAIR(6)};
-const fw_process_law fw_law_dose = {
+const fw_process_law fw_process_law_dose = {
     "dose", "t = dose(thickness)/intensity", argument, FIRST + 2 * PAIRS, evaluate, slope, derive,
     NULL};

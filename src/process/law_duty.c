@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/law.h"
+#include "process/process_law.h"
 #include <math.h>
 
 enum { TIME, PULSE, PAUSE };
@@ -12,7 +12,7 @@ static double pulses(double time_s, double pulse_s) {
 /* t = time + (n - 1) pause, n = ceil(time/pulse): light or plasma in n parts with pauses between.
    The slopes are those of a constant n; what changes n is in steps(). Tests: test_law.c, duty;
    test_law_monte_carlo.c. */
-static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
+static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
     if (x[PULSE] <= 0.0) {
         call->why = "the pulse has no length";
         return FW_INPUT;
@@ -37,18 +37,20 @@ static double steps(const double *x, const double *u) {
     return same ? 0.0 : x[PAUSE] * (u_r + 0.5);
 }
 
-static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
-                        fw_step *step) {
-    const fw_quantity *time = fw_law_input(use, "time"), *pulse = fw_law_input(use, "pulse");
+static fw_status derive(fw_arena *arena, const fw_process_law_use *use,
+                        const fw_process_law_answer *answer, fw_process_step *step) {
+    const fw_quantity *time = fw_process_law_input(use, "time"),
+                      *pulse = fw_process_law_input(use, "pulse");
     if (!answer->computable || !time || !pulse) return FW_OK;
-    return fw_step_derive(arena, step, "number of parts", pulses(time->value, pulse->value), 0.0,
-                          (fw_dimension)FW_DIM_NONE, "1", answer->status, "computed: duty law");
+    return fw_process_step_derive(arena, step, "number of parts", pulses(time->value, pulse->value),
+                                  0.0, (fw_quantity_dimension)FW_DIM_NONE, "1", answer->status,
+                                  "computed: duty law");
 }
 
-static const fw_law_argument argument[] = {
+static const fw_process_law_argument argument[] = {
     [TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
     [PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
     [PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_law_duty = {
+const fw_process_law fw_process_law_duty = {
     "duty", "t = time + (n - 1) pause, n = ceil(time/pulse)", argument, 3, evaluate, slope, derive,
     steps};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/law.h"
+#include "process/process_law.h"
 #include "base/constants.h"
 #include <math.h>
 
@@ -14,7 +14,7 @@ static double or_one(double x) {
    The supply sets I = J A: an area that is wrong by 1 % makes J, and so t, wrong by 1 %. Therefore
    the area enters the uncertainty with slope t/A although the value does not depend on it.
    Source: Faraday's law; Lehmann, Electrochemistry of Silicon. Test: test_law.c, faraday. */
-static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
+static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
     if (x[CURRENT_DENSITY] <= 0.0 || x[MOLAR_MASS] <= 0.0 || or_one(x[EFFICIENCY]) <= 0.0) {
         call->why = "current density, molar mass and efficiency must be above zero";
         return FW_INPUT;
@@ -33,36 +33,41 @@ static void slope(const double *x, double result, double *dx) {
 }
 
 /* I = J A, Q = I t, m = rho P d A; the errors of area and current stay in the time */
-static fw_status derive(fw_arena *arena, const fw_law_use *use, const fw_law_answer *answer,
-                        fw_step *step) {
-    const fw_quantity *J = fw_law_input(use, "current_density"), *A = fw_law_input(use, "area"),
-                      *d = fw_law_input(use, "thickness"), *rho = fw_law_input(use, "density"),
-                      *P = fw_law_input(use, "porosity");
+static fw_status derive(fw_arena *arena, const fw_process_law_use *use,
+                        const fw_process_law_answer *answer, fw_process_step *step) {
+    const fw_quantity *J = fw_process_law_input(use, "current_density"),
+                      *A = fw_process_law_input(use, "area"),
+                      *d = fw_process_law_input(use, "thickness"),
+                      *rho = fw_process_law_input(use, "density"),
+                      *P = fw_process_law_input(use, "porosity");
     if (!J || !A) return FW_OK;
     const char *source = "computed: Faraday's law";
     double share_J = J->uncertainty / J->value;
     double current = J->value * A->value;
-    FW_TRY(fw_step_derive(arena, step, "current", current, current * share_J,
-                          (fw_dimension)FW_DIM_CURRENT, current < 0.1 ? "mA" : "A", answer->status,
-                          source));
+    FW_TRY(fw_process_step_derive(arena, step, "current", current, current * share_J,
+                                  (fw_quantity_dimension)FW_DIM_CURRENT, current < 0.1 ? "mA" : "A",
+                                  answer->status, source));
     if (!answer->computable || !d || !rho) return FW_OK;
     double share_t = answer->uncertainty / answer->value;
     double charge = current * answer->value, mass = rho->value * d->value * A->value;
-    FW_TRY(fw_step_derive(arena, step, "charge", charge, charge * share_t,
-                          (fw_dimension)FW_DIM_CHARGE, "C", answer->status, source));
-    FW_TRY(fw_step_derive(arena, step, "charge, as the supply shows it", charge, charge * share_t,
-                          (fw_dimension)FW_DIM_CHARGE, "A h", answer->status, source));
+    FW_TRY(fw_process_step_derive(arena, step, "charge", charge, charge * share_t,
+                                  (fw_quantity_dimension)FW_DIM_CHARGE, "C", answer->status,
+                                  source));
+    FW_TRY(fw_process_step_derive(arena, step, "charge, as the supply shows it", charge,
+                                  charge * share_t, (fw_quantity_dimension)FW_DIM_CHARGE, "A h",
+                                  answer->status, source));
     double share_m = hypot(rho->uncertainty / rho->value, A->uncertainty / A->value);
     share_m = hypot(share_m, d->uncertainty / d->value);
     if (P) {
         mass *= P->value;
         share_m = hypot(share_m, P->uncertainty / P->value);
     }
-    return fw_step_derive(arena, step, P ? "mass dissolved" : "mass deposited", mass,
-                          mass * share_m, (fw_dimension)FW_DIM_MASS, "mg", answer->status, source);
+    return fw_process_step_derive(arena, step, P ? "mass dissolved" : "mass deposited", mass,
+                                  mass * share_m, (fw_quantity_dimension)FW_DIM_MASS, "mg",
+                                  answer->status, source);
 }
 
-static const fw_law_argument argument[] = {
+static const fw_process_law_argument argument[] = {
     [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     [DENSITY] = {"density", FW_DIM_DENSITY, FW_LAW_REQUIRED, false, NULL},
     [CURRENT_DENSITY] = {"current_density", FW_DIM_CURRENT_DENSITY, FW_LAW_REQUIRED, false, NULL},
@@ -71,5 +76,5 @@ static const fw_law_argument argument[] = {
     [EFFICIENCY] = {"efficiency", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
-const fw_process_law fw_law_faraday = {
+const fw_process_law fw_process_law_faraday = {
     "faraday", "t = d rho P n F/(eta J M)", argument, 8, evaluate, slope, derive, NULL};

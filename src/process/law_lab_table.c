@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "process/law.h"
+#include "process/process_law.h"
 #include <math.h>
 
 enum { VALUE, SHORTEST, LONGEST, FIRST, PAIRS = 6 };
 
-bool fw_table_between(const double *pairs, int n, double x, double *y, const char **why) {
+bool fw_process_table_between(const double *pairs, int n, double x, double *y, const char **why) {
     int count = 0;
     while (count < n && !isnan(pairs[2 * count]) && !isnan(pairs[2 * count + 1]))
         count++;
@@ -28,8 +28,8 @@ bool fw_table_between(const double *pairs, int n, double x, double *y, const cha
 /* t = table(value), piecewise linear between a laboratory's own pairs, never beyond them, and
    within [shortest, longest]: a displacement deposit is thin before and dissolves again after.
    Test: test_law.c, table. */
-static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
-    if (!fw_table_between(x + FIRST, PAIRS, x[VALUE], result, &call->why)) return FW_INPUT;
+static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
+    if (!fw_process_table_between(x + FIRST, PAIRS, x[VALUE], result, &call->why)) return FW_INPUT;
     if ((!isnan(x[SHORTEST]) && *result < x[SHORTEST]) ||
         (!isnan(x[LONGEST]) && *result > x[LONGEST])) {
         call->why = "the time from the table is outside the shortest to longest allowed";
@@ -42,7 +42,7 @@ static fw_status evaluate(fw_law_call *call, const double *x, double *result) {
     {"value_" #i, FW_DIM_NONE, need, true, NULL}, {                                                \
         "time_" #i, FW_DIM_TIME, need, false, NULL                                                 \
     }
-static const fw_law_argument argument[] = {
+static const fw_process_law_argument argument[] = {
     [VALUE] = {"value", FW_DIM_NONE, FW_LAW_REQUIRED, true, NULL},
     [SHORTEST] = {"shortest", FW_DIM_TIME, FW_LAW_OPTIONAL, false, NULL},
     [LONGEST] = {"longest", FW_DIM_TIME, FW_LAW_OPTIONAL, false, NULL},
@@ -52,7 +52,7 @@ static const fw_law_argument argument[] = {
     PAIR(FW_LAW_OPTIONAL, 4),
     PAIR(FW_LAW_OPTIONAL, 5),
     PAIR(FW_LAW_OPTIONAL, 6)};
-const fw_process_law fw_law_lab_table = {
+const fw_process_law fw_process_law_lab_table = {
     "table",  "t between the laboratory's own pairs value_i, time_i",
     argument, FIRST + 2 * PAIRS,
     evaluate, NULL,

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* thickness of what lies on top of a column and is all of one material; NaN: a part is unknown */
-static double top_layer(const fw_stack *stack, int column, const char *material) {
+static double top_layer(const fw_process_stack *stack, int column, const char *material) {
     double sum = 0.0;
     for (int i = stack->n[column] - 1; i >= 0; i--) {
         if (strcmp(stack->cell[column][i].material, material) != 0) break;
@@ -21,7 +21,8 @@ static double top_layer(const fw_stack *stack, int column, const char *material)
    r m/s, T the step's nominal time s, d m the depth that the step removes; l m. NaN when an input
    is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss.
  */
-double fw_exposed_loss(const fw_step *s, const fw_exposed *x, double *most_m) {
+double fw_process_exposed_loss(const fw_process_step *s, const fw_process_exposed *x,
+                               double *most_m) {
     double loss = (double)NAN, relative = 0.0;
     if (x->rate && !x->rate->unknown && s->time.computable) {
         loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
@@ -39,13 +40,13 @@ double fw_exposed_loss(const fw_step *s, const fw_exposed *x, double *most_m) {
     return loss;
 }
 
-static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_exposed *x,
-                           fw_diags *diags) {
-    const fw_step *s = &flow->step[index];
-    double most, loss = fw_exposed_loss(s, x, &most), least = (double)INFINITY;
+static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
+                           const fw_process_exposed *x, fw_diags *diags) {
+    const fw_process_step *s = &flow->step[index];
+    double most, loss = fw_process_exposed_loss(s, x, &most), least = (double)INFINITY;
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
-        fw_stack stack;
-        FW_TRY(fw_flow_stack(arena, flow, k, &stack, NULL));
+        fw_process_stack stack;
+        FW_TRY(fw_process_flow_stack(arena, flow, k, &stack, NULL));
         for (int column = 0; column < FW_STACK_COLUMNS; column++) {
             double there = top_layer(&stack, column, x->material);
             if (there > 0.0) least = fmin(least, there);
@@ -53,7 +54,7 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
     }
     if (isnan(loss) || !(most >= least)) return FW_OK;
     char lost[32], have[32], is[32], u[32], needed[32];
-    const char *name = fw_flow_material_name(flow, x->material);
+    const char *name = fw_process_flow_material_name(flow, x->material);
     const fw_quantity *q = x->rate ? x->rate : x->selectivity;
     double unit = fw_quantity_in_unit(q) / q->value, share = loss / least;
     fw_number_text(lost, sizeof lost, loss * 1e6, 3);
@@ -62,9 +63,10 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
     fw_number_text(u, sizeof u, q->uncertainty * unit, 3);
     fw_number_text(needed, sizeof needed, q->value * unit * (x->rate ? 1.0 / share : share), 4);
     if (loss >= least)
-        fw_diag_warning(diags, 270, x->place, "step %s removes %s um of %s, but that layer is "
-                                              "only %s um thick; use a thicker layer or a "
-                                              "better selectivity",
+        fw_diag_warning(diags, 270, x->place,
+                        "step %s removes %s um of %s, but that layer is "
+                        "only %s um thick; use a thicker layer or a "
+                        "better selectivity",
                         s->id, lost, name, have);
     const char *of = x->rate ? "rate" : "selectivity", *gap = strcmp(q->unit, "1") ? " " : "";
     const char *why = fw_arena_printf(
@@ -75,18 +77,18 @@ static fw_status lint_loss(fw_arena *arena, fw_flow *flow, int index, const fw_e
         needed, gap, gap[0] ? q->unit : "",
         loss >= least ? "Nearest change: a thicker layer, or another etch"
                       : "Measure it before the first wafer");
-    return fw_flow_add_reason(arena, flow, loss >= least ? 0 : -1, why);
+    return fw_process_flow_add_reason(arena, flow, loss >= least ? 0 : -1, why);
 }
 
 /* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
    largest local thickness over the mean (spread, 1 when it is not given) and h m the mould, all of
    one material on top of the field. Test: test_lint.c, mould. */
-static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_change *c,
-                            fw_diags *diags) {
-    fw_stack stack;
+static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
+                            const fw_process_change *c, fw_diags *diags) {
+    fw_process_stack stack;
     double spread = c->spread && !c->spread->unknown ? c->spread->value : 1.0;
     if (!c->thickness || c->thickness->unknown) return FW_OK;
-    FW_TRY(fw_flow_stack(arena, flow, index - 1, &stack, NULL));
+    FW_TRY(fw_process_flow_stack(arena, flow, index - 1, &stack, NULL));
     int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
     if (stack.n[field] == 0) return FW_OK;
     const char *mould = stack.cell[field][stack.n[field] - 1].material;
@@ -95,19 +97,21 @@ static fw_status lint_mould(fw_arena *arena, fw_flow *flow, int index, const fw_
     char up[32], high[32];
     fw_number_text(up, sizeof up, grown * 1e6, 4);
     fw_number_text(high, sizeof high, height * 1e6, 4);
-    fw_diag_warning(diags, 273, c->place, "step %s plates up to %s um into a mould only %s um "
-                                          "high; use a higher mould or plate less",
+    fw_diag_warning(diags, 273, c->place,
+                    "step %s plates up to %s um into a mould only %s um "
+                    "high; use a higher mould or plate less",
                     flow->step[index].id, up, high);
-    return fw_flow_add_reason(
+    return fw_process_flow_add_reason(
         arena, flow, 0,
         fw_arena_printf(arena,
                         "step %s plates up to %s um where the mould of %s is %s um high: "
                         "the metal grows over it and closes the gaps. Nearest change: a "
                         "mould above %s um, or thinner plating",
-                        flow->step[index].id, up, fw_flow_material_name(flow, mould), high, up));
+                        flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
+                        up));
 }
 
-static const fw_quantity *derived_named(const fw_step *s, const char *name) {
+static const fw_quantity *derived_named(const fw_process_step *s, const char *name) {
     for (int i = 0; i < s->nderived; i++)
         if (s->derived[i]->id && strcmp(s->derived[i]->id, name) == 0) return s->derived[i];
     return NULL;
@@ -115,8 +119,8 @@ static const fw_quantity *derived_named(const fw_step *s, const char *name) {
 
 /* A derived value above what the pack allows it (<derive most>): what a bath gives to one wafer,
    for example. Test: test_lint.c, most. */
-static fw_status lint_most(fw_arena *arena, fw_flow *flow, const fw_step *s, const fw_derive *d,
-                           fw_diags *diags) {
+static fw_status lint_most(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
+                           const fw_process_derive *d, fw_diags *diags) {
     const fw_quantity *q = derived_named(s, d->name);
     if (!q || q->unknown || !d->most || d->most->unknown || q->value <= d->most->value)
         return FW_OK;
@@ -130,13 +134,13 @@ static fw_status lint_most(fw_arena *arena, fw_flow *flow, const fw_step *s, con
                     d->name, is, gap, unit, most, gap, unit, d->most->id);
     const char *why = fw_arena_printf(
         arena, "step %s: %s is %s%s%s, above the limit of %s%s%s (%s; %s)", s->id, d->name, is, gap,
-        unit, most, gap, unit, d->most->id, fw_value_status_text(d->most->status));
-    return fw_flow_add_reason(arena, flow, -1, why);
+        unit, most, gap, unit, d->most->id, fw_quantity_value_status_text(d->most->status));
+    return fw_process_flow_add_reason(arena, flow, -1, why);
 }
 
-fw_status fw_lint_computed(fw_arena *arena, fw_flow *flow, fw_diags *diags) {
+fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

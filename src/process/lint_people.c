@@ -3,33 +3,33 @@
 #include <string.h>
 
 /* a hazard that speaks of hydrofluoric acid and does not say whether it may be handled alone */
-static void lint_acid(fw_pack *pack) {
+static void lint_acid(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
-        const fw_record *root = part == 0 ? pack->base : pack->root;
-        for (const fw_record *h = root->first_child; h; h = h->next) {
+        const fw_xml_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_xml_record *h = root->first_child; h; h = h->next) {
             bool named = false, antidote = false;
-            if (!fw_is(h, "hazard")) continue;
-            for (const fw_record *c = h->first_child; c; c = c->next) {
+            if (!fw_xml_is(h, "hazard")) continue;
+            for (const fw_xml_record *c = h->first_child; c; c = c->next) {
                 named = named || strstr(c->element->text, "hydrofluoric") ||
                         strstr(c->element->text, "HF ");
                 antidote = antidote || strstr(c->element->text, "gluconate");
             }
-            if (!named || strcmp(fw_pack_text(h, "buddy"), "no") == 0) continue;
-            if (!fw_pack_get(h, "buddy"))
+            if (!named || strcmp(fw_process_pack_text(h, "buddy"), "no") == 0) continue;
+            if (!fw_process_pack_get(h, "buddy"))
                 fw_diag_error(pack->diags, 174, h->element->place,
                               "hazard '%s' mentions hydrofluoric acid: state buddy=\"yes\", or "
                               "buddy=\"no\" where nobody handles the acid itself",
-                              fw_pack_text(h, "id"));
+                              fw_process_pack_text(h, "id"));
             else if (!antidote)
                 fw_diag_error(pack->diags, 174, h->element->place,
                               "hazard '%s' is hydrofluoric acid and its first aid does not name "
                               "calcium gluconate",
-                              fw_pack_text(h, "id"));
+                              fw_process_pack_text(h, "id"));
         }
     }
 }
 
-static void lint_step(fw_pack *pack, const fw_step *s) {
+static void lint_step(fw_process_pack *pack, const fw_process_step *s) {
     for (int i = 0; i < s->nhazard; i++) {
         if (!s->hazard[i]->buddy) continue;
         if (!s->second_signature)
@@ -43,24 +43,24 @@ static void lint_step(fw_pack *pack, const fw_step *s) {
     }
 }
 
-fw_status fw_lint_people(fw_pack *pack) {
+fw_status fw_process_lint_people(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++)
         lint_step(pack, &pack->flow->step[i]);
     lint_acid(pack);
     return FW_OK;
 }
 
-static bool excludes(const fw_hazard *a, const fw_hazard *b) {
+static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
     for (int i = 0; i < a->nincompatible; i++)
         if (strcmp(a->incompatible[i], b->id) == 0) return true;
     return false;
 }
 
 /* two steps on one bench whose chemicals must not meet; once per pair of hazards */
-static void lint_bench(fw_pack *pack, const fw_flow *f) {
+static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
     for (int i = 0; i < f->nstep; i++)
         for (int j = 0; j <= i; j++) {
-            const fw_step *a = &f->step[j], *b = &f->step[i];
+            const fw_process_step *a = &f->step[j], *b = &f->step[i];
             if (a->equipment != b->equipment) continue;
             for (int s = 0; s < a->nhazard; s++)
                 for (int t = 0; t < b->nhazard; t++)
@@ -75,11 +75,11 @@ static void lint_bench(fw_pack *pack, const fw_flow *f) {
 }
 
 /* what must not meet must not be collected in one can either */
-static void lint_waste(fw_pack *pack) {
-    const fw_flow *f = pack->flow;
+static void lint_waste(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->nhazard; i++)
         for (int j = 0; j < i; j++) {
-            const fw_hazard *a = &f->hazard[j], *b = &f->hazard[i];
+            const fw_process_hazard *a = &f->hazard[j], *b = &f->hazard[i];
             if ((excludes(a, b) || excludes(b, a)) && strcmp(a->waste_stream, b->waste_stream) == 0)
                 fw_diag_error(pack->diags, 175, b->place,
                               "%s and %s must not meet, but both go to the waste '%s'; give one of "
@@ -88,7 +88,7 @@ static void lint_waste(fw_pack *pack) {
         }
 }
 
-fw_status fw_lint_chemicals(fw_pack *pack) {
+fw_status fw_process_lint_chemicals(fw_process_pack *pack) {
     lint_bench(pack, pack->flow);
     lint_waste(pack);
     return FW_OK;

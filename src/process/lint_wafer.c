@@ -5,10 +5,10 @@
 #include "process/stack.h"
 #include <string.h>
 
-fw_status fw_lint_absent(fw_pack *pack) {
-    fw_stack stack;
-    const fw_change *absent = NULL;
-    FW_TRY(fw_flow_stack(pack->arena, pack->flow, pack->flow->nstep - 1, &stack, &absent));
+fw_status fw_process_lint_absent(fw_process_pack *pack) {
+    fw_process_stack stack;
+    const fw_process_change *absent = NULL;
+    FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, pack->flow->nstep - 1, &stack, &absent));
     if (absent)
         fw_diag_error(pack->diags, 172, absent->place,
                       "<change kind='%s'> needs the material '%s', which is not on the wafer at "
@@ -25,11 +25,11 @@ static bool in_list(const char *list, const char *word) {
 }
 
 /* steps in which a chemical or a plasma works on the wafer; in others it is only in the room */
-static bool works_on_wafer(const fw_step *s) {
+static bool works_on_wafer(const fw_process_step *s) {
     return in_list("clean anodise displace develop plate wet-etch dry-etch strip release", s->op);
 }
 
-static bool is_target(const fw_step *s, const char *material) {
+static bool is_target(const fw_process_step *s, const char *material) {
     for (int i = 0; i < s->nchange; i++)
         if (strcmp(s->change[i].material, material) == 0 ||
             strcmp(s->change[i].from, material) == 0)
@@ -37,23 +37,23 @@ static bool is_target(const fw_step *s, const char *material) {
     return false;
 }
 
-static const fw_exposed *spoken_of(const fw_step *s, const char *material) {
+static const fw_process_exposed *spoken_of(const fw_process_step *s, const char *material) {
     for (int i = 0; i < s->nexposed; i++)
         if (strcmp(s->exposed[i].material, material) == 0) return &s->exposed[i];
     return NULL;
 }
 
 /* one <attacks> of one step: open before the step, or laid open by it */
-static fw_status lint_attack(fw_pack *pack, int index, const fw_hazard *hazard,
+static fw_status lint_attack(fw_process_pack *pack, int index, const fw_process_hazard *hazard,
                              const char *material) {
-    const fw_flow *f = pack->flow;
-    const fw_step *s = &f->step[index];
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[index];
     if (is_target(s, material) || spoken_of(s, material)) return FW_OK;
     bool open = false;
     for (int k = index - 1; k <= index && !open; k++) {
-        fw_stack stack;
-        FW_TRY(fw_flow_stack(pack->arena, f, k, &stack, NULL));
-        open = fw_stack_open(f, &stack, material);
+        fw_process_stack stack;
+        FW_TRY(fw_process_flow_stack(pack->arena, f, k, &stack, NULL));
+        open = fw_process_stack_open(f, &stack, material);
     }
     if (open)
         fw_diag_error(pack->diags, 269, s->place,
@@ -64,19 +64,19 @@ static fw_status lint_attack(fw_pack *pack, int index, const fw_hazard *hazard,
     return FW_OK;
 }
 
-fw_status fw_lint_attacked(fw_pack *pack) {
-    const fw_flow *f = pack->flow;
+fw_status fw_process_lint_attacked(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->nstep; i++) {
-        const fw_step *s = &f->step[i];
+        const fw_process_step *s = &f->step[i];
         for (int h = 0; works_on_wafer(s) && h < s->nhazard; h++)
             for (int m = 0; m < s->hazard[h]->nattacks; m++)
                 FW_TRY(lint_attack(pack, i, s->hazard[h], s->hazard[h]->attacks[m]));
         for (int x = 0; x < s->nexposed; x++) {
-            fw_stack before, after;
-            FW_TRY(fw_flow_stack(pack->arena, f, i - 1, &before, NULL));
-            FW_TRY(fw_flow_stack(pack->arena, f, i, &after, NULL));
-            if (!fw_stack_open(f, &before, s->exposed[x].material) &&
-                !fw_stack_open(f, &after, s->exposed[x].material))
+            fw_process_stack before, after;
+            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &before, NULL));
+            FW_TRY(fw_process_flow_stack(pack->arena, f, i, &after, NULL));
+            if (!fw_process_stack_open(f, &before, s->exposed[x].material) &&
+                !fw_process_stack_open(f, &after, s->exposed[x].material))
                 fw_diag_error(pack->diags, 269, s->exposed[x].place,
                               "step %s: '%s' is not exposed at this step, so that it is not "
                               "attacked; remove <exposed>",
@@ -86,20 +86,22 @@ fw_status fw_lint_attacked(fw_pack *pack) {
     return FW_OK;
 }
 
-static bool on_wafer(const fw_stack *stack, const char *material) {
+static bool on_wafer(const fw_process_stack *stack, const char *material) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
         for (int i = 0; i < stack->n[column]; i++)
             if (strcmp(stack->cell[column][i].material, material) == 0) return true;
     return false;
 }
 
-static void lint_hot(fw_pack *pack, const fw_step *s, const fw_stack *stack,
-                     const fw_setting *set) {
-    const fw_flow *f = pack->flow;
-    if (set->q->unknown || !fw_dimension_equal(set->q->dimension, (fw_dimension){.K = 1})) return;
+static void lint_hot(fw_process_pack *pack, const fw_process_step *s, const fw_process_stack *stack,
+                     const fw_process_setting *set) {
+    const fw_process_flow *f = pack->flow;
+    if (set->q->unknown ||
+        !fw_quantity_dimension_equal(set->q->dimension, (fw_quantity_dimension){.K = 1}))
+        return;
     for (int i = 0; i < f->nprocess_material; i++) {
         const fw_process_material *m = &f->process_material[i];
-        if (m != fw_flow_material(f, m->id) || !m->highest_K || m->highest_K->unknown ||
+        if (m != fw_process_flow_material(f, m->id) || !m->highest_K || m->highest_K->unknown ||
             set->q->value <= m->highest_K->value || !on_wafer(stack, m->id))
             continue;
         char at[32], bears[32];
@@ -113,10 +115,11 @@ static void lint_hot(fw_pack *pack, const fw_step *s, const fw_stack *stack,
     }
 }
 
-fw_status fw_lint_heat(fw_pack *pack) {
+fw_status fw_process_lint_heat(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
-        fw_stack stack; /* what is on the wafer when the step begins, and what it puts there */
-        FW_TRY(fw_flow_stack(pack->arena, pack->flow, i - 1, &stack, NULL));
+        fw_process_stack
+            stack; /* what is on the wafer when the step begins, and what it puts there */
+        FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, i - 1, &stack, NULL));
         for (int k = 0; k < pack->flow->step[i].nsetting; k++)
             lint_hot(pack, &pack->flow->step[i], &stack, &pack->flow->step[i].setting[k]);
     }
@@ -124,16 +127,16 @@ fw_status fw_lint_heat(fw_pack *pack) {
 }
 
 /* Once such a material was on the wafer, the wafer carries its traces for good. */
-fw_status fw_lint_contamination(fw_pack *pack) {
-    const fw_flow *f = pack->flow;
+fw_status fw_process_lint_contamination(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
     for (int from = 0; from < f->nstep; from++)
         for (int c = 0; c < f->step[from].nchange; c++) {
-            const fw_change *change = &f->step[from].change[c];
-            const fw_process_material *m = fw_flow_material(f, change->material);
+            const fw_process_change *change = &f->step[from].change[c];
+            const fw_process_material *m = fw_process_flow_material(f, change->material);
             bool brings = strcmp(change->kind, "add") == 0 || strcmp(change->kind, "convert") == 0;
             if (!m || !m->contaminates[0] || !brings) continue;
             for (int i = from; i < f->nstep; i++) {
-                const fw_step *s = &f->step[i];
+                const fw_process_step *s = &f->step[i];
                 if (!s->equipment || in_list(s->equipment->takes, m->contaminates)) continue;
                 fw_diag_error(pack->diags, 272, s->place,
                               "step %s takes a wafer with %s ('%s', since step %s) into '%s', "
@@ -146,7 +149,7 @@ fw_status fw_lint_contamination(fw_pack *pack) {
     return FW_OK;
 }
 
-static bool has_image(const fw_stack *stack, const char *material) {
+static bool has_image(const fw_process_stack *stack, const char *material) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
         for (int i = 0; i < stack->n[column]; i++)
             if (strcmp(stack->cell[column][i].material, material) == 0 &&
@@ -155,19 +158,19 @@ static bool has_image(const fw_stack *stack, const char *material) {
     return false;
 }
 
-fw_status fw_lint_exposure(fw_pack *pack) {
-    const fw_flow *f = pack->flow;
+fw_status fw_process_lint_exposure(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_step *s = &f->step[i];
-            const fw_change *c = &s->change[k];
+            const fw_process_step *s = &f->step[i];
+            const fw_process_change *c = &s->change[k];
             if (strcmp(c->kind, "pattern") == 0 && !s->mask[0])
                 fw_diag_error(pack->diags, 274, s->place,
                               "step %s makes a pattern without naming its mask; add mask=\"...\"",
                               s->id);
             if (strcmp(s->op, "develop") != 0 || strcmp(c->kind, "remove") != 0) continue;
-            fw_stack stack;
-            FW_TRY(fw_flow_stack(pack->arena, f, i - 1, &stack, NULL));
+            fw_process_stack stack;
+            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
             if (on_wafer(&stack, c->material) && !has_image(&stack, c->material))
                 fw_diag_error(pack->diags, 274, c->place,
                               "step %s develops '%s', which no step exposed: a <change "
@@ -178,17 +181,17 @@ fw_status fw_lint_exposure(fw_pack *pack) {
 }
 
 /* An etch of one part only, of a material that lies open in the other part too, takes both. */
-fw_status fw_lint_masking(fw_pack *pack) {
-    const fw_flow *f = pack->flow;
+fw_status fw_process_lint_masking(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->nstep; i++)
         for (int k = 0; k < f->step[i].nchange; k++) {
-            const fw_step *s = &f->step[i];
-            const fw_change *c = &s->change[k];
+            const fw_process_step *s = &f->step[i];
+            const fw_process_change *c = &s->change[k];
             if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back ||
                 !in_list("wet-etch dry-etch strip release clean", s->op))
                 continue;
-            fw_stack stack;
-            FW_TRY(fw_flow_stack(pack->arena, f, i - 1, &stack, NULL));
+            fw_process_stack stack;
+            FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
             int other = strcmp(c->where, "structure") == 0 ? FW_STACK_FIELD : FW_STACK_STRUCTURE;
             int n = stack.n[other];
             if (n > 0 && strcmp(stack.cell[other][n - 1].material, c->material) == 0)

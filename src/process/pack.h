@@ -2,50 +2,52 @@
 /* Reading a pack; private to process/. */
 #ifndef FW_PROCESS_PACK_H
 #define FW_PROCESS_PACK_H
-#include "process/law.h"
-#include "xml/quantity.h"
-#include "xml/reader.h"
+#include "process/process_law.h"
+#include "xml/xml_quantity.h"
+#include "xml/xml_reader.h"
 
-typedef enum fw_id_kind {
+typedef enum fw_process_id_kind {
     FW_ID_SOURCE,
     FW_ID_MATERIAL,
     FW_ID_EQUIPMENT,
     FW_ID_HAZARD,
     FW_ID_QUANTITY,
     FW_ID_STEP
-} fw_id_kind;
+} fw_process_id_kind;
 
-typedef struct fw_id {
+typedef struct fw_process_id {
     const char *id;
-    fw_id_kind kind;
+    fw_process_id_kind kind;
     bool base; /* from base.xml */
     int order;
     void *item; /* the thing itself */
     fw_place place;
-} fw_id;
+} fw_process_id;
 
-typedef struct fw_pack {
+typedef struct fw_process_pack {
     fw_arena *arena;
     fw_diags *diags;
-    fw_flow *flow;
-    const fw_record *base, *root; /* records of base.xml and of the flow */
-    fw_source_text *source;       /* (nsource) flow's first, then base's */
+    fw_process_flow *flow;
+    const fw_xml_record *base, *root; /* records of base.xml and of the flow */
+    fw_xml_source_text *source;       /* (nsource) flow's first, then base's */
     int nsource;
-    fw_id *id; /* (nid) sorted once everything is collected */
+    fw_process_id *id; /* (nid) sorted once everything is collected */
     int nid;
-} fw_pack;
+} fw_process_pack;
 
-/* table.c */
+/* process_table.c */
 extern const fw_xml_table fw_process_pack_table, fw_process_laboratory_table;
 
 /* the thing with this id and kind; NULL and a diagnostic at the attribute when there is none */
-void *fw_pack_find(fw_pack *pack, const fw_attribute *attribute, fw_id_kind kind);
-const fw_attribute *fw_pack_get(const fw_record *e, const char *name);
-const char *fw_pack_text(const fw_record *e, const char *name);             /* "" when absent */
-double fw_pack_number(const fw_record *e, const char *name, double absent); /* or wrong */
+void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attribute,
+                           fw_process_id_kind kind);
+const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name);
+const char *fw_process_pack_text(const fw_xml_record *e, const char *name); /* "" when absent */
+double fw_process_pack_number(const fw_xml_record *e, const char *name,
+                              double absent); /* or wrong */
 
-fw_status fw_pack_steps(fw_pack *pack);
+fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* <corner>s of the flow; mistakes are FW-D260 */
-void fw_pack_corners(fw_pack *pack);
+void fw_process_pack_corners(fw_process_pack *pack);
 
 #endif

@@ -8,25 +8,25 @@
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
-typedef struct fw_source {
+typedef struct fw_process_source {
     const char *id, *kind, *date, *text;
-} fw_source;
+} fw_process_source;
 
-typedef struct fw_hazard {
+typedef struct fw_process_hazard {
     const char *id, *ghs, *ppe, *first_aid, *waste_stream, *waste;
     const char **incompatible; /* (nincompatible) */
     const char **attacks;      /* (nattacks) materials that it dissolves or sputters */
     int nincompatible, nattacks;
     bool buddy; /* never alone: a step with it needs a second signature and first aid */
     fw_place place;
-} fw_hazard;
+} fw_process_hazard;
 
-typedef struct fw_equipment {
+typedef struct fw_process_equipment {
     const char *id, *class_, *text;
     int capacity;
     const char *takes; /* groups of contaminants it may meet: "copper"; "" = none */
     fw_place place;
-} fw_equipment;
+} fw_process_equipment;
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
     const char *id, *name;
@@ -36,18 +36,18 @@ typedef struct fw_process_material { /* for the wafer's layer stack */
     fw_place place;
 } fw_process_material;
 
-typedef struct fw_argument {
+typedef struct fw_process_argument {
     const char *name;
     const fw_quantity *q;
-} fw_argument;
+} fw_process_argument;
 
-typedef struct fw_setting {
+typedef struct fw_process_setting {
     const char *name;
     const fw_quantity *q;
     const char *tolerance_low, *tolerance_high; /* as written, unit of q; "" = none */
-} fw_setting;
+} fw_process_setting;
 
-typedef struct fw_change {
+typedef struct fw_process_change {
     const char *kind, *material;   /* add remove convert pattern */
     const fw_quantity *thickness;  /* may be NULL */
     const char *where;             /* "all", "structure" (what stays of the device), "field" */
@@ -58,117 +58,121 @@ typedef struct fw_change {
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
     const fw_quantity *reach; /* of a removal: so far sideways from every opening, below what stays;
                                  may be NULL */
-    fw_face compensate;       /* the face that the mask brings to where it is drawn */
+    fw_process_face compensate; /* the face that the mask brings to where it is drawn */
     fw_place place;
-} fw_change;
+} fw_process_change;
 
-typedef struct fw_exposed { /* a material that the step's chemistry takes along, by either */
+typedef struct
+    fw_process_exposed { /* a material that the step's chemistry takes along, by either */
     const char *material;
     const fw_quantity *rate; /* m/s; may be unknown, NULL */
     const fw_quantity
         *selectivity; /* 1, of the etched material to this one; may be unknown, NULL */
     fw_place place;
-} fw_exposed;
+} fw_process_exposed;
 
-typedef struct fw_accept {
+typedef struct fw_process_accept {
     const char *measure, *low, *high, *unit;
     int sites, every;
-} fw_accept;
+} fw_process_accept;
 
-typedef struct fw_on_fail {
+typedef struct fw_process_on_fail {
     const char *condition, *then, *go_to, *text;
-} fw_on_fail;
+} fw_process_on_fail;
 
-typedef struct fw_lag {
+typedef struct fw_process_lag {
     const char *from;
     double min_s, max_s; /* NaN = none */
     fw_place place;
-} fw_lag;
+} fw_process_lag;
 
-typedef struct fw_derive { /* <derive>: another law on the way, for orientation or as an input */
+typedef struct
+    fw_process_derive { /* <derive>: another law on the way, for orientation or as an input */
     const char *name, *unit, *law, *shape, *expression;
-    fw_argument *argument; /* (nargument) */
+    fw_process_argument *argument; /* (nargument) */
     int nargument;
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     fw_quantity *q; /* when it has an id: where the value goes, so that later laws can use it */
     const fw_quantity *most; /* above it the plan warns (FW-D279); may be NULL */
-} fw_derive;
+} fw_process_derive;
 
-typedef struct fw_time { /* what a law returns */
+typedef struct fw_process_time { /* what a law returns */
     bool computable;
     double nominal_s, first_look_s, clear_by_s, stop_s;
     double relative_uncertainty;
-    fw_value_status status; /* worst of the inputs */
-    const char **missing;   /* (nmissing) names of unknown inputs */
+    fw_quantity_value_status status; /* worst of the inputs */
+    const char **missing;            /* (nmissing) names of unknown inputs */
     int nmissing;
     const char **contribution; /* (ncontribution) "area 5 %", largest first */
     int ncontribution;
-} fw_time;
+} fw_process_time;
 
-typedef struct fw_step {
+typedef struct fw_process_step {
     const char *id, *op, *title, *purpose, *mask;
-    const fw_equipment *equipment;
+    const fw_process_equipment *equipment;
     bool in_source;
     int batch;
-    fw_change *change;
-    fw_exposed *exposed;
-    fw_setting *setting;
+    fw_process_change *change;
+    fw_process_exposed *exposed;
+    fw_process_setting *setting;
     const char *law, *expression;
     double overrun, k;
-    fw_argument *argument;
+    fw_process_argument *argument;
     const char **endpoint;
-    fw_accept *accept;
-    const fw_hazard **hazard;
-    fw_on_fail *on_fail;
-    fw_lag *lag;
+    fw_process_accept *accept;
+    const fw_process_hazard **hazard;
+    fw_process_on_fail *on_fail;
+    fw_process_lag *lag;
     bool second_signature;
     int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag;
-    fw_time time; /* computed */
+    fw_process_time time; /* computed */
     const fw_quantity *
         *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
     int nderived;
     fw_place place;
     const char *shape; /* of the law: "slot", "cylinder", "linear" or "" */
-    fw_argument *need; /* (nneed) inputs that must be known although the law does not take them */
-    fw_derive *derive; /* (nderive) */
+    fw_process_argument
+        *need; /* (nneed) inputs that must be known although the law does not take them */
+    fw_process_derive *derive; /* (nderive) */
     int nneed, nderive;
     double attended_s; /* somebody must be there for this long; 0: unattended */
-} fw_step;
+} fw_process_step;
 
-typedef enum fw_corner_of { /* <corner of>: what a flow does not make exactly as drawn */
-                            FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
-                            FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
-                            FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
-                            FW_CORNER_THICKNESS,  /* m: of the device layer */
-                            FW_CORNER_YOUNGS      /* of the material as it is */
-} fw_corner_of;
+typedef enum fw_process_corner_of { /* <corner of>: what a flow does not make exactly as drawn */
+                                    FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
+                                    FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
+                                    FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device
+                                                             layer */
+                                    FW_CORNER_THICKNESS, /* m: of the device layer */
+                                    FW_CORNER_YOUNGS     /* of the material as it is */
+} fw_process_corner_of;
 
-typedef struct fw_corner { /* <corner of q assumed>: an input of what stands in the end */
-    fw_corner_of of;
+typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */
+    fw_process_corner_of of;
     const char *name;           /* "printed edge" */
     const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
     double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
     fw_place place;
-} fw_corner;
+} fw_process_corner;
 
-typedef struct fw_override {            /* a value of the laboratory in the place of the pack's */
+typedef struct fw_process_override {    /* a value of the laboratory in the place of the pack's */
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
-} fw_override;
+} fw_process_override;
 
-typedef struct fw_flow {
+typedef struct fw_process_flow {
     const char *id, *version, *title, *file, *sha256;
     const char *material;         /* id of the structural material */
     const fw_quantity *thickness; /* of the device layer */
-    fw_source *source;
-    fw_hazard *hazard;
-    fw_equipment *equipment;
+    fw_process_source *source;
+    fw_process_hazard *hazard;
+    fw_process_equipment *equipment;
     fw_quantity **quantity;
-    fw_step *step;
+    fw_process_step *step;
     int nsource, nhazard, nequipment, nquantity, nstep;
-    double total_s;        /* sum over computable steps */
-    int not_computable;    /* steps */
-    fw_fixed_point edges;  /* bias, time and gaps, solved together; computed */
+    double total_s;               /* sum over computable steps */
+    int not_computable;           /* steps */
+    fw_process_fixed_point edges; /* bias, time and gaps, solved together; computed */
     double bias_m;         /* edges.bias_m: what the mask adds to every drawn edge, known part */
     const char *bias_note; /* what is in it, and what is not known */
     bool insulating;       /* carrier="insulating" of the pack: what is not joined in the layer is
@@ -177,18 +181,18 @@ typedef struct fw_flow {
     const char **reason;   /* (nreason) */
     int nreason;
     fw_process_material *process_material; /* (nprocess_material) */
-    fw_corner *corner;                     /* (ncorner) */
+    fw_process_corner *corner;             /* (ncorner) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
     int nprocess_material, nopen_point, ncorner;
-    int count[FW_ASSUMED + 1]; /* quantities that the steps use, by status */
-    int unknown;               /* ... and that are unknown */
-    fw_override *override;     /* (noverride) */
+    int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
+    int unknown;                   /* ... and that are unknown */
+    fw_process_override *override; /* (noverride) */
     int noverride;
     fw_place place;
-} fw_flow;
+} fw_process_flow;
 
-typedef struct fw_mask_facts { /* what the mask hands to the flow */
-    double structure_area_m2;  /* of one die: what is plated, or masked by aluminium */
+typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
+    double structure_area_m2;          /* of one die: what is plated, or masked by aluminium */
     double die_area_m2;
     double perimeter_m;
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
@@ -198,20 +202,21 @@ typedef struct fw_mask_facts { /* what the mask hands to the flow */
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
-    const fw_mask_gap *gap;    /* (ngap) openings by name, as drawn; the narrowest slot need not be
+    const fw_process_mask_gap
+        *gap; /* (ngap) openings by name, as drawn; the narrowest slot need not be
                                   among them */
     int ngap;
-} fw_mask_facts;
+} fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
    masks the etch, with the bias that the mask has */
 #define FW_MASK_OPENING "mask.narrowest-opening"
 
-typedef struct fw_drive_facts { /* a comb drive of a scene that holds in the flow */
+typedef struct fw_process_drive_facts { /* a comb drive of a scene that holds in the flow */
     const char *id;
     double gap_m; /* as drawn */
     fw_place place;
-} fw_drive_facts;
+} fw_process_drive_facts;
 
 /* processes/process.rng and laboratory.rng: what flows and laboratory packs may hold */
 fw_status fw_process_schema(fw_text *out);
@@ -219,27 +224,32 @@ fw_status fw_process_laboratory_schema(fw_text *out);
 fw_status fw_process_reference_markdown(fw_text *out); /* docs/reference/process.md */
 
 /* reads base.xml and FLOW.xml; all mistakes in diags */
-fw_status fw_flow_read(fw_arena *arena, const char *base_file, const char *base_xml, size_t base_n,
-                       const char *file, const char *xml, size_t n, fw_diags *diags,
-                       fw_flow **flow);
+fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
+                               size_t base_n, const char *file, const char *xml, size_t n,
+                               fw_diags *diags, fw_process_flow **flow);
 /* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
    again with other facts. facts NULL or without any area: no mask yet, what needs it is NOT
    COMPUTABLE. */
-fw_status fw_flow_compute(fw_arena *arena, fw_flow *flow, const fw_mask_facts *facts,
-                          fw_diags *diags);
-/* after fw_flow_compute: adds to the judgement whether rotor and stator of the drives (n) are
+fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
+                                  const fw_process_mask_facts *facts, fw_diags *diags);
+/* after fw_process_flow_compute: adds to the judgement whether rotor and stator of the drives (n)
+   are
    insulated from each other (the pack's carrier, or the device's own) and their gaps can be made.
    Warns with FW-D207 and FW-D208. */
-fw_status fw_flow_judge_drives(fw_arena *arena, fw_flow *flow, bool insulating_carrier,
-                               const fw_drive_facts *drive, int n, fw_diags *diags);
+fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
+                                       bool insulating_carrier, const fw_process_drive_facts *drive,
+                                       int n, fw_diags *diags);
 /* one reason more of the judgement. 0: the flow cannot make the device, said before all others; -1:
    not guaranteed, said behind them. `why` is kept. */
-fw_status fw_flow_add_reason(fw_arena *arena, fw_flow *flow, int manufacturable, const char *why);
+fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
+                                     const char *why);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
-void fw_quantity_range(const fw_quantity *q, double *low, double *high);
-const fw_quantity *fw_flow_quantity(const fw_flow *flow, const char *id);
-const fw_process_material *fw_flow_material(const fw_flow *flow, const char *id); /* or NULL */
-const char *fw_flow_material_name(const fw_flow *flow, const char *id); /* the id when unknown */
+void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
+const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
+const fw_process_material *fw_process_flow_material(const fw_process_flow *flow,
+                                                    const char *id); /* or NULL */
+const char *fw_process_flow_material_name(const fw_process_flow *flow,
+                                          const char *id); /* the id when unknown */
 
 #endif

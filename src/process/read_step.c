@@ -4,16 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-static const fw_quantity *quantity_of(fw_pack *pack, const fw_record *e, const char *name) {
-    const fw_attribute *a = fw_pack_get(e, name);
-    return a ? fw_pack_find(pack, a, FW_ID_QUANTITY) : NULL;
+static const fw_quantity *quantity_of(fw_process_pack *pack, const fw_xml_record *e,
+                                      const char *name) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, name);
+    return a ? fw_process_pack_find(pack, a, FW_ID_QUANTITY) : NULL;
 }
 
-static fw_status dimension_error(fw_pack *pack, const fw_record *e, const char *what,
-                                 fw_dimension got, fw_dimension wanted) {
-    const fw_attribute *a = fw_pack_get(e, "q");
-    const char *is = fw_dimension_text(pack->arena, got),
-               *want = fw_dimension_text(pack->arena, wanted);
+static fw_status dimension_error(fw_process_pack *pack, const fw_xml_record *e, const char *what,
+                                 fw_quantity_dimension got, fw_quantity_dimension wanted) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, "q");
+    const char *is = fw_quantity_dimension_text(pack->arena, got),
+               *want = fw_quantity_dimension_text(pack->arena, wanted);
     FW_NEED(is && want);
     fw_diag_error(pack->diags, 169, a->place, "argument '%s' takes %s, but '%s' is %s", what, want,
                   a->value, is);
@@ -21,19 +22,19 @@ static fw_status dimension_error(fw_pack *pack, const fw_record *e, const char *
 }
 
 /* <arg> and <needs> children of <time> or <derive> */
-static fw_status read_arguments(fw_pack *pack, const fw_record *e, const char *child,
-                                fw_argument **list, int *n) {
+static fw_status read_arguments(fw_process_pack *pack, const fw_xml_record *e, const char *child,
+                                fw_process_argument **list, int *n) {
     size_t most = (size_t)fw_xml_children(e, child);
-    FW_NEED(*list = fw_arena_array(pack->arena, fw_argument, most));
-    for (const fw_record *c = e->first_child; c; c = c->next) {
-        if (!fw_is(c, child)) continue;
+    FW_NEED(*list = fw_arena_array(pack->arena, fw_process_argument, most));
+    for (const fw_xml_record *c = e->first_child; c; c = c->next) {
+        if (!fw_xml_is(c, child)) continue;
         const fw_quantity *q = quantity_of(pack, c, "q");
-        const char *name = fw_pack_text(c, "name");
+        const char *name = fw_process_pack_text(c, "name");
         for (int i = 0; i < *n; i++)
             if (strcmp((*list)[i].name, name) == 0)
                 fw_diag_error(pack->diags, 164, c->element->place, "argument '%s' is given twice",
                               name);
-        if (q) (*list)[(*n)++] = (fw_argument){name, q};
+        if (q) (*list)[(*n)++] = (fw_process_argument){name, q};
     }
     if (*n > FW_LAW_ARGUMENTS) {
         fw_diag_error(pack->diags, 171, e->element->place, "more than %d arguments",
@@ -43,11 +44,13 @@ static fw_status read_arguments(fw_pack *pack, const fw_record *e, const char *c
     return FW_OK;
 }
 
-static fw_status check_arguments(fw_pack *pack, const fw_record *e, const fw_process_law *law) {
-    for (const fw_record *c = e->first_child; c; c = c->next) {
-        const fw_attribute *name = fw_pack_get(c, "name"), *q = fw_pack_get(c, "q");
-        if (!fw_is(c, "arg") || !name || !q) continue;
-        int at = fw_law_argument_index(law, name->value);
+static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
+                                 const fw_process_law *law) {
+    for (const fw_xml_record *c = e->first_child; c; c = c->next) {
+        const fw_xml_attribute *name = fw_process_pack_get(c, "name"),
+                               *q = fw_process_pack_get(c, "q");
+        if (!fw_xml_is(c, "arg") || !name || !q) continue;
+        int at = fw_process_law_argument_index(law, name->value);
         if (at < 0) {
             const char *names[FW_LAW_ARGUMENTS];
             for (int i = 0; i < law->nargument; i++)
@@ -60,14 +63,15 @@ static fw_status check_arguments(fw_pack *pack, const fw_record *e, const fw_pro
         }
         const fw_quantity *value = quantity_of(pack, c, "q");
         if (value && !law->argument[at].any_dimension &&
-            !fw_dimension_equal(value->dimension, law->argument[at].dimension))
+            !fw_quantity_dimension_equal(value->dimension, law->argument[at].dimension))
             FW_TRY(dimension_error(pack, c, name->value, value->dimension,
                                    law->argument[at].dimension));
     }
     for (int i = 0; i < law->nargument; i++) {
         bool given = law->argument[i].need == FW_LAW_OPTIONAL;
-        for (const fw_record *c = e->first_child; c && !given; c = c->next)
-            given = fw_is(c, "arg") && strcmp(fw_pack_text(c, "name"), law->argument[i].name) == 0;
+        for (const fw_xml_record *c = e->first_child; c && !given; c = c->next)
+            given = fw_xml_is(c, "arg") &&
+                    strcmp(fw_process_pack_text(c, "name"), law->argument[i].name) == 0;
         if (!given)
             fw_diag_error(pack->diags, 168, e->element->place, "law '%s' needs the argument '%s'",
                           law->name, law->argument[i].name);
@@ -76,20 +80,20 @@ static fw_status check_arguments(fw_pack *pack, const fw_record *e, const fw_pro
 }
 
 /* tries the expression once; unknown inputs stand in as different numbers near 1 */
-static fw_status check_expression(fw_pack *pack, const fw_record *e, const char *text,
-                                  fw_place place, const fw_argument *argument, int n,
-                                  fw_dimension wanted) {
-    fw_name_value item[FW_LAW_ARGUMENTS];
+static fw_status check_expression(fw_process_pack *pack, const fw_xml_record *e, const char *text,
+                                  fw_place place, const fw_process_argument *argument, int n,
+                                  fw_quantity_dimension wanted) {
+    fw_quantity_name_value item[FW_LAW_ARGUMENTS];
     for (int i = 0; i < n; i++) {
         const fw_quantity *q = argument[i].q;
-        item[i] =
-            (fw_name_value){argument[i].name, q->unknown ? 1.0 + 0.01 * i : q->value, q->dimension};
+        item[i] = (fw_quantity_name_value){argument[i].name, q->unknown ? 1.0 + 0.01 * i : q->value,
+                                           q->dimension};
     }
-    fw_names names = {item, (size_t)n};
-    fw_expression_error error = {0};
+    fw_quantity_names names = {item, (size_t)n};
+    fw_quantity_expression_error error = {0};
     double value = 0.0;
-    fw_status status =
-        fw_expression_evaluate(pack->arena, text, strlen(text), &names, wanted, &value, &error);
+    fw_status status = fw_quantity_expression_evaluate(pack->arena, text, strlen(text), &names,
+                                                       wanted, &value, &error);
     if (status != FW_INPUT) return status;
     if (!strchr(text, '\n')) place.column += (int)error.offset;
     fw_diag_error(pack->diags, 170, place, "<%s>: %s", e->row->name,
@@ -97,14 +101,14 @@ static fw_status check_expression(fw_pack *pack, const fw_record *e, const char 
     return FW_OK;
 }
 
-static fw_status read_expression(fw_pack *pack, const fw_record *e, const fw_process_law *law,
-                                 const fw_argument *argument, int n, fw_dimension wanted,
-                                 const char **expression) {
+static fw_status read_expression(fw_process_pack *pack, const fw_xml_record *e,
+                                 const fw_process_law *law, const fw_process_argument *argument,
+                                 int n, fw_quantity_dimension wanted, const char **expression) {
     *expression = "";
-    const fw_record *found = NULL;
-    for (const fw_record *c = e->first_child; c; c = c->next)
-        if (fw_is(c, "expr")) found = c;
-    if ((law == &fw_law_expr) != (found != NULL)) {
+    const fw_xml_record *found = NULL;
+    for (const fw_xml_record *c = e->first_child; c; c = c->next)
+        if (fw_xml_is(c, "expr")) found = c;
+    if ((law == &fw_process_law_expr) != (found != NULL)) {
         fw_diag_error(pack->diags, 170, e->element->place,
                       found ? "<expr> belongs to law='expr' only" : "law='expr' needs an <expr>");
         return FW_OK;
@@ -115,47 +119,48 @@ static fw_status read_expression(fw_pack *pack, const fw_record *e, const fw_pro
                             wanted);
 }
 
-static const fw_process_law *law_of(fw_pack *pack, const fw_record *e) {
-    const fw_attribute *a = fw_pack_get(e, "law");
-    const fw_process_law *law = a ? fw_law_find(a->value) : NULL;
+static const fw_process_law *law_of(fw_process_pack *pack, const fw_xml_record *e) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, "law");
+    const fw_process_law *law = a ? fw_process_law_find(a->value) : NULL;
     if (!a || law) return law;
     const char *names[32];
     size_t n = 0;
-    for (int i = 0; n < 32 && fw_law_row(i); i++)
-        names[n++] = fw_law_row(i)->name;
+    for (int i = 0; n < 32 && fw_process_law_row(i); i++)
+        names[n++] = fw_process_law_row(i)->name;
     const char *best = fw_did_you_mean(a->value, names, n);
     fw_diag_error(pack->diags, 166, a->place, "there is no law '%s'%s%s%s", a->value,
                   best ? "; did you mean '" : "", best ? best : "", best ? "'?" : "");
     return NULL;
 }
 
-static fw_status read_time(fw_pack *pack, const fw_record *e, fw_step *s) {
+static fw_status read_time(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_process_law *law = law_of(pack, e);
-    s->overrun = fw_pack_number(e, "overrun", 0.0);
-    s->k = fw_pack_number(e, "k", 2.0);
-    s->shape = fw_pack_text(e, "shape");
+    s->overrun = fw_process_pack_number(e, "overrun", 0.0);
+    s->k = fw_process_pack_number(e, "k", 2.0);
+    s->shape = fw_process_pack_text(e, "shape");
     FW_TRY(read_arguments(pack, e, "arg", &s->argument, &s->nargument));
     FW_TRY(read_arguments(pack, e, "needs", &s->need, &s->nneed));
     if (!law) return FW_OK;
     s->law = law->name;
     if (law->argument) FW_TRY(check_arguments(pack, e, law));
-    return read_expression(pack, e, law, s->argument, s->nargument, (fw_dimension)FW_DIM_TIME,
-                           &s->expression);
+    return read_expression(pack, e, law, s->argument, s->nargument,
+                           (fw_quantity_dimension)FW_DIM_TIME, &s->expression);
 }
 
-static fw_status read_derive(fw_pack *pack, const fw_record *e, fw_derive *d) {
+static fw_status read_derive(fw_process_pack *pack, const fw_xml_record *e, fw_process_derive *d) {
     const fw_process_law *law = law_of(pack, e);
-    const fw_attribute *unit = fw_pack_get(e, "unit"), *id = fw_pack_get(e, "id");
-    d->name = fw_pack_text(e, "name");
-    d->unit = fw_pack_text(e, "unit");
-    d->shape = fw_pack_text(e, "shape");
-    fw_unit parsed = {0};
-    if (unit && !fw_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL))
+    const fw_xml_attribute *unit = fw_process_pack_get(e, "unit"),
+                           *id = fw_process_pack_get(e, "id");
+    d->name = fw_process_pack_text(e, "name");
+    d->unit = fw_process_pack_text(e, "unit");
+    d->shape = fw_process_pack_text(e, "shape");
+    fw_quantity_unit parsed = {0};
+    if (unit && !fw_quantity_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL))
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit", unit->value);
     d->dimension = parsed.dimension;
-    if (id) d->q = fw_pack_find(pack, id, FW_ID_QUANTITY);
+    if (id) d->q = fw_process_pack_find(pack, id, FW_ID_QUANTITY);
     d->most = quantity_of(pack, e, "most");
-    if (d->most && !fw_dimension_equal(d->most->dimension, d->dimension))
+    if (d->most && !fw_quantity_dimension_equal(d->most->dimension, d->dimension))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "most='%s' is no limit for something in '%s'", d->most->id, d->unit);
     FW_TRY(read_arguments(pack, e, "arg", &d->argument, &d->nargument));
@@ -163,43 +168,47 @@ static fw_status read_derive(fw_pack *pack, const fw_record *e, fw_derive *d) {
     d->law = law->name;
     if (law->argument) {
         FW_TRY(check_arguments(pack, e, law));
-        if (!fw_dimension_equal(d->dimension, (fw_dimension)FW_DIM_TIME))
+        if (!fw_quantity_dimension_equal(d->dimension, (fw_quantity_dimension)FW_DIM_TIME))
             fw_diag_error(pack->diags, 169, e->element->place,
                           "law '%s' gives a time; unit='%s' is none", law->name, d->unit);
     }
     return read_expression(pack, e, law, d->argument, d->nargument, d->dimension, &d->expression);
 }
 
-static fw_face face_of(const char *word) {
+static fw_process_face face_of(const char *word) {
     return strcmp(word, "top") == 0      ? FW_FACE_TOP
            : strcmp(word, "bottom") == 0 ? FW_FACE_BOTTOM
                                          : FW_FACE_MIDDLE;
 }
 
-static void read_change(fw_pack *pack, const fw_record *e, fw_change *c) {
-    const fw_attribute *material = fw_pack_get(e, "material"), *where = fw_pack_get(e, "where"),
-                       *from = fw_pack_get(e, "from");
-    *c = (fw_change){.kind = fw_pack_text(e, "kind"),
-                     .material = fw_pack_text(e, "material"),
-                     .thickness = quantity_of(pack, e, "thickness"),
-                     .where = where ? where->value : "all",
-                     .from = fw_pack_text(e, "from"),
-                     .back = strcmp(fw_pack_text(e, "side"), "back") == 0,
-                     .isotropic = strcmp(fw_pack_text(e, "profile"), "isotropic") == 0,
-                     .anisotropy = quantity_of(pack, e, "anisotropy"),
-                     .spread = quantity_of(pack, e, "spread"),
-                     .reach = quantity_of(pack, e, "reach"),
-                     .compensate = face_of(fw_pack_text(e, "compensate")),
-                     .place = e->element->place};
-    if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
+static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_process_change *c) {
+    const fw_xml_attribute *material = fw_process_pack_get(e, "material"),
+                           *where = fw_process_pack_get(e, "where"),
+                           *from = fw_process_pack_get(e, "from");
+    *c = (fw_process_change){.kind = fw_process_pack_text(e, "kind"),
+                             .material = fw_process_pack_text(e, "material"),
+                             .thickness = quantity_of(pack, e, "thickness"),
+                             .where = where ? where->value : "all",
+                             .from = fw_process_pack_text(e, "from"),
+                             .back = strcmp(fw_process_pack_text(e, "side"), "back") == 0,
+                             .isotropic =
+                                 strcmp(fw_process_pack_text(e, "profile"), "isotropic") == 0,
+                             .anisotropy = quantity_of(pack, e, "anisotropy"),
+                             .spread = quantity_of(pack, e, "spread"),
+                             .reach = quantity_of(pack, e, "reach"),
+                             .compensate = face_of(fw_process_pack_text(e, "compensate")),
+                             .place = e->element->place};
+    if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
     if (from)
-        fw_pack_find(pack, from, FW_ID_MATERIAL);
+        fw_process_pack_find(pack, from, FW_ID_MATERIAL);
     else if (strcmp(c->kind, "convert") == 0)
         fw_diag_error(pack->diags, 162, e->element->place, "<change kind='convert'> needs 'from'");
-    if (c->thickness && !fw_dimension_equal(c->thickness->dimension, (fw_dimension)FW_DIM_LENGTH))
+    if (c->thickness &&
+        !fw_quantity_dimension_equal(c->thickness->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "the thickness of <change> is not a length");
-    if (c->reach && !fw_dimension_equal(c->reach->dimension, (fw_dimension)FW_DIM_LENGTH))
+    if (c->reach &&
+        !fw_quantity_dimension_equal(c->reach->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->element->place, "the reach of <change> is not a length");
     if (c->reach && strcmp(c->kind, "remove") != 0)
         fw_diag_error(pack->diags, 161, e->element->place,
@@ -208,138 +217,150 @@ static void read_change(fw_pack *pack, const fw_record *e, fw_change *c) {
         fw_diag_error(pack->diags, 162, e->element->place, "profile='isotropic' needs a thickness");
 }
 
-static void read_exposed(fw_pack *pack, const fw_record *e, fw_exposed *x) {
-    const fw_attribute *material = fw_pack_get(e, "material");
-    *x = (fw_exposed){.material = fw_pack_text(e, "material"),
-                      .rate = quantity_of(pack, e, "rate"),
-                      .selectivity = quantity_of(pack, e, "selectivity"),
-                      .place = e->element->place};
-    if (material) fw_pack_find(pack, material, FW_ID_MATERIAL);
-    if (!fw_pack_get(e, "rate") == !fw_pack_get(e, "selectivity"))
+static void read_exposed(fw_process_pack *pack, const fw_xml_record *e, fw_process_exposed *x) {
+    const fw_xml_attribute *material = fw_process_pack_get(e, "material");
+    *x = (fw_process_exposed){.material = fw_process_pack_text(e, "material"),
+                              .rate = quantity_of(pack, e, "rate"),
+                              .selectivity = quantity_of(pack, e, "selectivity"),
+                              .place = e->element->place};
+    if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
+    if (!fw_process_pack_get(e, "rate") == !fw_process_pack_get(e, "selectivity"))
         fw_diag_error(
             pack->diags, 162, e->element->place,
             "<exposed> needs either 'rate' or 'selectivity'; the quantity may be unknown");
-    if (x->rate && !fw_dimension_equal(x->rate->dimension, (fw_dimension){.m = 1, .s = -1}))
+    if (x->rate &&
+        !fw_quantity_dimension_equal(x->rate->dimension, (fw_quantity_dimension){.m = 1, .s = -1}))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "the rate of <exposed> is not a length per time");
-    if (x->selectivity && !fw_dimension_equal(x->selectivity->dimension, (fw_dimension){0}))
+    if (x->selectivity &&
+        !fw_quantity_dimension_equal(x->selectivity->dimension, (fw_quantity_dimension){0}))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "the selectivity of <exposed> has a dimension");
 }
 
-static void read_lag(fw_pack *pack, const fw_record *e, fw_lag *lag) {
-    const fw_attribute *unit = fw_pack_get(e, "unit"), *from = fw_pack_get(e, "from");
-    fw_unit parsed = {.factor = 1.0};
-    if (unit && (!fw_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL) ||
-                 !fw_dimension_equal(parsed.dimension, (fw_dimension)FW_DIM_TIME)))
+static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_lag *lag) {
+    const fw_xml_attribute *unit = fw_process_pack_get(e, "unit"),
+                           *from = fw_process_pack_get(e, "from");
+    fw_quantity_unit parsed = {.factor = 1.0};
+    if (unit &&
+        (!fw_quantity_unit_parse(unit->value, strlen(unit->value), &parsed, NULL, NULL) ||
+         !fw_quantity_dimension_equal(parsed.dimension, (fw_quantity_dimension)FW_DIM_TIME)))
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit of time", unit->value);
     lag->from = from ? from->value : "";
     lag->place = e->element->place;
-    lag->min_s = fw_pack_number(e, "min", (double)NAN) * parsed.factor;
-    lag->max_s = fw_pack_number(e, "max", (double)NAN) * parsed.factor;
-    if (from) fw_pack_find(pack, from, FW_ID_STEP);
+    lag->min_s = fw_process_pack_number(e, "min", (double)NAN) * parsed.factor;
+    lag->max_s = fw_process_pack_number(e, "max", (double)NAN) * parsed.factor;
+    if (from) fw_process_pack_find(pack, from, FW_ID_STEP);
     if (lag->min_s > lag->max_s)
         fw_diag_error(pack->diags, 171, e->element->place, "<lag>: min is longer than max");
 }
 
-static void read_set(fw_pack *pack, const fw_record *e, fw_step *s) {
+static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_quantity *q = quantity_of(pack, e, "q");
     static const char *const bound[] = {"tol-lo", "tol-hi"};
     for (int i = 0; i < 2; i++) {
-        const fw_attribute *a = fw_pack_get(e, bound[i]);
+        const fw_xml_attribute *a = fw_process_pack_get(e, bound[i]);
         double value;
         if (a && a->value[0] && !fw_number_parse(a->value, strlen(a->value), &value))
             fw_diag_error(pack->diags, 171, a->place, "%s='%s' is not a number", a->name, a->value);
     }
     if (q)
-        s->setting[s->nsetting++] = (fw_setting){
-            fw_pack_text(e, "name"), q, fw_pack_text(e, "tol-lo"), fw_pack_text(e, "tol-hi")};
+        s->setting[s->nsetting++] = (fw_process_setting){fw_process_pack_text(e, "name"), q,
+                                                         fw_process_pack_text(e, "tol-lo"),
+                                                         fw_process_pack_text(e, "tol-hi")};
 }
 
-static void read_accept(const fw_record *e, fw_accept *a) {
-    *a = (fw_accept){.measure = fw_pack_text(e, "measure"),
-                     .low = fw_pack_text(e, "lo"),
-                     .high = fw_pack_text(e, "hi"),
-                     .unit = fw_pack_text(e, "unit"),
-                     .sites = (int)fw_pack_number(e, "sites", 1.0),
-                     .every = (int)fw_pack_number(e, "every", 1.0)};
+static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
+    *a = (fw_process_accept){.measure = fw_process_pack_text(e, "measure"),
+                             .low = fw_process_pack_text(e, "lo"),
+                             .high = fw_process_pack_text(e, "hi"),
+                             .unit = fw_process_pack_text(e, "unit"),
+                             .sites = (int)fw_process_pack_number(e, "sites", 1.0),
+                             .every = (int)fw_process_pack_number(e, "every", 1.0)};
 }
 
-static void read_on_fail(fw_pack *pack, const fw_record *e, fw_on_fail *f) {
-    const fw_attribute *go_to = fw_pack_get(e, "goto");
-    *f = (fw_on_fail){fw_pack_text(e, "if"), fw_pack_text(e, "then"), go_to ? go_to->value : "",
-                      e->element->text};
-    if (go_to) fw_pack_find(pack, go_to, FW_ID_STEP);
+static void read_on_fail(fw_process_pack *pack, const fw_xml_record *e, fw_process_on_fail *f) {
+    const fw_xml_attribute *go_to = fw_process_pack_get(e, "goto");
+    *f = (fw_process_on_fail){fw_process_pack_text(e, "if"), fw_process_pack_text(e, "then"),
+                              go_to ? go_to->value : "", e->element->text};
+    if (go_to) fw_process_pack_find(pack, go_to, FW_ID_STEP);
 }
 
-static fw_status read_child(fw_pack *pack, const fw_record *c, fw_step *s) {
-    if (fw_is(c, "purpose"))
+static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_process_step *s) {
+    if (fw_xml_is(c, "purpose"))
         s->purpose = c->element->text;
-    else if (fw_is(c, "change"))
+    else if (fw_xml_is(c, "change"))
         read_change(pack, c, &s->change[s->nchange++]);
-    else if (fw_is(c, "exposed"))
+    else if (fw_xml_is(c, "exposed"))
         read_exposed(pack, c, &s->exposed[s->nexposed++]);
-    else if (fw_is(c, "set"))
+    else if (fw_xml_is(c, "set"))
         read_set(pack, c, s);
-    else if (fw_is(c, "time"))
+    else if (fw_xml_is(c, "time"))
         return s->law ? FW_OK : read_time(pack, c, s);
-    else if (fw_is(c, "derive"))
+    else if (fw_xml_is(c, "derive"))
         return read_derive(pack, c, &s->derive[s->nderive++]);
-    else if (fw_is(c, "endpoint"))
+    else if (fw_xml_is(c, "endpoint"))
         s->endpoint[s->nendpoint++] = c->element->text;
-    else if (fw_is(c, "accept"))
+    else if (fw_xml_is(c, "accept"))
         read_accept(c, &s->accept[s->naccept++]);
-    else if (fw_is(c, "hazard-ref")) {
-        const fw_attribute *ref = fw_pack_get(c, "ref");
-        const fw_hazard *h = ref ? fw_pack_find(pack, ref, FW_ID_HAZARD) : NULL;
+    else if (fw_xml_is(c, "hazard-ref")) {
+        const fw_xml_attribute *ref = fw_process_pack_get(c, "ref");
+        const fw_process_hazard *h = ref ? fw_process_pack_find(pack, ref, FW_ID_HAZARD) : NULL;
         if (h) s->hazard[s->nhazard++] = h;
-    } else if (fw_is(c, "on-fail"))
+    } else if (fw_xml_is(c, "on-fail"))
         read_on_fail(pack, c, &s->on_fail[s->non_fail++]);
-    else if (fw_is(c, "lag"))
+    else if (fw_xml_is(c, "lag"))
         read_lag(pack, c, &s->lag[s->nlag++]);
     return FW_OK;
 }
 
-static fw_status make_room(fw_arena *arena, const fw_record *e, fw_step *s) {
-    FW_NEED(s->change = fw_arena_array(arena, fw_change, (size_t)fw_xml_children(e, "change")));
-    FW_NEED(s->exposed = fw_arena_array(arena, fw_exposed, (size_t)fw_xml_children(e, "exposed")));
-    FW_NEED(s->setting = fw_arena_array(arena, fw_setting, (size_t)fw_xml_children(e, "set")));
-    FW_NEED(s->derive = fw_arena_array(arena, fw_derive, (size_t)fw_xml_children(e, "derive")));
+static fw_status make_room(fw_arena *arena, const fw_xml_record *e, fw_process_step *s) {
+    FW_NEED(s->change =
+                fw_arena_array(arena, fw_process_change, (size_t)fw_xml_children(e, "change")));
+    FW_NEED(s->exposed =
+                fw_arena_array(arena, fw_process_exposed, (size_t)fw_xml_children(e, "exposed")));
+    FW_NEED(s->setting =
+                fw_arena_array(arena, fw_process_setting, (size_t)fw_xml_children(e, "set")));
+    FW_NEED(s->derive =
+                fw_arena_array(arena, fw_process_derive, (size_t)fw_xml_children(e, "derive")));
     FW_NEED(s->endpoint =
                 fw_arena_array(arena, const char *, (size_t)fw_xml_children(e, "endpoint")));
-    FW_NEED(s->accept = fw_arena_array(arena, fw_accept, (size_t)fw_xml_children(e, "accept")));
-    FW_NEED(s->hazard =
-                fw_arena_array(arena, const fw_hazard *, (size_t)fw_xml_children(e, "hazard-ref")));
-    FW_NEED(s->on_fail = fw_arena_array(arena, fw_on_fail, (size_t)fw_xml_children(e, "on-fail")));
-    FW_NEED(s->lag = fw_arena_array(arena, fw_lag, (size_t)fw_xml_children(e, "lag")));
+    FW_NEED(s->accept =
+                fw_arena_array(arena, fw_process_accept, (size_t)fw_xml_children(e, "accept")));
+    FW_NEED(s->hazard = fw_arena_array(arena, const fw_process_hazard *,
+                                       (size_t)fw_xml_children(e, "hazard-ref")));
+    FW_NEED(s->on_fail =
+                fw_arena_array(arena, fw_process_on_fail, (size_t)fw_xml_children(e, "on-fail")));
+    FW_NEED(s->lag = fw_arena_array(arena, fw_process_lag, (size_t)fw_xml_children(e, "lag")));
     return FW_OK;
 }
 
-static fw_status read_step(fw_pack *pack, const fw_record *e, fw_step *s) {
-    const fw_attribute *equipment = fw_pack_get(e, "equipment");
-    *s = (fw_step){.id = fw_pack_text(e, "id"),
-                   .op = fw_pack_text(e, "op"),
-                   .title = fw_pack_text(e, "title"),
-                   .purpose = "",
-                   .mask = fw_pack_text(e, "mask"),
-                   .in_source = strcmp(fw_pack_text(e, "in-source"), "yes") == 0,
-                   .batch = (int)fw_pack_number(e, "batch", 1.0),
-                   .expression = "",
-                   .shape = "",
-                   .k = 2.0,
-                   .second_signature = strcmp(fw_pack_text(e, "second-signature"), "yes") == 0,
-                   .attended_s = 60.0 * fw_pack_number(e, "attended", 0.0),
-                   .place = e->element->place};
-    if (equipment) s->equipment = fw_pack_find(pack, equipment, FW_ID_EQUIPMENT);
+static fw_status read_step(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    const fw_xml_attribute *equipment = fw_process_pack_get(e, "equipment");
+    *s = (fw_process_step){.id = fw_process_pack_text(e, "id"),
+                           .op = fw_process_pack_text(e, "op"),
+                           .title = fw_process_pack_text(e, "title"),
+                           .purpose = "",
+                           .mask = fw_process_pack_text(e, "mask"),
+                           .in_source = strcmp(fw_process_pack_text(e, "in-source"), "yes") == 0,
+                           .batch = (int)fw_process_pack_number(e, "batch", 1.0),
+                           .expression = "",
+                           .shape = "",
+                           .k = 2.0,
+                           .second_signature =
+                               strcmp(fw_process_pack_text(e, "second-signature"), "yes") == 0,
+                           .attended_s = 60.0 * fw_process_pack_number(e, "attended", 0.0),
+                           .place = e->element->place};
+    if (equipment) s->equipment = fw_process_pack_find(pack, equipment, FW_ID_EQUIPMENT);
     FW_TRY(make_room(pack->arena, e, s));
-    for (const fw_record *c = e->first_child; c; c = c->next)
+    for (const fw_xml_record *c = e->first_child; c; c = c->next)
         FW_TRY(read_child(pack, c, s));
     return FW_OK;
 }
 
-fw_status fw_pack_steps(fw_pack *pack) {
-    fw_flow *f = pack->flow;
-    for (const fw_record *c = pack->root->first_child; c; c = c->next)
-        if (fw_is(c, "step")) FW_TRY(read_step(pack, c, &f->step[f->nstep++]));
+fw_status fw_process_pack_steps(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    for (const fw_xml_record *c = pack->root->first_child; c; c = c->next)
+        if (fw_xml_is(c, "step")) FW_TRY(read_step(pack, c, &f->step[f->nstep++]));
     return FW_OK;
 }

@@ -9,19 +9,19 @@ static double drawn_height(const fw_quantity *thickness) {
     return 1.5 + 2.5 * log10(1.0 + thickness->value / 0.1e-6);
 }
 
-static bool in_column(const fw_change *c, int column) {
+static bool in_column(const fw_process_change *c, int column) {
     if (strcmp(c->where, "all") == 0) return true;
     return (strcmp(c->where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
 }
 
-static double top_of(const fw_stack *s, int column) {
+static double top_of(const fw_process_stack *s, int column) {
     double top = 0.0;
     for (int i = 0; i < s->n[column]; i++)
         top = fmax(top, s->cell[column][i].bottom + s->cell[column][i].height);
     return top;
 }
 
-static double bottom_of(const fw_stack *s) {
+static double bottom_of(const fw_process_stack *s) {
     double bottom = 0.0;
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
         for (int i = 0; i < s->n[column]; i++)
@@ -29,23 +29,23 @@ static double bottom_of(const fw_stack *s) {
     return bottom;
 }
 
-static void insert(fw_stack *s, int column, int at, fw_cell cell) {
-    fw_cell *list = s->cell[column];
+static void insert(fw_process_stack *s, int column, int at, fw_process_cell cell) {
+    fw_process_cell *list = s->cell[column];
     memmove(list + at + 1, list + at, (size_t)(s->n[column] - at) * sizeof *list);
     list[at] = cell;
     s->n[column]++;
 }
 
-static bool add(fw_stack *s, int column, const fw_change *c, double below) {
+static bool add(fw_process_stack *s, int column, const fw_process_change *c, double below) {
     double height = drawn_height(c->thickness);
     double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
     double bottom = c->back ? below - height : top_of(s, column);
     insert(s, column, c->back ? 0 : s->n[column],
-           (fw_cell){c->material, thickness, bottom, height, false});
+           (fw_process_cell){c->material, thickness, bottom, height, false});
     return true;
 }
 
-static bool take_away(fw_stack *s, int column, const fw_change *c) {
+static bool take_away(fw_process_stack *s, int column, const fw_process_change *c) {
     int kept = 0, before = s->n[column];
     for (int i = 0; i < before; i++)
         if (strcmp(s->cell[column][i].material, c->material) != 0)
@@ -54,7 +54,7 @@ static bool take_away(fw_stack *s, int column, const fw_change *c) {
     return kept < before;
 }
 
-static bool expose(fw_stack *s, int column, const fw_change *c) {
+static bool expose(fw_process_stack *s, int column, const fw_process_change *c) {
     bool found = false;
     for (int i = 0; i < s->n[column]; i++)
         if (strcmp(s->cell[column][i].material, c->material) == 0)
@@ -63,22 +63,22 @@ static bool expose(fw_stack *s, int column, const fw_change *c) {
 }
 
 /* the upper part of the topmost cell of material `from` becomes `material` */
-static bool convert(fw_stack *s, int column, const fw_change *c) {
+static bool convert(fw_process_stack *s, int column, const fw_process_change *c) {
     int i = s->n[column] - 1;
     while (i >= 0 && strcmp(s->cell[column][i].material, c->from) != 0)
         i--;
     if (i < 0) return false;
-    fw_cell *old = &s->cell[column][i];
+    fw_process_cell *old = &s->cell[column][i];
     double height = fmin(drawn_height(c->thickness), 0.6 * old->height);
     double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
     old->height -= height;
     if (!isnan(thickness)) old->thickness_m -= thickness;
     insert(s, column, i + 1,
-           (fw_cell){c->material, thickness, old->bottom + old->height, height, false});
+           (fw_process_cell){c->material, thickness, old->bottom + old->height, height, false});
     return true;
 }
 
-static bool apply(fw_stack *s, const fw_change *c) {
+static bool apply(fw_process_stack *s, const fw_process_change *c) {
     bool found = false;
     double below = bottom_of(s);
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
@@ -95,15 +95,15 @@ static bool apply(fw_stack *s, const fw_change *c) {
     return found;
 }
 
-fw_status fw_flow_stack(fw_arena *arena, const fw_flow *flow, int index, fw_stack *stack,
-                        const fw_change **absent) {
+fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
+                                fw_process_stack *stack, const fw_process_change **absent) {
     int changes = 0;
     for (int i = 0; i < flow->nstep && i <= index; i++)
         changes += flow->step[i].nchange;
-    *stack = (fw_stack){.capacity = changes + 1};
+    *stack = (fw_process_stack){.capacity = changes + 1};
     if (absent) *absent = NULL;
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_cell, (size_t)changes + 1));
+        FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_process_cell, (size_t)changes + 1));
     for (int i = 0; i < flow->nstep && i <= index; i++)
         for (int j = 0; j < flow->step[i].nchange; j++)
             if (!apply(stack, &flow->step[i].change[j]) && absent && !*absent)
@@ -111,15 +111,16 @@ fw_status fw_flow_stack(fw_arena *arena, const fw_flow *flow, int index, fw_stac
     return FW_OK;
 }
 
-bool fw_stack_open(const fw_flow *flow, const fw_stack *stack, const char *material) {
+bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
+                           const char *material) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
         double beside = top_of(stack, FW_STACK_COLUMNS - 1 - column);
         bool covered = false;
         for (int i = stack->n[column] - 1; i >= 0; i--) {
-            const fw_cell *c = &stack->cell[column][i];
+            const fw_process_cell *c = &stack->cell[column][i];
             bool side = c->bottom + c->height > beside + 1e-9;
             if (strcmp(c->material, material) == 0 && (!covered || side)) return true;
-            const fw_process_material *m = fw_flow_material(flow, c->material);
+            const fw_process_material *m = fw_process_flow_material(flow, c->material);
             covered = covered || !(m && m->holes);
         }
     }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 typedef struct named {
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     const char *name, *unit;
 } named;
 
@@ -53,23 +53,23 @@ static const named known[] = {
     {{-2, 1, -2, 0, 0, 0, 0}, "stress gradient", "MPa/um"},
 };
 
-static const named *find(fw_dimension d) {
+static const named *find(fw_quantity_dimension d) {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (fw_dimension_equal(known[i].dimension, d)) return &known[i];
+        if (fw_quantity_dimension_equal(known[i].dimension, d)) return &known[i];
     return NULL;
 }
 
-bool fw_dimension_equal(fw_dimension a, fw_dimension b) {
+bool fw_quantity_dimension_equal(fw_quantity_dimension a, fw_quantity_dimension b) {
     return a.m == b.m && a.kg == b.kg && a.s == b.s && a.A == b.A && a.K == b.K && a.mol == b.mol &&
            a.rad == b.rad;
 }
 
-const char *fw_dimension_unit(fw_dimension d) {
+const char *fw_quantity_dimension_unit(fw_quantity_dimension d) {
     const named *row = find(d);
     return row ? row->unit : NULL;
 }
 
-const char *fw_dimension_text(fw_arena *arena, fw_dimension d) {
+const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d) {
     const named *row = find(d);
     if (row) return row->name;
     const struct {
@@ -86,37 +86,38 @@ const char *fw_dimension_text(fw_arena *arena, fw_dimension d) {
     return fw_text_end(&text) == FW_OK ? text.data : "unnamed dimension";
 }
 
-const char *fw_dimension_phrase(fw_arena *arena, fw_dimension d) {
-    const char *name = fw_dimension_text(arena, d);
+const char *fw_quantity_dimension_phrase(fw_arena *arena, fw_quantity_dimension d) {
+    const char *name = fw_quantity_dimension_text(arena, d);
     const char *phrase = fw_arena_printf(arena, "%s %s", strchr("ae", name[0]) ? "an" : "a", name);
     return phrase ? phrase : name;
 }
 
 static const char *const status_text[] = {"measured", "stated", "derived", "typical", "assumed"};
 
-const char *fw_value_status_text(fw_value_status status) {
+const char *fw_quantity_value_status_text(fw_quantity_value_status status) {
     return status_text[status];
 }
 
-bool fw_value_status_parse(const char *text, fw_value_status *status) {
+bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *status) {
     for (int i = 0; i < 5; i++)
         if (strcmp(text, status_text[i]) == 0) {
-            *status = (fw_value_status)i;
+            *status = (fw_quantity_value_status)i;
             return true;
         }
     return false;
 }
 
 double fw_quantity_in_unit(const fw_quantity *q) {
-    fw_unit unit;
-    if (!q->unit || !fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) return q->value;
-    return fw_unit_from_si(&unit, q->value);
+    fw_quantity_unit unit;
+    if (!q->unit || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+        return q->value;
+    return fw_quantity_unit_from_si(&unit, q->value);
 }
 
 /* nearest within distance 2; ties as quantity.h says */
 static const char *nearest(const char *word, const char *usual) {
     size_t count;
-    const char *const *names = fw_unit_names(&count), *best = NULL;
+    const char *const *names = fw_quantity_unit_names(&count), *best = NULL;
     int least = 4 * 3; /* four steps per edit, for the ties */
     for (size_t i = 0; i < count; i++) {
         int d = fw_edit_distance(word, names[i], 2);
@@ -132,7 +133,7 @@ static const char *nearest(const char *word, const char *usual) {
 }
 
 /* spellings from other habits, and what to write here */
-const char *fw_unit_suggestion(const char *symbol, size_t n, const char *usual) {
+const char *fw_quantity_unit_suggestion(const char *symbol, size_t n, const char *usual) {
     static const char *const other[][2] = {
         {"\xc2\xb5m", "um"},
         {"\xce\xbcm", "um"},

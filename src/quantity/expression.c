@@ -11,23 +11,24 @@ enum { DEPTH_MOST = 64 };
 
 typedef struct parser {
     fw_arena *arena;
-    fw_lexer lexer;
-    fw_token token; /* the one not yet used */
-    const fw_names *names;
-    fw_expression_error *error;
-    fw_program *program; /* what varies with time is compiled to this; NULL: time is not known */
+    fw_quantity_lexer lexer;
+    fw_quantity_token token; /* the one not yet used */
+    const fw_quantity_names *names;
+    fw_quantity_expression_error *error;
+    fw_quantity_program
+        *program; /* what varies with time is compiled to this; NULL: time is not known */
     int depth;
 } parser;
 
-static const fw_dimension pure = {0};
+static const fw_quantity_dimension pure = {0};
 
 static bool fail(parser *p, size_t offset, int number, const char *message) {
-    *p->error = (fw_expression_error){offset, number, message};
+    *p->error = (fw_quantity_expression_error){offset, number, message};
     return false;
 }
 
 static bool advance(parser *p) {
-    p->token = fw_lexer_next(&p->lexer);
+    p->token = fw_quantity_lexer_next(&p->lexer);
     return p->token.kind != FW_TOKEN_WRONG;
 }
 
@@ -35,25 +36,26 @@ static bool is_mark(const parser *p, char mark) {
     return p->token.kind == FW_TOKEN_MARK && p->token.mark == mark;
 }
 
-static const char *dimension(parser *p, fw_dimension d) {
-    return fw_dimension_phrase(p->arena, d);
+static const char *dimension(parser *p, fw_quantity_dimension d) {
+    return fw_quantity_dimension_phrase(p->arena, d);
 }
 
-static bool finite_at(parser *p, size_t offset, const fw_value *v) {
+static bool finite_at(parser *p, size_t offset, const fw_quantity_value *v) {
     if (v->varies || isfinite(v->value)) return true;
     return fail(p, offset, 28,
                 "the result is too large for a number (beyond 1e308); check units and exponents");
 }
 
 /* v = a op b: a step of the program when one of them varies; true when it was */
-static bool emit(parser *p, fw_op op, const fw_value *a, const fw_value *b, fw_value *v) {
+static bool emit(parser *p, fw_quantity_op op, const fw_quantity_value *a,
+                 const fw_quantity_value *b, fw_quantity_value *v) {
     if (!a->varies && !b->varies) return false;
     double constant = a->varies ? b->value : a->value;
-    fw_program_emit(p->program, op,
-                    !a->varies   ? FW_LEFT_CONSTANT
-                    : !b->varies ? FW_RIGHT_CONSTANT
-                                 : FW_BOTH_ON_STACK,
-                    constant);
+    fw_quantity_program_emit(p->program, op,
+                             !a->varies   ? FW_LEFT_CONSTANT
+                             : !b->varies ? FW_RIGHT_CONSTANT
+                                          : FW_BOTH_ON_STACK,
+                             constant);
     v->value = (double)NAN; /* not known before t is */
     v->varies = true;
     return true;
@@ -61,18 +63,18 @@ static bool emit(parser *p, fw_op op, const fw_value *a, const fw_value *b, fw_v
 
 /* the arguments that vary lie on the stack in their order; min and max go through them from the
    back, the constant ones folded into one */
-static void emit_call(parser *p, int function, const fw_value *argument, int n) {
-    fw_op op = fw_function_op(function);
+static void emit_call(parser *p, int function, const fw_quantity_value *argument, int n) {
+    fw_quantity_op op = fw_quantity_function_op(function);
     if (n == 1) {
-        fw_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
+        fw_quantity_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
         return;
     }
-    fw_value folded = argument[0];
+    fw_quantity_value folded = argument[0];
     if (op == FW_OP_ATAN2) {
         emit(p, op, &argument[0], &argument[1], &folded);
         return;
     }
-    fw_value constant = {.value = op == FW_OP_MIN ? (double)INFINITY : -(double)INFINITY};
+    fw_quantity_value constant = {.value = op == FW_OP_MIN ? (double)INFINITY : -(double)INFINITY};
     int varying = 0;
     for (int i = 0; i < n; i++) {
         const double x = argument[i].value;
@@ -81,20 +83,20 @@ static void emit_call(parser *p, int function, const fw_value *argument, int n) 
             constant.value = op == FW_OP_MIN ? fmin(constant.value, x) : fmax(constant.value, x);
     }
     for (int i = 1; i < varying; i++)
-        fw_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
-    if (varying < n) fw_program_emit(p->program, op, FW_RIGHT_CONSTANT, constant.value);
+        fw_quantity_program_emit(p->program, op, FW_BOTH_ON_STACK, 0);
+    if (varying < n) fw_quantity_program_emit(p->program, op, FW_RIGHT_CONSTANT, constant.value);
 }
 
-static bool parse_sum(parser *p, fw_value *v);
+static bool parse_sum(parser *p, fw_quantity_value *v);
 
 /* name( a, b, ... ): the token behind the name is '(' */
-static bool parse_call(parser *p, const fw_token *name, fw_value *v) {
+static bool parse_call(parser *p, const fw_quantity_token *name, fw_quantity_value *v) {
     const char *text = p->lexer.text + name->start;
-    int function = fw_function_find(text, name->length);
+    int function = fw_quantity_function_find(text, name->length);
     if (function < 0) {
         const char *names[32];
         size_t count = 0;
-        while (count < 32 && (names[count] = fw_function_name((int)count)) != NULL)
+        while (count < 32 && (names[count] = fw_quantity_function_name((int)count)) != NULL)
             count++;
         char *word = fw_arena_strndup(p->arena, text, name->length);
         const char *better = word ? fw_did_you_mean(word, names, count) : NULL;
@@ -105,7 +107,7 @@ static bool parse_call(parser *p, const fw_token *name, fw_value *v) {
                                     better ? better : "tan asin acos atan atan2 min max abs",
                                     better ? "'?" : ""));
     }
-    fw_value argument[FW_ARGUMENTS_MOST];
+    fw_quantity_value argument[FW_ARGUMENTS_MOST];
     int n = 0;
     do {
         if (n == FW_ARGUMENTS_MOST)
@@ -116,22 +118,23 @@ static bool parse_call(parser *p, const fw_token *name, fw_value *v) {
         return fail(p, p->token.start, 32, "a ')' is missing behind the arguments");
     int number;
     const char *message;
-    if (!fw_function_apply(p->arena, function, argument, n, v, &number, &message))
+    if (!fw_quantity_function_apply(p->arena, function, argument, n, v, &number, &message))
         return fail(p, name->start, number, message);
     if (v->varies) emit_call(p, function, argument, n);
     return finite_at(p, name->start, v) && advance(p);
 }
 
-static bool unknown_name(parser *p, const fw_token *name) {
+static bool unknown_name(parser *p, const fw_quantity_token *name) {
     const char *text = p->lexer.text + name->start;
     int n = (int)name->length;
-    if (fw_unit_symbol(text, name->length))
+    if (fw_quantity_unit_symbol(text, name->length))
         return fail(p, name->start, 22,
-                    fw_arena_printf(p->arena, "the unit '%.*s' stands without a number; write "
-                                              "'1 %.*s'; a compound unit has no parentheses: "
-                                              "0.3 kg/A/s^2, not 0.3 kg/(A s^2)",
+                    fw_arena_printf(p->arena,
+                                    "the unit '%.*s' stands without a number; write "
+                                    "'1 %.*s'; a compound unit has no parentheses: "
+                                    "0.3 kg/A/s^2, not 0.3 kg/(A s^2)",
                                     n, text, n, text));
-    if (fw_function_find(text, name->length) >= 0)
+    if (fw_quantity_function_find(text, name->length) >= 0)
         return fail(
             p, name->start, 23,
             fw_arena_printf(p->arena, "'%.*s' is a function: write %.*s(...)", n, text, n, text));
@@ -151,16 +154,16 @@ static bool unknown_name(parser *p, const fw_token *name) {
                                  word, word));
 }
 
-static const fw_name_value *parameter(const parser *p, const char *text, size_t n) {
+static const fw_quantity_name_value *parameter(const parser *p, const char *text, size_t n) {
     for (size_t i = 0; p->names && i < p->names->count; i++) {
-        const fw_name_value *item = &p->names->item[i];
+        const fw_quantity_name_value *item = &p->names->item[i];
         if (strncmp(item->name, text, n) == 0 && item->name[n] == '\0') return item;
     }
     return NULL;
 }
 
 /* t or time; a parameter of the same name makes it ambiguous, and then the other word must do */
-static bool parse_time(parser *p, const fw_token *name, fw_value *v) {
+static bool parse_time(parser *p, const fw_quantity_token *name, fw_quantity_value *v) {
     const char *text = p->lexer.text + name->start;
     const char *other = name->length == 1 ? "time" : "t";
     if (parameter(p, text, name->length))
@@ -172,26 +175,26 @@ static bool parse_time(parser *p, const fw_token *name, fw_value *v) {
                                           "'%.*s' could mean the time or the parameter of this "
                                           "name; write '%s' for the time, or rename the parameter",
                                           (int)name->length, text, other));
-    fw_program_emit(p->program, FW_OP_TIME, FW_BOTH_ON_STACK, 0);
-    *v = (fw_value){.value = (double)NAN, .dimension = {.s = 1}, .varies = true};
+    fw_quantity_program_emit(p->program, FW_OP_TIME, FW_BOTH_ON_STACK, 0);
+    *v = (fw_quantity_value){.value = (double)NAN, .dimension = {.s = 1}, .varies = true};
     return true;
 }
 
-static bool parse_name(parser *p, fw_value *v) {
-    fw_token name = p->token;
+static bool parse_name(parser *p, fw_quantity_value *v) {
+    fw_quantity_token name = p->token;
     const char *text = p->lexer.text + name.start;
     if (!advance(p)) return false;
     if (is_mark(p, '(')) return parse_call(p, &name, v);
     bool time =
         (name.length == 1 && text[0] == 't') || (name.length == 4 && memcmp(text, "time", 4) == 0);
     if (p->program && time) return parse_time(p, &name, v);
-    const fw_name_value *item = parameter(p, text, name.length);
+    const fw_quantity_name_value *item = parameter(p, text, name.length);
     if (item) {
-        *v = (fw_value){.value = item->value, .dimension = item->dimension};
+        *v = (fw_quantity_value){.value = item->value, .dimension = item->dimension};
         return finite_at(p, name.start, v);
     }
     if (name.length == 2 && memcmp(text, "pi", 2) == 0) {
-        *v = (fw_value){.value = FW_PI};
+        *v = (fw_quantity_value){.value = FW_PI};
         return true;
     }
     return unknown_name(p, &name);
@@ -214,9 +217,9 @@ static bool comma(parser *p) {
                         (int)(at - first), text + first, (int)(end - at - 1), text + at + 1));
 }
 
-static bool parse_primary(parser *p, fw_value *v) {
+static bool parse_primary(parser *p, fw_quantity_value *v) {
     if (p->token.kind == FW_TOKEN_NUMBER) {
-        *v = (fw_value){.value = p->token.value, .dimension = p->token.dimension};
+        *v = (fw_quantity_value){.value = p->token.value, .dimension = p->token.dimension};
         return finite_at(p, p->token.start, v) && advance(p);
     }
     if (p->token.kind == FW_TOKEN_NAME) return parse_name(p, v);
@@ -238,8 +241,9 @@ static bool parse_primary(parser *p, fw_value *v) {
 }
 
 /* pure number to a power that goes with time */
-static bool raise_to_varying(parser *p, size_t offset, fw_value *base, const fw_value *exponent) {
-    if (!fw_dimension_equal(base->dimension, pure))
+static bool raise_to_varying(parser *p, size_t offset, fw_quantity_value *base,
+                             const fw_quantity_value *exponent) {
+    if (!fw_quantity_dimension_equal(base->dimension, pure))
         return fail(p, offset, 30,
                     fw_arena_printf(p->arena,
                                     "%s to a power that changes with time has no dimension; the "
@@ -254,9 +258,10 @@ static bool raise_to_varying(parser *p, size_t offset, fw_value *base, const fw_
 }
 
 /* base^exponent; with a dimension only where every exponent of it stays whole */
-static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *exponent) {
+static bool raise(parser *p, size_t offset, fw_quantity_value *base,
+                  const fw_quantity_value *exponent) {
     double e = exponent->value;
-    if (!fw_dimension_equal(exponent->dimension, pure))
+    if (!fw_quantity_dimension_equal(exponent->dimension, pure))
         return fail(p, offset, 30,
                     fw_arena_printf(p->arena, "the exponent is %s; it must be a pure number",
                                     dimension(p, exponent->dimension)));
@@ -283,18 +288,18 @@ static bool raise(parser *p, size_t offset, fw_value *base, const fw_value *expo
     return finite_at(p, offset, base);
 }
 
-static bool parse_signed(parser *p, fw_value *v);
+static bool parse_signed(parser *p, fw_quantity_value *v);
 
-static bool parse_power(parser *p, fw_value *v) {
+static bool parse_power(parser *p, fw_quantity_value *v) {
     if (!parse_primary(p, v)) return false;
     if (!is_mark(p, '^')) return true;
     size_t offset = p->token.start;
-    fw_value exponent;
+    fw_quantity_value exponent;
     return advance(p) && parse_signed(p, &exponent) && raise(p, offset, v, &exponent);
 }
 
 /* -2^2 is -4; every path of nesting passes here, so here is the limit on depth */
-static bool parse_signed(parser *p, fw_value *v) {
+static bool parse_signed(parser *p, fw_quantity_value *v) {
     if (++p->depth > DEPTH_MOST)
         return fail(p, p->token.start, 31,
                     "the expression is nested more than 64 deep; split it with a <parameter>");
@@ -308,24 +313,24 @@ static bool parse_signed(parser *p, fw_value *v) {
         ok = ok && parse_signed(p, v);
         if (ok && minus) v->value = -v->value;
         if (ok && minus && v->varies)
-            fw_program_emit(p->program, FW_OP_NEGATE, FW_BOTH_ON_STACK, 0);
+            fw_quantity_program_emit(p->program, FW_OP_NEGATE, FW_BOTH_ON_STACK, 0);
     } else
         ok = parse_power(p, v);
     p->depth--;
     return ok;
 }
 
-static bool has_length_or_more(fw_dimension d) {
+static bool has_length_or_more(fw_quantity_dimension d) {
     d.rad = 0;
-    return !fw_dimension_equal(d, pure);
+    return !fw_quantity_dimension_equal(d, pure);
 }
 
-static bool parse_product(parser *p, fw_value *v) {
+static bool parse_product(parser *p, fw_quantity_value *v) {
     if (!parse_signed(p, v)) return false;
     while (is_mark(p, '*') || is_mark(p, '/')) {
         bool over = is_mark(p, '/');
         size_t offset = p->token.start;
-        fw_value right;
+        fw_quantity_value right;
         if (!advance(p) || !parse_signed(p, &right)) return false;
         if (over && right.value == 0.0)
             return fail(p, offset, 27, "division by zero; the divisor must not vanish");
@@ -333,22 +338,22 @@ static bool parse_product(parser *p, fw_value *v) {
                        has_length_or_more(right.dimension);
         if (!emit(p, over ? FW_OP_DIVIDE : FW_OP_MULTIPLY, v, &right, v))
             v->value = over ? v->value / right.value : v->value * right.value;
-        if (!fw_dimension_combine(&v->dimension, right.dimension, over ? -1 : 1))
+        if (!fw_quantity_dimension_combine(&v->dimension, right.dimension, over ? -1 : 1))
             return fail(p, offset, 30, "the exponents of the dimension leave -127 to 127");
         if (!finite_at(p, offset, v)) return false;
     }
     return true;
 }
 
-static bool parse_sum(parser *p, fw_value *v) {
+static bool parse_sum(parser *p, fw_quantity_value *v) {
     if (!parse_product(p, v)) return false;
     while (is_mark(p, '+') || is_mark(p, '-')) {
         bool minus = is_mark(p, '-');
         size_t offset = p->token.start;
-        fw_value right;
+        fw_quantity_value right;
         if (!advance(p) || !parse_product(p, &right)) return false;
-        fw_dimension common;
-        if (!fw_value_unify(v, &right, &common))
+        fw_quantity_dimension common;
+        if (!fw_quantity_value_unify(v, &right, &common))
             return fail(p, offset, 26,
                         fw_arena_printf(p->arena,
                                         "%s cannot be %s %s; give both sides the "
@@ -365,7 +370,7 @@ static bool parse_sum(parser *p, fw_value *v) {
     return true;
 }
 
-static bool parse_all(parser *p, fw_value *v) {
+static bool parse_all(parser *p, fw_quantity_value *v) {
     if (!advance(p)) return false;
     if (p->token.kind == FW_TOKEN_END)
         return fail(p, 0, 33, "the value is empty; write a number with its unit, or an expression");
@@ -378,17 +383,17 @@ static bool parse_all(parser *p, fw_value *v) {
     return true;
 }
 
-static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names *names,
-                     const fw_dimension *wanted, fw_program *program, fw_value *v,
-                     fw_expression_error *error) {
-    *error = (fw_expression_error){0};
-    *v = (fw_value){0};
+static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_quantity_names *names,
+                     const fw_quantity_dimension *wanted, fw_quantity_program *program,
+                     fw_quantity_value *v, fw_quantity_expression_error *error) {
+    *error = (fw_quantity_expression_error){0};
+    *v = (fw_quantity_value){0};
     parser p = {.arena = arena,
                 .lexer = {.arena = arena,
                           .text = text,
                           .n = n,
                           .error = error,
-                          .usual = wanted ? fw_dimension_unit(*wanted) : NULL},
+                          .usual = wanted ? fw_quantity_dimension_unit(*wanted) : NULL},
                 .names = names,
                 .error = error,
                 .program = program};
@@ -400,9 +405,10 @@ static fw_status run(fw_arena *arena, const char *text, size_t n, const fw_names
     return error->message ? FW_INPUT : FW_NOMEM;
 }
 
-static fw_status no_unit(fw_arena *arena, const char *text, size_t n, fw_dimension wanted,
-                         fw_expression_error *error) {
-    const char *unit = fw_dimension_unit(wanted), *kind = fw_dimension_phrase(arena, wanted);
+static fw_status no_unit(fw_arena *arena, const char *text, size_t n, fw_quantity_dimension wanted,
+                         fw_quantity_expression_error *error) {
+    const char *unit = fw_quantity_dimension_unit(wanted),
+               *kind = fw_quantity_dimension_phrase(arena, wanted);
     size_t first = 0, last = n;
     double ignored;
     while (first < n && (unsigned char)text[first] <= ' ')
@@ -424,34 +430,39 @@ static fw_status no_unit(fw_arena *arena, const char *text, size_t n, fw_dimensi
     return error->message ? FW_INPUT : FW_NOMEM;
 }
 
-static fw_status wrong_dimension(fw_arena *arena, fw_dimension got, fw_dimension wanted,
-                                 fw_expression_error *error) {
-    const char *unit = fw_dimension_unit(wanted);
-    bool to_pure = fw_dimension_equal(wanted, pure);
+static fw_status wrong_dimension(fw_arena *arena, fw_quantity_dimension got,
+                                 fw_quantity_dimension wanted,
+                                 fw_quantity_expression_error *error) {
+    const char *unit = fw_quantity_dimension_unit(wanted);
+    bool to_pure = fw_quantity_dimension_equal(wanted, pure);
     error->number = 25;
     error->offset = 0;
-    error->message = fw_arena_printf(
-        arena, "this is %s, and %s is wanted; %s%s%s", fw_dimension_phrase(arena, got),
-        fw_dimension_phrase(arena, wanted), to_pure ? "leave the unit out" : "use a unit such as '",
-        to_pure ? ""
-        : unit  ? unit
-                : fw_dimension_text(arena, wanted),
-        to_pure ? "" : "'");
+    error->message = fw_arena_printf(arena, "this is %s, and %s is wanted; %s%s%s",
+                                     fw_quantity_dimension_phrase(arena, got),
+                                     fw_quantity_dimension_phrase(arena, wanted),
+                                     to_pure ? "leave the unit out" : "use a unit such as '",
+                                     to_pure ? ""
+                                     : unit  ? unit
+                                             : fw_quantity_dimension_text(arena, wanted),
+                                     to_pure ? "" : "'");
     return error->message ? FW_INPUT : FW_NOMEM;
 }
 
-static fw_status check_dimension(fw_arena *arena, const char *text, size_t n, const fw_value *v,
-                                 fw_dimension wanted, fw_expression_error *error) {
-    bool fits = fw_dimension_equal(v->dimension, wanted) ||
-                (v->composite && fw_dimension_differs_in_angle(v->dimension, wanted));
-    if (!fits && fw_dimension_equal(v->dimension, pure))
+static fw_status check_dimension(fw_arena *arena, const char *text, size_t n,
+                                 const fw_quantity_value *v, fw_quantity_dimension wanted,
+                                 fw_quantity_expression_error *error) {
+    bool fits = fw_quantity_dimension_equal(v->dimension, wanted) ||
+                (v->composite && fw_quantity_dimension_differs_in_angle(v->dimension, wanted));
+    if (!fits && fw_quantity_dimension_equal(v->dimension, pure))
         return no_unit(arena, text, n, wanted, error);
     return fits ? FW_OK : wrong_dimension(arena, v->dimension, wanted, error);
 }
 
-fw_status fw_expression_evaluate(fw_arena *arena, const char *text, size_t n, const fw_names *names,
-                                 fw_dimension wanted, double *value, fw_expression_error *error) {
-    fw_value v;
+fw_status fw_quantity_expression_evaluate(fw_arena *arena, const char *text, size_t n,
+                                          const fw_quantity_names *names,
+                                          fw_quantity_dimension wanted, double *value,
+                                          fw_quantity_expression_error *error) {
+    fw_quantity_value v;
     *value = (double)NAN;
     FW_TRY(run(arena, text, n, names, &wanted, NULL, &v, error));
     FW_TRY(check_dimension(arena, text, n, &v, wanted, error));
@@ -459,24 +470,26 @@ fw_status fw_expression_evaluate(fw_arena *arena, const char *text, size_t n, co
     return FW_OK;
 }
 
-fw_status fw_program_compile(fw_arena *arena, const char *text, size_t n, const fw_names *names,
-                             fw_dimension wanted, fw_program **program,
-                             fw_expression_error *error) {
-    fw_value v;
-    fw_program *p;
+fw_status fw_quantity_program_compile(fw_arena *arena, const char *text, size_t n,
+                                      const fw_quantity_names *names, fw_quantity_dimension wanted,
+                                      fw_quantity_program **program,
+                                      fw_quantity_expression_error *error) {
+    fw_quantity_value v;
+    fw_quantity_program *p;
     *program = NULL;
-    FW_TRY(fw_program_new(arena, n, &p));
+    FW_TRY(fw_quantity_program_new(arena, n, &p));
     FW_TRY(run(arena, text, n, names, &wanted, p, &v, error));
     FW_TRY(check_dimension(arena, text, n, &v, wanted, error));
-    if (!v.varies) fw_program_emit(p, FW_OP_CONSTANT, FW_BOTH_ON_STACK, v.value);
+    if (!v.varies) fw_quantity_program_emit(p, FW_OP_CONSTANT, FW_BOTH_ON_STACK, v.value);
     *program = p;
     return FW_OK;
 }
 
-fw_status fw_expression_evaluate_any(fw_arena *arena, const char *text, size_t n,
-                                     const fw_names *names, double *value,
-                                     fw_dimension *dimension_found, fw_expression_error *error) {
-    fw_value v;
+fw_status fw_quantity_expression_evaluate_any(fw_arena *arena, const char *text, size_t n,
+                                              const fw_quantity_names *names, double *value,
+                                              fw_quantity_dimension *dimension_found,
+                                              fw_quantity_expression_error *error) {
+    fw_quantity_value v;
     *value = (double)NAN;
     *dimension_found = pure;
     FW_TRY(run(arena, text, n, names, NULL, NULL, &v, error));

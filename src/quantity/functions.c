@@ -33,14 +33,14 @@ static const row table[] = {
 };
 enum { COUNT = sizeof table / sizeof table[0] };
 
-int fw_function_find(const char *name, size_t n) {
+int fw_quantity_function_find(const char *name, size_t n) {
     for (int i = 0; i < COUNT; i++)
         if (strlen(table[i].name) == n && memcmp(table[i].name, name, n) == 0) return i;
     return -1;
 }
 
-fw_op fw_function_op(int function) {
-    static const fw_op op[COUNT] = {
+fw_quantity_op fw_quantity_function_op(int function) {
+    static const fw_quantity_op op[COUNT] = {
         [SQRT] = FW_OP_SQRT, [EXP] = FW_OP_EXP,     [LN] = FW_OP_LN,     [SIN] = FW_OP_SIN,
         [COS] = FW_OP_COS,   [TAN] = FW_OP_TAN,     [ASIN] = FW_OP_ASIN, [ACOS] = FW_OP_ACOS,
         [ATAN] = FW_OP_ATAN, [ATAN2] = FW_OP_ATAN2, [MIN] = FW_OP_MIN,   [MAX] = FW_OP_MAX,
@@ -48,32 +48,33 @@ fw_op fw_function_op(int function) {
     return op[function];
 }
 
-const char *fw_function_name(int function) {
+const char *fw_quantity_function_name(int function) {
     return function >= 0 && function < COUNT ? table[function].name : NULL;
 }
 
-bool fw_dimension_differs_in_angle(fw_dimension a, fw_dimension b) {
+bool fw_quantity_dimension_differs_in_angle(fw_quantity_dimension a, fw_quantity_dimension b) {
     a.rad = b.rad = 0;
-    return fw_dimension_equal(a, b);
+    return fw_quantity_dimension_equal(a, b);
 }
 
-bool fw_value_unify(const fw_value *a, const fw_value *b, fw_dimension *common) {
+bool fw_quantity_value_unify(const fw_quantity_value *a, const fw_quantity_value *b,
+                             fw_quantity_dimension *common) {
     *common = a->dimension;
-    if (fw_dimension_equal(a->dimension, b->dimension)) return true;
-    if (!fw_dimension_differs_in_angle(a->dimension, b->dimension)) return false;
+    if (fw_quantity_dimension_equal(a->dimension, b->dimension)) return true;
+    if (!fw_quantity_dimension_differs_in_angle(a->dimension, b->dimension)) return false;
     if (b->composite) return true;
     *common = b->dimension;
     return a->composite;
 }
 
-static const char *no_root(fw_arena *arena, fw_dimension d) {
+static const char *no_root(fw_arena *arena, fw_quantity_dimension d) {
     return fw_arena_printf(arena,
                            "the square root of %s has no whole dimension; take the root of "
                            "a square, such as sqrt(a^2 + b^2)",
-                           fw_dimension_phrase(arena, d));
+                           fw_quantity_dimension_phrase(arena, d));
 }
 
-static bool halve(fw_dimension *d) {
+static bool halve(fw_quantity_dimension *d) {
     int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad};
     for (int i = 0; i < 7; i++) {
         if (*part[i] % 2 != 0) return false;
@@ -82,16 +83,16 @@ static bool halve(fw_dimension *d) {
     return true;
 }
 
-static bool dimension_allowed(takes rule, const fw_value *v) {
-    static const fw_dimension none = {0}, angle = {.rad = 1};
+static bool dimension_allowed(takes rule, const fw_quantity_value *v) {
+    static const fw_quantity_dimension none = {0}, angle = {.rad = 1};
     if (rule == TAKES_PURE || rule == TAKES_ANGLE)
-        return fw_dimension_equal(v->dimension, none) ||
-               (rule == TAKES_ANGLE && fw_dimension_equal(v->dimension, angle)) ||
-               (v->composite && fw_dimension_differs_in_angle(v->dimension, none));
+        return fw_quantity_dimension_equal(v->dimension, none) ||
+               (rule == TAKES_ANGLE && fw_quantity_dimension_equal(v->dimension, angle)) ||
+               (v->composite && fw_quantity_dimension_differs_in_angle(v->dimension, none));
     return true;
 }
 
-static double compute(int function, const fw_value *argument, int n) {
+static double compute(int function, const fw_quantity_value *argument, int n) {
     double x = argument[0].value;
     switch (function) {
     case SQRT:
@@ -137,10 +138,12 @@ static const char *outside_domain(int function, double x) {
     return NULL;
 }
 
-bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, int n,
-                       fw_value *result, int *number, const char **message) {
+bool fw_quantity_function_apply(fw_arena *arena, int function, const fw_quantity_value *argument,
+                                int n, fw_quantity_value *result, int *number,
+                                const char **message) {
     const row *f = &table[function];
-    *result = (fw_value){.dimension = argument[0].dimension, .composite = argument[0].composite};
+    *result =
+        (fw_quantity_value){.dimension = argument[0].dimension, .composite = argument[0].composite};
     *number = 23;
     if (n < f->least || n > f->most) {
         *message = fw_arena_printf(arena, "%s takes %s%d argument%s, %d given", f->name,
@@ -156,13 +159,15 @@ bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, 
             *message = fw_arena_printf(arena, "%s takes %s, not %s", f->name,
                                        f->takes == TAKES_ANGLE ? "an angle or a pure number"
                                                                : "a pure number",
-                                       fw_dimension_phrase(arena, argument[i].dimension));
+                                       fw_quantity_dimension_phrase(arena, argument[i].dimension));
             return false;
         }
-        if (f->takes == TAKES_SAME && !fw_value_unify(result, &argument[i], &result->dimension)) {
-            *message = fw_arena_printf(arena, "%s compares %s with %s; both must be the same",
-                                       f->name, fw_dimension_phrase(arena, result->dimension),
-                                       fw_dimension_phrase(arena, argument[i].dimension));
+        if (f->takes == TAKES_SAME &&
+            !fw_quantity_value_unify(result, &argument[i], &result->dimension)) {
+            *message =
+                fw_arena_printf(arena, "%s compares %s with %s; both must be the same", f->name,
+                                fw_quantity_dimension_phrase(arena, result->dimension),
+                                fw_quantity_dimension_phrase(arena, argument[i].dimension));
             return false;
         }
     }
@@ -175,7 +180,7 @@ bool fw_function_apply(fw_arena *arena, int function, const fw_value *argument, 
         return false;
     }
     if (f->gives == GIVES_PURE || f->gives == GIVES_ANGLE)
-        *result = (fw_value){.dimension = {.rad = f->gives == GIVES_ANGLE}};
+        *result = (fw_quantity_value){.dimension = {.rad = f->gives == GIVES_ANGLE}};
     result->varies = varies;
     result->value = varies ? (double)NAN : compute(function, argument, n);
     return true;

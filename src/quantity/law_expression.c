@@ -5,8 +5,8 @@
 #include "quantity/program.h"
 #include <math.h>
 
-static void value_of(const fw_law *law, double t_s, double piece_s, double value[3]) {
-    fw_program_value_in(law->program, t_s, piece_s, value);
+static void value_of(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
+    fw_quantity_program_value_in(law->program, t_s, piece_s, value);
 }
 
 enum { SAMPLES = 2000, SWITCHES_MOST = 1000 };
@@ -14,37 +14,37 @@ enum { SAMPLES = 2000, SWITCHES_MOST = 1000 };
 /* Switches of abs, min, max: the sides are compared at SAMPLES instants, and where two neighbours
    differ the switch is halved down to neighbouring numbers. Two switches between neighbours may
    hide each other; the integrator's own error control then meets the bend. */
-static void breaks_of(const fw_law *law, fw_quantity_law_breaks *b) {
-    const fw_program *program = law->program;
-    if (fw_program_smooth(program) || !isfinite(b->end_s)) return;
+static void breaks_of(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
+    const fw_quantity_program *program = law->program;
+    if (fw_quantity_program_smooth(program) || !isfinite(b->end_s)) return;
     double left = 0;
-    uint64_t at_left = fw_program_branches(program, 0);
+    uint64_t at_left = fw_quantity_program_branches(program, 0);
     for (int i = 1; i <= SAMPLES && b->count < SWITCHES_MOST; i++) {
         double right = b->end_s * i / SAMPLES;
-        const uint64_t at_right = fw_program_branches(program, right);
+        const uint64_t at_right = fw_quantity_program_branches(program, right);
         while (at_left != at_right && b->count < SWITCHES_MOST) {
             double low = left, high = right;
             for (double middle = low + (high - low) / 2; middle > low && middle < high;
                  middle = low + (high - low) / 2)
-                if (fw_program_branches(program, middle) == at_left)
+                if (fw_quantity_program_branches(program, middle) == at_left)
                     low = middle;
                 else
                     high = middle;
             fw_quantity_law_break(b, high);
             left = high;
-            at_left = fw_program_branches(program, high);
+            at_left = fw_quantity_program_branches(program, high);
         }
         left = right;
         at_left = at_right;
     }
 }
 
-static bool is_ready(const fw_law *law) {
+static bool is_ready(const fw_quantity_law *law) {
     return law->program != NULL;
 }
 
 /* time does not occur in it */
-static bool is_straight(const fw_law *law) {
+static bool is_straight(const fw_quantity_law *law) {
     for (int i = 0; i < law->program->count; i++)
         if (law->program->step[i].op == FW_OP_TIME) return false;
     return true;

@@ -8,12 +8,12 @@
    proved bounds, so that no effect is left out because of it. */
 #ifndef FW_QUANTITY_LAW_KIND_H
 #define FW_QUANTITY_LAW_KIND_H
-#include "quantity/law.h"
+#include "quantity/quantity_law.h"
 #include "quantity/quantity.h"
 #include <stddef.h>
 
 typedef enum fw_quantity_law_form {
-    FW_QUANTITY_LAW_NUMBER,    /* a number; goes to the double at `offset` of fw_law */
+    FW_QUANTITY_LAW_NUMBER,    /* a number; goes to the double at `offset` of fw_quantity_law */
     FW_QUANTITY_LAW_POINTS,    /* "TIME: NUMBER; ..."; goes to table_t_s, table_value, ntable */
     FW_QUANTITY_LAW_EXPRESSION /* a pure number as an expression in time; goes to program */
 } fw_quantity_law_form;
@@ -25,7 +25,7 @@ typedef struct fw_quantity_law_attribute {
     fw_quantity_law_form form;
     bool needed;
     size_t offset;
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     const char *unit;        /* in messages and on the reference page */
     const char *si_unit;     /* in reports */
     bool whole, open;        /* a whole number; the least value itself is excluded */
@@ -62,31 +62,33 @@ struct fw_quantity_law_kind {
     const char *name;   /* as in law="..." */
     const char *factor; /* what it is, for the reference page; `attribute` in back quotes */
     const char *words;  /* in reports, behind "times a NAME": {attribute} stands for its value, and
-                           what is in [] is  left out where the attribute inside has the value that it
+                           what is in [] is  left out where the attribute inside has the value that
+                           it
                            has when it is absent */
     const fw_quantity_law_attribute *attribute; /* (attributes) */
     int attributes;
     /* value[0..2]: factor, d/dt, d2/dt2; at a break the limit from the side of piece_s */
-    void (*value)(const fw_law *law, double t_s, double piece_s, double value[3]);
+    void (*value)(const fw_quantity_law *law, double t_s, double piece_s, double value[3]);
     /* all times at which it or its slope jumps; NULL: there are none */
-    void (*breaks)(const fw_law *law, fw_quantity_law_breaks *breaks);
+    void (*breaks)(const fw_quantity_law *law, fw_quantity_law_breaks *breaks);
     /* largest |value| in [0, end_s], or an upper bound; NULL: by samples */
-    double (*largest)(const fw_law *law, double end_s);
+    double (*largest)(const fw_quantity_law *law, double end_s);
     /* upper bounds of slope and variation, `most` is there already; NULL: none are known */
-    void (*size)(const fw_law *law, double end_s, fw_law_size *size);
+    void (*size)(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size);
     /* its total variation over (0, end_s), where samples may be too few to count it; NULL: they are
      * not */
-    double (*variation)(const fw_law *law, double end_s);
+    double (*variation)(const fw_quantity_law *law, double end_s);
     /* total variation of its slope inside (a, b), within one smooth piece; NULL: by samples */
-    double (*slope_variation)(const fw_law *law, double a_s, double b_s);
-    fw_quantity_law_wave (*wave)(const fw_law *law); /* NULL: it is not made of sines */
-    bool stepwise;                                   /* constant between its breaks */
-    bool (*straight)(const fw_law *law);       /* linear or constant between its breaks; NULL: no */
-    bool (*never_negative)(const fw_law *law); /* at any time; NULL: it may be */
-    bool (*is_constant)(const fw_law *law);    /* 1 from the start on; NULL: no */
-    bool (*is_ready)(const fw_law *law);       /* it has a value; NULL: yes */
+    double (*slope_variation)(const fw_quantity_law *law, double a_s, double b_s);
+    fw_quantity_law_wave (*wave)(const fw_quantity_law *law); /* NULL: it is not made of sines */
+    bool stepwise;                                            /* constant between its breaks */
+    bool (*straight)(
+        const fw_quantity_law *law); /* linear or constant between its breaks; NULL: no */
+    bool (*never_negative)(const fw_quantity_law *law); /* at any time; NULL: it may be */
+    bool (*is_constant)(const fw_quantity_law *law);    /* 1 from the start on; NULL: no */
+    bool (*is_ready)(const fw_quantity_law *law);       /* it has a value; NULL: yes */
     /* what is wrong among its attributes, each of which is in range; NULL: nothing can be */
-    bool (*is_wrong)(const fw_law *law, fw_quantity_law_mistake *mistake);
+    bool (*is_wrong)(const fw_quantity_law *law, fw_quantity_law_mistake *mistake);
     const char *may_be_nothing; /* the attribute that may make it 0 for a whole scene, which is
                                    worth a warning; NULL */
 };
@@ -97,19 +99,20 @@ struct fw_quantity_law_kind {
 
 extern const fw_quantity_law_kind *const fw_quantity_law_kinds[];   /* NULL behind the last */
 const fw_quantity_law_kind *fw_quantity_law_find(const char *name); /* NULL: there is none */
-double fw_quantity_law_number(const fw_law *law, const fw_quantity_law_attribute *attribute);
-fw_quantity_law_wave fw_quantity_law_wave_of(const fw_law *law); /* of NULL: no wave */
-bool fw_quantity_law_is_straight(const fw_law *law);             /* of NULL: yes */
-bool fw_quantity_law_never_negative(const fw_law *law);          /* of NULL: yes */
-bool fw_quantity_law_is_ready(const fw_law *law);
+double fw_quantity_law_number(const fw_quantity_law *law,
+                              const fw_quantity_law_attribute *attribute);
+fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law); /* of NULL: no wave */
+bool fw_quantity_law_is_straight(const fw_quantity_law *law);             /* of NULL: yes */
+bool fw_quantity_law_never_negative(const fw_quantity_law *law);          /* of NULL: yes */
+bool fw_quantity_law_is_ready(const fw_quantity_law *law);
 /* for rows */
-bool fw_quantity_law_always(const fw_law *law); /* true */
+bool fw_quantity_law_always(const fw_quantity_law *law); /* true */
 /* `end` does not lie behind `start` */
-bool fw_quantity_law_ends_early(const fw_law *law, fw_quantity_law_mistake *mistake);
+bool fw_quantity_law_ends_early(const fw_quantity_law *law, fw_quantity_law_mistake *mistake);
 
 /* ---- what attributes are written with ---- */
 
-#define FW_LAW_MEMBER(member)                .offset = offsetof(fw_law, member)
+#define FW_LAW_MEMBER(member)                .offset = offsetof(fw_quantity_law, member)
 #define FW_LAW_TIME                          .dimension = {.s = 1}, .unit = "ms", .si_unit = "s"
 #define FW_LAW_RATE                          .dimension = {.s = -1}, .unit = "Hz", .si_unit = "Hz"
 #define FW_LAW_PURE                          .unit = "1", .si_unit = ""

@@ -31,12 +31,12 @@ static double phase_turns(double seed, int k) {
     return (double)(mixed(state) >> 11) * 0x1p-53;
 }
 
-static double frequency_Hz(const fw_law *law, int k) {
+static double frequency_Hz(const fw_quantity_law *law, int k) {
     if (law->lines < 2) return law->frequency_Hz;
     return law->frequency_Hz + (law->frequency_most_Hz - law->frequency_Hz) * k / (law->lines - 1);
 }
 
-static double line_size(const fw_law *law) {
+static double line_size(const fw_quantity_law *law) {
     return sqrt(2.0 / law->lines);
 }
 
@@ -47,7 +47,7 @@ static double turned(double frequency, double t_s, double turns) {
     return 2 * FW_PI * (all - floor(all));
 }
 
-static void value_of(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void value_of(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     (void)piece_s;
     value[0] = value[1] = value[2] = 0;
     for (int k = 0; k < law->lines; k++) {
@@ -71,7 +71,7 @@ enum { LOOKS_MOST = 400000 }; /* lines times samples: some milliseconds */
 
 /* in the plane of complex numbers: |sum of lines at f_k - centre| (the envelope), or its real part
    with centre 0 (the law itself) */
-static double sampled(const fw_law *law, double centre_Hz, bool envelope, double end_s,
+static double sampled(const fw_quantity_law *law, double centre_Hz, bool envelope, double end_s,
                       int samples) {
     double most = 0, bend = 0, h_s = end_s / samples;
     for (int k = 0; k < law->lines; k++) {
@@ -94,7 +94,7 @@ static double sampled(const fw_law *law, double centre_Hz, bool envelope, double
 /* Upper bound on |factor| in [0, end_s]: of the law itself where the scene is short enough to look
    at it 63 times per period of the highest line (0.13 % of sqrt(2 n) added), else of its envelope,
    which repeats itself (16 samples per line, 0.16 % added), else what all lines together can be. */
-static double largest_of(const fw_law *law, double end_s) {
+static double largest_of(const fw_quantity_law *law, double end_s) {
     double all = line_size(law) * law->lines, top = frequency_Hz(law, (int)law->lines - 1);
     double looks = ceil(63 * top * end_s) + 8, within = LOOKS_MOST / law->lines;
     if (!(end_s > 0)) end_s = 0;
@@ -106,18 +106,18 @@ static double largest_of(const fw_law *law, double end_s) {
     return fmin(all, sampled(law, centre, true, fmin(end_s, repeats_s), samples));
 }
 
-static double fastest_Hz(const fw_law *law) {
+static double fastest_Hz(const fw_quantity_law *law) {
     return fmax(law->frequency_Hz, law->frequency_most_Hz);
 }
 
 /* sqrt(2/n) times the sum of n cosines; how far it goes to and fro has no bound */
-static void size_of(const fw_law *law, double end_s, fw_law_size *size) {
+static void size_of(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     (void)end_s;
     size->slope = sqrt(2.0 * law->lines) * 2 * FW_PI * fastest_Hz(law);
     size->variation = (double)INFINITY;
 }
 
-static fw_quantity_law_wave wave_of(const fw_law *law) {
+static fw_quantity_law_wave wave_of(const fw_quantity_law *law) {
     return (fw_quantity_law_wave){.fastest_Hz = fastest_Hz(law),
                                   .repeats = true,
                                   .to_s = (double)INFINITY,
@@ -125,7 +125,7 @@ static fw_quantity_law_wave wave_of(const fw_law *law) {
                                   .attribute = "frequency-most"};
 }
 
-static bool is_wrong(const fw_law *law, fw_quantity_law_mistake *mistake) {
+static bool is_wrong(const fw_quantity_law *law, fw_quantity_law_mistake *mistake) {
     *mistake =
         (fw_quantity_law_mistake){95, "frequency-most", "is not above", "frequency",
                                   "exchange them, or make them differ: the lines lie between"};

@@ -17,7 +17,7 @@ static double phase_variation(double from, double turned) {
 
 /* ---- sine: 0 before start, then sin(2 pi frequency (t - start) + phase), 0 from end on ---- */
 
-static void sine_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void sine_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     value[0] = value[1] = value[2] = 0;
     if (piece_s < law->start_s || piece_s >= law->end_s) return;
     double w = 2 * FW_PI * law->frequency_Hz, angle = w * (t_s - law->start_s) + law->phase_rad;
@@ -26,12 +26,12 @@ static void sine_value(const fw_law *law, double t_s, double piece_s, double val
     value[2] = -w * w * value[0];
 }
 
-static void sine_breaks(const fw_law *law, fw_quantity_law_breaks *b) {
+static void sine_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->start_s);
     fw_quantity_law_break(b, law->end_s);
 }
 
-static double sine_largest(const fw_law *law, double end_s) {
+static double sine_largest(const fw_quantity_law *law, double end_s) {
     if (law->start_s > end_s || law->end_s <= 0) return 0;
     double first = law->phase_rad + 2 * FW_PI * law->frequency_Hz * fmax(0, -law->start_s);
     double last =
@@ -41,7 +41,7 @@ static double sine_largest(const fw_law *law, double end_s) {
     return fmax(fabs(sin(first)), fabs(sin(last)));
 }
 
-static void sine_size(const fw_law *law, double end_s, fw_law_size *size) {
+static void sine_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     double time_s = fmax(0, fmin(end_s, law->end_s) - law->start_s);
     size->slope = 2 * FW_PI * law->frequency_Hz;
     size->variation = 2 * ceil(size->slope * time_s / FW_PI) + 2;
@@ -49,19 +49,19 @@ static void sine_size(const fw_law *law, double end_s, fw_law_size *size) {
 
 /* it varies by 2/pi per radian, over part of a period by up to 0.43 more, and jumps where it begins
    and ends */
-static double sine_variation(const fw_law *law, double end_s) {
+static double sine_variation(const fw_quantity_law *law, double end_s) {
     double time_s = fmin(end_s, law->end_s) - fmax(0, law->start_s);
     double jumps = (law->start_s > 0) + (law->end_s < end_s);
     return time_s > 0 ? 4 * law->frequency_Hz * time_s + 0.43 + jumps : 0;
 }
 
-static double sine_slope_variation(const fw_law *law, double a_s, double b_s) {
+static double sine_slope_variation(const fw_quantity_law *law, double a_s, double b_s) {
     double w = 2 * FW_PI * law->frequency_Hz, piece_s = 0.5 * (a_s + b_s);
     if (piece_s < law->start_s || piece_s >= law->end_s) return 0;
     return w * phase_variation(w * (a_s - law->start_s) + law->phase_rad, w * (b_s - a_s));
 }
 
-static fw_quantity_law_wave sine_wave(const fw_law *law) {
+static fw_quantity_law_wave sine_wave(const fw_quantity_law *law) {
     return (fw_quantity_law_wave){.fastest_Hz = law->frequency_Hz,
                                   .rad_per_s = 2 * FW_PI * law->frequency_Hz,
                                   .repeats = true,
@@ -98,7 +98,7 @@ const fw_quantity_law_kind fw_quantity_law_sine = {
 /* ---- half-sine: sin(pi (t - start) / rise) for start < t < start + rise, else 0 ---- */
 
 /* at its end from there, so that it is 0 to the last bit */
-static void half_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void half_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     double w = FW_PI / law->rise_s, end_s = law->start_s + law->rise_s;
     value[0] = value[1] = value[2] = 0;
     if (piece_s < law->start_s || piece_s >= end_s) return;
@@ -109,32 +109,32 @@ static void half_value(const fw_law *law, double t_s, double piece_s, double val
     value[2] = -w * w * value[0];
 }
 
-static void half_breaks(const fw_law *law, fw_quantity_law_breaks *b) {
+static void half_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->start_s);
     fw_quantity_law_break(b, law->start_s + law->rise_s);
 }
 
 /* the pulse within [0, end_s]: its top, or the nearer end of what is seen of it */
-static double half_largest(const fw_law *law, double end_s) {
+static double half_largest(const fw_quantity_law *law, double end_s) {
     double first = fmax(0, -law->start_s), last = fmin(law->rise_s, end_s - law->start_s);
     if (!(first < last)) return 0;
     if (first <= law->rise_s / 2 && last >= law->rise_s / 2) return 1;
     return fmax(sin(FW_PI * first / law->rise_s), sin(FW_PI * last / law->rise_s));
 }
 
-static void half_size(const fw_law *law, double end_s, fw_law_size *size) {
+static void half_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     (void)end_s;
     size->slope = FW_PI / law->rise_s;
     size->variation = 2;
 }
 
-static double half_slope_variation(const fw_law *law, double a_s, double b_s) {
+static double half_slope_variation(const fw_quantity_law *law, double a_s, double b_s) {
     double w = FW_PI / law->rise_s, piece_s = 0.5 * (a_s + b_s);
     if (piece_s < law->start_s || piece_s >= law->start_s + law->rise_s) return 0;
     return w * phase_variation(w * (a_s - law->start_s), w * (b_s - a_s));
 }
 
-static fw_quantity_law_wave half_wave(const fw_law *law) {
+static fw_quantity_law_wave half_wave(const fw_quantity_law *law) {
     return (fw_quantity_law_wave){.fastest_Hz = 0.5 / law->rise_s,
                                   .rad_per_s = FW_PI / law->rise_s,
                                   .from_s = law->start_s,

@@ -11,26 +11,26 @@ static void constant(double value[3], double factor) {
 
 /* ---- step: 0 before start, 1 from start on, 0 again from end on (end: may be infinite) ---- */
 
-static void step_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void step_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     (void)t_s;
     constant(value, piece_s >= law->start_s && piece_s < law->end_s ? 1 : 0);
 }
 
-static void step_breaks(const fw_law *law, fw_quantity_law_breaks *b) {
+static void step_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->start_s);
     fw_quantity_law_break(b, law->end_s);
 }
 
-static double step_largest(const fw_law *law, double end_s) {
+static double step_largest(const fw_quantity_law *law, double end_s) {
     return law->start_s <= end_s && law->end_s > 0 && law->start_s < law->end_s ? 1 : 0;
 }
 
-static void step_size(const fw_law *law, double end_s, fw_law_size *size) {
+static void step_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     (void)law, (void)end_s;
     size->variation = 2;
 }
 
-static bool step_is_constant(const fw_law *law) {
+static bool step_is_constant(const fw_quantity_law *law) {
     return law->start_s <= 0 && isinf(law->end_s);
 }
 
@@ -52,25 +52,25 @@ const fw_quantity_law_kind fw_quantity_law_step = {.name = "step",
 
 /* ---- ramp: 0 before start, rises linearly over `rise`, then 1 ---- */
 
-static void ramp_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void ramp_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     constant(value, piece_s < law->start_s ? 0 : 1);
     if (piece_s < law->start_s || piece_s >= law->start_s + law->rise_s) return;
     value[0] = (t_s - law->start_s) / law->rise_s;
     value[1] = 1 / law->rise_s;
 }
 
-static void ramp_breaks(const fw_law *law, fw_quantity_law_breaks *b) {
+static void ramp_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->start_s);
     fw_quantity_law_break(b, law->start_s + law->rise_s);
 }
 
-static double ramp_largest(const fw_law *law, double end_s) {
+static double ramp_largest(const fw_quantity_law *law, double end_s) {
     double value[3];
     ramp_value(law, end_s, end_s, value);
     return fabs(value[0]);
 }
 
-static void ramp_size(const fw_law *law, double end_s, fw_law_size *size) {
+static void ramp_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     (void)end_s;
     size->slope = 1 / law->rise_s;
     size->variation = size->most;
@@ -94,7 +94,7 @@ const fw_quantity_law_kind fw_quantity_law_ramp = {
 
 /* the piece of the table that holds `piece_s`: index of its right end, 0 in front of the first
    point, ntable behind the last */
-static int table_piece(const fw_law *law, double piece_s) {
+static int table_piece(const fw_quantity_law *law, double piece_s) {
     int low = 0, high = law->ntable;
     while (low < high) {
         int middle = low + (high - low) / 2;
@@ -106,7 +106,7 @@ static int table_piece(const fw_law *law, double piece_s) {
     return low;
 }
 
-static void table_value(const fw_law *law, double t_s, double piece_s, double value[3]) {
+static void table_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]) {
     int right = table_piece(law, piece_s);
     if (right == 0 || right == law->ntable) {
         constant(value, law->ntable > 0 ? law->table_value[right ? right - 1 : 0] : 0);
@@ -121,12 +121,12 @@ static void table_value(const fw_law *law, double t_s, double piece_s, double va
     value[2] = 0;
 }
 
-static void table_breaks(const fw_law *law, fw_quantity_law_breaks *b) {
+static void table_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     for (int i = 0; i < law->ntable; i++)
         fw_quantity_law_break(b, law->table_t_s[i]);
 }
 
-static double table_largest(const fw_law *law, double end_s) {
+static double table_largest(const fw_quantity_law *law, double end_s) {
     double value[3], most;
     table_value(law, 0, 0, value);
     most = fabs(value[0]);
@@ -138,7 +138,7 @@ static double table_largest(const fw_law *law, double end_s) {
     return most;
 }
 
-static void table_size(const fw_law *law, double end_s, fw_law_size *size) {
+static void table_size(const fw_quantity_law *law, double end_s, fw_quantity_law_size *size) {
     (void)end_s;
     double last = 0;
     for (int i = 0; i < law->ntable; i++) {
@@ -150,7 +150,7 @@ static void table_size(const fw_law *law, double end_s, fw_law_size *size) {
     }
 }
 
-static bool table_never_negative(const fw_law *law) {
+static bool table_never_negative(const fw_quantity_law *law) {
     for (int i = 0; i < law->ntable; i++)
         if (!(law->table_value[i] >= 0)) return false;
     return true;

@@ -39,13 +39,14 @@ static size_t number_end(const char *text, size_t n, size_t i) {
     return i;
 }
 
-static fw_token wrong(fw_lexer *lexer, size_t start, int number, const char *message) {
-    *lexer->error = (fw_expression_error){start, number, message};
-    return (fw_token){.kind = FW_TOKEN_WRONG, .start = start};
+static fw_quantity_token wrong(fw_quantity_lexer *lexer, size_t start, int number,
+                               const char *message) {
+    *lexer->error = (fw_quantity_expression_error){start, number, message};
+    return (fw_quantity_token){.kind = FW_TOKEN_WRONG, .start = start};
 }
 
-static fw_token unknown_unit(fw_lexer *lexer, const char *symbol, size_t n) {
-    const char *better = fw_unit_suggestion(symbol, n, lexer->usual);
+static fw_quantity_token unknown_unit(fw_quantity_lexer *lexer, const char *symbol, size_t n) {
+    const char *better = fw_quantity_unit_suggestion(symbol, n, lexer->usual);
     const char *message =
         better ? fw_arena_printf(lexer->arena, "unknown unit '%.*s'; did you mean '%s'?", (int)n,
                                  symbol, better)
@@ -57,14 +58,14 @@ static fw_token unknown_unit(fw_lexer *lexer, const char *symbol, size_t n) {
 }
 
 /* a unit may follow a number; what could only be a misspelt unit is an error here */
-static fw_token unit_after(fw_lexer *lexer, fw_token token) {
+static fw_quantity_token unit_after(fw_quantity_lexer *lexer, fw_quantity_token token) {
     const char *text = lexer->text;
     size_t at = skip(text, lexer->n, lexer->at), wrong_n;
     const char *symbol;
-    fw_unit unit;
-    size_t used = fw_unit_scan(text + at, lexer->n - at, false, &unit, &symbol, &wrong_n);
+    fw_quantity_unit unit;
+    size_t used = fw_quantity_unit_scan(text + at, lexer->n - at, false, &unit, &symbol, &wrong_n);
     if (used == 0) {
-        bool word = wrong_n > 0 && symbol == text + at && !fw_unit_symbol(symbol, wrong_n);
+        bool word = wrong_n > 0 && symbol == text + at && !fw_quantity_unit_symbol(symbol, wrong_n);
         return word ? unknown_unit(lexer, symbol, wrong_n) : token;
     }
     if (used == 1 && text[at] == '1') /* "5 1": two numbers */
@@ -73,7 +74,7 @@ static fw_token unit_after(fw_lexer *lexer, fw_token token) {
     size_t next = skip(text, lexer->n, at + used);
     if (symbol && wrong_n > 0 && symbol == text + next && is_letter(text[next]))
         return unknown_unit(lexer, symbol, wrong_n);
-    token.value = fw_unit_to_si(&unit, token.value);
+    token.value = fw_quantity_unit_to_si(&unit, token.value);
     token.zero = unit.offset;
     token.dimension = unit.dimension;
     token.unit_start = at;
@@ -83,9 +84,9 @@ static fw_token unit_after(fw_lexer *lexer, fw_token token) {
     return token;
 }
 
-static fw_token number(fw_lexer *lexer) {
+static fw_quantity_token number(fw_quantity_lexer *lexer) {
     size_t start = lexer->at, end = number_end(lexer->text, lexer->n, start);
-    fw_token token = {.kind = FW_TOKEN_NUMBER, .start = start, .length = end - start};
+    fw_quantity_token token = {.kind = FW_TOKEN_NUMBER, .start = start, .length = end - start};
     if (!fw_number_parse(lexer->text + start, end - start, &token.value))
         return wrong(lexer, start, 28,
                      "this number is not finite or has too many digits; numbers lie within "
@@ -94,10 +95,10 @@ static fw_token number(fw_lexer *lexer) {
     return unit_after(lexer, token);
 }
 
-fw_token fw_lexer_next(fw_lexer *lexer) {
+fw_quantity_token fw_quantity_lexer_next(fw_quantity_lexer *lexer) {
     const char *text = lexer->text;
     size_t i = lexer->at = skip(text, lexer->n, lexer->at);
-    if (i == lexer->n) return (fw_token){.kind = FW_TOKEN_END, .start = i};
+    if (i == lexer->n) return (fw_quantity_token){.kind = FW_TOKEN_END, .start = i};
     char c = text[i];
     if (is_digit(c) || (c == '.' && i + 1 < lexer->n && is_digit(text[i + 1])))
         return number(lexer);
@@ -106,11 +107,11 @@ fw_token fw_lexer_next(fw_lexer *lexer) {
         while (end < lexer->n && (is_letter(text[end]) || is_digit(text[end])))
             end++;
         lexer->at = end;
-        return (fw_token){.kind = FW_TOKEN_NAME, .start = i, .length = end - i};
+        return (fw_quantity_token){.kind = FW_TOKEN_NAME, .start = i, .length = end - i};
     }
     if (c != '\0' && strchr("+-*/^(),", c)) {
         lexer->at = i + 1;
-        return (fw_token){.kind = FW_TOKEN_MARK, .start = i, .length = 1, .mark = c};
+        return (fw_quantity_token){.kind = FW_TOKEN_MARK, .start = i, .length = 1, .mark = c};
     }
     if ((unsigned char)c < 0x20 || (unsigned char)c > 0x7e)
         return wrong(lexer, i, 20,

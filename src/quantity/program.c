@@ -25,17 +25,17 @@ enum { SIDES_MOST = 64 * 64 };
 /* ---- building ---- */
 
 /* a step needs at least one byte of text of its own */
-fw_status fw_program_new(fw_arena *arena, size_t n, fw_program **program) {
-    fw_program *p = fw_arena_one(arena, fw_program);
+fw_status fw_quantity_program_new(fw_arena *arena, size_t n, fw_quantity_program **program) {
+    fw_quantity_program *p = fw_arena_one(arena, fw_quantity_program);
     FW_NEED(p);
-    FW_NEED(p->step = fw_arena_array(arena, fw_step, n + 1));
+    FW_NEED(p->step = fw_arena_array(arena, fw_quantity_step, n + 1));
     p->room = n < 1000000 ? (int)n + 1 : 1000001;
     p->smooth = true;
     *program = p;
     return FW_OK;
 }
 
-static bool has_two_operands(fw_op op) {
+static bool has_two_operands(fw_quantity_op op) {
     switch (op) {
     case FW_OP_ADD:
     case FW_OP_SUBTRACT:
@@ -64,10 +64,11 @@ static bool has_two_operands(fw_op op) {
     return false;
 }
 
-void fw_program_emit(fw_program *p, fw_op op, fw_operands operands, double constant) {
-    bool pushes = op == FW_OP_TIME || op == FW_OP_CONSTANT;
+void fw_quantity_program_emit(fw_quantity_program *p, fw_quantity_op op,
+                              fw_quantity_operands operands, double constant) {
+    bool adds = op == FW_OP_TIME || op == FW_OP_CONSTANT;
     bool pops = has_two_operands(op) && operands == FW_BOTH_ON_STACK;
-    p->depth += pushes - pops;
+    p->depth += adds - pops;
     if (p->depth > p->deepest) p->deepest = p->depth;
     if (p->depth > FW_PROGRAM_STACK || p->count == p->room) {
         p->too_deep = true;
@@ -75,7 +76,7 @@ void fw_program_emit(fw_program *p, fw_op op, fw_operands operands, double const
     }
     if (op == FW_OP_ABS || op == FW_OP_ATAN2 || op == FW_OP_MIN || op == FW_OP_MAX)
         p->smooth = false;
-    p->step[p->count++] = (fw_step){op, operands, constant};
+    p->step[p->count++] = (fw_quantity_step){op, operands, constant};
 }
 
 /* ---- evaluation ---- */
@@ -127,7 +128,7 @@ static jet angle(const jet *y, const jet *x) {
     return (jet){atan2(y->f, x->f), d, dd};
 }
 
-static jet function(fw_op op, const jet *a) {
+static jet function(fw_quantity_op op, const jet *a) {
     double x = a->f, v, w;
     switch (op) {
     case FW_OP_SQRT:
@@ -175,7 +176,7 @@ static jet function(fw_op op, const jet *a) {
 
 /* true: abs keeps its argument, min and max take the left one. The first run over the program asks
    and stores (store), a second one at another time of the same piece reads. */
-static bool side(fw_op op, const jet *a, const jet *b, sides *s, bool store) {
+static bool side(fw_quantity_op op, const jet *a, const jet *b, sides *s, bool store) {
     bool first = op == FW_OP_ABS ? a->f >= 0 : op == FW_OP_MIN ? a->f <= b->f : a->f >= b->f;
     int i = s->count++;
     if (i >= SIDES_MOST) return first;
@@ -188,7 +189,7 @@ static bool side(fw_op op, const jet *a, const jet *b, sides *s, bool store) {
     return (s->bit[i / 64] & mask) != 0;
 }
 
-static jet binary(const fw_step *step, const jet *a, const jet *b, sides *s, bool store) {
+static jet binary(const fw_quantity_step *step, const jet *a, const jet *b, sides *s, bool store) {
     switch (step->op) {
     case FW_OP_ADD:
         return (jet){a->f + b->f, a->d + b->d, a->dd + b->dd};
@@ -222,12 +223,12 @@ static jet binary(const fw_step *step, const jet *a, const jet *b, sides *s, boo
     return side(step->op, a, b, s, store) ? *a : *b;
 }
 
-static jet run(const fw_program *p, double t_s, sides *s, bool store) {
+static jet run(const fw_quantity_program *p, double t_s, sides *s, bool store) {
     jet stack[FW_PROGRAM_STACK];
     int top = -1;
     s->count = 0;
     for (int i = 0; i < p->count; i++) {
-        const fw_step *step = &p->step[i];
+        const fw_quantity_step *step = &p->step[i];
         const jet constant = {step->constant, 0, 0};
         if (step->op == FW_OP_TIME)
             stack[++top] = (jet){t_s, 1, 0};
@@ -250,16 +251,17 @@ static jet run(const fw_program *p, double t_s, sides *s, bool store) {
     return top == 0 ? stack[0] : (jet){(double)NAN, (double)NAN, (double)NAN};
 }
 
-void fw_program_value(const fw_program *program, double t_s, double value[3]) {
+void fw_quantity_program_value(const fw_quantity_program *program, double t_s, double value[3]) {
     sides s;
     jet j = run(program, t_s, &s, true);
     value[0] = j.f, value[1] = j.d, value[2] = j.dd;
 }
 
-void fw_program_value_in(const fw_program *program, double t_s, double piece_s, double value[3]) {
+void fw_quantity_program_value_in(const fw_quantity_program *program, double t_s, double piece_s,
+                                  double value[3]) {
     sides s;
     if (program->smooth || piece_s == t_s) {
-        fw_program_value(program, t_s, value);
+        fw_quantity_program_value(program, t_s, value);
         return;
     }
     run(program, piece_s, &s, true);
@@ -268,7 +270,7 @@ void fw_program_value_in(const fw_program *program, double t_s, double piece_s, 
 }
 
 /* FNV-1a over the sides */
-uint64_t fw_program_branches(const fw_program *program, double t_s) {
+uint64_t fw_quantity_program_branches(const fw_quantity_program *program, double t_s) {
     sides s;
     uint64_t hash = 14695981039346656037u;
     if (program->smooth) return hash;
@@ -279,6 +281,6 @@ uint64_t fw_program_branches(const fw_program *program, double t_s) {
     return hash;
 }
 
-bool fw_program_smooth(const fw_program *program) {
+bool fw_quantity_program_smooth(const fw_quantity_program *program) {
     return program->smooth;
 }

@@ -10,45 +10,47 @@
 
 /* exponents of m, kg, s, A, K, mol, rad. The angle is kept apart so that "5 deg" is not "0.0873" by
    accident; where a formula multiplies by an angle the table says so (N m/rad). */
-typedef struct fw_dimension {
+typedef struct fw_quantity_dimension {
     int8_t m, kg, s, A, K, mol, rad;
-} fw_dimension;
+} fw_quantity_dimension;
 
-bool fw_dimension_equal(fw_dimension a, fw_dimension b);
+bool fw_quantity_dimension_equal(fw_quantity_dimension a, fw_quantity_dimension b);
 /* "m s^-1"; or the name of a known one: "length", "torsional stiffness" */
-const char *fw_dimension_text(fw_arena *arena, fw_dimension d);
+const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d);
 
 /* one row of the unit table: "um", "mA/cm2" is composed of rows. `offset` for Cel only. */
-typedef struct fw_unit {
+typedef struct fw_quantity_unit {
     double factor; /* value_SI = value * factor + offset */
     double offset;
-    fw_dimension dimension;
-} fw_unit;
+    fw_quantity_dimension dimension;
+} fw_quantity_unit;
 
 /* parses a unit expression: products by space, "." or "*", "/", integer exponents behind the symbol
    (cm2, s-1, um^2), e.g. "N m/rad", "mA/cm2", "Ao/s", "g/cm3", "{sccm}", "1". false when unknown;
    *wrong (may be NULL) then points at the offending symbol inside text, *wrong_n its length. */
-bool fw_unit_parse(const char *text, size_t n, fw_unit *unit, const char **wrong, size_t *wrong_n);
+bool fw_quantity_unit_parse(const char *text, size_t n, fw_quantity_unit *unit, const char **wrong,
+                            size_t *wrong_n);
 /* value in the unit -> SI and back. A factor such as 1e-6 divides by 1e6, so that "10 um" is the
    very number 10e-6. */
-double fw_unit_to_si(const fw_unit *unit, double value);
-double fw_unit_from_si(const fw_unit *unit, double value);
+double fw_quantity_unit_to_si(const fw_quantity_unit *unit, double value);
+double fw_quantity_unit_from_si(const fw_quantity_unit *unit, double value);
 /* all unit symbols, for "did you mean" and the reference page */
-const char *const *fw_unit_names(size_t *count);
+const char *const *fw_quantity_unit_names(size_t *count);
 /* "did you mean 'um'?" for a misspelt unit, or NULL. Of several that are equally near the one with
    the same first letter wins (a prefix is a factor of 1000), then `usual`, the unit of the place
    (may be NULL). */
-const char *fw_unit_suggestion(const char *symbol, size_t n, const char *usual);
+const char *fw_quantity_unit_suggestion(const char *symbol, size_t n, const char *usual);
 
-typedef enum fw_value_status { /* from best to worst; a result inherits the worst of its inputs */
-                               FW_MEASURED,
-                               FW_STATED,
-                               FW_DERIVED,
-                               FW_TYPICAL,
-                               FW_ASSUMED
-} fw_value_status;
-const char *fw_value_status_text(fw_value_status status);
-bool fw_value_status_parse(const char *text, fw_value_status *status);
+typedef enum fw_quantity_value_status { /* from best to worst; a result inherits the worst of its
+                                           inputs */
+                                        FW_MEASURED,
+                                        FW_STATED,
+                                        FW_DERIVED,
+                                        FW_TYPICAL,
+                                        FW_ASSUMED
+} fw_quantity_value_status;
+const char *fw_quantity_value_status_text(fw_quantity_value_status status);
+bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *status);
 
 typedef struct fw_quantity {
     const char *id;     /* may be NULL */
@@ -58,9 +60,9 @@ typedef struct fw_quantity {
     bool interval;      /* the uncertainty was given as a range: low to high, SI */
     double low, high;
     double least, most; /* plausible range, SI; both 0: none was given */
-    fw_dimension dimension;
+    fw_quantity_dimension dimension;
     const char *unit; /* as written, for printing */
-    fw_value_status status;
+    fw_quantity_value_status status;
     const char *source; /* text of the source */
     const char *note;   /* may be NULL */
     fw_place place;

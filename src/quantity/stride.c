@@ -34,7 +34,7 @@ typedef struct look {
 } look;
 
 typedef struct scan {
-    const fw_law *law;
+    const fw_quantity_law *law;
     bool coordinate;
     double piece_s;          /* a time in the piece at hand */
     double first, deviation; /* value at 0, largest distance from it */
@@ -42,7 +42,7 @@ typedef struct scan {
     int left;                /* looks */
     look *found;             /* (FOLLOWED) those of the first pass, by time */
     int nfound;
-    fw_law_strides *out;
+    fw_quantity_law_strides *out;
 } scan;
 
 /* ---- what was seen ---- */
@@ -53,7 +53,7 @@ static bool is_known(const look *l) {
 
 static void see(scan *s, double t_s, look *l) {
     l->t_s = t_s;
-    fw_law_value(s->law, t_s, s->piece_s, l->value);
+    fw_quantity_law_value(s->law, t_s, s->piece_s, l->value);
     if (!is_known(l)) return;
     s->deviation = fmax(s->deviation, fabs(l->value[0] - s->first));
     s->size = fmax(s->size, s->coordinate ? fabs(l->value[2]) : fabs(l->value[0] - s->first));
@@ -102,7 +102,7 @@ static double joint_miss(const scan *s, const look *a, const look *m, const look
 
 /* from t_s on; rows of about the same stride become one */
 static void emit(scan *s, double t_s, double most_s) {
-    fw_law_strides *out = s->out;
+    fw_quantity_law_strides *out = s->out;
     double *last = out->n ? &out->most_s[out->n - 1] : NULL;
     bool same = last && (*last == most_s || (most_s > 0.7 * *last && most_s < 1.5 * *last));
     if (same || out->n == STRIDES_MOST) {
@@ -239,7 +239,7 @@ static void write_block(scan *s, const piece *p, int here, int from, int size) {
 
 static fw_status scan_pieces(fw_arena *arena, scan *s, piece *list, int count) {
     double value[3], end_s = list[count - 1].end_s;
-    fw_law_value(s->law, 0, list[0].end_s / 2, value);
+    fw_quantity_law_value(s->law, 0, list[0].end_s / 2, value);
     s->first = isfinite(value[0]) ? value[0] : 0;
     FW_NEED(s->found = fw_arena_array(arena, look, FOLLOWED));
     for (int i = 0; i < count; i++)
@@ -280,9 +280,10 @@ static fw_status scan_any(fw_arena *arena, scan *s, double end_s, const double *
     return status;
 }
 
-fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, double end_s,
-                      const double *break_s, int breaks, fw_law_strides *out) {
-    *out = (fw_law_strides){0};
+fw_status fw_quantity_law_look(fw_arena *arena, const fw_quantity_law *law, bool coordinate,
+                               double end_s, const double *break_s, int breaks,
+                               fw_quantity_law_strides *out) {
+    *out = (fw_quantity_law_strides){0};
     if (!(end_s > 0) || !isfinite(end_s) || fw_quantity_law_is_straight(law)) return FW_OK;
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
     const bool waves = wave.fastest_Hz > 0;
@@ -296,7 +297,8 @@ fw_status fw_law_look(fw_arena *arena, const fw_law *law, bool coordinate, doubl
     return FW_OK;
 }
 
-double fw_law_stride(const fw_law_strides *strides, double factor, double t_s, int *row) {
+double fw_quantity_law_stride(const fw_quantity_law_strides *strides, double factor, double t_s,
+                              int *row) {
     double most = (double)INFINITY;
     int i = *row < strides->n ? *row : 0;
     if (i > 0 && strides->t_s[i] > t_s) i = 0;

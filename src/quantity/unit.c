@@ -161,22 +161,22 @@
 static const char *const names[] = {UNIT_TABLE(X)};
 #undef X
 #define X(symbol, factor, offset, ...) {factor, offset, __VA_ARGS__},
-static const fw_unit rows[] = {UNIT_TABLE(X)};
+static const fw_quantity_unit rows[] = {UNIT_TABLE(X)};
 #undef X
 enum { UNIT_COUNT = sizeof rows / sizeof rows[0] };
 
-const char *const *fw_unit_names(size_t *count) {
+const char *const *fw_quantity_unit_names(size_t *count) {
     *count = UNIT_COUNT;
     return names;
 }
 
-static const fw_unit *find(const char *symbol, size_t n) {
+static const fw_quantity_unit *find(const char *symbol, size_t n) {
     for (size_t i = 0; i < UNIT_COUNT; i++)
         if (strlen(names[i]) == n && memcmp(names[i], symbol, n) == 0) return &rows[i];
     return NULL;
 }
 
-bool fw_unit_symbol(const char *symbol, size_t n) {
+bool fw_quantity_unit_symbol(const char *symbol, size_t n) {
     return find(symbol, n) != NULL;
 }
 
@@ -222,7 +222,7 @@ static size_t exponent_length(const char *text, size_t n, bool minus_allowed, in
     return i;
 }
 
-bool fw_dimension_combine(fw_dimension *d, fw_dimension by, int times) {
+bool fw_quantity_dimension_combine(fw_quantity_dimension *d, fw_quantity_dimension by, int times) {
     int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad};
     const int8_t add[] = {by.m, by.kg, by.s, by.A, by.K, by.mol, by.rad};
     for (int i = 0; i < 7; i++) {
@@ -234,10 +234,11 @@ bool fw_dimension_combine(fw_dimension *d, fw_dimension by, int times) {
 }
 
 /* multiplies one factor symbol^exponent into the unit; offsets only survive alone and to the 1st */
-static bool multiply(fw_unit *unit, const fw_unit *row, int exponent, bool first) {
+static bool multiply(fw_quantity_unit *unit, const fw_quantity_unit *row, int exponent,
+                     bool first) {
     unit->offset = first && exponent == 1 ? row->offset : 0.0;
     unit->factor *= exponent == 1 ? row->factor : pow(row->factor, exponent);
-    return fw_dimension_combine(&unit->dimension, row->dimension, exponent) &&
+    return fw_quantity_dimension_combine(&unit->dimension, row->dimension, exponent) &&
            isfinite(unit->factor) && unit->factor > 0.0;
 }
 
@@ -247,9 +248,9 @@ static size_t skip_spaces(const char *text, size_t n, size_t i) {
     return i;
 }
 
-size_t fw_unit_scan(const char *text, size_t n, bool minus_allowed, fw_unit *unit,
-                    const char **wrong, size_t *wrong_n) {
-    *unit = (fw_unit){.factor = 1.0};
+size_t fw_quantity_unit_scan(const char *text, size_t n, bool minus_allowed, fw_quantity_unit *unit,
+                             const char **wrong, size_t *wrong_n) {
+    *unit = (fw_quantity_unit){.factor = 1.0};
     *wrong = NULL;
     *wrong_n = 0;
     size_t done = 0; /* bytes known to belong to the unit */
@@ -266,7 +267,7 @@ size_t fw_unit_scan(const char *text, size_t n, bool minus_allowed, fw_unit *uni
             if (!joined) return done;
         }
         size_t length = i < n ? symbol_length(text + i, n - i) : 0;
-        const fw_unit *row = length ? find(text + i, length) : NULL;
+        const fw_quantity_unit *row = length ? find(text + i, length) : NULL;
         /* inside a chain a 1 has no business ("5 um 1"), and min( is the function */
         size_t behind = row ? skip_spaces(text, n, i + length) : 0;
         if (row && ((done > 0 && text[i] == '1') || (behind < n && text[behind] == '(')))
@@ -289,10 +290,11 @@ size_t fw_unit_scan(const char *text, size_t n, bool minus_allowed, fw_unit *uni
     }
 }
 
-bool fw_unit_parse(const char *text, size_t n, fw_unit *unit, const char **wrong, size_t *wrong_n) {
+bool fw_quantity_unit_parse(const char *text, size_t n, fw_quantity_unit *unit, const char **wrong,
+                            size_t *wrong_n) {
     const char *symbol = text;
     size_t length = 0, start = skip_spaces(text, n, 0);
-    size_t used = fw_unit_scan(text + start, n - start, true, unit, &symbol, &length);
+    size_t used = fw_quantity_unit_scan(text + start, n - start, true, unit, &symbol, &length);
     if (used > 0 && skip_spaces(text, n, start + used) == n) return true;
     if (wrong) *wrong = symbol ? symbol : text + start + used;
     if (wrong_n) *wrong_n = symbol ? length : n - start - used;
@@ -306,12 +308,12 @@ static double whole_inverse(double factor) {
                                                                                         : 0.0;
 }
 
-double fw_unit_to_si(const fw_unit *unit, double value) {
+double fw_quantity_unit_to_si(const fw_quantity_unit *unit, double value) {
     double inverse = whole_inverse(unit->factor);
     return (inverse > 0.0 ? value / inverse : value * unit->factor) + unit->offset;
 }
 
-double fw_unit_from_si(const fw_unit *unit, double value) {
+double fw_quantity_unit_from_si(const fw_quantity_unit *unit, double value) {
     double inverse = whole_inverse(unit->factor);
     value -= unit->offset;
     return inverse > 0.0 ? value * inverse : value / unit->factor;

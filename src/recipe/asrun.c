@@ -2,7 +2,7 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "recipe/asrun.h"
-#include "recipe/words.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
@@ -12,7 +12,7 @@ enum { HASH = 64, LONGEST_WORDS = 4000 };
 
 typedef struct reader {
     fw_arena *arena;
-    const fw_flow *flow;
+    const fw_process_flow *flow;
     fw_diags *diags;
     fw_place place;
 } reader;
@@ -61,7 +61,7 @@ static bool read_time(const char *s, double *time_s) {
     return true;
 }
 
-static const fw_step *step_of(const reader *r, const char *id) {
+static const fw_process_step *step_of(const reader *r, const char *id) {
     for (int i = 0; i < r->flow->nstep; i++)
         if (strcmp(r->flow->step[i].id, id) == 0) return &r->flow->step[i];
     const char *best = NULL;
@@ -77,12 +77,12 @@ static const fw_step *step_of(const reader *r, const char *id) {
     return NULL;
 }
 
-static fw_status read_measure(const reader *r, fw_asrun_entry *e, const char *name,
+static fw_status read_measure(const reader *r, fw_recipe_asrun_entry *e, const char *name,
                               const char *value) {
     enum { MOST_NAMES = 40 };
     const char *known[MOST_NAMES] = {"start", "end", "by", "second", "tool", "bath", "note"};
     int n = 7;
-    fw_measured m = {name, value, (double)NAN};
+    fw_recipe_measured m = {name, value, (double)NAN};
     bool of_step = false;
     for (int i = 0; i < e->step->naccept && n < MOST_NAMES; i++) {
         known[n++] = e->step->accept[i].measure;
@@ -103,7 +103,7 @@ static fw_status read_measure(const reader *r, fw_asrun_entry *e, const char *na
     return FW_OK;
 }
 
-static fw_status read_word(const reader *r, fw_asrun_entry *e, const char *name,
+static fw_status read_word(const reader *r, fw_recipe_asrun_entry *e, const char *name,
                            const char *value) {
     const struct {
         const char *name;
@@ -129,7 +129,7 @@ static fw_status read_word(const reader *r, fw_asrun_entry *e, const char *name,
 }
 
 /* what no entry may lack */
-static fw_status check_entry(const reader *r, const fw_asrun_entry *e) {
+static fw_status check_entry(const reader *r, const fw_recipe_asrun_entry *e) {
     const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
     if (lacks)
         return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=", e->step->id,
@@ -146,14 +146,15 @@ static fw_status check_entry(const reader *r, const fw_asrun_entry *e) {
 
 /* cuts a copy of the words at `separator`; the first is the step, the others are name=value */
 static fw_status read_entry(const reader *r, const char *words, size_t n, char separator,
-                            fw_asrun_entry *e) {
+                            fw_recipe_asrun_entry *e) {
     char *copy = fw_arena_strndup(r->arena, words, n);
     FW_NEED(copy);
-    *e = (fw_asrun_entry){.start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+    *e = (fw_recipe_asrun_entry){
+        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
     size_t most = 1;
     for (const char *s = copy; *s; s++)
         most += *s == separator;
-    FW_NEED(e->measured = fw_arena_array(r->arena, fw_measured, most));
+    FW_NEED(e->measured = fw_arena_array(r->arena, fw_recipe_measured, most));
     for (char *word = copy, *next; word; word = next) {
         char *end = strchr(word, separator);
         next = end ? end + 1 : NULL;
@@ -213,7 +214,7 @@ static const char *value_of(fw_arena *arena, const char *line, size_t n, const c
 }
 
 static fw_status read_first(const reader *r, const char *plan, const char *line, size_t n,
-                            fw_asrun *run) {
+                            fw_recipe_asrun *run) {
     size_t words;
     if (n < sizeof first_words || strncmp(line, first_words, sizeof first_words - 1) != 0)
         return damaged(r, "it does not begin with 'flexwright as-run 1'");
@@ -233,15 +234,15 @@ static fw_status read_first(const reader *r, const char *plan, const char *line,
     return FW_OK;
 }
 
-fw_status fw_asrun_read(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                        const char *file, const char *text, size_t n, fw_diags *diags,
-                        fw_asrun *run) {
+fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
+                               const char *plan_sha256, const char *file, const char *text,
+                               size_t n, fw_diags *diags, fw_recipe_asrun *run) {
     reader r = {arena, flow, diags, {file, 1, 1}};
     size_t lines = 1;
-    *run = (fw_asrun){0};
+    *run = (fw_recipe_asrun){0};
     for (size_t i = 0; i < n; i++)
         lines += text[i] == '\n';
-    FW_NEED(run->entry = fw_arena_array(arena, fw_asrun_entry, lines));
+    FW_NEED(run->entry = fw_arena_array(arena, fw_recipe_asrun_entry, lines));
     if (n == 0 || text[n - 1] != '\n') return damaged(&r, "its last line is not complete");
     if (memchr(text, '\0', n)) return damaged(&r, "it holds a NUL byte");
     for (const char *line = text; line < text + n; r.place.line++) {
@@ -263,8 +264,8 @@ static bool writable(const char *s) {
     return true;
 }
 
-fw_status fw_asrun_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                         const char *lot, const char **line) {
+fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
+                                const char *plan_sha256, const char *lot, const char **line) {
     char chain[65];
     const char *words = fw_arena_printf(arena, "%s\tflow=%s\tplan=%s%s%s", first_words, flow->id,
                                         plan_sha256, lot ? "\tlot=" : "", lot ? lot : "");
@@ -275,9 +276,9 @@ fw_status fw_asrun_begin(fw_arena *arena, const fw_flow *flow, const char *plan_
 }
 
 /* what is odd, and may still be true */
-static void ask(const reader *r, const fw_asrun *run, const fw_asrun_entry *e) {
+static void ask(const reader *r, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
-    const fw_asrun_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
+    const fw_recipe_asrun_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
     bool before = index == 0;
     for (int i = 0; i < run->nentry && !before; i++)
         before = run->entry[i].step == e->step - 1;
@@ -294,10 +295,11 @@ static void ask(const reader *r, const fw_asrun *run, const fw_asrun_entry *e) {
                         e->step->naccept, e->step->id);
 }
 
-fw_status fw_asrun_add(fw_arena *arena, const fw_flow *flow, const fw_asrun *run, const char *words,
-                       fw_diags *diags, const char **line) {
+fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
+                              const fw_recipe_asrun *run, const char *words, fw_diags *diags,
+                              const char **line) {
     reader r = {arena, flow, diags, {"entry", 1, 1}};
-    fw_asrun_entry e;
+    fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);
     if (n > LONGEST_WORDS || !writable(words))
@@ -326,8 +328,9 @@ fw_status fw_asrun_add(fw_arena *arena, const fw_flow *flow, const fw_asrun *run
    measured values against what is accepted. */
 
 /* the last entry of a step counts; NULL: none */
-static const fw_asrun_entry *last_of(const fw_asrun *run, const fw_step *step, int *times) {
-    const fw_asrun_entry *found = NULL;
+static const fw_recipe_asrun_entry *last_of(const fw_recipe_asrun *run, const fw_process_step *step,
+                                            int *times) {
+    const fw_recipe_asrun_entry *found = NULL;
     *times = 0;
     for (int i = 0; i < run->nentry; i++)
         if (run->entry[i].step == step) {
@@ -337,19 +340,19 @@ static const fw_asrun_entry *last_of(const fw_asrun *run, const fw_step *step, i
     return found;
 }
 
-static const char *in_time(const fw_time *planned, double actual_s) {
+static const char *in_time(const fw_process_time *planned, double actual_s) {
     if (!planned->computable) return "no plan";
     if (actual_s < planned->first_look_s) return "short";
     return actual_s > planned->stop_s ? "long" : "in window";
 }
 
-static const fw_accept *accept_of(const fw_step *step, const char *measure) {
+static const fw_process_accept *accept_of(const fw_process_step *step, const char *measure) {
     for (int i = 0; i < step->naccept; i++)
         if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
     return NULL;
 }
 
-static bool accepted(const fw_accept *a, const fw_measured *m) {
+static bool accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
     double low = -(double)INFINITY, high = (double)INFINITY;
     if (isnan(m->number)) return strcmp(m->value, "yes") == 0;
     if (a->low[0]) fw_number_parse(a->low, strlen(a->low), &low);
@@ -358,23 +361,24 @@ static bool accepted(const fw_accept *a, const fw_measured *m) {
 }
 
 /* waited from the end of the step that the lag names; NaN: that step is not in the log */
-static double waited(const fw_flow *flow, const fw_asrun *run, const fw_lag *lag,
-                     const fw_asrun_entry *e) {
+static double waited(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                     const fw_process_lag *lag, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < flow->nstep; i++) {
         int times;
         if (strcmp(flow->step[i].id, lag->from) != 0) continue;
-        const fw_asrun_entry *from = last_of(run, &flow->step[i], &times);
+        const fw_recipe_asrun_entry *from = last_of(run, &flow->step[i], &times);
         return from ? e->start_s - from->end_s : (double)NAN;
     }
     return (double)NAN;
 }
 
-static bool wait_is_fine(const fw_lag *lag, double wait_s) {
+static bool wait_is_fine(const fw_process_lag *lag, double wait_s) {
     return !(wait_s < lag->min_s) && !(wait_s > lag->max_s); /* NaN: no limit, or not known */
 }
 
 /* what is out of its limits in one entry */
-static int deviations(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e) {
+static int deviations(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                      const fw_recipe_asrun_entry *e) {
     double actual = e->end_s - e->start_s;
     const char *judged = in_time(&e->step->time, actual);
     int n = strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
@@ -391,7 +395,7 @@ static void put_cell(fw_text *out, double seconds, int width) {
     if (isnan(seconds))
         fw_text_add(&cell, "-");
     else
-        fw_put_duration(&cell, seconds);
+        fw_schedule_put_duration(&cell, seconds);
     if (fw_text_end(&cell) != FW_OK) {
         out->failed = 1;
         return;
@@ -399,11 +403,11 @@ static void put_cell(fw_text *out, double seconds, int width) {
     fw_text_printf(out, "%*s", width, cell.data);
 }
 
-static void details(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
-                    fw_text *out) {
+static void details(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                    const fw_recipe_asrun_entry *e, fw_text *out) {
     for (int i = 0; i < e->nmeasured; i++) {
-        const fw_measured *m = &e->measured[i];
-        const fw_accept *a = accept_of(e->step, m->measure);
+        const fw_recipe_measured *m = &e->measured[i];
+        const fw_process_accept *a = accept_of(e->step, m->measure);
         bool fine = accepted(a, m), yes = isnan(m->number);
         fw_text_printf(out, "      %s = %s%s%s: %s", m->measure, m->value, yes ? "" : " ",
                        yes ? "" : a->unit, fine ? "accepted" : "OUT of ");
@@ -415,18 +419,18 @@ static void details(const fw_flow *flow, const fw_asrun *run, const fw_asrun_ent
         fw_text_add(out, "\n");
     }
     for (int i = 0; i < e->step->nlag; i++) {
-        const fw_lag *l = &e->step->lag[i];
+        const fw_process_lag *l = &e->step->lag[i];
         double wait = waited(flow, run, l, e);
         if (isnan(wait) || wait_is_fine(l, wait)) continue;
         fw_text_printf(out, "      waited ");
-        fw_put_duration(out, fmax(wait, 0.0));
+        fw_schedule_put_duration(out, fmax(wait, 0.0));
         fw_text_printf(out, " since %s: OUT of ", l->from);
-        fw_put_duration(out, isnan(l->min_s) ? 0.0 : l->min_s);
+        fw_schedule_put_duration(out, isnan(l->min_s) ? 0.0 : l->min_s);
         fw_text_add(out, " to ");
         if (isnan(l->max_s))
             fw_text_add(out, "any");
         else
-            fw_put_duration(out, l->max_s);
+            fw_schedule_put_duration(out, l->max_s);
         fw_text_add(out, "\n");
     }
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
@@ -437,11 +441,11 @@ typedef struct total {
     double planned_s, actual_s;
 } total;
 
-static total sum_up(const fw_flow *flow, const fw_asrun *run) {
+static total sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run) {
     total t = {0};
     for (int i = 0; i < flow->nstep; i++) {
         int times;
-        const fw_asrun_entry *e = last_of(run, &flow->step[i], &times);
+        const fw_recipe_asrun_entry *e = last_of(run, &flow->step[i], &times);
         if (!e) continue;
         t.logged++;
         t.repeated += times - 1;
@@ -452,15 +456,16 @@ static total sum_up(const fw_flow *flow, const fw_asrun *run) {
     return t;
 }
 
-fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text *out) {
+fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out) {
     fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
                    run->lot ? run->lot : "", run->plan);
     fw_text_printf(out, "%-5s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
                    "stop", "actual", "judged", "title");
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         int times;
-        const fw_asrun_entry *e = last_of(run, s, &times);
+        const fw_recipe_asrun_entry *e = last_of(run, s, &times);
         const double cell[] = {
             s->time.computable ? s->time.nominal_s : (double)NAN,
             s->time.computable ? s->time.first_look_s : (double)NAN,
@@ -478,9 +483,9 @@ fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text 
     total t = sum_up(flow, run);
     fw_text_printf(out, "\n%d of %d steps run, %d repeated, %d outside of their limits; planned ",
                    t.logged, flow->nstep, t.repeated, t.out);
-    fw_put_duration(out, t.planned_s);
+    fw_schedule_put_duration(out, t.planned_s);
     fw_text_add(out, " for them, actual ");
-    fw_put_duration(out, t.actual_s);
+    fw_schedule_put_duration(out, t.actual_s);
     fw_text_add(out, "\n");
     return fw_text_end(out);
 }
@@ -495,8 +500,8 @@ static void put_text(fw_json *out, const char *key, const char *value) {
     if (value) fw_json_text(out, key, value);
 }
 
-static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_entry *e,
-                       fw_json *out) {
+static void entry_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                       const fw_recipe_asrun_entry *e, fw_json *out) {
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
@@ -508,14 +513,14 @@ static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_
     put_text(out, "note", e->note);
     fw_json_list(out, "measured");
     for (int i = 0; i < e->nmeasured; i++) {
-        const fw_measured *m = &e->measured[i];
+        const fw_recipe_measured *m = &e->measured[i];
         fw_json_object(out, NULL);
         fw_json_text(out, "measure", m->measure);
         if (isnan(m->number))
             put_text(out, "value", m->value);
         else
             put_number(out, "value", m->number);
-        const fw_accept *a = accept_of(e->step, m->measure);
+        const fw_process_accept *a = accept_of(e->step, m->measure);
         put_text(out, "unit", a->unit);
         fw_json_truth(out, "accepted", accepted(a, m));
         fw_json_end(out);
@@ -523,7 +528,7 @@ static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_
     fw_json_end(out);
     fw_json_list(out, "waited");
     for (int i = 0; i < e->step->nlag; i++) {
-        const fw_lag *l = &e->step->lag[i];
+        const fw_process_lag *l = &e->step->lag[i];
         double wait = waited(flow, run, l, e);
         fw_json_object(out, NULL);
         fw_json_text(out, "from", l->from);
@@ -539,7 +544,8 @@ static void entry_json(const fw_flow *flow, const fw_asrun *run, const fw_asrun_
     fw_json_end(out);
 }
 
-fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *text) {
+fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
     fw_json_object(out, NULL);
     put_text(out, "schema", "flexwright.as-run/1");
@@ -549,10 +555,10 @@ fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text 
     put_text(out, "chain", run->chain);
     fw_json_list(out, "steps");
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
-        const fw_time *p = &s->time;
+        const fw_process_step *s = &flow->step[i];
+        const fw_process_time *p = &s->time;
         int times;
-        const fw_asrun_entry *e = last_of(run, s, &times);
+        const fw_recipe_asrun_entry *e = last_of(run, s, &times);
         fw_json_line(out, 0);
         fw_json_object(out, NULL);
         fw_json_text(out, "id", s->id);

@@ -8,43 +8,46 @@
 #define FW_RECIPE_ASRUN_H
 #include "process/process.h"
 
-typedef struct fw_measured {
+typedef struct fw_recipe_measured {
     const char *measure, *value; /* one of the step's <accept measure>s; a number, yes or no */
     double number;               /* NaN: yes or no */
-} fw_measured;
+} fw_recipe_measured;
 
-typedef struct fw_asrun_entry {
-    const fw_step *step;
+typedef struct fw_recipe_asrun_entry {
+    const fw_process_step *step;
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
     const char *start, *end, *by, *second, *tool, *bath, *note; /* as written; NULL: not given */
-    fw_measured *measured;
+    fw_recipe_measured *measured;
     int nmeasured, line;
-} fw_asrun_entry;
+} fw_recipe_asrun_entry;
 
-typedef struct fw_asrun {
+typedef struct fw_recipe_asrun {
     const char *plan, *lot;
-    fw_asrun_entry *entry; /* (nentry) in the order of the log */
+    fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
     char chain[65]; /* of the last line */
-} fw_asrun;
+} fw_recipe_asrun;
 
 /* reads and verifies a log. FW_INPUT: FW-D280 (damaged or changed), FW-D281 (of another plan or
    flow), FW-D282 (an entry that cannot be). */
-fw_status fw_asrun_read(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                        const char *file, const char *text, size_t n, fw_diags *diags,
-                        fw_asrun *run);
+fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
+                               const char *plan_sha256, const char *file, const char *text,
+                               size_t n, fw_diags *diags, fw_recipe_asrun *run);
 
 /* the line that begins a log, and the line of one entry written as
      C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; thickness=9.1; note=...
    with second, tool, bath and the step's measures as further words. *line ends with a newline; what
    is wrong with the entry is FW-D282, what a cautious colleague would ask is a warning FW-D283. */
-fw_status fw_asrun_begin(fw_arena *arena, const fw_flow *flow, const char *plan_sha256,
-                         const char *lot, const char **line);
-fw_status fw_asrun_add(fw_arena *arena, const fw_flow *flow, const fw_asrun *run, const char *words,
-                       fw_diags *diags, const char **line);
+fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
+                                const char *plan_sha256, const char *lot, const char **line);
+fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
+                              const fw_recipe_asrun *run, const char *words, fw_diags *diags,
+                              const char **line);
 
 /* planned against actual, as a table and as JSON */
-fw_status fw_asrun_write_text(const fw_flow *flow, const fw_asrun *run, fw_text *out);
-fw_status fw_asrun_write_json(const fw_flow *flow, const fw_asrun *run, fw_text *out);
+fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out);
+fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out);
 
 #endif

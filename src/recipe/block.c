@@ -2,61 +2,63 @@
 #include "base/sort.h"
 #include "base/svg.h"
 #include "geometry/segment.h"
-#include "recipe/profile.h"
-#include "recipe/words.h"
+#include "recipe/recipe_profile.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- outlines in the frame of the cut ---- */
 
-static fw_spot local(const fw_recipe_cut *cut, fw_vec2 p, bool open) {
-    fw_vec2 d = vec_sub(p, cut->line.at);
-    return (fw_spot){vec_dot(d, cut->line.along), vec_cross(cut->line.along, d), open};
+static fw_recipe_spot local(const fw_recipe_cut *cut, fw_geometry_vec2 p, bool open) {
+    fw_geometry_vec2 d = vec_sub(p, cut->line.at);
+    return (fw_recipe_spot){vec_dot(d, cut->line.along), vec_cross(cut->line.along, d), open};
 }
 
 /* chords of an arc with a sagitta of at most the tolerance: |sweep|/(2 acos(1 - tolerance/r)) */
-static int chords(const fw_segment *s, double tolerance_m) {
+static int chords(const fw_geometry_segment *s, double tolerance_m) {
     if (s->kind == FW_LINE) return 1;
     double step = tolerance_m < s->radius ? 2.0 * acos(1.0 - tolerance_m / s->radius) : 1.5;
     return (int)ceil(fabs(s->sweep_rad) / step - 1e-9);
 }
 
-static fw_status flatten(fw_arena *arena, const fw_recipe_cut *cut, const fw_contour *c,
-                         double tolerance_m, fw_ring *out) {
+static fw_status flatten(fw_arena *arena, const fw_recipe_cut *cut, const fw_geometry_contour *c,
+                         double tolerance_m, fw_recipe_ring *out) {
     size_t n = 0;
     for (int i = 0; i < c->count; i++)
         n += (size_t)chords(&c->segment[i], tolerance_m);
-    *out = (fw_ring){.corner = fw_arena_array(arena, fw_spot, n)};
+    *out = (fw_recipe_ring){.corner = fw_arena_array(arena, fw_recipe_spot, n)};
     FW_NEED(out->corner);
     for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
+        const fw_geometry_segment *s = &c->segment[i];
         int parts = chords(s, tolerance_m);
         for (int k = 1; k <= parts; k++)
-            out->corner[out->n++] = local(cut, fw_segment_point(s, (double)k / parts),
+            out->corner[out->n++] = local(cut, fw_geometry_segment_point(s, (double)k / parts),
                                           (s->flags & FW_SEGMENT_JOINT) != 0);
     }
     return FW_OK;
 }
 
 /* distance inside one of the block's four sides */
-static double inside(const fw_recipe_cut *cut, int side, fw_spot p) {
+static double inside(const fw_recipe_cut *cut, int side, fw_recipe_spot p) {
     const double d[] = {p.x, cut->length_m - p.x, p.y, cut->depth_m - p.y};
     return d[side];
 }
 
 /* One ring against one side (Sutherland and Hodgman, Comm. ACM 17 (1974) 32): edges that run along
    the side are marked open. */
-static fw_status clip_side(fw_arena *arena, const fw_recipe_cut *cut, int side, fw_ring *ring) {
-    fw_ring out = {.corner = fw_arena_array(arena, fw_spot, 2 * (size_t)ring->n)};
+static fw_status clip_side(fw_arena *arena, const fw_recipe_cut *cut, int side,
+                           fw_recipe_ring *ring) {
+    fw_recipe_ring out = {.corner = fw_arena_array(arena, fw_recipe_spot, 2 * (size_t)ring->n)};
     FW_NEED(out.corner);
     for (int i = 0; i < ring->n; i++) {
-        fw_spot a = ring->corner[i > 0 ? i - 1 : ring->n - 1], b = ring->corner[i];
+        fw_recipe_spot a = ring->corner[i > 0 ? i - 1 : ring->n - 1], b = ring->corner[i];
         double da = inside(cut, side, a), db = inside(cut, side, b);
         bool in_a = da >= 0.0, in_b = db >= 0.0;
         if (in_a != in_b) {
             double t = da / (da - db);
-            fw_spot at = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), in_a ? b.open : true};
+            fw_recipe_spot at = {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
+                                 in_a ? b.open : true};
             out.corner[out.n++] = at;
         }
         if (in_b) out.corner[out.n++] = b;
@@ -65,13 +67,15 @@ static fw_status clip_side(fw_arena *arena, const fw_recipe_cut *cut, int side, 
     return FW_OK;
 }
 
-fw_status fw_block_rings(fw_slicer *slicer, double edge_m, double tolerance_m, fw_rings *rings) {
-    const fw_outline_at *at;
-    FW_TRY(fw_slicer_at(slicer, edge_m, &at));
-    *rings = (fw_rings){.ring = fw_arena_array(slicer->arena, fw_ring, (size_t)slicer->nshape)};
+fw_status fw_recipe_block_rings(fw_recipe_slicer *slicer, double edge_m, double tolerance_m,
+                                fw_recipe_rings *rings) {
+    const fw_recipe_outline_at *at;
+    FW_TRY(fw_recipe_slicer_at(slicer, edge_m, &at));
+    *rings = (fw_recipe_rings){
+        .ring = fw_arena_array(slicer->arena, fw_recipe_ring, (size_t)slicer->nshape)};
     FW_NEED(rings->ring);
     for (int k = 0; k < slicer->nshape; k++) {
-        fw_ring *r = &rings->ring[rings->n];
+        fw_recipe_ring *r = &rings->ring[rings->n];
         if (at->contour[k].count == 0) continue;
         FW_TRY(flatten(slicer->arena, slicer->cut, &at->contour[k], tolerance_m, r));
         for (int side = 0; side < 4 && r->n > 0; side++)
@@ -87,7 +91,7 @@ typedef struct span { /* of a wall, seen from the eye */
     double from, to, depth_from, depth_to;
 } span;
 
-static span seen(const fw_wall *w, double tx, double ty) {
+static span seen(const fw_recipe_wall *w, double tx, double ty) {
     double xa = -ty * w->a.x + tx * w->a.y, xb = -ty * w->b.x + tx * w->b.y; /* to the right */
     double da = tx * w->a.x + ty * w->a.y, db = tx * w->b.x + ty * w->b.y;
     return xa <= xb ? (span){xa, xb, da, db} : (span){xb, xa, db, da};
@@ -110,12 +114,13 @@ static bool before(const span *p, const span *q) {
 /* Walls do not cross, so that "is hidden by" has no cycle in one direction of view (de Berg et al.,
    Computational Geometry, section 12.1: true of disjoint segments in the plane); what could come
    first comes in the order given. In: n walls. Cost O(n^2). Test: test_profile.c, walls. */
-fw_status fw_walls_sort(fw_arena *arena, fw_wall *wall, int n, double toward_x, double toward_y) {
+fw_status fw_recipe_walls_sort(fw_arena *arena, fw_recipe_wall *wall, int n, double toward_x,
+                               double toward_y) {
     fw_mark mark = fw_arena_mark(arena);
     span *s = fw_arena_array(arena, span, (size_t)n);
     int *waits = fw_arena_array(arena, int, (size_t)n);
     bool *done = fw_arena_array(arena, bool, (size_t)n);
-    fw_wall *sorted = fw_arena_array(arena, fw_wall, (size_t)n);
+    fw_recipe_wall *sorted = fw_arena_array(arena, fw_recipe_wall, (size_t)n);
     FW_NEED(s && waits && done && sorted);
     for (int i = 0; i < n; i++)
         s[i] = seen(&wall[i], toward_x, toward_y);
@@ -175,20 +180,20 @@ static const char *shaded(char text[8], const char *fill, double factor) {
 /* ---- a layer: films between two heights ---- */
 
 typedef struct layer {
-    const fw_films *films;
+    const fw_process_films *films;
     double low_m, high_m;
 } layer;
 
-static bool is_floor(const fw_film *f) {
+static bool is_floor(const fw_process_film *f) {
     return f->cut && !f->in[FW_STACK_STRUCTURE];
 }
 
 /* what of the structure an etch from the openings has left lies behind its edges, out of sight */
-static bool is_hidden(const fw_film *f) {
+static bool is_hidden(const fw_process_film *f) {
     return is_floor(f) || f->reach_m > 0.0;
 }
 
-static bool fills_layer(const layer *l, const fw_film *f) {
+static bool fills_layer(const layer *l, const fw_process_film *f) {
     return !is_hidden(f) && f->bottom_m <= l->low_m + 1e-12 && f->top_m >= l->high_m - 1e-12;
 }
 
@@ -198,28 +203,28 @@ static bool occupied(const layer *l, int column) {
     return false;
 }
 
-static double edge_of(const fw_film *f) {
+static double edge_of(const fw_process_film *f) {
     return 0.5 * (f->foot_m + f->head_m);
 }
 
-static fw_status count_walls(const fw_rings *rings, fw_arena *arena, fw_wall **wall) {
+static fw_status count_walls(const fw_recipe_rings *rings, fw_arena *arena, fw_recipe_wall **wall) {
     size_t n = 0;
     for (int i = 0; i < rings->n; i++)
         n += (size_t)rings->ring[i].n;
-    FW_NEED(*wall = fw_arena_array(arena, fw_wall, n));
+    FW_NEED(*wall = fw_arena_array(arena, fw_recipe_wall, n));
     return FW_OK;
 }
 
 /* walls that face the eye; those of the field's films run the other way round */
-static int walls_of(const fw_rings *rings, bool field, int film, double tx, double ty,
-                    fw_wall *wall) {
+static int walls_of(const fw_recipe_rings *rings, bool field, int film, double tx, double ty,
+                    fw_recipe_wall *wall) {
     int n = 0;
     for (int i = 0; i < rings->n; i++) {
-        const fw_ring *r = &rings->ring[i];
+        const fw_recipe_ring *r = &rings->ring[i];
         for (int k = 0; k < r->n; k++) {
-            fw_spot a = r->corner[k > 0 ? k - 1 : r->n - 1], b = r->corner[k];
+            fw_recipe_spot a = r->corner[k > 0 ? k - 1 : r->n - 1], b = r->corner[k];
             if (b.open) continue;
-            fw_wall w = field ? (fw_wall){b, a, film} : (fw_wall){a, b, film};
+            fw_recipe_wall w = field ? (fw_recipe_wall){b, a, film} : (fw_recipe_wall){a, b, film};
             double nx = w.b.y - w.a.y, ny = w.a.x - w.b.x; /* out of the material */
             if (nx * tx + ny * ty > 0.0) wall[n++] = w;
         }
@@ -227,10 +232,11 @@ static int walls_of(const fw_rings *rings, bool field, int film, double tx, doub
     return n;
 }
 
-static void draw_wall(const view *v, const fw_wall *w, const fw_film *f, const layer *l) {
+static void draw_wall(const view *v, const fw_recipe_wall *w, const fw_process_film *f,
+                      const layer *l) {
     double nx = w->b.y - w->a.y, ny = w->a.x - w->b.x, n = hypot(nx, ny);
     double light = n > 0.0 ? (0.55 * nx - 0.83 * ny) / n : 0.0; /* from the right, before it */
-    const char *fill = fw_paint_fill(f->material, f->exposed);
+    const char *fill = fw_recipe_paint_fill(f->material, f->exposed);
     double factor = 0.80 + 0.04 * floor(4.0 * light);
     char ink[8];
     shaded(ink, fill, factor);
@@ -244,19 +250,20 @@ static void draw_wall(const view *v, const fw_wall *w, const fw_film *f, const l
     fw_svg_path_end(v->out);
 }
 
-static fw_status draw_walls(fw_slicer *slicer, const view *v, const layer *l, double tolerance_m) {
+static fw_status draw_walls(fw_recipe_slicer *slicer, const view *v, const layer *l,
+                            double tolerance_m) {
     double tx = sin(TURN), ty = -cos(TURN);
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
         if (occupied(l, FW_STACK_FIELD + FW_STACK_STRUCTURE - column)) continue;
         for (int i = 0; i < l->films->n; i++) {
-            const fw_film *f = &l->films->film[i];
-            fw_rings rings;
-            fw_wall *wall;
+            const fw_process_film *f = &l->films->film[i];
+            fw_recipe_rings rings;
+            fw_recipe_wall *wall;
             if (!f->in[column] || !fills_layer(l, f)) continue;
-            FW_TRY(fw_block_rings(slicer, edge_of(f), tolerance_m, &rings));
+            FW_TRY(fw_recipe_block_rings(slicer, edge_of(f), tolerance_m, &rings));
             FW_TRY(count_walls(&rings, slicer->arena, &wall));
             int n = walls_of(&rings, column == FW_STACK_FIELD, i, tx, ty, wall);
-            FW_TRY(fw_walls_sort(slicer->arena, wall, n, tx, ty));
+            FW_TRY(fw_recipe_walls_sort(slicer->arena, wall, n, tx, ty));
             for (int k = 0; k < n; k++)
                 draw_wall(v, &wall[k], f, l);
         }
@@ -265,9 +272,9 @@ static fw_status draw_walls(fw_slicer *slicer, const view *v, const layer *l, do
 }
 
 /* is a ceiling covered by a film that lies on all of it? */
-static bool covered(const fw_films *films, const fw_film *f) {
+static bool covered(const fw_process_films *films, const fw_process_film *f) {
     for (int i = 0; i < films->n; i++) {
-        const fw_film *g = &films->film[i];
+        const fw_process_film *g = &films->film[i];
         if (!is_hidden(g) && fabs(g->bottom_m - f->top_m) <= 1e-12 && (g->in[0] || !f->in[0]) &&
             (g->in[1] || !f->in[1]))
             return true;
@@ -284,15 +291,15 @@ static void block_top(const view *v, const fw_recipe_cut *cut, double z) {
 }
 
 /* edges of the ceiling that are edges of the material, and of the block where the field is */
-static void ceiling_edges(const view *v, const fw_rings *rings, const fw_recipe_cut *block,
+static void ceiling_edges(const view *v, const fw_recipe_rings *rings, const fw_recipe_cut *block,
                           double z) {
     fw_svg_path(v->out, "fill='none' stroke='#222' stroke-width='0.35'");
     if (block) block_top(v, block, z);
     for (int i = 0; i < rings->n; i++) {
-        const fw_ring *r = &rings->ring[i];
+        const fw_recipe_ring *r = &rings->ring[i];
         bool down = false;
         for (int k = 0; k < r->n; k++) {
-            fw_spot a = r->corner[k > 0 ? k - 1 : r->n - 1], b = r->corner[k];
+            fw_recipe_spot a = r->corner[k > 0 ? k - 1 : r->n - 1], b = r->corner[k];
             if (!b.open && !down) put(v, 'M', a.x, a.y, z);
             if (!b.open) put(v, 'L', b.x, b.y, z);
             down = !b.open;
@@ -301,14 +308,14 @@ static void ceiling_edges(const view *v, const fw_rings *rings, const fw_recipe_
     fw_svg_path_end(v->out);
 }
 
-static fw_status draw_ceiling(fw_slicer *slicer, const view *v, const fw_film *f,
+static fw_status draw_ceiling(fw_recipe_slicer *slicer, const view *v, const fw_process_film *f,
                               double tolerance_m) {
-    fw_rings rings = {0};
+    fw_recipe_rings rings = {0};
     bool both = f->in[0] && f->in[1];
-    if (!both) FW_TRY(fw_block_rings(slicer, f->head_m, tolerance_m, &rings));
+    if (!both) FW_TRY(fw_recipe_block_rings(slicer, f->head_m, tolerance_m, &rings));
     char ink[8];
     fw_svg_path(v->out, "fill-rule='evenodd' fill='{r}'",
-                shaded(ink, fw_paint_fill(f->material, f->exposed), 1.07));
+                shaded(ink, fw_recipe_paint_fill(f->material, f->exposed), 1.07));
     if (f->in[FW_STACK_FIELD]) block_top(v, slicer->cut, f->top_m);
     for (int i = 0; i < rings.n; i++) {
         for (int k = 0; k < rings.ring[i].n; k++)
@@ -320,7 +327,8 @@ static fw_status draw_ceiling(fw_slicer *slicer, const view *v, const fw_film *f
     return FW_OK;
 }
 
-static fw_status draw_layers(fw_slicer *slicer, const view *v, const fw_films *films) {
+static fw_status draw_layers(fw_recipe_slicer *slicer, const view *v,
+                             const fw_process_films *films) {
     double tolerance_m = TOLERANCE_PX / v->k;
     double *level = fw_arena_array(slicer->arena, double, 2 * (size_t)films->n);
     FW_NEED(level);
@@ -334,7 +342,7 @@ static fw_status draw_layers(fw_slicer *slicer, const view *v, const fw_films *f
         if (l.high_m - l.low_m <= 1e-12) continue;
         FW_TRY(draw_walls(slicer, v, &l, tolerance_m));
         for (int k = 0; k < films->n; k++) {
-            const fw_film *f = &films->film[k];
+            const fw_process_film *f = &films->film[k];
             if (fabs(f->top_m - l.high_m) > 1e-12 || !fills_layer(&l, f) || covered(films, f))
                 continue;
             FW_TRY(draw_ceiling(slicer, v, f, tolerance_m));
@@ -346,14 +354,14 @@ static fw_status draw_layers(fw_slicer *slicer, const view *v, const fw_films *f
 /* ---- the cut faces ---- */
 
 /* a profile as a face: s runs from (x, y) in the direction (dx, dy) of the cut's frame */
-static void draw_face(const view *v, const fw_cross_section *p, double x, double y, double dx,
-                      double dy, double factor) {
+static void draw_face(const view *v, const fw_recipe_cross_section *p, double x, double y,
+                      double dx, double dy, double factor) {
     for (int i = 0; i < p->n; i++) {
-        const fw_patch *q = &p->patch[i];
+        const fw_recipe_patch *q = &p->patch[i];
         const double s[] = {q->low_m[0], q->high_m[0], q->high_m[1], q->low_m[1]};
         char ink[8];
         fw_svg_path(v->out, "fill='{r}'",
-                    shaded(ink, fw_paint_fill(q->film->material, q->film->exposed), factor));
+                    shaded(ink, fw_recipe_paint_fill(q->film->material, q->film->exposed), factor));
         for (int k = 0; k < 4; k++)
             put(v, k ? 'L' : 'M', x + dx * s[k], y + dy * s[k],
                 k == 0 || k == 3 ? q->bottom_m : q->top_m);
@@ -363,30 +371,32 @@ static void draw_face(const view *v, const fw_cross_section *p, double x, double
     }
 }
 
-static fw_status draw_faces(fw_slicer *slicer, const view *v, const fw_flow *flow, int index) {
+static fw_status draw_faces(fw_recipe_slicer *slicer, const view *v, const fw_process_flow *flow,
+                            int index) {
     const fw_recipe_cut *cut = slicer->cut;
-    const fw_vec2 u = cut->line.along;
+    const fw_geometry_vec2 u = cut->line.along;
     const fw_recipe_cut side = {
         .line = {{cut->line.at.x + cut->length_m * u.x, cut->line.at.y + cut->length_m * u.y},
                  {-u.y, u.x}},
         .length_m = cut->depth_m,
         .depth_m = cut->length_m,
         .name = cut->name};
-    fw_slicer beside;
-    fw_cross_section p;
-    FW_TRY(fw_slicer_start(slicer->arena, slicer->mask, &side, &beside));
-    FW_TRY(fw_cross_section_of(&beside, flow, index, &p));
+    fw_recipe_slicer beside;
+    fw_recipe_cross_section p;
+    FW_TRY(fw_recipe_slicer_start(slicer->arena, slicer->mask, &side, &beside));
+    FW_TRY(fw_recipe_cross_section_of(&beside, flow, index, &p));
     draw_face(v, &p, cut->length_m, 0.0, 0.0, 1.0, 0.80);
-    FW_TRY(fw_cross_section_of(slicer, flow, index, &p));
+    FW_TRY(fw_recipe_cross_section_of(slicer, flow, index, &p));
     draw_face(v, &p, 0.0, 0.0, 1.0, 0.0, 0.94);
     return FW_OK;
 }
 
-fw_status fw_block_draw(fw_slicer *slicer, const fw_flow *flow, const fw_section_scale *scale,
-                        int index, double width, fw_text *out, double *height) {
+fw_status fw_recipe_block_draw(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                               const fw_recipe_section_scale *scale, int index, double width,
+                               fw_text *out, double *height) {
     const fw_recipe_cut *cut = slicer->cut;
-    fw_films films;
-    FW_TRY(fw_flow_films(slicer->arena, flow, index, &films));
+    fw_process_films films;
+    FW_TRY(fw_process_flow_films(slicer->arena, flow, index, &films));
     *height = 0.0;
     if (films.n == 0) return FW_OK;
     double low = HUGE_VAL, high = -HUGE_VAL;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One step of the run sheet, and what is made at its head. */
 #include "base/svg.h"
-#include "recipe/profile.h"
-#include "recipe/words.h"
+#include "recipe/recipe_profile.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
 /* What is made, at the head of the run sheet: the block behind the cut, and widths to look for. */
 
-static void parts(const fw_section_plan *plan, fw_text *out) {
+static void parts(const fw_recipe_section_plan *plan, fw_text *out) {
     enum {
         MOST = 8
     }; /* a cut across a whole device meets dozens: they are in the picture of sections */
@@ -26,7 +26,7 @@ static void width(fw_text *out, double m) {
     if (isnan(m))
         fw_text_add(out, "-");
     else
-        fw_put_value(out, m * 1e6);
+        fw_recipe_put_value(out, m * 1e6);
     fw_text_add(out, "</td>");
 }
 
@@ -34,17 +34,17 @@ static double rounded(double m) { /* to 1 nm: what a microscope can tell, and mo
     return isnan(m) ? m : 1e-9 * floor(m * 1e9 + 0.5);
 }
 
-static void openings(const fw_section_plan *plan, fw_text *out) {
+static void openings(const fw_recipe_section_plan *plan, fw_text *out) {
     enum { MOST = 6 };
     if (plan->nopening == 0 || plan->nopening > MOST) return;
     fw_text_add(out, "<table class=\"small\"><tr><th>Opening at, µm</th><th class=\"n\">drawn</th>"
                      "<th class=\"n\">mask</th><th class=\"n\">top</th><th class=\"n\">bottom"
                      "</th><th class=\"n\">deep</th></tr>\n");
     for (int i = 0; i < plan->nopening; i++) {
-        const fw_section_opening *o = &plan->opening[i];
+        const fw_recipe_section_opening *o = &plan->opening[i];
         const double value[] = {o->drawn_m, o->mask_m, o->top_m, o->bottom_m, o->depth_m};
         fw_text_add(out, "<tr><td>");
-        fw_put_value(out, rounded(0.5 * (o->from_m + o->to_m)) * 1e6);
+        fw_recipe_put_value(out, rounded(0.5 * (o->from_m + o->to_m)) * 1e6);
         fw_text_add(out, "</td>");
         for (int k = 0; k < 5; k++)
             width(out, rounded(value[k]));
@@ -53,14 +53,15 @@ static void openings(const fw_section_plan *plan, fw_text *out) {
     fw_text_add(out, "</table>\n");
 }
 
-fw_status fw_html_pictures(const fw_flow *flow, const fw_recipe_header *header, fw_slicer *slicer,
-                           const fw_section_scale *scale, fw_text *out) {
+fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_header *header,
+                                  fw_recipe_slicer *slicer, const fw_recipe_section_scale *scale,
+                                  fw_text *out) {
     double height;
-    fw_section_plan plan;
+    fw_recipe_section_plan plan;
     fw_text body = fw_text_new(out->arena);
     fw_text_add(&body, "");
-    FW_TRY(fw_section_plan_of(slicer, flow, &plan));
-    FW_TRY(fw_block_draw(slicer, flow, scale, flow->nstep - 1, 420.0, &body, &height));
+    FW_TRY(fw_recipe_section_plan_of(slicer, flow, &plan));
+    FW_TRY(fw_recipe_block_draw(slicer, flow, scale, flow->nstep - 1, 420.0, &body, &height));
     FW_TRY(fw_text_end(&body));
     fw_text_add(out, "<h3>What is made</h3>\n<div class=\"pair\"><div><p>Sections: ");
     fw_text_escaped(out, header->cut->name);
@@ -87,7 +88,7 @@ static void tagged(fw_text *out, const char *text) {
     fw_text_printf(out, "<span class=\"tag %s\">%s</span>", text, text);
 }
 
-static void step_head(const fw_step *s, fw_text *out) {
+static void step_head(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "&ensp;");
@@ -113,7 +114,7 @@ static void step_head(const fw_step *s, fw_text *out) {
     fw_text_add(out, "</div><div>");
 }
 
-static void tolerance(const fw_row *row, fw_text *out) {
+static void tolerance(const fw_recipe_row *row, fw_text *out) {
     if (row->low[0] && row->high[0]) {
         fw_text_escaped(out, row->low);
         fw_text_add(out, " to ");
@@ -132,14 +133,14 @@ static void value_cell(const fw_quantity *q, fw_text *out) {
         fw_text_add(out, "____________");
         if (strcmp(q->unit, "1") != 0) {
             fw_text_add(out, " ");
-            fw_put_unit(out, q->unit);
+            fw_recipe_put_unit(out, q->unit);
         }
         return;
     }
     fw_text_add(out, "<b>");
-    fw_put_value(out, fw_quantity_in_unit(q));
+    fw_recipe_put_value(out, fw_quantity_in_unit(q));
     fw_text_add(out, "</b>");
-    double u = fw_row_uncertainty(q);
+    double u = fw_recipe_row_uncertainty(q);
     if (u > 0.0) {
         fw_text_add(out, " ± ");
         if (u >= 99.5 && u < 1e6)
@@ -148,10 +149,10 @@ static void value_cell(const fw_quantity *q, fw_text *out) {
             fw_text_number(out, u, 2);
     }
     fw_text_add(out, " ");
-    fw_put_unit(out, q->unit);
+    fw_recipe_put_unit(out, q->unit);
 }
 
-static void quantity_row(const fw_flow *flow, const fw_row *row, fw_text *out) {
+static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, fw_text *out) {
     const fw_quantity *q = row->q;
     fw_text_add(out, "<tr><td>");
     fw_text_escaped(out, row->name);
@@ -160,9 +161,9 @@ static void quantity_row(const fw_flow *flow, const fw_row *row, fw_text *out) {
     fw_text_add(out, "</td><td>");
     tolerance(row, out);
     fw_text_add(out, "</td><td>");
-    tagged(out, q->unknown ? "unknown" : fw_value_status_text(q->status));
+    tagged(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     fw_text_add(out, " ");
-    fw_html_source(flow, q->source, out);
+    fw_recipe_html_source(flow, q->source, out);
     if (q->note) {
         fw_text_add(out, " <span class=\"muted\">");
         fw_text_escaped(out, q->note);
@@ -171,10 +172,10 @@ static void quantity_row(const fw_flow *flow, const fw_row *row, fw_text *out) {
     fw_text_add(out, "</td><td></td></tr>\n");
 }
 
-static fw_status quantities(const fw_flow *flow, const fw_step *s, fw_text *out) {
-    fw_row *row = NULL;
+static fw_status quantities(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
+    fw_recipe_row *row = NULL;
     int n = 0, derived = 0;
-    FW_TRY(fw_step_rows(out->arena, s, &row, &n));
+    FW_TRY(fw_recipe_step_rows(out->arena, s, &row, &n));
     if (n == 0) return FW_OK;
     fw_text_add(out,
                 "<table class=\"small\"><thead><tr><th style=\"width:28%\">Setting</th><th "
@@ -190,10 +191,10 @@ static fw_status quantities(const fw_flow *flow, const fw_step *s, fw_text *out)
     return FW_OK;
 }
 
-static fw_status time_box(const fw_step *s, fw_text *out) {
-    const fw_time *t = &s->time;
+static fw_status time_box(const fw_process_step *s, fw_text *out) {
+    const fw_process_time *t = &s->time;
     if (!t->computable) {
-        const char *missing = fw_missing_list(out->arena, t);
+        const char *missing = fw_recipe_missing_list(out->arena, t);
         FW_NEED(missing);
         fw_text_add(out, "<p class=\"nc\"><b>TIME NOT COMPUTABLE</b>, missing: ");
         fw_text_escaped(out, missing);
@@ -206,7 +207,7 @@ static fw_status time_box(const fw_step *s, fw_text *out) {
                 "<th>Stop</th></tr><tr>");
     for (int i = 0; i < 4; i++) {
         fw_text_printf(out, "<td>%s", i == 0 ? "<b>" : "");
-        fw_put_duration(out, value[i]);
+        fw_schedule_put_duration(out, value[i]);
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
     fw_text_add(out, "</tr></table>\n");
@@ -215,7 +216,7 @@ static fw_status time_box(const fw_step *s, fw_text *out) {
     fw_text_add(out, "<p class=\"small\">Time: law <i>");
     fw_text_escaped(out, s->law);
     fw_text_add(out, "</i>, ");
-    tagged(out, fw_value_status_text(t->status));
+    tagged(out, fw_quantity_value_status_text(t->status));
     if (t->ncontribution > 0) {
         fw_text_add(out, ", uncertainty from ");
         for (int i = 0; i < t->ncontribution && i < 4; i++) {
@@ -227,7 +228,7 @@ static fw_status time_box(const fw_step *s, fw_text *out) {
     return FW_OK;
 }
 
-static void checks(const fw_step *s, fw_text *out) {
+static void checks(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nendpoint; i++) {
         fw_text_add(out, "<p><b>Endpoint:</b> ");
         fw_text_escaped(out, s->endpoint[i]);
@@ -238,14 +239,14 @@ static void checks(const fw_step *s, fw_text *out) {
                 "<table class=\"small\"><tr><th>Accept when</th><th>Limits</th><th>Sites, every"
                 "</th><th style=\"width:34%\">Measured</th></tr>\n");
     for (int i = 0; i < s->naccept; i++) {
-        const fw_accept *a = &s->accept[i];
-        fw_row limits = {.low = a->low, .high = a->high};
+        const fw_process_accept *a = &s->accept[i];
+        fw_recipe_row limits = {.low = a->low, .high = a->high};
         fw_text_add(out, "<tr><td>");
         fw_text_escaped(out, a->measure);
         fw_text_add(out, "</td><td>");
         tolerance(&limits, out);
         fw_text_add(out, limits.low[0] || limits.high[0] ? " " : "");
-        fw_put_unit(out, a->unit);
+        fw_recipe_put_unit(out, a->unit);
         fw_text_printf(out, "</td><td>%d, ", a->sites);
         if (a->every == 1)
             fw_text_add(out, "every wafer");
@@ -258,9 +259,9 @@ static void checks(const fw_step *s, fw_text *out) {
     fw_text_add(out, "</table>\n");
 }
 
-static void failures(const fw_step *s, fw_text *out) {
+static void failures(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->non_fail; i++) {
-        const fw_on_fail *f = &s->on_fail[i];
+        const fw_process_on_fail *f = &s->on_fail[i];
         fw_text_add(out, "<p class=\"small\"><b>If</b> ");
         fw_text_escaped(out, f->condition);
         fw_text_add(out, ": <b>");
@@ -275,18 +276,18 @@ static void failures(const fw_step *s, fw_text *out) {
     }
 }
 
-static void holds(const fw_step *s, fw_text *out) {
+static void holds(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nlag; i++) {
-        const fw_lag *l = &s->lag[i];
+        const fw_process_lag *l = &s->lag[i];
         fw_text_add(out, "<p class=\"note\"><b>Hold:</b> start ");
         if (!isnan(l->min_s)) {
             fw_text_add(out, "not before ");
-            fw_put_duration(out, l->min_s);
+            fw_schedule_put_duration(out, l->min_s);
         }
         fw_text_add(out, !isnan(l->min_s) && !isnan(l->max_s) ? " and " : "");
         if (!isnan(l->max_s)) {
             fw_text_add(out, "within ");
-            fw_put_duration(out, l->max_s);
+            fw_schedule_put_duration(out, l->max_s);
         }
         fw_text_add(out, " after the end of ");
         fw_text_escaped(out, l->from);
@@ -295,12 +296,12 @@ static void holds(const fw_step *s, fw_text *out) {
 }
 
 /* what the chemical takes along; how much of it the plan cannot say better than its quantity */
-static void exposures(const fw_flow *flow, const fw_step *s, fw_text *out) {
+static void exposures(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nexposed; i++) {
-        const fw_exposed *x = &s->exposed[i];
+        const fw_process_exposed *x = &s->exposed[i];
         const fw_quantity *q = x->rate ? x->rate : x->selectivity;
         fw_text_add(out, "<p class=\"note\"><b>Lies open:</b> ");
-        fw_text_escaped(out, fw_flow_material_name(flow, x->material));
+        fw_text_escaped(out, fw_process_flow_material_name(flow, x->material));
         if (q->unknown) {
             fw_text_printf(out, ". This step takes some of it; the %s is not known (",
                            x->rate ? "rate" : "selectivity");
@@ -311,14 +312,14 @@ static void exposures(const fw_flow *flow, const fw_step *s, fw_text *out) {
         fw_text_add(out, x->rate ? ", taken at " : ", at a selectivity of ");
         fw_text_number(out, fw_quantity_in_unit(q), 4);
         fw_text_add(out, x->rate ? " " : "");
-        if (x->rate) fw_put_unit(out, q->unit);
-        fw_text_printf(out, " (%s).</p>\n", fw_value_status_text(q->status));
+        if (x->rate) fw_recipe_put_unit(out, q->unit);
+        fw_text_printf(out, " (%s).</p>\n", fw_quantity_value_status_text(q->status));
     }
 }
 
-static void hazards(const fw_step *s, fw_text *out) {
+static void hazards(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nhazard; i++) {
-        const fw_hazard *h = s->hazard[i];
+        const fw_process_hazard *h = s->hazard[i];
         fw_text_add(out, "<div class=\"hazard\"><b>Hazard");
         if (strcmp(h->ghs, "none") != 0) {
             fw_text_add(out, " ");
@@ -340,7 +341,7 @@ static void hazards(const fw_step *s, fw_text *out) {
     }
 }
 
-static void actuals(const fw_step *s, fw_text *out) {
+static void actuals(const fw_process_step *s, fw_text *out) {
     fw_text_printf(
         out,
         "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool ID</td><td>Bath or "
@@ -349,12 +350,12 @@ static void actuals(const fw_step *s, fw_text *out) {
 }
 
 /* what the section of this step cannot know, where the step before had not said it */
-static fw_status section_notes(const fw_flow *flow, int index, fw_text *out) {
-    fw_films now, before;
-    FW_TRY(fw_flow_films(out->arena, flow, index, &now));
-    FW_TRY(fw_flow_films(out->arena, flow, index - 1, &before));
+static fw_status section_notes(const fw_process_flow *flow, int index, fw_text *out) {
+    fw_process_films now, before;
+    FW_TRY(fw_process_flow_films(out->arena, flow, index, &now));
+    FW_TRY(fw_process_flow_films(out->arena, flow, index - 1, &before));
     for (int i = 0; i < now.nnote; i++) {
-        if (!fw_films_is_new(&now, &before, i)) continue;
+        if (!fw_process_films_is_new(&now, &before, i)) continue;
         fw_text_add(out, "<p class=\"small muted\">");
         fw_text_escaped(out, now.note[i]);
         fw_text_add(out, ".</p>\n");
@@ -362,14 +363,14 @@ static fw_status section_notes(const fw_flow *flow, int index, fw_text *out) {
     return FW_OK;
 }
 
-void fw_html_step(const fw_flow *flow, int index, fw_slicer *slicer, const fw_section_scale *scale,
-                  fw_text *out) {
-    const fw_step *s = &flow->step[index];
+void fw_recipe_html_step(const fw_process_flow *flow, int index, fw_recipe_slicer *slicer,
+                         const fw_recipe_section_scale *scale, fw_text *out) {
+    const fw_process_step *s = &flow->step[index];
     fw_text_add(out, "<section class=\"step\" id=\"");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "\">\n");
     step_head(s, out);
-    fw_status drawn = slicer ? fw_section_exact(slicer, flow, scale, index, out)
+    fw_status drawn = slicer ? fw_recipe_section_exact(slicer, flow, scale, index, out)
                              : fw_recipe_section_svg(flow, index, out);
     if (drawn == FW_OK && slicer) drawn = section_notes(flow, index, out);
     if (drawn != FW_OK) out->failed = 1;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* iCalendar (RFC 5545). Times start at a fixed Monday, so that the same plan gives the same bytes:
    the calendar program moves it to the real day. */
-#include "recipe/words.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
@@ -65,20 +65,20 @@ static fw_status moment(fw_text *out, const char *name, long seconds) {
     return property(out, name, text.data, false);
 }
 
-static fw_status description(fw_text *out, const fw_step *s) {
+static fw_status description(fw_text *out, const fw_process_step *s) {
     fw_text text = fw_text_new(out->arena);
     fw_text_printf(&text, "%s Equipment: %s. ", s->purpose,
                    s->equipment ? s->equipment->class_ : "");
     if (s->time.computable) {
         fw_text_add(&text, "First look ");
-        fw_put_duration(&text, s->time.first_look_s);
+        fw_schedule_put_duration(&text, s->time.first_look_s);
         fw_text_add(&text, ", clear by ");
-        fw_put_duration(&text, s->time.clear_by_s);
+        fw_schedule_put_duration(&text, s->time.clear_by_s);
         fw_text_add(&text, ", stop ");
-        fw_put_duration(&text, s->time.stop_s);
+        fw_schedule_put_duration(&text, s->time.stop_s);
         fw_text_add(&text, ".");
     } else {
-        const char *missing = fw_missing_list(out->arena, &s->time);
+        const char *missing = fw_recipe_missing_list(out->arena, &s->time);
         FW_NEED(missing);
         fw_text_printf(&text, "Time NOT COMPUTABLE, missing: %s.", missing);
     }
@@ -87,7 +87,7 @@ static fw_status description(fw_text *out, const fw_step *s) {
 }
 
 typedef struct load { /* which wafers, and who: where there are several */
-    const fw_run *run;
+    const fw_schedule_run *run;
     bool wafers, people;
 } load;
 
@@ -97,14 +97,14 @@ static const char *of_load(fw_arena *arena, const load *l, bool event) {
     fw_text_add(&text, "");
     if (l && l->wafers) {
         fw_text_add(&text, l->run->count > 1 ? ", wafers " : ", wafer ");
-        fw_put_wafers(&text, l->run);
+        fw_recipe_put_wafers(&text, l->run);
     }
     if (l && l->people && event) fw_text_printf(&text, ", operator %d", l->run->operator_ + 1);
     return fw_text_end(&text) == FW_OK ? text.data : NULL;
 }
 
-static fw_status entry(fw_text *out, const fw_flow *flow, const fw_recipe_header *header,
-                       const fw_step *s, const load *l, bool event, long start, long end) {
+static fw_status entry(fw_text *out, const fw_process_flow *flow, const fw_recipe_header *header,
+                       const fw_process_step *s, const load *l, bool event, long start, long end) {
     fw_arena *arena = out->arena;
     const char *which = of_load(arena, l, event);
     const char *wafer = l && l->wafers ? fw_arena_printf(arena, "-%d", l->run->first + 1) : "";
@@ -129,11 +129,12 @@ static fw_status entry(fw_text *out, const fw_flow *flow, const fw_recipe_header
 }
 
 /* every load of the schedule, and somebody's time for it */
-static fw_status scheduled(fw_text *out, const fw_flow *flow, const fw_recipe_header *header) {
+static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
+                           const fw_recipe_header *header) {
     const fw_schedule *plan = header->schedule;
     for (int i = 0; i < plan->nrun; i++) {
-        const fw_run *r = &plan->run[i];
-        const fw_step *s = &flow->step[r->task];
+        const fw_schedule_run *r = &plan->run[i];
+        const fw_process_step *s = &flow->step[r->task];
         long start = midnight + lround(r->start_s), end = midnight + lround(ceil(r->end_s));
         load l = {r, plan->shop->wafers > 1, plan->shop->operators > 1};
         FW_TRY(entry(out, flow, header, s, &l, false, start, end));
@@ -145,10 +146,11 @@ static fw_status scheduled(fw_text *out, const fw_flow *flow, const fw_recipe_he
 }
 
 /* one wafer, one step after the other */
-static fw_status in_a_row(fw_text *out, const fw_flow *flow, const fw_recipe_header *header) {
+static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
+                          const fw_recipe_header *header) {
     long at = midnight + 8L * 3600L;
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         double run = s->time.computable ? fmin(s->time.nominal_s, 1e8) : 0.0;
         long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
         long end = at + (lasts > attended ? lasts : attended);
@@ -159,7 +161,8 @@ static fw_status in_a_row(fw_text *out, const fw_flow *flow, const fw_recipe_hea
     return FW_OK;
 }
 
-fw_status fw_recipe_write_ics(const fw_flow *flow, const fw_recipe_header *header, fw_text *out) {
+fw_status fw_recipe_write_ics(const fw_process_flow *flow, const fw_recipe_header *header,
+                              fw_text *out) {
     const char *name = fw_arena_printf(out->arena, "%s%s: %s", header->rejected ? "REJECTED " : "",
                                        flow->title, header->device ? header->device : "");
     FW_NEED(name);

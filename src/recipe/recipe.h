@@ -8,7 +8,7 @@
 #include "schedule/schedule.h"
 
 typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of it is shown */
-    fw_cut_line line;          /* shown from 0 to length_m along it */
+    fw_geometry_cut_line line; /* shown from 0 to length_m along it */
     double length_m, depth_m;  /* depth to the left of the line: of the view from above */
     const char *name;          /* "hinge C, radially through its gap" */
 } fw_recipe_cut;
@@ -21,27 +21,31 @@ typedef struct fw_recipe_header {
     const fw_recipe_cut *cut;    /* NULL: the same */
 } fw_recipe_header;
 
-fw_status fw_recipe_write_html(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
-fw_status fw_recipe_write_csv(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
-fw_status fw_recipe_write_ics(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
-fw_status fw_recipe_write_json(const fw_flow *flow, const fw_recipe_header *header, fw_text *out);
+fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
+                               fw_text *out);
+fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_header *header,
+                              fw_text *out);
+fw_status fw_recipe_write_ics(const fw_process_flow *flow, const fw_recipe_header *header,
+                              fw_text *out);
+fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
+                               fw_text *out);
 /* who does what when; only with header->schedule */
-fw_status fw_recipe_write_schedule_csv(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);
-fw_status fw_recipe_write_schedule_json(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                         fw_text *out);
 /* machines, people and hold windows over the days */
-fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);
 /* only with header->mask and header->cut: the section after every step below each other; the same
    as JSON; what stands around the cut after the steps that change the wafer, seen from above */
-fw_status fw_recipe_write_sections_svg(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_sections_svg(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);
-fw_status fw_recipe_write_sections_json(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_sections_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                         fw_text *out);
-fw_status fw_recipe_write_stack_svg(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_stack_svg(const fw_process_flow *flow, const fw_recipe_header *header,
                                     fw_text *out);
 /* layers of the wafer after step `index`, not to scale, as an SVG fragment */
-fw_status fw_recipe_section_svg(const fw_flow *flow, int index, fw_text *out);
+fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text *out);
 
 #endif

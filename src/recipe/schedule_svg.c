@@ -3,7 +3,7 @@
    every operator and for every hold window. The night behind a day is a narrow strip of its panel,
    so that no run is outside the picture. */
 #include "base/svg.h"
-#include "recipe/words.h"
+#include "recipe/recipe_words.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -54,24 +54,24 @@ static void label(fw_text *out, double x, double y, const char *class_name, cons
 }
 
 /* content of the box of a load, and its end */
-static void hover(fw_text *out, const fw_schedule *s, const fw_run *r) {
-    const fw_task *t = &s->shop->task[r->task];
+static void hover(fw_text *out, const fw_schedule *s, const fw_schedule_run *r) {
+    const fw_schedule_task *t = &s->shop->task[r->task];
     fw_svg_open(out, "title");
     fw_markup(out, "{s} {s}; wafer ", t->id, t->title);
-    fw_put_wafers(out, r);
+    fw_recipe_put_wafers(out, r);
     fw_text_add(out, "; ");
-    fw_put_moment(out, r->start_s);
+    fw_recipe_put_moment(out, r->start_s);
     fw_text_add(out, " to ");
-    fw_put_moment(out, r->end_s);
+    fw_recipe_put_moment(out, r->end_s);
     if (t->unknown) fw_text_add(out, "; time unknown");
     fw_svg_close(out, "title");
     fw_svg_close(out, "rect\n");
 }
 
 /* one bar: a band of colour for every wafer of the load */
-static void bar(const picture *p, const fw_run *r, double start, double end, double y,
+static void bar(const picture *p, const fw_schedule_run *r, double start, double end, double y,
                 double height) {
-    const fw_task *t = &p->s->shop->task[r->task];
+    const fw_schedule_task *t = &p->s->shop->task[r->task];
     double x = px(p, start), w = px(p, end) - x, band = height / r->count;
     for (int i = 0; i < r->count; i++)
         fw_svg_put(p->out, BOX " fill='{r}'\n", x, y + band * i, fmax(w, LEAST), band,
@@ -88,15 +88,15 @@ static void bar(const picture *p, const fw_run *r, double start, double end, dou
 }
 
 static int lanes_of(const picture *p, const row *r) {
-    const fw_shop *shop = p->s->shop;
+    const fw_schedule_shop *shop = p->s->shop;
     if (r->kind == HOLD) return shop->wafers;
     return r->kind == MACHINE && shop->machine[r->index].places > 1 ? shop->wafers : 0;
 }
 
 /* when wafer w waited: from the end of one step to the start of the other */
-static void waited(const picture *p, const fw_hold *h, int w, double *from, double *to) {
+static void waited(const picture *p, const fw_schedule_hold *h, int w, double *from, double *to) {
     for (int i = 0; i < p->s->nrun; i++) {
-        const fw_run *run = &p->s->run[i];
+        const fw_schedule_run *run = &p->s->run[i];
         if (w < run->first || w >= run->first + run->count) continue;
         if (run->task == h->from) *from = run->end_s;
         if (run->task == h->to) *to = run->start_s;
@@ -110,7 +110,7 @@ static bool in_panel(const picture *p, double from, double to) {
 
 /* is anything of the row in the panel? */
 static bool in_use(const picture *p, const row *r) {
-    const fw_shop *shop = p->s->shop;
+    const fw_schedule_shop *shop = p->s->shop;
     if (r->kind == PERSON) return true;
     for (int w = 0; r->kind == HOLD && w < shop->wafers; w++) {
         double from = 0.0, to = 0.0;
@@ -118,7 +118,7 @@ static bool in_use(const picture *p, const row *r) {
         if (in_panel(p, from, to)) return true;
     }
     for (int i = 0; r->kind == MACHINE && i < p->s->nrun; i++) {
-        const fw_run *run = &p->s->run[i];
+        const fw_schedule_run *run = &p->s->run[i];
         if (shop->task[run->task].machine == r->index && meets(p, run->start_s, run->end_s))
             return true;
     }
@@ -137,7 +137,7 @@ static void add_row(picture *p, row_kind kind, int index) {
 }
 
 static void rows_of(picture *p) {
-    const fw_shop *shop = p->s->shop;
+    const fw_schedule_shop *shop = p->s->shop;
     p->nrow = 0;
     for (int i = 0; i < shop->nmachine; i++)
         add_row(p, MACHINE, i);
@@ -148,7 +148,7 @@ static void rows_of(picture *p) {
 }
 
 static void row_label(const picture *p, const row *r) {
-    const fw_shop *shop = p->s->shop;
+    const fw_schedule_shop *shop = p->s->shop;
     fw_text text = fw_text_new(p->out->arena);
     if (r->kind == MACHINE) {
         const char *title = shop->machine[r->index].title;
@@ -157,10 +157,10 @@ static void row_label(const picture *p, const row *r) {
     } else if (r->kind == PERSON)
         fw_text_printf(&text, "operator %d", r->index + 1);
     else {
-        const fw_hold *h = &shop->hold[r->index];
+        const fw_schedule_hold *h = &shop->hold[r->index];
         fw_text_printf(&text, "%s \xe2\x86\x92 %s within ", shop->task[h->from].id,
                        shop->task[h->to].id);
-        fw_put_duration(&text, h->max_s);
+        fw_schedule_put_duration(&text, h->max_s);
     }
     if (fw_text_end(&text) != FW_OK) {
         p->out->failed = 1;
@@ -171,8 +171,8 @@ static void row_label(const picture *p, const row *r) {
 
 /* what a wafer waited, in its colour, and what it might still have waited */
 static void windows(const picture *p, const row *r) {
-    const fw_shop *shop = p->s->shop;
-    const fw_hold *h = &shop->hold[r->index];
+    const fw_schedule_shop *shop = p->s->shop;
+    const fw_schedule_hold *h = &shop->hold[r->index];
     for (int w = 0; w < shop->wafers; w++) {
         double from = 0.0, to = 0.0, y = r->y + 2.0 + LANE * w;
         waited(p, h, w, &from, &to);
@@ -194,8 +194,8 @@ static void draw_row(const picture *p, const row *r) {
         return;
     }
     for (int i = 0; i < p->s->nrun; i++) {
-        const fw_run *run = &p->s->run[i];
-        const fw_task *t = &p->s->shop->task[run->task];
+        const fw_schedule_run *run = &p->s->run[i];
+        const fw_schedule_task *t = &p->s->shop->task[run->task];
         double end = r->kind == PERSON ? run->start_s + t->attended_s : run->end_s;
         bool here = r->kind == PERSON ? run->operator_ == r->index : t->machine == r->index;
         if (!here || !meets(p, run->start_s, end)) continue;
@@ -251,9 +251,9 @@ static bool anything(const picture *p) {
 static void panels(picture *p) {
     static const char *const name[] = {"Monday", "Tuesday",  "Wednesday", "Thursday",
                                        "Friday", "Saturday", "Sunday"};
-    const fw_calendar *c = &p->s->shop->calendar;
+    const fw_schedule_calendar *c = &p->s->shop->calendar;
     double end = p->s->start_s + p->s->makespan_s;
-    if (fw_calendar_round(c)) {
+    if (fw_schedule_calendar_round(c)) {
         double piece = fmin(12.0, fmax(1.0, ceil(end / 3600.0))) * 3600.0;
         for (double t = 0.0; t < end - 1e-6; t += piece) {
             char title[40];
@@ -264,12 +264,12 @@ static void panels(picture *p) {
         }
         return;
     }
-    for (double t = fw_calendar_fit(c, 0.0, 1.0); t < end - 1e-6; t = p->next_s) {
+    for (double t = fw_schedule_calendar_fit(c, 0.0, 1.0); t < end - 1e-6; t = p->next_s) {
         char title[40];
         int day = (int)(t / 86400.0);
         p->open_s = t;
         p->close_s = day * 86400.0 + c->close_s;
-        p->next_s = fw_calendar_fit(c, p->close_s, 1.0);
+        p->next_s = fw_schedule_calendar_fit(c, p->close_s, 1.0);
         snprintf(title, sizeof title, "day %d, %s", day + 1, name[day % 7]);
         if (anything(p)) panel(p, title);
     }
@@ -308,7 +308,7 @@ static void legend(fw_text *out, int wafers, double y) {
         "and allowed");
 }
 
-fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_header *header,
+fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out) {
     const fw_schedule *s = header->schedule;
     fw_text body = fw_text_new(out->arena), words = fw_text_new(out->arena);
@@ -316,7 +316,7 @@ fw_status fw_recipe_write_schedule_svg(const fw_flow *flow, const fw_recipe_head
     FW_NEED(p);
     *p = (picture){.s = s, .out = &body};
     fw_text_add(&words, "");
-    fw_put_schedule_summary(&words, s);
+    fw_recipe_put_schedule_summary(&words, s);
     FW_TRY(fw_text_end(&words));
     const char *title = fw_arena_printf(
         out->arena, "%sSchedule: %s%s%s", header->rejected ? "REJECTED. " : "", flow->title,

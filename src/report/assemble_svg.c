@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Guess and assembled position side by side: every body in its own colour in both, open joints in
    red with their size. Bodies are their outlines where they are drawn, else as in figure.h. */
-#include "report/assembly.h"
+#include "report/report_assembly.h"
 #include "base/constants.h"
 #include "report/figure.h"
 #include <math.h>
@@ -12,13 +12,13 @@ enum { PANEL = 470, GUTTER = 20, HEAD = 44, FOOT = 64, MOST_LABELS = 40 };
 static const char *const open_colour = "#C00000";
 
 typedef struct label_list { /* centres of the labels so far: later ones keep clear of them */
-    fw_vec2 at[MOST_LABELS];
+    fw_geometry_vec2 at[MOST_LABELS];
     int count;
 } label_list;
 
 typedef struct panel {
     const fw_report_assembly *in;
-    const fw_figure *figure;
+    const fw_report_drawing_figure *figure;
     const double *q; /* (3 nbody) pose shown */
     fw_report_view view;
     bool guess;
@@ -29,10 +29,10 @@ static const char *name_of(const char *id) {
     return id ? id : "?";
 }
 
-static fw_vec2 place(const double *q, int body, double x, double y) {
-    if (body == FW_GROUND) return (fw_vec2){x, y};
+static fw_geometry_vec2 place(const double *q, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){x, y};
     double c = cos(q[3 * body + 2]), s = sin(q[3 * body + 2]);
-    return (fw_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
+    return (fw_geometry_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
 }
 
 /* ---- bodies and joints ---- */
@@ -51,7 +51,7 @@ static void outline(const panel *p, const double *q, int body, fw_text *out) {
 }
 
 /* where the bodies were, behind where they are */
-static void draw_ghosts(const panel *p, const fw_figure_pen *pen, fw_text *out) {
+static void draw_ghosts(const panel *p, const fw_report_figure_pen *pen, fw_text *out) {
     const fw_report_assembly *in = p->in;
     if (in->assembly->most_moved_m == 0.0 && in->assembly->most_turned_rad == 0.0) return;
     fw_svg_open(out, "g fill='none' stroke='#aab2ba' stroke-width='1' stroke-dasharray='4 3'\n");
@@ -59,7 +59,7 @@ static void draw_ghosts(const panel *p, const fw_figure_pen *pen, fw_text *out) 
         if (fw_report_outlined(in->layout, b)) outline(p, in->assembly->before, b, out);
     for (int i = 0; i < p->figure->count; i++)
         if (!fw_report_outlined(in->layout, p->figure->part[i].of))
-            fw_figure_ghost(&p->figure->part[i], in->assembly->before, pen);
+            fw_report_figure_ghost(&p->figure->part[i], in->assembly->before, pen);
     fw_svg_close(out, "g\n");
 }
 
@@ -67,18 +67,18 @@ static void draw_outlines(const panel *p, fw_text *out) {
     for (int b = 0; b < p->in->mechanism->nbody; b++) {
         if (!fw_report_outlined(p->in->layout, b)) continue;
         fw_svg_open(out, "g fill='{r}' fill-opacity='0.35' stroke='{r}' stroke-width='1'",
-                    fw_figure_colour(b), fw_figure_colour(b));
+                    fw_report_figure_colour(b), fw_report_figure_colour(b));
         outline(p, p->q, b, out);
         fw_svg_close(out, "g\n");
     }
 }
 
-static void draw_figure(const panel *p, const fw_figure_pen *pen) {
+static void draw_figure(const panel *p, const fw_report_figure_pen *pen) {
     for (int i = 0; i < p->figure->count; i++) {
-        const fw_figure_part *part = &p->figure->part[i];
+        const fw_report_figure_part *part = &p->figure->part[i];
         bool body = part->role == FW_FIGURE_BODY || part->role == FW_FIGURE_PLATE;
         if (part->role == FW_FIGURE_PIN) continue; /* open ones look different: draw_pins */
-        if (!body || !fw_report_outlined(p->in->layout, part->of)) fw_figure_draw(part, pen);
+        if (!body || !fw_report_outlined(p->in->layout, part->of)) fw_report_figure_draw(part, pen);
     }
 }
 
@@ -91,9 +91,9 @@ static void dot(const panel *p, double x, double y, bool open, fw_text *out) {
 static void draw_pins(const panel *p, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *pin = &m->pin[i];
-        fw_vec2 a = place(p->q, pin->body_a, pin->ax_m, pin->ay_m);
-        fw_vec2 b = place(p->q, pin->body_b, pin->bx_m, pin->by_m);
+        const fw_mechanism_pin *pin = &m->pin[i];
+        fw_geometry_vec2 a = place(p->q, pin->body_a, pin->ax_m, pin->ay_m);
+        fw_geometry_vec2 b = place(p->q, pin->body_b, pin->bx_m, pin->by_m);
         double ax = fw_report_x(&p->view, a.x), ay = fw_report_y(&p->view, a.y);
         double bx = fw_report_x(&p->view, b.x), by = fw_report_y(&p->view, b.y);
         bool open = hypot(ax - bx, ay - by) > 0.5;
@@ -110,9 +110,9 @@ static void halo_text(fw_text *out, double x, double y, double size, const char 
                 x, y, size, weight, anchor, colour);
 }
 
-static fw_vec2 middle_of(const panel *p) {
+static fw_geometry_vec2 middle_of(const panel *p) {
     const fw_mechanism *m = p->in->mechanism;
-    fw_vec2 sum = {0, 0};
+    fw_geometry_vec2 sum = {0, 0};
     for (int b = 0; b < m->nbody; b++) {
         sum.x += fw_report_x(&p->view, p->q[3 * b]) / m->nbody;
         sum.y += fw_report_y(&p->view, p->q[3 * b + 1]) / m->nbody;
@@ -121,7 +121,7 @@ static fw_vec2 middle_of(const panel *p) {
 }
 
 /* moved away from the line until no other label is under it */
-static fw_vec2 free_spot(label_list *taken, fw_vec2 at, double nx, double ny) {
+static fw_geometry_vec2 free_spot(label_list *taken, fw_geometry_vec2 at, double nx, double ny) {
     for (int tries = 0; tries < 6; tries++) {
         bool clear = true;
         for (int i = 0; i < taken->count && clear; i++)
@@ -133,7 +133,8 @@ static fw_vec2 free_spot(label_list *taken, fw_vec2 at, double nx, double ny) {
     return at;
 }
 
-static void gap_line(const panel *p, fw_vec2 from, fw_vec2 to, label_list *taken, fw_text *out) {
+static void gap_line(const panel *p, fw_geometry_vec2 from, fw_geometry_vec2 to, label_list *taken,
+                     fw_text *out) {
     double ax = fw_report_x(&p->view, from.x), ay = fw_report_y(&p->view, from.y);
     double bx = fw_report_x(&p->view, to.x), by = fw_report_y(&p->view, to.y);
     if (!(hypot(ax - bx, ay - by) > 0.5)) return;
@@ -144,9 +145,9 @@ static void gap_line(const panel *p, fw_vec2 from, fw_vec2 to, label_list *taken
     double mx = 0.5 * (ax + bx), my = 0.5 * (ay + by);
     /* beside the line, towards the middle of the mechanism: names of joints stand outside */
     double d = hypot(bx - ax, by - ay), nx = (by - ay) / d, ny = -(bx - ax) / d;
-    fw_vec2 c = middle_of(p);
+    fw_geometry_vec2 c = middle_of(p);
     if (nx * (c.x - mx) + ny * (c.y - my) < 0) nx = -nx, ny = -ny;
-    fw_vec2 at = {mx + (fabs(nx) > 0.3 ? (nx > 0 ? 36 : -36) : 0), my + 11 * ny};
+    fw_geometry_vec2 at = {mx + (fabs(nx) > 0.3 ? (nx > 0 ? 36 : -36) : 0), my + 11 * ny};
     at = free_spot(taken, at, nx, ny);
     at.x = fmax(34, fmin(PANEL - 34, at.x));
     halo_text(out, at.x, at.y + 4, 11, open_colour, "600", "middle");
@@ -160,56 +161,56 @@ static void draw_gaps(const panel *p, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
     label_list taken = {.count = 0};
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *k = &m->pin[i];
+        const fw_mechanism_pin *k = &m->pin[i];
         gap_line(p, place(p->q, k->body_a, k->ax_m, k->ay_m),
                  place(p->q, k->body_b, k->bx_m, k->by_m), &taken, out);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
-        fw_vec2 a = place(p->q, t->body_a, t->ax_m, t->ay_m);
-        fw_vec2 b = place(p->q, t->body_b, t->bx_m, t->by_m), to = a;
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
+        fw_geometry_vec2 a = place(p->q, t->body_a, t->ax_m, t->ay_m);
+        fw_geometry_vec2 b = place(p->q, t->body_b, t->bx_m, t->by_m), to = a;
         double dx = b.x - a.x, dy = b.y - a.y, d = hypot(dx, dy);
         double axis = t->axis_rad + (t->body_a == FW_GROUND ? 0 : p->q[3 * t->body_a + 2]);
         double along = cos(axis) * dx + sin(axis) * dy;
-        if (t->kind == FW_TIE_PRISMATIC)
-            to = (fw_vec2){a.x + along * cos(axis), a.y + along * sin(axis)};
-        else if (t->kind == FW_TIE_DISTANCE && d > 0)
-            to = (fw_vec2){a.x + t->length_m / d * dx, a.y + t->length_m / d * dy};
+        if (t->kind == FW_JOINT_PRISMATIC)
+            to = (fw_geometry_vec2){a.x + along * cos(axis), a.y + along * sin(axis)};
+        else if (t->kind == FW_JOINT_DISTANCE && d > 0)
+            to = (fw_geometry_vec2){a.x + t->length_m / d * dx, a.y + t->length_m / d * dy};
         bool driven = false; /* a driven rod has the length that its driver asks for */
         for (int k = 0; k < m->ndriver; k++)
-            driven = driven || (m->driver[k].tie == i && t->kind == FW_TIE_DISTANCE);
+            driven = driven || (m->driver[k].joint == i && t->kind == FW_JOINT_DISTANCE);
         if (!driven) gap_line(p, to, b, &taken, out);
     }
 }
 
 /* ---- labels ---- */
 
-/* where a name goes that stands for a joint: point b of a pin or tie, in the picture */
-static fw_vec2 joint_at(const panel *p, int i, const char **id) {
+/* where a name goes that stands for a joint: point b of a pin or joint, in the picture */
+static fw_geometry_vec2 joint_at(const panel *p, int i, const char **id) {
     const fw_mechanism *m = p->in->mechanism;
-    fw_vec2 w;
+    fw_geometry_vec2 w;
     if (i < m->npin) {
         w = place(p->q, m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m);
         *id = name_of(m->pin[i].id);
     } else {
-        const fw_tie *t = &m->tie[i - m->npin];
+        const fw_device_joint *t = &m->joint[i - m->npin];
         w = place(p->q, t->body_b, t->bx_m, t->by_m);
         *id = name_of(t->id);
     }
-    return (fw_vec2){fw_report_x(&p->view, w.x), fw_report_y(&p->view, w.y)};
+    return (fw_geometry_vec2){fw_report_x(&p->view, w.x), fw_report_y(&p->view, w.y)};
 }
 
-static bool near(fw_vec2 a, fw_vec2 b) {
+static bool near(fw_geometry_vec2 a, fw_geometry_vec2 b) {
     return hypot(a.x - b.x, a.y - b.y) < 4;
 }
 
 /* joints on one spot share one label */
-static void joint_labels(const panel *p, fw_vec2 middle, fw_text *out) {
+static void joint_labels(const panel *p, fw_geometry_vec2 middle, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
-    int n = m->npin + m->ntie;
+    int n = m->npin + m->njoint;
     const char *id;
     for (int i = 0; i < n; i++) {
-        fw_vec2 at = joint_at(p, i, &id);
+        fw_geometry_vec2 at = joint_at(p, i, &id);
         bool told = false;
         for (int k = 0; k < i && !told; k++)
             told = near(at, joint_at(p, k, &id));
@@ -232,15 +233,15 @@ static void joint_labels(const panel *p, fw_vec2 middle, fw_text *out) {
 }
 
 /* on the line or outline rather than at the centre of mass */
-static fw_vec2 label_place(const panel *p, int body) {
-    fw_vec2 at = {p->q[3 * body], p->q[3 * body + 1]};
+static fw_geometry_vec2 label_place(const panel *p, int body) {
+    fw_geometry_vec2 at = {p->q[3 * body], p->q[3 * body + 1]};
     for (int i = 0; i < p->figure->count; i++) {
-        const fw_figure_part *f = &p->figure->part[i];
+        const fw_report_figure_part *f = &p->figure->part[i];
         if (f->role != FW_FIGURE_BODY || f->of != body || fw_report_outlined(p->in->layout, body))
             continue;
-        at = (fw_vec2){0, 0};
+        at = (fw_geometry_vec2){0, 0};
         for (int k = 0; k < f->noutline; k++) {
-            fw_vec2 w = place(p->q, body, f->outline[k].x, f->outline[k].y);
+            fw_geometry_vec2 w = place(p->q, body, f->outline[k].x, f->outline[k].y);
             double share = f->noutline > 2 ? 1.0 / f->noutline : k ? 0.35 : 0.65;
             at.x += share * w.x, at.y += share * w.y; /* the middle of a line may be a joint */
         }
@@ -248,10 +249,10 @@ static fw_vec2 label_place(const panel *p, int body) {
     return at;
 }
 
-static bool on_joint(const panel *p, fw_vec2 at) {
+static bool on_joint(const panel *p, fw_geometry_vec2 at) {
     const char *id;
-    for (int i = 0; i < p->in->mechanism->npin + p->in->mechanism->ntie; i++) {
-        fw_vec2 joint = joint_at(p, i, &id);
+    for (int i = 0; i < p->in->mechanism->npin + p->in->mechanism->njoint; i++) {
+        fw_geometry_vec2 joint = joint_at(p, i, &id);
         if (hypot(joint.x - at.x, joint.y - at.y) < 2 * p->mark) return true;
     }
     return false;
@@ -261,9 +262,9 @@ static void draw_labels(const panel *p, fw_text *out) {
     const fw_mechanism *m = p->in->mechanism;
     if (m->nbody + m->npin > MOST_LABELS) return;
     for (int b = 0; b < m->nbody; b++) {
-        fw_vec2 at = label_place(p, b);
+        fw_geometry_vec2 at = label_place(p, b);
         double x = fw_report_x(&p->view, at.x), y = fw_report_y(&p->view, at.y) + 4;
-        if (on_joint(p, (fw_vec2){x, y - 4})) y += 4 * p->mark;
+        if (on_joint(p, (fw_geometry_vec2){x, y - 4})) y += 4 * p->mark;
         halo_text(out, x, y, 11, "#424a53", "400", "middle");
         fw_markup(out, "{s}", name_of(m->body[b].id));
         fw_svg_close(out, "text\n");
@@ -273,31 +274,31 @@ static void draw_labels(const panel *p, fw_text *out) {
 
 /* ---- the picture ---- */
 
-static fw_box reach(const panel *p) {
+static fw_geometry_box reach(const panel *p) {
     const fw_mechanism *m = p->in->mechanism;
-    fw_box box = fw_report_box_empty();
+    fw_geometry_box box = fw_report_box_empty();
     for (int i = 0; i < p->figure->count; i++)
-        fw_figure_reach(&box, &p->figure->part[i], p->q, 1, m->nbody);
+        fw_report_figure_reach(&box, &p->figure->part[i], p->q, 1, m->nbody);
     for (int i = 0; i < m->npin; i++) { /* both ends: they may be apart */
-        fw_vec2 b = place(p->q, m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m);
+        fw_geometry_vec2 b = place(p->q, m->pin[i].body_b, m->pin[i].bx_m, m->pin[i].by_m);
         fw_report_box_add(&box, b.x, b.y);
     }
     double size = fmax(box.x1 - box.x0, box.y1 - box.y0), pad = 0.13 * size;
-    return (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+    return (fw_geometry_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
 }
 
-static double wide(fw_box b) {
+static double wide(fw_geometry_box b) {
     return b.x1 - b.x0;
 }
 
-static double high(fw_box b) {
+static double high(fw_geometry_box b) {
     return b.y1 - b.y0;
 }
 
 /* the same frame for both where they are of like size and near each other; a guess strewn far and
    wide, or collapsed, gets its own. Both panels are equally high. */
 static void choose_views(panel *p) {
-    fw_box box[2] = {reach(&p[0]), reach(&p[1])}, both = box[0];
+    fw_geometry_box box[2] = {reach(&p[0]), reach(&p[1])}, both = box[0];
     fw_report_box_add(&both, box[1].x0, box[1].y0);
     fw_report_box_add(&both, box[1].x1, box[1].y1);
     double size = fmax(wide(box[1]), high(box[1]));
@@ -321,11 +322,11 @@ static void draw_panel(const panel *p, const char *letter, const char *title, do
     fw_svg_close(out, "text\n");
     fw_svg_inset(out, "x='{c}' y='{i}' width='{i}' height='{c}'", x, HEAD, PANEL, p->view.height);
     fw_svg_put(out, "rect width='100%' height='100%' fill='#fff' stroke='#d0d7de'\n");
-    const fw_figure_pen pen = {.view = &p->view,
-                               .out = out,
-                               .still = p->q,
-                               .nbody = p->in->mechanism->nbody,
-                               .mark = p->mark};
+    const fw_report_figure_pen pen = {.view = &p->view,
+                                      .out = out,
+                                      .still = p->q,
+                                      .nbody = p->in->mechanism->nbody,
+                                      .mark = p->mark};
     if (!p->guess) draw_ghosts(p, &pen, out);
     draw_outlines(p, out);
     draw_figure(p, &pen);
@@ -377,10 +378,10 @@ static void caption(const fw_report_assembly *in, double size_m, double y, fw_te
 
 fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
-    fw_figure figure[2];
+    fw_report_drawing_figure figure[2];
     for (int i = 0; i < 2; i++)
-        FW_TRY(fw_figure_make(arena, m, i ? in->assembly->after : in->assembly->before, 1,
-                              &figure[i]));
+        FW_TRY(fw_report_figure_make(arena, m, i ? in->assembly->after : in->assembly->before, 1,
+                                     &figure[i]));
     panel p[2] = {{.in = in, .figure = &figure[0], .q = in->assembly->before, .guess = true},
                   {.in = in, .figure = &figure[1], .q = in->assembly->after}};
     choose_views(p);

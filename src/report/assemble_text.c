@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/assembly.h"
+#include "report/report_assembly.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>
@@ -39,7 +39,7 @@ static void joint_table(const fw_report_assembly *in, double size, fw_text *out)
     const char *unit = unit_of(size, &factor);
     bool any = false;
     for (int i = 0; i < a->ngap; i++) {
-        const fw_joint_gap *g = &a->gap[i];
+        const fw_assembly_joint_gap *g = &a->gap[i];
         if (g->gap_m <= least && g->gap_rad <= 1e-12) continue;
         if (!any) fw_text_printf(out, "\n  joint        open in the guess by\n");
         any = true;
@@ -68,7 +68,7 @@ static void body_table(const fw_report_assembly *in, double size, fw_text *out) 
     }
 }
 
-static void freedom(const fw_rank *r, fw_text *out) {
+static void freedom(const fw_assembly_rank_result *r, fw_text *out) {
     fw_text_printf(out, "\n%d degree%s of freedom: %d unknowns, %d constraint rows", r->dof,
                    r->dof == 1 ? "" : "s", r->unknowns, r->rows);
     if (!r->known) {
@@ -92,7 +92,7 @@ static void freedom(const fw_rank *r, fw_text *out) {
 static void branches(const fw_assembly *a, fw_text *out) {
     int same = 0;
     for (int i = 0; i < a->nelbow; i++) {
-        const fw_elbow *e = &a->elbow[i];
+        const fw_assembly_elbow *e = &a->elbow[i];
         if (e->guess == e->found) {
             same++;
             continue;
@@ -136,7 +136,7 @@ static void alternatives(const fw_report_assembly *in, double size, fw_text *out
 /* ---- motion ---- */
 
 static void coordinates(const fw_report_assembly *in, fw_text *out) {
-    const fw_coordinate_choice *c = &in->kinematics->independent;
+    const fw_assembly_coordinate_choice *c = &in->kinematics->independent;
     if (c->count == 0) return;
     fw_text_printf(out, "independent coordinates %s: %s, condition ",
                    c->automatic ? "by pivoting" : "as asked", c->text);
@@ -161,18 +161,18 @@ static double largest_motion(const double *all, int nbody, double size) {
     return most;
 }
 
-static double largest_force(const fw_kinematics *k) {
+static double largest_force(const fw_assembly_kinematics *k) {
     double most = 0;
     for (int i = 0; i < 2 * k->npin; i++)
         most = fmax(most, fabs(k->reaction_N[i]));
-    for (int i = 0; i < 3 * k->ntie; i++)
-        if (i % 3 != 2) most = fmax(most, fabs(k->tie_N[i]));
+    for (int i = 0; i < 3 * k->njoint; i++)
+        if (i % 3 != 2) most = fmax(most, fabs(k->joint_N[i]));
     return most;
 }
 
 static void velocities(const fw_report_assembly *in, double size, fw_text *out) {
     const fw_mechanism *m = in->mechanism;
-    const fw_kinematics *k = in->kinematics;
+    const fw_assembly_kinematics *k = in->kinematics;
     double factor;
     const char *unit = unit_of(size, &factor);
     const double most[2] = {largest_motion(k->v, m->nbody, size),
@@ -201,7 +201,7 @@ static void force(fw_text *out, double value, double most, const char *unit) {
 static void forces(const fw_report_assembly *in, double size, fw_text *out) {
     static const char *const axis[] = {"x", "y", "phi"};
     const fw_mechanism *m = in->mechanism;
-    const fw_kinematics *k = in->kinematics;
+    const fw_assembly_kinematics *k = in->kinematics;
     double most = largest_force(k);
     fw_text_printf(out, "\n  joint force on its second body%s%s%s\n",
                    in->scene ? ", loads of scene " : "", in->scene ? name_of(in->scene->name) : "",
@@ -211,20 +211,20 @@ static void forces(const fw_report_assembly *in, double size, fw_text *out) {
         force(out, k->reaction_N[2 * i], most, "N");
         force(out, k->reaction_N[2 * i + 1], most, "N\n");
     }
-    for (int i = 0; i < m->ntie; i++) {
-        fw_text_printf(out, "  %-8s", name_of(m->tie[i].id));
-        force(out, k->tie_N[3 * i], most, "N");
-        force(out, k->tie_N[3 * i + 1], most, "N");
-        force(out, k->tie_N[3 * i + 2], most * size, "N m\n");
+    for (int i = 0; i < m->njoint; i++) {
+        fw_text_printf(out, "  %-8s", name_of(m->joint[i].id));
+        force(out, k->joint_N[3 * i], most, "N");
+        force(out, k->joint_N[3 * i + 1], most, "N");
+        force(out, k->joint_N[3 * i + 2], most * size, "N m\n");
     }
     for (int i = 0; i < m->ndriver; i++) {
-        bool turns = m->driver[i].joint != FW_NONE;
+        bool turns = m->driver[i].revolute != FW_NONE;
         fw_text_printf(out, "  %-8s", name_of(m->driver[i].id));
         force(out, k->driver_N[i], most * (turns ? size : 1), turns ? "N m" : "N");
         fw_text_add(out, " along its coordinate\n");
     }
     for (int i = 0; i < k->independent.count; i++) {
-        const fw_coordinate *c = &k->independent.item[i];
+        const fw_assembly_coordinate *c = &k->independent.item[i];
         bool turns = c->axis == 2;
         fw_text_printf(out, "  %s.%s is driven by ", name_of(m->body[c->body].id), axis[c->axis]);
         fw_text_number(out, clean(k->drive[i], most * (turns ? size : 1)), 5);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 
-static void band(fw_text *out, const fw_hinge_verdict *h) {
+static void band(fw_text *out, const fw_verdict_hinge_verdict *h) {
     fw_markup(out, "{p}", h->utilisation);
     if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high))
         fw_markup(out, " ({p} to {p})", h->utilisation_low, h->utilisation_high);
@@ -19,7 +19,7 @@ static bool has_reasons(const fw_verdict *v) {
 static void reasons(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_reason *r = &v->variant[i].reason[k];
+            const fw_verdict_reason *r = &v->variant[i].reason[k];
             fw_markup(out, "<p class=\"why\">{r}: {s} (FW-D{i}).</p>\n",
                       r->decision == FW_REJECT ? "REJECTED" : "Inconclusive", r->text, r->number);
         }
@@ -33,8 +33,8 @@ static void why(fw_text *out, const fw_verdict *v) {
     };
     fw_text_add(out, "<p class=\"why\">");
     if (v->governing >= 0 && v->governing < v->nhinge) {
-        const fw_hinge_verdict *h = &v->hinge[v->governing];
-        fw_decision decision = has_reasons(v) ? h->decision : v->decision;
+        const fw_verdict_hinge_verdict *h = &v->hinge[v->governing];
+        fw_verdict_decision decision = has_reasons(v) ? h->decision : v->decision;
         fw_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed", h->id, fabs(h->peak_angle_rad),
                   decision == FW_REJECT ? "only " : "", h->limit_angle_rad);
         if (h->force_share > 0.0) /* rotation alone would be less: say where the rest comes from */
@@ -51,11 +51,11 @@ static void why(fw_text *out, const fw_verdict *v) {
     reasons(out, v);
 }
 
-static void limit(fw_text *out, const fw_hinge_verdict *h) {
+static void limit(fw_text *out, const fw_verdict_hinge_verdict *h) {
     if (!h->limit) return;
     fw_markup(out, "<div><dt>Limit ({s}, {s})</dt><dd>{s}: {u}; {s}</dd></div>",
-              h->limit->criterion, fw_value_status_text(h->limit->status), h->limit->definition,
-              h->limit_Pa, "Pa", h->limit->source);
+              h->limit->criterion, fw_quantity_value_status_text(h->limit->status),
+              h->limit->definition, h->limit_Pa, "Pa", h->limit->source);
     if (isfinite(h->fatigue_utilisation) && isfinite(h->damage) && h->cycles > 0)
         fw_markup(out,
                   "<div><dt>Fatigue (Miner's sum)</dt><dd>{p} of the amplitude that lasts "
@@ -68,7 +68,7 @@ static void limit(fw_text *out, const fw_hinge_verdict *h) {
 
 static void facts(fw_text *out, const fw_verdict *v) {
     if (v->governing < 0 || v->governing >= v->nhinge) return;
-    const fw_hinge_verdict *h = &v->hinge[v->governing];
+    const fw_verdict_hinge_verdict *h = &v->hinge[v->governing];
     fw_markup(out,
               "<dl><div><dt>Governing hinge</dt><dd>{s}</dd></div>"
               "<div><dt>Utilisation (error band)</dt><dd>",
@@ -96,7 +96,7 @@ static void parameters(fw_text *out, const fw_verdict *v) {
     if (v->nparameter == 0) return;
     fw_text_add(out, "<p>One parameter alone:</p>\n<ul>\n");
     for (int i = 0; i < v->nparameter; i++) {
-        const fw_parameter_advice *p = &v->parameter[i];
+        const fw_verdict_parameter_advice *p = &v->parameter[i];
         fw_markup(out, "<li>{s}", p->text);
         set_this(out, p->name, p->value_text);
         fw_text_add(out, "</li>\n");
@@ -104,7 +104,7 @@ static void parameters(fw_text *out, const fw_verdict *v) {
     fw_text_add(out, "</ul>\n");
 }
 
-void fw_report_advice(fw_page *page) {
+void fw_report_advice(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     if (v->nadvice == 0 && !v->advice_note && v->nparameter == 0) return;
@@ -113,7 +113,7 @@ void fw_report_advice(fw_page *page) {
     if (v->nadvice) {
         fw_text_add(out, "<ul>\n");
         for (int i = 0; i < v->nadvice; i++) {
-            const fw_advice *a = &v->advice[i];
+            const fw_verdict_advice *a = &v->advice[i];
             fw_markup(out, "<li>{s}", a->text);
             set_this(out, a->set_path, a->value_text);
             fw_text_add(out, "</li>\n");
@@ -129,7 +129,7 @@ void fw_report_advice(fw_page *page) {
     fw_text_add(out, "</aside>\n");
 }
 
-void fw_report_banner(fw_page *page) {
+void fw_report_banner(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     fw_markup(out,
@@ -145,7 +145,7 @@ void fw_report_banner(fw_page *page) {
     fw_text_add(out, "</div></header>\n");
 }
 
-fw_status fw_report_section_device(fw_page *page) {
+fw_status fw_report_section_device(fw_report_page *page) {
     const fw_device *device = page->in->device;
     fw_text *out = page->out;
     const fw_verdict *verdict = page->in->verdict;
@@ -165,8 +165,8 @@ fw_status fw_report_section_device(fw_page *page) {
                 "Flow</th><th scope=\"col\">Material</th><th scope=\"col\" class=\"n\">Thickness"
                 "</th><th scope=\"col\">Verdict</th></tr></thead><tbody>\n");
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
-        const fw_material *m = &v->variant->material;
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        const fw_device_material *m = &v->variant->material;
         fw_markup(out,
                   "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">{u}</td>"
                   "<td><span class=\"tag\" style=\"background:{r}\">{r}</span></td></tr>\n",
@@ -181,10 +181,10 @@ fw_status fw_report_section_device(fw_page *page) {
                     "<th scope=\"col\" class=\"n\">Value</th><th scope=\"col\">Meaning</th></tr>"
                     "</thead><tbody>\n");
     for (int i = 0; i < device->nparameter; i++) {
-        const fw_parameter *p = &device->parameter[i];
-        fw_unit unit;
+        const fw_device_parameter *p = &device->parameter[i];
+        fw_quantity_unit unit;
         const char *name = p->unit ? p->unit : "";
-        bool known = name[0] && fw_unit_parse(name, strlen(name), &unit, NULL, NULL);
+        bool known = name[0] && fw_quantity_unit_parse(name, strlen(name), &unit, NULL, NULL);
         double value = known ? (p->value - unit.offset) / unit.factor : p->value;
         fw_markup(out, "<tr><th scope=\"row\"><code>{s}</code></th><td class=\"n\">", p->name);
         fw_markup_number(out, value, 6);

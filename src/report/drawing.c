@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours, the view of a device and its drawing: what all pictures of the room share. */
-#include "geometry/svg.h"
+#include "geometry/geometry_svg.h"
 #include "report/figure.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 
@@ -31,7 +31,7 @@ static const struct {
     [FW_REJECT] = {"REJECT", "#B03A00"},
 };
 
-const char *fw_report_decision_colour(fw_decision decision) {
+const char *fw_report_decision_colour(fw_verdict_decision decision) {
     return decisions[decision].colour;
 }
 
@@ -39,7 +39,7 @@ const char *fw_report_rejected(const fw_verdict *verdict) {
     return verdict && verdict->decision == FW_REJECT ? "REJECTED: " : "";
 }
 
-const char *fw_report_decision_word(fw_decision decision) {
+const char *fw_report_decision_word(fw_verdict_decision decision) {
     return decisions[decision].word;
 }
 
@@ -61,11 +61,11 @@ bool fw_report_outlined(const fw_layout *layout, int body) {
     return body >= 0 && fw_report_drawn(layout) && layout->body && layout->body[body].area_m2 > 0.0;
 }
 
-fw_box fw_report_box_empty(void) {
-    return (fw_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+fw_geometry_box fw_report_box_empty(void) {
+    return (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 }
 
-void fw_report_box_add(fw_box *box, double x_m, double y_m) {
+void fw_report_box_add(fw_geometry_box *box, double x_m, double y_m) {
     if (!isfinite(x_m) || !isfinite(y_m)) return;
     box->x0 = fmin(box->x0, x_m);
     box->x1 = fmax(box->x1, x_m);
@@ -73,8 +73,8 @@ void fw_report_box_add(fw_box *box, double x_m, double y_m) {
     box->y1 = fmax(box->y1, y_m);
 }
 
-fw_report_view fw_report_view_fit(fw_box box, double width, double pad_m) {
-    if (!(box.x1 >= box.x0) || !(box.y1 >= box.y0)) box = (fw_box){0.0, 0.0, 1e-3, 1e-3};
+fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_m) {
+    if (!(box.x1 >= box.x0) || !(box.y1 >= box.y0)) box = (fw_geometry_box){0.0, 0.0, 1e-3, 1e-3};
     double wide = box.x1 - box.x0 + 2.0 * pad_m, high = box.y1 - box.y0 + 2.0 * pad_m;
     double size = fmax(wide, high);
     if (!(size > 0.0)) size = 1e-3;
@@ -96,29 +96,30 @@ double fw_report_y(const fw_report_view *view, double y_m) {
     return (view->y1_m - y_m) * view->scale;
 }
 
-void fw_report_path(fw_text *out, const fw_report_view *view, const fw_contour *contour) {
+void fw_report_path(fw_text *out, const fw_report_view *view, const fw_geometry_contour *contour) {
     const fw_geometry_sheet sheet = {view->x0_m, view->y1_m, view->scale, 2,
                                      FW_GEOMETRY_ARC_PICTURE};
     fw_geometry_svg_contour(out, &sheet, contour);
 }
 
-fw_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint) {
+fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout,
+                                       int joint) {
     if (fw_report_drawn(layout) && layout->hinge && layout->hinge[joint].drawn)
         return layout->hinge[joint].centre;
-    return (fw_vec2){device->joint[joint].x_m, device->joint[joint].y_m};
+    return (fw_geometry_vec2){device->revolute[joint].x_m, device->revolute[joint].y_m};
 }
 
-static fw_box rest_box(const fw_device *device, const fw_layout *layout) {
-    fw_box box = fw_report_box_empty();
-    for (int j = 0; j < device->njoint; j++) {
-        fw_vec2 p = fw_report_hinge_point(device, layout, j);
+static fw_geometry_box rest_box(const fw_device *device, const fw_layout *layout) {
+    fw_geometry_box box = fw_report_box_empty();
+    for (int j = 0; j < device->nrevolute; j++) {
+        fw_geometry_vec2 p = fw_report_hinge_point(device, layout, j);
         fw_report_box_add(&box, p.x, p.y);
     }
     for (int b = 0; b < device->nbody; b++)
         fw_report_box_add(&box, device->body[b].x_m, device->body[b].y_m);
     if (fw_report_drawn(layout) && !(fmax(box.x1 - box.x0, box.y1 - box.y0) > 0.0))
         for (int i = 0; i < layout->npiece; i++) {
-            fw_box b = fw_contour_box(&layout->piece[i].contour);
+            fw_geometry_box b = fw_geometry_contour_box(&layout->piece[i].contour);
             fw_report_box_add(&box, b.x0, b.y0);
             fw_report_box_add(&box, b.x1, b.y1);
         }
@@ -128,18 +129,18 @@ static fw_box rest_box(const fw_device *device, const fw_layout *layout) {
 /* what moves, as drawn, and where the names of hinges stand: beside the circle that each keeps free
  */
 static void add_outlines(const fw_device *device, const fw_layout *layout, double label_m,
-                         fw_box *box) {
+                         fw_geometry_box *box) {
     if (!fw_report_drawn(layout)) return;
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
-        fw_box b = fw_contour_box(&p->contour);
+        fw_geometry_box b = fw_geometry_contour_box(&p->contour);
         fw_report_box_add(box, b.x0 - 0.2 * label_m, b.y0 - 0.2 * label_m);
         fw_report_box_add(box, b.x1 + 0.2 * label_m, b.y1 + 0.2 * label_m);
     }
-    for (int j = 0; layout->hinge && j < device->njoint; j++) {
+    for (int j = 0; layout->hinge && j < device->nrevolute; j++) {
         if (!layout->hinge[j].drawn || !isfinite(layout->hinge[j].keep_out_m)) continue;
-        fw_vec2 p = layout->hinge[j].centre;
+        fw_geometry_vec2 p = layout->hinge[j].centre;
         double x = layout->hinge[j].keep_out_m + label_m;
         fw_report_box_add(box, p.x - x, p.y);
         fw_report_box_add(box, p.x + x, p.y);
@@ -149,14 +150,14 @@ static void add_outlines(const fw_device *device, const fw_layout *layout, doubl
 /* hinge points, centres of the bodies, and room for links around them, less where they only pass;
    tethers, which reach to the frame, run out of the picture */
 fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
-                                     const fw_box *reach, double width) {
-    fw_box box = rest_box(device, layout);
+                                     const fw_geometry_box *reach, double width) {
+    fw_geometry_box box = rest_box(device, layout);
     double size = fmax(box.x1 - box.x0, box.y1 - box.y0);
     if (!isfinite(size) || !(size > 0.0)) return fw_report_view_fit(box, width, 0.0);
     double pad = 0.2 * size, less = 0.1 * size;
-    box = (fw_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
+    box = (fw_geometry_box){box.x0 - pad, box.y0 - pad, box.x1 + pad, box.y1 + pad};
     add_outlines(device, layout, 0.18 * size, &box);
-    fw_box led = fw_report_box_empty();
+    fw_geometry_box led = fw_report_box_empty();
     fw_report_actuators_reach(device, layout, &led);
     if (led.x1 >= led.x0) {
         fw_report_box_add(&box, led.x0 - less, led.y0 - less);
@@ -200,7 +201,7 @@ double fw_report_joint_utilisation(const fw_verdict *verdict, int joint) {
 void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
                          fw_text *out) {
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->body == body && p->role == FW_ROLE_STRUCTURE) fw_report_path(out, view, &p->contour);
     }
 }
@@ -210,7 +211,7 @@ static void fixed_parts(const fw_layout *layout, const fw_report_view *view, boo
     fw_svg_open(out, "g fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
     fw_svg_path(out, ids ? "id='fw-fixed'" : "");
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->role == FW_ROLE_FRAME ||
             ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(out, view, &p->contour);
@@ -223,7 +224,7 @@ static void fixed_parts(const fw_layout *layout, const fw_report_view *view, boo
 static void tethers(const fw_layout *layout, const fw_report_view *view, fw_text *out) {
     bool any = false;
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->role != FW_ROLE_TETHER) continue;
         if (!any)
             fw_svg_path(out, "class='tethers' fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
@@ -250,13 +251,13 @@ static void bodies(const fw_device *device, const fw_layout *layout, const fw_re
    colours stand for utilisation here. */
 static fw_status schematic(const fw_device *device, const fw_verdict *verdict,
                            const fw_report_view *view, bool ids, fw_text *out) {
-    fw_figure figure = {0};
+    fw_report_drawing_figure figure = {0};
     double *q;
-    FW_TRY(fw_figure_of_verdict(out->arena, verdict, &figure, &q));
-    const fw_figure_pen pen = {
+    FW_TRY(fw_report_figure_of_verdict(out->arena, verdict, &figure, &q));
+    const fw_report_figure_pen pen = {
         .view = view, .out = out, .still = q, .nbody = device->nbody, .mark = 5.5};
     for (int b = 0; q && b < device->nbody; b++) {
-        const fw_figure_part *body = NULL;
+        const fw_report_figure_part *body = NULL;
         for (int i = 0; i < figure.count; i++)
             if (figure.part[i].role == FW_FIGURE_BODY && figure.part[i].of == b)
                 body = &figure.part[i];
@@ -266,7 +267,7 @@ static fw_status schematic(const fw_device *device, const fw_verdict *verdict,
                     device->body[b].platform ? "#7f9fbd" : "#8c959f");
         fw_svg_path(out, ids ? "id='fw-b{i}'" : "", b);
         if (body)
-            fw_figure_path(body, &pen, q);
+            fw_report_figure_path(body, &pen, q);
         else
             fw_markup(out, "M{c} {c}h14v8h-14Z", fw_report_x(view, q[3 * b]) - 7.0,
                       fw_report_y(view, q[3 * b + 1]) - 4.0);
@@ -274,9 +275,9 @@ static fw_status schematic(const fw_device *device, const fw_verdict *verdict,
         fw_svg_close(out, "g\n");
     }
     for (int i = 0; i < figure.count; i++) {
-        fw_figure_role role = figure.part[i].role;
+        fw_report_figure_role role = figure.part[i].role;
         if (role != FW_FIGURE_BODY && role != FW_FIGURE_PLATE && role != FW_FIGURE_PIN)
-            fw_figure_draw(&figure.part[i], &pen);
+            fw_report_figure_draw(&figure.part[i], &pen);
     }
     return FW_OK;
 }
@@ -285,7 +286,7 @@ static void hinges(const fw_device *device, const fw_layout *layout, const fw_ve
                    const fw_report_view *view, fw_text *out) {
     if (fw_report_drawn(layout))
         for (int i = 0; i < layout->npiece; i++) {
-            const fw_piece *p = &layout->piece[i];
+            const fw_layout_piece *p = &layout->piece[i];
             if (p->role != FW_ROLE_FLEXURE) continue;
             const char *colour =
                 fw_report_utilisation_colour(fw_report_joint_utilisation(verdict, p->joint));
@@ -293,9 +294,9 @@ static void hinges(const fw_device *device, const fw_layout *layout, const fw_ve
             fw_report_path(out, view, &p->contour);
             fw_svg_path_end(out);
         }
-    for (int j = 0; j < device->njoint; j++) {
+    for (int j = 0; j < device->nrevolute; j++) {
         bool flexure = fw_report_drawn(layout) && layout->hinge && layout->hinge[j].drawn;
-        fw_vec2 p = fw_report_hinge_point(device, layout, j);
+        fw_geometry_vec2 p = fw_report_hinge_point(device, layout, j);
         fw_svg_put(out,
                    "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='#fff' stroke-width='1'\n",
                    fw_report_x(view, p.x), fw_report_y(view, p.y), flexure ? 2.2 : 5.0,
@@ -306,15 +307,15 @@ static void hinges(const fw_device *device, const fw_layout *layout, const fw_ve
 /* names stand outside the mechanism, away from the middle of the hinge points */
 static void hinge_labels(const fw_device *device, const fw_layout *layout,
                          const fw_verdict *verdict, const fw_report_view *view, fw_text *out) {
-    if (device->njoint > MOST_LABELS) return;
+    if (device->nrevolute > MOST_LABELS) return;
     double mx = 0.0, my = 0.0;
-    for (int j = 0; j < device->njoint; j++) {
-        fw_vec2 p = fw_report_hinge_point(device, layout, j);
-        mx += fw_report_x(view, p.x) / device->njoint;
-        my += fw_report_y(view, p.y) / device->njoint;
+    for (int j = 0; j < device->nrevolute; j++) {
+        fw_geometry_vec2 p = fw_report_hinge_point(device, layout, j);
+        mx += fw_report_x(view, p.x) / device->nrevolute;
+        my += fw_report_y(view, p.y) / device->nrevolute;
     }
-    for (int j = 0; j < device->njoint; j++) {
-        fw_vec2 p = fw_report_hinge_point(device, layout, j);
+    for (int j = 0; j < device->nrevolute; j++) {
+        fw_geometry_vec2 p = fw_report_hinge_point(device, layout, j);
         double x = fw_report_x(view, p.x), y = fw_report_y(view, p.y);
         double dx = x - mx, dy = y - my, d = hypot(dx, dy);
         double away = 20.0;
@@ -338,7 +339,7 @@ static void hinge_labels(const fw_device *device, const fw_layout *layout,
                     side > 0.0   ? "start"
                     : side < 0.0 ? "end"
                                  : "middle");
-        fw_svg_put(out, "tspan font-weight='700'>{s}", device->joint[j].id);
+        fw_svg_put(out, "tspan font-weight='700'>{s}", device->revolute[j].id);
         if (isfinite(u)) fw_markup(out, " {p}", u);
         fw_svg_close(out, "text\n");
     }
@@ -349,7 +350,7 @@ static void body_labels(const fw_device *device, const fw_layout *layout,
     if (!fw_report_drawn(layout) || !layout->body || device->nbody > MOST_LABELS) return;
     for (int b = 0; b < device->nbody; b++) {
         if (!(layout->body[b].area_m2 > 0.0)) continue;
-        fw_vec2 c = layout->body[b].centroid;
+        fw_geometry_vec2 c = layout->body[b].centroid;
         fw_svg_put(
             out,
             "text x='{c}' y='{c}' font-size='10.5' text-anchor='middle' fill='#424a53' "
@@ -391,9 +392,9 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
                                const fw_verdict *verdict, fw_text *out) {
     fw_report_view view = fw_report_device_view(device, layout, NULL, WIDTH);
     if (!fw_report_drawn(layout)) {
-        fw_box box = fw_report_box_empty();
-        FW_TRY(fw_figure_rest_reach(arena, verdict, &box));
-        if (box.x1 >= box.x0) view = fw_figure_view(&box, WIDTH);
+        fw_geometry_box box = fw_report_box_empty();
+        FW_TRY(fw_report_figure_rest_reach(arena, verdict, &box));
+        if (box.x1 >= box.x0) view = fw_report_figure_view(&box, WIDTH);
     }
     fw_svg_begin(out, &(fw_svg_frame){.width = view.width,
                                       .height = view.height + LEGEND_HEIGHT,

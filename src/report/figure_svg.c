@@ -5,10 +5,10 @@
 
 enum { FEWEST_WAVES = 8, MOST_WAVES = 30 }; /* half waves of a spring */
 
-typedef fw_figure_pen pen_t;
+typedef fw_report_figure_pen pen_t;
 
 /* Okabe and Ito without the yellow, which is no line on white */
-const char *fw_figure_colour(int body) {
+const char *fw_report_figure_colour(int body) {
     static const char *const palette[] = {"#0072B2", "#E69F00", "#009E73", "#CC79A7",
                                           "#56B4E9", "#D55E00", "#8A6D3B", "#767676"};
     return body < 0 ? "#57606a" : palette[(unsigned)body % (sizeof palette / sizeof palette[0])];
@@ -21,9 +21,9 @@ static const char *tint(int body) {
     return body < 0 ? "#d0d7de" : palette[(unsigned)body % (sizeof palette / sizeof palette[0])];
 }
 
-static fw_vec2 seen(const pen_t *pen, const double *q, fw_figure_point p) {
-    fw_vec2 w = fw_figure_place(q, p);
-    return (fw_vec2){fw_report_x(pen->view, w.x), fw_report_y(pen->view, w.y)};
+static fw_geometry_vec2 seen(const pen_t *pen, const double *q, fw_report_figure_point p) {
+    fw_geometry_vec2 w = fw_report_figure_place(q, p);
+    return (fw_geometry_vec2){fw_report_x(pen->view, w.x), fw_report_y(pen->view, w.y)};
 }
 
 static const double *frame(const pen_t *pen, int i) {
@@ -33,15 +33,16 @@ static const double *frame(const pen_t *pen, int i) {
 /* ---- paths: every frame has the same commands, so that viewers can move between them ---- */
 
 /* half waves that look like a spring at its still length: as many in all frames */
-static int waves_of(const fw_figure_part *part, const pen_t *pen) {
-    fw_vec2 a = seen(pen, pen->still, part->end[0]), b = seen(pen, pen->still, part->end[1]);
+static int waves_of(const fw_report_figure_part *part, const pen_t *pen) {
+    fw_geometry_vec2 a = seen(pen, pen->still, part->end[0]),
+                     b = seen(pen, pen->still, part->end[1]);
     double n = hypot(b.x - a.x, b.y - a.y) / (1.6 * pen->mark);
     return n > MOST_WAVES ? MOST_WAVES : n > FEWEST_WAVES ? (int)n : FEWEST_WAVES;
 }
 
 /* A spring between two points of the picture: its coils keep their height, their pitch follows the
    length. */
-static void zigzag(const pen_t *pen, fw_vec2 a, fw_vec2 b, int waves) {
+static void zigzag(const pen_t *pen, fw_geometry_vec2 a, fw_geometry_vec2 b, int waves) {
     double dx = b.x - a.x, dy = b.y - a.y, d = hypot(dx, dy), high = 0.95 * pen->mark;
     double ex = d > 1e-9 ? dx / d : 1.0, ey = d > 1e-9 ? dy / d : 0.0;
     double lead = fmin(0.15 * d, 2.5 * pen->mark), pitch = (d - 2.0 * lead) / waves;
@@ -53,25 +54,27 @@ static void zigzag(const pen_t *pen, fw_vec2 a, fw_vec2 b, int waves) {
     fw_markup(pen->out, "L{c} {c}L{c} {c}", b.x - lead * ex, b.y - lead * ey, b.x, b.y);
 }
 
-void fw_figure_path(const fw_figure_part *part, const fw_figure_pen *pen, const double *q) {
+void fw_report_figure_path(const fw_report_figure_part *part, const fw_report_figure_pen *pen,
+                           const double *q) {
     if (part->noutline) {
         for (int i = 0; i < part->noutline; i++) {
-            fw_vec2 p =
+            fw_geometry_vec2 p =
                 seen(pen, q,
-                     (fw_figure_point){part->end[0].body, part->outline[i].x, part->outline[i].y});
+                     (fw_report_figure_point){part->end[0].body, part->outline[i].x,
+                                              part->outline[i].y});
             fw_markup(pen->out, "{r}{c} {c}", i ? "L" : "M", p.x, p.y);
         }
         if (part->noutline > 2) fw_text_add(pen->out, "Z");
         return;
     }
-    fw_vec2 a = seen(pen, q, part->end[0]), b = seen(pen, q, part->end[1]);
+    fw_geometry_vec2 a = seen(pen, q, part->end[0]), b = seen(pen, q, part->end[1]);
     if (part->role == FW_FIGURE_SPRING)
         zigzag(pen, a, b, waves_of(part, pen));
     else
         fw_markup(pen->out, "M{c} {c}L{c} {c}", a.x, a.y, b.x, b.y);
 }
 
-static bool at_rest(const fw_figure_part *part) {
+static bool at_rest(const fw_report_figure_part *part) {
     return part->end[0].body == FW_GROUND && part->end[1].body == FW_GROUND &&
            part->turns_with == FW_GROUND;
 }
@@ -79,8 +82,8 @@ static bool at_rest(const fw_figure_part *part) {
 #define ROUND " stroke-linecap='round' stroke-linejoin='round'"
 
 /* opens the path of a line or outline in the look of its part */
-static void open_line(const fw_figure_part *part, const pen_t *pen) {
-    const char *colour = fw_figure_colour(part->of);
+static void open_line(const fw_report_figure_part *part, const pen_t *pen) {
+    const char *colour = fw_report_figure_colour(part->of);
     double mark = pen->mark;
     switch (part->role) {
     case FW_FIGURE_BODY:
@@ -118,17 +121,17 @@ static void open_line(const fw_figure_part *part, const pen_t *pen) {
 }
 
 /* the ground under a guide: a row of short strokes across it */
-static void hatch(const fw_figure_part *part, const pen_t *pen) {
+static void hatch(const fw_report_figure_part *part, const pen_t *pen) {
     fw_svg_path(pen->out, "stroke='#8c959f' stroke-width='{c}' stroke-dasharray='1 5'",
                 1.8 * pen->mark);
-    fw_figure_path(part, pen, pen->still);
+    fw_report_figure_path(part, pen, pen->still);
     fw_svg_path_end(pen->out);
 }
 
-static void line(const fw_figure_part *part, const pen_t *pen) {
+static void line(const fw_report_figure_part *part, const pen_t *pen) {
     if (part->role == FW_FIGURE_RAIL && part->of == FW_GROUND) hatch(part, pen);
     open_line(part, pen);
-    fw_figure_path(part, pen, pen->still);
+    fw_report_figure_path(part, pen, pen->still);
     if (pen->frames == 0 || at_rest(part)) {
         fw_svg_path_end(pen->out);
         return;
@@ -137,7 +140,7 @@ static void line(const fw_figure_part *part, const pen_t *pen) {
     fw_svg_animate_path(pen->out, pen->seconds);
     for (int i = 0; i < pen->frames; i++) {
         fw_text_add(pen->out, i ? ";" : "");
-        fw_figure_path(part, pen, frame(pen, i));
+        fw_report_figure_path(part, pen, frame(pen, i));
     }
     fw_svg_finish(pen->out, "/>");
     fw_svg_close(pen->out, "path\n");
@@ -156,7 +159,7 @@ static void ray(const pen_t *pen, double angle, double from, double to) {
               -to * sin(angle));
 }
 
-static void stop_shape(const fw_figure_part *part, const pen_t *pen) {
+static void stop_shape(const fw_report_figure_part *part, const pen_t *pen) {
     double low = part->from_rad, high = part->to_rad, m = pen->mark, about = 0.35;
     fw_svg_path(pen->out, "fill='none' stroke='#B03A00' stroke-width='{c}'", 0.3 * m);
     if (isfinite(low)) ray(pen, low, 2.2 * m, 4.4 * m);
@@ -166,8 +169,8 @@ static void stop_shape(const fw_figure_part *part, const pen_t *pen) {
     fw_svg_finish(pen->out, "/>");
 }
 
-static void shape(const fw_figure_part *part, const pen_t *pen) {
-    const char *colour = fw_figure_colour(part->of);
+static void shape(const fw_report_figure_part *part, const pen_t *pen) {
+    const char *colour = fw_report_figure_colour(part->of);
     double m = pen->mark, s = 1.9 * m;
     switch (part->role) {
     case FW_FIGURE_FOOT:
@@ -216,17 +219,17 @@ static void shape(const fw_figure_part *part, const pen_t *pen) {
     case FW_FIGURE_CABLE:
         break;
     }
-    fw_svg_put(pen->out, "circle r='{c}' fill='#fff' stroke='#1f2328' stroke-width='{c}'",
-               0.75 * m, 0.28 * m);
+    fw_svg_put(pen->out, "circle r='{c}' fill='#fff' stroke='#1f2328' stroke-width='{c}'", 0.75 * m,
+               0.28 * m);
 }
 
-static double angle(const fw_figure_part *part, const double *q) {
+static double angle(const fw_report_figure_part *part, const double *q) {
     double turn =
         part->angle_rad + (part->turns_with == FW_GROUND ? 0.0 : q[3 * part->turns_with + 2]);
     return -FW_DEG_PER_RAD * turn;
 }
 
-static void turning(const fw_figure_part *part, const pen_t *pen) {
+static void turning(const fw_report_figure_part *part, const pen_t *pen) {
     fw_svg_open(pen->out, "g transform='rotate({2})'", angle(part, pen->still));
     if (pen->frames == 0 || part->turns_with == FW_GROUND) return;
     fw_svg_animate_group(pen->out, "rotate", pen->seconds);
@@ -235,8 +238,8 @@ static void turning(const fw_figure_part *part, const pen_t *pen) {
     fw_svg_finish(pen->out, "/>");
 }
 
-static void mark(const fw_figure_part *part, const pen_t *pen) {
-    fw_vec2 p = seen(pen, pen->still, part->end[0]);
+static void mark(const fw_report_figure_part *part, const pen_t *pen) {
+    fw_geometry_vec2 p = seen(pen, pen->still, part->end[0]);
     fw_svg_open(pen->out, "g transform='translate({c} {c})'", p.x, p.y);
     if (pen->frames && part->end[0].body != FW_GROUND) {
         fw_svg_animate_group(pen->out, "translate", pen->seconds);
@@ -253,23 +256,24 @@ static void mark(const fw_figure_part *part, const pen_t *pen) {
     fw_svg_close(pen->out, "g\n");
 }
 
-void fw_figure_draw(const fw_figure_part *part, const fw_figure_pen *pen) {
-    if (fw_figure_is_line(part))
+void fw_report_figure_draw(const fw_report_figure_part *part, const fw_report_figure_pen *pen) {
+    if (fw_report_figure_is_line(part))
         line(part, pen);
     else
         mark(part, pen);
 }
 
-void fw_figure_ghost(const fw_figure_part *part, const double *q, const fw_figure_pen *pen) {
+void fw_report_figure_ghost(const fw_report_figure_part *part, const double *q,
+                            const fw_report_figure_pen *pen) {
     if (part->role != FW_FIGURE_BODY) return;
     fw_svg_path(pen->out, "");
-    fw_figure_path(part, pen, q);
+    fw_report_figure_path(part, pen, q);
     fw_svg_path_end(pen->out);
 }
 
-int fw_figure_numbers(const fw_figure_part *part) {
+int fw_report_figure_numbers(const fw_report_figure_part *part) {
     if (at_rest(part)) return 0;
-    if (!fw_figure_is_line(part)) return part->turns_with == FW_GROUND ? 2 : 3;
+    if (!fw_report_figure_is_line(part)) return part->turns_with == FW_GROUND ? 2 : 3;
     return part->role == FW_FIGURE_SPRING ? 2 * (MOST_WAVES + 4)
            : part->noutline               ? 2 * part->noutline
                                           : 4;

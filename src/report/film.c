@@ -3,46 +3,46 @@
 #include "base/constants.h"
 #include "flexure/path.h"
 #include "report/figure.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 
 enum { CHORDS_PER_TURN = 36 };
 
 /* share of the upper body in the rotation of a point of the flexure: how far along the centre line
    it lies, 0 at the root of `lower`, 1 at the root of `upper` */
-static double weight(const fw_hinge_layout *h, const fw_flexure *f, const fw_course *path,
-                     fw_vec2 p) {
+static double weight(const fw_layout_hinge_layout *h, const fw_device_flexure *f,
+                     const fw_flexure_course *path, fw_geometry_vec2 p) {
     double c = cos(h->axis_rad), s = sin(h->axis_rad);
     double x = p.x - h->arc_centre.x, y = p.y - h->arc_centre.y;
     double lx = c * x + s * y, ly = -s * x + c * y;
-    if (path) return fw_path_nearest(path, lx, ly);
+    if (path) return fw_flexure_path_nearest(path, lx, ly);
     double w =
         f->kind == FW_FLEXURE_LEAF ? 0.5 + ly / f->length_m : 0.5 + atan2(ly, lx) / f->angle_rad;
     return isfinite(w) ? fmax(0.0, fmin(1.0, w)) : 0.5;
 }
 
-static int chords(const fw_segment *s) {
+static int chords(const fw_geometry_segment *s) {
     if (s->kind == FW_LINE) return 1;
     return 1 + (int)(fmin(fabs(s->sweep_rad), 2.0 * FW_PI) / (2.0 * FW_PI) * CHORDS_PER_TURN);
 }
 
-static fw_vec2 along(const fw_segment *s, double u) {
+static fw_geometry_vec2 along(const fw_geometry_segment *s, double u) {
     if (s->kind == FW_LINE)
-        return (fw_vec2){s->a.x + u * (s->b.x - s->a.x), s->a.y + u * (s->b.y - s->a.y)};
+        return (fw_geometry_vec2){s->a.x + u * (s->b.x - s->a.x), s->a.y + u * (s->b.y - s->a.y)};
     double c = cos(u * s->sweep_rad), d = sin(u * s->sweep_rad);
     double x = s->a.x - s->centre.x, y = s->a.y - s->centre.y;
-    return (fw_vec2){s->centre.x + c * x - d * y, s->centre.y + d * x + c * y};
+    return (fw_geometry_vec2){s->centre.x + c * x - d * y, s->centre.y + d * x + c * y};
 }
 
 static fw_status bend_make(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                           const fw_piece *piece, fw_report_bend *bend) {
-    const fw_hinge_layout *h = &layout->hinge[piece->joint];
-    const fw_flexure *f = &device->flexure[device->joint[piece->joint].flexure];
-    const fw_contour *contour = &piece->contour;
+                           const fw_layout_piece *piece, fw_report_bend *bend) {
+    const fw_layout_hinge_layout *h = &layout->hinge[piece->joint];
+    const fw_device_flexure *f = &device->flexure[device->revolute[piece->joint].flexure];
+    const fw_geometry_contour *contour = &piece->contour;
     const fw_flexure_input in = fw_flexure_input_of(f, h->fillet_m);
-    bool varies = fw_flexure_varies(f);
-    fw_course path;
-    if (varies) fw_path_of(&in, &path);
+    bool varies = fw_device_flexure_varies(f);
+    fw_flexure_course path;
+    if (varies) fw_flexure_path_of(&in, &path);
     int n = 0;
     for (int i = 0; i < contour->count; i++)
         n += chords(&contour->segment[i]);
@@ -53,10 +53,10 @@ static fw_status bend_make(fw_arena *arena, const fw_device *device, const fw_la
                              .joint = piece->joint};
     FW_NEED(bend->point = fw_arena_array(arena, fw_report_bend_point, (size_t)n));
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
+        const fw_geometry_segment *s = &contour->segment[i];
         int m = chords(s);
         for (int k = 0; k < m; k++) {
-            fw_vec2 p = along(s, (double)k / m);
+            fw_geometry_vec2 p = along(s, (double)k / m);
             bend->point[bend->npoint++] =
                 (fw_report_bend_point){p.x, p.y, weight(h, f, varies ? &path : NULL, p)};
         }
@@ -70,9 +70,9 @@ fw_status fw_report_bends_make(fw_arena *arena, const fw_device *device, const f
     if (!fw_report_drawn(layout) || !layout->hinge) return FW_OK;
     FW_NEED(bends->item = fw_arena_array(arena, fw_report_bend, (size_t)layout->npiece));
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->role != FW_ROLE_FLEXURE || p->joint < 0 || !layout->hinge[p->joint].drawn ||
-            device->joint[p->joint].flexure < 0)
+            device->revolute[p->joint].flexure < 0)
             continue;
         FW_TRY(bend_make(arena, device, layout, p, &bends->item[bends->count]));
         bends->count++;
@@ -80,7 +80,7 @@ fw_status fw_report_bends_make(fw_arena *arena, const fw_device *device, const f
     return FW_OK;
 }
 
-void fw_report_pose_at(const fw_motion *motion, int body, double t_s, double pose[3]) {
+void fw_report_pose_at(const fw_dynamics_motion *motion, int body, double t_s, double pose[3]) {
     pose[0] = pose[1] = pose[2] = 0.0;
     if (body < 0 || body >= motion->nbody || motion->nsample == 0) return;
     int low = 0, high = motion->nsample - 1;
@@ -100,18 +100,19 @@ void fw_report_pose_at(const fw_motion *motion, int body, double t_s, double pos
         pose[k] = a[k] + u * (b[k] - a[k]);
 }
 
-fw_vec2 fw_report_moved(const fw_mechanism *mechanism, const fw_motion *motion, int body,
-                        double t_s, fw_vec2 drawn) {
+fw_geometry_vec2 fw_report_moved(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                 int body, double t_s, fw_geometry_vec2 drawn) {
     if (body < 0 || body >= motion->nbody) return drawn;
     double pose[3];
     fw_report_pose_at(motion, body, t_s, pose);
-    const fw_mass *m = &mechanism->body[body];
+    const fw_mechanism_mass *m = &mechanism->body[body];
     double c = cos(pose[2] - m->phi_rad), s = sin(pose[2] - m->phi_rad);
     double x = drawn.x - m->x_m, y = drawn.y - m->y_m;
-    return (fw_vec2){pose[0] + c * x - s * y, pose[1] + s * x + c * y};
+    return (fw_geometry_vec2){pose[0] + c * x - s * y, pose[1] + s * x + c * y};
 }
 
-static double turned(const fw_mechanism *mechanism, const fw_motion *motion, int body, double t_s) {
+static double turned(const fw_mechanism *mechanism, const fw_dynamics_motion *motion, int body,
+                     double t_s) {
     if (body < 0 || body >= motion->nbody) return 0.0;
     double pose[3];
     fw_report_pose_at(motion, body, t_s, pose);
@@ -120,25 +121,26 @@ static double turned(const fw_mechanism *mechanism, const fw_motion *motion, int
 
 /* p(t) = W(t) + R((1-w) a + w b) (p - W), a and b the rotations of the two bodies since the drawing
    and w the share along the centre line: meets both bodies exactly, in between an illustration. */
-fw_vec2 fw_report_bent(const fw_mechanism *mechanism, const fw_motion *motion,
-                       const fw_report_bend *bend, double t_s, fw_report_bend_point point) {
-    fw_vec2 w = fw_report_moved(mechanism, motion, bend->lower, t_s, bend->centre);
+fw_geometry_vec2 fw_report_bent(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                const fw_report_bend *bend, double t_s,
+                                fw_report_bend_point point) {
+    fw_geometry_vec2 w = fw_report_moved(mechanism, motion, bend->lower, t_s, bend->centre);
     double a = turned(mechanism, motion, bend->lower, t_s);
     double b = turned(mechanism, motion, bend->upper, t_s);
     double angle = a + point.weight * (b - a), c = cos(angle), s = sin(angle);
     double x = point.x_m - bend->centre.x, y = point.y_m - bend->centre.y;
-    return (fw_vec2){w.x + c * x - s * y, w.y + s * x + c * y};
+    return (fw_geometry_vec2){w.x + c * x - s * y, w.y + s * x + c * y};
 }
 
-void fw_report_reach_add(fw_box *box, const fw_device *device, const fw_layout *layout,
-                         const fw_mechanism *mechanism, const fw_motion *motion) {
+void fw_report_reach_add(fw_geometry_box *box, const fw_device *device, const fw_layout *layout,
+                         const fw_mechanism *mechanism, const fw_dynamics_motion *motion) {
     enum { INSTANTS = 64 };
     if (motion->nsample == 0) return;
     double end = motion->t_s[motion->nsample - 1];
-    for (int j = 0; j < device->njoint; j++)
+    for (int j = 0; j < device->nrevolute; j++)
         for (int i = 0; i <= INSTANTS; i++) {
-            fw_vec2 p =
-                fw_report_moved(mechanism, motion, device->joint[j].body_a, end * i / INSTANTS,
+            fw_geometry_vec2 p =
+                fw_report_moved(mechanism, motion, device->revolute[j].body_a, end * i / INSTANTS,
                                 fw_report_hinge_point(device, layout, j));
             fw_report_box_add(box, p.x, p.y);
         }
@@ -151,7 +153,8 @@ double fw_report_pin_limit(const fw_mechanism *mechanism, int pin) {
     return isfinite(limit) && limit > 0.0 ? limit : (double)NAN;
 }
 
-fw_report_worst fw_report_motion_worst(const fw_mechanism *mechanism, const fw_motion *motion) {
+fw_report_worst fw_report_motion_worst(const fw_mechanism *mechanism,
+                                       const fw_dynamics_motion *motion) {
     fw_report_worst worst = {.pin = FW_NONE};
     for (int k = 0; k < motion->npin; k++) {
         double u = fabs(motion->peak[k].angle_rad) / fw_report_pin_limit(mechanism, k);
@@ -181,14 +184,14 @@ static double degrees(double rad) { /* clockwise, as in the picture */
 /* ---- bodies ---- */
 
 /* the innermost of three groups that put what is drawn at the body's drawn place to its pose */
-static void from_drawn(const film *f, const fw_mass *m) {
+static void from_drawn(const film *f, const fw_mechanism_mass *m) {
     fw_svg_open(f->out, "g transform='translate({c} {c})'", -fw_report_x(f->view, m->x_m),
                 -fw_report_y(f->view, m->y_m));
 }
 
 /* the pose at t */
 static void body_at(const film *f, int body, double t_s) {
-    const fw_mass *m = &f->mechanism->body[body];
+    const fw_mechanism_mass *m = &f->mechanism->body[body];
     double pose[3];
     fw_report_pose_at(f->motion, body, t_s, pose);
     fw_svg_open(f->out, "g transform='translate({c} {c})'", fw_report_x(f->view, pose[0]),
@@ -199,7 +202,7 @@ static void body_at(const film *f, int body, double t_s) {
 
 /* the same, moving */
 static void body_motion(const film *f, int body) {
-    const fw_mass *m = &f->mechanism->body[body];
+    const fw_mechanism_mass *m = &f->mechanism->body[body];
     double pose[3];
     if (f->frames == 0) {
         body_at(f, body, f->still_s);
@@ -259,7 +262,7 @@ static void ghost(const film *f) {
 
 static void outline(const film *f, const fw_report_bend *bend, double t_s) {
     for (int k = 0; k < bend->npoint; k++) {
-        fw_vec2 p = fw_report_bent(f->mechanism, f->motion, bend, t_s, bend->point[k]);
+        fw_geometry_vec2 p = fw_report_bent(f->mechanism, f->motion, bend, t_s, bend->point[k]);
         fw_markup(f->out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(f->view, p.x),
                   fw_report_y(f->view, p.y));
     }
@@ -298,14 +301,14 @@ static void flexures(const film *f, const fw_report_bends *bends) {
 /* ---- everything else: figure.c ---- */
 
 /* drawn already, as an outline or as a flexure */
-static bool shown(const fw_layout *layout, const fw_figure_part *part) {
+static bool shown(const fw_layout *layout, const fw_report_figure_part *part) {
     if (part->pin != FW_NONE)
         return fw_report_drawn(layout) && layout->hinge && layout->hinge[part->pin].drawn;
     bool body = part->role == FW_FIGURE_BODY || part->role == FW_FIGURE_PLATE;
     return body && fw_report_outlined(layout, part->of);
 }
 
-static fw_status all_poses(fw_arena *arena, const film *f, fw_figure_pen *pen) {
+static fw_status all_poses(fw_arena *arena, const film *f, fw_report_figure_pen *pen) {
     int n = f->motion->nbody, frames = f->frames;
     double *still, *frame;
     FW_NEED(still = fw_arena_array(arena, double, 3 * (size_t)n));
@@ -320,12 +323,13 @@ static fw_status all_poses(fw_arena *arena, const film *f, fw_figure_pen *pen) {
     return FW_OK;
 }
 
-static void figure_ghost(const film *f, const fw_figure *figure, const fw_figure_pen *pen) {
+static void figure_ghost(const film *f, const fw_report_drawing_figure *figure,
+                         const fw_report_figure_pen *pen) {
     if (!f->ghost) return;
     fw_svg_open(f->out, "g fill='none' stroke='#8c959f' stroke-dasharray='4 3'\n");
     for (int i = 0; i < figure->count; i++)
         if (!shown(f->layout, &figure->part[i]))
-            fw_figure_ghost(&figure->part[i], f->motion->q, pen);
+            fw_report_figure_ghost(&figure->part[i], f->motion->q, pen);
     fw_svg_close(f->out, "g\n");
 }
 
@@ -333,7 +337,7 @@ static void still_parts(const film *f) {
     if (!fw_report_drawn(f->layout)) return;
     fw_svg_path(f->out, "fill='#eceff2' stroke='#b6bec7' stroke-width='0.7'");
     for (int i = 0; i < f->layout->npiece; i++) {
-        const fw_piece *p = &f->layout->piece[i];
+        const fw_layout_piece *p = &f->layout->piece[i];
         if (p->role == FW_ROLE_FRAME ||
             ((p->body == FW_GROUND || p->body == FW_ISLAND) && p->role == FW_ROLE_STRUCTURE))
             fw_report_path(f->out, f->view, &p->contour);
@@ -358,31 +362,31 @@ static int frames_for(const film *f) {
 
 fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *from) {
     film f = *from;
-    fw_figure figure;
+    fw_report_drawing_figure figure;
     fw_report_bends bends;
-    FW_TRY(fw_figure_make(arena, f.mechanism, f.motion->q, f.motion->nsample, &figure));
+    FW_TRY(fw_report_figure_make(arena, f.mechanism, f.motion->q, f.motion->nsample, &figure));
     FW_TRY(fw_report_bends_make(arena, f.device, f.layout, &bends));
     long numbers = 1;
     for (int i = 0; i < figure.count; i++)
-        numbers += shown(f.layout, &figure.part[i]) ? 0 : fw_figure_numbers(&figure.part[i]);
+        numbers += shown(f.layout, &figure.part[i]) ? 0 : fw_report_figure_numbers(&figure.part[i]);
     for (int b = 0; b < f.motion->nbody; b++)
         numbers += fw_report_outlined(f.layout, b) ? 3 : 0;
     if (f.frames) f.frames = frames_for(&f);
     while (f.frames > 16 && f.frames * numbers > NUMBERS)
         f.frames = f.frames * 3 / 4;
-    fw_figure_pen pen = {.view = f.view,
-                         .out = f.out,
-                         .nbody = f.motion->nbody,
-                         .frames = f.frames,
-                         .seconds = f.seconds,
-                         .mark = f.small || f.motion->nbody > 30 ? 3.5 : 5.5};
+    fw_report_figure_pen pen = {.view = f.view,
+                                .out = f.out,
+                                .nbody = f.motion->nbody,
+                                .frames = f.frames,
+                                .seconds = f.seconds,
+                                .mark = f.small || f.motion->nbody > 30 ? 3.5 : 5.5};
     FW_TRY(all_poses(arena, &f, &pen));
     still_parts(&f);
     ghost(&f);
     bodies(&f);
     flexures(&f, &bends);
     for (int i = 0; i < figure.count; i++)
-        if (!shown(f.layout, &figure.part[i])) fw_figure_draw(&figure.part[i], &pen);
+        if (!shown(f.layout, &figure.part[i])) fw_report_figure_draw(&figure.part[i], &pen);
     figure_ghost(&f, &figure, &pen);
     return fw_text_end(f.out);
 }
@@ -390,11 +394,11 @@ fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *from) {
 /* ---- poses that are no motion in time ---- */
 
 fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int count, double *q,
-                          fw_motion *motion) {
-    *motion =
-        (fw_motion){.nbody = mechanism->nbody, .npin = mechanism->npin, .nsample = count, .q = q};
+                          fw_dynamics_motion *motion) {
+    *motion = (fw_dynamics_motion){
+        .nbody = mechanism->nbody, .npin = mechanism->npin, .nsample = count, .q = q};
     FW_NEED(motion->t_s = fw_arena_array(arena, double, (size_t)count));
-    FW_NEED(motion->peak = fw_arena_array(arena, fw_peak, (size_t)mechanism->npin));
+    FW_NEED(motion->peak = fw_arena_array(arena, fw_dynamics_peak, (size_t)mechanism->npin));
     for (int i = 0; i < count; i++)
         motion->t_s[i] = count > 1 ? (double)i / (count - 1) : 0.0;
     for (int i = 0; i < mechanism->npin; i++)
@@ -403,38 +407,38 @@ fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int co
 }
 
 /* corners of what is drawn of a body */
-static void outline_reach(fw_box *box, const fw_layout *layout, const fw_mechanism *m, int body,
-                          const fw_motion *motion) {
+static void outline_reach(fw_geometry_box *box, const fw_layout *layout, const fw_mechanism *m,
+                          int body, const fw_dynamics_motion *motion) {
     int step = 1 + motion->nsample / REACH;
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         if (p->body != body || p->role != FW_ROLE_STRUCTURE) continue;
-        fw_box b = fw_contour_box(&p->contour);
+        fw_geometry_box b = fw_geometry_contour_box(&p->contour);
         for (int k = motion->nsample - 1; k >= 0; k -= step)
             for (int c = 0; c < 4; c++) {
-                fw_vec2 at = {c & 1 ? b.x1 : b.x0, c & 2 ? b.y1 : b.y0};
+                fw_geometry_vec2 at = {c & 1 ? b.x1 : b.x0, c & 2 ? b.y1 : b.y0};
                 at = fw_report_moved(m, motion, body, motion->t_s[k], at);
                 fw_report_box_add(box, at.x, at.y);
             }
     }
 }
 
-fw_status fw_report_poses_reach(fw_arena *arena, fw_box *box, const fw_layout *layout,
-                                const fw_mechanism *mechanism, const fw_motion *motion) {
-    fw_figure figure;
-    FW_TRY(fw_figure_make(arena, mechanism, motion->q, motion->nsample, &figure));
+fw_status fw_report_poses_reach(fw_arena *arena, fw_geometry_box *box, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_dynamics_motion *motion) {
+    fw_report_drawing_figure figure;
+    FW_TRY(fw_report_figure_make(arena, mechanism, motion->q, motion->nsample, &figure));
     for (int i = 0; i < figure.count; i++)
         if (!shown(layout, &figure.part[i]))
-            fw_figure_reach(box, &figure.part[i], motion->q, motion->nsample, motion->nbody);
+            fw_report_figure_reach(box, &figure.part[i], motion->q, motion->nsample, motion->nbody);
     for (int b = 0; b < motion->nbody; b++)
         if (fw_report_outlined(layout, b)) outline_reach(box, layout, mechanism, b, motion);
     return FW_OK;
 }
 
 fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
-                                    const fw_box *reach, double width) {
+                                    const fw_geometry_box *reach, double width) {
     if (fw_report_drawn(layout)) return fw_report_device_view(device, layout, reach, width);
-    return fw_figure_view(reach, width);
+    return fw_report_figure_view(reach, width);
 }
 
 /* The motion as an SVG that plays by itself. */
@@ -452,10 +456,10 @@ static void progress(const fw_report_film *f) {
 }
 
 fw_status fw_report_animation_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                                  const fw_mechanism *mechanism, const fw_motion *motion,
-                                  const fw_scene *scene, fw_text *out) {
+                                  const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                  const fw_device_scene *scene, fw_text *out) {
     if (motion->nsample < 2) return FW_USAGE;
-    fw_box reach = fw_report_box_empty();
+    fw_geometry_box reach = fw_report_box_empty();
     FW_TRY(fw_report_poses_reach(arena, &reach, layout, mechanism, motion));
     fw_report_view view = fw_report_poses_view(device, layout, &reach, WIDTH);
     const fw_report_film clip = {.device = device,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is made of each flow: its own section, masks, what breaks design rules, recipes. */
 #include "mask/outlines.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 
 static const char *name_of(const fw_report_flow *f) {
@@ -11,7 +11,7 @@ static const char *name_of(const fw_report_flow *f) {
     return "flow";
 }
 
-static void manufacturable(fw_text *out, const fw_flow *flow) {
+static void manufacturable(fw_text *out, const fw_process_flow *flow) {
     fw_markup(out, "<p>{s}{r}", flow->title, flow->title ? ". " : "");
     fw_text_add(out, flow->manufacturable > 0
                          ? "<strong>Manufacturable</strong> with the numbers known."
@@ -26,7 +26,7 @@ static void manufacturable(fw_text *out, const fw_flow *flow) {
     fw_text_add(out, "</ul>\n");
 }
 
-fw_status fw_report_section_flows(fw_page *page) {
+fw_status fw_report_section_flows(fw_report_page *page) {
     fw_text *out = page->out;
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
     for (int i = 0; i < page->in->nflow; i++) {
@@ -57,7 +57,7 @@ static long segments_of(const fw_mask *mask) {
 /* one path per layer, from the exact outlines; text goes first when there is too much */
 static void thumbnail(fw_text *out, const fw_mask *mask) {
     bool with_text = segments_of(mask) <= MOST_SEGMENTS;
-    fw_box box = mask->box;
+    fw_geometry_box box = mask->box;
     fw_report_view view =
         fw_report_view_fit(box, THUMBNAIL, 0.02 * fmax(box.x1 - box.x0, box.y1 - box.y0));
     fw_svg_begin(out, &(fw_svg_frame){.width = view.width,
@@ -151,7 +151,7 @@ static fw_status one(fw_text *out, const fw_report_flow *f) {
     return FW_OK;
 }
 
-fw_status fw_report_section_masks(fw_page *page) {
+fw_status fw_report_section_masks(fw_report_page *page) {
     fw_text *out = page->out;
     for (int i = 0; i < page->in->nflow; i++) {
         const fw_report_flow *f = &page->in->flow[i];
@@ -216,8 +216,8 @@ void fw_report_findings(fw_text *out, const fw_mask *mask) {
               mask->flow, mask->flow, mask->flow);
 }
 
-static void time_cells(fw_text *out, const fw_step *step) {
-    const fw_time *t = &step->time;
+static void time_cells(fw_text *out, const fw_process_step *step) {
+    const fw_process_time *t = &step->time;
     if (t->computable) {
         fw_markup(out, "<td class=\"n\">{h}", t->nominal_s);
         if (t->relative_uncertainty > 0.0 && isfinite(t->relative_uncertainty))
@@ -225,7 +225,8 @@ static void time_cells(fw_text *out, const fw_step *step) {
         fw_markup(out,
                   "</td><td class=\"n\">{h}</td><td class=\"n\">{h}</td><td "
                   "class=\"n\">{h}</td><td>{s}",
-                  t->first_look_s, t->clear_by_s, t->stop_s, fw_value_status_text(t->status));
+                  t->first_look_s, t->clear_by_s, t->stop_s,
+                  fw_quantity_value_status_text(t->status));
         for (int i = 0; i < t->ncontribution && i < 3; i++)
             fw_markup(out, "{r}{s}", i ? ", " : "; ", t->contribution[i]);
         fw_text_add(out, "</td>");
@@ -238,7 +239,7 @@ static void time_cells(fw_text *out, const fw_step *step) {
         fw_text_add(out, "<td class=\"n\">\u2013</td><td></td><td></td><td></td><td></td>");
 }
 
-static void steps(fw_text *out, const fw_flow *flow) {
+static void steps(fw_text *out, const fw_process_flow *flow) {
     fw_text_add(out,
                 "<div class=\"wide\"><table><caption>Steps in order. A step that the source does "
                 "not state is marked; a time is only given where every number it needs is known."
@@ -248,7 +249,7 @@ static void steps(fw_text *out, const fw_flow *flow) {
                 "<th scope=\"col\" class=\"n\">Stop</th>"
                 "<th scope=\"col\">Worst input</th></tr></thead><tbody>\n");
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         fw_markup(out, "<tr><td class=\"n\">{i}</td><th scope=\"row\" class=\"step\">{s}{r}</th>",
                   i + 1, s->title ? s->title : s->id,
                   s->in_source ? "" : " <span class=\"soft\">(not in the source)</span>");
@@ -258,10 +259,10 @@ static void steps(fw_text *out, const fw_flow *flow) {
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
-fw_status fw_report_section_recipes(fw_page *page) {
+fw_status fw_report_section_recipes(fw_report_page *page) {
     fw_text *out = page->out;
     for (int i = 0; i < page->in->nflow; i++) {
-        const fw_flow *flow = page->in->flow[i].flow;
+        const fw_process_flow *flow = page->in->flow[i].flow;
         if (!flow) continue;
         fw_markup(out, "<h3>{s}</h3>\n<p>{i} steps, {h} over those that can be computed; ",
                   flow->id, flow->nstep, flow->total_s);

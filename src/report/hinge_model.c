@@ -2,14 +2,14 @@
 #include "report/hinge_model.h"
 #include <math.h>
 
-static bool stepped(const fw_level_step *s) {
+static bool stepped(const fw_statics_level_step *s) {
     return s && !s->why_not;
 }
 
 /* ---- text ---- */
 
 /* the body that the next level moves most, by the larger of both */
-static int most_moved(const fw_mechanism *m, const fw_level_step *s) {
+static int most_moved(const fw_mechanism *m, const fw_statics_level_step *s) {
     int best = 0;
     double most = -1;
     for (int b = 0; b < m->nbody; b++) {
@@ -20,7 +20,7 @@ static int most_moved(const fw_mechanism *m, const fw_level_step *s) {
     return best;
 }
 
-static void pose_line(const fw_mechanism *m, const fw_level_step *s, int b, fw_text *out) {
+static void pose_line(const fw_mechanism *m, const fw_statics_level_step *s, int b, fw_text *out) {
     const double *p = s->at.q + 3 * b, *q = s->up.q + 3 * b;
     fw_text_printf(out, "    %-8s ", m->body[b].id ? m->body[b].id : "");
     fw_text_real(out, "%+11.5f ", (q[0] - p[0]) * 1e6);
@@ -29,7 +29,8 @@ static void pose_line(const fw_mechanism *m, const fw_level_step *s, int b, fw_t
     fw_text_add(out, "\n");
 }
 
-static void strain_line(const fw_mechanism *m, const fw_level_step *s, int k, fw_text *out) {
+static void strain_line(const fw_mechanism *m, const fw_statics_level_step *s, int k,
+                        fw_text *out) {
     int pin = m->hinge[k].pin;
     fw_text_printf(out, "    %-8s ", m->pin[pin].id);
     fw_text_real(out, "%+11.6f ", (s->up.angle_rad[pin] - s->at.angle_rad[pin]) * 1e3);
@@ -40,17 +41,17 @@ static void strain_line(const fw_mechanism *m, const fw_level_step *s, int k, fw
     fw_text_add(out, "\n");
 }
 
-void fw_report_hinge_model(const fw_mechanism *m, const fw_hinge_use *use, const fw_level_step *s,
-                           fw_text *out) {
+void fw_report_hinge_model(const fw_mechanism *m, const fw_effects_hinge_use *use,
+                           const fw_statics_level_step *s, fw_text *out) {
     enum { FEW = 12 };
     if (!use->why) return;
-    fw_text_printf(out, "\nhinges as %s: %s\n", fw_hinge_model_text(use->used), use->why);
+    fw_text_printf(out, "\nhinges as %s: %s\n", fw_effects_hinge_model_text(use->used), use->why);
     if (s && s->why_not) fw_text_printf(out, "  no step to the next level: %s\n", s->why_not);
     if (!stepped(s)) return;
     char by[32];
     fw_percent_text(by, sizeof by, s->relative);
     fw_text_printf(out, "  %s there instead changes hinge angles by up to %s %% of the largest",
-                   fw_hinge_model_text(s->next), by);
+                   fw_effects_hinge_model_text(s->next), by);
     if (isfinite(s->t_s)) {
         fw_text_add(out, " (at ");
         fw_text_number(out, s->t_s * 1e3, 4);
@@ -71,12 +72,12 @@ void fw_report_hinge_model(const fw_mechanism *m, const fw_hinge_use *use, const
 /* ---- the page ---- */
 
 static void row(fw_text *out, const char *scene, const char *flow, const fw_mechanism *m,
-                const fw_motion *x) {
-    const fw_level_step *s = x->level;
-    const fw_hinge_use *use = &x->ledger.hinge;
+                const fw_dynamics_motion *x) {
+    const fw_statics_level_step *s = x->level;
+    const fw_effects_hinge_use *use = &x->ledger.hinge;
     double strain = 0, largest = 0;
     fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td>", scene, flow,
-              fw_hinge_model_text(use->used));
+              fw_effects_hinge_model_text(use->used));
     if (!stepped(s)) {
         fw_markup(out,
                   "<td>\u2013</td><td class=\"n\">\u2013</td><td class=\"n\">\u2013"
@@ -92,16 +93,16 @@ static void row(fw_text *out, const char *scene, const char *flow, const fw_mech
     fw_markup(out,
               "<td>{s}</td><td class=\"n\">{p}</td><td class=\"n\">{u}</td><td "
               "class=\"n\">{p}</td><td>{s}</td></tr>\n",
-              fw_hinge_model_text(s->next), s->relative, hypot(q[0] - p[0], q[1] - p[1]), "m",
-              largest > 0 ? strain / largest : (double)NAN, use->why);
+              fw_effects_hinge_model_text(s->next), s->relative, hypot(q[0] - p[0], q[1] - p[1]),
+              "m", largest > 0 ? strain / largest : (double)NAN, use->why);
 }
 
-void fw_report_section_levels(fw_page *page) {
+void fw_report_section_levels(fw_report_page *page) {
     const fw_verdict *verdict = page->in->verdict;
     fw_text *out = page->out;
     bool any = false;
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
         for (int k = 0; v->motion && k < page->in->device->nscene; k++) {
             if (!v->motion[k] || !v->motion[k]->ledger.hinge.why) continue;
             if (!any)

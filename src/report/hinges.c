@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hinges on the page: their picture, every model beside the others, and the table of the worst. */
 #include "base/constants.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 
 /* One panel per hinge: the flexure with its surfaces, and drift and gap against the angle. */
@@ -14,7 +14,7 @@ static const char *const blue = "#0072B2", *const green = "#009E73", *const oran
 
 typedef struct panel {
     const fw_report_hinge *of;
-    const fw_flexure *flexure;
+    const fw_device_flexure *flexure;
     double y;         /* of its top */
     fw_svg_axes axes; /* degrees and um */
     fw_text *out;
@@ -30,7 +30,7 @@ static void range(panel *p) {
                      .columns = 8,
                      .rows = 5};
     for (int i = 0; i < p->of->npoint; i++) {
-        const fw_drift_point *at = &p->of->point[i];
+        const fw_flexure_drift_point *at = &p->of->point[i];
         double drift = at->drift_m * MICRO, left = at->left_m * MICRO;
         a.x0 = fmin(a.x0, at->rotation_rad * FW_DEG_PER_RAD);
         a.x1 = fmax(a.x1, at->rotation_rad * FW_DEG_PER_RAD);
@@ -56,7 +56,7 @@ static void curve(const panel *p, const char *colour, bool gap) {
     fw_svg_path(p->out, "fill='none' stroke='{r}' stroke-width='2' stroke-linejoin='round'",
                 colour);
     for (int i = 0; i < p->of->npoint; i++) {
-        const fw_drift_point *at = &p->of->point[i];
+        const fw_flexure_drift_point *at = &p->of->point[i];
         fw_markup(p->out, "{r}{c} {c}",
                   i == 0   ? "M"
                   : i == 1 ? "L"
@@ -103,7 +103,7 @@ static void arc(const panel *p, const sketch *s, double centre, double r, double
 }
 
 static void surfaces(const panel *p, const sketch *s) {
-    const fw_hinge *h = p->of->hinge;
+    const fw_mechanism_hinge *h = p->of->hinge;
     const double *cover = p->of->cover_rad;
     if (!(h->surface_radius_m > 0) || !isfinite(cover[0])) return;
     for (int outer = 0; outer < 2; outer++) {
@@ -116,7 +116,7 @@ static void surfaces(const panel *p, const sketch *s) {
 }
 
 /* outline of a flexure that varies, left edge there and right edge back */
-static void outline(const panel *p, const sketch *s, const fw_course *path) {
+static void outline(const panel *p, const sketch *s, const fw_flexure_course *path) {
     enum { PLACES = 24 };
     const char *join = "M";
     double centre = p->of->hinge->closed_form.centre_m, at[2];
@@ -125,7 +125,7 @@ static void outline(const panel *p, const sketch *s, const fw_course *path) {
             for (int k = 0; k <= PLACES; k++) {
                 int piece = side > 0 ? i : path->n - 1 - i;
                 double part = (double)(side > 0 ? k : PLACES - k) / PLACES;
-                fw_vec2 q = fw_path_edge(path, piece, part, side);
+                fw_geometry_vec2 q = fw_flexure_path_edge(path, piece, part, side);
                 place(s, q.x - centre, q.y, at);
                 fw_markup(p->out, "{r}{c} {c}", join, at[0], at[1]);
                 join = "L";
@@ -134,15 +134,15 @@ static void outline(const panel *p, const sketch *s, const fw_course *path) {
 }
 
 static void draw(const panel *p) {
-    const fw_hinge *h = p->of->hinge;
-    const fw_flexure *f = p->flexure;
+    const fw_mechanism_hinge *h = p->of->hinge;
+    const fw_device_flexure *f = p->flexure;
     bool bent = f->kind == FW_FLEXURE_CSFH;
     double centre = h->closed_form.centre_m, size = bent ? f->radius_m : 0.5 * f->length_m;
     bool varies = fw_flexure_input_varies(&h->input);
-    fw_course path;
+    fw_flexure_course path;
     if (varies) {
         fw_flexure_shape shape;
-        fw_path_of(&h->input, &path);
+        fw_flexure_path_of(&h->input, &path);
         fw_flexure_shape_of(&h->input, &shape);
         size = shape.radius_m, bent = false;
     }
@@ -282,7 +282,7 @@ static void rows(fw_text *out, const fw_report_hinge *h) {
     }
 }
 
-fw_status fw_report_ladder(fw_page *page) {
+fw_status fw_report_ladder(fw_report_page *page) {
     const fw_report_input *in = page->in;
     fw_text *out = page->out;
     if (in->nhinge == 0) return FW_OK;
@@ -308,7 +308,7 @@ fw_status fw_report_ladder(fw_page *page) {
 
 enum { BAR = 150 };
 
-static double bar_scale(const fw_hinge_verdict *hinge, int nhinge) {
+static double bar_scale(const fw_verdict_hinge_verdict *hinge, int nhinge) {
     double most = 1.2;
     for (int i = 0; i < nhinge; i++) {
         double u =
@@ -319,7 +319,7 @@ static double bar_scale(const fw_hinge_verdict *hinge, int nhinge) {
 }
 
 /* a bar up to the utilisation, a whisker over its error band, a line at the limit */
-static void bar(fw_text *out, const fw_hinge_verdict *h, double most) {
+static void bar(fw_text *out, const fw_verdict_hinge_verdict *h, double most) {
     if (!isfinite(h->utilisation)) {
         fw_text_add(out, "no limit known");
         return;
@@ -344,7 +344,7 @@ static void bar(fw_text *out, const fw_hinge_verdict *h, double most) {
     fw_svg_close(out, "svg");
 }
 
-static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double most) {
+static void row(fw_text *out, const fw_verdict_hinge_verdict *h, bool with_flow, double most) {
     fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th>",
               h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id);
     if (with_flow) fw_markup(out, "<td>{s}</td>", h->flow ? h->flow : "\u2013");
@@ -369,8 +369,8 @@ static void row(fw_text *out, const fw_hinge_verdict *h, bool with_flow, double 
     fw_text_add(out, "</td></tr>\n");
 }
 
-void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhinge, bool with_flow,
-                           const char *caption) {
+void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, int nhinge,
+                           bool with_flow, const char *caption) {
     double most = bar_scale(hinge, nhinge);
     fw_markup(out,
               "<div class=\"wide\"><table><caption>{s}</caption><thead><tr><th "
@@ -387,7 +387,7 @@ void fw_report_hinge_table(fw_text *out, const fw_hinge_verdict *hinge, int nhin
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
-fw_status fw_report_section_hinges(fw_page *page) {
+fw_status fw_report_section_hinges(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     if (v->nhinge == 0) {
         fw_text_add(page->out, "<p>This device has no flexure hinges.</p>\n");

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The assembled position with its branches, and the workspace with its certificate, as JSON. */
-#include "report/assembly.h"
+#include "report/report_assembly.h"
 #include "report/json_parts.h"
-#include "report/workspace.h"
+#include "report/report_workspace.h"
 #include <stdio.h>
 
 /* ---- the assembled position ---- */
@@ -14,7 +14,7 @@ static const char *known(const char *id) {
 static void triples(fw_json *json, const char *key, const fw_mechanism *m, const double *value) {
     fw_json_object(json, key);
     for (int b = 0; b < m->nbody; b++)
-        fw_json_reals(json, known(m->body[b].id), value + 3 * (size_t)b, 3);
+        fw_report_json_reals(json, known(m->body[b].id), value + 3 * (size_t)b, 3);
     fw_json_end(json);
 }
 
@@ -34,8 +34,8 @@ static void bodies(fw_json *json, const fw_report_assembly *in) {
 static void gaps(fw_json *json, const fw_assembly *a) {
     fw_json_list(json, "joints");
     for (int i = 0; i < a->ngap; i++) {
-        const fw_joint_gap *g = &a->gap[i];
-        const char *kind = g->pin != FW_NONE ? "revolute" : g->tie != FW_NONE ? "tie" : "driver";
+        const fw_assembly_joint_gap *g = &a->gap[i];
+        const char *kind = g->pin != FW_NONE ? "revolute" : g->joint != FW_NONE ? "tie" : "driver";
         fw_json_object(json, NULL);
         fw_json_text(json, "id", g->id);
         fw_json_text(json, "kind", kind);
@@ -46,7 +46,7 @@ static void gaps(fw_json *json, const fw_assembly *a) {
     fw_json_end(json);
 }
 
-static void freedom(fw_json *json, const fw_rank *r) {
+static void freedom(fw_json *json, const fw_assembly_rank_result *r) {
     fw_json_object(json, "freedom");
     fw_json_whole(json, "dof", r->dof);
     fw_json_whole(json, "unknowns", r->unknowns);
@@ -71,7 +71,7 @@ static void freedom(fw_json *json, const fw_rank *r) {
 static void branches(fw_json *json, const fw_assembly *a) {
     fw_json_list(json, "branches");
     for (int i = 0; i < a->nelbow; i++) {
-        const fw_elbow *e = &a->elbow[i];
+        const fw_assembly_elbow *e = &a->elbow[i];
         fw_json_object(json, NULL);
         fw_json_text(json, "elbow", e->id);
         fw_json_whole(json, "guess", e->guess);
@@ -86,7 +86,7 @@ static void alternatives(fw_json *json, const fw_report_assembly *in) {
     const fw_assembly *a = in->assembly;
     fw_json_list(json, "alternatives");
     for (int i = 0; i < a->nalternative; i++) {
-        const fw_alternative *other = &a->alternative[i];
+        const fw_assembly_alternative *other = &a->alternative[i];
         fw_json_object(json, NULL);
         fw_json_real(json, "distance_m", other->distance_m);
         fw_json_list(json, "elbows_mirrored");
@@ -99,8 +99,8 @@ static void alternatives(fw_json *json, const fw_report_assembly *in) {
     fw_json_end(json);
 }
 
-static void independent(fw_json *json, const fw_kinematics *k) {
-    const fw_coordinate_choice *c = &k->independent;
+static void independent(fw_json *json, const fw_assembly_kinematics *k) {
+    const fw_assembly_coordinate_choice *c = &k->independent;
     fw_json_object(json, "independent");
     fw_json_text(json, "coordinates", c->text);
     fw_json_text(json, "chosen", c->automatic ? "pivoting" : "asked");
@@ -120,16 +120,16 @@ static void independent(fw_json *json, const fw_kinematics *k) {
 
 static void forces(fw_json *json, const fw_report_assembly *in) {
     const fw_mechanism *m = in->mechanism;
-    const fw_kinematics *k = in->kinematics;
+    const fw_assembly_kinematics *k = in->kinematics;
     fw_json_object(json, "forces");
     fw_json_truth(json, "unique", k->unique);
     fw_json_object(json, "revolute_N");
     for (int i = 0; i < m->npin; i++)
-        fw_json_reals(json, known(m->pin[i].id), k->reaction_N + 2 * (size_t)i, 2);
+        fw_report_json_reals(json, known(m->pin[i].id), k->reaction_N + 2 * (size_t)i, 2);
     fw_json_end(json);
     fw_json_object(json, "tie_N_Nm");
-    for (int i = 0; i < m->ntie; i++)
-        fw_json_reals(json, known(m->tie[i].id), k->tie_N + 3 * (size_t)i, 3);
+    for (int i = 0; i < m->njoint; i++)
+        fw_report_json_reals(json, known(m->joint[i].id), k->joint_N + 3 * (size_t)i, 3);
     fw_json_end(json);
     fw_json_object(json, "driver_N_or_Nm");
     for (int i = 0; i < m->ndriver; i++)
@@ -176,12 +176,12 @@ fw_status fw_report_assemble_json(const fw_report_assembly *in, fw_text *out) {
 
 /* ---- the workspace ---- */
 
-static void interval(fw_json *json, const char *key, fw_interval a) {
-    fw_json_pair(json, key, a.lo, a.hi);
+static void interval(fw_json *json, const char *key, fw_maths_interval a) {
+    fw_report_json_pair(json, key, a.lo, a.hi);
 }
 
 /* members of the object about a volume or an area */
-static void measure(fw_json *json, const fw_measure *m, const char *key) {
+static void measure(fw_json *json, const fw_workspace_measure *m, const char *key) {
     interval(json, key, m->value);
     fw_json_whole(json, "boxes", (long long)m->boxes);
 }
@@ -193,11 +193,11 @@ static void by_hinge(fw_json *json, const char *key, const fw_mechanism *m, cons
     fw_json_end(json);
 }
 
-static bool holds(const fw_triangle *t, int hinge) {
+static bool holds(const fw_workspace_triangle *t, int hinge) {
     return hinge == t->hinge[0] || hinge == t->hinge[1] || hinge == t->hinge[2];
 }
 
-static void triangle(fw_json *json, const fw_mechanism *m, const fw_triangle *t) {
+static void triangle(fw_json *json, const fw_mechanism *m, const fw_workspace_triangle *t) {
     fw_json_object(json, NULL);
     for (int passive = 0; passive < 2; passive++) {
         fw_json_list(json, passive ? "passive" : "driven");
@@ -209,11 +209,11 @@ static void triangle(fw_json *json, const fw_mechanism *m, const fw_triangle *t)
     fw_json_truth(json, "singular_inside", t->positive && t->negative);
     interval(json, "twice_area_m2", t->area2_m2);
     interval(json, "least_length_m", t->length_m);
-    fw_json_reals(json, "at", t->pose, 3);
+    fw_report_json_reals(json, "at", t->pose, 3);
     fw_json_end(json);
 }
 
-static void regularity(fw_json *json, const fw_mechanism *m, const fw_regularity *s) {
+static void regularity(fw_json *json, const fw_mechanism *m, const fw_workspace_regularity *s) {
     fw_json_object(json, "singularities");
     fw_json_list(json, "serial");
     for (int side = 0; side < 2; side++) {
@@ -271,7 +271,7 @@ static void reachable(fw_json *json, const fw_report_workspace_flow *f) {
 }
 
 static const char *within(const fw_workspace_proof *p, int hinge, double limit) {
-    fw_interval a = p->angle_rad[hinge];
+    fw_maths_interval a = p->angle_rad[hinge];
     if (!(limit > 0.0)) return NULL;
     if (a.hi <= limit && a.lo >= -limit) return "yes";
     bool beyond = p->most[hinge].angle_rad.lo > limit || p->least[hinge].angle_rad.hi < -limit;
@@ -286,18 +286,18 @@ static void hinge_range(fw_json *json, const fw_report_workspace_flow *f,
     interval(json, "angle_rad", p->angle_rad[i]);
     fw_json_real(json, "limit_rad", limit);
     fw_json_text(json, "within", within(p, i, limit));
-    fw_json_reals(json, "least_at", p->least[i].pose, 3);
-    fw_json_reals(json, "most_at", p->most[i].pose, 3);
+    fw_report_json_reals(json, "least_at", p->least[i].pose, 3);
+    fw_report_json_reals(json, "most_at", p->most[i].pose, 3);
     fw_json_end(json);
 }
 
 static void required_box(fw_json *json, const fw_report_workspace_flow *f,
-                         const fw_workspace_box *b, int k) {
+                         const fw_device_workspace_box *b, int k) {
     const fw_workspace_proof *p = &f->required->proof[k];
     fw_json_object(json, NULL);
-    fw_json_pair(json, "x_m", b->x_min_m, b->x_max_m);
-    fw_json_pair(json, "y_m", b->y_min_m, b->y_max_m);
-    fw_json_pair(json, "phi_rad", b->phi_min_rad, b->phi_max_rad);
+    fw_report_json_pair(json, "x_m", b->x_min_m, b->x_max_m);
+    fw_report_json_pair(json, "y_m", b->y_min_m, b->y_max_m);
+    fw_report_json_pair(json, "phi_rad", b->phi_min_rad, b->phi_max_rad);
     fw_json_truth(json, "reachable", f->required->box_reachable[k]);
     fw_json_truth(json, "certified", p->proved);
     fw_json_list(json, "hinges");
@@ -352,7 +352,7 @@ static void bits_of(fw_json *json, const char *key, const double *value, int cou
     fw_json_end(json);
 }
 
-static void point(fw_json *json, const char *key, fw_vec2 p) {
+static void point(fw_json *json, const char *key, fw_geometry_vec2 p) {
     bits_of(json, key, (double[]){p.x, p.y}, 2);
 }
 
@@ -367,7 +367,7 @@ static void extreme(fw_json *json, const char *key, const fw_workspace_extreme *
     fw_json_end(json);
 }
 
-static void leg(fw_json *json, const char *key, const fw_leg *l) {
+static void leg(fw_json *json, const char *key, const fw_workspace_leg *l) {
     fw_json_object(json, key);
     point(json, "base_m", l->base);
     point(json, "first_m", l->a);
@@ -376,8 +376,8 @@ static void leg(fw_json *json, const char *key, const fw_leg *l) {
     fw_json_end(json);
 }
 
-static void certificate(fw_json *json, const fw_report_workspace_flow *f, const fw_loop *loop,
-                        const fw_workspace_proof *p) {
+static void certificate(fw_json *json, const fw_report_workspace_flow *f,
+                        const fw_workspace_loop *loop, const fw_workspace_proof *p) {
     fw_json_object(json, NULL);
     fw_json_text(json, "flow", f->flow);
     fw_json_object(json, "mechanism");
@@ -412,8 +412,8 @@ fw_status fw_report_certificate_json(const fw_report_workspace *in, fw_text *out
     fw_json_list(&json, "boxes");
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_workspace_flow *f = &in->flow[i];
-        fw_loop loop;
-        if (!fw_loop_set_up(f->mechanism, &loop)) continue;
+        fw_workspace_loop loop;
+        if (!fw_workspace_loop_set_up(f->mechanism, &loop)) continue;
         for (int k = 0; k < in->device->nworkspace; k++)
             if (f->required->asked && f->required->asked[k] && f->required->proof[k].proved)
                 certificate(&json, f, &loop, &f->required->proof[k]);

@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A motion, an equilibrium with its load path, and modes as JSON. */
-#include "report/json.h"
+#include "report/report_json.h"
 #include "report/json_parts.h"
-#include "report/rest.h"
+#include "report/report_equilibrium.h"
 
 /* ---- parts ---- */
 
-void fw_json_pair(fw_json *json, const char *key, double a, double b) {
-    fw_json_reals(json, key, (double[]){a, b}, 2);
+void fw_report_json_pair(fw_json *json, const char *key, double a, double b) {
+    fw_report_json_reals(json, key, (double[]){a, b}, 2);
 }
 
-void fw_json_reals(fw_json *json, const char *key, const double *value, int count) {
+void fw_report_json_reals(fw_json *json, const char *key, const double *value, int count) {
     fw_json_list(json, key);
     for (int i = 0; i < count; i++)
         fw_json_real(json, NULL, value[i]);
     fw_json_end(json);
 }
 
-void fw_json_by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
-                     const double *triples) {
+void fw_report_json_by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
+                            const double *triples) {
     fw_json_object(json, key);
     for (int b = 0; b < mechanism->nbody; b++)
-        fw_json_reals(json, mechanism->body[b].id, triples + 3 * (size_t)b, 3);
+        fw_report_json_reals(json, mechanism->body[b].id, triples + 3 * (size_t)b, 3);
     fw_json_end(json);
 }
 
-void fw_json_effects(fw_json *json, const fw_effect_ledger *ledger, const char *scene,
-                     const char *flow) {
+void fw_report_json_effects(fw_json *json, const fw_effect_ledger *ledger, const char *scene,
+                            const char *flow) {
     for (int i = 0; i < ledger->count; i++) {
         const fw_effect_entry *e = &ledger->item[i];
         fw_json_object(json, NULL);
@@ -44,11 +44,11 @@ void fw_json_effects(fw_json *json, const fw_effect_ledger *ledger, const char *
 
 static void effects(fw_json *json, const fw_effect_ledger *ledger) {
     fw_json_list(json, "effects");
-    fw_json_effects(json, ledger, NULL, NULL);
+    fw_report_json_effects(json, ledger, NULL, NULL);
     fw_json_end(json);
 }
 
-static void rank(fw_json *json, const fw_row_rank *r) {
+static void rank(fw_json *json, const fw_statics_row_rank *r) {
     fw_json_object(json, "constraints");
     fw_json_whole(json, "rows", r->rows);
     fw_json_whole(json, "rank", r->rank);
@@ -60,7 +60,7 @@ static void rank(fw_json *json, const fw_row_rank *r) {
 
 /* ---- how hinges were taken, and the step to the next level ---- */
 
-static void changed_bodies(fw_json *json, const fw_mechanism *m, const fw_level_step *s) {
+static void changed_bodies(fw_json *json, const fw_mechanism *m, const fw_statics_level_step *s) {
     fw_json_object(json, "dq");
     for (int b = 0; b < m->nbody; b++) {
         fw_json_list(json, m->body[b].id);
@@ -71,7 +71,7 @@ static void changed_bodies(fw_json *json, const fw_mechanism *m, const fw_level_
     fw_json_end(json);
 }
 
-static void changed_hinges(fw_json *json, const fw_mechanism *m, const fw_level_step *s) {
+static void changed_hinges(fw_json *json, const fw_mechanism *m, const fw_statics_level_step *s) {
     fw_json_list(json, "hinges");
     for (int k = 0; k < m->nhinge; k++) {
         int pin = m->hinge[k].pin;
@@ -86,13 +86,13 @@ static void changed_hinges(fw_json *json, const fw_mechanism *m, const fw_level_
     fw_json_end(json);
 }
 
-static void level_step(fw_json *json, const fw_mechanism *m, const fw_level_step *s) {
+static void level_step(fw_json *json, const fw_mechanism *m, const fw_statics_level_step *s) {
     if (!s) {
         fw_json_null(json, "step");
         return;
     }
     fw_json_object(json, "step");
-    fw_json_text(json, "next", s->next == s->used ? NULL : fw_hinge_model_text(s->next));
+    fw_json_text(json, "next", s->next == s->used ? NULL : fw_effects_hinge_model_text(s->next));
     fw_json_real(json, "t_s", s->t_s);
     fw_json_real(json, "relative", s->relative);
     if (s->why_not) {
@@ -106,30 +106,31 @@ static void level_step(fw_json *json, const fw_mechanism *m, const fw_level_step
     fw_json_end(json);
 }
 
-void fw_json_hinge_model(fw_json *json, const fw_mechanism *m, const fw_hinge_use *use,
-                         const fw_level_step *level) {
-    fw_json_text(json, "used", fw_hinge_model_text(use->used));
+void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *m,
+                                const fw_effects_hinge_use *use,
+                                const fw_statics_level_step *level) {
+    fw_json_text(json, "used", fw_effects_hinge_model_text(use->used));
     fw_json_text(json, "why", use->why);
     fw_json_real(json, "error", use->error);
     level_step(json, m, level);
 }
 
 /* null: no hinge has a model */
-static void hinge_model(fw_json *json, const fw_mechanism *m, const fw_hinge_use *use,
-                        const fw_level_step *level) {
+static void hinge_model(fw_json *json, const fw_mechanism *m, const fw_effects_hinge_use *use,
+                        const fw_statics_level_step *level) {
     if (!use->why) {
         fw_json_null(json, "hinge_model");
         return;
     }
     fw_json_object(json, "hinge_model");
-    fw_json_hinge_model(json, m, use, level);
+    fw_report_json_hinge_model(json, m, use, level);
     fw_json_end(json);
 }
 
 /* ---- a motion ---- */
 
-static void stats(fw_json *json, const fw_motion *m) {
-    const fw_motion_stats *s = &m->stats;
+static void stats(fw_json *json, const fw_dynamics_motion *m) {
+    const fw_dynamics_motion_stats *s = &m->stats;
     fw_json_object(json, "stats");
     fw_json_whole(json, "steps", s->steps);
     fw_json_whole(json, "rejected", s->rejected);
@@ -150,9 +151,9 @@ static void stats(fw_json *json, const fw_motion *m) {
 }
 
 /* what was wanted of it, what it is taken to be, and what that took, all runs counted */
-static void accuracy(fw_json *json, const fw_motion *m) {
-    const fw_motion_stats *s = &m->stats;
-    double estimated = fw_motion_estimated(m);
+static void accuracy(fw_json *json, const fw_dynamics_motion *m) {
+    const fw_dynamics_motion_stats *s = &m->stats;
+    double estimated = fw_dynamics_motion_estimated(m);
     fw_json_object(json, "accuracy");
     fw_json_real(json, "wanted", m->accuracy);
     fw_json_real(json, "estimated", estimated);
@@ -167,7 +168,7 @@ static void accuracy(fw_json *json, const fw_motion *m) {
     fw_json_end(json);
 }
 
-static void peaks(fw_json *json, const fw_mechanism *mechanism, const fw_motion *m) {
+static void peaks(fw_json *json, const fw_mechanism *mechanism, const fw_dynamics_motion *m) {
     fw_json_list(json, "peaks");
     for (int k = 0; k < m->npin; k++) {
         fw_json_object(json, NULL);
@@ -180,16 +181,16 @@ static void peaks(fw_json *json, const fw_mechanism *mechanism, const fw_motion 
     fw_json_end(json);
 }
 
-static const char *const tie_kind[] = {
-    [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+static const char *const joint_kind[] = {
+    [FW_JOINT_PRISMATIC] = "prismatic", [FW_JOINT_DISTANCE] = "distance", [FW_JOINT_WELD] = "weld"};
 
 /* the torque of what has one; where there is no force (a driver that turns) the time is its own */
-static void reaction(fw_json *json, const char *id, const char *kind, const fw_force_peak *p,
-                     bool turns, bool pushes) {
+static void reaction(fw_json *json, const char *id, const char *kind,
+                     const fw_dynamics_force_peak *p, bool turns, bool is_force) {
     fw_json_object(json, NULL);
     fw_json_text(json, "joint", id);
     fw_json_real(json, "force_N", p->force_N);
-    fw_json_real(json, "t_s", pushes ? p->t_s : p->torque_t_s);
+    fw_json_real(json, "t_s", is_force ? p->t_s : p->torque_t_s);
     fw_json_real(json, "error_N", p->error_N);
     fw_json_text(json, "kind", kind);
     if (turns) {
@@ -201,28 +202,29 @@ static void reaction(fw_json *json, const char *id, const char *kind, const fw_f
 }
 
 /* largest forces of revolute joints, of the others, of drivers */
-static void reactions(fw_json *json, const fw_mechanism *mechanism, const fw_motion *m) {
+static void reactions(fw_json *json, const fw_mechanism *mechanism, const fw_dynamics_motion *m) {
     fw_json_list(json, "reactions");
     for (int k = 0; m->force_peak && k < m->npin; k++)
         reaction(json, mechanism->pin[k].id, "revolute", &m->force_peak[k], false, true);
-    for (int k = 0; m->tie_peak && k < m->ntie; k++) {
-        const fw_tie *t = &mechanism->tie[k];
-        reaction(json, t->id, tie_kind[t->kind], &m->tie_peak[k], t->kind != FW_TIE_DISTANCE, true);
+    for (int k = 0; m->joint_peak && k < m->njoint; k++) {
+        const fw_device_joint *t = &mechanism->joint[k];
+        reaction(json, t->id, joint_kind[t->kind], &m->joint_peak[k], t->kind != FW_JOINT_DISTANCE,
+                 true);
     }
     for (int k = 0; m->driver_peak && k < m->ndriver; k++) {
-        bool turns = mechanism->driver[k].joint != FW_NONE;
+        bool turns = mechanism->driver[k].revolute != FW_NONE;
         reaction(json, mechanism->driver[k].id, "driver", &m->driver_peak[k], turns, !turns);
     }
     fw_json_end(json);
 }
 
 /* extremes of prismatic joints */
-static void travels(fw_json *json, const fw_mechanism *mechanism, const fw_motion *m) {
+static void travels(fw_json *json, const fw_mechanism *mechanism, const fw_dynamics_motion *m) {
     fw_json_list(json, "travels");
-    for (int k = 0; m->travel_peak && k < m->ntie; k++) {
-        if (mechanism->tie[k].kind != FW_TIE_PRISMATIC) continue;
+    for (int k = 0; m->travel_peak && k < m->njoint; k++) {
+        if (mechanism->joint[k].kind != FW_JOINT_PRISMATIC) continue;
         fw_json_object(json, NULL);
-        fw_json_text(json, "joint", mechanism->tie[k].id);
+        fw_json_text(json, "joint", mechanism->joint[k].id);
         fw_json_real(json, "travel_m", m->travel_peak[k].travel_m);
         fw_json_real(json, "t_s", m->travel_peak[k].t_s);
         fw_json_real(json, "error_m", m->travel_peak[k].error_m);
@@ -231,7 +233,7 @@ static void travels(fw_json *json, const fw_mechanism *mechanism, const fw_motio
     fw_json_end(json);
 }
 
-static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_motion *m) {
+static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_dynamics_motion *m) {
     if (m->nsample < 1) {
         fw_json_null(json, "final");
         return;
@@ -239,13 +241,13 @@ static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_m
     size_t last = 3 * (size_t)m->nbody * (size_t)(m->nsample - 1);
     fw_json_object(json, "final");
     fw_json_real(json, "t_s", m->t_s[m->nsample - 1]);
-    fw_json_by_body(json, "q", mechanism, m->q + last);
-    fw_json_by_body(json, "v", mechanism, m->v + last);
-    fw_json_by_body(json, "a", mechanism, m->accel + last);
+    fw_report_json_by_body(json, "q", mechanism, m->q + last);
+    fw_report_json_by_body(json, "v", mechanism, m->v + last);
+    fw_report_json_by_body(json, "a", mechanism, m->accel + last);
     fw_json_end(json);
 }
 
-fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_motion *motion,
+fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                   fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
     fw_json_object(&json, NULL);
@@ -280,31 +282,31 @@ static void complex_shape(fw_json *json, const fw_mechanism *m, const double *sh
     for (int b = 0; b < m->nbody; b++) {
         fw_json_list(json, m->body[b].id);
         for (int k = 3 * b; k < 3 * b + 3; k++)
-            fw_json_pair(json, NULL, shape[k], shape[3 * m->nbody + k]);
+            fw_report_json_pair(json, NULL, shape[k], shape[3 * m->nbody + k]);
         fw_json_end(json);
     }
     fw_json_end(json);
 }
 
-static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_mode *m) {
+static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_statics_mode *m) {
     const double(*e)[2] = m->eigenvalue_per_s;
     fw_json_object(json, NULL);
     fw_json_real(json, "f_Hz", m->f_Hz);
     fw_json_real(json, "omega_rad_per_s", m->omega_rad_per_s);
-    fw_json_pair(json, "eigenvalue_per_s", e[0][0], e[0][1]);
-    fw_json_pair(json, "second_eigenvalue_per_s", e[1][0], e[1][1]);
-    fw_json_text(json, "kind", fw_mode_kind_text(m->kind));
+    fw_report_json_pair(json, "eigenvalue_per_s", e[0][0], e[0][1]);
+    fw_report_json_pair(json, "second_eigenvalue_per_s", e[1][0], e[1][1]);
+    fw_json_text(json, "kind", fw_statics_mode_kind_text(m->kind));
     fw_json_real(json, "damping_ratio", m->damping_ratio);
     fw_json_real(json, "stiffness_per_s2", m->stiffness_per_s2);
     fw_json_real(json, "modal_mass_kg_m2", m->modal_mass_kg_m2);
     fw_json_text(json, "bodies", m->bodies);
-    fw_json_by_body(json, "shape", mechanism, m->shape);
+    fw_report_json_by_body(json, "shape", mechanism, m->shape);
     complex_shape(json, mechanism, m->damped);
     fw_json_end(json);
 }
 
-fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_scene *scene,
-                               const fw_modes *modes, fw_text *out) {
+fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                               const fw_statics_modes *modes, fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
     fw_json_object(&json, NULL);
     fw_json_text(&json, "schema", "flexwright.modes/1");
@@ -313,7 +315,7 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_scene *sc
     fw_json_real(&json, "out_of_rest", modes->out_of_rest);
     fw_json_real(&json, "unit_length_m", modes->unit_length_m);
     rank(&json, &modes->rank);
-    fw_json_by_body(&json, "q", mechanism, modes->q);
+    fw_report_json_by_body(&json, "q", mechanism, modes->q);
     fw_json_list(&json, "modes");
     for (int i = 0; i < modes->count; i++)
         one_mode(&json, mechanism, &modes->mode[i]);
@@ -332,19 +334,19 @@ static void rest_hinges(fw_json *json, const fw_mechanism *m, const fw_statics *
         fw_json_object(json, NULL);
         fw_json_text(json, "hinge", m->pin[k].id);
         fw_json_real(json, "angle_rad", s->angle_rad[k]);
-        fw_json_pair(json, "force_N", s->reaction_N[2 * k], s->reaction_N[2 * k + 1]);
+        fw_report_json_pair(json, "force_N", s->reaction_N[2 * k], s->reaction_N[2 * k + 1]);
         fw_json_end(json);
     }
     fw_json_end(json);
 }
 
-static void rest_ties(fw_json *json, const fw_mechanism *m, const double *force) {
+static void rest_joints(fw_json *json, const fw_mechanism *m, const double *force) {
     fw_json_list(json, "ties");
-    for (int k = 0; k < m->ntie; k++) {
+    for (int k = 0; k < m->njoint; k++) {
         fw_json_object(json, NULL);
-        fw_json_text(json, "joint", m->tie[k].id);
-        fw_json_text(json, "kind", tie_kind[m->tie[k].kind]);
-        fw_json_pair(json, "force_N", force[3 * k], force[3 * k + 1]);
+        fw_json_text(json, "joint", m->joint[k].id);
+        fw_json_text(json, "kind", joint_kind[m->joint[k].kind]);
+        fw_report_json_pair(json, "force_N", force[3 * k], force[3 * k + 1]);
         fw_json_real(json, "torque_Nm", force[3 * k + 2]);
         fw_json_end(json);
     }
@@ -354,7 +356,7 @@ static void rest_ties(fw_json *json, const fw_mechanism *m, const double *force)
 static void rest_drivers(fw_json *json, const fw_mechanism *m, const double *force) {
     fw_json_list(json, "drivers");
     for (int k = 0; k < m->ndriver; k++) {
-        bool turns = m->driver[k].joint != FW_NONE;
+        bool turns = m->driver[k].revolute != FW_NONE;
         fw_json_object(json, NULL);
         fw_json_text(json, "driver", m->driver[k].id);
         fw_json_real(json, turns ? "torque_Nm" : "force_N", force[k]);
@@ -366,7 +368,7 @@ static void rest_drivers(fw_json *json, const fw_mechanism *m, const double *for
 static void actives(fw_json *json, const fw_statics *s) {
     fw_json_list(json, "active");
     for (int i = 0; i < s->nactive; i++) {
-        const fw_active *a = &s->active[i];
+        const fw_statics_active *a = &s->active[i];
         fw_json_object(json, NULL);
         fw_json_text(json, "id", a->id);
         fw_json_text(json, "kind", a->effect ? a->effect : a->side == 0 ? "cable" : "stop");
@@ -379,7 +381,7 @@ static void actives(fw_json *json, const fw_statics *s) {
 
 /* limit points, bifurcations, switches and the end, with their poses */
 static void path_events(fw_json *json, const fw_mechanism *m, const fw_statics *s) {
-    const fw_path *p = s->path;
+    const fw_statics_path *p = s->path;
     fw_json_list(json, "events");
     for (int i = 0; i < p->count; i++) {
         if (p->mark[i] == FW_PATH_POINT) continue;
@@ -390,14 +392,14 @@ static void path_events(fw_json *json, const fw_mechanism *m, const fw_statics *
         fw_json_text(json, "element", p->which[i] == FW_NONE ? NULL : s->active[p->which[i]].id);
         fw_json_real(json, "snaps_by_m", p->snap_m[i]);
         fw_json_real(json, "snaps_by_rad", p->snap_rad[i]);
-        fw_json_by_body(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
+        fw_report_json_by_body(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
         fw_json_end(json);
     }
     fw_json_end(json);
 }
 
 static void load_path(fw_json *json, const fw_mechanism *m, const fw_statics *s) {
-    const fw_path *p = s->path;
+    const fw_statics_path *p = s->path;
     if (!p) {
         fw_json_null(json, "path");
         return;
@@ -405,8 +407,8 @@ static void load_path(fw_json *json, const fw_mechanism *m, const fw_statics *s)
     fw_json_object(json, "path");
     fw_json_truth(json, "complete", p->complete);
     path_events(json, m, s);
-    fw_json_reals(json, "load_factor", p->factor, p->count);
-    fw_json_reals(json, "lowest_per_s2", p->lowest_per_s2, p->count);
+    fw_report_json_reals(json, "load_factor", p->factor, p->count);
+    fw_report_json_reals(json, "lowest_per_s2", p->lowest_per_s2, p->count);
     fw_json_list(json, "negative");
     for (int i = 0; i < p->count; i++)
         fw_json_whole(json, NULL, p->negative[i]);
@@ -414,10 +416,10 @@ static void load_path(fw_json *json, const fw_mechanism *m, const fw_statics *s)
     fw_json_end(json);
 }
 
-void fw_json_pull_in(fw_json *json, const fw_pull_in *p) {
+void fw_report_json_pull_in(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_text(json, "comb", p->comb);
     fw_json_real(json, "voltage_V", p->voltage_V);
-    fw_json_text(json, "kind", fw_pull_in_kind_text(p->kind));
+    fw_json_text(json, "kind", fw_statics_pull_in_kind_text(p->kind));
     fw_json_real(json, "margin", p->margin);
     fw_json_truth(json, "bifurcation", p->bifurcation);
     fw_json_real(json, "scene_voltage_V", p->largest_V);
@@ -430,17 +432,17 @@ void fw_json_pull_in(fw_json *json, const fw_pull_in *p) {
 }
 
 /* none without comb drives, else the one that loses the equilibrium first */
-static void pull_ins(fw_json *json, const fw_pull_in *p) {
+static void pull_ins(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_list(json, "pull_in");
     if (p) {
         fw_json_object(json, NULL);
-        fw_json_pull_in(json, p);
+        fw_report_json_pull_in(json, p);
         fw_json_end(json);
     }
     fw_json_end(json);
 }
 
-fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *scene,
+fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                  const fw_statics *s, fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
     fw_json_object(&json, NULL);
@@ -454,12 +456,12 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_scene *
     fw_json_real(&json, "residual", s->residual);
     fw_json_whole(&json, "iterations", s->iterations);
     rank(&json, &s->rank);
-    fw_json_by_body(&json, "q", mechanism, s->q);
+    fw_report_json_by_body(&json, "q", mechanism, s->q);
     rest_hinges(&json, mechanism, s);
-    rest_ties(&json, mechanism, s->tie_N);
+    rest_joints(&json, mechanism, s->joint_N);
     rest_drivers(&json, mechanism, s->driver_N);
     actives(&json, s);
-    fw_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->dof);
+    fw_report_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->dof);
     pull_ins(&json, s->pull_in);
     load_path(&json, mechanism, s);
     hinge_model(&json, mechanism, &s->ledger.hinge, s->level);

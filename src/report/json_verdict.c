@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verdict as JSON: hinges as drawn and as the flows make them, flows, effects, advice. */
-#include "report/json.h"
+#include "report/report_json.h"
 #include "report/json_parts.h"
 #include <math.h>
 
-static const char *word(fw_decision decision) {
+static const char *word(fw_verdict_decision decision) {
     return decision == FW_ACCEPT ? "accept" : decision == FW_REJECT ? "reject" : "inconclusive";
 }
 
 /* ---- what the flows make of the device ---- */
 
-static void as_fabricated_input(fw_json *json, const fw_made_input *in) {
+static void as_fabricated_input(fw_json *json, const fw_verdict_fabrication_input *in) {
     fw_quantity q = in->q;
     const struct {
         const char *key;
@@ -23,26 +23,26 @@ static void as_fabricated_input(fw_json *json, const fw_made_input *in) {
         q.value = number[i].value;
         fw_json_real(json, number[i].key, fw_quantity_in_unit(&q));
     }
-    fw_json_text(json, "status", fw_value_status_text(q.status));
+    fw_json_text(json, "status", fw_quantity_value_status_text(q.status));
     fw_json_text(json, "source", q.source);
     fw_json_text(json, "not_known", in->unknown);
     fw_json_end(json);
 }
 
-static void corner(fw_json *json, const fw_made_corner *c, int nhinge) {
+static void corner(fw_json *json, const fw_verdict_fabricated_corner *c, int nhinge) {
     double most = 0.0;
     for (int k = 0; k < nhinge; k++)
         most = fmax(most, c->hinge[k].utilisation);
     fw_json_object(json, NULL);
     fw_json_text(json, "at", c->what);
-    fw_json_text(json, "verdict", fw_decision_text(c->decision));
+    fw_json_text(json, "verdict", fw_verdict_decision_text(c->decision));
     fw_json_real(json, "utilisation", most > 0.0 ? most : (double)NAN);
     fw_json_text(json, "why", c->why);
     fw_json_end(json);
 }
 
-static void held(fw_json *json, const fw_variant_verdict *v) {
-    const fw_made_verdict *m = v->made;
+static void held(fw_json *json, const fw_verdict_variant_verdict *v) {
+    const fw_verdict_fabricated_verdict *m = v->fabricated;
     if (m->held == FW_NONE) {
         fw_json_null(json, "held");
         return;
@@ -58,14 +58,14 @@ static void held(fw_json *json, const fw_variant_verdict *v) {
 }
 
 /* of one flow; null where nothing was judged but the drawing */
-static void as_fabricated(fw_json *json, const fw_variant_verdict *v) {
-    const fw_made_verdict *m = v->made;
+static void as_fabricated(fw_json *json, const fw_verdict_variant_verdict *v) {
+    const fw_verdict_fabricated_verdict *m = v->fabricated;
     if (!m) {
         fw_json_null(json, "as_fabricated");
         return;
     }
     fw_json_object(json, "as_fabricated");
-    fw_json_text(json, "verdict", fw_decision_text(m->decision));
+    fw_json_text(json, "verdict", fw_verdict_decision_text(m->decision));
     fw_json_list(json, "inputs");
     for (int i = 0; i < v->ninput; i++)
         as_fabricated_input(json, &v->input[i]);
@@ -83,7 +83,8 @@ static void as_fabricated(fw_json *json, const fw_variant_verdict *v) {
     fw_json_end(json);
 }
 
-static void contributions(fw_json *json, const fw_variant_verdict *v, const fw_made_hinge *h) {
+static void contributions(fw_json *json, const fw_verdict_variant_verdict *v,
+                          const fw_verdict_fabricated_hinge *h) {
     fw_json_list(json, "contributions");
     for (int i = 0; i < v->ninput; i++) {
         fw_json_object(json, NULL);
@@ -94,10 +95,12 @@ static void contributions(fw_json *json, const fw_variant_verdict *v, const fw_m
     fw_json_end(json);
 }
 
-static const fw_hinge_verdict *tightest(const fw_variant_verdict *v, int joint, int *at) {
-    for (int k = 0; v->made && k < v->nhinge; k++) {
+static const fw_verdict_hinge_verdict *tightest(const fw_verdict_variant_verdict *v, int joint,
+                                                int *at) {
+    for (int k = 0; v->fabricated && k < v->nhinge; k++) {
         if (v->hinge[k].joint != joint) continue;
-        const fw_hinge_verdict *h = &v->made->corner[v->made->hinge[k].corner].hinge[k];
+        const fw_verdict_hinge_verdict *h =
+            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
         *at = k;
         return h->scene ? h : NULL;
     }
@@ -105,14 +108,14 @@ static const fw_hinge_verdict *tightest(const fw_variant_verdict *v, int joint, 
 }
 
 /* of one hinge, the tightest of these flows */
-static void as_fabricated_hinge(fw_json *json, const fw_variant_verdict *variant, int nvariant,
-                                int joint) {
-    const fw_hinge_verdict *worst = NULL;
-    const fw_variant_verdict *v = NULL;
+static void as_fabricated_hinge(fw_json *json, const fw_verdict_variant_verdict *variant,
+                                int nvariant, int joint) {
+    const fw_verdict_hinge_verdict *worst = NULL;
+    const fw_verdict_variant_verdict *v = NULL;
     int k = 0;
     for (int i = 0; i < nvariant; i++) {
         int at = 0;
-        const fw_hinge_verdict *h = tightest(&variant[i], joint, &at);
+        const fw_verdict_hinge_verdict *h = tightest(&variant[i], joint, &at);
         if (h && (!worst || h->utilisation > worst->utilisation))
             worst = h, v = &variant[i], k = at;
     }
@@ -120,18 +123,18 @@ static void as_fabricated_hinge(fw_json *json, const fw_variant_verdict *variant
         fw_json_null(json, "as_fabricated");
         return;
     }
-    const fw_made_hinge *h = &v->made->hinge[k];
+    const fw_verdict_fabricated_hinge *h = &v->fabricated->hinge[k];
     fw_json_object(json, "as_fabricated");
     fw_json_real(json, "utilisation", worst->utilisation);
-    fw_json_pair(json, "utilisation_band", worst->utilisation_low, worst->utilisation_high);
-    fw_json_text(json, "verdict", fw_decision_text(worst->decision));
-    fw_json_text(json, "corner", v->made->corner[h->corner].what);
+    fw_report_json_pair(json, "utilisation_band", worst->utilisation_low, worst->utilisation_high);
+    fw_json_text(json, "verdict", fw_verdict_decision_text(worst->decision));
+    fw_json_text(json, "corner", v->fabricated->corner[h->corner].what);
     fw_json_text(json, "flow", worst->flow);
     fw_json_text(json, "scene", worst->scene);
     fw_json_real(json, "peak_angle_rad", worst->peak_angle_rad);
     fw_json_real(json, "limit_angle_rad", worst->limit_angle_rad);
     fw_json_real(json, "most", h->most);
-    fw_json_real(json, "nominal", v->made->corner[0].hinge[k].utilisation);
+    fw_json_real(json, "nominal", v->fabricated->corner[0].hinge[k].utilisation);
     fw_json_real(json, "sigma", h->sigma);
     contributions(json, v, h);
     fw_json_end(json);
@@ -140,13 +143,13 @@ static void as_fabricated_hinge(fw_json *json, const fw_variant_verdict *variant
 /* ---- hinges ---- */
 
 /* which criterion governs, and what it rests on */
-static void limit(fw_json *json, const fw_hinge_verdict *h) {
-    const fw_limit *l = h->limit;
+static void limit(fw_json *json, const fw_verdict_hinge_verdict *h) {
+    const fw_flexure_limit *l = h->limit;
     fw_json_text(json, "criterion", l ? l->criterion : NULL);
     fw_json_text(json, "limit_definition", l ? l->definition : NULL);
     fw_json_real(json, "limit_Pa", h->limit_Pa);
     fw_json_text(json, "limit_source", l ? l->source : NULL);
-    fw_json_text(json, "limit_status", l ? fw_value_status_text(l->status) : NULL);
+    fw_json_text(json, "limit_status", l ? fw_quantity_value_status_text(l->status) : NULL);
     fw_json_real(json, "failure_probability", h->failure_probability);
     fw_json_real(json, "fatigue_utilisation", h->fatigue_utilisation);
     fw_json_real(json, "damage", h->damage);
@@ -154,7 +157,7 @@ static void limit(fw_json *json, const fw_hinge_verdict *h) {
 }
 
 /* members of the object about one hinge */
-static void hinge(fw_json *json, const fw_hinge_verdict *h) {
+static void hinge(fw_json *json, const fw_verdict_hinge_verdict *h) {
     fw_json_text(json, "id", h->id);
     fw_json_real(json, "peak_angle_rad", h->peak_angle_rad);
     fw_json_real(json, "angle_error_rad", h->angle_error_rad);
@@ -166,14 +169,14 @@ static void hinge(fw_json *json, const fw_hinge_verdict *h) {
     fw_json_text(json, "scene", h->scene);
     fw_json_real(json, "t_s", h->t_s);
     fw_json_text(json, "flow", h->flow);
-    fw_json_pair(json, "utilisation_band", h->utilisation_low, h->utilisation_high);
+    fw_report_json_pair(json, "utilisation_band", h->utilisation_low, h->utilisation_high);
     fw_json_text(json, "verdict", word(h->decision));
     limit(json, h);
 }
 
 /* with what these flows make of them */
-static void hinges(fw_json *json, const fw_hinge_verdict *item, int count,
-                   const fw_variant_verdict *variant, int nvariant) {
+static void hinges(fw_json *json, const fw_verdict_hinge_verdict *item, int count,
+                   const fw_verdict_variant_verdict *variant, int nvariant) {
     fw_json_list(json, "hinges");
     for (int i = 0; i < count; i++) {
         fw_json_object(json, NULL);
@@ -184,7 +187,7 @@ static void hinges(fw_json *json, const fw_hinge_verdict *item, int count,
     fw_json_end(json);
 }
 
-static void governing(fw_json *json, const fw_hinge_verdict *item, int count, int index) {
+static void governing(fw_json *json, const fw_verdict_hinge_verdict *item, int count, int index) {
     if (index < 0 || index >= count) {
         fw_json_null(json, "governing");
         return;
@@ -196,15 +199,15 @@ static void governing(fw_json *json, const fw_hinge_verdict *item, int count, in
 
 /* ---- workspace: the required boxes; certified when all of them are ---- */
 
-static void box(fw_json *json, const fw_workspace_box *b, const fw_variant_verdict *v,
-                bool reachable) {
+static void box(fw_json *json, const fw_device_workspace_box *b,
+                const fw_verdict_variant_verdict *v, bool reachable) {
     double volume =
         (b->x_max_m - b->x_min_m) * (b->y_max_m - b->y_min_m) * (b->phi_max_rad - b->phi_min_rad);
     fw_json_object(json, NULL);
     fw_json_text(json, "flow", v->variant ? v->variant->flow : NULL);
-    fw_json_pair(json, "x_m", b->x_min_m, b->x_max_m);
-    fw_json_pair(json, "y_m", b->y_min_m, b->y_max_m);
-    fw_json_pair(json, "phi_rad", b->phi_min_rad, b->phi_max_rad);
+    fw_report_json_pair(json, "x_m", b->x_min_m, b->x_max_m);
+    fw_report_json_pair(json, "y_m", b->y_min_m, b->y_max_m);
+    fw_report_json_pair(json, "phi_rad", b->phi_min_rad, b->phi_max_rad);
     fw_json_truth(json, "reachable", reachable);
     fw_json_truth(json, "certified", v->workspace.certified);
     fw_json_real(json, "volume_m2_rad", volume);
@@ -217,7 +220,7 @@ static void workspace(fw_json *json, const fw_report_input *in) {
     fw_json_object(json, "workspace");
     fw_json_list(json, "required");
     for (int i = 0; i < in->verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &in->verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
         if (!v->workspace.required) continue;
         any = true;
         certified = certified && v->workspace.certified && v->workspace.reachable;
@@ -235,7 +238,7 @@ static void workspace(fw_json *json, const fw_report_input *in) {
 /* ---- flows, effects, advice ---- */
 
 static void flow(fw_json *json, const fw_report_flow *f) {
-    const fw_variant_verdict *v = f->variant;
+    const fw_verdict_variant_verdict *v = f->variant;
     const char *id = f->flow ? f->flow->id : v && v->variant ? v->variant->flow : NULL;
     fw_json_object(json, NULL);
     fw_json_text(json, "id", id);
@@ -258,17 +261,18 @@ static void flow(fw_json *json, const fw_report_flow *f) {
     fw_json_end(json);
 }
 
-static const char *flow_of(const fw_variant_verdict *v) {
+static const char *flow_of(const fw_verdict_variant_verdict *v) {
     return v->variant ? v->variant->flow : NULL;
 }
 
 static void effects(fw_json *json, const fw_report_input *in) {
     fw_json_list(json, "effects");
     for (int i = 0; i < in->verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &in->verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->motion && k < in->device->nscene; k++)
             if (v->motion[k])
-                fw_json_effects(json, &v->motion[k]->ledger, in->device->scene[k].name, flow_of(v));
+                fw_report_json_effects(json, &v->motion[k]->ledger, in->device->scene[k].name,
+                                       flow_of(v));
     }
     fw_json_end(json);
 }
@@ -277,13 +281,13 @@ static void effects(fw_json *json, const fw_report_input *in) {
 static void hinge_models(fw_json *json, const fw_report_input *in) {
     fw_json_list(json, "hinge_model");
     for (int i = 0; i < in->verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &in->verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->motion && k < in->device->nscene; k++) {
-            const fw_motion *x = v->motion[k];
+            const fw_dynamics_motion *x = v->motion[k];
             if (!x || !x->ledger.hinge.why) continue;
             fw_json_object(json, NULL);
-            fw_json_hinge_model(json, v->mechanism, &x->ledger.hinge, x->level);
-            fw_json_real(json, "model_error", fw_motion_model_error(v->mechanism, x));
+            fw_report_json_hinge_model(json, v->mechanism, &x->ledger.hinge, x->level);
+            fw_json_real(json, "model_error", fw_verdict_motion_model_error(v->mechanism, x));
             fw_json_text(json, "scene", in->device->scene[k].name);
             fw_json_text(json, "flow", flow_of(v));
             fw_json_end(json);
@@ -296,13 +300,13 @@ static void hinge_models(fw_json *json, const fw_report_input *in) {
 static void pull_ins(fw_json *json, const fw_report_input *in) {
     bool any = false;
     for (int i = 0; i < in->verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &in->verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &in->verdict->variant[i];
         for (int k = 0; v->pull_in && k < in->device->nscene; k++) {
             if (!v->pull_in[k]) continue;
             if (!any) fw_json_list(json, "pull_in");
             any = true;
             fw_json_object(json, NULL);
-            fw_json_pull_in(json, v->pull_in[k]);
+            fw_report_json_pull_in(json, v->pull_in[k]);
             fw_json_text(json, "scene", in->device->scene[k].name);
             fw_json_text(json, "flow", flow_of(v));
             fw_json_end(json);
@@ -315,7 +319,7 @@ static void reasons(fw_json *json, const fw_verdict *v) {
     fw_json_list(json, "reasons");
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_reason *r = &v->variant[i].reason[k];
+            const fw_verdict_reason *r = &v->variant[i].reason[k];
             fw_json_object(json, NULL);
             fw_json_text(json, "scene", r->scene);
             fw_json_text(json, "flow", r->flow);
@@ -352,7 +356,7 @@ static void parameters(fw_json *json, const fw_verdict *v) {
     static const char *const found[] = {"accepts", "none", "not looked at"};
     fw_json_list(json, "advice_parameters");
     for (int i = 0; i < v->nparameter; i++) {
-        const fw_parameter_advice *p = &v->parameter[i];
+        const fw_verdict_parameter_advice *p = &v->parameter[i];
         fw_json_object(json, NULL);
         fw_json_text(json, "set", p->name);
         fw_json_text(json, "found", found[p->found]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects and what stands behind them: the ledger, accuracy, assumptions. */
 #include "report/hinge_model.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 
@@ -36,12 +36,12 @@ static void not_called_for(fw_text *out, const fw_effect_ledger *ledger) {
 }
 
 typedef void (*motion_rows)(fw_text *out, const char *flow, const char *scene, double wanted,
-                            const fw_motion *motion);
+                            const fw_dynamics_motion *motion);
 
-static void each_motion(fw_page *page, motion_rows rows) {
+static void each_motion(fw_report_page *page, motion_rows rows) {
     const fw_verdict *verdict = page->in->verdict;
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
         const char *flow = v->variant && v->variant->flow ? v->variant->flow : "\u2013";
         for (int k = 0; v->motion && k < page->in->device->nscene; k++)
             if (v->motion[k])
@@ -52,7 +52,7 @@ static void each_motion(fw_page *page, motion_rows rows) {
 
 /* of one scene in one flow: what it calls for, then in one line what it does not */
 static void effects_of(fw_text *out, const char *flow, const char *scene, double wanted,
-                       const fw_motion *motion) {
+                       const fw_dynamics_motion *motion) {
     const fw_effect_ledger *ledger = &motion->ledger;
     fw_markup(out,
               "<tbody><tr><th scope=\"rowgroup\" colspan=\"5\">{s} <span class=\"soft\">"
@@ -69,7 +69,8 @@ static void effects_of(fw_text *out, const char *flow, const char *scene, double
 
 /* ---- pull-in ---- */
 
-static void pull_in_row(fw_text *out, const char *flow, const char *scene, const fw_pull_in *p) {
+static void pull_in_row(fw_text *out, const char *flow, const char *scene,
+                        const fw_statics_pull_in *p) {
     static const char *const what[] = {[FW_PULL_IN_NONE] = "none found",
                                        [FW_PULL_IN_FOLD] = "fold: snaps along the drive",
                                        [FW_PULL_IN_SIDE] = "side: moves aside between the fingers",
@@ -91,12 +92,12 @@ static void pull_in_row(fw_text *out, const char *flow, const char *scene, const
     fw_markup(out, "</td><td class=\"n\">{p}</td></tr>\n", p->fringe);
 }
 
-static void pull_ins(fw_page *page) {
+static void pull_ins(fw_report_page *page) {
     const fw_verdict *verdict = page->in->verdict;
     fw_text *out = page->out;
     bool any = false;
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
         const char *flow = v->variant && v->variant->flow ? v->variant->flow : "\u2013";
         for (int k = 0; v->pull_in && k < page->in->device->nscene; k++) {
             if (!v->pull_in[k]) continue;
@@ -119,7 +120,7 @@ static void pull_ins(fw_page *page) {
     if (any) fw_text_add(out, "</tbody></table></div>\n");
 }
 
-fw_status fw_report_section_effects(fw_page *page) {
+fw_status fw_report_section_effects(fw_report_page *page) {
     fw_text_add(
         page->out,
         "<p>An effect is simulated when the scene calls for it; those with the smallest bounds are "
@@ -142,9 +143,9 @@ fw_status fw_report_section_effects(fw_page *page) {
 }
 
 static void stats_of(fw_text *out, const char *flow, const char *scene, double wanted,
-                     const fw_motion *motion) {
+                     const fw_dynamics_motion *motion) {
     (void)wanted;
-    const fw_motion_stats *s = &motion->stats;
+    const fw_dynamics_motion_stats *s = &motion->stats;
     fw_markup(out,
               "<tr><th scope=\"row\">{s}</th><td>{s}</td><td>{s}</td><td>{s}</td><td "
               "class=\"n\">{e}</td><td class=\"n\">{l} ({l})</td><td class=\"n\">{l}</td><td "
@@ -156,14 +157,14 @@ static void stats_of(fw_text *out, const char *flow, const char *scene, double w
 }
 
 static void reason_of(fw_text *out, const char *flow, const char *scene, double wanted,
-                      const fw_motion *motion) {
+                      const fw_dynamics_motion *motion) {
     (void)wanted;
     if (motion->reason && motion->reason[0])
         fw_markup(out, "<li>{s}, {s}: {s}; {s}</li>\n", scene, flow, motion->reason,
                   motion->tolerance);
 }
 
-fw_status fw_report_section_accuracy(fw_page *page) {
+fw_status fw_report_section_accuracy(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     fw_markup(
@@ -213,9 +214,9 @@ static void place_cell(fw_text *out, const fw_quantity *q) {
 
 static void quantity_row(fw_text *out, const used *u) {
     const fw_quantity *q = u->q;
-    fw_unit unit = {1.0, 0.0, {0, 0, 0, 0, 0, 0, 0}};
-    bool known =
-        q->unit && q->unit[0] && fw_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL);
+    fw_quantity_unit unit = {1.0, 0.0, {0, 0, 0, 0, 0, 0, 0}};
+    bool known = q->unit && q->unit[0] &&
+                 fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL);
     fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">", u->name, u->where);
     if (q->unknown)
         fw_text_add(out, "<strong class=\"no\">unknown</strong>");
@@ -224,7 +225,8 @@ static void quantity_row(fw_text *out, const used *u) {
         if (q->uncertainty > 0.0) fw_markup(out, " \u00b1 {e}", q->uncertainty / unit.factor);
         fw_markup(out, " {s}", known && strcmp(q->unit, "1") != 0 ? q->unit : "");
     }
-    fw_markup(out, "</td><td>{s}</td>", q->unknown ? "unknown" : fw_value_status_text(q->status));
+    fw_markup(out, "</td><td>{s}</td>",
+              q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     place_cell(out, q);
     fw_text_add(out, "</tr>\n");
 }
@@ -238,12 +240,12 @@ static void quantity_head(fw_text *out, const char *caption) {
               caption);
 }
 
-static void materials(fw_page *page) {
+static void materials(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     quantity_head(out, "Materials as used, with the device file's own values where it gives them");
     for (int i = 0; i < v->nvariant; i++) {
-        const fw_material *m = &v->variant[i].variant->material;
+        const fw_device_material *m = &v->variant[i].variant->material;
         const char *where = m->name ? m->name : m->id;
         const used row[] = {{&m->youngs, where, "Young's modulus"},
                             {&m->poisson, where, "Poisson's ratio"},
@@ -267,10 +269,10 @@ static void consider(used_list *list, const fw_quantity *q, const char *name, co
     list->item[list->count++] = (used){q, where, q->id ? q->id : name};
 }
 
-static void collect(used_list *list, const fw_flow *flow) {
+static void collect(used_list *list, const fw_process_flow *flow) {
     consider(list, flow->thickness, "device layer thickness", flow->id);
     for (int i = 0; i < flow->nstep; i++) {
-        const fw_step *s = &flow->step[i];
+        const fw_process_step *s = &flow->step[i];
         const char *where = s->title ? s->title : s->id;
         for (int k = 0; k < s->nargument; k++)
             consider(list, s->argument[k].q, s->argument[k].name, where);
@@ -279,7 +281,7 @@ static void collect(used_list *list, const fw_flow *flow) {
     }
 }
 
-static fw_status process_quantities(fw_page *page) {
+static fw_status process_quantities(fw_report_page *page) {
     used_list *list;
     FW_NEED(list = fw_arena_one(page->arena, used_list));
     for (int i = 0; i < page->in->nflow; i++)
@@ -296,11 +298,11 @@ static fw_status process_quantities(fw_page *page) {
     return fw_text_end(out);
 }
 
-static void scaling(fw_page *page) {
+static void scaling(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     for (int i = 0; i < v->nvariant; i++) {
-        const fw_variant *a = v->variant[i].variant;
+        const fw_mechanism_variant *a = v->variant[i].variant;
         if (a->explicit_mass_scale == 1.0 && a->explicit_stiffness_scale == 1.0 &&
             a->explicit_damping_scale == 1.0)
             continue;
@@ -314,7 +316,7 @@ static void scaling(fw_page *page) {
     }
 }
 
-static void models(fw_page *page) {
+static void models(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
     double most = 0.0;
@@ -331,7 +333,7 @@ static void models(fw_page *page) {
               most, page->in->device->safety_factor);
 }
 
-fw_status fw_report_section_assumptions(fw_page *page) {
+fw_status fw_report_section_assumptions(fw_report_page *page) {
     fw_text *out = page->out;
     fw_text_add(out, "<ul class=\"plain\">\n");
     if (page->in->nassumption == 0) { /* the caller's own list says it in more detail */

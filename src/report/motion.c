@@ -2,7 +2,7 @@
 #include "base/constants.h"
 #include "base/json.h"
 #include "quantity/law_kind.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,12 +16,12 @@ enum { FRAMES = 400, FEWEST_FRAMES = 30, NUMBERS = 60000 }; /* NUMBERS: in the w
     " transform='translate({c} {c}) rotate({4}) translate({c} {c})'"
 
 /* translate(now) rotate translate(-then): picture coordinates, clockwise positive */
-static void moving_bodies(const fw_page *page, const fw_mechanism *mechanism,
-                          const fw_motion *motion, double t_s) {
+static void moving_bodies(const fw_report_page *page, const fw_mechanism *mechanism,
+                          const fw_dynamics_motion *motion, double t_s) {
     const fw_report_view *view = &page->view;
     bool drawn = fw_report_drawn(page->in->layout);
     for (int b = 0; b < motion->nbody; b++) {
-        const fw_mass *m = &mechanism->body[b];
+        const fw_mechanism_mass *m = &mechanism->body[b];
         double pose[3];
         bool platform = page->in->device->body[b].platform;
         fw_report_pose_at(motion, b, t_s, pose);
@@ -41,8 +41,8 @@ static void moving_bodies(const fw_page *page, const fw_mechanism *mechanism,
     }
 }
 
-static void flexures(const fw_page *page, const fw_mechanism *mechanism, const fw_motion *motion,
-                     const fw_report_bends *bends, double t_s) {
+static void flexures(const fw_report_page *page, const fw_mechanism *mechanism,
+                     const fw_dynamics_motion *motion, const fw_report_bends *bends, double t_s) {
     fw_text *out = page->out;
     for (int i = 0; i < bends->count; i++) {
         const fw_report_bend *bend = &bends->item[i];
@@ -55,7 +55,7 @@ static void flexures(const fw_page *page, const fw_mechanism *mechanism, const f
         fw_svg_path(out, "class='flexure' fill='{r}' stroke='{r}' stroke-width='1.2'", colour,
                     colour);
         for (int k = 0; k < bend->npoint; k++) {
-            fw_vec2 p = fw_report_bent(mechanism, motion, bend, t_s, bend->point[k]);
+            fw_geometry_vec2 p = fw_report_bent(mechanism, motion, bend, t_s, bend->point[k]);
             fw_markup(out, "{r}{c} {c}", k ? "L" : "M", fw_report_x(&page->view, p.x),
                       fw_report_y(&page->view, p.y));
         }
@@ -64,7 +64,7 @@ static void flexures(const fw_page *page, const fw_mechanism *mechanism, const f
     }
 }
 
-static void platform_trace(const fw_page *page, const fw_motion *motion) {
+static void platform_trace(const fw_report_page *page, const fw_dynamics_motion *motion) {
     const fw_device *device = page->in->device;
     for (int b = 0; b < motion->nbody; b++) {
         if (!device->body[b].platform || motion->nsample < 2) continue;
@@ -80,10 +80,10 @@ static void platform_trace(const fw_page *page, const fw_motion *motion) {
     }
 }
 
-static void force_arrows(const fw_motion *motion, const fw_scene *scene, double t_s,
+static void force_arrows(const fw_dynamics_motion *motion, const fw_device_scene *scene, double t_s,
                          const fw_report_view *view, fw_text *out) {
     for (int i = 0; i < scene->nforce; i++) {
-        const fw_force *f = &scene->force[i];
+        const fw_device_force *f = &scene->force[i];
         double size = hypot(f->fx_N, f->fy_N), pose[3];
         if (!(size > 0.0) || !isfinite(size) || f->body < 0 || f->body >= motion->nbody) continue;
         fw_report_pose_at(motion, f->body, t_s, pose);
@@ -102,7 +102,7 @@ static void force_arrows(const fw_motion *motion, const fw_scene *scene, double 
             out,
             "text x='{c}' y='{c}' font-size='13' fill='#8E3B6F' text-anchor='middle'>{u}{r}{r}",
             -58.0 * dx, -54.0 * dy + 4.0, size, "N", f->law ? " \u00d7 " : "",
-            f->law ? fw_law_name(f->law) : "");
+            f->law ? fw_quantity_law_name(f->law) : "");
         fw_svg_close(out, "g\n");
     }
 }
@@ -118,7 +118,8 @@ static void px(fw_json *json, double value) {
     plain(json, fmax(-1e6, fmin(1e6, value)), 2);
 }
 
-static void frames_data(fw_json *json, const fw_page *page, const fw_motion *motion, int frames) {
+static void frames_data(fw_json *json, const fw_report_page *page, const fw_dynamics_motion *motion,
+                        int frames) {
     double end = motion->t_s[motion->nsample - 1];
     fw_json_list(json, "t");
     for (int i = 0; i < frames; i++)
@@ -137,12 +138,12 @@ static void frames_data(fw_json *json, const fw_page *page, const fw_motion *mot
     fw_json_end(json);
 }
 
-static void model_data(fw_json *json, const fw_page *page, const fw_mechanism *mechanism,
-                       const fw_motion *motion) {
+static void model_data(fw_json *json, const fw_report_page *page, const fw_mechanism *mechanism,
+                       const fw_dynamics_motion *motion) {
     fw_json_line(json, 0);
     fw_json_list(json, "b");
     for (int b = 0; b < motion->nbody; b++) {
-        const fw_mass *m = &mechanism->body[b];
+        const fw_mechanism_mass *m = &mechanism->body[b];
         fw_json_list(json, NULL);
         px(json, fw_report_x(&page->view, m->x_m));
         px(json, fw_report_y(&page->view, m->y_m));
@@ -153,7 +154,7 @@ static void model_data(fw_json *json, const fw_page *page, const fw_mechanism *m
     fw_json_line(json, 0);
     fw_json_list(json, "p");
     for (int k = 0; k < motion->npin; k++) {
-        const fw_pin *p = &mechanism->pin[k];
+        const fw_mechanism_pin *p = &mechanism->pin[k];
         fw_json_list(json, NULL);
         fw_json_whole(json, NULL, p->body_a);
         fw_json_whole(json, NULL, p->body_b);
@@ -181,8 +182,8 @@ static void bend_data(fw_json *json, const fw_report_view *view, const fw_report
     fw_json_end(json);
 }
 
-static void shape_data(fw_json *json, const fw_page *page, const fw_report_bends *bends,
-                       const fw_scene *scene) {
+static void shape_data(fw_json *json, const fw_report_page *page, const fw_report_bends *bends,
+                       const fw_device_scene *scene) {
     const fw_report_view *view = &page->view;
     fw_json_line(json, 0);
     fw_json_list(json, "f");
@@ -194,7 +195,7 @@ static void shape_data(fw_json *json, const fw_page *page, const fw_report_bends
     fw_json_line(json, 0);
     fw_json_list(json, "a");
     for (int i = 0; i < scene->nforce; i++) {
-        const fw_force *f = &scene->force[i];
+        const fw_device_force *f = &scene->force[i];
         fw_json_list(json, NULL);
         fw_json_whole(json, NULL, f->body);
         px(json, f->x_m * view->scale);
@@ -204,7 +205,7 @@ static void shape_data(fw_json *json, const fw_page *page, const fw_report_bends
     fw_json_end(json);
 }
 
-static int frames_of(const fw_page *page, const fw_motion *motion) {
+static int frames_of(const fw_report_page *page, const fw_dynamics_motion *motion) {
     if (motion->nsample < 2 || motion->nbody < 1) return 0;
     int share = NUMBERS / (page->nmotion > 0 ? page->nmotion : 1) / (3 * motion->nbody);
     int frames = share < FRAMES ? share : FRAMES;
@@ -225,11 +226,11 @@ static void controls(fw_text *out, int number) {
               number);
 }
 
-fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int scene,
-                           int number) {
-    const fw_motion *motion = variant->motion[scene];
+fw_status fw_report_player(fw_report_page *page, const fw_verdict_variant_verdict *variant,
+                           int scene, int number) {
+    const fw_dynamics_motion *motion = variant->motion[scene];
     const fw_mechanism *mechanism = variant->mechanism;
-    const fw_scene *s = &page->in->device->scene[scene];
+    const fw_device_scene *s = &page->in->device->scene[scene];
     fw_report_worst worst = fw_report_motion_worst(mechanism, motion);
     fw_report_bends bends;
     FW_TRY(fw_report_bends_make(page->arena, page->in->device, page->in->layout, &bends));
@@ -270,7 +271,7 @@ fw_status fw_report_player(fw_page *page, const fw_variant_verdict *variant, int
 enum { CURVES = 90 }; /* at full resolution in the whole page */
 
 /* the value of an attribute in the words of a law; false: as it is when it is not given */
-static bool attribute(fw_text *out, const fw_law *law, const char *name, size_t n) {
+static bool attribute(fw_text *out, const fw_quantity_law *law, const char *name, size_t n) {
     const fw_quantity_law_attribute *a = law->kind->attribute, *end = a + law->kind->attributes;
     while (a < end && !(strlen(a->name) == n && memcmp(a->name, name, n) == 0))
         a++;
@@ -285,7 +286,7 @@ static bool attribute(fw_text *out, const fw_law *law, const char *name, size_t 
 
 /* the words of a law's row (quantity/law_kind.h) from `words` up to the character `stop`; *given:
    some attribute among them has a value of its own */
-static const char *words(fw_text *out, const fw_law *law, const char *words_, char stop,
+static const char *words(fw_text *out, const fw_quantity_law *law, const char *words_, char stop,
                          bool *given) {
     const char *at = words_;
     for (; *at && *at != stop; at++) {
@@ -305,7 +306,7 @@ static const char *words(fw_text *out, const fw_law *law, const char *words_, ch
     return at;
 }
 
-static void write_law(void *context, const fw_law *law) {
+static void write_law(void *context, const fw_quantity_law *law) {
     fw_text *out = context;
     bool given = false;
     if (!law) return;
@@ -320,7 +321,7 @@ static void write_markup(void *context, const char *format, va_list arguments) {
     va_end(own);
 }
 
-static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
+static void loads(fw_text *out, const fw_device *device, const fw_device_scene *s) {
     fw_markup(out, "<p class=\"soft\">{u}", s->duration_s, "s");
     fw_effects_describe(device, s, &(fw_effects_words){write_markup, write_law, out});
     for (int i = 0; i < device->ndriver; i++)
@@ -333,10 +334,11 @@ static void loads(fw_text *out, const fw_device *device, const fw_scene *s) {
     fw_text_add(out, "</p>\n");
 }
 
-static fw_status one(fw_page *page, const fw_variant_verdict *v, int scene, int number) {
+static fw_status one(fw_report_page *page, const fw_verdict_variant_verdict *v, int scene,
+                     int number) {
     fw_text *out = page->out;
     const fw_device *device = page->in->device;
-    const fw_scene *s = &device->scene[scene];
+    const fw_device_scene *s = &device->scene[scene];
     const char *flow = v->variant ? v->variant->flow : NULL;
     char *title = fw_arena_printf(page->arena, "Hinge angles in scene %s", s->name);
     FW_NEED(title);
@@ -346,7 +348,7 @@ static fw_status one(fw_page *page, const fw_variant_verdict *v, int scene, int 
     fw_text_add(out, "</figcaption>\n<div class=\"both\"><div>\n");
     FW_TRY(fw_report_player(page, v, scene, number));
     fw_text_add(out, "</div>\n");
-    const fw_motion *motion = v->motion[scene];
+    const fw_dynamics_motion *motion = v->motion[scene];
     int panels = motion->npin < FW_REPORT_PANELS ? motion->npin : FW_REPORT_PANELS;
     int curves = panels * page->nmotion;
     int points = curves > CURVES ? FW_REPORT_CURVE * CURVES / curves : FW_REPORT_CURVE;
@@ -356,12 +358,12 @@ static fw_status one(fw_page *page, const fw_variant_verdict *v, int scene, int 
     return fw_text_end(out);
 }
 
-fw_status fw_report_section_motion(fw_page *page) {
+fw_status fw_report_section_motion(fw_report_page *page) {
     const fw_verdict *verdict = page->in->verdict;
     int number = 0;
     if (page->nmotion == 0) fw_text_add(page->out, "<p>No scene was simulated.</p>\n");
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
         for (int k = 0; v->motion && k < page->in->device->nscene; k++)
             if (v->motion[k]) FW_TRY(one(page, v, k, ++number));
     }

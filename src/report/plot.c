@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/constants.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 
 /* Buckets of equal length, of each the least and the greatest sample in order of time: what a plot
@@ -39,7 +39,7 @@ enum { LEFT = 46, RIGHT = 10, TOP = 30, BOTTOM = 34 };
 
 typedef struct panel {
     const fw_mechanism *mechanism;
-    const fw_motion *motion;
+    const fw_dynamics_motion *motion;
     int pin, points;
     double x, y; /* of the plot area, top left */
     double width, height;
@@ -59,7 +59,7 @@ static double place_y(const panel *p, double degrees) {
 }
 
 static double angle(const panel *p, int sample) {
-    const fw_motion *m = p->motion;
+    const fw_dynamics_motion *m = p->motion;
     return FW_DEG_PER_RAD * m->angle_rad[(size_t)sample * (size_t)m->npin + (size_t)p->pin];
 }
 
@@ -123,7 +123,7 @@ static void limits(const panel *p, fw_text *out) {
 }
 
 static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
-    const fw_motion *m = p->motion;
+    const fw_dynamics_motion *m = p->motion;
     if (m->nsample == 0) return FW_OK;
     int *index;
     int most = p->points < 4 ? 4 : p->points;
@@ -141,7 +141,7 @@ static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
 }
 
 static void peak_mark(const panel *p, fw_text *out) {
-    const fw_peak *peak = &p->motion->peak[p->pin];
+    const fw_dynamics_peak *peak = &p->motion->peak[p->pin];
     if (!isfinite(peak->angle_rad) || !isfinite(peak->t_s)) return;
     double x = place_x(p, peak->t_s), y = place_y(p, FW_DEG_PER_RAD * peak->angle_rad);
     bool left = x > p->x + 0.55 * p->width;
@@ -190,7 +190,7 @@ static fw_status draw_panel(fw_arena *arena, const panel *p, fw_text *out) {
 }
 
 /* the most used pins, in the order of the file */
-static int choose(const fw_mechanism *mechanism, const fw_motion *motion,
+static int choose(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                   int chosen[FW_REPORT_PANELS]) {
     int n = 0;
     for (int k = 0; k < motion->npin; k++) {
@@ -231,8 +231,9 @@ static void open_svg(const fw_report_figure *figure, int width, double height, f
                figure->title);
 }
 
-fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const fw_motion *motion,
-                           const fw_report_figure *figure, fw_text *out) {
+fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_dynamics_motion *motion, const fw_report_figure *figure,
+                           fw_text *out) {
     int chosen[FW_REPORT_PANELS];
     int n = choose(mechanism, motion, chosen), columns = figure->columns;
     double top = figure->standalone ? HEADING : 0.0;
@@ -260,8 +261,9 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism, const
 }
 
 fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
-                               const fw_mechanism *mechanism, const fw_motion *motion,
-                               const fw_scene *scene, const fw_verdict *verdict, fw_text *out) {
+                               const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               const fw_device_scene *scene, const fw_verdict *verdict,
+                               fw_text *out) {
     const char *flow = mechanism->variant ? mechanism->variant->flow : NULL;
     char *title =
         fw_arena_printf(arena, "%s%s, scene %s%s%s: hinge angles and their limits",

@@ -2,7 +2,7 @@
 /* Preview picture by cairo. No text: cairo's text engine neither survives a lack of memory nor
    gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a pixel.
  */
-#include "report/page.h"
+#include "report/report_page.h"
 #include "base/constants.h"
 #include <cairo.h>
 #include <math.h>
@@ -14,12 +14,12 @@ static void paint(cairo_t *c, const char *colour) {
                          (double)(v & 255) / 255.0);
 }
 
-static void trace(cairo_t *c, const fw_report_view *view, const fw_contour *contour) {
+static void trace(cairo_t *c, const fw_report_view *view, const fw_geometry_contour *contour) {
     if (contour->count == 0) return;
     cairo_move_to(c, fw_report_x(view, contour->segment[0].a.x),
                   fw_report_y(view, contour->segment[0].a.y));
     for (int i = 0; i < contour->count; i++) {
-        const fw_segment *s = &contour->segment[i];
+        const fw_geometry_segment *s = &contour->segment[i];
         if (s->kind == FW_LINE) {
             cairo_line_to(c, fw_report_x(view, s->b.x), fw_report_y(view, s->b.y));
             continue;
@@ -46,7 +46,7 @@ static void fill(cairo_t *c, const char *inside, const char *edge, double width)
 static void pieces(cairo_t *c, const fw_device *device, const fw_layout *layout,
                    const fw_verdict *verdict, const fw_report_view *view, double px) {
     for (int i = 0; i < layout->npiece; i++) {
-        const fw_piece *p = &layout->piece[i];
+        const fw_layout_piece *p = &layout->piece[i];
         bool fixed = p->role == FW_ROLE_FRAME || p->body == FW_GROUND;
         if (p->role != FW_ROLE_FRAME && p->role != FW_ROLE_STRUCTURE &&
             p->role != FW_ROLE_FLEXURE && p->role != FW_ROLE_TETHER)
@@ -65,12 +65,12 @@ static void pieces(cairo_t *c, const fw_device *device, const fw_layout *layout,
 }
 
 static void sticks(cairo_t *c, const fw_device *device, const fw_report_view *view, double px) {
-    for (int j = 0; j < device->njoint; j++) {
-        const fw_joint *joint = &device->joint[j];
+    for (int j = 0; j < device->nrevolute; j++) {
+        const fw_device_revolute *joint = &device->revolute[j];
         const int side[2] = {joint->body_a, joint->body_b};
         for (int k = 0; k < 2; k++) {
             if (side[k] < 0 || !isfinite(device->body[side[k]].x_m)) continue;
-            const fw_body *b = &device->body[side[k]];
+            const fw_device_body *b = &device->body[side[k]];
             cairo_move_to(c, fw_report_x(view, joint->x_m), fw_report_y(view, joint->y_m));
             cairo_line_to(c, fw_report_x(view, b->x_m), fw_report_y(view, b->y_m));
             paint(c, b->platform ? "#7f9fbd" : "#9aa4ae");
@@ -83,9 +83,9 @@ static void sticks(cairo_t *c, const fw_device *device, const fw_report_view *vi
 
 static void points(cairo_t *c, const fw_device *device, const fw_layout *layout,
                    const fw_verdict *verdict, const fw_report_view *view, double px) {
-    for (int j = 0; j < device->njoint; j++) {
+    for (int j = 0; j < device->nrevolute; j++) {
         bool flexure = fw_report_drawn(layout) && layout->hinge && layout->hinge[j].drawn;
-        fw_vec2 p = fw_report_hinge_point(device, layout, j);
+        fw_geometry_vec2 p = fw_report_hinge_point(device, layout, j);
         if (!isfinite(p.x) || !isfinite(p.y)) continue;
         cairo_new_sub_path(c);
         cairo_arc(c, fw_report_x(view, p.x), fw_report_y(view, p.y), (flexure ? 2.2 : 5.0) * px,

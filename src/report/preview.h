@@ -24,8 +24,8 @@ typedef struct fw_report_preview {
     const fw_device *device;
     const fw_layout *layout;
     const fw_mechanism *mechanism; /* of the shapes */
-    const fw_motion *motion;
-    const fw_scene *scene;
+    const fw_dynamics_motion *motion;
+    const fw_device_scene *scene;
     const fw_verdict *verdict;
     const char *verdict_json;   /* flexwright.verdict/1 */
     const fw_report_flow *flow; /* (nflow) */

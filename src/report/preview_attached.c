@@ -3,31 +3,33 @@
    ground, of the file. */
 #include "base/json.h"
 #include "mechanism/mechanism.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include "report/preview_parts.h"
 #include <math.h>
 #include <string.h>
 
 /* bodies a and b with their points */
-static void between(fw_json *out, int a, int b, fw_vec2 on_a, fw_vec2 on_b) {
-    fw_preview_bodies(out, "bodies", a, b);
-    fw_preview_point(out, "on_a_um", on_a.x, on_a.y);
-    fw_preview_point(out, "on_b_um", on_b.x, on_b.y);
+static void between(fw_json *out, int a, int b, fw_geometry_vec2 on_a, fw_geometry_vec2 on_b) {
+    fw_report_preview_bodies(out, "bodies", a, b);
+    fw_report_preview_point(out, "on_a_um", on_a.x, on_a.y);
+    fw_report_preview_point(out, "on_b_um", on_b.x, on_b.y);
 }
 
-static void ties(const fw_mechanism *m, fw_json *out) {
-    static const char *const kind[] = {
-        [FW_TIE_PRISMATIC] = "prismatic", [FW_TIE_DISTANCE] = "distance", [FW_TIE_WELD] = "weld"};
+static void joints(const fw_mechanism *m, fw_json *out) {
+    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic",
+                                       [FW_JOINT_DISTANCE] = "distance",
+                                       [FW_JOINT_WELD] = "weld"};
     fw_json_list(out, "ties");
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
         fw_json_object(out, NULL);
         fw_json_text(out, "id", t->id);
         fw_json_text(out, "kind", kind[t->kind]);
-        between(out, t->body_a, t->body_b, (fw_vec2){t->ax_m, t->ay_m},
-                (fw_vec2){t->bx_m, t->by_m});
+        between(out, t->body_a, t->body_b, (fw_geometry_vec2){t->ax_m, t->ay_m},
+                (fw_geometry_vec2){t->bx_m, t->by_m});
         /* in the frame of a */
-        fw_json_number(out, "axis_rad", t->kind == FW_TIE_PRISMATIC ? t->axis_rad : (double)NAN, 9);
+        fw_json_number(out, "axis_rad", t->kind == FW_JOINT_PRISMATIC ? t->axis_rad : (double)NAN,
+                       9);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -36,13 +38,13 @@ static void ties(const fw_mechanism *m, fw_json *out) {
 static void springs(const fw_mechanism *m, fw_json *out) {
     fw_json_list(out, "springs");
     for (int i = 0; i < m->nspring; i++) {
-        const fw_spring *s = &m->spring[i];
+        const fw_device_spring *s = &m->spring[i];
         fw_json_object(out, NULL);
         fw_json_text(out, "id", s->id);
-        between(out, s->body_a, s->body_b, (fw_vec2){s->ax_m, s->ay_m},
-                (fw_vec2){s->bx_m, s->by_m});
+        between(out, s->body_a, s->body_b, (fw_geometry_vec2){s->ax_m, s->ay_m},
+                (fw_geometry_vec2){s->bx_m, s->by_m});
         fw_json_truth(out, "cable", s->cable);
-        fw_preview_um(out, "length_um", s->length_m);
+        fw_report_preview_um(out, "length_um", s->length_m);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -55,15 +57,15 @@ static void begin(fw_json *out, const char *kind) {
     fw_json_text(out, "kind", kind);
 }
 
-static void end(fw_json *out, const fw_law *law) {
-    fw_json_text(out, "law", law ? fw_law_name(law) : NULL);
+static void end(fw_json *out, const fw_quantity_law *law) {
+    fw_json_text(out, "law", law ? fw_quantity_law_name(law) : NULL);
     fw_json_end(out);
 }
 
-static void force(const fw_force *f, fw_json *out) {
+static void force(const fw_device_force *f, fw_json *out) {
     begin(out, "force");
     fw_json_whole(out, "body", f->body);
-    fw_preview_point(out, "at_um", f->x_m, f->y_m);
+    fw_report_preview_point(out, "at_um", f->x_m, f->y_m);
     fw_json_list(out, "force_N");
     fw_json_number(out, NULL, f->fx_N, 6);
     fw_json_number(out, NULL, f->fy_N, 6);
@@ -71,21 +73,21 @@ static void force(const fw_force *f, fw_json *out) {
     end(out, f->law);
 }
 
-static void torque(const fw_torque *t, fw_json *out) {
+static void torque(const fw_device_torque *t, fw_json *out) {
     begin(out, "torque");
     fw_json_whole(out, "body", t->body);
     fw_json_number(out, "torque_Nm", t->value_Nm, 6);
     end(out, t->law);
 }
 
-static void tendon(const fw_tendon *t, fw_json *out) {
+static void tendon(const fw_device_tendon *t, fw_json *out) {
     begin(out, "tendon");
     fw_json_text(out, "id", t->id);
     fw_json_list(out, "eyelets");
     for (int k = 0; k < t->neyelet; k++) {
         fw_json_object(out, NULL);
         fw_json_whole(out, "body", t->eyelet[k].body);
-        fw_preview_point(out, "at_um", t->eyelet[k].x_m, t->eyelet[k].y_m);
+        fw_report_preview_point(out, "at_um", t->eyelet[k].x_m, t->eyelet[k].y_m);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -94,54 +96,54 @@ static void tendon(const fw_tendon *t, fw_json *out) {
     end(out, t->law);
 }
 
-static double comb_width(const fw_comb *c) {
+static double comb_width(const fw_device_comb *c) {
     return c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M;
 }
 
-static double comb_length(const fw_comb *c) {
+static double comb_length(const fw_device_comb *c) {
     return isnan(c->length_m) ? 2.0 * c->overlap_m : c->length_m;
 }
 
 /* Has somebody drawn the rotor? Then a point within its outermost finger, or behind its face, lies
    in the body's outline. Axes of the drive: x where the rotor is pulled, from the given point. */
-static bool comb_drawn(const fw_report_preview *in, const fw_comb *c) {
+static bool comb_drawn(const fw_report_preview *in, const fw_device_comb *c) {
     const fw_mechanism *m = in->mechanism;
     bool fingers = c->kind == FW_ELECTRODES_COMB;
     double turn = c->direction_rad + (c->body_a >= 0 ? m->body[c->body_a].phi_rad : 0.0);
     double x = fingers ? 0.0 : -1e-6;
     double y = fingers ? (c->fingers - 1) * (comb_width(c) + c->gap_m) : 0.0;
-    fw_vec2 p = fw_local_place(m, c->body_b, c->bx_m, c->by_m);
+    fw_geometry_vec2 p = fw_mechanism_local_place(m, c->body_b, c->bx_m, c->by_m);
     p.x += x * cos(turn) - y * sin(turn);
     p.y += x * sin(turn) + y * cos(turn);
     for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
-        const fw_piece *piece = &in->layout->piece[i];
+        const fw_layout_piece *piece = &in->layout->piece[i];
         if (piece->body == c->body_b && piece->role == FW_ROLE_STRUCTURE &&
-            fw_contour_contains(&piece->contour, p))
+            fw_geometry_contour_contains(&piece->contour, p))
             return true;
     }
     return false;
 }
 
-static void comb(const fw_report_preview *in, const fw_comb *c, fw_json *out) {
+static void comb(const fw_report_preview *in, const fw_device_comb *c, fw_json *out) {
     bool fingers = c->kind == FW_ELECTRODES_COMB;
     begin(out, "comb-drive");
     fw_json_text(out, "id", c->id);
-    fw_preview_bodies(out, "bodies", c->body_a, c->body_b);
-    fw_preview_point(out, "at_um", c->bx_m, c->by_m); /* of the rotor, bodies[1] */
+    fw_report_preview_bodies(out, "bodies", c->body_a, c->body_b);
+    fw_report_preview_point(out, "at_um", c->bx_m, c->by_m); /* of the rotor, bodies[1] */
     fw_json_number(out, "direction_rad", c->direction_rad, 9);
     fw_json_number(out, "voltage_V", c->voltage_V, 6);
     fw_json_truth(out, "drawn", comb_drawn(in, c));
     fw_json_text(out, "electrodes", fingers ? "comb" : "plate");
     fw_json_whole(out, "fingers", fingers ? c->fingers : 0);
-    fw_preview_um(out, "gap_um", c->gap_m);
-    fw_preview_um(out, "length_um", comb_length(c));
-    fw_preview_um(out, "overlap_um", fingers ? c->overlap_m : 0.0);
-    fw_preview_um(out, "width_um", fingers ? comb_width(c) : 0.0);
+    fw_report_preview_um(out, "gap_um", c->gap_m);
+    fw_report_preview_um(out, "length_um", comb_length(c));
+    fw_report_preview_um(out, "overlap_um", fingers ? c->overlap_m : 0.0);
+    fw_report_preview_um(out, "width_um", fingers ? comb_width(c) : 0.0);
     end(out, c->law);
 }
 
 static void loads(const fw_report_preview *in, fw_json *out) {
-    const fw_scene *s = in->scene;
+    const fw_device_scene *s = in->scene;
     fw_json_list(out, "loads");
     for (int i = 0; s && i < s->nforce; i++)
         force(&s->force[i], out);
@@ -156,8 +158,8 @@ static void loads(const fw_report_preview *in, fw_json *out) {
     fw_json_end(out);
 }
 
-void fw_preview_attached(const fw_report_preview *in, fw_json *out) {
-    ties(in->mechanism, out);
+void fw_report_preview_attached(const fw_report_preview *in, fw_json *out) {
+    joints(in->mechanism, out);
     fw_json_line(out, 0);
     springs(in->mechanism, out);
     fw_json_line(out, 0);
@@ -167,16 +169,17 @@ void fw_preview_attached(const fw_report_preview *in, fw_json *out) {
 /* ---- how much of a load acts when ---- */
 
 /* the law and its rate at a row's instant, at a jump those after it; NULL: 1 */
-static void law_at(const fw_law *law, const fw_motion *x, int row, double value[3]) {
+static void law_at(const fw_quantity_law *law, const fw_dynamics_motion *x, int row,
+                   double value[3]) {
     int other = row + 1 < x->nsample ? row + 1 : row - 1;
     double t = x->t_s[row], beside = other < 0 ? t : 0.5 * (t + x->t_s[other]);
     value[0] = 1.0, value[1] = value[2] = 0.0;
-    if (law) fw_law_value(law, t, beside, value);
+    if (law) fw_quantity_law_value(law, t, beside, value);
 }
 
 /* a list for one load: its factor at every instant; null: always 1 */
-static void factor(const fw_law *law, const fw_motion *x, fw_json *out) {
-    if (!law || fw_law_is_constant(law)) {
+static void factor(const fw_quantity_law *law, const fw_dynamics_motion *x, fw_json *out) {
+    if (!law || fw_quantity_law_is_constant(law)) {
         fw_json_null(out, NULL);
         return;
     }
@@ -190,7 +193,8 @@ static void factor(const fw_law *law, const fw_motion *x, fw_json *out) {
     fw_json_end(out);
 }
 
-void fw_preview_factors(const fw_scene *s, const fw_motion *x, fw_json *out) {
+void fw_report_preview_factors(const fw_device_scene *s, const fw_dynamics_motion *x,
+                               fw_json *out) {
     fw_json_list(out, "load_factor");
     for (int i = 0; s && i < s->nforce; i++)
         factor(s->force[i].law, x, out);
@@ -210,7 +214,7 @@ typedef struct moving { /* a point with its velocity */
 } moving;
 
 /* q and v: a row of the motion, of every body; v NULL: at rest */
-static moving eyelet_at(const fw_eyelet *e, const double *q, const double *v) {
+static moving eyelet_at(const fw_device_eyelet *e, const double *q, const double *v) {
     if (e->body < 0) return (moving){e->x_m, e->y_m, 0.0, 0.0};
     const double *p = q + 3 * e->body, c = cos(p[2]), s = sin(p[2]);
     double x = c * e->x_m - s * e->y_m, y = s * e->x_m + c * e->y_m;
@@ -222,7 +226,7 @@ static moving eyelet_at(const fw_eyelet *e, const double *q, const double *v) {
     return m;
 }
 
-static double path_of(const fw_tendon *t, const double *q, const double *v, double *rate) {
+static double path_of(const fw_device_tendon *t, const double *q, const double *v, double *rate) {
     double length = 0.0;
     *rate = 0.0;
     for (int i = 0; i + 1 < t->neyelet; i++) {
@@ -237,7 +241,8 @@ static double path_of(const fw_tendon *t, const double *q, const double *v, doub
 /* Tension of a cable at a row, as effects/tendon.c has it (its formulas and source there): pulled
    max(0, pull s); drawn k g + c g' where that and k g are above 0, g = path + draw s - rest. `rest`
    in m. Exact but for the row's rounding; test_live_attached.c checks it by differences. */
-static double tension(const fw_tendon *t, const fw_motion *x, int row, double rest_m) {
+static double tension(const fw_device_tendon *t, const fw_dynamics_motion *x, int row,
+                      double rest_m) {
     size_t at = (size_t)row * 3 * (size_t)x->nbody;
     double s[3], rate;
     law_at(t->law, x, row, s);
@@ -248,14 +253,15 @@ static double tension(const fw_tendon *t, const fw_motion *x, int row, double re
     return fmin(spring, both) > 0.0 ? both : 0.0;
 }
 
-static bool active(const fw_motion *x, const char *effect) {
+static bool active(const fw_dynamics_motion *x, const char *effect) {
     for (int i = 0; i < x->ledger.count; i++)
         if (strcmp(x->ledger.item[i].id, effect) == 0) return x->ledger.item[i].active;
     return false;
 }
 
-fw_status fw_preview_tensions(fw_arena *arena, const fw_mechanism *m, const fw_scene *s,
-                              const fw_motion *x, fw_json *out) {
+fw_status fw_report_preview_tensions(fw_arena *arena, const fw_mechanism *m,
+                                     const fw_device_scene *s, const fw_dynamics_motion *x,
+                                     fw_json *out) {
     double *rest = fw_arena_array(arena, double, 3 * (size_t)m->nbody + 1), none;
     FW_NEED(rest);
     for (int b = 0; b < m->nbody; b++)
@@ -263,7 +269,7 @@ fw_status fw_preview_tensions(fw_arena *arena, const fw_mechanism *m, const fw_s
                  rest[3 * b + 2] = m->body[b].phi_rad;
     fw_json_list(out, "tension_N");
     for (int i = 0; s && i < s->ntendon && active(x, "tendon"); i++) {
-        const fw_tendon *t = &s->tendon[i];
+        const fw_device_tendon *t = &s->tendon[i];
         double rest_m = path_of(t, rest, NULL, &none) + (isnan(t->slack_m) ? 0.0 : t->slack_m);
         fw_json_line(out, 0);
         fw_json_list(out, NULL);
@@ -279,41 +285,42 @@ fw_status fw_preview_tensions(fw_arena *arena, const fw_mechanism *m, const fw_s
 
 /* A point within `reach_m` of the box as it was; from farther away a cable or spring comes in at
    the picture's edge. */
-static void add(fw_box *box, const fw_box *was, double reach_m, const fw_mechanism *m, int body,
-                double x_m, double y_m) {
-    fw_vec2 p = fw_local_place(m, body, x_m, y_m);
+static void add(fw_geometry_box *box, const fw_geometry_box *was, double reach_m,
+                const fw_mechanism *m, int body, double x_m, double y_m) {
+    fw_geometry_vec2 p = fw_mechanism_local_place(m, body, x_m, y_m);
     fw_report_box_add(box, fmin(fmax(p.x, was->x0 - reach_m), was->x1 + reach_m),
                       fmin(fmax(p.y, was->y0 - reach_m), was->y1 + reach_m));
 }
 
-static bool reach_of(const fw_box *box, double *reach_m) {
+static bool reach_of(const fw_geometry_box *box, double *reach_m) {
     double size = fmax(box->x1 - box->x0, box->y1 - box->y0);
     *reach_m = size > 0.0 ? 0.5 * size : 1e-3;
     return box->x1 >= box->x0 && box->y1 >= box->y0;
 }
 
-void fw_preview_attached_box(const fw_mechanism *m, fw_box *box) {
-    const fw_box was = *box;
+void fw_report_preview_attached_box(const fw_mechanism *m, fw_geometry_box *box) {
+    const fw_geometry_box was = *box;
     double reach;
     if (!reach_of(&was, &reach)) return;
     for (int i = 0; i < m->nspring; i++) {
-        const fw_spring *k = &m->spring[i];
+        const fw_device_spring *k = &m->spring[i];
         add(box, &was, reach, m, k->body_a, k->ax_m, k->ay_m);
         add(box, &was, reach, m, k->body_b, k->bx_m, k->by_m);
     }
-    for (int i = 0; i < m->ntie; i++) {
-        const fw_tie *t = &m->tie[i];
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
         add(box, &was, reach, m, t->body_a, t->ax_m, t->ay_m);
         add(box, &was, reach, m, t->body_b, t->bx_m, t->by_m);
     }
 }
 
-void fw_preview_scene_box(const fw_mechanism *m, const fw_scene *s, fw_box *box) {
-    const fw_box was = *box;
+void fw_report_preview_scene_box(const fw_mechanism *m, const fw_device_scene *s,
+                                 fw_geometry_box *box) {
+    const fw_geometry_box was = *box;
     double reach;
     if (!reach_of(&was, &reach)) return;
     for (int i = 0; s && i < s->ncomb; i++) {
-        const fw_comb *c = &s->comb[i];
+        const fw_device_comb *c = &s->comb[i];
         /* of the fingers on either side of its point, whatever way they lie */
         double half = fmax(comb_length(c), (c->fingers + 1) * (comb_width(c) + c->gap_m));
         if (c->kind == FW_ELECTRODES_PLATE) half = 0.5 * c->length_m + c->gap_m;
@@ -322,7 +329,7 @@ void fw_preview_scene_box(const fw_mechanism *m, const fw_scene *s, fw_box *box)
     }
     for (int i = 0; s && i < s->ntendon; i++)
         for (int k = 0; k < s->tendon[i].neyelet; k++) {
-            const fw_eyelet *e = &s->tendon[i].eyelet[k];
+            const fw_device_eyelet *e = &s->tendon[i].eyelet[k];
             add(box, &was, reach, m, e->body, e->x_m, e->y_m);
         }
 }

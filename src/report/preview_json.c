@@ -77,20 +77,20 @@ static const char *written(fw_arena *arena, const fw_device *d, fw_place place) 
 static fw_status parameters(fw_arena *arena, const fw_device *d, fw_json *out) {
     fw_json_list(out, "parameters");
     for (int i = 0; d && i < d->nparameter; i++) {
-        const fw_parameter *p = &d->parameter[i];
-        fw_unit unit = {.factor = 1.0};
-        if (p->unit[0]) fw_unit_parse(p->unit, strlen(p->unit), &unit, NULL, NULL);
+        const fw_device_parameter *p = &d->parameter[i];
+        fw_quantity_unit unit = {.factor = 1.0};
+        if (p->unit[0]) fw_quantity_unit_parse(p->unit, strlen(p->unit), &unit, NULL, NULL);
         const char *raw = written(arena, d, p->place), *const *names = NULL;
         size_t uses = 0;
-        if (raw) FW_TRY(fw_expression_names(arena, raw, strlen(raw), &names, &uses));
+        if (raw) FW_TRY(fw_quantity_expression_names(arena, raw, strlen(raw), &names, &uses));
         fw_json_line(out, 0);
         fw_json_object(out, NULL);
         fw_json_text(out, "name", p->name);
-        fw_json_number(out, "value", fw_unit_from_si(&unit, p->value), 12);
+        fw_json_number(out, "value", fw_quantity_unit_from_si(&unit, p->value), 12);
         fw_json_text(out, "unit", p->unit);
         fw_json_number(out, "value_SI", p->value, 17);
-        fw_json_number(out, "minimum", fw_unit_from_si(&unit, p->min), 12);
-        fw_json_number(out, "maximum", fw_unit_from_si(&unit, p->max), 12);
+        fw_json_number(out, "minimum", fw_quantity_unit_from_si(&unit, p->min), 12);
+        fw_json_number(out, "maximum", fw_quantity_unit_from_si(&unit, p->max), 12);
         fw_json_text(out, "doc", p->doc);
         fw_json_text(out, "written", raw);
         fw_json_truth(out, "derived", uses > 0);
@@ -109,7 +109,7 @@ static fw_status parameters(fw_arena *arena, const fw_device *d, fw_json *out) {
 static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
     fw_json_list(out, "scenes");
     for (int i = 0; in->device && i < in->device->nscene; i++) {
-        const fw_scene *s = &in->device->scene[i];
+        const fw_device_scene *s = &in->device->scene[i];
         fw_json_object(out, NULL);
         fw_json_text(out, "name", s->name);
         fw_json_text(out, "flow", s->flow);
@@ -121,7 +121,7 @@ static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
     fw_json_list(out, "flows");
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_flow *f = &in->flow[i];
-        const fw_variant *v = f->variant ? f->variant->variant : NULL;
+        const fw_mechanism_variant *v = f->variant ? f->variant->variant : NULL;
         fw_json_object(out, NULL);
         fw_json_text(out, "name", v ? v->flow : NULL);
         fw_json_text(out, "material", v ? v->material.name : NULL);
@@ -144,7 +144,8 @@ static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
 static int decimals(const fw_mechanism *m) {
     double size = 0.0;
     for (int i = 0; i < m->npin; i++) {
-        fw_vec2 p = fw_pin_place(m, &m->pin[i], 0), q = fw_pin_place(m, &m->pin[0], 0);
+        fw_geometry_vec2 p = fw_mechanism_pin_place(m, &m->pin[i], 0),
+                         q = fw_mechanism_pin_place(m, &m->pin[0], 0);
         size = fmax(size, fmax(fabs(p.x - q.x), fabs(p.y - q.y)));
     }
     if (!(size > 1e-12)) return 12;
@@ -159,7 +160,7 @@ static void column(fw_json *out, const char *name, const double *value, int stri
 }
 
 /* rows of the states: [x, y, phi, x, y, phi ...] and [angle ...] */
-static void states(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
+static void states(const fw_mechanism *m, const fw_dynamics_motion *x, fw_json *out) {
     int places = decimals(m), n = 3 * x->nbody;
     fw_text_reserve(out->out, (size_t)x->nsample * (size_t)(16 * n + 14 * x->npin + 16));
     column(out, "t_s", x->t_s, 1, x->nsample);
@@ -186,8 +187,8 @@ static void states(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
     fw_json_end(out);
 }
 
-/* null of a row of equilibria, and where nobody asked */
-static void energies(const fw_motion *x, fw_json *out) {
+/* null of a sequence of equilibria, and where nobody asked */
+static void energies(const fw_dynamics_motion *x, fw_json *out) {
     static const char *const name[] = {"kinetic_J", "potential_J", "dissipated_J", "work_J"};
     if (x->energy_J) {
         fw_json_object(out, "energy");
@@ -203,7 +204,7 @@ static void energies(const fw_motion *x, fw_json *out) {
         fw_json_null(out, "constraint_norm");
 }
 
-static void peaks(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
+static void peaks(const fw_mechanism *m, const fw_dynamics_motion *x, fw_json *out) {
     fw_json_list(out, "peaks");
     for (int i = 0; i < x->npin; i++) {
         fw_json_object(out, NULL);
@@ -216,8 +217,8 @@ static void peaks(const fw_mechanism *m, const fw_motion *x, fw_json *out) {
     fw_json_end(out);
 }
 
-static void stats(const fw_motion *x, fw_json *out) {
-    const fw_motion_stats *s = &x->stats;
+static void stats(const fw_dynamics_motion *x, fw_json *out) {
+    const fw_dynamics_motion_stats *s = &x->stats;
     fw_json_object(out, "stats");
     fw_json_whole(out, "steps", s->steps);
     fw_json_whole(out, "rejected", s->rejected);
@@ -235,7 +236,7 @@ static void stats(const fw_motion *x, fw_json *out) {
     fw_json_end(out);
 }
 
-static void ledger(const fw_motion *x, fw_json *out) {
+static void ledger(const fw_dynamics_motion *x, fw_json *out) {
     fw_json_list(out, "ledger");
     for (int i = 0; i < x->ledger.count; i++) {
         const fw_effect_entry *e = &x->ledger.item[i];
@@ -251,12 +252,12 @@ static void ledger(const fw_motion *x, fw_json *out) {
     }
     fw_json_end(out);
     fw_json_number(out, "ledger_left_out", x->ledger.left_out, DIGITS);
-    fw_json_text(out, "hinge_model", fw_hinge_model_text(x->ledger.hinge.used));
+    fw_json_text(out, "hinge_model", fw_effects_hinge_model_text(x->ledger.hinge.used));
     fw_json_text(out, "hinge_model_why", x->ledger.hinge.why);
 }
 
 static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
-    const fw_motion *x = in->motion;
+    const fw_dynamics_motion *x = in->motion;
     if (!x || !in->mechanism || x->nsample < 1) {
         fw_json_null(out, "motion");
         fw_json_line(out, 0);
@@ -285,9 +286,9 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     fw_json_line(out, 0);
     energies(x, out);
     fw_json_line(out, 0);
-    fw_preview_factors(in->scene, x, out);
+    fw_report_preview_factors(in->scene, x, out);
     fw_json_line(out, 0);
-    FW_TRY(fw_preview_tensions(arena, in->mechanism, in->scene, x, out));
+    FW_TRY(fw_report_preview_tensions(arena, in->mechanism, in->scene, x, out));
     fw_json_line(out, 0);
     states(in->mechanism, x, out);
     fw_json_end(out);
@@ -316,7 +317,8 @@ fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, f
     fw_json_text(out, "schema", "flexwright.preview/1");
     fw_json_text(out, "status", in->status);
     fw_json_whole(out, "exit_status", in->exit_status);
-    fw_json_text(out, "decision", in->verdict ? fw_decision_text(in->verdict->decision) : NULL);
+    fw_json_text(out, "decision",
+                 in->verdict ? fw_verdict_decision_text(in->verdict->decision) : NULL);
     fw_json_truth(out, "provisional", in->provisional);
     fw_json_line(out, 0);
     left_out(in, out);

@@ -17,13 +17,13 @@ typedef struct frame { /* world -> local: turn by -phi about (x, y), then that p
 
 static frame frame_of(const fw_mechanism *m, int body) {
     if (body < 0) return (frame){0.0, 0.0, 1.0, 0.0};
-    const fw_mass *b = &m->body[body];
+    const fw_mechanism_mass *b = &m->body[body];
     return (frame){b->x_m, b->y_m, cos(b->phi_rad), sin(b->phi_rad)};
 }
 
-static fw_vec2 into(const frame *f, fw_vec2 p) {
+static fw_geometry_vec2 into(const frame *f, fw_geometry_vec2 p) {
     double x = p.x - f->x_m, y = p.y - f->y_m;
-    return (fw_vec2){f->c * x + f->s * y, -f->s * x + f->c * y};
+    return (fw_geometry_vec2){f->c * x + f->s * y, -f->s * x + f->c * y};
 }
 
 /* 1 nm */
@@ -31,25 +31,25 @@ static void um(fw_text *out, double metres) {
     fw_text_fixed(out, isfinite(metres) ? UM * metres : 0.0, 3);
 }
 
-static void point(fw_text *out, const char *command, fw_vec2 p) {
+static void point(fw_text *out, const char *command, fw_geometry_vec2 p) {
     fw_text_add(out, command);
     um(out, p.x);
     fw_text_add(out, " ");
     um(out, p.y);
 }
 
-void fw_preview_um(fw_json *out, const char *key, double metres) {
+void fw_report_preview_um(fw_json *out, const char *key, double metres) {
     um(fw_json_value(out, key), metres);
 }
 
-void fw_preview_point(fw_json *out, const char *key, double x_m, double y_m) {
+void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m) {
     fw_json_list(out, key);
-    fw_preview_um(out, NULL, x_m);
-    fw_preview_um(out, NULL, y_m);
+    fw_report_preview_um(out, NULL, x_m);
+    fw_report_preview_um(out, NULL, y_m);
     fw_json_end(out);
 }
 
-void fw_preview_bodies(fw_json *out, const char *key, int a, int b) {
+void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b) {
     fw_json_list(out, key);
     fw_json_whole(out, NULL, a);
     fw_json_whole(out, NULL, b);
@@ -57,7 +57,8 @@ void fw_preview_bodies(fw_json *out, const char *key, int a, int b) {
 }
 
 /* y points up: counter-clockwise is SVG's positive sweep in these axes */
-static void arc_to(fw_text *out, const frame *f, const fw_segment *s, double sweep, fw_vec2 to) {
+static void arc_to(fw_text *out, const frame *f, const fw_geometry_segment *s, double sweep,
+                   fw_geometry_vec2 to) {
     fw_text_add(out, "A");
     um(out, s->radius);
     fw_text_add(out, " ");
@@ -66,11 +67,11 @@ static void arc_to(fw_text *out, const frame *f, const fw_segment *s, double swe
     point(out, " ", into(f, to));
 }
 
-static void contour(fw_text *out, const frame *f, const fw_contour *c) {
+static void contour(fw_text *out, const frame *f, const fw_geometry_contour *c) {
     if (c->count == 0) return;
     point(out, "M", into(f, c->segment[0].a));
     for (int i = 0; i < c->count; i++) {
-        const fw_segment *s = &c->segment[i];
+        const fw_geometry_segment *s = &c->segment[i];
         if (s->kind == FW_LINE) {
             if (i + 1 < c->count) point(out, "L", into(f, s->b));
         } else if (fabs(s->sweep_rad) < 1.8 * FW_PI) {
@@ -78,8 +79,8 @@ static void contour(fw_text *out, const frame *f, const fw_contour *c) {
         } else { /* an arc that ends where it starts has no direction: two halves */
             double cosine = cos(0.5 * s->sweep_rad), sine = sin(0.5 * s->sweep_rad);
             double x = s->a.x - s->centre.x, y = s->a.y - s->centre.y;
-            fw_vec2 half = {s->centre.x + cosine * x - sine * y,
-                            s->centre.y + sine * x + cosine * y};
+            fw_geometry_vec2 half = {s->centre.x + cosine * x - sine * y,
+                                     s->centre.y + sine * x + cosine * y};
             arc_to(out, f, s, 0.5 * s->sweep_rad, half);
             arc_to(out, f, s, 0.5 * s->sweep_rad, s->b);
         }
@@ -88,7 +89,7 @@ static void contour(fw_text *out, const frame *f, const fw_contour *c) {
 }
 
 /* an outline as a string; no letter of a path needs an escape */
-static void path(fw_json *out, const char *key, const frame *f, const fw_contour *c) {
+static void path(fw_json *out, const char *key, const frame *f, const fw_geometry_contour *c) {
     fw_text *text = fw_json_value(out, key);
     fw_text_add(text, "\"");
     contour(text, f, c);
@@ -97,18 +98,18 @@ static void path(fw_json *out, const char *key, const frame *f, const fw_contour
 
 /* ---- bodies ---- */
 
-typedef bool (*wanted)(const fw_piece *piece, int body);
+typedef bool (*wanted)(const fw_layout_piece *piece, int body);
 
-static bool structure(const fw_piece *p, int body) {
+static bool structure(const fw_layout_piece *p, int body) {
     return p->body == body && p->role == FW_ROLE_STRUCTURE;
 }
 
-static bool chip(const fw_piece *p, int body) {
+static bool chip(const fw_layout_piece *p, int body) {
     (void)body;
     return p->role == FW_ROLE_FRAME;
 }
 
-static bool tether(const fw_piece *p, int body) {
+static bool tether(const fw_layout_piece *p, int body) {
     (void)body;
     return p->role == FW_ROLE_TETHER;
 }
@@ -127,26 +128,27 @@ static void outlines(fw_json *out, const char *key, const fw_layout *layout, con
 }
 
 /* what stands for a body that nobody has drawn: a line or hull through its joints */
-static void figure_outline(fw_json *out, const fw_figure *figure, int body) {
+static void figure_outline(fw_json *out, const fw_report_drawing_figure *figure, int body) {
     fw_json_list(out, "outline");
     for (int i = 0; i < figure->count; i++) {
-        const fw_figure_part *p = &figure->part[i];
+        const fw_report_figure_part *p = &figure->part[i];
         if (p->role != FW_FIGURE_BODY || p->of != body) continue;
         fw_text *text = fw_json_value(out, NULL);
         fw_text_add(text, "\"");
         for (int k = 0; k < p->noutline; k++)
             point(text, k ? "L" : "M", p->outline[k]);
         if (p->noutline == 0) {
-            point(text, "M", (fw_vec2){p->end[0].x_m, p->end[0].y_m});
-            point(text, "L", (fw_vec2){p->end[1].x_m, p->end[1].y_m});
+            point(text, "M", (fw_geometry_vec2){p->end[0].x_m, p->end[0].y_m});
+            point(text, "L", (fw_geometry_vec2){p->end[1].x_m, p->end[1].y_m});
         }
         fw_text_add(text, p->noutline > 2 ? "Z\"" : "\"");
     }
     fw_json_end(out);
 }
 
-static void body_json(const fw_report_preview *in, const fw_figure *figure, int b, fw_json *out) {
-    const fw_mass *m = &in->mechanism->body[b];
+static void body_json(const fw_report_preview *in, const fw_report_drawing_figure *figure, int b,
+                      fw_json *out) {
+    const fw_mechanism_mass *m = &in->mechanism->body[b];
     const frame f = frame_of(in->mechanism, b);
     bool drawn = fw_report_outlined(in->layout, b);
     fw_json_object(out, NULL);
@@ -168,7 +170,8 @@ static void body_json(const fw_report_preview *in, const fw_figure *figure, int 
     fw_json_end(out);
 }
 
-static void bodies(const fw_report_preview *in, const fw_figure *figure, fw_json *out) {
+static void bodies(const fw_report_preview *in, const fw_report_drawing_figure *figure,
+                   fw_json *out) {
     const fw_layout *layout = in->layout;
     fw_json_list(out, "bodies");
     for (int b = 0; b < in->mechanism->nbody; b++) {
@@ -197,61 +200,64 @@ static const char *body_id(const fw_mechanism *m, int body) {
 }
 
 /* a frame fixed to a body, where one end of the centre line is, along which the line runs there */
-static void end_frame(fw_json *out, const fw_mechanism *m, int body, fw_pose at) {
+static void end_frame(fw_json *out, const fw_mechanism *m, int body, fw_geometry_pose at) {
     const frame f = frame_of(m, body);
-    fw_vec2 p = into(&f, (fw_vec2){at.x_m, at.y_m});
+    fw_geometry_vec2 p = into(&f, (fw_geometry_vec2){at.x_m, at.y_m});
     fw_json_object(out, NULL);
     fw_json_text(out, "body", body_id(m, body));
-    fw_preview_point(out, "at_um", p.x, p.y);
+    fw_report_preview_point(out, "at_um", p.x, p.y);
     fw_json_number(out, "angle_rad", at.angle_rad - (body >= 0 ? m->body[body].phi_rad : 0.0), 7);
     fw_json_end(out);
 }
 
 /* the centre line in the flexure's frame: from the root of `lower` to that of `upper` */
-static int centre_line(const fw_flexure *flexure, double fillet_m, fw_pose *pose, int most) {
+static int centre_line(const fw_device_flexure *flexure, double fillet_m, fw_geometry_pose *pose,
+                       int most) {
     const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
-    fw_course path;
-    fw_path_of(&in, &path);
+    fw_flexure_course path;
+    fw_flexure_path_of(&in, &path);
     int n = 0, each = (most - 1) / (path.n > 0 ? path.n : 1);
     for (int i = 0; i < path.n; i++) {
-        const fw_strip_piece *p = &path.shape[i].piece;
+        const fw_geometry_strip_piece *p = &path.shape[i].piece;
         int parts = p->curvature_per_m == 0.0 ? 1 : each;
         for (int k = 0; k < parts; k++)
-            pose[n++] = fw_strip_along(path.start[i], p->curvature_per_m, p->length_m * k / parts);
+            pose[n++] =
+                fw_geometry_strip_along(path.start[i], p->curvature_per_m, p->length_m * k / parts);
     }
     pose[n++] = path.start[path.n];
     return n;
 }
 
-static fw_pose to_world(const fw_hinge_layout *h, fw_pose p) {
+static fw_geometry_pose to_world(const fw_layout_hinge_layout *h, fw_geometry_pose p) {
     double c = cos(h->axis_rad), s = sin(h->axis_rad);
-    return (fw_pose){h->arc_centre.x + c * p.x_m - s * p.y_m,
-                     h->arc_centre.y + s * p.x_m + c * p.y_m, p.angle_rad + h->axis_rad};
+    return (fw_geometry_pose){h->arc_centre.x + c * p.x_m - s * p.y_m,
+                              h->arc_centre.y + s * p.x_m + c * p.y_m, p.angle_rad + h->axis_rad};
 }
 
 static void line_of(const fw_report_preview *in, const fw_report_bend *bend, fw_json *out) {
     enum { MOST = FW_STRIP_MOST + 2 };
-    const fw_hinge_layout *h = &in->layout->hinge[bend->joint];
-    const fw_flexure *flexure = &in->device->flexure[in->device->joint[bend->joint].flexure];
-    fw_pose pose[MOST];
+    const fw_layout_hinge_layout *h = &in->layout->hinge[bend->joint];
+    const fw_device_flexure *flexure =
+        &in->device->flexure[in->device->revolute[bend->joint].flexure];
+    fw_geometry_pose pose[MOST];
     int n = centre_line(flexure, h->fillet_m, pose, flexure->kind == FW_FLEXURE_PATH ? MOST : 25);
     fw_text *text = fw_json_value(out, "centre_line");
     fw_text_add(text, "\"");
     for (int i = 0; i < n; i++) {
         pose[i] = to_world(h, pose[i]);
-        point(text, i ? "L" : "M", (fw_vec2){pose[i].x_m, pose[i].y_m});
+        point(text, i ? "L" : "M", (fw_geometry_vec2){pose[i].x_m, pose[i].y_m});
     }
     fw_text_add(text, "\"");
     fw_json_list(out, "ends");
     end_frame(out, in->mechanism, bend->lower, pose[0]);
     end_frame(out, in->mechanism, bend->upper, pose[n - 1]);
     fw_json_end(out);
-    fw_preview_um(out, "width_um", flexure->width_m);
+    fw_report_preview_um(out, "width_um", flexure->width_m);
 }
 
 static void flexure_json(const fw_report_preview *in, const fw_report_bend *bend, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
-    const fw_joint *joint = &in->device->joint[bend->joint];
+    const fw_device_revolute *joint = &in->device->revolute[bend->joint];
     const frame world = frame_of(m, FW_GROUND);
     fw_json_object(out, NULL);
     fw_json_text(out, "id", joint->id);
@@ -261,13 +267,13 @@ static void flexure_json(const fw_report_preview *in, const fw_report_bend *bend
     fw_json_text(out, NULL, body_id(m, bend->lower));
     fw_json_text(out, NULL, body_id(m, bend->upper));
     fw_json_end(out);
-    fw_preview_bodies(out, "bodies", bend->lower, bend->upper);
+    fw_report_preview_bodies(out, "bodies", bend->lower, bend->upper);
     path(out, "path", &world, &bend->piece->contour);
-    fw_preview_point(out, "centre_um", bend->centre.x, bend->centre.y);
+    fw_report_preview_point(out, "centre_um", bend->centre.x, bend->centre.y);
     fw_json_list(out, "points");
     for (int k = 0; k < bend->npoint; k++) { /* x, y and the share of the upper body */
-        fw_preview_um(out, NULL, bend->point[k].x_m);
-        fw_preview_um(out, NULL, bend->point[k].y_m);
+        fw_report_preview_um(out, NULL, bend->point[k].x_m);
+        fw_report_preview_um(out, NULL, bend->point[k].y_m);
         fw_json_fixed(out, NULL, bend->point[k].weight, 4);
     }
     fw_json_end(out);
@@ -288,7 +294,7 @@ static void flexures(const fw_report_preview *in, const fw_report_bends *bends, 
 
 /* limit of a joint in a variant; NaN: none, or not judged */
 static double limit_in(const fw_report_preview *in, int flow, int joint) {
-    const fw_variant_verdict *v = in->flow[flow].variant;
+    const fw_verdict_variant_verdict *v = in->flow[flow].variant;
     for (int i = 0; v && v->hinge && i < v->nhinge; i++)
         if (v->hinge[i].joint == joint) return v->hinge[i].limit_angle_rad;
     return (double)NAN;
@@ -298,17 +304,17 @@ static void pins(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
     fw_json_list(out, "pins");
     for (int i = 0; i < m->npin; i++) {
-        const fw_pin *p = &m->pin[i];
-        fw_vec2 at = fw_pin_place(m, p, 0);
+        const fw_mechanism_pin *p = &m->pin[i];
+        fw_geometry_vec2 at = fw_mechanism_pin_place(m, p, 0);
         fw_json_line(out, 0);
         fw_json_object(out, NULL);
         fw_json_text(out, "id", p->id);
         fw_json_text(out, "a", body_id(m, p->body_a));
         fw_json_text(out, "b", body_id(m, p->body_b));
-        fw_preview_bodies(out, "bodies", p->body_a, p->body_b);
-        fw_preview_point(out, "at_um", at.x, at.y);
-        fw_preview_point(out, "on_a_um", p->ax_m, p->ay_m);
-        fw_preview_point(out, "on_b_um", p->bx_m, p->by_m);
+        fw_report_preview_bodies(out, "bodies", p->body_a, p->body_b);
+        fw_report_preview_point(out, "at_um", at.x, at.y);
+        fw_report_preview_point(out, "on_a_um", p->ax_m, p->ay_m);
+        fw_report_preview_point(out, "on_b_um", p->bx_m, p->by_m);
         fw_json_number(out, "free_angle_rad", p->free_angle_rad, 9);
         fw_json_truth(out, "flexure", p->hinge != FW_NONE);
         fw_json_list(out, "limit_rad");
@@ -322,7 +328,7 @@ static void pins(const fw_report_preview *in, fw_json *out) {
     fw_json_end(out);
 }
 
-static void box_um(fw_json *out, const char *key, const fw_box *box) {
+static void box_um(fw_json *out, const char *key, const fw_geometry_box *box) {
     const double side[4] = {box->x0, box->y0, box->x1, box->y1};
     if (!(box->x1 >= box->x0 && box->y1 >= box->y0)) {
         fw_json_null(out, key);
@@ -330,7 +336,7 @@ static void box_um(fw_json *out, const char *key, const fw_box *box) {
     }
     fw_json_list(out, key);
     for (int i = 0; i < 4; i++)
-        fw_preview_um(out, NULL, side[i]);
+        fw_report_preview_um(out, NULL, side[i]);
     fw_json_end(out);
 }
 
@@ -338,23 +344,23 @@ static void box_um(fw_json *out, const char *key, const fw_box *box) {
    pins where nothing is drawn; springs. And a picture of the scene: its cables and electrodes */
 static void boxes(const fw_report_preview *in, fw_json *out) {
     const fw_mechanism *m = in->mechanism;
-    fw_box box = fw_report_box_empty();
+    fw_geometry_box box = fw_report_box_empty();
     for (int i = 0; fw_report_drawn(in->layout) && i < in->layout->npiece; i++) {
-        const fw_piece *p = &in->layout->piece[i];
+        const fw_layout_piece *p = &in->layout->piece[i];
         if (p->role != FW_ROLE_STRUCTURE && p->role != FW_ROLE_FLEXURE) continue;
-        fw_box b = fw_contour_box(&p->contour);
+        fw_geometry_box b = fw_geometry_contour_box(&p->contour);
         fw_report_box_add(&box, b.x0, b.y0);
         fw_report_box_add(&box, b.x1, b.y1);
     }
     for (int b = 0; b < m->nbody; b++)
         fw_report_box_add(&box, m->body[b].x_m, m->body[b].y_m);
     for (int i = 0; i < m->npin; i++) {
-        fw_vec2 p = fw_pin_place(m, &m->pin[i], 0);
+        fw_geometry_vec2 p = fw_mechanism_pin_place(m, &m->pin[i], 0);
         fw_report_box_add(&box, p.x, p.y);
     }
-    fw_preview_attached_box(m, &box);
+    fw_report_preview_attached_box(m, &box);
     box_um(out, "box_um", &box);
-    fw_preview_scene_box(m, in->scene, &box);
+    fw_report_preview_scene_box(m, in->scene, &box);
     box_um(out, "scene_box_um", &box);
 }
 
@@ -370,7 +376,7 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
         }
         return FW_OK;
     }
-    fw_figure figure = {0};
+    fw_report_drawing_figure figure = {0};
     fw_report_bends bends;
     double *rest = fw_arena_array(arena, double, 3 * (size_t)m->nbody);
     FW_NEED(rest);
@@ -379,7 +385,7 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
         rest[3 * b + 1] = m->body[b].y_m;
         rest[3 * b + 2] = m->body[b].phi_rad;
     }
-    FW_TRY(fw_figure_make(arena, m, rest, 1, &figure));
+    FW_TRY(fw_report_figure_make(arena, m, rest, 1, &figure));
     FW_TRY(fw_report_bends_make(arena, in->device, in->layout, &bends));
     boxes(in, out);
     fw_json_line(out, 0);
@@ -389,6 +395,6 @@ fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in,
     fw_json_line(out, 0);
     pins(in, out);
     fw_json_line(out, 0);
-    fw_preview_attached(in, out);
+    fw_report_preview_attached(in, out);
     return FW_OK;
 }

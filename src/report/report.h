@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a person reads: the report page, plots, drawings, animations and preview pictures. All text
    is escaped, all numbers are finite, and the same input gives the same bytes: no clock, no locale,
-   no measured run time. JSON for programs is in report/json.h. */
+   no measured run time. JSON for programs is in report/report_json.h. */
 #ifndef FW_REPORT_REPORT_H
 #define FW_REPORT_REPORT_H
 #include "base/text.h"
@@ -16,11 +16,11 @@
 #include "verdict/verdict.h"
 
 typedef struct fw_report_flow { /* one process flow of the device */
-    const fw_variant_verdict *variant;
-    const fw_flow *flow;     /* NULL: not computed */
-    const fw_mask *mask;     /* NULL: not built, `mask_error` says why */
-    const char *mask_error;  /* NULL: the design was rejected, or masks were not asked for */
-    const fw_mask *violated; /* its findings are listed; NULL: no rule is broken */
+    const fw_verdict_variant_verdict *variant;
+    const fw_process_flow *flow; /* NULL: not computed */
+    const fw_mask *mask;         /* NULL: not built, `mask_error` says why */
+    const char *mask_error;      /* NULL: the design was rejected, or masks were not asked for */
+    const fw_mask *violated;     /* its findings are listed; NULL: no rule is broken */
 } fw_report_flow;
 
 typedef struct fw_report_input {
@@ -44,19 +44,21 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
  * rejects
  */
 fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
-                               const fw_mechanism *mechanism, const fw_motion *motion,
-                               const fw_scene *scene, const fw_verdict *verdict, fw_text *out);
-/* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
-fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_motion *motion,
+                               const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               const fw_device_scene *scene, const fw_verdict *verdict,
                                fw_text *out);
-/* accelerations, joint forces on body b in world axes, torques of ties about their point b, drives
+/* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
+fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               fw_text *out);
+/* accelerations, joint forces on body b in world axes, torques of joints about their point b,
+   drives
  */
-fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_motion *motion,
+fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                fw_text *out);
 /* the mechanism moving through one scene, as an SVG that plays by itself */
 fw_status fw_report_animation_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                                  const fw_mechanism *mechanism, const fw_motion *motion,
-                                  const fw_scene *scene, fw_text *out);
+                                  const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                  const fw_device_scene *scene, fw_text *out);
 /* the device as drawn, hinges coloured by utilisation. layout and verdict may be NULL. */
 fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, fw_text *out);
@@ -86,8 +88,8 @@ typedef struct fw_report_level { /* a hinge by one model of the ladder */
 
 typedef struct fw_report_hinge { /* one panel */
     const char *id, *flow;       /* flow NULL: none */
-    const fw_hinge *hinge;
-    const fw_drift_point *point; /* (npoint) over the range of its limit angle */
+    const fw_mechanism_hinge *hinge;
+    const fw_flexure_drift_point *point; /* (npoint) over the range of its limit angle */
     int npoint;
     double gap_m;          /* 0: no conjugate surfaces */
     double contact_rad[2]; /* by a pure moment, on either side; NaN: none */

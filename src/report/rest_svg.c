@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of statics: the equilibrium, the path to it, and modes about it. */
 #include "base/constants.h"
-#include "report/page.h"
-#include "report/rest.h"
+#include "report/report_page.h"
+#include "report/report_equilibrium.h"
 #include <math.h>
 #include <string.h>
 
@@ -12,25 +12,25 @@ enum { WIDTH = 720, HEAD = 38, FRAMES = 120, SECONDS = 8, ARROW = 70 };
 
 typedef struct picture {
     const fw_mechanism *mechanism;
-    const fw_scene *scene;
-    const fw_motion *motion;
+    const fw_device_scene *scene;
+    const fw_dynamics_motion *motion;
     const fw_report_view *view;
     fw_text *out;
 } picture;
 
 /* factor of a load at the scene's end, where statics takes it */
-static double at_end(const picture *p, const fw_law *law) {
+static double at_end(const picture *p, const fw_quantity_law *law) {
     double value[3] = {1.0, 0.0, 0.0}, end = p->scene->duration_s;
-    if (law) fw_law_value(law, end, end * (1.0 - 1e-9), value);
+    if (law) fw_quantity_law_value(law, end, end * (1.0 - 1e-9), value);
     return value[0];
 }
 
-static fw_vec2 place(const picture *p, int body, double x, double y) {
+static fw_geometry_vec2 place(const picture *p, int body, double x, double y) {
     double pose[3];
     fw_report_pose_at(p->motion, body, 1.0, pose);
     double c = cos(pose[2]), s = sin(pose[2]);
-    fw_vec2 w = {pose[0] + c * x - s * y, pose[1] + s * x + c * y};
-    return (fw_vec2){fw_report_x(p->view, w.x), fw_report_y(p->view, w.y)};
+    fw_geometry_vec2 w = {pose[0] + c * x - s * y, pose[1] + s * x + c * y};
+    return (fw_geometry_vec2){fw_report_x(p->view, w.x), fw_report_y(p->view, w.y)};
 }
 
 static void label(const picture *p, double x, double y, double value, const char *unit) {
@@ -42,30 +42,30 @@ static void label(const picture *p, double x, double y, double value, const char
 }
 
 /* the arrow ends at the point of the force; false: there is none */
-static bool arrow_ends(const picture *p, const fw_force *f, double largest, fw_vec2 *tail,
-                       fw_vec2 *tip) {
+static bool arrow_ends(const picture *p, const fw_device_force *f, double largest,
+                       fw_geometry_vec2 *tail, fw_geometry_vec2 *tip) {
     double factor = at_end(p, f->law), fx = factor * f->fx_N, fy = factor * f->fy_N;
     double size = hypot(fx, fy), far = ARROW * (0.35 + 0.65 * size / largest);
     if (f->body == FW_GROUND || !(size > 0.0)) return false;
     *tip = place(p, f->body, f->x_m, f->y_m);
-    *tail = (fw_vec2){tip->x - far * fx / size, tip->y + far * fy / size};
+    *tail = (fw_geometry_vec2){tip->x - far * fx / size, tip->y + far * fy / size};
     return true;
 }
 
 static double largest_force(const picture *p) {
     double largest = 0.0;
     for (int i = 0; i < p->scene->nforce; i++) {
-        const fw_force *f = &p->scene->force[i];
+        const fw_device_force *f = &p->scene->force[i];
         largest = fmax(largest, fabs(at_end(p, f->law)) * hypot(f->fx_N, f->fy_N));
     }
     return largest;
 }
 
 /* adds the tails of the arrows as a view places them, and room for their labels */
-static void arrows_reach(const picture *p, fw_box *box) {
+static void arrows_reach(const picture *p, fw_geometry_box *box) {
     double largest = largest_force(p);
     for (int i = 0; i < p->scene->nforce; i++) {
-        fw_vec2 tail, tip;
+        fw_geometry_vec2 tail, tip;
         if (!arrow_ends(p, &p->scene->force[i], largest, &tail, &tip)) continue;
         for (int k = 0; k < 2; k++)
             fw_report_box_add(box, p->view->x0_m + (tail.x + (k ? 40.0 : 0.0)) / p->view->scale,
@@ -73,8 +73,8 @@ static void arrows_reach(const picture *p, fw_box *box) {
     }
 }
 
-static void arrow(const picture *p, const fw_force *f, double largest) {
-    fw_vec2 tail, tip;
+static void arrow(const picture *p, const fw_device_force *f, double largest) {
+    fw_geometry_vec2 tail, tip;
     if (!arrow_ends(p, f, largest, &tail, &tip)) return;
     double far = hypot(tip.x - tail.x, tip.y - tail.y);
     double ex = (tip.x - tail.x) / far, ey = (tip.y - tail.y) / far, x = tail.x, y = tail.y;
@@ -87,10 +87,10 @@ static void arrow(const picture *p, const fw_force *f, double largest) {
     label(p, x + 6.0, y - 6.0, size, "N");
 }
 
-static void torque(const picture *p, const fw_torque *t) {
+static void torque(const picture *p, const fw_device_torque *t) {
     double value = at_end(p, t->law) * t->value_Nm, r = 17.0;
     if (value == 0.0) return;
-    fw_vec2 c = place(p, t->body, 0.0, 0.0);
+    fw_geometry_vec2 c = place(p, t->body, 0.0, 0.0);
     /* counter-clockwise from below to the left, else to the right: the tip points down there */
     double sign = value > 0.0 ? 1.0 : -1.0;
     fw_svg_put(
@@ -102,7 +102,7 @@ static void torque(const picture *p, const fw_torque *t) {
 }
 
 static void loads(const picture *p) {
-    const fw_scene *s = p->scene;
+    const fw_device_scene *s = p->scene;
     double largest = largest_force(p);
     for (int i = 0; i < s->nforce; i++)
         arrow(p, &s->force[i], largest);
@@ -112,7 +112,7 @@ static void loads(const picture *p) {
 
 /* rest and equilibrium, or the points of the path */
 static fw_status poses(fw_arena *arena, const fw_mechanism *m, const fw_statics *s,
-                       fw_motion *motion) {
+                       fw_dynamics_motion *motion) {
     size_t n = 3 * (size_t)m->nbody;
     if (s->path && s->path->complete)
         return fw_report_poses(arena, m, s->path->count, s->path->q, motion);
@@ -124,12 +124,12 @@ static fw_status poses(fw_arena *arena, const fw_mechanism *m, const fw_statics 
 }
 
 fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                                const fw_mechanism *mechanism, const fw_scene *scene,
+                                const fw_mechanism *mechanism, const fw_device_scene *scene,
                                 const fw_statics *statics, fw_text *out) {
-    fw_motion motion;
+    fw_dynamics_motion motion;
     bool moves = statics->path && statics->path->complete;
     FW_TRY(poses(arena, mechanism, statics, &motion));
-    fw_box box = fw_report_box_empty();
+    fw_geometry_box box = fw_report_box_empty();
     FW_TRY(fw_report_poses_reach(arena, &box, layout, mechanism, &motion));
     fw_report_view view = fw_report_poses_view(device, layout, &box, WIDTH);
     const picture p = {mechanism, scene, &motion, &view, out};
@@ -180,7 +180,7 @@ enum { PATH_WIDTH = 640, HEIGHT = 460, LEFT = 62, RIGHT = 22, TOP = 48, BOTTOM =
 
 typedef struct plot {
     const fw_statics *statics;
-    const fw_path *path;
+    const fw_statics_path *path;
     const char *what, *unit; /* of the abscissa */
     const double *value;     /* with `stride` between points */
     size_t stride;
@@ -204,7 +204,7 @@ static double spread(const double *value, size_t stride, int count) {
 
 /* the platform's way; without a platform the joint that turns most, or the body that moves most */
 static fw_status choose(fw_arena *arena, const fw_device *device, const fw_mechanism *m, plot *p) {
-    const fw_path *path = p->path;
+    const fw_statics_path *path = p->path;
     size_t n = 3 * (size_t)path->nbody, pins = (size_t)path->npin;
     int body = FW_NONE;
     for (int b = 0; b < device->nbody && b < path->nbody; b++)
@@ -278,7 +278,7 @@ static void axes(const plot *p) {
 
 /* stable between two points? Where a point is itself the change, the other one knows */
 static bool stable(const plot *p, int i) {
-    const fw_path *path = p->path;
+    const fw_statics_path *path = p->path;
     bool turning = path->mark[i - 1] == FW_PATH_FOLD || path->mark[i - 1] == FW_PATH_BIFURCATION;
     return path->negative[turning ? i : i - 1] == 0;
 }
@@ -300,7 +300,7 @@ static void curve(const plot *p) {
 }
 
 static void marks(const plot *p) {
-    const fw_path *path = p->path;
+    const fw_statics_path *path = p->path;
     for (int i = 0; i < path->count; i++) {
         if (path->mark[i] == FW_PATH_POINT) continue;
         double x = fw_svg_axes_x(&p->axes, shown(p, i)),
@@ -329,7 +329,7 @@ static void marks(const plot *p) {
 }
 
 fw_status fw_report_load_path_svg(fw_arena *arena, const fw_device *device,
-                                  const fw_mechanism *mechanism, const fw_scene *scene,
+                                  const fw_mechanism *mechanism, const fw_device_scene *scene,
                                   const fw_statics *statics, fw_text *out) {
     if (!statics->path || statics->path->count == 0) return FW_USAGE;
     plot p = {.statics = statics, .path = statics->path, .out = out};
@@ -379,12 +379,12 @@ typedef struct sheet {
     const fw_device *device;
     const fw_layout *layout;
     const fw_mechanism *mechanism;
-    const fw_modes *modes;
+    const fw_statics_modes *modes;
     fw_report_view view;
     fw_text *out;
 } sheet;
 
-static int drawn_modes(const fw_modes *modes) {
+static int drawn_modes(const fw_statics_modes *modes) {
     int n = 0;
     while (n < modes->count && modes->mode[n].frame)
         n++;
@@ -392,7 +392,7 @@ static int drawn_modes(const fw_modes *modes) {
 }
 
 static void caption(const sheet *s, int k) {
-    const fw_mode *m = &s->modes->mode[k];
+    const fw_statics_mode *m = &s->modes->mode[k];
     double y = s->view.height + 16.0;
     fw_svg_open(s->out, "text x='4' y='{c}' font-size='13' fill='#1f2328'", y);
     fw_svg_put(s->out, "tspan font-weight='700'>{i}", k + 1);
@@ -400,7 +400,8 @@ static void caption(const sheet *s, int k) {
     if (m->kind == FW_MODE_OSCILLATION || m->kind == FW_MODE_OVERDAMPED)
         fw_markup(s->out, "{u}, damping {p}", m->f_Hz, "Hz", m->damping_ratio);
     if (m->kind != FW_MODE_OSCILLATION)
-        fw_markup(s->out, "{r}{s}", m->omega_rad_per_s > 0 ? ", " : "", fw_mode_kind_text(m->kind));
+        fw_markup(s->out, "{r}{s}", m->omega_rad_per_s > 0 ? ", " : "",
+                  fw_statics_mode_kind_text(m->kind));
     if (m->kind == FW_MODE_UNSTABLE)
         fw_markup(s->out, ", grows with {n} 1/s", m->eigenvalue_per_s[0][0]);
     fw_svg_close(s->out, "text");
@@ -409,7 +410,7 @@ static void caption(const sheet *s, int k) {
 }
 
 static fw_status panel(const sheet *s, int k, double x, double y) {
-    fw_motion motion;
+    fw_dynamics_motion motion;
     FW_TRY(
         fw_report_poses(s->arena, s->mechanism, FW_MODE_FRAMES, s->modes->mode[k].frame, &motion));
     const fw_report_film film = {.device = s->device,
@@ -436,9 +437,9 @@ static fw_status panel(const sheet *s, int k, double x, double y) {
 }
 
 static fw_status reach(sheet *s, int count) {
-    fw_box box = fw_report_box_empty();
+    fw_geometry_box box = fw_report_box_empty();
     for (int k = 0; k < count; k++) {
-        fw_motion motion;
+        fw_dynamics_motion motion;
         FW_TRY(fw_report_poses(s->arena, s->mechanism, FW_MODE_FRAMES, s->modes->mode[k].frame,
                                &motion));
         FW_TRY(fw_report_poses_reach(s->arena, &box, s->layout, s->mechanism, &motion));
@@ -448,8 +449,8 @@ static fw_status reach(sheet *s, int count) {
 }
 
 fw_status fw_report_modes_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                              const fw_mechanism *mechanism, const fw_scene *scene,
-                              const fw_modes *modes, fw_text *out) {
+                              const fw_mechanism *mechanism, const fw_device_scene *scene,
+                              const fw_statics_modes *modes, fw_text *out) {
     sheet s = {.arena = arena,
                .device = device,
                .layout = layout,

@@ -11,7 +11,7 @@ static double degrees(double rad) {
 
 /* ---- verdict ---- */
 
-static void hinge_row(fw_text *out, const fw_hinge_verdict *h) {
+static void hinge_row(fw_text *out, const fw_verdict_hinge_verdict *h) {
     fw_text_printf(out, "  %-6s ", h->id);
     fw_text_real(out, "%8.2f deg ", degrees(h->peak_angle_rad));
     fw_text_real(out, "%7.2f deg ", degrees(h->limit_angle_rad));
@@ -19,7 +19,7 @@ static void hinge_row(fw_text *out, const fw_hinge_verdict *h) {
     fw_text_real(out, "%6.1f %%  ", 100.0 * h->utilisation);
     fw_text_real(out, "%5.1f..", 100.0 * h->utilisation_low);
     fw_text_real(out, "%-5.1f  ", 100.0 * h->utilisation_high);
-    fw_text_printf(out, "%-12s %s", fw_decision_text(h->decision), h->scene);
+    fw_text_printf(out, "%-12s %s", fw_verdict_decision_text(h->decision), h->scene);
     if (h->flow) fw_text_printf(out, " (%s)", h->flow);
     fw_text_add(out, "\n");
 }
@@ -38,13 +38,14 @@ static void number(fw_text *out, const char *before, double value, const char *a
 }
 
 /* which criterion governs, its number, status and source, and what was asked for beside */
-static void limit(fw_text *out, const fw_hinge_verdict *h, const fw_report_input *in) {
-    const fw_limits_asked *asked = &in->device->limits;
+static void limit(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_report_input *in) {
+    const fw_device_limits_asked *asked = &in->device->limits;
     if (h->limit) {
         fw_text_printf(out, "(limit by %s: %s, ", h->limit->criterion, h->limit->definition);
         number(out, "", h->limit_Pa * 1e-6, " MPa at the peak / safety factor ");
         number(out, "", in->device->safety_factor, "; ");
-        fw_text_printf(out, "%s: %s)\n", fw_value_status_text(h->limit->status), h->limit->source);
+        fw_text_printf(out, "%s: %s)\n", fw_quantity_value_status_text(h->limit->status),
+                       h->limit->source);
     }
     if (asked->failure_probability > 0 && !isnan(h->failure_probability)) {
         number(out, "(it breaks with probability ", h->failure_probability, " at this peak, ");
@@ -59,7 +60,7 @@ static void limit(fw_text *out, const fw_hinge_verdict *h, const fw_report_input
     }
 }
 
-static void governing(fw_text *out, const fw_hinge_verdict *h, const fw_report_input *in) {
+static void governing(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_report_input *in) {
     bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
     fw_text_printf(out, "governing hinge %s: ", h->id);
     fw_text_real(out, "%.1f %% of the ", 100.0 * h->utilisation);
@@ -85,7 +86,7 @@ static void governing(fw_text *out, const fw_hinge_verdict *h, const fw_report_i
 /* the first reasons; all of them in detail and in the report */
 static void flow(fw_text *out, const fw_report_flow *rf, int detail) {
     enum { FEW = 3 };
-    const fw_flow *f = rf->flow;
+    const fw_process_flow *f = rf->flow;
     fw_text_printf(out, "\nflow %s: manufacturable: %s\n", rf->variant->variant->flow,
                    f->manufacturable > 0    ? "yes"
                    : f->manufacturable == 0 ? "NO"
@@ -105,15 +106,15 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
     const fw_verdict *v = in->verdict;
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; v->variant[i].pull_in && k < in->device->nscene; k++) {
-            const fw_pull_in *p = v->variant[i].pull_in[k];
+            const fw_statics_pull_in *p = v->variant[i].pull_in[k];
             if (!p || p->kind == FW_PULL_IN_NONE) continue;
-            const fw_variant *variant = v->variant[i].variant;
+            const fw_mechanism_variant *variant = v->variant[i].variant;
             fw_text_printf(out, "\npull-in in %s", in->device->scene[k].name);
             if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
             fw_text_printf(out, ": comb drive %s at ", p->comb);
             fw_text_number(out, p->voltage_V, 4);
             fw_text_printf(out, " V (%s); the scene asks for up to ",
-                           fw_pull_in_kind_text(p->kind));
+                           fw_statics_pull_in_kind_text(p->kind));
             fw_text_number(out, p->largest_V, 4);
             fw_text_add(out, " V\n");
         }
@@ -122,8 +123,8 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
 static void reasons(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_reason *r = &v->variant[i].reason[k];
-            fw_text_printf(out, "%s %s", fw_decision_text(r->decision), r->scene);
+            const fw_verdict_reason *r = &v->variant[i].reason[k];
+            fw_text_printf(out, "%s %s", fw_verdict_decision_text(r->decision), r->scene);
             if (r->flow) fw_text_printf(out, " (%s)", r->flow);
             fw_text_printf(out, ": %s [FW-D%03d]\n", r->text, r->number);
         }
@@ -131,7 +132,7 @@ static void reasons(fw_text *out, const fw_verdict *v) {
 
 static void parameters(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nparameter; i++) {
-        const fw_parameter_advice *p = &v->parameter[i];
+        const fw_verdict_parameter_advice *p = &v->parameter[i];
         if (i == 0) fw_text_add(out, "\none parameter alone:\n");
         if (p->found == FW_PARAMETER_ACCEPTS)
             fw_text_printf(out, "  %s\n    --set \"%s=%s\"\n", p->text, p->name, p->value_text);
@@ -149,7 +150,7 @@ static void advice(fw_text *out, const fw_verdict *v) {
     if (v->advice_note) fw_text_printf(out, "  %s\n", v->advice_note);
 }
 
-fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style style,
+fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_terminal_style style,
                                  fw_text *out) {
     const fw_verdict *v = input->verdict;
     static const char *const word[] = {"ACCEPT", "INCONCLUSIVE", "REJECT"};
@@ -162,7 +163,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
     reasons(out, v);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);
-    if (style.detail >= 0) fw_report_made_text(out, v);
+    if (style.detail >= 0) fw_report_fabricated_text(out, v);
     advice(out, v);
     parameters(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)
@@ -172,7 +173,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_terminal_style
 
 /* ---- one scene ---- */
 
-static void statistics(fw_text *out, const fw_motion_stats *s) {
+static void statistics(fw_text *out, const fw_dynamics_motion_stats *s) {
     fw_text_printf(out, "%ld steps, %ld rejected, %ld right-hand sides, %ld projections, ",
                    s->steps, s->rejected, s->rhs, s->projections);
     fw_text_real(out, "%.2f ms of CPU\nrelative tolerance ", s->cpu_s * 1e3);
@@ -197,14 +198,14 @@ static void timed(fw_text *out, double value, double t, double error) {
     fw_text_real(out, "%10.1e", error);
 }
 
-static double strongest(const fw_force_peak *p, int count, double most) {
+static double strongest(const fw_dynamics_force_peak *p, int count, double most) {
     for (int i = 0; p && i < count; i++)
         most = fmax(most, p[i].force_N);
     return most;
 }
 
-static void angle_peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time,
-                        fw_magnitude force, fw_text *out) {
+static void angle_peaks(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                        fw_report_magnitude time, fw_report_magnitude force, fw_text *out) {
     if (motion->npin == 0) return;
     fw_text_printf(out, "  joint    peak angle deg         at %-2s     +- deg", time.unit);
     if (motion->force_peak)
@@ -235,27 +236,27 @@ static void force_line(fw_text *out, const char *id, const char *what, double va
 }
 
 /* a line per force, torque and travel: their units differ */
-static void tie_peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time,
-                      fw_magnitude force, fw_text *out) {
-    if (!motion->tie_peak || motion->ntie + motion->ndriver == 0) return;
+static void joint_peaks(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                        fw_report_magnitude time, fw_report_magnitude force, fw_text *out) {
+    if (!motion->joint_peak || motion->njoint + motion->ndriver == 0) return;
     double far = 0;
-    for (int i = 0; i < motion->ntie; i++)
+    for (int i = 0; i < motion->njoint; i++)
         far = fmax(far, fabs(motion->travel_peak[i].travel_m));
-    const fw_magnitude length = fw_magnitude_of(FW_MEASURE_LENGTH, far);
+    const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
     fw_text_add(out, "\n  joint, driver         peak                  at              +-\n");
-    for (int i = 0; i < motion->ntie + motion->ndriver; i++) {
-        bool tie = i < motion->ntie;
-        int k = tie ? i : i - motion->ntie;
-        const fw_force_peak *p = tie ? &motion->tie_peak[k] : &motion->driver_peak[k];
-        const char *id = tie ? m->tie[k].id : m->driver[k].id;
-        bool pushes = tie || m->driver[k].joint == FW_NONE;
-        bool turns = tie ? m->tie[k].kind != FW_TIE_DISTANCE : !pushes;
-        if (tie && m->tie[k].kind == FW_TIE_PRISMATIC) {
-            const fw_travel_peak *t = &motion->travel_peak[k];
+    for (int i = 0; i < motion->njoint + motion->ndriver; i++) {
+        bool joint = i < motion->njoint;
+        int k = joint ? i : i - motion->njoint;
+        const fw_dynamics_force_peak *p = joint ? &motion->joint_peak[k] : &motion->driver_peak[k];
+        const char *id = joint ? m->joint[k].id : m->driver[k].id;
+        bool is_force = joint || m->driver[k].revolute == FW_NONE;
+        bool turns = joint ? m->joint[k].kind != FW_JOINT_DISTANCE : !is_force;
+        if (joint && m->joint[k].kind == FW_JOINT_PRISMATIC) {
+            const fw_dynamics_travel_peak *t = &motion->travel_peak[k];
             force_line(out, id, "travel", t->travel_m * length.per_si, length.unit,
                        t->t_s * time.per_si, time.unit, t->error_m * length.per_si);
         }
-        if (pushes)
+        if (is_force)
             force_line(out, id, "force", p->force_N * force.per_si, force.unit,
                        p->t_s * time.per_si, time.unit, p->error_N * force.per_si);
         if (turns)
@@ -264,13 +265,14 @@ static void tie_peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitu
     }
 }
 
-static void peaks(const fw_mechanism *m, const fw_motion *motion, fw_magnitude time, fw_text *out) {
+static void peaks(const fw_mechanism *m, const fw_dynamics_motion *motion, fw_report_magnitude time,
+                  fw_text *out) {
     double most = strongest(motion->force_peak, motion->npin, 0);
-    most = strongest(motion->tie_peak, motion->ntie, most);
+    most = strongest(motion->joint_peak, motion->njoint, most);
     most = strongest(motion->driver_peak, motion->ndriver, most);
-    const fw_magnitude force = fw_magnitude_of(FW_MEASURE_FORCE, most);
+    const fw_report_magnitude force = fw_report_magnitude_of(FW_MEASURE_FORCE, most);
     angle_peaks(m, motion, time, force, out);
-    tie_peaks(m, motion, time, force, out);
+    joint_peaks(m, motion, time, force, out);
 }
 
 /* what the scene calls for, line by line; the rest in one */
@@ -302,10 +304,10 @@ static void ledger(fw_text *out, const fw_effect_ledger *l) {
         fw_text_real(out, "  sum of the bounds of what is left out: %.2g %%\n", 100 * l->left_out);
 }
 
-fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
-                                  const fw_motion *motion, fw_text *out) {
+fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *m,
+                                  const fw_dynamics_motion *motion, fw_text *out) {
     fw_text_printf(out, "scene %s over ", scene->name);
-    const fw_magnitude time = fw_magnitude_of(FW_MEASURE_TIME, scene->duration_s);
+    const fw_report_magnitude time = fw_report_magnitude_of(FW_MEASURE_TIME, scene->duration_s);
     fw_text_real(out, "%g ", scene->duration_s * time.per_si);
     fw_text_printf(out, "%s, method %s, integrator %s (%s)\n", time.unit, motion->method,
                    motion->integrator, motion->reason);
@@ -320,14 +322,14 @@ fw_status fw_report_simulate_text(const fw_scene *scene, const fw_mechanism *m,
     return fw_text_end(out);
 }
 
-fw_magnitude fw_magnitude_of(fw_report_measure measure, double largest_si) {
+fw_report_magnitude fw_report_magnitude_of(fw_report_measure measure, double largest_si) {
     enum { MOST = 5 };
-    static const fw_magnitude table[3][MOST + 1] = {
+    static const fw_report_magnitude table[3][MOST + 1] = {
         {{"nm", 1e9}, {"um", 1e6}, {"mm", 1e3}, {"m", 1}, {"km", 1e-3}},
         {{"nN", 1e9}, {"uN", 1e6}, {"mN", 1e3}, {"N", 1}, {"kN", 1e-3}, {"MN", 1e-6}},
         {{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3}, {"s", 1}},
     };
-    const fw_magnitude *row = table[measure];
+    const fw_report_magnitude *row = table[measure];
     int i = 0;
     while (i < MOST && row[i + 1].unit && fabs(largest_si) * row[i + 1].per_si >= 1)
         i++;

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/workspace.h"
+#include "report/report_workspace.h"
 #include "base/constants.h"
 #include <math.h>
 
-static void range(fw_text *out, fw_interval a, double factor, int digits) {
+static void range(fw_text *out, fw_maths_interval a, double factor, int digits) {
     fw_text_number(out, a.lo * factor, digits);
     fw_text_add(out, " to ");
     fw_text_number(out, a.hi * factor, digits);
 }
 
-static void bracket(fw_text *out, fw_interval a, double factor, int digits) {
+static void bracket(fw_text *out, fw_maths_interval a, double factor, int digits) {
     fw_text_add(out, "[");
     fw_text_number(out, a.lo * factor, digits);
     fw_text_add(out, ", ");
@@ -27,11 +27,11 @@ static void pose(fw_text *out, const double at[3]) {
     fw_text_add(out, " deg)");
 }
 
-static void singularities(fw_text *out, const fw_mechanism *m, const fw_regularity *s) {
-    const fw_triangle *least = &s->passive[0];
+static void singularities(fw_text *out, const fw_mechanism *m, const fw_workspace_regularity *s) {
+    const fw_workspace_triangle *least = &s->passive[0];
     int regular = 0, inside = 0;
     for (int i = 0; i < FW_TRIANGLES; i++) {
-        const fw_triangle *t = &s->passive[i];
+        const fw_workspace_triangle *t = &s->passive[i];
         regular += t->regular;
         inside += t->positive && t->negative;
         if (t->length_m.lo < least->length_m.lo) least = t;
@@ -93,14 +93,14 @@ static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
 }
 
 static void required(fw_text *out, const fw_device *d, const fw_report_workspace_flow *f, int k) {
-    const fw_workspace_box *b = &d->workspace[k];
+    const fw_device_workspace_box *b = &d->workspace[k];
     const fw_workspace_proof *p = &f->required->proof[k];
     fw_text_add(out, "required: x ");
-    range(out, (fw_interval){b->x_min_m, b->x_max_m}, 1e6, 6);
+    range(out, (fw_maths_interval){b->x_min_m, b->x_max_m}, 1e6, 6);
     fw_text_add(out, " um, y ");
-    range(out, (fw_interval){b->y_min_m, b->y_max_m}, 1e6, 6);
+    range(out, (fw_maths_interval){b->y_min_m, b->y_max_m}, 1e6, 6);
     fw_text_add(out, " um, rotation ");
-    range(out, (fw_interval){b->phi_min_rad, b->phi_max_rad}, FW_DEG_PER_RAD, 6);
+    range(out, (fw_maths_interval){b->phi_min_rad, b->phi_max_rad}, FW_DEG_PER_RAD, 6);
     fw_text_add(out, " deg\n");
     if (!f->required->box_reachable[k]) {
         fw_text_add(out, "  NOT REACHABLE: the mechanism cannot be assembled at ");
@@ -120,7 +120,7 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
     fw_text_printf(out, "  every pose can be assembled on the drawn branch (proved, %ld boxes)\n",
                    p->boxes);
     for (int i = 0; i < FW_SIX; i++) {
-        fw_interval a = p->angle_rad[i];
+        fw_maths_interval a = p->angle_rad[i];
         fw_text_printf(out, "  %-6s", f->mechanism->pin[i].id);
         fw_text_real(out, " %9.4f to", a.lo * FW_DEG_PER_RAD);
         fw_text_real(out, " %9.4f deg", a.hi * FW_DEG_PER_RAD);

@@ -4,8 +4,8 @@
 #define FW_SCHEDULE_BOUND_H
 #include "schedule/schedule.h"
 
-/* earliest_s (ntask) of a wafer alone, from fw_network_earliest with start_s */
-void fw_bounds(const fw_shop *shop, const double *earliest_s, double start_s,
-               fw_schedule_bound *bound);
+/* earliest_s (ntask) of a wafer alone, from fw_schedule_network_earliest with start_s */
+void fw_schedule_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
+                        fw_schedule_bound *bound);
 
 #endif

@@ -5,19 +5,19 @@
 
 static const double day_s = 86400.0;
 
-bool fw_calendar_round(const fw_calendar *c) {
+bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
     return c->open_s <= 0.0 && c->close_s >= day_s;
 }
 
-static bool working(const fw_calendar *c, double day) {
+static bool working(const fw_schedule_calendar *c, double day) {
     return c->weekends || fmod(day, 7.0) < 5.0;
 }
 
 /* Earliest t >= from with [t, t + length] inside one working day. from, length s >= 0. INFINITY
    where length is longer than the day. It never falls when `from` rises: what the bounds rest on.
    Cost: at most three days looked at. Test: test_calendar.c. */
-double fw_calendar_fit(const fw_calendar *c, double from_s, double length_s) {
-    if (fw_calendar_round(c)) return from_s;
+double fw_schedule_calendar_fit(const fw_schedule_calendar *c, double from_s, double length_s) {
+    if (fw_schedule_calendar_round(c)) return from_s;
     if (length_s > c->close_s - c->open_s + 1e-9 || !isfinite(from_s)) return (double)INFINITY;
     for (double day = floor(from_s / day_s);; day += 1.0) {
         double t = fmax(from_s, day * day_s + c->open_s);
@@ -26,8 +26,8 @@ double fw_calendar_fit(const fw_calendar *c, double from_s, double length_s) {
 }
 
 /* Earliest t with a working time of work_s between from_s and t. Test: test_calendar.c. */
-double fw_calendar_worked(const fw_calendar *c, double from_s, double work_s) {
-    if (fw_calendar_round(c)) return from_s + work_s;
+double fw_schedule_calendar_worked(const fw_schedule_calendar *c, double from_s, double work_s) {
+    if (fw_schedule_calendar_round(c)) return from_s + work_s;
     if (work_s <= 0.0 || !isfinite(from_s)) return from_s;
     for (double day = floor(from_s / day_s);; day += 1.0) {
         if (!working(c, day)) continue;
@@ -48,8 +48,8 @@ static const char *clock_of(const char *text, double *seconds) {
     return minute > 59 || *seconds > day_s ? NULL : text + 5;
 }
 
-bool fw_calendar_parse(const char *text, fw_calendar *c) {
-    *c = (fw_calendar){.open_s = 0.0, .close_s = day_s};
+bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {
+    *c = (fw_schedule_calendar){.open_s = 0.0, .close_s = day_s};
     if (strcmp(text, "none") == 0) return true;
     const char *at = clock_of(text, &c->open_s);
     if (!at || *at++ != '-') return false;

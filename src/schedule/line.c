@@ -6,7 +6,7 @@
 static const double tiny_s = 1e-6;
 
 /* first span that starts at x or later */
-static int starting(const fw_line *line, double x) {
+static int starting(const fw_schedule_line *line, double x) {
     int low = 0, high = line->n;
     while (low < high) {
         int middle = low + (high - low) / 2;
@@ -19,7 +19,7 @@ static int starting(const fw_line *line, double x) {
 }
 
 /* one place: whatever overlaps must be over first, since nothing fits before it any more */
-static double after_all(const fw_line *line, double t, double length) {
+static double after_all(const fw_schedule_line *line, double t, double length) {
     for (int i = starting(line, t - line->longest_s); i < line->n; i++) {
         if (line->start_s[i] >= t + length - tiny_s) break;
         if (line->end_s[i] > t + tiny_s) t = line->end_s[i];
@@ -28,7 +28,7 @@ static double after_all(const fw_line *line, double t, double length) {
 }
 
 /* how many spans hold the moment x; *first_end is when the first of them ends */
-static int holding(const fw_line *line, double x, double *first_end) {
+static int holding(const fw_schedule_line *line, double x, double *first_end) {
     int n = 0;
     *first_end = (double)INFINITY;
     for (int i = starting(line, x - line->longest_s); i < line->n; i++) {
@@ -45,7 +45,7 @@ static int holding(const fw_line *line, double x, double *first_end) {
    the starts of spans can be such moments. length 0 fits anywhere. Cost: the square
    of the spans near t.
    Test: test_schedule.c, line. */
-double fw_line_fit(const fw_line *line, double t, double length) {
+double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length) {
     double end;
     if (length <= 0.0) return t;
     if (line->places == 1) return after_all(line, t, length);
@@ -60,7 +60,7 @@ double fw_line_fit(const fw_line *line, double t, double length) {
     return t;
 }
 
-void fw_line_add(fw_line *line, double start, double end) {
+void fw_schedule_line_add(fw_schedule_line *line, double start, double end) {
     if (end <= start) return;
     int at = starting(line, start);
     size_t behind = (size_t)(line->n - at) * sizeof *line->start_s;
@@ -72,7 +72,7 @@ void fw_line_add(fw_line *line, double start, double end) {
     line->n++;
 }
 
-void fw_line_remove(fw_line *line, double start, double end) {
+void fw_schedule_line_remove(fw_schedule_line *line, double start, double end) {
     if (end <= start) return;
     int at = starting(line, start);
     while (at < line->n && line->end_s[at] != end)

@@ -4,8 +4,9 @@
 #define FW_SCHEDULE_LINE_H
 #include "schedule/place.h"
 
-double fw_line_fit(const fw_line *line, double t, double length);
-void fw_line_add(fw_line *line, double start, double end);    /* nothing for an empty span */
-void fw_line_remove(fw_line *line, double start, double end); /* what was added */
+double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);
+void fw_schedule_line_add(fw_schedule_line *line, double start,
+                          double end); /* nothing for an empty span */
+void fw_schedule_line_remove(fw_schedule_line *line, double start, double end); /* what was added */
 
 #endif

@@ -4,7 +4,7 @@
    start_j >= start_i + w. A least pause is an arc forwards, a longest one an arc backwards of
    negative weight. The network can be kept exactly when no cycle has a positive weight. */
 #include "schedule/schedule.h"
-#include "schedule/words.h"
+#include "schedule/schedule_words.h"
 #include <math.h>
 
 typedef struct arc {
@@ -13,17 +13,18 @@ typedef struct arc {
     double weight_s;
 } arc;
 
-static double lasts(const fw_shop *shop, int task, bool latest) {
+static double lasts(const fw_schedule_shop *shop, int task, bool latest) {
     return latest ? shop->task[task].latest_s : shop->task[task].duration_s;
 }
 
-static fw_status arcs_of(fw_arena *arena, const fw_shop *shop, bool latest, arc **list, int *n) {
+static fw_status arcs_of(fw_arena *arena, const fw_schedule_shop *shop, bool latest, arc **list,
+                         int *n) {
     FW_NEED(*list = fw_arena_array(arena, arc, (size_t)(shop->ntask + 2 * shop->nhold)));
     *n = 0;
     for (int i = 0; i + 1 < shop->ntask; i++)
         (*list)[(*n)++] = (arc){i, i + 1, -1, false, lasts(shop, i, latest)};
     for (int i = 0; i < shop->nhold; i++) {
-        const fw_hold *h = &shop->hold[i];
+        const fw_schedule_hold *h = &shop->hold[i];
         double p = lasts(shop, h->from, latest);
         if (h->min_s > 0.0) (*list)[(*n)++] = (arc){h->from, h->to, i, false, p + h->min_s};
         if (h->max_s < (double)INFINITY)
@@ -35,13 +36,13 @@ static fw_status arcs_of(fw_arena *arena, const fw_shop *shop, bool latest, arc 
 static void put_part(fw_text *out, const char *before, const char *id, const char *then,
                      double seconds) {
     fw_text_printf(out, "%s%s%s%s", out->length ? ", " : "", before, id, then);
-    fw_put_duration(out, seconds);
+    fw_schedule_put_duration(out, seconds);
 }
 
 /* The cycle in words, arcs in the order of the flow and a window's last: what must start soon
    enough, and what lies between. The own time of the step whose end opens a window stands in both
    and is left out. */
-static fw_status cycle_words(fw_arena *arena, const fw_shop *shop, const arc *list,
+static fw_status cycle_words(fw_arena *arena, const fw_schedule_shop *shop, const arc *list,
                              const int *cycle, int n, bool latest, const char **why) {
     fw_text windows = fw_text_new(arena), between = fw_text_new(arena), out = fw_text_new(arena);
     double needs = 0.0, allowed = 0.0;
@@ -50,11 +51,11 @@ static fw_status cycle_words(fw_arena *arena, const fw_shop *shop, const arc *li
         double own = lasts(shop, a->back ? a->to : a->from, latest);
         bool opens = before->back && !a->back; /* a leaves the step that opens the window */
         if (a->back) {
-            const fw_hold *h = &shop->hold[a->hold];
+            const fw_schedule_hold *h = &shop->hold[a->hold];
             allowed += h->max_s + (list[cycle[(i + 1) % n]].back ? own : 0.0);
             fw_text_printf(&windows, "%s%s must start within ", windows.length ? ", and " : "",
                            shop->task[h->to].id);
-            fw_put_duration(&windows, h->max_s);
+            fw_schedule_put_duration(&windows, h->max_s);
             fw_text_printf(&windows, " of the end of %s", shop->task[h->from].id);
             continue;
         }
@@ -67,9 +68,9 @@ static fw_status cycle_words(fw_arena *arena, const fw_shop *shop, const arc *li
     FW_TRY(fw_text_end(&windows));
     FW_TRY(fw_text_end(&between));
     fw_text_printf(&out, "%s, but what lies between takes ", windows.data);
-    fw_put_duration(&out, needs);
+    fw_schedule_put_duration(&out, needs);
     fw_text_printf(&out, " (%s): ", between.data);
-    fw_put_duration(&out, needs - allowed);
+    fw_schedule_put_duration(&out, needs - allowed);
     fw_text_add(&out, " too long");
     FW_TRY(fw_text_end(&out));
     *why = out.data;
@@ -101,7 +102,8 @@ static fw_status cycle_of(fw_arena *arena, const arc *list, const int *by, int n
 /* Bellman and Ford for longest paths from a source that reaches every node at 0. After n rounds a
    node that still rises is behind a positive cycle, which the arcs that raised it lead into. Cost:
    n rounds of at most n + 2 holds arcs, microseconds. Tests: test_network.c, windows, random. */
-fw_status fw_network_conflict(fw_arena *arena, const fw_shop *shop, bool latest, const char **why) {
+fw_status fw_schedule_network_conflict(fw_arena *arena, const fw_schedule_shop *shop, bool latest,
+                                       const char **why) {
     int n = shop->ntask, narc, risen = -1, length;
     arc *list;
     *why = NULL;
@@ -136,7 +138,8 @@ fw_status fw_network_conflict(fw_arena *arena, const fw_shop *shop, bool latest,
 /* pause_i = least upper bound of start_{i+1} - end_i: the shortest path i -> i+1 in the distance
    graph, which are the arcs turned round (Floyd and Warshall). Cost: n^3, below a millisecond for
    50 steps. Test: test_network.c, pauses. */
-fw_status fw_network_pauses(fw_arena *arena, const fw_shop *shop, double *pause_s) {
+fw_status fw_schedule_network_pauses(fw_arena *arena, const fw_schedule_shop *shop,
+                                     double *pause_s) {
     int n = shop->ntask, narc;
     arc *list;
     fw_mark mark = fw_arena_mark(arena);
@@ -162,8 +165,8 @@ fw_status fw_network_pauses(fw_arena *arena, const fw_shop *shop, double *pause_
 /* Least fixed point of start_i = fit(max(arcs into i)): every right side rises with the starts, so
    iterating from below ends at the earliest start of every task, or beyond all limits. With people
    there round the clock it is the longest path. Test: test_network.c, earliest. */
-fw_status fw_network_earliest(const fw_shop *shop, double start_s, double *earliest_s, bool *ok,
-                              int *failing) {
+fw_status fw_schedule_network_earliest(const fw_schedule_shop *shop, double start_s,
+                                       double *earliest_s, bool *ok, int *failing) {
     const double horizon_s = start_s + 400.0 * 86400.0;
     *failing = 0;
     for (int i = 0; i < shop->ntask; i++)
@@ -171,18 +174,18 @@ fw_status fw_network_earliest(const fw_shop *shop, double start_s, double *earli
     for (bool again = true; again;) {
         again = false;
         for (int i = 0; i < shop->ntask; i++) {
-            const fw_task *t = &shop->task[i];
+            const fw_schedule_task *t = &shop->task[i];
             double at = earliest_s[i];
             if (i > 0) at = fmax(at, earliest_s[i - 1] + shop->task[i - 1].duration_s);
             for (int k = 0; k < shop->nhold; k++) {
-                const fw_hold *h = &shop->hold[k];
+                const fw_schedule_hold *h = &shop->hold[k];
                 double end = earliest_s[h->from] + shop->task[h->from].duration_s;
                 if (h->to == i && h->min_s > 0.0) at = fmax(at, end + h->min_s);
                 if (h->from == i && h->max_s < (double)INFINITY)
                     at = fmax(at, earliest_s[h->to] - h->max_s - t->duration_s);
             }
             double there = t->by_day ? t->duration_s : t->attended_s;
-            if (there > 0.0) at = fw_calendar_fit(&shop->calendar, at, there);
+            if (there > 0.0) at = fw_schedule_calendar_fit(&shop->calendar, at, there);
             if (at <= earliest_s[i] + 1e-6) continue;
             earliest_s[i] = at;
             again = true;

@@ -6,54 +6,56 @@
 
 #define FW_TIE_S (4.0 * 3600.0) /* windows that are usually placed at once */
 
-typedef enum fw_rule {                            /* which unit is placed next */
-                       FW_RULE_EARLIEST_ADVANCED, /* starts first; of those the one furthest on */
-                       FW_RULE_EARLIEST_BEHIND,
-                       FW_RULE_EARLIEST_END,
-                       FW_RULE_EARLIEST_LONG,
-                       FW_RULE_WAFER, /* wafer by wafer */
-                       FW_RULE_STEP,  /* step by step */
-                       FW_RULE_LIST   /* least priority first */
-} fw_rule;
+typedef enum fw_schedule_rule {                            /* which unit is placed next */
+                                FW_RULE_EARLIEST_ADVANCED, /* starts first; of those the one
+                                                              furthest on */
+                                FW_RULE_EARLIEST_BEHIND,
+                                FW_RULE_EARLIEST_END,
+                                FW_RULE_EARLIEST_LONG,
+                                FW_RULE_WAFER, /* wafer by wafer */
+                                FW_RULE_STEP,  /* step by step */
+                                FW_RULE_LIST   /* least priority first */
+} fw_schedule_rule;
 enum { FW_RULES = FW_RULE_LIST };
-const char *fw_rule_text(fw_rule rule);
+const char *fw_schedule_rule_text(fw_schedule_rule rule);
 
-typedef struct fw_line {     /* what occupies a machine, or the operators */
-    double *start_s, *end_s; /* (n) by start */
-    double longest_s;        /* no span was ever longer */
+typedef struct fw_schedule_line { /* what occupies a machine, or the operators */
+    double *start_s, *end_s;      /* (n) by start */
+    double longest_s;             /* no span was ever longer */
     int n, places;
-} fw_line;
+} fw_schedule_line;
 
 /* A block is a row of tasks that tight windows tie together: its runs are placed at once, and
    shifted until every window holds. That finds a schedule where people and machines are short, but
    lets no other wafer in between, so that the search also tries without, and with all of them. A
    unit is a block, or one task, for a group of wafers. */
-typedef struct fw_group {
+typedef struct fw_schedule_group {
     int from, to;     /* tasks */
     int first, count; /* wafers */
     bool placed;
-} fw_group;
+} fw_schedule_group;
 
-typedef struct fw_placing {
-    const fw_shop *shop;
+typedef struct fw_schedule_placing {
+    const fw_schedule_shop *shop;
     double start_s;    /* of the schedule */
     double tie_s;      /* windows up to this tie tasks into a block */
     int *load;         /* (ntask) wafers of a run; lowered where windows do not allow so many */
     double *priority;  /* (ntask x wafers), for FW_RULE_LIST */
     double *release_s; /* (ntask x wafers) not before */
     double *begin_s, *finish_s; /* (ntask x wafers) what was placed */
-    fw_line *machine, people;
-    fw_group *unit;
-    fw_run *run; /* (nrun) in the order of placing */
-    int *next;   /* (wafers) first task that is not placed */
+    fw_schedule_line *machine, people;
+    fw_schedule_group *unit;
+    fw_schedule_run *run; /* (nrun) in the order of placing */
+    int *next;            /* (wafers) first task that is not placed */
     int nunit, nrun;
     int failed_from, failed_to; /* tasks at whose windows it failed last */
     long work;                  /* runs placed so far, also those that were undone */
     double makespan_s, sum_s;   /* of the last schedule; sum of the ends of all wafers */
-} fw_placing;
+} fw_schedule_placing;
 
-fw_status fw_placing_new(fw_arena *arena, const fw_shop *shop, fw_placing *p);
+fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
+                                  fw_schedule_placing *p);
 /* false: no schedule was found with this order (and no smaller loads) */
-bool fw_place_all(fw_placing *p, fw_rule rule);
+bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 
 #endif

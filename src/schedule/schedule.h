@@ -7,17 +7,18 @@
 #define FW_SCHEDULE_SCHEDULE_H
 #include "process/process.h"
 
-typedef struct fw_calendar { /* when people are there, in seconds of a day that starts at 0:00 */
-    double open_s, close_s;  /* 0 <= open < close <= 86400; 0 and 86400: round the clock */
-    bool weekends;           /* people come on days 6 and 7 too; day 1 is a Monday */
-} fw_calendar;
+typedef struct
+    fw_schedule_calendar {  /* when people are there, in seconds of a day that starts at 0:00 */
+    double open_s, close_s; /* 0 <= open < close <= 86400; 0 and 86400: round the clock */
+    bool weekends;          /* people come on days 6 and 7 too; day 1 is a Monday */
+} fw_schedule_calendar;
 
-typedef struct fw_machine { /* takes one load at a time, or so many wafers on their own */
+typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
     const char *id, *title;
     int places;
-} fw_machine;
+} fw_schedule_machine;
 
-typedef struct fw_task { /* a step of the flow as it is planned */
+typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     const char *id, *title;
     int machine;
     double duration_s; /* planned time, at least attended_s */
@@ -29,39 +30,39 @@ typedef struct fw_task { /* a step of the flow as it is planned */
     bool by_day;       /* the whole run inside the working day: nobody may be alone with it */
     bool unknown;      /* no time is known: counted with attended_s only */
     bool stated;       /* the time is the user's planning time */
-} fw_task;
+} fw_schedule_task;
 
-typedef struct fw_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
-    int from, to;        /* tasks */
-    double min_s, max_s; /* -INFINITY, INFINITY: none */
-    bool implied;        /* not of the pack: two steps that nobody does alone, on the same day */
-} fw_hold;
+typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
+    int from, to;                 /* tasks */
+    double min_s, max_s;          /* -INFINITY, INFINITY: none */
+    bool implied; /* not of the pack: two steps that nobody does alone, on the same day */
+} fw_schedule_hold;
 
-typedef struct fw_shop { /* the problem */
-    const fw_task *task;
-    const fw_hold *hold;
-    const fw_machine *machine;
+typedef struct fw_schedule_shop { /* the problem */
+    const fw_schedule_task *task;
+    const fw_schedule_hold *hold;
+    const fw_schedule_machine *machine;
     int ntask, nhold, nmachine;
     int wafers, operators;
-    fw_calendar calendar;
-} fw_shop;
+    fw_schedule_calendar calendar;
+} fw_schedule_shop;
 
-typedef enum fw_wait { /* what a run waited for last */
-                       FW_WAIT_NOTHING,
-                       FW_WAIT_FLOW,     /* the step before, or a hold's least time */
-                       FW_WAIT_MACHINE,  /* another load */
-                       FW_WAIT_OPERATOR, /* all were busy */
-                       FW_WAIT_DAY,      /* the working day */
-                       FW_WAIT_HOLD      /* it would have opened a window too early */
-} fw_wait;
-const char *fw_wait_text(fw_wait wait);
+typedef enum fw_schedule_wait { /* what a run waited for last */
+                                FW_WAIT_NOTHING,
+                                FW_WAIT_FLOW,     /* the step before, or a hold's least time */
+                                FW_WAIT_MACHINE,  /* another load */
+                                FW_WAIT_OPERATOR, /* all were busy */
+                                FW_WAIT_DAY,      /* the working day */
+                                FW_WAIT_HOLD      /* it would have opened a window too early */
+} fw_schedule_wait;
+const char *fw_schedule_wait_text(fw_schedule_wait wait);
 
-typedef struct fw_run {     /* one load of one step */
-    int task, first, count; /* wafers first ... first + count - 1, from 0 */
-    double start_s, end_s;  /* from 0:00 of the first day */
-    int operator_;          /* from 0; -1: unattended */
-    fw_wait waits_for;
-} fw_run;
+typedef struct fw_schedule_run { /* one load of one step */
+    int task, first, count;      /* wafers first ... first + count - 1, from 0 */
+    double start_s, end_s;       /* from 0:00 of the first day */
+    int operator_;               /* from 0; -1: unattended */
+    fw_schedule_wait waits_for;
+} fw_schedule_run;
 
 typedef struct fw_schedule_bound { /* no schedule can end earlier, after the first start */
     double path_s;                 /* of one wafer alone, with its holds and the working day */
@@ -72,13 +73,13 @@ typedef struct fw_schedule_bound { /* no schedule can end earlier, after the fir
 } fw_schedule_bound;
 
 typedef struct fw_schedule {
-    const fw_shop *shop;
+    const fw_schedule_shop *shop;
     bool feasible;
-    const char *why;       /* when not feasible: the chain, or what was not found */
-    const fw_run *run;     /* (nrun) by start */
-    const double *pause_s; /* (ntask) longest pause allowed after a task; INFINITY: any */
-    int nrun, unknown;     /* unknown: tasks without a time */
-    double start_s;        /* of the working day: where makespan and bounds count from */
+    const char *why;            /* when not feasible: the chain, or what was not found */
+    const fw_schedule_run *run; /* (nrun) by start */
+    const double *pause_s;      /* (ntask) longest pause allowed after a task; INFINITY: any */
+    int nrun, unknown;          /* unknown: tasks without a time */
+    double start_s;             /* of the working day: where makespan and bounds count from */
     double makespan_s;
     fw_schedule_bound bound;
     double gap;       /* makespan/bound - 1 */
@@ -96,36 +97,42 @@ typedef struct fw_schedule_options {
 } fw_schedule_options;
 
 /* "08:00-18:00" or "none"; false: it is neither */
-bool fw_calendar_parse(const char *text, fw_calendar *calendar);
+bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
 /* the shop of a computed flow. FW_USAGE with FW-D199 for options that do not fit */
-fw_status fw_schedule_shop(fw_arena *arena, const fw_flow *flow, const fw_schedule_options *options,
-                           fw_diags *diags, const fw_shop **shop);
+fw_status fw_schedule_shop_of(fw_arena *arena, const fw_process_flow *flow,
+                              const fw_schedule_options *options, fw_diags *diags,
+                              const fw_schedule_shop **shop);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
-fw_status fw_schedule_solve(fw_arena *arena, const fw_shop *shop, int effort,
+fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                             fw_schedule *schedule);
 /* both; FW-D196 and FW-D197 warn when there is none */
-fw_status fw_schedule_make(fw_arena *arena, const fw_flow *flow, const fw_schedule_options *options,
-                           fw_diags *diags, const fw_schedule **schedule);
+fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
+                           const fw_schedule_options *options, fw_diags *diags,
+                           const fw_schedule **schedule);
 
 /* ---- the temporal network of one wafer, without machines and people ---- */
 
 /* NULL: the holds fit together. Otherwise the chain that does not, in words. latest: with the times
    at which the steps must stop instead of the planned ones. */
-fw_status fw_network_conflict(fw_arena *arena, const fw_shop *shop, bool latest, const char **why);
+fw_status fw_schedule_network_conflict(fw_arena *arena, const fw_schedule_shop *shop, bool latest,
+                                       const char **why);
 /* longest pause between the end of each task and the start of the next (ntask); the network must be
    free of conflict */
-fw_status fw_network_pauses(fw_arena *arena, const fw_shop *shop, double *pause_s);
+fw_status fw_schedule_network_pauses(fw_arena *arena, const fw_schedule_shop *shop,
+                                     double *pause_s);
 /* earliest start of every task (ntask) of a wafer alone in the shop, from start_s on, with the
    working day. *ok false: it never fits (the task at which it fails is in *failing) */
-fw_status fw_network_earliest(const fw_shop *shop, double start_s, double *earliest_s, bool *ok,
-                              int *failing);
+fw_status fw_schedule_network_earliest(const fw_schedule_shop *shop, double start_s,
+                                       double *earliest_s, bool *ok, int *failing);
 
 /* ---- the working day ---- */
 
 /* earliest t >= from such that people are there from t to t + length; INFINITY: never */
-double fw_calendar_fit(const fw_calendar *calendar, double from_s, double length_s);
+double fw_schedule_calendar_fit(const fw_schedule_calendar *calendar, double from_s,
+                                double length_s);
 /* earliest time by which people have been there for work_s since from_s */
-double fw_calendar_worked(const fw_calendar *calendar, double from_s, double work_s);
-bool fw_calendar_round(const fw_calendar *calendar); /* round the clock */
+double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double from_s,
+                                   double work_s);
+bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
 
 #endif

@@ -16,19 +16,19 @@ static const double ties_s[] = {FW_TIE_S, (double)INFINITY, -1.0};
 enum { TIES = sizeof ties_s / sizeof ties_s[0] };
 
 typedef struct best {
-    fw_run *run;
+    fw_schedule_run *run;
     double *priority; /* (ntask x wafers) starts */
     int *load;
     int nrun;
     double makespan_s, sum_s;
-    fw_rule rule;
+    fw_schedule_rule rule;
     double tie_s;
     bool any;
 } best;
 
 typedef struct search {
-    const fw_shop *shop;
-    fw_placing placing;
+    const fw_schedule_shop *shop;
+    fw_schedule_placing placing;
     best best;
     uint64_t state;
     double bound_s;
@@ -55,10 +55,10 @@ static bool done(const search *s) {
     return s->best.any && s->best.makespan_s <= s->bound_s * (1.0 + 1e-9) + 1e-6;
 }
 
-static bool try_rule(search *s, fw_rule rule) {
-    fw_placing *p = &s->placing;
+static bool try_rule(search *s, fw_schedule_rule rule) {
+    fw_schedule_placing *p = &s->placing;
     best *b = &s->best;
-    if (!fw_place_all(p, rule)) return false;
+    if (!fw_schedule_place_all(p, rule)) return false;
     if (b->any && (p->makespan_s > b->makespan_s + 1e-6 ||
                    (p->makespan_s > b->makespan_s - 1e-6 && p->sum_s > b->sum_s + 1e-6)))
         return false;
@@ -76,8 +76,8 @@ static bool try_rule(search *s, fw_rule rule) {
 
 /* a few wafers earlier or later at a step, and perhaps in all that follows; or another load */
 static void change(search *s) {
-    const fw_shop *shop = s->shop;
-    fw_placing *p = &s->placing;
+    const fw_schedule_shop *shop = s->shop;
+    fw_schedule_placing *p = &s->placing;
     int changes = 1 + below(s, 3), batch = below(s, shop->ntask);
     double size = s->best.makespan_s * (uniform(s) < 0.5 ? 0.05 : 0.3);
     for (int i = 0; i < changes; i++) {
@@ -87,7 +87,7 @@ static void change(search *s) {
         for (int k = task; k <= last; k++)
             p->priority[k * shop->wafers + wafer] += by;
     }
-    const fw_task *t = &shop->task[batch];
+    const fw_schedule_task *t = &shop->task[batch];
     if (!t->lot && t->load > 1 && uniform(s) < 0.5) {
         int most = t->load < shop->wafers ? t->load : shop->wafers;
         p->load[batch] = 1 + below(s, most);
@@ -95,7 +95,7 @@ static void change(search *s) {
 }
 
 static void improve(search *s, int effort) {
-    fw_placing *p = &s->placing;
+    fw_schedule_placing *p = &s->placing;
     const size_t loads = (size_t)s->shop->ntask * sizeof *p->load;
     const long most = p->work + MOST_WORK;
     for (int i = 0; i < effort && p->work < most && !done(s); i++) {
@@ -108,26 +108,27 @@ static void improve(search *s, int effort) {
 }
 
 static fw_status room(fw_arena *arena, search *s) {
-    FW_TRY(fw_placing_new(arena, s->shop, &s->placing));
-    FW_NEED(s->best.run = fw_arena_array(arena, fw_run, cells(s)));
+    FW_TRY(fw_schedule_placing_new(arena, s->shop, &s->placing));
+    FW_NEED(s->best.run = fw_arena_array(arena, fw_schedule_run, cells(s)));
     FW_NEED(s->best.priority = fw_arena_array(arena, double, cells(s)));
     FW_NEED(s->best.load = fw_arena_array(arena, int, (size_t)s->shop->ntask));
     return FW_OK;
 }
 
 static int by_start(const void *a, const void *b) {
-    const fw_run *r = a, *s = b;
+    const fw_schedule_run *r = a, *s = b;
     int order = fw_order_doubles(r->start_s, s->start_s);
     if (!order) order = fw_order_wholes(r->task, s->task);
     return order ? order : fw_order_wholes(r->first, s->first);
 }
 
 /* spans that overlap at most K times can always be given to K people, first come first served */
-static fw_status name_operators(fw_arena *arena, const fw_shop *shop, fw_run *run, int n) {
+static fw_status name_operators(fw_arena *arena, const fw_schedule_shop *shop, fw_schedule_run *run,
+                                int n) {
     double *free_s = fw_arena_array(arena, double, (size_t)shop->operators);
     FW_NEED(free_s);
     for (int i = 0; i < n; i++) {
-        const fw_task *t = &shop->task[run[i].task];
+        const fw_schedule_task *t = &shop->task[run[i].task];
         if (!(t->attended_s > 0.0)) continue;
         int who = 0;
         while (who < shop->operators - 1 && free_s[who] > run[i].start_s + 2e-6)
@@ -138,24 +139,25 @@ static fw_status name_operators(fw_arena *arena, const fw_shop *shop, fw_run *ru
     return FW_OK;
 }
 
-static int usual_effort(const fw_shop *shop) {
+static int usual_effort(const fw_schedule_shop *shop) {
     int runs = shop->ntask * shop->wafers;
     int n = shop->wafers == 1 ? 100 : 250000 / (runs > 0 ? runs : 1);
     return n > 4000 ? 4000 : n;
 }
 
-static fw_status solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
+static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
+                       fw_schedule *out) {
     search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
     FW_TRY(room(arena, &s));
     for (int r = 0; r < TIES * FW_RULES && !done(&s); r++) {
         s.placing.tie_s = ties_s[r / FW_RULES];
         for (int i = 0; i < shop->ntask; i++)
             s.placing.load[i] = shop->task[i].load;
-        try_rule(&s, (fw_rule)(r % FW_RULES));
+        try_rule(&s, (fw_schedule_rule)(r % FW_RULES));
     }
     if (!s.best.any) {
-        const fw_task *from = &shop->task[s.placing.failed_from],
-                      *to = &shop->task[s.placing.failed_to];
+        const fw_schedule_task *from = &shop->task[s.placing.failed_from],
+                               *to = &shop->task[s.placing.failed_to];
         FW_NEED(
             out->why = fw_arena_printf(
                 arena,
@@ -166,7 +168,7 @@ static fw_status solve(fw_arena *arena, const fw_shop *shop, int effort, fw_sche
     }
     improve(&s, effort > 0 ? effort : usual_effort(shop));
     out->feasible = true;
-    out->rule = fw_rule_text(s.best.rule);
+    out->rule = fw_schedule_rule_text(s.best.rule);
     out->nrun = s.best.nrun;
     out->makespan_s = s.best.makespan_s;
     out->optimal = done(&s);
@@ -178,11 +180,11 @@ static fw_status solve(fw_arena *arena, const fw_shop *shop, int effort, fw_sche
 }
 
 /* NULL, or why nobody can ever stand there long enough */
-static const char *day_too_short(fw_arena *arena, const fw_shop *shop) {
+static const char *day_too_short(fw_arena *arena, const fw_schedule_shop *shop) {
     for (int i = 0; i < shop->ntask; i++) {
-        const fw_task *t = &shop->task[i];
+        const fw_schedule_task *t = &shop->task[i];
         double there = t->by_day ? t->duration_s : t->attended_s;
-        if (isfinite(fw_calendar_fit(&shop->calendar, 0.0, there))) continue;
+        if (isfinite(fw_schedule_calendar_fit(&shop->calendar, 0.0, there))) continue;
         fw_text text = fw_text_new(arena);
         fw_text_printf(&text, "%s %s longer than the working day", t->id,
                        t->by_day ? "must not run without people, and takes" : "needs somebody for");
@@ -191,7 +193,8 @@ static const char *day_too_short(fw_arena *arena, const fw_shop *shop) {
     return NULL;
 }
 
-fw_status fw_schedule_solve(fw_arena *arena, const fw_shop *shop, int effort, fw_schedule *out) {
+fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
+                            fw_schedule *out) {
     *out = (fw_schedule){.shop = shop, .start_s = shop->calendar.open_s};
     if (shop->wafers > MOST_WAFERS || shop->operators > MOST_OPERATORS) return FW_LIMIT;
     if (shop->ntask > MOST_TASKS) {
@@ -201,25 +204,25 @@ fw_status fw_schedule_solve(fw_arena *arena, const fw_shop *shop, int effort, fw
     }
     for (int i = 0; i < shop->ntask; i++)
         out->unknown += shop->task[i].unknown;
-    FW_TRY(fw_network_conflict(arena, shop, false, &out->why));
+    FW_TRY(fw_schedule_network_conflict(arena, shop, false, &out->why));
     if (out->why) return FW_OK;
     double *pause_s = fw_arena_array(arena, double, (size_t)shop->ntask);
     double *earliest_s = fw_arena_array(arena, double, (size_t)shop->ntask);
     FW_NEED(pause_s ? earliest_s : NULL);
-    FW_TRY(fw_network_conflict(arena, shop, true, &out->late));
-    FW_TRY(fw_network_pauses(arena, shop, pause_s));
+    FW_TRY(fw_schedule_network_conflict(arena, shop, true, &out->late));
+    FW_TRY(fw_schedule_network_pauses(arena, shop, pause_s));
     out->pause_s = pause_s;
     out->why = day_too_short(arena, shop);
     if (out->why) return FW_OK;
     bool ok;
     int failing;
-    FW_TRY(fw_network_earliest(shop, out->start_s, earliest_s, &ok, &failing));
+    FW_TRY(fw_schedule_network_earliest(shop, out->start_s, earliest_s, &ok, &failing));
     if (!ok) {
         FW_NEED(out->why = fw_arena_printf(
                     arena, "the windows about %s (%s) cannot be kept within the working day",
                     shop->task[failing].id, shop->task[failing].title));
         return FW_OK;
     }
-    fw_bounds(shop, earliest_s, out->start_s, &out->bound);
+    fw_schedule_bounds(shop, earliest_s, out->start_s, &out->bound);
     return solve(arena, shop, effort, out);
 }

@@ -8,47 +8,47 @@ enum { ONCE_PER_LOT = 99 }; /* batch of a pack */
 
 typedef struct making {
     fw_arena *arena;
-    const fw_flow *flow;
+    const fw_process_flow *flow;
     fw_diags *diags;
-    fw_task *task;
-    fw_machine *machine;
-    fw_shop *shop;
+    fw_schedule_task *task;
+    fw_schedule_machine *machine;
+    fw_schedule_shop *shop;
 } making;
 
-static int step_index(const fw_flow *flow, const char *id, size_t n) {
+static int step_index(const fw_process_flow *flow, const char *id, size_t n) {
     for (int i = 0; i < flow->nstep; i++)
         if (strlen(flow->step[i].id) == n && strncmp(flow->step[i].id, id, n) == 0) return i;
     return -1;
 }
 
-static int machine_of(making *m, const fw_step *s) {
+static int machine_of(making *m, const fw_process_step *s) {
     const char *id = s->equipment ? s->equipment->id : "",
                *title = s->equipment ? s->equipment->class_ : "no equipment named";
     for (int i = 0; i < m->shop->nmachine; i++)
         if (strcmp(m->machine[i].id, id) == 0) return i;
-    m->machine[m->shop->nmachine] = (fw_machine){id, title, 1};
+    m->machine[m->shop->nmachine] = (fw_schedule_machine){id, title, 1};
     return m->shop->nmachine++;
 }
 
-static bool never_alone(const fw_step *s) {
+static bool never_alone(const fw_process_step *s) {
     for (int i = 0; i < s->nhazard; i++)
         if (s->hazard[i]->buddy) return true;
     return false;
 }
 
 static void make_task(making *m, int index) {
-    const fw_step *s = &m->flow->step[index];
-    fw_task *t = &m->task[index];
+    const fw_process_step *s = &m->flow->step[index];
+    fw_schedule_task *t = &m->task[index];
     int capacity = s->equipment && s->equipment->capacity > 0 ? s->equipment->capacity : 1;
-    *t = (fw_task){.id = s->id,
-                   .title = s->title,
-                   .machine = machine_of(m, s),
-                   .attended_s = s->attended_s,
-                   .duration_s = s->attended_s,
-                   .latest_s = s->attended_s,
-                   .lot = s->batch >= ONCE_PER_LOT,
-                   .by_day = never_alone(s),
-                   .unknown = !s->time.computable};
+    *t = (fw_schedule_task){.id = s->id,
+                            .title = s->title,
+                            .machine = machine_of(m, s),
+                            .attended_s = s->attended_s,
+                            .duration_s = s->attended_s,
+                            .latest_s = s->attended_s,
+                            .lot = s->batch >= ONCE_PER_LOT,
+                            .by_day = never_alone(s),
+                            .unknown = !s->time.computable};
     t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
     t->load = t->alone ? 1 : t->lot ? m->shop->wafers : s->batch < capacity ? s->batch : capacity;
     t->load = t->load < 1 ? 1 : t->load > m->shop->wafers ? m->shop->wafers : t->load;
@@ -77,15 +77,15 @@ static fw_status planned_one(making *m, const char *part, size_t n) {
         unit_text++;
     int step = step_index(m->flow, part, (size_t)(equals - part));
     if (step < 0) return FW_OK; /* of another flow: looked at by fw_schedule_make's caller */
-    fw_unit unit;
+    fw_quantity_unit unit;
     double value;
     if (!fw_number_parse(number, digits, &value) || !(value >= 0.0) ||
-        !fw_unit_parse(unit_text, (size_t)(end - unit_text), &unit, NULL, NULL) ||
+        !fw_quantity_unit_parse(unit_text, (size_t)(end - unit_text), &unit, NULL, NULL) ||
 
-        !fw_dimension_equal(unit.dimension, (fw_dimension){.s = 1}))
+        !fw_quantity_dimension_equal(unit.dimension, (fw_quantity_dimension){.s = 1}))
         return wrong(m, part, n, "is not a time with its unit, for example S03=90 min");
-    double seconds = fw_unit_to_si(&unit, value);
-    fw_task *t = &m->task[step];
+    double seconds = fw_quantity_unit_to_si(&unit, value);
+    fw_schedule_task *t = &m->task[step];
     if (!(seconds <= 30.0 * 86400.0)) return wrong(m, part, n, "is longer than 30 days");
     t->duration_s = t->latest_s = fmax(seconds, t->attended_s);
     t->unknown = false;
@@ -104,46 +104,49 @@ static fw_status planned(making *m, const char *list) {
 
 /* a pause this long is never over night */
 static double same_day_s(const making *m) {
-    const fw_calendar *c = &m->shop->calendar;
-    return fw_calendar_round(c) ? 8.0 * 3600.0 : 86400.0 - (c->close_s - c->open_s) - 1.0;
+    const fw_schedule_calendar *c = &m->shop->calendar;
+    return fw_schedule_calendar_round(c) ? 8.0 * 3600.0 : 86400.0 - (c->close_s - c->open_s) - 1.0;
 }
 
-static fw_status make_holds(making *m, fw_hold **list) {
+static fw_status make_holds(making *m, fw_schedule_hold **list) {
     int n = m->flow->nstep;
     for (int i = 0; i < m->flow->nstep; i++)
         n += m->flow->step[i].nlag;
-    FW_NEED(*list = fw_arena_array(m->arena, fw_hold, (size_t)n));
+    FW_NEED(*list = fw_arena_array(m->arena, fw_schedule_hold, (size_t)n));
     for (int i = 0; i < m->flow->nstep; i++)
         for (int k = 0; k < m->flow->step[i].nlag; k++) {
-            const fw_lag *lag = &m->flow->step[i].lag[k];
+            const fw_process_lag *lag = &m->flow->step[i].lag[k];
             int from = step_index(m->flow, lag->from, strlen(lag->from));
             if (from < 0) continue; /* the pack was refused for it */
             (*list)[m->shop->nhold++] =
-                (fw_hold){from, i, isnan(lag->min_s) ? -(double)INFINITY : lag->min_s,
-                          isnan(lag->max_s) ? (double)INFINITY : lag->max_s, false};
+                (fw_schedule_hold){from, i, isnan(lag->min_s) ? -(double)INFINITY : lag->min_s,
+                                   isnan(lag->max_s) ? (double)INFINITY : lag->max_s, false};
         }
     for (int i = 0; i + 1 < m->flow->nstep; i++)
         if (m->task[i].by_day && m->task[i + 1].by_day)
-            (*list)[m->shop->nhold++] = (fw_hold){i, i + 1, -(double)INFINITY, same_day_s(m), true};
+            (*list)[m->shop->nhold++] =
+                (fw_schedule_hold){i, i + 1, -(double)INFINITY, same_day_s(m), true};
     return FW_OK;
 }
 
-fw_status fw_schedule_shop(fw_arena *arena, const fw_flow *flow, const fw_schedule_options *options,
-                           fw_diags *diags, const fw_shop **shop) {
+fw_status fw_schedule_shop_of(fw_arena *arena, const fw_process_flow *flow,
+                              const fw_schedule_options *options, fw_diags *diags,
+                              const fw_schedule_shop **shop) {
     making m = {.arena = arena, .flow = flow, .diags = diags};
-    fw_hold *hold;
-    FW_NEED(m.shop = fw_arena_one(arena, fw_shop));
+    fw_schedule_hold *hold;
+    FW_NEED(m.shop = fw_arena_one(arena, fw_schedule_shop));
     m.shop->wafers = options->wafers > 0 ? options->wafers : 1;
     m.shop->operators = options->operators > 0 ? options->operators : 1;
-    if (!fw_calendar_parse(options->day ? options->day : FW_WORKING_DAY, &m.shop->calendar)) {
+    if (!fw_schedule_calendar_parse(options->day ? options->day : FW_WORKING_DAY,
+                                    &m.shop->calendar)) {
         fw_diag_error(diags, 199, (fw_place){0},
                       "working day '%s' is not like 08:00-18:00, or none for round the clock",
                       options->day);
         return FW_USAGE;
     }
     m.shop->ntask = flow->nstep;
-    FW_NEED(m.task = fw_arena_array(arena, fw_task, (size_t)flow->nstep));
-    FW_NEED(m.machine = fw_arena_array(arena, fw_machine, (size_t)flow->nstep));
+    FW_NEED(m.task = fw_arena_array(arena, fw_schedule_task, (size_t)flow->nstep));
+    FW_NEED(m.machine = fw_arena_array(arena, fw_schedule_machine, (size_t)flow->nstep));
     for (int i = 0; i < flow->nstep; i++)
         make_task(&m, i);
     FW_TRY(planned(&m, options->planned));
@@ -155,13 +158,14 @@ fw_status fw_schedule_shop(fw_arena *arena, const fw_flow *flow, const fw_schedu
     return FW_OK;
 }
 
-fw_status fw_schedule_make(fw_arena *arena, const fw_flow *flow, const fw_schedule_options *options,
-                           fw_diags *diags, const fw_schedule **schedule) {
-    const fw_shop *shop;
+fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
+                           const fw_schedule_options *options, fw_diags *diags,
+                           const fw_schedule **schedule) {
+    const fw_schedule_shop *shop;
     fw_schedule *s = fw_arena_one(arena, fw_schedule);
     FW_NEED(s);
     *schedule = s;
-    FW_TRY(fw_schedule_shop(arena, flow, options, diags, &shop));
+    FW_TRY(fw_schedule_shop_of(arena, flow, options, diags, &shop));
     FW_TRY(fw_schedule_solve(arena, shop, options->effort, s));
     if (!s->feasible && !s->pause_s)
         fw_diag_warning(diags, 196, flow->place, "flow '%s' cannot be run as it is written: %s",
@@ -171,7 +175,7 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_flow *flow, const fw_schedu
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-const char *fw_wait_text(fw_wait wait) {
+const char *fw_schedule_wait_text(fw_schedule_wait wait) {
     static const char *const text[] = {"nothing",  "flow",        "machine",
                                        "operator", "working day", "hold window"};
     return text[wait];

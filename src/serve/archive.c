@@ -11,7 +11,7 @@
 
 enum { DOS_DATE_1980_01_01 = (1 << 5) | 1, PLAIN_FILE = 0100644 };
 
-static bool add(zip_t *zip, const fw_job_file *file) {
+static bool add(zip_t *zip, const fw_serve_job_file *file) {
     char path[4200];
     if (snprintf(path, sizeof path, "out/%s", file->path) >= (int)sizeof path) return false;
     zip_source_t *source = zip_source_file(zip, path, 0, -1);
@@ -28,11 +28,11 @@ static bool add(zip_t *zip, const fw_job_file *file) {
                                             (zip_uint32_t)PLAIN_FILE << 16) == 0;
 }
 
-int fw_archive_main(void) {
+int fw_serve_archive_main(void) {
     fw_arena *arena = fw_arena_new(0);
-    fw_job job = {.arena = arena, .fd = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    fw_serve_job job = {.arena = arena, .fd = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
     zip_t *zip = NULL;
-    bool ok = arena && job.fd >= 0 && fw_job_list(&job) == FW_OK;
+    bool ok = arena && job.fd >= 0 && fw_serve_job_list(&job) == FW_OK;
     if (ok) zip = zip_open("archive.tmp", ZIP_CREATE | ZIP_TRUNCATE, NULL);
     ok = zip != NULL;
     for (size_t i = 0; ok && i < job.files; i++)

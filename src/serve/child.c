@@ -22,7 +22,7 @@ static int limit(unsigned which, uint64_t value) {
     return setrlimit(which, &r);
 }
 
-static int limit_all(const fw_child_limits *l) {
+static int limit_all(const fw_serve_child_limits *l) {
 #ifndef SANITIZED
     if (limit(RLIMIT_AS, l->memory_bytes) != 0 || limit(RLIMIT_FSIZE, l->file_bytes) != 0)
         return -1;
@@ -41,7 +41,7 @@ static int place(int fd, int to) {
 }
 
 /* the descriptors first out of the way of 0..3, then into place; all others are closed */
-static int place_all(const fw_child_plan *p) {
+static int place_all(const fw_serve_child_plan *p) {
     int fd[4] = {p->in, p->out, p->err < 0 ? 2 : p->err, p->channel};
     for (int i = 0; i < 4; i++)
         if (fd[i] >= 0 && (fd[i] = fcntl(fd[i], F_DUPFD_CLOEXEC, 10)) < 0) return -1;
@@ -52,7 +52,7 @@ static int place_all(const fw_child_plan *p) {
 }
 
 /* in the new process, between fork and exec; the server has one thread, so no lock can be held */
-static void become(const fw_child_plan *p, pid_t server) {
+static void become(const fw_serve_child_plan *p, pid_t server) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
@@ -64,7 +64,7 @@ static void become(const fw_child_plan *p, pid_t server) {
     execv("/proc/self/exe", (char *const *)(uintptr_t)p->argv);
 }
 
-pid_t fw_child_start(const fw_child_plan *plan) {
+pid_t fw_serve_child_start(const fw_serve_child_plan *plan) {
     pid_t server = getpid(), pid = fork();
     if (pid == 0) {
         become(plan, server);
@@ -74,12 +74,12 @@ pid_t fw_child_start(const fw_child_plan *plan) {
     return pid;
 }
 
-int fw_child_ended(pid_t pid, int *status) {
+int fw_serve_child_ended(pid_t pid, int *status) {
     pid_t got = waitpid(pid, status, WNOHANG);
     return got == pid || (got < 0 && errno == ECHILD);
 }
 
-void fw_child_kill(pid_t pid) {
+void fw_serve_child_kill(pid_t pid) {
     if (pid <= 0) return;
     kill(-pid, SIGKILL);
     kill(pid, SIGKILL);

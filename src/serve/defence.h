@@ -7,7 +7,7 @@
 #ifndef FW_SERVE_DEFENCE_H
 #define FW_SERVE_DEFENCE_H
 
-enum fw_defence {
+enum fw_serve_defence {
     FW_DEFENCE_NONE,
     FW_DEFENCE_HOST,
     FW_DEFENCE_ORIGIN,

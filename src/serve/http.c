@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is guard.c's, what is
+/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is serve_guard.c's, what
+   is
    answered the rows' of routes.c. Never more than one thread: the daemons have none, server.c runs
    them. */
 #include "serve/defence.h"
@@ -26,7 +27,7 @@ typedef struct header_row {
     size_t offset;
 } header_row;
 #define FACT(name_, field_)                                                                        \
-    { .name = (name_), .offset = offsetof(fw_guard_facts, field_) }
+    { .name = (name_), .offset = offsetof(fw_serve_guard_facts, field_) }
 static const header_row headers[] = {
     FACT("Host", host),
     FACT("Origin", origin),
@@ -41,7 +42,7 @@ static const header_row headers[] = {
 static enum MHD_Result one_header(void *context, enum MHD_ValueKind kind, const char *name,
                                   const char *value) {
     (void)kind;
-    fw_guard_facts *facts = context;
+    fw_serve_guard_facts *facts = context;
     facts->seen_bytes += strlen(name) + 2 + (value ? strlen(value) : 0) + 2;
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) {
         if (strcasecmp(name, headers[i].name) != 0) continue;
@@ -55,7 +56,7 @@ static enum MHD_Result one_header(void *context, enum MHD_ValueKind kind, const 
 static enum MHD_Result one_argument(void *context, enum MHD_ValueKind kind, const char *name,
                                     const char *value) {
     (void)kind;
-    fw_guard_facts *facts = context;
+    fw_serve_guard_facts *facts = context;
     if (facts->query) facts->repeated = true; /* one argument at most */
     facts->query = true;
     facts->seen_bytes += 1 + strlen(name) + (value ? 1 + strlen(value) : 0);
@@ -63,7 +64,7 @@ static enum MHD_Result one_argument(void *context, enum MHD_ValueKind kind, cons
     return MHD_YES;
 }
 
-/* nothing is decoded: see plain_path in guard.c */
+/* nothing is decoded: see plain_path in serve_guard.c */
 static size_t as_it_is(void *context, struct MHD_Connection *connection, char *text) {
     (void)context, (void)connection;
     return strlen(text);
@@ -71,41 +72,41 @@ static size_t as_it_is(void *context, struct MHD_Connection *connection, char *t
 
 /* ---- a request ---- */
 
-static fw_connection *slot_of(struct MHD_Connection *mhd) {
+static fw_serve_connection *slot_of(struct MHD_Connection *mhd) {
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
     return info ? info->socket_context : NULL;
 }
 
-static void phase(fw_connection *slot, fw_phase next) {
+static void phase(fw_serve_connection *slot, fw_serve_phase next) {
     if (!slot) return;
     slot->phase = next;
     slot->since_ms = fw_serve_now_ms();
 }
 
-static enum MHD_Result send_reply(fw_request *r, struct MHD_Connection *mhd) {
+static enum MHD_Result send_reply(fw_serve_request *r, struct MHD_Connection *mhd) {
     phase(r->connection, r->stream ? FW_STREAMING : FW_SENDING);
-    return fw_reply_queue(r, mhd);
+    return fw_serve_reply_queue(r, mhd);
 }
 
-static fw_request *request_new(fw_server *server, struct MHD_Connection *mhd) {
+static fw_serve_request *request_new(fw_serve_server *server, struct MHD_Connection *mhd) {
     fw_arena *arena = fw_arena_new(REQUEST_CAP);
-    fw_request *r = arena ? fw_arena_one(arena, fw_request) : NULL;
+    fw_serve_request *r = arena ? fw_arena_one(arena, fw_serve_request) : NULL;
     if (!r) {
         fw_arena_free(arena);
         return NULL;
     }
-    *r = (fw_request){.server = server, .arena = arena, .connection = slot_of(mhd)};
+    *r = (fw_serve_request){.server = server, .arena = arena, .connection = slot_of(mhd)};
     r->reply.fd = -1;
     if (r->connection) r->connection->request = r;
     return r;
 }
 
 /* the head is there: may it go on, and where to? Fills the reply when not. */
-static void admit(fw_request *r, struct MHD_Connection *mhd, const char *path, const char *method,
-                  const char *version) {
-    fw_guard *guard = &r->server->guard;
-    fw_guard_facts facts = {.version = version, .method = method, .path = path};
+static void admit(fw_serve_request *r, struct MHD_Connection *mhd, const char *path,
+                  const char *method, const char *version) {
+    fw_serve_guard *guard = &r->server->guard;
+    fw_serve_guard_facts facts = {.version = version, .method = method, .path = path};
     MHD_get_connection_values(mhd, MHD_HEADER_KIND, one_header, &facts);
     MHD_get_connection_values(mhd, MHD_GET_ARGUMENT_KIND, one_argument, &facts);
     /* "GET /path HTTP/1.1" with its two spaces and line end, and the empty line */
@@ -113,39 +114,39 @@ static void admit(fw_request *r, struct MHD_Connection *mhd, const char *path, c
     const union MHD_ConnectionInfo *info =
         MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_REQUEST_HEADER_SIZE);
     facts.head_bytes = info ? info->header_size : SIZE_MAX;
-    fw_refusal refusal = fw_guard_check(guard, &facts);
+    fw_serve_refusal refusal = fw_serve_guard_check(guard, &facts);
     r->reply.close = true; /* whatever comes behind a refused head is not looked at */
     if (refusal.status) {
-        fw_reply_error(r, refusal.status, NULL, "%s", refusal.why);
+        fw_serve_reply_error(r, refusal.status, NULL, "%s", refusal.why);
         return;
     }
     bool known;
-    r->route = fw_route_find(method, path, &known);
+    r->route = fw_serve_route_find(method, path, &known);
     if (!r->route) {
-        fw_reply_error(r, known ? 405 : 404, NULL, "there is no %s %s", method, path);
+        fw_serve_reply_error(r, known ? 405 : 404, NULL, "there is no %s %s", method, path);
         return;
     }
     r->path = fw_arena_strdup(r->arena, path);
     r->method = r->route->method;
     r->if_none_match = MHD_lookup_connection_value(mhd, MHD_HEADER_KIND, "If-None-Match");
-    r->declared = fw_guard_body(&facts);
+    r->declared = fw_serve_guard_body(&facts);
     r->body = fw_arena_array(r->arena, char, r->declared + 1);
     if (!r->path || !r->body) {
-        fw_reply_error(r, 503, NULL, "out of memory");
+        fw_serve_reply_error(r, 503, NULL, "out of memory");
         return;
     }
     r->foreign = facts.fetch_site && strcmp(facts.fetch_site, "same-origin") != 0 &&
                  strcmp(facts.fetch_site, "none") != 0;
-    if (fw_guard_is_entry(&facts)) {
+    if (fw_serve_guard_is_entry(&facts)) {
         guard->entry_used = true;
-        fw_route_entry(r);
-        fw_scratch_drop_page(r->server->scratch);
+        fw_serve_route_entry(r);
+        fw_serve_scratch_drop_page(r->server->scratch);
         return;
     }
     r->reply.close = false;
 }
 
-static enum MHD_Result more_body(fw_request *r, const char *data, size_t *n) {
+static enum MHD_Result more_body(fw_serve_request *r, const char *data, size_t *n) {
     if (*n > r->declared - r->received) return MHD_NO; /* more than was said: cut */
     memcpy(r->body + r->received, data, *n);
     r->received += *n;
@@ -156,7 +157,7 @@ static enum MHD_Result more_body(fw_request *r, const char *data, size_t *n) {
 static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, const char *path,
                                   const char *method, const char *version, const char *data,
                                   size_t *n, void **state) {
-    fw_request *r = *state;
+    fw_serve_request *r = *state;
     if (!r) {
         *state = r = request_new(context, mhd);
         if (!r) return MHD_NO;
@@ -175,7 +176,7 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, con
     return MHD_YES;
 }
 
-void fw_request_answer(fw_request *r) {
+void fw_serve_request_answer(fw_serve_request *r) {
     r->answered = true;
     if (!r->suspended) return;
     r->suspended = false;
@@ -185,12 +186,12 @@ void fw_request_answer(fw_request *r) {
 static void on_completed(void *context, struct MHD_Connection *mhd, void **state,
                          enum MHD_RequestTerminationCode why) {
     (void)context, (void)mhd, (void)why;
-    fw_request *r = *state;
+    fw_serve_request *r = *state;
     if (!r) return;
     *state = NULL;
-    fw_pool_forget(r->server->pool, r);
-    fw_jobs_forget(r->server->jobs, r);
-    fw_events_close(r);
+    fw_serve_pool_forget(r->server->pool, r);
+    fw_serve_jobs_forget(r->server->jobs, r);
+    fw_serve_events_close(r);
     if (r->connection) {
         r->connection->request = NULL;
         phase(r->connection, FW_RECEIVING);
@@ -202,9 +203,9 @@ static void on_completed(void *context, struct MHD_Connection *mhd, void **state
 
 static void on_connection(void *context, struct MHD_Connection *mhd, void **socket_context,
                           enum MHD_ConnectionNotificationCode what) {
-    fw_server *server = context;
+    fw_serve_server *server = context;
     if (what == MHD_CONNECTION_NOTIFY_CLOSED) {
-        fw_connection *slot = *socket_context;
+        fw_serve_connection *slot = *socket_context;
         if (slot) slot->fd = -1;
         *socket_context = NULL;
         return;
@@ -213,45 +214,45 @@ static void on_connection(void *context, struct MHD_Connection *mhd, void **sock
         MHD_get_connection_info(mhd, MHD_CONNECTION_INFO_CONNECTION_FD);
     *socket_context = NULL;
     for (size_t i = 0; info && i < sizeof server->connection / sizeof *server->connection; i++) {
-        fw_connection *slot = &server->connection[i];
+        fw_serve_connection *slot = &server->connection[i];
         if (slot->fd >= 0) continue;
-        *slot = (fw_connection){.mhd = mhd, .fd = info->connect_fd};
+        *slot = (fw_serve_connection){.mhd = mhd, .fd = info->connect_fd};
         phase(slot, FW_RECEIVING);
         *socket_context = slot;
         return;
     }
 }
 
-static void cut(fw_connection *slot) {
+static void cut(fw_serve_connection *slot) {
     if (slot->cut) return;
     slot->cut = true;
     shutdown(slot->fd, SHUT_RDWR); /* libmicrohttpd sees the end and closes */
 }
 
-static bool went_away(const fw_connection *slot) {
+static bool went_away(const fw_serve_connection *slot) {
     struct pollfd at = {.fd = slot->fd, .events = POLLRDHUP};
     return poll(&at, 1, 0) == 1 && (at.revents & (POLLRDHUP | POLLHUP | POLLERR));
 }
 
 /* the client of a request that waits has gone: so may what it waits for */
-static void notice_gone(fw_connection *slot) {
-    fw_request *r = slot->request;
+static void notice_gone(fw_serve_connection *slot) {
+    fw_serve_request *r = slot->request;
     if (!r || !r->suspended || r->gone || !went_away(slot)) return;
     r->gone = true;
-    fw_pool_forget(r->server->pool, r);
-    fw_jobs_forget(r->server->jobs, r);
-    if (!r->stream) fw_reply_error(r, 400, NULL, "the client went away");
-    fw_request_answer(r);
+    fw_serve_pool_forget(r->server->pool, r);
+    fw_serve_jobs_forget(r->server->jobs, r);
+    if (!r->stream) fw_serve_reply_error(r, 400, NULL, "the client went away");
+    fw_serve_request_answer(r);
 }
 
 /* all connections are taken: those that have been asking for longest without having asked for
    anything make room, a few at a time */
-static void make_room(fw_server *server, int64_t now) {
+static void make_room(fw_serve_server *server, int64_t now) {
     for (int round = 0; round < FW_SERVE_CONNECTIONS / 4; round++) {
-        fw_connection *slowest = NULL;
+        fw_serve_connection *slowest = NULL;
         int taken = 0;
         for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
-            fw_connection *slot = &server->connection[i];
+            fw_serve_connection *slot = &server->connection[i];
             if (slot->fd < 0 || slot->cut) continue;
             taken++;
             if (slot->phase == FW_RECEIVING && now - slot->since_ms > FW_SERVE_CROWDED_MS &&
@@ -263,11 +264,11 @@ static void make_room(fw_server *server, int64_t now) {
     }
 }
 
-void fw_http_reap(fw_server *server) {
+void fw_serve_http_reap(fw_serve_server *server) {
     int64_t now = fw_serve_now_ms();
     int taken = 0;
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
-        fw_connection *slot = &server->connection[i];
+        fw_serve_connection *slot = &server->connection[i];
         if (slot->fd < 0) continue;
         taken++;
         notice_gone(slot);
@@ -282,7 +283,7 @@ void fw_http_reap(fw_server *server) {
 
 /* ---- start and stop ---- */
 
-static struct MHD_Daemon *listen_on(fw_server *server, const struct sockaddr *address,
+static struct MHD_Daemon *listen_on(fw_serve_server *server, const struct sockaddr *address,
                                     unsigned flags) {
     return MHD_start_daemon(
         flags | MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request, server,
@@ -294,13 +295,13 @@ static struct MHD_Daemon *listen_on(fw_server *server, const struct sockaddr *ad
         MHD_OPTION_SIGPIPE_HANDLED_BY_APP, 1, MHD_OPTION_END);
 }
 
-static bool could_not_listen(const fw_server *server, const char *address, fw_diags *diags) {
+static bool could_not_listen(const fw_serve_server *server, const char *address, fw_diags *diags) {
     fw_diag_error(diags, 284, (fw_place){.file = NULL}, "cannot listen on %s port %d: %s", address,
                   server->options.port, strerror(errno));
     return false;
 }
 
-bool fw_http_start(fw_server *server, fw_diags *diags) {
+bool fw_serve_http_start(fw_serve_server *server, fw_diags *diags) {
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++)
         server->connection[i].fd = -1;
     struct sockaddr_in four = {.sin_family = AF_INET,
@@ -319,13 +320,14 @@ bool fw_http_start(fw_server *server, fw_diags *diags) {
     return server->daemon[1] || could_not_listen(server, "::1", diags);
 }
 
-void fw_http_stop(fw_server *server) {
+void fw_serve_http_stop(fw_serve_server *server) {
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
-        fw_connection *slot = &server->connection[i];
+        fw_serve_connection *slot = &server->connection[i];
         if (slot->fd < 0 || !slot->request || !slot->request->suspended) continue;
         slot->request->gone = true;
-        if (!slot->request->stream) fw_reply_error(slot->request, 503, NULL, "the server ends");
-        fw_request_answer(slot->request);
+        if (!slot->request->stream)
+            fw_serve_reply_error(slot->request, 503, NULL, "the server ends");
+        fw_serve_request_answer(slot->request);
     }
     for (int i = 0; i < FW_SERVE_ADDRESSES; i++) {
         if (!server->daemon[i]) continue;

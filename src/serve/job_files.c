@@ -11,7 +11,7 @@
 
 enum { MOST_DEPTH = 4 };
 
-const char *fw_job_type(const char *path) {
+const char *fw_serve_job_type(const char *path) {
     static const struct {
         const char *ending, *type;
     } known[] = {{".html", "text/html; charset=utf-8"},
@@ -29,12 +29,12 @@ const char *fw_job_type(const char *path) {
 }
 
 typedef struct listing {
-    fw_job *job;
+    fw_serve_job *job;
     size_t capacity;
 } listing;
 
 static fw_status add(listing *l, const char *path, uint64_t bytes) {
-    fw_job *job = l->job;
+    fw_serve_job *job = l->job;
     if (job->files == FW_JOB_MOST_FILES) return FW_OK;
     if (job->files == l->capacity) {
         size_t more = l->capacity ? 2 * l->capacity : 64;
@@ -43,7 +43,7 @@ static fw_status add(listing *l, const char *path, uint64_t bytes) {
         l->capacity = more;
     }
     job->file[job->files++] =
-        (fw_job_file){.path = path, .type = fw_job_type(path), .bytes = bytes};
+        (fw_serve_job_file){.path = path, .type = fw_serve_job_type(path), .bytes = bytes};
     return FW_OK;
 }
 
@@ -77,10 +77,10 @@ static fw_status list(listing *l, int parent, const char *name, const char *belo
 }
 
 static int by_path(const void *a, const void *b) {
-    return strcmp(((const fw_job_file *)a)->path, ((const fw_job_file *)b)->path);
+    return strcmp(((const fw_serve_job_file *)a)->path, ((const fw_serve_job_file *)b)->path);
 }
 
-fw_status fw_job_list(fw_job *job) {
+fw_status fw_serve_job_list(fw_serve_job *job) {
     listing l = {.job = job};
     job->files = 0;
     FW_TRY(list(&l, job->fd, "out", "", 0));
@@ -88,7 +88,7 @@ fw_status fw_job_list(fw_job *job) {
     return FW_OK;
 }
 
-int fw_job_open(const fw_job *job, const fw_job_file *file) {
+int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file) {
     int out = openat(job->fd, "out", O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     int fd =
         out >= 0 ? openat(out, file->path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) : -1;

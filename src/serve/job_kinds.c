@@ -143,8 +143,8 @@ static const kind_row *kind_named(const char *name) {
     return NULL;
 }
 
-fw_status fw_job_command(fw_arena *arena, const void *json, const char *file, const char **kind,
-                         const char *const **argv, const char **why) {
+fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
+                               const char **kind, const char *const **argv, const char **why) {
     command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 8)};
     FW_NEED(c.argv);
     const kind_row *row = kind_named(json_string_value(json_object_get(json, "kind")));

@@ -6,14 +6,14 @@
 #include "serve/server.h"
 #include <poll.h>
 
-typedef struct fw_jobs fw_jobs;
-typedef enum fw_job_state {
+typedef struct fw_serve_jobs fw_serve_jobs;
+typedef enum fw_serve_job_state {
     FW_JOB_QUEUED,
     FW_JOB_RUNNING,
     FW_JOB_DONE,
     FW_JOB_FAILED,
     FW_JOB_CANCELLED
-} fw_job_state;
+} fw_serve_job_state;
 
 enum {
     FW_JOBS_KEPT = 16,       /* with the finished ones, of which the oldest is forgotten */
@@ -23,18 +23,18 @@ enum {
     FW_JOB_MOST_RESULT = 16 << 20 /* bytes of the printed document */
 };
 
-typedef struct fw_job_file {
+typedef struct fw_serve_job_file {
     const char *path, *type; /* below the job's out/ */
     uint64_t bytes;
-} fw_job_file;
+} fw_serve_job_file;
 
-typedef struct fw_job {
+typedef struct fw_serve_job {
     unsigned id; /* 0: the slot is free */
     fw_arena *arena;
     const char *kind, *name, *directory,
         *path; /* directory: below the scratch; path: from the root */
     const char *const *argv;
-    fw_job_state state;
+    fw_serve_job_state state;
     pid_t pid;
     int fd, err; /* its directory; its standard error, -1 when closed */
     int64_t began_ms, told_ms, ended_ms;
@@ -46,34 +46,34 @@ typedef struct fw_job {
     int exit_status; /* -1: none */
     const char *why; /* it ended otherwise than by itself */
     const char *result;
-    fw_job_file *file; /* (files) by path */
+    fw_serve_job_file *file; /* (files) by path */
     size_t files;
     pid_t packer; /* of the archive, 0: none */
     bool packed;
-} fw_job;
+} fw_serve_job;
 
-fw_status fw_jobs_open(fw_server *server);
-void fw_jobs_close(fw_server *server);
-void fw_jobs_run(fw_server *server);
-bool fw_jobs_busy(const fw_jobs *jobs);
-size_t fw_jobs_poll(const fw_jobs *jobs, struct pollfd *poll, size_t most);
-void fw_jobs_forget(fw_jobs *jobs, fw_request *request);
-fw_job *fw_jobs_find(fw_jobs *jobs, unsigned id);
+fw_status fw_serve_jobs_open(fw_serve_server *server);
+void fw_serve_jobs_close(fw_serve_server *server);
+void fw_serve_jobs_run(fw_serve_server *server);
+bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
+size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
+void fw_serve_jobs_forget(fw_serve_jobs *jobs, fw_serve_request *request);
+fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id);
 
 /* ---- job_kinds.c: from the request to a command line ---- */
 /* argv of the program for {"kind", "set", "options"}; FW_INPUT: *why says what is wrong */
-fw_status fw_job_command(fw_arena *arena, const void *json, const char *file, const char **kind,
-                         const char *const **argv, const char **why);
+fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
+                               const char **kind, const char *const **argv, const char **why);
 
 /* ---- job_files.c ---- */
 /* what is below out/ of the directory `fd`, by path */
-fw_status fw_job_list(fw_job *job);
+fw_status fw_serve_job_list(fw_serve_job *job);
 /* a file of the list: its descriptor, or -1 */
-int fw_job_open(const fw_job *job, const fw_job_file *file);
-const char *fw_job_type(const char *path);
+int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file);
+const char *fw_serve_job_type(const char *path);
 
 /* ---- archive.c ---- */
 /* in a process of its own, in the job's directory: archive.zip of out/ */
-int fw_archive_main(void);
+int fw_serve_archive_main(void);
 
 #endif

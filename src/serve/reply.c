@@ -30,7 +30,7 @@ static size_t sequence(const unsigned char *s) {
     return n;
 }
 
-void fw_reply_clean(char *text) {
+void fw_serve_reply_clean(char *text) {
     for (char *at = text; *at;) {
         size_t n = sequence((const unsigned char *)at);
         if (n == 0) *at = '?';
@@ -38,21 +38,22 @@ void fw_reply_clean(char *text) {
     }
 }
 
-void fw_reply_json(fw_request *r, unsigned status, const char *text, size_t n) {
+void fw_serve_reply_json(fw_serve_request *r, unsigned status, const char *text, size_t n) {
     r->reply.status = status;
     r->reply.type = "application/json";
     r->reply.data = text;
     r->reply.n = n;
 }
 
-void fw_reply_text(fw_request *r, unsigned status, const fw_text *text) {
+void fw_serve_reply_text(fw_serve_request *r, unsigned status, const fw_text *text) {
     if (fw_text_end(text) == FW_OK)
-        fw_reply_json(r, status, text->data, text->length);
+        fw_serve_reply_json(r, status, text->data, text->length);
     else
-        fw_reply_error(r, 503, NULL, "out of memory");
+        fw_serve_reply_error(r, 503, NULL, "out of memory");
 }
 
-void fw_reply_error(fw_request *r, unsigned status, const char *code, const char *format, ...) {
+void fw_serve_reply_error(fw_serve_request *r, unsigned status, const char *code,
+                          const char *format, ...) {
     static const char short_of_memory[] =
         "{\"error\": {\"message\": \"out of memory\", \"code\": null}}\n";
     char message[600];
@@ -60,7 +61,7 @@ void fw_reply_error(fw_request *r, unsigned status, const char *code, const char
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    fw_reply_clean(message);
+    fw_serve_reply_clean(message);
     fw_text text = fw_text_new(r->arena);
     fw_json json = fw_json_new(&text, FW_JSON_SPACED);
     fw_json_object(&json, NULL);
@@ -70,14 +71,14 @@ void fw_reply_error(fw_request *r, unsigned status, const char *code, const char
     fw_json_end(&json);
     fw_json_end(&json);
     if (fw_json_finish(&json, "\n") == FW_OK)
-        fw_reply_json(r, status, text.data, text.length);
+        fw_serve_reply_json(r, status, text.data, text.length);
     else
-        fw_reply_json(r, 503, short_of_memory, sizeof short_of_memory - 1);
+        fw_serve_reply_json(r, 503, short_of_memory, sizeof short_of_memory - 1);
 }
 
-static struct MHD_Response *response_of(fw_request *r) {
-    fw_reply *reply = &r->reply;
-    if (r->stream) return fw_events_response(r);
+static struct MHD_Response *response_of(fw_serve_request *r) {
+    fw_serve_reply *reply = &r->reply;
+    if (r->stream) return fw_serve_events_response(r);
     if (!reply->file) /* the arena lives until the request is completed, which is after sending */
         return MHD_create_response_from_buffer(reply->n, (void *)(uintptr_t)reply->data,
                                                MHD_RESPMEM_PERSISTENT);
@@ -91,8 +92,8 @@ static void header(struct MHD_Response *response, const char *name, const char *
     if (value) MHD_add_response_header(response, name, value);
 }
 
-enum MHD_Result fw_reply_queue(fw_request *r, struct MHD_Connection *mhd) {
-    fw_reply *reply = &r->reply;
+enum MHD_Result fw_serve_reply_queue(fw_serve_request *r, struct MHD_Connection *mhd) {
+    fw_serve_reply *reply = &r->reply;
     struct MHD_Response *response = response_of(r);
     if (!response) return MHD_NO;
     header(response, "Content-Type", reply->type);

@@ -5,6 +5,6 @@
 #include "serve/server.h"
 
 /* hands request->reply over, with the headers that every answer has */
-enum MHD_Result fw_reply_queue(fw_request *request, struct MHD_Connection *mhd);
+enum MHD_Result fw_serve_reply_queue(fw_serve_request *request, struct MHD_Connection *mhd);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The files of the page, the exchange of the one-time token, and what a session is told. */
-#include "serve/page.h"
+#include "serve/serve_page.h"
 #include "base/json.h"
 #include "serve/server.h"
 #include "serve/watch.h"
@@ -9,13 +9,13 @@
 /* To what a person opened the browser goes on by itself. When a file led here (the one of
    cli/serve.c), the browser takes the whole chain for another page's and would keep the cookie
    back: then a page of ours leads on. */
-void fw_route_entry(fw_request *r) {
-    const fw_guard *guard = &r->server->guard;
+void fw_serve_route_entry(fw_serve_request *r) {
+    const fw_serve_guard *guard = &r->server->guard;
     static const char moved[] = "opening the page\n";
     static const char onward[] =
         "<!doctype html><meta http-equiv=\"refresh\" content=\"0;url=/\">\n"
         "<title>Flexwright</title><p><a href=\"/\">Open the page</a>\n";
-    r->reply = (fw_reply){
+    r->reply = (fw_serve_reply){
         .status = r->foreign ? 200 : 303,
         .type = r->foreign ? "text/html; charset=utf-8" : "text/plain; charset=utf-8",
         .data = r->foreign ? onward : moved,
@@ -27,12 +27,12 @@ void fw_route_entry(fw_request *r) {
     };
 }
 
-void fw_route_page(fw_request *r) {
-    for (size_t i = 0; i < fw_page_count; i++) {
-        const fw_page_file *file = &fw_page_files[i];
+void fw_serve_route_page(fw_serve_request *r) {
+    for (size_t i = 0; i < fw_serve_page_count; i++) {
+        const fw_serve_page_file *file = &fw_serve_page_files[i];
         if (strcmp(file->path, r->path) != 0) continue;
         bool same = r->if_none_match && strcmp(r->if_none_match, file->etag) == 0;
-        r->reply = (fw_reply){
+        r->reply = (fw_serve_reply){
             .status = same ? 304 : 200,
             .type = file->type,
             .data = file->data,
@@ -45,11 +45,11 @@ void fw_route_page(fw_request *r) {
     }
 }
 
-void fw_route_session(fw_request *r) {
+void fw_serve_route_session(fw_serve_request *r) {
     fw_text text = fw_text_new(r->arena);
     fw_json json = fw_json_new(&text, FW_JSON_SPACED);
-    char *clean = fw_arena_strdup(r->arena, fw_watch_name(r->server->watch));
-    if (clean) fw_reply_clean(clean);
+    char *clean = fw_arena_strdup(r->arena, fw_serve_file_watch_name(r->server->watch));
+    if (clean) fw_serve_reply_clean(clean);
     fw_json_object(&json, NULL);
     fw_json_text(&json, "schema", "flexwright.session/1");
     fw_json_text(&json, "version", FW_VERSION);
@@ -64,5 +64,5 @@ void fw_route_session(fw_request *r) {
     fw_json_end(&json);
     fw_json_end(&json);
     if (fw_json_finish(&json, "\n") != FW_OK) text.failed = 1;
-    fw_reply_text(r, 200, &text);
+    fw_serve_reply_text(r, 200, &text);
 }

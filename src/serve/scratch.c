@@ -14,7 +14,7 @@
 #define PREFIX "flexwright-serve-"
 #define PAGE   "open.html"
 
-struct fw_scratch {
+struct fw_serve_scratch {
     const char *path, *name;
     int parent_fd, fd, lock;
 };
@@ -45,16 +45,16 @@ static void remove_left_behind(int parent) {
     closedir(dir);
 }
 
-fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch) {
+fw_status fw_serve_scratch_open(fw_arena *arena, fw_diags *diags, fw_serve_scratch **scratch) {
     const char *wanted = getenv("TMPDIR");
     if (!wanted || !*wanted) wanted = "/tmp";
     char *parent = realpath(wanted, NULL);
     char *path = fw_arena_printf(arena, "%s/" PREFIX "XXXXXX", parent ? parent : wanted);
     free(parent);
     FW_NEED(path);
-    fw_scratch *s = fw_arena_one(arena, fw_scratch);
+    fw_serve_scratch *s = fw_arena_one(arena, fw_serve_scratch);
     FW_NEED(s);
-    *s = (fw_scratch){.path = path, .name = strrchr(path, '/') + 1, .fd = -1, .lock = -1};
+    *s = (fw_serve_scratch){.path = path, .name = strrchr(path, '/') + 1, .fd = -1, .lock = -1};
     FW_NEED(parent = fw_arena_strndup(arena, path, (size_t)(s->name - path)));
     s->parent_fd = open(parent, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (s->parent_fd >= 0) {
@@ -71,7 +71,7 @@ fw_status fw_scratch_open(fw_arena *arena, fw_diags *diags, fw_scratch **scratch
     return FW_OK;
 }
 
-void fw_scratch_close(fw_scratch *s) {
+void fw_serve_scratch_close(fw_serve_scratch *s) {
     if (!s) return;
     fw_output_remove_tree(s->parent_fd, s->name);
     close(s->lock);
@@ -79,17 +79,17 @@ void fw_scratch_close(fw_scratch *s) {
     close(s->parent_fd);
 }
 
-int fw_scratch_make(fw_scratch *s, const char *name) {
+int fw_serve_scratch_make(fw_serve_scratch *s, const char *name) {
     if (mkdirat(s->fd, name, 0700) != 0) return -1;
     return openat(s->fd, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
 }
 
-const char *fw_scratch_path(fw_arena *arena, const fw_scratch *s, const char *name) {
+const char *fw_serve_scratch_path(fw_arena *arena, const fw_serve_scratch *s, const char *name) {
     return fw_arena_printf(arena, "%s/%s", s->path, name);
 }
 
-const char *fw_scratch_page(fw_arena *arena, fw_scratch *s, const char *url) {
-    const char *path = fw_scratch_path(arena, s, PAGE);
+const char *fw_serve_scratch_page(fw_arena *arena, fw_serve_scratch *s, const char *url) {
+    const char *path = fw_serve_scratch_path(arena, s, PAGE);
     const char *text =
         fw_arena_printf(arena,
                         "<!doctype html><meta charset=\"utf-8\"><title>Flexwright</title>"
@@ -101,10 +101,10 @@ const char *fw_scratch_page(fw_arena *arena, fw_scratch *s, const char *url) {
     return close(fd) == 0 && ok ? path : NULL;
 }
 
-void fw_scratch_drop_page(fw_scratch *s) {
+void fw_serve_scratch_drop_page(fw_serve_scratch *s) {
     unlinkat(s->fd, PAGE, 0);
 }
 
-void fw_scratch_remove(fw_scratch *s, const char *name) {
+void fw_serve_scratch_remove(fw_serve_scratch *s, const char *name) {
     fw_output_remove_tree(s->fd, name);
 }

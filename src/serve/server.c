@@ -24,13 +24,13 @@ int64_t fw_serve_now_ms(void) {
 
 /* ---- one round ---- */
 
-static bool anybody_there(const fw_server *server) {
+static bool anybody_there(const fw_serve_server *server) {
     for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++)
         if (server->connection[i].fd >= 0) return true;
-    return fw_jobs_busy(server->jobs);
+    return fw_serve_jobs_busy(server->jobs);
 }
 
-static size_t what_to_poll(const fw_server *server, struct pollfd *at, int *wait_ms) {
+static size_t what_to_poll(const fw_serve_server *server, struct pollfd *at, int *wait_ms) {
     size_t n = 0;
     *wait_ms = anybody_there(server) ? TICK_MS : REST_MS;
     for (int i = 0; i < FW_SERVE_ADDRESSES; i++) {
@@ -42,46 +42,46 @@ static size_t what_to_poll(const fw_server *server, struct pollfd *at, int *wait
         if (MHD_get_timeout(server->daemon[i], &soon) == MHD_YES && soon < (unsigned)*wait_ms)
             *wait_ms = (int)soon;
     }
-    if (fw_watch_fd(server->watch) >= 0)
-        at[n++] = (struct pollfd){.fd = fw_watch_fd(server->watch), .events = POLLIN};
-    n += fw_pool_poll(server->pool, at + n, MOST_POLLED - n);
-    n += fw_jobs_poll(server->jobs, at + n, MOST_POLLED - n);
+    if (fw_serve_file_watch_fd(server->watch) >= 0)
+        at[n++] = (struct pollfd){.fd = fw_serve_file_watch_fd(server->watch), .events = POLLIN};
+    n += fw_serve_pool_poll(server->pool, at + n, MOST_POLLED - n);
+    n += fw_serve_jobs_poll(server->jobs, at + n, MOST_POLLED - n);
     return n;
 }
 
-static void run_http(fw_server *server) {
+static void run_http(fw_serve_server *server) {
     for (int i = 0; i < FW_SERVE_ADDRESSES; i++)
         if (server->daemon[i]) MHD_run(server->daemon[i]);
 }
 
-static void round_once(fw_server *server) {
+static void round_once(fw_serve_server *server) {
     struct pollfd at[MOST_POLLED];
     int wait_ms;
     size_t n = what_to_poll(server, at, &wait_ms);
     poll(at, n, server->asked ? 0 : wait_ms);
     run_http(server);
     server->asked = false;
-    fw_pool_run(server);
-    fw_jobs_run(server);
-    fw_watch_run(server);
-    fw_events_run(server);
-    fw_http_reap(server);
+    fw_serve_pool_run(server);
+    fw_serve_jobs_run(server);
+    fw_serve_file_watch_run(server);
+    fw_serve_events_run(server);
+    fw_serve_http_reap(server);
     run_http(server); /* what was answered just now goes out at once */
 }
 
 /* ---- start and end ---- */
 
-static fw_status prepare(fw_server *server, fw_diags *diags) {
-    FW_TRY(fw_watch_open(server->arena, server->options.device, diags, &server->watch));
-    FW_TRY(fw_scratch_open(server->arena, diags, &server->scratch));
-    FW_TRY(fw_jobs_open(server));
-    FW_TRY(fw_pool_open(server));
-    if (!fw_http_start(server, diags)) return FW_IO;
-    return fw_guard_new(&server->guard, server->port, server->options.ipv6) ? FW_OK : FW_IO;
+static fw_status prepare(fw_serve_server *server, fw_diags *diags) {
+    FW_TRY(fw_serve_file_watch_open(server->arena, server->options.device, diags, &server->watch));
+    FW_TRY(fw_serve_scratch_open(server->arena, diags, &server->scratch));
+    FW_TRY(fw_serve_jobs_open(server));
+    FW_TRY(fw_serve_pool_open(server));
+    if (!fw_serve_http_start(server, diags)) return FW_IO;
+    return fw_serve_guard_new(&server->guard, server->port, server->options.ipv6) ? FW_OK : FW_IO;
 }
 
 /* children may be started in other directories */
-static fw_status absolute(fw_server *server) {
+static fw_status absolute(fw_serve_server *server) {
     const char *data = server->options.data_directory;
     char *whole = data && *data ? realpath(data, NULL) : NULL;
     if (!whole) return FW_OK; /* what is wrong with it, the children will say */
@@ -92,16 +92,16 @@ static fw_status absolute(fw_server *server) {
     return FW_OK;
 }
 
-static void say(const fw_server *server, const fw_diags *diags) {
+static void say(const fw_serve_server *server, const fw_diags *diags) {
     fw_text text = fw_text_new(server->arena);
     fw_diags_print(diags, &text, "flexwright", NULL, 0, 0);
     if (fw_text_end(&text) == FW_OK) fputs(text.data, stderr);
 }
 
-static void announce(const fw_server *server) {
+static void announce(const fw_serve_server *server) {
     char url[200];
     snprintf(url, sizeof url, "http://%s/?token=%s", server->guard.host[0], server->guard.entry);
-    const char *page = fw_scratch_page(server->arena, server->scratch, url);
+    const char *page = fw_serve_scratch_page(server->arena, server->scratch, url);
     server->options.ready(url, page, server->options.context);
 }
 
@@ -112,7 +112,7 @@ static void hung_up(int number) {
     fw_cancel_request(&closed_terminal, number);
 }
 
-static fw_status serve(fw_server *server) {
+static fw_status serve(fw_serve_server *server) {
     struct sigaction closed = {.sa_handler = hung_up};
     sigaction(SIGHUP, &closed, NULL); /* of the terminal; SIGINT and SIGTERM are the program's */
     fw_diags diags = fw_diags_new(server->arena);
@@ -126,17 +126,17 @@ static fw_status serve(fw_server *server) {
             round_once(server);
     } else if (!diags.count)
         fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));
-    fw_http_stop(server);
-    fw_jobs_close(server);
-    fw_pool_close(server->pool);
-    fw_watch_close(server->watch);
-    fw_scratch_close(server->scratch);
+    fw_serve_http_stop(server);
+    fw_serve_jobs_close(server);
+    fw_serve_pool_close(server->pool);
+    fw_serve_file_watch_close(server->watch);
+    fw_serve_scratch_close(server->scratch);
     return status;
 }
 
 int fw_serve_run(const fw_serve_options *options) {
     fw_arena *arena = fw_arena_new(0);
-    fw_server *server = arena ? fw_arena_one(arena, fw_server) : NULL;
+    fw_serve_server *server = arena ? fw_arena_one(arena, fw_serve_server) : NULL;
     fw_status status = FW_NOMEM;
     if (server) {
         server->options = *options;
@@ -150,7 +150,7 @@ int fw_serve_run(const fw_serve_options *options) {
 }
 
 int fw_serve_child(int argc, char **argv) {
-    if (argc == 4 && strcmp(argv[2], "worker") == 0) return fw_worker_main(argv[3]);
-    if (argc == 3 && strcmp(argv[2], "archive") == 0) return fw_archive_main();
+    if (argc == 4 && strcmp(argv[2], "worker") == 0) return fw_serve_worker_main(argv[3]);
+    if (argc == 3 && strcmp(argv[2], "archive") == 0) return fw_serve_archive_main();
     return fw_status_exit(FW_USAGE);
 }

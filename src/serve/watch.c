@@ -17,7 +17,7 @@
 
 enum { LOOK_MS = 1000 };
 
-struct fw_watch {
+struct fw_serve_file_watch {
     const char *path, *directory, *name;
     int fd;
     int64_t looked_ms;
@@ -25,7 +25,8 @@ struct fw_watch {
     char version[65]; /* of what was seen last; "": it could not be read */
 };
 
-static fw_status resolve(fw_arena *arena, fw_watch *w, const char *path, fw_diags *diags) {
+static fw_status resolve(fw_arena *arena, fw_serve_file_watch *w, const char *path,
+                         fw_diags *diags) {
     char *whole = realpath(path, NULL); /* saving must not replace a link by a file */
     if (!whole) {
         fw_diag_error(diags, 220, (fw_place){.file = path}, "cannot be read: %s", strerror(errno));
@@ -41,20 +42,21 @@ static fw_status resolve(fw_arena *arena, fw_watch *w, const char *path, fw_diag
 }
 
 /* text and version of the file as it is now, in `arena` */
-static fw_status look(fw_arena *arena, const fw_watch *w, fw_diags *diags, char **text, size_t *n,
-                      char version[65]) {
+static fw_status look(fw_arena *arena, const fw_serve_file_watch *w, fw_diags *diags, char **text,
+                      size_t *n, char version[65]) {
     version[0] = '\0';
     FW_TRY(fw_input_read(arena, w->path, FW_SERVE_MOST_BODY, diags, text, n));
     fw_sha256(*text, *n, version);
     return FW_OK;
 }
 
-fw_status fw_watch_open(fw_arena *arena, const char *path, fw_diags *diags, fw_watch **watch) {
+fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, fw_diags *diags,
+                                   fw_serve_file_watch **watch) {
     *watch = NULL;
     if (!path) return FW_OK;
-    fw_watch *w = fw_arena_one(arena, fw_watch);
+    fw_serve_file_watch *w = fw_arena_one(arena, fw_serve_file_watch);
     FW_NEED(w);
-    *w = (fw_watch){.fd = -1};
+    *w = (fw_serve_file_watch){.fd = -1};
     FW_TRY(resolve(arena, w, path, diags));
     fw_output_remove_leftovers(arena, w->path); /* of a server that was killed while it saved */
     fw_arena *scratch = fw_arena_new(0);
@@ -77,23 +79,23 @@ fw_status fw_watch_open(fw_arena *arena, const char *path, fw_diags *diags, fw_w
     return FW_OK;
 }
 
-void fw_watch_close(fw_watch *w) {
+void fw_serve_file_watch_close(fw_serve_file_watch *w) {
     if (w && w->fd >= 0) close(w->fd);
 }
 
-const char *fw_watch_version(const fw_watch *w) {
+const char *fw_serve_file_watch_version(const fw_serve_file_watch *w) {
     return w && w->version[0] ? w->version : NULL;
 }
 
-const char *fw_watch_name(const fw_watch *w) {
+const char *fw_serve_file_watch_name(const fw_serve_file_watch *w) {
     return w ? w->name : NULL;
 }
 
-int fw_watch_fd(const fw_watch *w) {
+int fw_serve_file_watch_fd(const fw_serve_file_watch *w) {
     return w ? w->fd : -1;
 }
 
-static bool told(fw_watch *w) {
+static bool told(fw_serve_file_watch *w) {
     union {
         struct inotify_event event;
         char room[4096];
@@ -113,12 +115,12 @@ static bool told(fw_watch *w) {
     }
 }
 
-static void tell(fw_server *server, const char *version) {
-    fw_events_send(server, "file", "{\"version\": \"%s\"}", version);
+static void tell(fw_serve_server *server, const char *version) {
+    fw_serve_events_send(server, "file", "{\"version\": \"%s\"}", version);
 }
 
-void fw_watch_run(fw_server *server) {
-    fw_watch *w = server->watch;
+void fw_serve_file_watch_run(fw_serve_server *server) {
+    fw_serve_file_watch *w = server->watch;
     if (!w) return;
     int64_t now = fw_serve_now_ms();
     bool event = told(w);
@@ -139,12 +141,12 @@ void fw_watch_run(fw_server *server) {
 
 /* ---- what the page asks ---- */
 
-static void reply_file(fw_request *r, unsigned status, const fw_watch *w, const char *text,
-                       size_t n, const char *version) {
+static void reply_file(fw_serve_request *r, unsigned status, const fw_serve_file_watch *w,
+                       const char *text, size_t n, const char *version) {
     fw_text body = fw_text_new(r->arena);
     fw_json json = fw_json_new(&body, FW_JSON_SPACED);
     if (!fw_json_is_text(text, n)) {
-        fw_reply_error(r, 422, NULL, "%s is not UTF-8 text", w->name);
+        fw_serve_reply_error(r, 422, NULL, "%s is not UTF-8 text", w->name);
         return;
     }
     fw_json_object(&json, NULL);
@@ -155,32 +157,32 @@ static void reply_file(fw_request *r, unsigned status, const fw_watch *w, const 
     fw_json_truth(&json, "writable", access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0);
     fw_json_end(&json);
     if (fw_json_finish(&json, "") == FW_OK)
-        fw_reply_json(r, status, body.data, body.length);
+        fw_serve_reply_json(r, status, body.data, body.length);
     else
-        fw_reply_error(r, 503, NULL, "out of memory");
+        fw_serve_reply_error(r, 503, NULL, "out of memory");
 }
 
 static const char *first_message(const fw_diags *diags) {
     return diags->count ? diags->item[0].message : "out of memory";
 }
 
-void fw_route_file(fw_request *r) {
-    fw_watch *w = r->server->watch;
+void fw_serve_route_file(fw_serve_request *r) {
+    fw_serve_file_watch *w = r->server->watch;
     if (!w) {
-        fw_reply_error(r, 404, NULL, "the server was started without a device file");
+        fw_serve_reply_error(r, 404, NULL, "the server was started without a device file");
         return;
     }
     fw_diags diags = fw_diags_new(r->arena);
     char *text, version[65];
     size_t n;
     if (look(r->arena, w, &diags, &text, &n, version) != FW_OK)
-        fw_reply_error(r, 404, "FW-D220", "%s %s", w->name, first_message(&diags));
+        fw_serve_reply_error(r, 404, "FW-D220", "%s %s", w->name, first_message(&diags));
     else
         reply_file(r, 200, w, text, n, version);
 }
 
 /* whole or not at all, with the permissions that the file has */
-static fw_status save(fw_request *r, const fw_watch *w, const char *text, size_t n,
+static fw_status save(fw_serve_request *r, const fw_serve_file_watch *w, const char *text, size_t n,
                       fw_diags *diags) {
     struct stat info;
     mode_t mode = stat(w->path, &info) == 0 ? info.st_mode & 0777 : 0666;
@@ -190,8 +192,8 @@ static fw_status save(fw_request *r, const fw_watch *w, const char *text, size_t
     return status;
 }
 
-static void save_if_unchanged(fw_request *r, fw_watch *w, const char *text, size_t n,
-                              const char *version) {
+static void save_if_unchanged(fw_serve_request *r, fw_serve_file_watch *w, const char *text,
+                              size_t n, const char *version) {
     fw_diags diags = fw_diags_new(r->arena);
     char *now_text, now[65];
     size_t now_n;
@@ -201,7 +203,7 @@ static void save_if_unchanged(fw_request *r, fw_watch *w, const char *text, size
     }
     diags = fw_diags_new(r->arena);
     if (save(r, w, text, n, &diags) != FW_OK) {
-        fw_reply_error(r, 500, "FW-D222", "%s", first_message(&diags));
+        fw_serve_reply_error(r, 500, "FW-D222", "%s", first_message(&diags));
         return;
     }
     fw_sha256(text, n, w->version);
@@ -209,14 +211,14 @@ static void save_if_unchanged(fw_request *r, fw_watch *w, const char *text, size
     reply_file(r, 200, w, text, n, w->version);
 }
 
-void fw_route_save(fw_request *r) {
-    fw_watch *w = r->server->watch;
+void fw_serve_route_save(fw_serve_request *r) {
+    fw_serve_file_watch *w = r->server->watch;
     json_t *body = json_loadb(r->body, r->received, 0, NULL);
     const json_t *text = json_object_get(body, "text"), *version = json_object_get(body, "version");
     if (!w)
-        fw_reply_error(r, 404, NULL, "the server was started without a device file");
+        fw_serve_reply_error(r, 404, NULL, "the server was started without a device file");
     else if (!json_is_string(text) || !json_is_string(version))
-        fw_reply_error(r, 400, NULL, "a file to be saved needs \"text\" and \"version\"");
+        fw_serve_reply_error(r, 400, NULL, "a file to be saved needs \"text\" and \"version\"");
     else
         save_if_unchanged(r, w, json_string_value(text), json_string_length(text),
                           json_string_value(version));

@@ -16,30 +16,30 @@ enum {
     MEMORY_MIB = 2048
 };
 
-typedef struct fw_worker {
+typedef struct fw_serve_worker {
     pid_t pid; /* 0: none */
     int fd;
     int64_t started_ms, asked_ms;
     bool busy, cancelled;
-    fw_request *request; /* NULL while busy: nobody waits for the answer */
-    fw_worker_head head; /* of the question */
+    fw_serve_request *request; /* NULL while busy: nobody waits for the answer */
+    fw_serve_worker_head head; /* of the question */
     size_t sent;
-    fw_worker_head answer;
+    fw_serve_worker_head answer;
     size_t got; /* bytes of the answer with its head */
     char *text; /* in the request's arena */
-} fw_worker;
+} fw_serve_worker;
 
-struct fw_pool {
-    fw_worker worker[FW_SERVE_WORKERS];
-    fw_request *first; /* waiting */
+struct fw_serve_pool {
+    fw_serve_worker worker[FW_SERVE_WORKERS];
+    fw_serve_request *first; /* waiting */
 };
 
-static bool start(fw_server *server, fw_worker *w) {
+static bool start(fw_serve_server *server, fw_serve_worker *w) {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) return false;
     const char *data = server->options.data_directory ? server->options.data_directory : "";
     const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "worker", data, NULL};
-    fw_child_plan plan = {
+    fw_serve_child_plan plan = {
         .argv = argv,
         .directory = -1,
         .in = -1,
@@ -47,41 +47,41 @@ static bool start(fw_server *server, fw_worker *w) {
         .err = -1,
         .channel = pair[1],
         .limits = {.memory_bytes = (uint64_t)MEMORY_MIB << 20, .file_bytes = 0, .files = 32}};
-    pid_t pid = fw_child_start(&plan);
+    pid_t pid = fw_serve_child_start(&plan);
     close(pair[1]);
     if (pid < 0) {
         close(pair[0]);
         return false;
     }
     fcntl(pair[0], F_SETFL, O_NONBLOCK);
-    *w = (fw_worker){.pid = pid, .fd = pair[0], .started_ms = fw_serve_now_ms()};
+    *w = (fw_serve_worker){.pid = pid, .fd = pair[0], .started_ms = fw_serve_now_ms()};
     return true;
 }
 
-fw_status fw_pool_open(fw_server *server) {
-    FW_NEED(server->pool = fw_arena_one(server->arena, fw_pool));
+fw_status fw_serve_pool_open(fw_serve_server *server) {
+    FW_NEED(server->pool = fw_arena_one(server->arena, fw_serve_pool));
     for (int i = 0; i < FW_SERVE_WORKERS; i++)
         if (!start(server, &server->pool->worker[i])) return FW_IO;
     return FW_OK;
 }
 
-static void end(fw_worker *w) {
+static void end(fw_serve_worker *w) {
     if (!w->pid) return;
-    fw_child_kill(w->pid);
+    fw_serve_child_kill(w->pid);
     close(w->fd);
     w->pid = 0;
     w->busy = false;
 }
 
-void fw_pool_close(fw_pool *pool) {
+void fw_serve_pool_close(fw_serve_pool *pool) {
     for (int i = 0; pool && i < FW_SERVE_WORKERS; i++)
         end(&pool->worker[i]);
 }
 
 /* ---- requests ---- */
 
-void fw_pool_ask(fw_request *r, fw_compute what) {
-    fw_request **at = &r->server->pool->first;
+void fw_serve_pool_ask(fw_serve_request *r, fw_serve_compute what) {
+    fw_serve_request **at = &r->server->pool->first;
     while (*at)
         at = &(*at)->next;
     r->compute = what;
@@ -89,29 +89,29 @@ void fw_pool_ask(fw_request *r, fw_compute what) {
     *at = r;
 }
 
-void fw_route_table(fw_request *r) {
-    fw_pool_ask(r, FW_COMPUTE_TABLE);
+void fw_serve_route_table(fw_serve_request *r) {
+    fw_serve_pool_ask(r, FW_COMPUTE_TABLE);
 }
-void fw_route_preview(fw_request *r) {
-    fw_pool_ask(r, FW_COMPUTE_PREVIEW);
+void fw_serve_route_preview(fw_serve_request *r) {
+    fw_serve_pool_ask(r, FW_COMPUTE_PREVIEW);
 }
-void fw_route_pose(fw_request *r) {
-    fw_pool_ask(r, FW_COMPUTE_POSE);
+void fw_serve_route_pose(fw_serve_request *r) {
+    fw_serve_pool_ask(r, FW_COMPUTE_POSE);
 }
-void fw_route_edit(fw_request *r) {
-    fw_pool_ask(r, FW_COMPUTE_EDIT);
+void fw_serve_route_edit(fw_serve_request *r) {
+    fw_serve_pool_ask(r, FW_COMPUTE_EDIT);
 }
 
 /* nobody waits any more: a worker that has begun is asked to stop */
-void fw_pool_forget(fw_pool *pool, fw_request *r) {
+void fw_serve_pool_forget(fw_serve_pool *pool, fw_serve_request *r) {
     if (!pool) return;
-    for (fw_request **at = &pool->first; *at; at = &(*at)->next)
+    for (fw_serve_request **at = &pool->first; *at; at = &(*at)->next)
         if (*at == r) {
             *at = r->next;
             break;
         }
     for (int i = 0; i < FW_SERVE_WORKERS; i++) {
-        fw_worker *w = &pool->worker[i];
+        fw_serve_worker *w = &pool->worker[i];
         if (!w->busy || w->request != r) continue;
         /* what was not sent or read yet was in the request's memory: such a worker is of no use */
         if (w->sent < sizeof w->head + w->head.n || w->got > 0)
@@ -126,30 +126,30 @@ void fw_pool_forget(fw_pool *pool, fw_request *r) {
     }
 }
 
-static void finish(fw_worker *w) {
-    fw_request *r = w->request;
+static void finish(fw_serve_worker *w) {
+    fw_serve_request *r = w->request;
     w->busy = w->cancelled = false;
     w->request = NULL;
     if (!r) return;
-    fw_reply_json(r, w->answer.what, w->text, w->answer.n);
-    fw_request_answer(r);
+    fw_serve_reply_json(r, w->answer.what, w->text, w->answer.n);
+    fw_serve_request_answer(r);
 }
 
 /* it crashed, reached a limit, or says what makes no sense */
-static void fail(fw_worker *w, const char *why) {
-    fw_request *r = w->request;
+static void fail(fw_serve_worker *w, const char *why) {
+    fw_serve_request *r = w->request;
     w->request = NULL;
     end(w);
     if (!r) return;
-    fw_reply_error(r, 500, "FW-D286", "%s", why);
-    fw_request_answer(r);
+    fw_serve_reply_error(r, 500, "FW-D286", "%s", why);
+    fw_serve_request_answer(r);
 }
 
 /* ---- bytes ---- */
 
 /* a request that was given up leaves no memory to read from or into: then the worker was ended, and
    only the whole answer is still to come, which is thrown away */
-static bool send_more(fw_worker *w) {
+static bool send_more(fw_serve_worker *w) {
     size_t head = sizeof w->head;
     while (w->sent < head + w->head.n) {
         const char *from =
@@ -162,7 +162,7 @@ static bool send_more(fw_worker *w) {
     return true;
 }
 
-static bool room_for_answer(fw_worker *w) {
+static bool room_for_answer(fw_serve_worker *w) {
     if (w->answer.n > FW_WORKER_MOST_ANSWER || w->answer.what < 200 || w->answer.what > 599)
         return false;
     if (!w->request) return true;
@@ -171,7 +171,7 @@ static bool room_for_answer(fw_worker *w) {
 }
 
 /* 1: more to come, 0: whole, -1: it ended */
-static int read_more(fw_worker *w) {
+static int read_more(fw_serve_worker *w) {
     char thrown_away[16384];
     size_t head = sizeof w->answer;
     for (;;) {
@@ -196,35 +196,35 @@ static int read_more(fw_worker *w) {
 
 /* ---- the loop's share ---- */
 
-static void give(fw_worker *w, fw_request *r) {
+static void give(fw_serve_worker *w, fw_serve_request *r) {
     w->request = r;
     w->busy = true;
     w->cancelled = false;
-    w->head = (fw_worker_head){.what = r->compute, .n = (uint32_t)r->received};
-    w->answer = (fw_worker_head){0};
+    w->head = (fw_serve_worker_head){.what = r->compute, .n = (uint32_t)r->received};
+    w->answer = (fw_serve_worker_head){0};
     w->sent = w->got = 0;
     w->asked_ms = fw_serve_now_ms();
 }
 
 /* a worker remembers the mechanism that it posed last, so that poses go to the same one; previews
    go to the other while it is free */
-static fw_worker *free_worker(fw_pool *pool, unsigned what) {
+static fw_serve_worker *free_worker(fw_serve_pool *pool, unsigned what) {
     int first = what == FW_COMPUTE_POSE ? FW_SERVE_WORKERS - 1 : 0;
     for (int i = 0; i < FW_SERVE_WORKERS; i++) {
-        fw_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];
+        fw_serve_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];
         if (w->pid && !w->busy) return w;
     }
     return NULL;
 }
 
-static void run_worker(fw_server *server, fw_worker *w, int64_t now) {
+static void run_worker(fw_serve_server *server, fw_serve_worker *w, int64_t now) {
     if (!w->pid) {
         if (now - w->started_ms >= RESTART_MS || now - w->started_ms < 0) start(server, w);
         return;
     }
     int status;
     if (!w->busy) { /* it has nothing to say, unless it ended */
-        if (fw_child_ended(w->pid, &status)) {
+        if (fw_serve_child_ended(w->pid, &status)) {
             close(w->fd);
             w->pid = 0;
         }
@@ -243,25 +243,25 @@ static void run_worker(fw_server *server, fw_worker *w, int64_t now) {
         fail(w, "the computation took longer than 20 s and was ended");
 }
 
-void fw_pool_run(fw_server *server) {
-    fw_pool *pool = server->pool;
+void fw_serve_pool_run(fw_serve_server *server) {
+    fw_serve_pool *pool = server->pool;
     int64_t now = fw_serve_now_ms();
     for (int i = 0; i < FW_SERVE_WORKERS; i++)
         run_worker(server, &pool->worker[i], now);
     while (pool->first) {
-        fw_worker *w = free_worker(pool, pool->first->compute);
+        fw_serve_worker *w = free_worker(pool, pool->first->compute);
         if (!w) return;
-        fw_request *r = pool->first;
+        fw_serve_request *r = pool->first;
         pool->first = r->next;
         give(w, r);
         if (!send_more(w)) fail(w, "the computation could not be started");
     }
 }
 
-size_t fw_pool_poll(const fw_pool *pool, struct pollfd *poll, size_t most) {
+size_t fw_serve_pool_poll(const fw_serve_pool *pool, struct pollfd *poll, size_t most) {
     size_t n = 0;
     for (int i = 0; i < FW_SERVE_WORKERS && n < most; i++) {
-        const fw_worker *w = &pool->worker[i];
+        const fw_serve_worker *w = &pool->worker[i];
         if (!w->pid) continue;
         bool sending = w->busy && w->sent < sizeof w->head + w->head.n;
         poll[n++] =

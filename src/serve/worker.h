@@ -10,31 +10,32 @@
 #include "serve/server.h"
 #include <poll.h>
 
-typedef struct fw_pool fw_pool;
+typedef struct fw_serve_pool fw_serve_pool;
 
-typedef enum fw_compute {
+typedef enum fw_serve_compute {
     FW_COMPUTE_TABLE,
     FW_COMPUTE_PREVIEW,
     FW_COMPUTE_POSE,
     FW_COMPUTE_EDIT
-} fw_compute;
+} fw_serve_compute;
 
-typedef struct fw_worker_head {
+typedef struct fw_serve_worker_head {
     uint32_t what, n;
-} fw_worker_head;
+} fw_serve_worker_head;
 enum { FW_WORKER_MOST_ANSWER = 32 * 1024 * 1024 };
 
-fw_status fw_pool_open(fw_server *server);
-void fw_pool_close(fw_pool *pool);
+fw_status fw_serve_pool_open(fw_serve_server *server);
+void fw_serve_pool_close(fw_serve_pool *pool);
 /* the request's body goes to a worker as soon as one is free; the answer comes by
-   fw_request_answer */
-void fw_pool_ask(fw_request *request, fw_compute what);
-void fw_pool_forget(fw_pool *pool, fw_request *request); /* when it is one of them */
+   fw_serve_request_answer */
+void fw_serve_pool_ask(fw_serve_request *request, fw_serve_compute what);
+void fw_serve_pool_forget(fw_serve_pool *pool,
+                          fw_serve_request *request); /* when it is one of them */
 /* what to poll, at most `most`; and what to do afterwards */
-size_t fw_pool_poll(const fw_pool *pool, struct pollfd *poll, size_t most);
-void fw_pool_run(fw_server *server);
+size_t fw_serve_pool_poll(const fw_serve_pool *pool, struct pollfd *poll, size_t most);
+void fw_serve_pool_run(fw_serve_server *server);
 
 /* the other side: serves descriptor 3 until it is closed */
-int fw_worker_main(const char *data_directory);
+int fw_serve_worker_main(const char *data_directory);
 
 #endif

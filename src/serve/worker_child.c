@@ -51,7 +51,7 @@ static bool write_all(const void *from, size_t n) {
 }
 
 static bool answer(unsigned status, const char *text, size_t n) {
-    fw_worker_head head = {.what = status, .n = (uint32_t)n};
+    fw_serve_worker_head head = {.what = status, .n = (uint32_t)n};
     return write_all(&head, sizeof head) && write_all(text, n);
 }
 
@@ -76,20 +76,20 @@ static unsigned http_status(fw_status status) {
     return 500;
 }
 
-static bool compute(fw_live *live, uint32_t what, const char *request, size_t n) {
-    fw_live_answer a = {0};
-    switch ((fw_compute)what) {
+static bool compute(fw_plan_live *live, uint32_t what, const char *request, size_t n) {
+    fw_plan_live_answer a = {0};
+    switch ((fw_serve_compute)what) {
     case FW_COMPUTE_TABLE:
-        a = fw_live_table(live);
+        a = fw_plan_live_table(live);
         break;
     case FW_COMPUTE_PREVIEW:
-        a = fw_live_preview(live, request, n);
+        a = fw_plan_live_preview(live, request, n);
         break;
     case FW_COMPUTE_POSE:
-        a = fw_live_pose(live, request, n);
+        a = fw_plan_live_pose(live, request, n);
         break;
     case FW_COMPUTE_EDIT:
-        a = fw_live_edit(live, request, n);
+        a = fw_plan_live_edit(live, request, n);
         break;
     }
     if (!a.text) return false; /* the parent asks for what this child does not know */
@@ -97,7 +97,7 @@ static bool compute(fw_live *live, uint32_t what, const char *request, size_t n)
 }
 
 static bool one(void *state) {
-    fw_worker_head head;
+    fw_serve_worker_head head;
     if (!read_all(&head, sizeof head) || head.n > FW_SERVE_MOST_BODY) return false;
     fw_arena *arena = fw_arena_new(0);
     char *request = arena ? fw_arena_array(arena, char, (size_t)head.n + 1) : NULL;
@@ -109,17 +109,17 @@ static bool one(void *state) {
     return ok;
 }
 
-int fw_worker_main(const char *data_directory) {
+int fw_serve_worker_main(const char *data_directory) {
     struct sigaction cancel = {.sa_handler = stop}, end = {.sa_handler = SIG_DFL};
     sigaction(SIGINT, &cancel, NULL);
     sigaction(SIGTERM, &end, NULL);
-    fw_live_settings settings = {.data_directory = *data_directory ? data_directory : NULL,
-                                 .memory_cap = MEMORY_CAP,
-                                 .cancel = &unwanted};
-    fw_live *live = fw_live_new(&settings);
+    fw_plan_live_settings settings = {.data_directory = *data_directory ? data_directory : NULL,
+                                      .memory_cap = MEMORY_CAP,
+                                      .cancel = &unwanted};
+    fw_plan_live *live = fw_plan_live_new(&settings);
     if (!live) return fw_status_exit(FW_NOMEM);
     while (one(live)) {
     }
-    fw_live_free(live);
+    fw_plan_live_free(live);
     return 0;
 }

@@ -7,46 +7,50 @@
 #include "statics/modes.h"
 #include "statics/statics.h"
 
-typedef struct fw_level_state {
+typedef struct fw_statics_level_state {
     double *q;          /* (3 nbody) m, rad */
     double *angle_rad;  /* (npin) */
     double *reaction_N; /* (2 npin) on body b, world axes */
-    double *strain;     /* (nhinge) peak of each hinge; NaN until fw_level_strains (verdict.h) */
-} fw_level_state;
+    double
+        *strain; /* (nhinge) peak of each hinge; NaN until fw_verdict_level_strains (verdict.h) */
+} fw_statics_level_state;
 
-typedef struct fw_level_step {
-    fw_hinge_model used, next; /* the same: there is no next level */
-    double t_s;                /* of the instant; NaN: an equilibrium */
+typedef struct fw_statics_level_step {
+    fw_effects_hinge_model used, next; /* the same: there is no next level */
+    double t_s;                        /* of the instant; NaN: an equilibrium */
     int nbody, npin;
-    fw_level_state at, up; /* at the level used and at the next; not filled where `why_not` */
-    double angle_rad;      /* largest difference of a hinge's angle */
-    double relative;       /* that over the largest hinge angle at the instant; NaN: not computed */
-    const char *why_not;   /* NULL: computed */
-} fw_level_step;
+    fw_statics_level_state at,
+        up;              /* at the level used and at the next; not filled where `why_not` */
+    double angle_rad;    /* largest difference of a hinge's angle */
+    double relative;     /* that over the largest hinge angle at the instant; NaN: not computed */
+    const char *why_not; /* NULL: computed */
+} fw_statics_level_step;
 
 /* of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the
    loads of that time and the same inertia forces */
-fw_status fw_level_of_motion(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                             const fw_motion *motion, const fw_level_step **step);
+fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *mechanism,
+                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                     const fw_statics_level_step **step);
 
-struct fw_rest;
+struct fw_statics_equilibrium;
 /* of an equilibrium that was solved for at s = 1 with these effects */
-fw_status fw_level_of_rest(struct fw_rest *w, const fw_level_step **step);
+fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
+                                          const fw_statics_level_step **step);
 /* the next level's tangent at the pose of modes: largest relative change of a frequency among those
    that both have; NaN: not computed */
-fw_status fw_level_of_modes(struct fw_rest *w, double *relative);
+fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *relative);
 
 /* true: auto was asked for and this step is not below the accuracy; *choice then asks for the next
    level. step may be NULL */
-bool fw_level_climb(const fw_level_step *step, double accuracy, const fw_effect_choice *asked,
-                    fw_effect_choice *choice);
+bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
+                            const fw_effect_choice *asked, fw_effect_choice *choice);
 /* its number as the error of the level used, where it was computed, and where auto chose what that
    means for the choice */
-fw_status fw_level_note(fw_arena *arena, const fw_level_step *step, double accuracy,
-                        const fw_effect_choice *asked, fw_hinge_use *use);
+fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *step, double accuracy,
+                                const fw_effect_choice *asked, fw_effects_hinge_use *use);
 
 /* the next level was wanted and not taken, `why_not`: what that means for the choice */
-fw_status fw_level_stays(fw_arena *arena, const fw_level_step *step, const char *why_not,
-                         fw_hinge_use *use);
+fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
+                                 const char *why_not, fw_effects_hinge_use *use);
 
 #endif

@@ -12,7 +12,7 @@
    that asks accepts by a ten-thousandth of what the forces promise. Cost: 8 evaluations of those
    elements. Source: Gauss-Legendre nodes and weights, Abramowitz and Stegun, table 25.4. Test:
    test_static_elements.c. */
-#include "statics/rest.h"
+#include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
 
@@ -22,15 +22,15 @@ static const double node[POINTS] = {0.1834346424956498, 0.5255324099163290, 0.79
 static const double weight[POINTS] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                       0.1012285362903763};
 
-static bool none_is_driven(const fw_model *m) {
+static bool none_is_driven(const fw_multibody_model *m) {
     for (int i = 0; i < m->nelement; i++)
         if (m->element[i].own->works) return false;
     return true;
 }
 
-/* what elements store too, but fw_model_energy counts that: it is taken off */
-double fw_rest_driven(fw_rest *w, const double *u, double *size) {
-    fw_model *m = w->model;
+/* what elements store too, but fw_multibody_model_energy counts that: it is taken off */
+double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size) {
+    fw_multibody_model *m = w->model;
     double sum = 0;
     *size = 0;
     if (none_is_driven(m)) return 0;
@@ -38,18 +38,18 @@ double fw_rest_driven(fw_rest *w, const double *u, double *size) {
         double x = 0.5 + (k % 2 ? 0.5 : -0.5) * node[k / 2], along = 0;
         for (int i = 0; i < m->nq; i++)
             w->away[i] = w->y[i] + x * (u[i] - w->y[i]);
-        fw_model_set_switches(m, 0, w->away);
-        fw_model_pose(m, w->away);
+        fw_multibody_model_set_switches(m, 0, w->away);
+        fw_multibody_model_pose(m, w->away);
         memset(w->pull, 0, (size_t)m->nq * sizeof *w->pull);
-        fw_model_element_driven(m, 0, w->away, w->pull);
+        fw_multibody_model_element_driven(m, 0, w->away, w->pull);
         for (int i = 0; i < m->nq; i++)
             along += w->pull[i] * (u[i] - w->y[i]);
         sum -= 0.5 * weight[k / 2] * along;
         *size += 0.5 * weight[k / 2] * fabs(along);
     }
     memcpy(w->away, u, (size_t)m->nq * sizeof *u);
-    fw_model_set_switches(m, 0, w->away);
-    fw_model_pose(m, w->away);
-    return sum - (fw_model_element_energy(m, 0, w->away, true) -
-                  fw_model_element_energy(m, 0, w->away, false));
+    fw_multibody_model_set_switches(m, 0, w->away);
+    fw_multibody_model_pose(m, w->away);
+    return sum - (fw_multibody_model_element_energy(m, 0, w->away, true) -
+                  fw_multibody_model_element_energy(m, 0, w->away, false));
 }

@@ -3,7 +3,8 @@
    square of all their voltages over the scene's largest, to the first limit point or bifurcation.
 
    Where the first eigenvalue of the reduced stiffness passes zero is a root along the arc to
-   round-off (path.c): at a limit point s has an error of second order; at a bifurcation it is found
+   round-off (statics_path.c): at a limit point s has an error of second order; at a bifurcation it
+   is found
    again from the eigenvalue beside it. Lengths of the arc count displacements in gaps. The unit of
    s comes from the stiffness that the fields take as drawn, S = Phi^T (K(0) - K(1)) Phi over the
    eigenvalues mu: 1/|S_kl/sqrt(mu_k mu_l)| is less than where the linear theory loses its
@@ -13,7 +14,7 @@
    Modeling MEMS and NEMS 2002, ch. 7; Keller 1977. Test: test_pull_in.c. */
 #include "statics/pull_in.h"
 #include "effects/comb.h"
-#include "statics/rest.h"
+#include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
 
@@ -23,24 +24,24 @@ static const double fw_first_unit = 4; /* times the estimate */
 
 typedef struct seeker {
     fw_arena *arena;
-    fw_rest w;
-    fw_scene scene; /* the caller's with the largest voltages, constant */
-    fw_pull_in *out;
-    const fw_force_element *comb; /* the one that is reported */
+    fw_statics_equilibrium w;
+    fw_device_scene scene; /* the caller's with the largest voltages, constant */
+    fw_statics_pull_in *out;
+    const fw_effects_force_element *comb; /* the one that is reported */
 } seeker;
 
-const char *fw_pull_in_kind_text(fw_pull_in_kind kind) {
+const char *fw_statics_pull_in_kind_text(fw_statics_pull_in_kind kind) {
     static const char *const text[] = {"none", "fold", "side", "tilt"};
     return text[kind];
 }
 
-static fw_status largest_voltages(seeker *k, const fw_scene *scene) {
-    fw_comb *comb;
+static fw_status largest_voltages(seeker *k, const fw_device_scene *scene) {
+    fw_device_comb *comb;
     k->scene = *scene;
-    FW_NEED(comb = fw_arena_array(k->arena, fw_comb, (size_t)scene->ncomb));
+    FW_NEED(comb = fw_arena_array(k->arena, fw_device_comb, (size_t)scene->ncomb));
     for (int i = 0; i < scene->ncomb; i++) {
         comb[i] = scene->comb[i];
-        comb[i].voltage_V *= fw_law_largest(comb[i].law, scene->duration_s);
+        comb[i].voltage_V *= fw_quantity_law_largest(comb[i].law, scene->duration_s);
         comb[i].law = NULL;
     }
     k->scene.comb = comb;
@@ -49,8 +50,8 @@ static fw_status largest_voltages(seeker *k, const fw_scene *scene) {
 
 /* ---- what the drives do at a pose ---- */
 
-static const fw_comb_element *comb_at(const seeker *k, int i) {
-    return fw_comb_of(k->w.model->element[i].own);
+static const fw_effects_comb_element *comb_at(const seeker *k, int i) {
+    return fw_effects_comb_of(k->w.model->element[i].own);
 }
 
 static double least_gap(const seeker *k) {
@@ -62,14 +63,14 @@ static double least_gap(const seeker *k) {
 
 /* stiffness that the field takes from a small motion (SI) of the bodies: along, across, by tilt,
    and in all, at the scene's voltage */
-static void taken(const fw_force_element *e, const double *q, const double *motion,
+static void taken(const fw_effects_force_element *e, const double *q, const double *motion,
                   double part[4]) {
-    const fw_comb_element *c = fw_comb_of(e);
+    const fw_effects_comb_element *c = fw_effects_comb_of(e);
     double p[6], w[6], where[3], rate[3], slope[3], bend[9];
-    fw_element_look(e, q, motion, p, w);
-    fw_comb_place(e, p, where);
-    fw_comb_rate(e, p, w, rate);
-    fw_comb_capacitance(c, where, slope, bend);
+    fw_effects_element_place_ports(e, q, motion, p, w);
+    fw_effects_comb_place(e, p, where);
+    fw_effects_comb_rate(e, p, w, rate);
+    fw_effects_comb_capacitance(c, where, slope, bend);
     double half = 0.5 * c->voltage_V * c->voltage_V;
     part[3] = 0;
     for (int i = 0; i < 9; i++) {
@@ -80,11 +81,11 @@ static void taken(const fw_force_element *e, const double *q, const double *moti
 }
 
 static fw_status motion_of(const seeker *k, const double *shape, double **motion) {
-    const fw_model *m = k->w.model;
+    const fw_multibody_model *m = k->w.model;
     double most = 0;
     FW_NEED(*motion = fw_arena_array(k->arena, double, (size_t)m->nq));
     for (int b = 0; b < m->nbody; b++)
-        most = fmax(most, fw_rest_part(shape, b));
+        most = fmax(most, fw_statics_equilibrium_part(shape, b));
     for (int i = 0; i < m->nq; i++)
         (*motion)[i] = shape[i] / most * (i % 3 == 2 ? 1 : m->scale.length_m);
     return FW_OK;
@@ -92,36 +93,36 @@ static fw_status motion_of(const seeker *k, const double *shape, double **motion
 
 /* ---- the answer ---- */
 
-static void report_comb(seeker *k, const fw_force_element *e, double s, const double *q) {
-    const fw_comb_element *c = fw_comb_of(e);
-    fw_pull_in *out = k->out;
+static void report_comb(seeker *k, const fw_effects_force_element *e, double s, const double *q) {
+    const fw_effects_comb_element *c = fw_effects_comb_of(e);
+    fw_statics_pull_in *out = k->out;
     double p[6], w[6];
     k->comb = e;
-    fw_element_look(e, q, NULL, p, w);
-    fw_comb_place(e, p, out->where);
+    fw_effects_element_place_ports(e, q, NULL, p, w);
+    fw_effects_comb_place(e, p, out->where);
     out->comb = e->id;
     out->place = e->place;
     out->largest_V = fabs(c->voltage_V);
     out->margin = sqrt(s);
     out->voltage_V = out->largest_V * out->margin;
-    out->fringe = fw_comb_fringe(c);
+    out->fringe = fw_effects_comb_fringe(c);
 }
 
 /* stable up to s, with the pose q there (NULL: as it stands); named is the drive whose formula
    ends, else the one of the highest voltage over its gap */
 static fw_status nothing_found(seeker *k, double s, const double *last, const char *why) {
-    const fw_model *m = k->w.model;
-    const fw_force_element *e = NULL;
+    const fw_multibody_model *m = k->w.model;
+    const fw_effects_force_element *e = NULL;
     double *q, most = -1;
     FW_NEED(q = fw_arena_array(k->arena, double, (size_t)m->nq));
     for (int i = 0; i < m->nelement; i++) {
-        const fw_comb_element *c = comb_at(k, i);
+        const fw_effects_comb_element *c = comb_at(k, i);
         if (!c || !(fabs(c->voltage_V) / c->gap_m > most)) continue;
         most = fabs(c->voltage_V) / c->gap_m;
         e = m->element[i].own;
     }
-    if (k->w.invalid && fw_comb_of(k->w.invalid)) e = k->w.invalid;
-    fw_rest_pose(&k->w, k->w.y, q, NULL);
+    if (k->w.invalid && fw_effects_comb_of(k->w.invalid)) e = k->w.invalid;
+    fw_statics_equilibrium_pose(&k->w, k->w.y, q, NULL);
     report_comb(k, e, s, last ? last : q);
     k->out->kind = FW_PULL_IN_NONE;
     FW_NEED(k->out->why = fw_arena_strdup(k->arena, why));
@@ -130,19 +131,19 @@ static fw_status nothing_found(seeker *k, double s, const double *last, const ch
 
 /* lowest eigenvalue of the stable equilibrium at s, by Newton from `near` (n, scaled) */
 static fw_status lowest_at(seeker *k, const double *near, double s, double *lowest) {
-    fw_rest *w = &k->w;
+    fw_statics_equilibrium *w = &k->w;
     double before = (double)INFINITY;
     memcpy(w->y, near, (size_t)w->model->nq * sizeof *near);
-    fw_rest_factor(w, s);
+    fw_statics_equilibrium_factor(w, s);
     for (int i = 0; i < 12; i++) {
-        FW_TRY(fw_rest_evaluate(w));
-        double most = fw_rest_newton(w, w->step);
+        FW_TRY(fw_statics_equilibrium_evaluate(w));
+        double most = fw_statics_equilibrium_newton(w, w->step);
         if (!(most < 0.5 * before)) break;
         before = most;
         for (int j = 0; j < w->model->nq; j++)
             w->y[j] += w->step[j];
     }
-    FW_TRY(fw_rest_evaluate(w));
+    FW_TRY(fw_statics_equilibrium_evaluate(w));
     *lowest = w->reduced.value[0];
     return FW_OK;
 }
@@ -184,13 +185,13 @@ static fw_status refine(seeker *k, const double *near, double *s) {
 }
 
 /* the event of the path at index i: which motion becomes free there, and which drive takes it */
-static fw_status describe(seeker *k, const fw_path *path, int i) {
-    fw_rest *w = &k->w;
-    fw_pull_in *out = k->out;
+static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
+    fw_statics_equilibrium *w = &k->w;
+    fw_statics_pull_in *out = k->out;
     size_t n = (size_t)w->model->nq;
     const double *q = path->q + (size_t)i * n;
     double best[4] = {0}, part[4];
-    const fw_force_element *e = NULL;
+    const fw_effects_force_element *e = NULL;
     for (size_t j = 0; j < n; j++)
         w->y[j] = (q[j] - w->q0[j]) / (j % 3 == 2 ? 1 : w->model->scale.length_m);
     double s = path->factor[i], *near;
@@ -199,8 +200,8 @@ static fw_status describe(seeker *k, const fw_path *path, int i) {
     out->bifurcation = path->mark[i] == FW_PATH_BIFURCATION;
     if (out->bifurcation) FW_TRY(refine(k, near, &s));
     memcpy(w->y, near, n * sizeof *near);
-    fw_rest_factor(w, path->factor[i]);
-    FW_TRY(fw_rest_evaluate(w));
+    fw_statics_equilibrium_factor(w, path->factor[i]);
+    FW_TRY(fw_statics_equilibrium_evaluate(w));
     FW_NEED(out->q = fw_arena_array(k->arena, double, n));
     memcpy(out->q, q, n * sizeof *q);
     FW_TRY(motion_of(k, w->reduced.shape, &out->shape)); /* the lowest mode */
@@ -215,7 +216,7 @@ static fw_status describe(seeker *k, const fw_path *path, int i) {
     out->kind = fabs(best[2]) > fmax(fabs(best[0]), fabs(best[1])) ? FW_PULL_IN_TILT
                 : fabs(best[1]) > fabs(best[0])                    ? FW_PULL_IN_SIDE
                                                                    : FW_PULL_IN_FOLD;
-    out->body = w->mechanism->body[fw_rest_mover(w, w->reduced.shape)].id;
+    out->body = w->mechanism->body[fw_statics_equilibrium_mover(w, w->reduced.shape)].id;
     return FW_OK;
 }
 
@@ -224,8 +225,8 @@ static fw_status describe(seeker *k, const fw_path *path, int i) {
 /* what of the drawn stiffness the fields take at s = 1, relative, as a Frobenius norm; and how far
    the mechanism would move, in reaches */
 static fw_status estimate(seeker *k, double *share, double *moved) {
-    fw_rest *w = &k->w;
-    const fw_reduced *r = &w->reduced;
+    fw_statics_equilibrium *w = &k->w;
+    const fw_statics_reduced *r = &w->reduced;
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
     double *before, *shape, *value, most = 0, sum = 0;
     FW_NEED(before = fw_arena_array(k->arena, double, n *n));
@@ -240,8 +241,8 @@ static fw_status estimate(seeker *k, double *share, double *moved) {
             u += shape[l * n + i] * w->push[l] / value[l];
         most = fmax(most, fabs(u));
     }
-    fw_rest_factor(w, 1);
-    FW_TRY(fw_rest_evaluate(w));
+    fw_statics_equilibrium_factor(w, 1);
+    FW_TRY(fw_statics_equilibrium_evaluate(w));
     for (size_t a = 0; a < dof; a++)
         for (size_t b = 0; b < dof; b++) {
             double part = 0;
@@ -253,17 +254,17 @@ static fw_status estimate(seeker *k, double *share, double *moved) {
         }
     *share = sqrt(sum);
     *moved = most / w->reach;
-    fw_rest_factor(w, 0);
-    return fw_rest_evaluate(w);
+    fw_statics_equilibrium_factor(w, 0);
+    return fw_statics_equilibrium_evaluate(w);
 }
 
-static int first_event(const fw_path *path) {
+static int first_event(const fw_statics_path *path) {
     for (int i = 0; i < path->count; i++)
         if (path->mark[i] == FW_PATH_FOLD || path->mark[i] == FW_PATH_BIFURCATION) return i;
     return -1;
 }
 
-static double largest_factor(const fw_path *path) {
+static double largest_factor(const fw_statics_path *path) {
     double most = 0;
     for (int i = 0; i < path->count; i++)
         most = fmax(most, path->factor[i]);
@@ -273,8 +274,8 @@ static double largest_factor(const fw_path *path) {
 /* from the equilibrium without voltage, evaluated; the unit of s is raised until something is found
    or the path ends otherwise */
 static fw_status follow(seeker *k) {
-    fw_rest *w = &k->w;
-    fw_path *path;
+    fw_statics_equilibrium *w = &k->w;
+    fw_statics_path *path;
     double share, moved, *rest;
     size_t bytes = (size_t)w->model->ny * sizeof(double);
     FW_NEED(rest = fw_arena_array(k->arena, double, (size_t)w->model->ny));
@@ -286,10 +287,10 @@ static fw_status follow(seeker *k) {
     w->until_unstable = true;
     for (int i = 0; i < FW_RAISES; i++, w->drive_unit *= fw_raise) {
         memcpy(w->y, rest, bytes);
-        fw_rest_factor(w, 0);
-        FW_TRY(fw_rest_evaluate(w));
+        fw_statics_equilibrium_factor(w, 0);
+        FW_TRY(fw_statics_equilibrium_evaluate(w));
         w->invalid = NULL;
-        FW_TRY(fw_rest_follow(w, FW_PULL_POINTS, &path));
+        FW_TRY(fw_statics_equilibrium_follow(w, FW_PULL_POINTS, &path));
         int event = first_event(path);
         if (event >= 0) return describe(k, path, event);
         if (!path->complete)
@@ -306,14 +307,14 @@ static fw_status follow(seeker *k) {
    user: the pull-in voltage is only a part of the answer. */
 static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_choice *effects,
                       fw_diags *silent) {
-    fw_rest *w = &k->w;
+    fw_statics_equilibrium *w = &k->w;
     bool unstable;
-    FW_TRY(fw_rest_new(k->arena, mechanism, &k->scene, effects, silent, w));
+    FW_TRY(fw_statics_equilibrium_new(k->arena, mechanism, &k->scene, effects, silent, w));
     if (!(least_gap(k) < (double)INFINITY)) return FW_OK; /* left out on request */
-    FW_NEED(k->out = fw_arena_one(k->arena, fw_pull_in));
+    FW_NEED(k->out = fw_arena_one(k->arena, fw_statics_pull_in));
     w->reach = least_gap(k) / w->model->scale.length_m;
     w->lead = FW_LEAD_LOADS;
-    fw_status status = fw_rest_settle(w, &unstable);
+    fw_status status = fw_statics_equilibrium_settle(w, &unstable);
     if (status == FW_SOLVER)
         return nothing_found(k, 0, NULL, "there is no equilibrium without voltage either");
     FW_TRY(status);
@@ -322,27 +323,27 @@ static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_
     if (w->reduced.value[0] <= w->reduced.zero[0])
         return nothing_found(k, 0, NULL, "nothing holds the mechanism even without voltage");
     w->lead = FW_LEAD_DRIVES;
-    fw_rest_factor(w, 0);
-    status = fw_rest_evaluate(w);
+    fw_statics_equilibrium_factor(w, 0);
+    status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_OK) status = follow(k);
     return status == FW_SOLVER ? nothing_found(k, 0, NULL, "its equations could not be evaluated")
                                : status;
 }
 
-double fw_pull_in_margin(const fw_pull_in *p) {
+double fw_statics_pull_in_margin(const fw_statics_pull_in *p) {
     return sqrt(1 + p->fringe);
 }
 
-bool fw_pull_in_dynamic(const fw_pull_in *p) {
+bool fw_statics_pull_in_dynamic(const fw_statics_pull_in *p) {
     return p->margin >= 1;
 }
 
-const char *fw_pull_in_explain(fw_arena *arena, const fw_pull_in *p) {
+const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in *p) {
     char at[32], asked[32];
     fw_number_text(at, sizeof at, p->voltage_V, 4);
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     bool none = p->kind == FW_PULL_IN_NONE;
-    if (!fw_pull_in_dynamic(p))
+    if (!fw_statics_pull_in_dynamic(p))
         return fw_arena_printf(arena,
                                "static pull-in of comb drive %s %s %s V, below the %s V of the "
                                "scene",
@@ -357,7 +358,7 @@ const char *fw_pull_in_explain(fw_arena *arena, const fw_pull_in *p) {
 }
 
 static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags) {
-    const fw_pull_in *out = k->out;
+    const fw_statics_pull_in *out = k->out;
     char at[32], asked[32], part[32];
     fw_diag_warning(
         diags, 248, out->place,
@@ -369,13 +370,13 @@ static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-static fw_status warn(const seeker *k, const fw_scene *scene, fw_diags *diags) {
+static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *diags) {
     static const char *const how[] = {"", "snaps along the drive", "moves aside", "tilts"};
-    const fw_pull_in *out = k->out;
+    const fw_statics_pull_in *out = k->out;
     const char *name = scene->name ? scene->name : "(unnamed)";
     char at[32], asked[32];
     if (out->margin >= 1)
-        return out->kind != FW_PULL_IN_NONE && out->margin < fw_pull_in_margin(out)
+        return out->kind != FW_PULL_IN_NONE && out->margin < fw_statics_pull_in_margin(out)
                    ? warn_fringe(k, name, diags)
                    : FW_OK;
     fw_number_text(at, sizeof at, out->voltage_V, 5);
@@ -395,9 +396,9 @@ static fw_status warn(const seeker *k, const fw_scene *scene, fw_diags *diags) {
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                          const fw_effect_choice *effects, fw_diags *diags,
-                          const fw_pull_in **found) {
+fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_device_scene *scene, const fw_effect_choice *effects,
+                                  fw_diags *diags, const fw_statics_pull_in **found) {
     *found = NULL;
     bool driven = false;
     for (int i = 0; i < scene->ncomb; i++)

@@ -4,9 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-fw_status fw_reduced_new(fw_arena *arena, const fw_model *m, fw_reduced *r) {
+fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
+                                 fw_statics_reduced *r) {
     size_t n = (size_t)m->nq, rows = (size_t)m->rows;
-    *r = (fw_reduced){.n = m->nq, .rows = m->rows};
+    *r = (fw_statics_reduced){.n = m->nq, .rows = m->rows};
     FW_NEED(r->shape = fw_arena_array(arena, double, n *n));
     FW_NEED(r->value = fw_arena_array(arena, double, n));
     FW_NEED(r->zero = fw_arena_array(arena, double, n));
@@ -20,17 +21,17 @@ fw_status fw_reduced_new(fw_arena *arena, const fw_model *m, fw_reduced *r) {
     FW_NEED(r->right = fw_arena_array(arena, double, n *n));
     FW_NEED(r->small = fw_arena_array(arena, double, n *n));
     FW_NEED(r->work = fw_arena_array(arena, double, n + 2 * rows));
-    if (rows > 0) FW_TRY(fw_svd_space(arena, m->rows, m->nq, true, &r->svd));
-    FW_TRY(fw_eigen_space(arena, m->nq, &r->eigen));
+    if (rows > 0) FW_TRY(fw_maths_svd_space(arena, m->rows, m->nq, true, &r->svd));
+    FW_TRY(fw_maths_eigen_space(arena, m->nq, &r->eigen));
     for (int i = 0; i < m->nq; i++)
         r->root[i] = 1 / sqrt(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]);
     return FW_OK;
 }
 
 /* A = D G M^-1/2, column-major, rows of norm 1; false: not finite */
-static bool balanced(const fw_model *m, fw_reduced *r) {
+static bool balanced(const fw_multibody_model *m, fw_statics_reduced *r) {
     size_t n = (size_t)r->n, rows = (size_t)r->rows;
-    fw_model_dense_jacobian(m, r->g);
+    fw_multibody_model_dense_jacobian(m, r->g);
     for (size_t i = 0; i < rows; i++) {
         double *row = r->g + i * n, sum = 0;
         for (size_t j = 0; j < n; j++) {
@@ -58,13 +59,13 @@ static void transpose(int n, const double *from, double *to) {
    reader, so that no rank is decided in silence. Error: round-off times largest / kept. Cost about
    20 n^3. Source: null-space reduction, e.g. Garcia de Jalon and Bayo 1994, ch. 5; LAPACK. Test:
    test_modes.c, test_statics.c (a hinge written twice). */
-fw_status fw_reduced_null(const fw_model *m, fw_reduced *r) {
+fw_status fw_statics_reduced_null(const fw_multibody_model *m, fw_statics_reduced *r) {
     int most = r->rows < r->n ? r->rows : r->n, larger = r->rows > r->n ? r->rows : r->n;
     memset(r->small, 0, (size_t)r->n * (size_t)r->n * sizeof(double));
     for (int i = 0; i < r->n; i++)
         r->small[(size_t)i * (size_t)r->n + (size_t)i] = 1;
-    if (r->rows > 0 && (!balanced(m, r) ||
-                        !fw_svd(r->rows, r->n, true, r->a, r->sigma, r->left, r->small, &r->svd)))
+    if (r->rows > 0 && (!balanced(m, r) || !fw_maths_svd(r->rows, r->n, true, r->a, r->sigma,
+                                                         r->left, r->small, &r->svd)))
         return FW_SOLVER;
     transpose(r->n, r->small, r->right);
     r->largest = most > 0 ? r->sigma[0] : 0;
@@ -77,7 +78,7 @@ fw_status fw_reduced_null(const fw_model *m, fw_reduced *r) {
 }
 
 /* N^T K N for the rows of r->shape, into r->small (dof x dof), symmetric */
-static void project(fw_reduced *r, const double *stiffness) {
+static void project(fw_statics_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
     for (size_t k = 0; k < dof; k++) {
         for (size_t i = 0; i < n; i++) { /* K times row k */
@@ -95,7 +96,7 @@ static void project(fw_reduced *r, const double *stiffness) {
 }
 
 /* turns rows p and q of the modes so that entry (p, q) of the symmetric h vanishes */
-static void rotate(fw_reduced *r, double *h, size_t p, size_t q) {
+static void rotate(fw_statics_reduced *r, double *h, size_t p, size_t q) {
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
     double theta = (h[q * dof + q] - h[p * dof + p]) / (2 * h[p * dof + q]);
     double t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
@@ -119,7 +120,7 @@ static void rotate(fw_reduced *r, double *h, size_t p, size_t q) {
 /* Small stiffnesses beside large ones (light bodies, stiff springs) come out of the dense
    eigenproblem with the round-off of the largest. In the modes' own coordinates they do not: there
    N^T K N is graded, and Jacobi's rotations respect that. */
-static void refine(fw_reduced *r, const double *stiffness) {
+static void refine(fw_statics_reduced *r, const double *stiffness) {
     size_t dof = (size_t)r->dof;
     double *h = r->small;
     project(r, stiffness);
@@ -138,7 +139,7 @@ static void refine(fw_reduced *r, const double *stiffness) {
 }
 
 /* modes by stiffness, ascending; few are out of order after the refinement */
-static void sort_modes(fw_reduced *r) {
+static void sort_modes(fw_statics_reduced *r) {
     size_t n = (size_t)r->n;
     for (int i = 1; i < r->dof; i++)
         for (int k = i; k > 0 && r->value[k] < r->value[k - 1]; k--) {
@@ -152,7 +153,7 @@ static void sort_modes(fw_reduced *r) {
 
 /* round-off of each value: of its own terms, and squared of what the largest may leave in its shape
  */
-static void set_zero(fw_reduced *r, const double *stiffness) {
+static void set_zero(fw_statics_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n;
     const double small = 64 * DBL_EPSILON;
     double most = 0;
@@ -175,7 +176,7 @@ static void set_zero(fw_reduced *r, const double *stiffness) {
    other stays apart, whatever their masses. Orthonormal as before: shape = P e_j / sqrt(P_jj) with
    the projector P onto the motions that are left. false: there are not two. Cost 3 n per pair.
    Test: test_modes.c. */
-static bool separate_free(fw_reduced *r) {
+static bool separate_free(fw_statics_reduced *r) {
     size_t n = (size_t)r->n, first = 0, end;
     while (first < (size_t)r->dof && fabs(r->value[first]) > r->zero[first])
         first++;
@@ -209,7 +210,7 @@ static bool separate_free(fw_reduced *r) {
 }
 
 /* z^T K z of each mode */
-static void rayleigh(fw_reduced *r, const double *stiffness) {
+static void rayleigh(fw_statics_reduced *r, const double *stiffness) {
     project(r, stiffness);
     for (size_t k = 0; k < (size_t)r->dof; k++)
         r->value[k] = r->small[k * (size_t)r->dof + k];
@@ -220,7 +221,7 @@ static void rayleigh(fw_reduced *r, const double *stiffness) {
    round- off of its own terms. Cost 4 n^2 dof and 20 dof^3. Source: Demmel and Veselic, SIAM J.
    Matrix Anal. Appl. 13 (1992), on the accuracy of Jacobi's method. Test: test_modes.c (mass ratio
    1e8). */
-fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
+fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n, dof = (size_t)r->dof;
     const double *basis = r->right + (size_t)r->rank * n;
     for (size_t k = 0; k < dof; k++)
@@ -229,7 +230,7 @@ fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
     project(r, stiffness);
     for (size_t k = 0; k < dof * dof; k++)
         if (!isfinite(r->small[k])) return FW_SOLVER;
-    if (dof > 0 && !fw_eigen(r->dof, r->small, r->value, &r->eigen)) return FW_SOLVER;
+    if (dof > 0 && !fw_maths_eigen(r->dof, r->small, r->value, &r->eigen)) return FW_SOLVER;
     for (size_t k = 0; k < dof; k++)
         for (size_t i = 0; i < n; i++) {
             double sum = 0;
@@ -248,8 +249,8 @@ fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness) {
     return FW_OK;
 }
 
-void fw_reduced_multipliers(const fw_model *m, const fw_reduced *r, const double *force,
-                            double *lambda) {
+void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                    const double *force, double *lambda) {
     size_t n = (size_t)r->n, rows = (size_t)r->rows;
     double *mu = r->work, *part = r->work + rows;
     memset(mu, 0, rows * sizeof *mu);
@@ -264,13 +265,14 @@ void fw_reduced_multipliers(const fw_model *m, const fw_reduced *r, const double
             mu[i] += r->left[(size_t)k * rows + i] * part[k];
         mu[i] *= r->balance[i];
     }
-    fw_model_unpack(m, mu, lambda);
+    fw_multibody_model_unpack(m, mu, lambda);
 }
 
-void fw_reduced_correct(const fw_model *m, const fw_reduced *r, const double *psi, double *d) {
+void fw_statics_reduced_correct(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                const double *psi, double *d) {
     size_t n = (size_t)r->n, rows = (size_t)r->rows;
     double *packed = r->work;
-    fw_model_pack(m, psi, packed);
+    fw_multibody_model_pack(m, psi, packed);
     memset(d, 0, n * sizeof *d);
     for (int k = 0; k < r->rank; k++) {
         double sum = 0;

@@ -6,7 +6,7 @@
 #include "multibody/model.h"
 #include "maths/lapack.h"
 
-typedef struct fw_reduced {
+typedef struct fw_statics_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
     double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the
                                       smallest that counts, the largest that does not (0: none) */
@@ -17,19 +17,21 @@ typedef struct fw_reduced {
     double *left;  /* (rows x min(rows, n)) column-major, singular vectors */
     double *right; /* (n x n) row-major: right singular vectors, those of the null space last */
     double *balance, *g, *a, *sigma, *small, *work;
-    fw_lapack_space svd, eigen;
-} fw_reduced;
+    fw_maths_lapack_space svd, eigen;
+} fw_statics_reduced;
 
-fw_status fw_reduced_new(fw_arena *arena, const fw_model *m, fw_reduced *r);
+fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
+                                 fw_statics_reduced *r);
 /* null space of G at the model's pose; FW_SOLVER: not finite */
-fw_status fw_reduced_null(const fw_model *m, fw_reduced *r);
-/* modes of K (n x n) in it, after fw_reduced_null */
-fw_status fw_reduced_spectrum(fw_reduced *r, const double *stiffness);
+fw_status fw_statics_reduced_null(const fw_multibody_model *m, fw_statics_reduced *r);
+/* modes of K (n x n) in it, after fw_statics_reduced_null */
+fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiffness);
 /* lambda (2 nblock) with G^T lambda as close to the force (n) as it gets in the mass metric; of all
    such, the one of least norm */
-void fw_reduced_multipliers(const fw_model *m, const fw_reduced *r, const double *force,
-                            double *lambda);
+void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                    const double *force, double *lambda);
 /* d (n) of least mass norm with G d = -psi (2 nblock) */
-void fw_reduced_correct(const fw_model *m, const fw_reduced *r, const double *psi, double *d);
+void fw_statics_reduced_correct(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                const double *psi, double *d);
 
 #endif

@@ -9,81 +9,81 @@
 #define FW_STATICS_STATICS_H
 #include "multibody/multibody.h"
 
-typedef struct fw_static_options {
+typedef struct fw_statics_static_options {
     fw_effect_choice effects; /* "auto" is taken as "all": nothing is left out */
     bool path;                /* follow the load path from s = 0 */
     double accuracy;          /* of the hinges' level, where auto chooses it; 0: 1e-3 */
     int most_points;          /* of the path; 0: 2000 */
-} fw_static_options;
+} fw_statics_static_options;
 
-typedef struct fw_row_rank { /* what was found out about the constraint rows */
+typedef struct fw_statics_row_rank { /* what was found out about the constraint rows */
     int rows, rank;
     double kept, dropped; /* smallest singular value that counts, largest that does not, relative to
                              the largest; dropped 0: none */
     const char *joints;   /* joints that repeat what others say, comma separated, or NULL */
-} fw_row_rank;
+} fw_statics_row_rank;
 
-typedef struct fw_active { /* a stop, a cable, or a switch of a force element */
-    const char *id;        /* of the joint, the spring or the element */
-    double side;           /* of a stop: +1 at its largest angle, -1 at its smallest; 0: others */
-    bool on;               /* touches, is taut, acts */
-    const char *effect;    /* id of the effect of an element; NULL: a stop or a cable */
-} fw_active;
+typedef struct fw_statics_active { /* a stop, a cable, or a switch of a force element */
+    const char *id;                /* of the joint, the spring or the element */
+    double side;        /* of a stop: +1 at its largest angle, -1 at its smallest; 0: others */
+    bool on;            /* touches, is taut, acts */
+    const char *effect; /* id of the effect of an element; NULL: a stop or a cable */
+} fw_statics_active;
 
-typedef enum fw_path_mark {
+typedef enum fw_statics_path_mark {
     FW_PATH_POINT,
     FW_PATH_FOLD,        /* limit point: the load factor turns back */
     FW_PATH_BIFURCATION, /* another branch crosses */
     FW_PATH_SWITCH,      /* a stop or cable takes hold or lets go */
     FW_PATH_END          /* s = 1 */
-} fw_path_mark;
+} fw_statics_path_mark;
 
-typedef struct fw_path { /* equilibria one after the other */
-    int count, nbody, npin, ntie, ndriver;
-    double *factor;        /* (count) s */
-    double *q;             /* (count x 3 nbody) m, rad */
-    double *angle_rad;     /* (count x npin) as in fw_motion */
-    double *reaction_N;    /* (count x 2 npin) */
-    double *tie_N;         /* (count x 3 ntie) */
-    double *driver_N;      /* (count x ndriver) */
-    double *lowest_per_s2; /* (count) smallest eigenvalue of the reduced tangent stiffness */
-    int *negative;         /* (count) how many are below 0; 0: stable */
-    fw_path_mark *mark;    /* (count) */
-    int *which;            /* (count) of FW_PATH_SWITCH: index into `active`; else FW_NONE */
+typedef struct fw_statics_path { /* equilibria one after the other */
+    int count, nbody, npin, njoint, ndriver;
+    double *factor;             /* (count) s */
+    double *q;                  /* (count x 3 nbody) m, rad */
+    double *angle_rad;          /* (count x npin) as in fw_dynamics_motion */
+    double *reaction_N;         /* (count x 2 npin) */
+    double *joint_N;            /* (count x 3 njoint) */
+    double *driver_N;           /* (count x ndriver) */
+    double *lowest_per_s2;      /* (count) smallest eigenvalue of the reduced tangent stiffness */
+    int *negative;              /* (count) how many are below 0; 0: stable */
+    fw_statics_path_mark *mark; /* (count) */
+    int *which;                 /* (count) of FW_PATH_SWITCH: index into `active`; else FW_NONE */
     /* of FW_PATH_FOLD where the load was growing: how far the mechanism snaps under a load a little
        above, as the largest way of a centre of mass and the largest rotation; NaN: nowhere, or no
        fold of this kind */
     double *snap_m, *snap_rad; /* (count) */
     bool complete;             /* reached s = 1 */
-} fw_path;
+} fw_statics_path;
 
 typedef struct fw_statics {
-    int nbody, npin, ntie, ndriver, dof;
-    double *rest_q;            /* (3 nbody) assembled pose */
-    double *q;                 /* (3 nbody) the equilibrium at s = 1 */
-    double *angle_rad;         /* (npin) phi_b - phi_a - free angle */
-    double *reaction_N;        /* (2 npin) force on body b, world axes */
-    double *tie_N;             /* (3 ntie) force on body b, torque on it about its point b (N m) */
-    double *driver_N;          /* (ndriver) N or N m along the driven coordinate */
+    int nbody, npin, njoint, ndriver, dof;
+    double *rest_q;     /* (3 nbody) assembled pose */
+    double *q;          /* (3 nbody) the equilibrium at s = 1 */
+    double *angle_rad;  /* (npin) phi_b - phi_a - free angle */
+    double *reaction_N; /* (2 npin) force on body b, world axes */
+    double *joint_N;    /* (3 njoint) force on body b, torque on it about its point b (N m) */
+    double *driver_N;   /* (ndriver) N or N m along the driven coordinate */
     double *eigenvalue_per_s2; /* (dof) of the reduced tangent stiffness, ascending: omega^2 */
     int negative, neutral;     /* how many are below 0, and 0 within round-off */
     const char *loose;         /* bodies that nothing holds, or NULL */
     bool left_unstable;        /* the way there led over an unstable equilibrium */
     double residual;           /* largest force along an allowed motion over the largest force */
     int iterations;            /* Newton steps */
-    fw_active *active;         /* (nactive) */
+    fw_statics_active *active; /* (nactive) */
     int nactive;
-    fw_row_rank rank;
-    fw_path *path;                    /* NULL: not asked for */
-    const struct fw_pull_in *pull_in; /* pull_in.h; NULL: no comb drives */
+    fw_statics_row_rank rank;
+    fw_statics_path *path;                    /* NULL: not asked for */
+    const struct fw_statics_pull_in *pull_in; /* pull_in.h; NULL: no comb drives */
     fw_effect_ledger ledger;
-    const struct fw_level_step *level; /* level.h; NULL: no hinges */
+    const struct fw_statics_level_step *level; /* level.h; NULL: no hinges */
 } fw_statics;
 
 /* the stable equilibrium that descent from the assembled pose reaches at s = 1; with a path, its
    end when it reaches s = 1. FW_SOLVER with FW-D111 when there is none. */
-fw_status fw_static_equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
-                                const fw_scene *scene, const fw_static_options *options,
-                                fw_diags *diags, const fw_statics **statics);
+fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_device_scene *scene, const fw_statics_static_options *options,
+                           fw_diags *diags, const fw_statics **statics);
 
 #endif

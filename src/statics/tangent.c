@@ -45,13 +45,13 @@ static void add_pair(const target *to, int a, int b, double matrix[6][6]) {
             add_entry(to, i < 3 ? a : b, i % 3, j < 3 ? a : b, j % 3, matrix[i][j]);
 }
 
-static void turn(const fw_model *m, int body, double x, double y, double out[2]) {
+static void turn(const fw_multibody_model *m, int body, double x, double y, double out[2]) {
     out[0] = m->cosine[body] * x - m->sine[body] * y;
     out[1] = m->sine[body] * x + m->cosine[body] * y;
 }
 
-static pair pair_of(const fw_model *m, const double *u, int a, int b, const double local[4],
-                    const double offset[2]) {
+static pair pair_of(const fw_multibody_model *m, const double *u, int a, int b,
+                    const double local[4], const double offset[2]) {
     pair p;
     turn(m, a, local[0], local[1], p.ra);
     turn(m, b, local[2], local[3], p.rb);
@@ -115,9 +115,9 @@ static gauge along(const pair *p, const double w[2]) {
 
 /* ---- constraints ---- */
 
-static void constraint(const fw_model *m, const double *u, int i, const double *lambda,
+static void constraint(const fw_multibody_model *m, const double *u, int i, const double *lambda,
                        const target *to) {
-    const fw_block *c = &m->block[i];
+    const fw_multibody_block *c = &m->block[i];
     if (c->rows == FW_ROWS_TURN) return; /* linear */
     pair p = pair_of(m, u, c->a, c->b, m->local + 4 * i, m->offset + 2 * i);
     if (c->rows == FW_ROWS_PIN) { /* -d: the arms turn */
@@ -139,8 +139,9 @@ static void constraint(const fw_model *m, const double *u, int i, const double *
 
 /* ---- forces ---- */
 
-static void spring_on(const fw_model *m, const gauge *g, int a, int b, const double *v, double k,
-                      double c, double free, const target *stiffness, const target *damping) {
+static void spring_on(const fw_multibody_model *m, const gauge *g, int a, int b, const double *v,
+                      double k, double c, double free, const target *stiffness,
+                      const target *damping) {
     double speed[6] = {0}, bend[6] = {0}, rate = 0, matrix[6][6];
     for (int i = 0; i < 6; i++) {
         int body = i < 3 ? a : b;
@@ -164,13 +165,14 @@ static void spring_on(const fw_model *m, const gauge *g, int a, int b, const dou
 
 /* a point spring; where its points lie apart by no more than round-off, a direction means nothing
  */
-static void point_spring(const fw_model *m, const fw_model_spring *s, const double *u,
-                         const double *v, const target *stiffness, const target *damping) {
+static void point_spring(const fw_multibody_model *m, const fw_multibody_model_spring *s,
+                         const double *u, const double *v, const target *stiffness,
+                         const target *damping) {
     const double local[4] = {s->ax, s->ay, s->bx, s->by};
     const double offset[2] = {m->origin[3 * s->a] - m->origin[3 * s->b],
                               m->origin[3 * s->a + 1] - m->origin[3 * s->b + 1]};
     pair p = pair_of(m, u, s->a, s->b, local, offset);
-    bool together = s->length == 0 && hypot(p.d[0], p.d[1]) <= fw_spring_round_off(m, s);
+    bool together = s->length == 0 && hypot(p.d[0], p.d[1]) <= fw_multibody_spring_round_off(m, s);
     for (int k = 0; together && k < 2; k++) {
         gauge g = component(&p, k);
         spring_on(m, &g, s->a, s->b, v, s->k, s->c, 0, stiffness, damping);
@@ -188,55 +190,56 @@ static void between_angles(const target *to, int a, int b, double value) {
 }
 
 /* a force of fixed direction turns with its arm only: torque r x f, d/dphi = -r . f */
-static void dead_load(const fw_model *m, int body, double x, double y, double fx, double fy,
-                      const target *to) {
+static void dead_load(const fw_multibody_model *m, int body, double x, double y, double fx,
+                      double fy, const target *to) {
     double r[2];
     turn(m, body, x, y, r);
     add_entry(to, body, 2, body, 2, r[0] * fx + r[1] * fy);
 }
 
-static void forces(const fw_model *m, double t, const double *y, const target *stiffness,
+static void forces(const fw_multibody_model *m, double t, const double *y, const target *stiffness,
                    const target *damping) {
     const double *u = y, *v = y + m->nq;
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *s = &m->torsion[i];
+        const fw_multibody_model_torsion *s = &m->torsion[i];
         between_angles(stiffness, s->a, s->b, s->k);
         if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
     }
     for (int i = 0; i < m->nstop; i++) {
-        const fw_model_stop *s = &m->stop[i];
+        const fw_multibody_model_stop *s = &m->stop[i];
         if (!s->on) continue;
         between_angles(stiffness, s->a, s->b, s->k);
         if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
     }
     for (int i = 0; i < m->nload; i++) {
-        const fw_model_load *l = &m->load[i];
+        const fw_multibody_model_load *l = &m->load[i];
         dead_load(m, l->body, l->x, l->y, l->fx, l->fy, stiffness);
     }
     for (int i = 0; i < m->ntimed; i++) {
-        const fw_model_timed *l = &m->timed[i];
+        const fw_multibody_model_timed *l = &m->timed[i];
         double factor[3];
-        fw_law_value(l->law, t * m->scale.time_s, m->piece, factor);
+        fw_quantity_law_value(l->law, t * m->scale.time_s, m->piece, factor);
         dead_load(m, l->body, l->x, l->y, factor[0] * l->fx, factor[0] * l->fy, stiffness);
     }
     for (int i = 0; i < m->nspring; i++) {
-        const fw_model_spring *s = &m->spring[i];
+        const fw_multibody_model_spring *s = &m->spring[i];
         if (s->on) point_spring(m, s, u, v, stiffness, damping);
     }
     for (int i = 0; i < m->nslide; i++) {
-        const fw_model_slide *s = &m->slide[i];
-        const fw_block *c = &m->block[s->block];
+        const fw_multibody_model_slide *s = &m->slide[i];
+        const fw_multibody_block *c = &m->block[s->block];
         double e[2];
         turn(m, s->a, c->cos_axis, c->sin_axis, e);
         pair p = pair_of(m, u, s->a, s->b, m->local + 4 * s->block, m->offset + 2 * s->block);
         gauge g = along(&p, e);
         spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->free, stiffness, damping);
     }
-    if (m->nelement > 0) fw_model_element_tangent(m, t, y, stiffness->matrix, damping->matrix);
+    if (m->nelement > 0)
+        fw_multibody_model_element_tangent(m, t, y, stiffness->matrix, damping->matrix);
 }
 
-void fw_tangent(const fw_model *m, double t, const double *y, const double *lambda,
-                double *stiffness, double *damping) {
+void fw_statics_tangent(const fw_multibody_model *m, double t, const double *y,
+                        const double *lambda, double *stiffness, double *damping) {
     size_t size = (size_t)m->nq * (size_t)m->nq * sizeof(double);
     const target k = {m->nq, m->nbody, stiffness}, c = {m->nq, m->nbody, damping};
     memset(stiffness, 0, size);

@@ -8,7 +8,7 @@
 /* At state y = (u, v, ...) and time t with multipliers lambda (2 nblock, the model's order):
      stiffness (nq x nq) = d(G^T lambda)/du - dQ/du,   damping (nq x nq, may be NULL) = -dQ/dv.
    The model must be posed at u. */
-void fw_tangent(const fw_model *m, double t, const double *y, const double *lambda,
-                double *stiffness, double *damping);
+void fw_statics_tangent(const fw_multibody_model *m, double t, const double *y,
+                        const double *lambda, double *stiffness, double *damping);
 
 #endif

@@ -1,36 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/axes.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <stdlib.h>
 
-fw_axis fw_axis_new(bool falls) {
-    return (fw_axis){HUGE_VAL, -HUGE_VAL, falls};
+fw_study_axis fw_study_axis_new(bool falls) {
+    return (fw_study_axis){HUGE_VAL, -HUGE_VAL, falls};
 }
 
-void fw_axis_add(fw_axis *a, double value) {
+void fw_study_axis_add(fw_study_axis *a, double value) {
     if (!isfinite(value) || !(value > 0)) return;
     a->low = fmin(a->low, log10(value));
     a->high = fmax(a->high, log10(value));
 }
 
-void fw_axis_end(fw_axis *a) {
+void fw_study_axis_end(fw_study_axis *a) {
     if (!(a->low <= a->high)) a->low = a->high = 0;
     a->low = floor(a->low - 0.05);
     a->high = ceil(a->high + 0.05);
 }
 
-static double part(const fw_axis *a, double value) {
+static double part(const fw_study_axis *a, double value) {
     double x = (log10(value) - a->low) / (a->high - a->low);
     x = fmin(1, fmax(0, x));
     return a->falls ? 1 - x : x;
 }
 
-double fw_panel_x(const fw_panel *p, double value) {
+double fw_study_panel_x(const fw_study_panel *p, double value) {
     return p->x + p->width * part(&p->ax, value);
 }
 
-double fw_panel_y(const fw_panel *p, double value) {
+double fw_study_panel_y(const fw_study_panel *p, double value) {
     return p->y + p->height * (1 - part(&p->ay, value));
 }
 
@@ -47,11 +47,11 @@ static void power(fw_text *out, int exponent) {
     fw_text_add(out, digit[n % 10]);
 }
 
-static void ticks_x(const fw_panel *p, fw_text *out) {
+static void ticks_x(const fw_study_panel *p, fw_text *out) {
     double bottom = p->y + p->height;
     int every = p->ax.high - p->ax.low > 8 ? 2 : 1;
     for (int e = (int)p->ax.low; e <= (int)p->ax.high; e++) {
-        double x = fw_panel_x(p, pow(10, e));
+        double x = fw_study_panel_x(p, pow(10, e));
         fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='#eaeef2'", x, p->y, bottom);
         if ((e - (int)p->ax.low) % every) continue;
         fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='middle'", x, bottom + 16.0);
@@ -60,12 +60,12 @@ static void ticks_x(const fw_panel *p, fw_text *out) {
     }
 }
 
-static void ticks_y(const fw_panel *p, fw_text *out) {
+static void ticks_y(const fw_study_panel *p, fw_text *out) {
     bool fine = p->ay.high - p->ay.low <= 2; /* few decades: 2 and 5 too */
     static const double step[] = {1, 2, 5};
     for (int e = (int)p->ay.low; e <= (int)p->ay.high; e++)
         for (int k = 0; k < (fine ? 3 : 1) && (k == 0 || e < (int)p->ay.high); k++) {
-            double y = fw_panel_y(p, step[k] * pow(10, e));
+            double y = fw_study_panel_y(p, step[k] * pow(10, e));
             fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='#eaeef2'", p->x, y, p->x + p->width);
             fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", p->x - 6.0, y + 4.0);
             fw_markup(out, "{r}", k == 0 ? "" : k == 1 ? "2\u00b7" : "5\u00b7");
@@ -74,8 +74,8 @@ static void ticks_y(const fw_panel *p, fw_text *out) {
         }
 }
 
-void fw_panel_frame(const fw_panel *p, const char *title, const char *x_name, const char *y_name,
-                    fw_text *out) {
+void fw_study_panel_frame(const fw_study_panel *p, const char *title, const char *x_name,
+                          const char *y_name, fw_text *out) {
     double bottom = p->y + p->height, middle = p->y + 0.5 * p->height;
     fw_svg_put(out, "text x='{c}' y='{c}' font-size='14' font-weight='600' fill='#1f2328'>{s}\n",
                p->x, p->y - 22.0, title);
@@ -107,8 +107,8 @@ static void marker(double x, double y, int style, fw_text *out) {
     fw_markup(out, "M{c} {c}{r}", x, y, shape[style % 5]);
 }
 
-void fw_panel_curve(const fw_panel *p, const double *x, const double *y, int n, int style,
-                    fw_text *out) {
+void fw_study_panel_curve(const fw_study_panel *p, const double *x, const double *y, int n,
+                          int style, fw_text *out) {
     static const char *const dash[] = {"none", "7 3", "2 3"};
     const char *ink = colour[style % COLOURS];
     (void)p;
@@ -126,7 +126,7 @@ void fw_panel_curve(const fw_panel *p, const double *x, const double *y, int n, 
 
 /* ---- labels ---- */
 
-void fw_labels_add(fw_labels *l, const char *text, double x, double y, int style) {
+void fw_study_labels_add(fw_study_labels *l, const char *text, double x, double y, int style) {
     if (l->n == FW_LABELS) return;
     int at = l->n++;
     for (; at > 0 && l->item[at - 1].y > y; at--)
@@ -137,16 +137,16 @@ void fw_labels_add(fw_labels *l, const char *text, double x, double y, int style
     l->item[at].style = style;
 }
 
-void fw_labels_spread(fw_labels *l, double top, double bottom, double room) {
+void fw_study_labels_spread(fw_study_labels *l, double top, double bottom, double room) {
     for (int i = 0; i < l->n; i++)
         l->item[i].at = fmax(l->item[i].y, i ? l->item[i - 1].at + room : top);
     for (int i = l->n - 1; i >= 0; i--)
         l->item[i].at = fmin(l->item[i].at, i < l->n - 1 ? l->item[i + 1].at - room : bottom);
 }
 
-void fw_labels_draw(fw_labels *l, const fw_panel *p, fw_text *out) {
+void fw_study_labels_draw(fw_study_labels *l, const fw_study_panel *p, fw_text *out) {
     double x = p->x + p->width + 12;
-    fw_labels_spread(l, p->y + 6, p->y + p->height - 4, 16);
+    fw_study_labels_spread(l, p->y + 6, p->y + p->height - 4, 16);
     for (int i = 0; i < l->n; i++) {
         const char *ink = colour[l->item[i].style % COLOURS];
         fw_svg_put(out,

@@ -24,8 +24,8 @@ typedef struct wishes {
     bool *listed;      /* (npoint) */
 } wishes;
 
-static void want(const fw_tradeoff *t, int i, wishes *l) {
-    const fw_tradeoff_point *p = &t->point[i];
+static void want(const fw_study_tradeoff *t, int i, wishes *l) {
+    const fw_study_tradeoff_point *p = &t->point[i];
     if (l->listed[i] || p->state != FW_TRADEOFF_DONE) return;
     if (p->instructions > fmin(l->left, i == 0 ? l->left : l->most)) return;
     l->listed[i] = true;
@@ -48,19 +48,19 @@ static int before(const void *a, const void *b) {
     return first ? first : fw_order_wholes(x->at, y->at);
 }
 
-static int tightest(const fw_tradeoff *t, const fw_tradeoff_curve *c) {
+static int tightest(const fw_study_tradeoff *t, const fw_study_tradeoff_curve *c) {
     int at = c->first + c->count - 1;
     while (at > c->first && t->point[at].state != FW_TRADEOFF_DONE)
         at--;
     return at;
 }
 
-static fw_status choose(fw_arena *arena, const fw_tradeoff *t, wishes *l) {
+static fw_status choose(fw_arena *arena, const fw_study_tradeoff *t, wishes *l) {
     order *all;
     int n = 0;
     FW_NEED(all = fw_arena_array(arena, order, (size_t)t->npoint));
     for (int i = 0; i < t->ncurve; i++) {
-        const fw_tradeoff_curve *c = &t->curve[i];
+        const fw_study_tradeoff_curve *c = &t->curve[i];
         for (int at = c->first; at < c->first + c->count; at++)
             if (t->point[at].state == FW_TRADEOFF_DONE) {
                 bool drawn = c->as_integrator || c->as_method, last = at == tightest(t, c);
@@ -75,12 +75,12 @@ static fw_status choose(fw_arena *arena, const fw_tradeoff *t, wishes *l) {
     return FW_OK;
 }
 
-static fw_status written(fw_arena *arena, const fw_problem *p, const fw_tradeoff *t,
+static fw_status written(fw_arena *arena, const fw_study_problem *p, const fw_study_tradeoff *t,
                          const wishes *l, const char **out) {
     fw_text text = fw_text_new(arena);
-    fw_text_printf(&text, "%s;", fw_hinge_model_text(p->effects.hinge));
+    fw_text_printf(&text, "%s;", fw_effects_hinge_model_text(p->effects.hinge));
     for (int i = 0; i < l->n; i++) {
-        const fw_tradeoff_point *point = &t->point[l->point[i]];
+        const fw_study_tradeoff_point *point = &t->point[l->point[i]];
         fw_text_add(&text, i ? "," : "");
         if (l->point[i] == 0 && t->row)
             fw_text_add(&text, "row/row/0");
@@ -98,7 +98,7 @@ static fw_status written(fw_arena *arena, const fw_problem *p, const fw_tradeoff
 /* ---- the program under callgrind ---- */
 
 /* the number behind "summary:" or "totals:" of dump i; NaN: there is none */
-static double dump(const fw_external_room *room, int i) {
+static double dump(const fw_continuum_external_room *room, int i) {
     char name[700], line[4096];
     double count = (double)NAN;
     snprintf(name, sizeof name, "%s/cg.%d", room->path, i);
@@ -111,9 +111,9 @@ static double dump(const fw_external_room *room, int i) {
 }
 
 /* --settings stands right behind the command: behind a "--" of the user's it would be a file */
-static fw_status start(const fw_external_room *room, const char *valgrind,
+static fw_status start(const fw_continuum_external_room *room, const char *valgrind,
                        const char *const *program, const char *settings, double seconds,
-                       fw_external_run *run) {
+                       fw_continuum_external_run *run) {
     enum { PROGRAM_AND_COMMAND = 2 };
     char file[700];
     const char *argv[MOST_WORDS + 16];
@@ -133,18 +133,20 @@ static fw_status start(const fw_external_room *room, const char *valgrind,
     for (; program[word] && word < MOST_WORDS; word++)
         argv[n++] = program[word];
     argv[n] = NULL;
-    return fw_external_call_here(room, argv, "log", seconds, run);
+    return fw_continuum_external_call_here(room, argv, "log", seconds, run);
 }
 
 /* the next counted point of the curve from k on, in steps of `side`; FW_NONE */
-static int next_counted(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k, int side) {
+static int next_counted(const fw_study_tradeoff *t, const fw_study_tradeoff_curve *c, int k,
+                        int side) {
     for (int at = k + side; at >= 0 && at < c->count; at += side)
         if (t->point[c->first + at].by == FW_COUNT_CALLGRIND) return at;
     return FW_NONE;
 }
 
 /* those on either side of k, or the nearest two on one; b FW_NONE: there is only one */
-static void nearest(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k, int *a, int *b) {
+static void nearest(const fw_study_tradeoff *t, const fw_study_tradeoff_curve *c, int k, int *a,
+                    int *b) {
     *a = next_counted(t, c, k, -1), *b = next_counted(t, c, k, 1);
     if (*a == FW_NONE && *b != FW_NONE)
         *a = *b, *b = next_counted(t, c, *a, 1);
@@ -155,7 +157,8 @@ static void nearest(const fw_tradeoff *t, const fw_tradeoff_curve *c, int k, int
 /* Instructions at a number of right-hand sides from two counts: the larger of a line, which is
    right where there is an overhead, and a power law, which is nearer where each costs more at
    tighter tolerances (implicit ones factor more often). b NULL: in proportion. */
-static double between(double rhs, const fw_tradeoff_point *a, const fw_tradeoff_point *b) {
+static double between(double rhs, const fw_study_tradeoff_point *a,
+                      const fw_study_tradeoff_point *b) {
     double each = a->instructions / (double)a->rhs, plain = each * rhs;
     if (!b || a->rhs == b->rhs) return plain;
     double slope = (a->instructions - b->instructions) / (double)(a->rhs - b->rhs);
@@ -166,11 +169,11 @@ static double between(double rhs, const fw_tradeoff_point *a, const fw_tradeoff_
 }
 
 /* the tolerances that were not counted, of pairs of which some were, from the nearest two */
-static void scale(fw_tradeoff *t) {
+static void scale(fw_study_tradeoff *t) {
     for (int i = 0; i < t->ncurve; i++) {
-        const fw_tradeoff_curve *c = &t->curve[i];
+        const fw_study_tradeoff_curve *c = &t->curve[i];
         for (int k = 0; k < c->count; k++) {
-            fw_tradeoff_point *p = &t->point[c->first + k];
+            fw_study_tradeoff_point *p = &t->point[c->first + k];
             if (p->state != FW_TRADEOFF_DONE || p->by == FW_COUNT_CALLGRIND) continue;
             int a, b;
             nearest(t, c, k, &a, &b);
@@ -184,21 +187,21 @@ static void scale(fw_tradeoff *t) {
 
 /* Pairs of which nothing was counted: the model, as far off as it is for the chosen setting. They
    are shown and not compared. */
-static void adjust(fw_tradeoff *t, double modelled) {
+static void adjust(fw_study_tradeoff *t, double modelled) {
     double by = t->point[0].instructions / modelled;
     for (int i = 1; i < t->npoint; i++)
         if (t->point[i].state == FW_TRADEOFF_DONE && t->point[i].by == FW_COUNT_MODEL)
             t->point[i].instructions *= by;
 }
 
-static fw_status counted(fw_problem *p, const char *valgrind, const fw_tradeoff_options *o,
-                         wishes *l, fw_tradeoff *t) {
-    fw_external_room room;
-    fw_external_run run;
+static fw_status counted(fw_study_problem *p, const char *valgrind,
+                         const fw_study_tradeoff_options *o, wishes *l, fw_study_tradeoff *t) {
+    fw_continuum_external_room room;
+    fw_continuum_external_run run;
     const char *settings;
     FW_TRY(written(p->arena, p, t, l, &settings));
     double seconds = 60 + 4 * p->budget / 2.5e9;
-    if (fw_external_room_open(p->arena, &room) != FW_OK) {
+    if (fw_continuum_external_room_open(p->arena, &room) != FW_OK) {
         t->instructions_why = "no temporary directory for callgrind";
         return FW_OK;
     }
@@ -209,7 +212,7 @@ static fw_status counted(fw_problem *p, const char *valgrind, const fw_tradeoff_
         t->point[l->point[i]].instructions = count;
         t->point[l->point[i]].by = FW_COUNT_CALLGRIND;
     }
-    fw_external_room_close(&room);
+    fw_continuum_external_room_close(&room);
     if (status == FW_OK && run.end == FW_EXTERNAL_CANCELLED) return FW_CANCELLED;
     if (status == FW_NOMEM) return status;
     if (t->point[0].by != FW_COUNT_CALLGRIND)
@@ -217,7 +220,8 @@ static fw_status counted(fw_problem *p, const char *valgrind, const fw_tradeoff_
     return FW_OK;
 }
 
-fw_status fw_tradeoff_count(fw_problem *p, const fw_tradeoff_options *o, fw_tradeoff *t) {
+fw_status fw_study_tradeoff_count(fw_study_problem *p, const fw_study_tradeoff_options *o,
+                                  fw_study_tradeoff *t) {
     const char *valgrind = fw_continuum_program(p->arena, "valgrind");
     if (!o->count)
         t->instructions_why = "not asked for";
@@ -241,21 +245,23 @@ fw_status fw_tradeoff_count(fw_problem *p, const fw_tradeoff_options *o, fw_trad
 
 /* ---- the other end ---- */
 
-static const char *known(const char *word, fw_method_row (*at)(size_t)) {
+static const char *known(const char *word, fw_multibody_method_row (*at)(size_t)) {
     for (size_t i = 0; at(i).name; i++)
         if (strcmp(at(i).name, word) == 0) return at(i).name;
     return NULL;
 }
 
 /* "METHOD/INTEGRATOR/RTOL"; false: it is not one */
-static bool parse(char *word, fw_tradeoff_setting *s) {
+static bool parse(char *word, fw_study_tradeoff_setting *s) {
     char *integrator = strchr(word, '/'), *rtol = integrator ? strchr(integrator + 1, '/') : NULL;
     if (!rtol) return false;
     *integrator++ = '\0', *rtol++ = '\0';
-    *s = (fw_tradeoff_setting){.row = strcmp(word, "row") == 0};
+    *s = (fw_study_tradeoff_setting){.row = strcmp(word, "row") == 0};
     if (s->row) return true;
-    if (strcmp(word, "auto") != 0 && !(s->method = known(word, fw_method_at))) return false;
-    if (strcmp(integrator, "auto") != 0 && !(s->integrator = known(integrator, fw_integrator_at)))
+    if (strcmp(word, "auto") != 0 && !(s->method = known(word, fw_multibody_method_at)))
+        return false;
+    if (strcmp(integrator, "auto") != 0 &&
+        !(s->integrator = known(integrator, fw_dynamics_integrator_at)))
         return false;
     return fw_number_parse(rtol, strlen(rtol), &s->rtol) && s->rtol >= 0;
 }
@@ -266,25 +272,26 @@ static fw_status wrong(fw_plan *plan, const char *list) {
     return FW_USAGE;
 }
 
-fw_status fw_tradeoff_settings(fw_plan *plan, const char *list) {
-    fw_problem p;
+fw_status fw_study_tradeoff_settings(fw_plan *plan, const char *list) {
+    fw_study_problem p;
     int level = FW_HINGE_AUTO;
     char *copy = fw_arena_strdup(plan->arena, list), *at, *word;
     FW_NEED(copy);
     char *settings = strchr(copy, ';');
     if (!settings) return wrong(plan, list);
     *settings++ = '\0';
-    while (level <= FW_HINGE_ELASTICA && strcmp(fw_hinge_model_text((fw_hinge_model)level), copy))
+    while (level <= FW_HINGE_ELASTICA &&
+           strcmp(fw_effects_hinge_model_text((fw_effects_hinge_model)level), copy))
         level++;
     if (level > FW_HINGE_ELASTICA) return wrong(plan, list);
-    FW_TRY(fw_problem_at_level(plan, (fw_hinge_model)level, &p));
+    FW_TRY(fw_study_problem_at_level(plan, (fw_effects_hinge_model)level, &p));
     for (word = strtok_r(settings, ",", &at); word; word = strtok_r(NULL, ",", &at)) {
-        fw_tradeoff_setting s;
-        const fw_motion *motion;
+        fw_study_tradeoff_setting s;
+        const fw_dynamics_motion *motion;
         if (!parse(word, &s)) return wrong(plan, list);
         fw_mark mark = fw_arena_mark(p.arena);
         fw_diags own = fw_diags_new(p.arena);
-        fw_status status = fw_tradeoff_answer(&p, &s, &own, &motion);
+        fw_status status = fw_study_tradeoff_answer(&p, &s, &own, &motion);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
         fw_arena_rewind(p.arena, mark);
     }

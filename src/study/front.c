@@ -6,7 +6,7 @@ static bool real(double x) {
     return isfinite(x) && x > 0;
 }
 
-void fw_front_mark(const double *cost, const double *error, int n, bool *front) {
+void fw_study_front_mark(const double *cost, const double *error, int n, bool *front) {
     for (int i = 0; i < n; i++) {
         front[i] = real(cost[i]) && real(error[i]);
         for (int k = 0; k < n && front[i]; k++) {
@@ -30,8 +30,8 @@ static void neighbours(const double *cost, const double *error, const bool *fron
     }
 }
 
-double fw_front_cost(const double *cost, const double *error, const bool *front, int n,
-                     double wanted) {
+double fw_study_front_cost(const double *cost, const double *error, const bool *front, int n,
+                           double wanted) {
     int a, b;
     neighbours(cost, error, front, n, wanted, &a, &b);
     if (b < 0) return (double)NAN;
@@ -40,7 +40,7 @@ double fw_front_cost(const double *cost, const double *error, const bool *front,
     return cost[a] * pow(cost[b] / cost[a], part);
 }
 
-double fw_front_digit(const double *cost, const double *error, const bool *front, int n) {
+double fw_study_front_digit(const double *cost, const double *error, const bool *front, int n) {
     int cheap = -1, best = -1;
     for (int i = 0; i < n; i++) {
         if (!front[i]) continue;
@@ -52,7 +52,7 @@ double fw_front_digit(const double *cost, const double *error, const bool *front
     return digits < 0.5 ? (double)NAN : pow(cost[best] / cost[cheap], 1 / digits);
 }
 
-double fw_front_order(const double *work, const double *error, int n, double least) {
+double fw_study_front_order(const double *work, const double *error, int n, double least) {
     double count = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int i = 0; i < n; i++) {
         if (!real(work[i]) || !real(error[i]) || error[i] <= least) continue;

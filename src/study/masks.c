@@ -8,7 +8,7 @@ static const double tolerance_m[] = {2e-9, 5e-9, 10e-9, 20e-9, 50e-9, 100e-9, 20
 enum { COUNT = sizeof tolerance_m / sizeof tolerance_m[0] };
 
 /* the flow of the scene, else the first one with a layer table */
-static fw_plan_flow *flow_of(const fw_problem *p) {
+static fw_plan_flow *flow_of(const fw_study_problem *p) {
     for (int i = 0; i < p->plan->nflow; i++) {
         fw_plan_flow *pf = &p->plan->flow[i];
         if (pf->flow && pf->table && &pf->variant == p->mechanism->variant) return pf;
@@ -30,8 +30,8 @@ static double deflection(double edge_m, double width_m) {
     return isfinite(width_m) ? 6 * edge_m / width_m : (double)NAN;
 }
 
-static fw_status one(fw_problem *p, const fw_plan_flow *pf, const fw_layout *layout,
-                     double tolerance, fw_tradeoff_mask *out, bool *made) {
+static fw_status one(fw_study_problem *p, const fw_plan_flow *pf, const fw_layout *layout,
+                     double tolerance, fw_study_tradeoff_mask *out, bool *fabricated) {
     fw_plan *plan = p->plan;
     fw_mask_options options = {.bias_m = pf->flow->bias_m,
                                .tolerance_m = tolerance,
@@ -45,11 +45,11 @@ static fw_status one(fw_problem *p, const fw_plan_flow *pf, const fw_layout *lay
     fw_status status =
         fw_mask_examine(p->arena, layout, pf->table, plan->device->name, &options, &own, &mask);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
-    *made = mask && mask->whole;
-    if (*made) {
+    *fabricated = mask && mask->whole;
+    if (*fabricated) {
         fw_text gds = fw_text_new(p->arena);
         FW_TRY(fw_mask_write_gds(mask, &gds));
-        *out = (fw_tradeoff_mask){.tolerance_m = tolerance, .bytes = (long)gds.length};
+        *out = (fw_study_tradeoff_mask){.tolerance_m = tolerance, .bytes = (long)gds.length};
         for (int i = 0; i < mask->table->nlayer; i++) {
             out->vertices += mask->measure[i].vertices;
             out->edge_m = fmax(out->edge_m, mask->measure[i].edge_m);
@@ -60,7 +60,7 @@ static fw_status one(fw_problem *p, const fw_plan_flow *pf, const fw_layout *lay
     return FW_OK;
 }
 
-fw_status fw_tradeoff_masks(fw_problem *p, fw_tradeoff *t) {
+fw_status fw_study_tradeoff_masks(fw_study_problem *p, fw_study_tradeoff *t) {
     fw_plan_flow *pf = flow_of(p);
     const fw_layout *layout;
     int left_out;
@@ -70,14 +70,14 @@ fw_status fw_tradeoff_masks(fw_problem *p, fw_tradeoff *t) {
     if (!t->mask_why && !pf->flow->edges.solved)
         t->mask_why = "no bias brings the edges to where they are drawn";
     if (t->mask_why) return FW_OK;
-    FW_NEED(t->mask = fw_arena_array(p->arena, fw_tradeoff_mask, COUNT));
+    FW_NEED(t->mask = fw_arena_array(p->arena, fw_study_tradeoff_mask, COUNT));
     FW_TRY(fw_mask_frame_marks(p->arena, pf->table, p->plan->layout, &layout, &left_out));
     double usual = p->plan->options.mask_tolerance_m;
     if (!(usual > 0)) usual = 5e-9;
     for (int i = 0; i < COUNT; i++) {
-        bool made = false;
-        FW_TRY(one(p, pf, layout, tolerance_m[i], &t->mask[t->nmask], &made));
-        if (!made) continue;
+        bool fabricated = false;
+        FW_TRY(one(p, pf, layout, tolerance_m[i], &t->mask[t->nmask], &fabricated));
+        if (!fabricated) continue;
         t->mask[t->nmask].usual = fabs(tolerance_m[i] / usual - 1) < 1e-6;
         t->nmask++;
     }

@@ -2,7 +2,7 @@
 /* What no tolerance takes away: how hinges are taken, effects that are left out, solids, and what
    the flow may make of the device. All by the program's own numbers, whose error is far below. */
 #include "plan/stages.h"
-#include "process/made.h"
+#include "process/process_fabrication.h"
 #include "study/problem.h"
 #include <math.h>
 #include <string.h>
@@ -10,35 +10,36 @@
 static const double model_share = 0.03; /* of the budget, for one run */
 enum { MOST = 40 };
 
-static fw_tradeoff_model *add(fw_tradeoff *t, const char *kind, const char *name) {
-    fw_tradeoff_model *m = &t->model[t->nmodel++];
-    *m = (fw_tradeoff_model){.kind = kind,
-                             .name = name,
-                             .change = (double)NAN,
-                             .bound = (double)NAN,
-                             .utilisation = (double)NAN,
-                             .instructions = (double)NAN};
+static fw_study_tradeoff_model *add(fw_study_tradeoff *t, const char *kind, const char *name) {
+    fw_study_tradeoff_model *m = &t->model[t->nmodel++];
+    *m = (fw_study_tradeoff_model){.kind = kind,
+                                   .name = name,
+                                   .change = (double)NAN,
+                                   .bound = (double)NAN,
+                                   .utilisation = (double)NAN,
+                                   .instructions = (double)NAN};
     return m;
 }
 
 /* the answer of a changed problem by the program's own choice of numbers; point->state says whether
    there is one */
-static fw_status answer(fw_problem *q, fw_tradeoff_point *point) {
-    fw_tradeoff_setting s = {.row = q->row};
-    s.most_steps = (long)fmax(1000, model_share * q->budget / fw_price_step(q, "chain", "radau5"));
-    *point = (fw_tradeoff_point){0};
-    return fw_problem_run(q, &s, point);
+static fw_status answer(fw_study_problem *q, fw_study_tradeoff_point *point) {
+    fw_study_tradeoff_setting s = {.row = q->row};
+    s.most_steps =
+        (long)fmax(1000, model_share * q->budget / fw_study_cost_step(q, "chain", "radau5"));
+    *point = (fw_study_tradeoff_point){0};
+    return fw_study_problem_run(q, &s, point);
 }
 
 /* ---- levels of hinges ---- */
 
-static fw_status level(const fw_problem *p, fw_tradeoff *t, fw_hinge_model wanted,
-                       fw_tradeoff_point *point) {
-    fw_problem q = *p;
-    fw_tradeoff_model *m = add(t, "hinge", fw_hinge_model_text(wanted));
+static fw_status level(const fw_study_problem *p, fw_study_tradeoff *t,
+                       fw_effects_hinge_model wanted, fw_study_tradeoff_point *point) {
+    fw_study_problem q = *p;
+    fw_study_tradeoff_model *m = add(t, "hinge", fw_effects_hinge_model_text(wanted));
     m->chosen = wanted == p->by_itself->ledger.hinge.used;
     q.effects.hinge = wanted;
-    FW_TRY(fw_problem_compile(&q));
+    FW_TRY(fw_study_problem_compile(&q));
     point->state = m->state = FW_TRADEOFF_SKIPPED;
     if (q.ledger.hinge.used != wanted) {
         m->why = q.ledger.hinge.why;
@@ -55,18 +56,18 @@ static fw_status level(const fw_problem *p, fw_tradeoff *t, fw_hinge_model wante
     return FW_OK;
 }
 
-static fw_status levels(const fw_problem *p, fw_tradeoff *t) {
-    fw_tradeoff_point point[3];
+static fw_status levels(const fw_study_problem *p, fw_study_tradeoff *t) {
+    fw_study_tradeoff_point point[3];
     int best = -1, first = t->nmodel, n = p->mechanism->npin;
-    const fw_level_step *step = p->by_itself->level;
+    const fw_statics_level_step *step = p->by_itself->level;
     for (int i = 0; i < 3; i++) {
-        FW_TRY(level(p, t, (fw_hinge_model)(FW_HINGE_REVOLUTE + i), &point[i]));
+        FW_TRY(level(p, t, (fw_effects_hinge_model)(FW_HINGE_REVOLUTE + i), &point[i]));
         if (point[i].state == FW_TRADEOFF_DONE) best = i;
     }
     for (int i = 0; i <= best; i++) {
-        fw_tradeoff_model *m = &t->model[first + i];
+        fw_study_tradeoff_model *m = &t->model[first + i];
         if (m->state != FW_TRADEOFF_DONE) continue;
-        if (best > 0) m->change = fw_peaks_differ(point[i].peak_rad, point[best].peak_rad, n);
+        if (best > 0) m->change = fw_study_peaks_differ(point[i].peak_rad, point[best].peak_rad, n);
         if (m->chosen && step && !step->why_not && step->next != step->used)
             m->bound = step->relative;
     }
@@ -78,15 +79,15 @@ static fw_status levels(const fw_problem *p, fw_tradeoff *t) {
 
 /* ---- effects, solids ---- */
 
-static fw_status effects(const fw_problem *p, fw_tradeoff *t) {
-    fw_problem q = *p;
-    fw_tradeoff_point point;
+static fw_status effects(const fw_study_problem *p, fw_study_tradeoff *t) {
+    fw_study_problem q = *p;
+    fw_study_tradeoff_point point;
     double *own;
     int n = p->mechanism->npin;
-    fw_tradeoff_model *m = add(t, "effects", "as chosen");
+    fw_study_tradeoff_model *m = add(t, "effects", "as chosen");
     q.effects.mode = FW_EFFECTS_ALL;
     q.row = false; /* inertia is one of them */
-    FW_TRY(fw_problem_compile(&q));
+    FW_TRY(fw_study_problem_compile(&q));
     FW_TRY(answer(&q, &point));
     m->chosen = true;
     m->state = point.state, m->why = point.why;
@@ -95,98 +96,101 @@ static fw_status effects(const fw_problem *p, fw_tradeoff *t) {
     for (int i = 0; i < n; i++)
         own[i] = p->by_itself->peak[i].angle_rad;
     if (point.state != FW_TRADEOFF_DONE) return FW_OK;
-    m->change = fw_peaks_differ(own, point.peak_rad, n);
-    fw_tradeoff_model *all = add(t, "effects", "all");
+    m->change = fw_study_peaks_differ(own, point.peak_rad, n);
+    fw_study_tradeoff_model *all = add(t, "effects", "all");
     all->change = 0;
     all->utilisation = point.utilisation;
     all->instructions = point.instructions;
     return FW_OK;
 }
 
-static fw_status solids(const fw_problem *p, fw_tradeoff *t) {
+static fw_status solids(const fw_study_problem *p, fw_study_tradeoff *t) {
     if (p->mechanism->nhinge == 0) return FW_OK;
-    FW_TRY(fw_level_strains(p->arena, p->mechanism, p->by_itself->level));
-    fw_tradeoff_model *m = add(t, "solid", "what the verdict allows for");
-    m->change = m->bound = fw_motion_model_error(p->mechanism, p->by_itself);
+    FW_TRY(fw_verdict_level_strains(p->arena, p->mechanism, p->by_itself->level));
+    fw_study_tradeoff_model *m = add(t, "solid", "what the verdict allows for");
+    m->change = m->bound = fw_verdict_motion_model_error(p->mechanism, p->by_itself);
     m->chosen = true;
     return FW_OK;
 }
 
 /* ---- what the flow may make of it ---- */
 
-static const fw_plan_flow *flow_of(const fw_problem *p) {
+static const fw_plan_flow *flow_of(const fw_study_problem *p) {
     for (int i = 0; i < p->plan->nflow; i++)
         if (&p->plan->flow[i].variant == p->mechanism->variant) return &p->plan->flow[i];
     return NULL;
 }
 
-static fw_status made_answer(const fw_problem *p, const fw_variant_verdict *v, const double *x,
-                             fw_tradeoff_point *point) {
-    fw_problem q = *p;
-    fw_made_device d;
-    const fw_made made = fw_made_at(v->input, v->ninput, x);
+static fw_status fabricated_answer(const fw_study_problem *p, const fw_verdict_variant_verdict *v,
+                                   const double *x, fw_study_tradeoff_point *point) {
+    fw_study_problem q = *p;
+    fw_verdict_fabricated_device d;
+    const fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(v->input, v->ninput, x);
     const fw_mechanism *built;
     fw_diags own = fw_diags_new(p->arena);
     point->state = FW_TRADEOFF_FAILED;
-    FW_TRY(fw_made_build(p->arena, p->plan->device, p->plan->layout, p->mechanism->variant, &made,
-                         &d));
+    FW_TRY(fw_verdict_fabrication_build(p->arena, p->plan->device, p->plan->layout,
+                                        p->mechanism->variant, &fabricated, &d));
     if (d.gone) return FW_OK;
     fw_status status = fw_mechanism_build(p->arena, &d.device, d.drawn, &d.variant, &own, &built);
-    if (status == FW_OK) status = fw_assembled(p->arena, built, &own, &q.mechanism, &q.moved_m);
+    if (status == FW_OK)
+        status = fw_assembly_assembled(p->arena, built, &own, &q.mechanism, &q.moved_m);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     if (status != FW_OK || q.mechanism->npin != p->mechanism->npin) return FW_OK;
     q.scene = &d.device.scene[p->scene - p->plan->device->scene];
-    status = fw_problem_compile(&q);
+    status = fw_study_problem_compile(&q);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     return status == FW_OK ? answer(&q, point) : FW_OK;
 }
 
 /* one input of the flow from its nominal value to either end, the others nominal */
-static fw_status input(const fw_problem *p, const fw_variant_verdict *v, int i,
-                       const fw_tradeoff_point *nominal, fw_tradeoff_model *m) {
-    double x[FW_MADE_INPUTS], most = 0;
+static fw_status input(const fw_study_problem *p, const fw_verdict_variant_verdict *v, int i,
+                       const fw_study_tradeoff_point *nominal, fw_study_tradeoff_model *m) {
+    double x[FW_FABRICATION_INPUTS], most = 0;
     for (int end = 0; end < 2; end++) {
-        fw_tradeoff_point point = {0};
+        fw_study_tradeoff_point point = {0};
         for (int k = 0; k < v->ninput; k++)
             x[k] = v->input[k].nominal;
         x[i] = end ? v->input[i].high : v->input[i].low;
-        FW_TRY(made_answer(p, v, x, &point));
+        FW_TRY(fabricated_answer(p, v, x, &point));
         m->state = point.state;
         m->why = point.state == FW_TRADEOFF_DONE ? NULL : "no such device, or over the budget";
         if (point.state != FW_TRADEOFF_DONE) return FW_OK;
-        most = fmax(most, fw_peaks_differ(point.peak_rad, nominal->peak_rad, p->mechanism->npin));
+        most = fmax(most,
+                    fw_study_peaks_differ(point.peak_rad, nominal->peak_rad, p->mechanism->npin));
     }
     m->change = most;
     return FW_OK;
 }
 
-static fw_status process(const fw_problem *p, fw_tradeoff *t) {
+static fw_status process(const fw_study_problem *p, fw_study_tradeoff *t) {
     const fw_plan_flow *pf = flow_of(p);
-    fw_variant_verdict v = {0};
-    fw_mask_facts facts;
-    double x[FW_MADE_INPUTS];
+    fw_verdict_variant_verdict v = {0};
+    fw_process_mask_facts facts;
+    double x[FW_FABRICATION_INPUTS];
     if (!pf || !pf->flow || !p->plan->layout || !p->plan->layout->drawn) return FW_OK;
     FW_TRY(fw_plan_mask_facts(p->arena, p->plan->device, p->plan->layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
-    FW_TRY(fw_flow_made(p->arena, pf->flow, &facts, &pf->variant, &v.input, &v.ninput));
-    fw_tradeoff_point nominal = {0};
+    FW_TRY(
+        fw_process_flow_fabricated(p->arena, pf->flow, &facts, &pf->variant, &v.input, &v.ninput));
+    fw_study_tradeoff_point nominal = {0};
     for (int k = 0; k < v.ninput; k++)
         x[k] = v.input[k].nominal;
-    if (v.ninput > 0) FW_TRY(made_answer(p, &v, x, &nominal));
+    if (v.ninput > 0) FW_TRY(fabricated_answer(p, &v, x, &nominal));
     for (int i = 0; i < v.ninput && nominal.state == FW_TRADEOFF_DONE; i++)
         FW_TRY(input(p, &v, i, &nominal, add(t, "process", v.input[i].name)));
     return FW_OK;
 }
 
-fw_status fw_tradeoff_models(fw_problem *p, fw_tradeoff *t) {
-    FW_NEED(t->model = fw_arena_array(p->arena, fw_tradeoff_model, MOST));
+fw_status fw_study_tradeoff_models(fw_study_problem *p, fw_study_tradeoff *t) {
+    FW_NEED(t->model = fw_arena_array(p->arena, fw_study_tradeoff_model, MOST));
     if (p->mechanism->nhinge > 0) FW_TRY(levels(p, t));
     FW_TRY(effects(p, t));
     FW_TRY(solids(p, t));
     FW_TRY(process(p, t));
     t->floor = (double)NAN;
     for (int i = 0; i < t->nmodel; i++) {
-        const fw_tradeoff_model *m = &t->model[i];
+        const fw_study_tradeoff_model *m = &t->model[i];
         if (!m->chosen || !isfinite(m->change) || m->change <= 0) continue;
         if (!(m->change <= t->floor)) t->floor = m->change, t->floor_what = m->kind;
     }

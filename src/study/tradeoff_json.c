@@ -7,7 +7,7 @@
 
 static const char *const state_text[] = {"done", "skipped", "failed"};
 
-static void time_json(fw_json *json, const fw_tradeoff_time *x) {
+static void time_json(fw_json *json, const fw_study_tradeoff_time *x) {
     if (x->pairs == 0) {
         fw_json_null(json, "time");
         return;
@@ -22,7 +22,7 @@ static void time_json(fw_json *json, const fw_tradeoff_time *x) {
 }
 
 /* members of the object about one point */
-static void point_json(fw_json *json, const fw_tradeoff_point *p) {
+static void point_json(fw_json *json, const fw_study_tradeoff_point *p) {
     fw_json_text(json, "method", p->method);
     fw_json_text(json, "integrator", p->integrator);
     fw_json_real(json, "rtol", p->rtol);
@@ -42,13 +42,13 @@ static void point_json(fw_json *json, const fw_tradeoff_point *p) {
     fw_json_whole(json, "jacobians", p->jacobians);
     fw_json_whole(json, "factorisations", p->factorisations);
     fw_json_real(json, "instructions", p->instructions);
-    fw_json_text(json, "instructions_by", fw_count_by_text(p->by));
+    fw_json_text(json, "instructions_by", fw_study_count_by_text(p->by));
     fw_json_truth(json, "front", p->front);
     time_json(json, &p->time);
 }
 
-static void reference_json(fw_json *json, const fw_tradeoff *t) {
-    const fw_tradeoff_reference *r = &t->reference;
+static void reference_json(fw_json *json, const fw_study_tradeoff *t) {
+    const fw_study_tradeoff_reference *r = &t->reference;
     fw_json_object(json, "reference");
     fw_json_list(json, "runs");
     for (int i = 0; i < 2 && r->run[i]; i++) {
@@ -71,7 +71,7 @@ static void reference_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-static void curves_json(fw_json *json, const fw_tradeoff *t) {
+static void curves_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_list(json, "curves");
     for (int i = 0; i < t->ncurve; i++) {
         fw_json_object(json, NULL);
@@ -83,10 +83,10 @@ static void curves_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-static void models_json(fw_json *json, const fw_tradeoff *t) {
+static void models_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_list(json, "models");
     for (int i = 0; i < t->nmodel; i++) {
-        const fw_tradeoff_model *m = &t->model[i];
+        const fw_study_tradeoff_model *m = &t->model[i];
         fw_json_object(json, NULL);
         fw_json_text(json, "kind", m->kind);
         fw_json_text(json, "name", m->name);
@@ -102,10 +102,10 @@ static void models_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-static void masks_json(fw_json *json, const fw_tradeoff *t) {
+static void masks_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_list(json, "masks");
     for (int i = 0; i < t->nmask; i++) {
-        const fw_tradeoff_mask *m = &t->mask[i];
+        const fw_study_tradeoff_mask *m = &t->mask[i];
         fw_json_object(json, NULL);
         fw_json_real(json, "tolerance_m", m->tolerance_m);
         fw_json_real(json, "edge_m", m->edge_m);
@@ -118,7 +118,7 @@ static void masks_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-static void chosen_json(fw_json *json, const fw_tradeoff *t) {
+static void chosen_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_object(json, "chosen");
     point_json(json, &t->point[0]);
     fw_json_text(json, "reason", t->chosen_why);
@@ -137,7 +137,7 @@ static void chosen_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-static void summary_json(fw_json *json, const fw_tradeoff *t) {
+static void summary_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_object(json, "summary");
     fw_json_real(json, "digit_here", t->digit_here);
     fw_json_real(json, "digit_overall", t->digit_overall);
@@ -153,7 +153,7 @@ static void summary_json(fw_json *json, const fw_tradeoff *t) {
     fw_json_end(json);
 }
 
-fw_status fw_tradeoff_json(const fw_tradeoff *t, fw_text *out) {
+fw_status fw_study_tradeoff_json(const fw_study_tradeoff *t, fw_text *out) {
     fw_json document = fw_json_new(out, FW_JSON_INDENTED), *json = &document;
     fw_json_object(json, NULL);
     fw_json_text(json, "schema", "flexwright.tradeoff/1");
@@ -191,7 +191,7 @@ static void number(fw_text *out, double value) {
     if (isfinite(value)) fw_text_number(out, value, 17);
 }
 
-static void point_row(const fw_tradeoff_point *p, const char *kind, fw_text *out) {
+static void point_row(const fw_study_tradeoff_point *p, const char *kind, fw_text *out) {
     fw_text_printf(out, "%s,%s,%s", kind, p->method, p->integrator);
     number(out, p->rtol);
     fw_text_printf(out, ",%s", state_text[p->state]);
@@ -204,7 +204,7 @@ static void point_row(const fw_tradeoff_point *p, const char *kind, fw_text *out
     else
         fw_text_add(out, ",,");
     number(out, p->instructions);
-    fw_text_printf(out, ",%s,%d", done ? fw_count_by_text(p->by) : "", p->front ? 1 : 0);
+    fw_text_printf(out, ",%s,%d", done ? fw_study_count_by_text(p->by) : "", p->front ? 1 : 0);
     bool told = p->time.pairs > 0 && p->time.told;
     number(out, told ? p->time.ratio : (double)NAN);
     number(out, told ? p->time.low : (double)NAN);
@@ -212,14 +212,14 @@ static void point_row(const fw_tradeoff_point *p, const char *kind, fw_text *out
     fw_text_add(out, "\n");
 }
 
-fw_status fw_tradeoff_csv(const fw_tradeoff *t, fw_text *out) {
+fw_status fw_study_tradeoff_csv(const fw_study_tradeoff *t, fw_text *out) {
     fw_text_add(out,
                 "kind,method,integrator,rtol,state,error,estimated,utilisation_error,steps,rhs,"
                 "instructions,instructions_by,front,time_ratio,time_low,time_high\n");
     for (int i = 0; i < t->npoint; i++)
         point_row(&t->point[i], i ? "setting" : "chosen", out);
     for (int i = 0; i < t->nmodel; i++) {
-        const fw_tradeoff_model *m = &t->model[i];
+        const fw_study_tradeoff_model *m = &t->model[i];
         fw_text_printf(out, "%s,%s,,,%s", m->kind, m->name, state_text[m->state]);
         number(out, m->change);
         number(out, m->bound);
@@ -228,7 +228,7 @@ fw_status fw_tradeoff_csv(const fw_tradeoff *t, fw_text *out) {
         fw_text_add(out, ",,,,,\n");
     }
     for (int i = 0; i < t->nmask; i++) { /* tolerance, edge, vertices, bytes */
-        const fw_tradeoff_mask *m = &t->mask[i];
+        const fw_study_tradeoff_mask *m = &t->mask[i];
         fw_text_add(out, "mask,,");
         number(out, m->tolerance_m);
         fw_text_add(out, ",done");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture: work-precision of integrators and of methods, what the model is off by on the same
    axis of error, and the masks. Errors get smaller to the right: a step to the right is a digit. */
-#include "report/page.h"
+#include "report/report_page.h"
 #include "study/axes.h"
 #include "study/problem.h"
 #include <math.h>
@@ -12,48 +12,48 @@ enum { WIDTH = 1080, HEIGHT = 883, LEFT = 66, COLUMN = 530, PLOT_W = 300, PLOT_H
 enum { TOP = 161, LOWER = 563, LOWER_H = 260 };
 
 /* the range of errors that both panels of points and the one of the model share */
-static fw_axis errors(const fw_tradeoff *t) {
-    fw_axis a = fw_axis_new(true);
+static fw_study_axis errors(const fw_study_tradeoff *t) {
+    fw_study_axis a = fw_study_axis_new(true);
     for (int i = 0; i < t->npoint; i++)
         if (t->point[i].state == FW_TRADEOFF_DONE)
-            fw_axis_add(&a, fmax(t->point[i].error, t->reference.error));
-    fw_axis_add(&a, t->accuracy);
-    fw_axis_add(&a, t->reference.error);
-    fw_axis_add(&a, t->floor);
+            fw_study_axis_add(&a, fmax(t->point[i].error, t->reference.error));
+    fw_study_axis_add(&a, t->accuracy);
+    fw_study_axis_add(&a, t->reference.error);
+    fw_study_axis_add(&a, t->floor);
     for (int i = 0; i < t->nmodel; i++)
-        if (t->model[i].change > 1e-12) fw_axis_add(&a, t->model[i].change);
-    fw_axis_end(&a);
+        if (t->model[i].change > 1e-12) fw_study_axis_add(&a, t->model[i].change);
+    fw_study_axis_end(&a);
     return a;
 }
 
-static fw_axis costs(const fw_tradeoff *t) {
-    fw_axis a = fw_axis_new(false);
+static fw_study_axis costs(const fw_study_tradeoff *t) {
+    fw_study_axis a = fw_study_axis_new(false);
     for (int i = 0; i < t->ncurve; i++) {
-        const fw_tradeoff_curve *c = &t->curve[i];
+        const fw_study_tradeoff_curve *c = &t->curve[i];
         for (int k = 0; (c->as_method || c->as_integrator) && k < c->count; k++)
             if (t->point[c->first + k].state == FW_TRADEOFF_DONE)
-                fw_axis_add(&a, t->point[c->first + k].instructions);
+                fw_study_axis_add(&a, t->point[c->first + k].instructions);
     }
-    fw_axis_add(&a, t->point[0].instructions);
-    fw_axis_end(&a);
+    fw_study_axis_add(&a, t->point[0].instructions);
+    fw_study_axis_end(&a);
     return a;
 }
 
-static void say_exact(fw_text *out, double x) {
+static void report_exact(fw_text *out, double x) {
     fw_text_real(out, "%.1e", x);
 }
 
 /* what is wanted, and from where on digits say nothing */
-static void marks(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
+static void marks(const fw_study_tradeoff *t, const fw_study_panel *p, fw_text *out) {
     if (isfinite(t->floor)) {
-        double x = fw_panel_x(p, t->floor);
+        double x = fw_study_panel_x(p, t->floor);
         fw_svg_put(
             out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='#8c959f' fill-opacity='0.13'",
             x, p->y, p->x + p->width - x, p->height);
         fw_svg_put(out, "path d='M{c} {c}v{c}' stroke='#57606a' stroke-width='1.5'\n", x, p->y,
                    p->height);
     }
-    double x = fw_panel_x(p, t->accuracy);
+    double x = fw_study_panel_x(p, t->accuracy);
     fw_svg_put(out,
                "path d='M{c} {c}v{c}' stroke='#0550ae' stroke-width='1.2' stroke-dasharray='5 4'",
                x, p->y, p->height);
@@ -61,7 +61,7 @@ static void marks(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
                "text x='{c}' y='{c}' font-size='11' fill='#0550ae' text-anchor='middle'>wanted\n",
                x, p->y - 5.0);
     if (!isfinite(t->reference.error)) return;
-    x = fw_panel_x(p, t->reference.error);
+    x = fw_study_panel_x(p, t->reference.error);
     fw_svg_put(out, "path d='M{c} {c}v{c}' stroke='#8c959f' stroke-dasharray='1 4'", x, p->y,
                p->height);
     fw_svg_put(
@@ -69,9 +69,9 @@ static void marks(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
         x, p->y - 5.0);
 }
 
-static void chosen(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
-    double x = fw_panel_x(p, fmax(t->point[0].error, t->reference.error));
-    double y = fw_panel_y(p, t->point[0].instructions);
+static void chosen(const fw_study_tradeoff *t, const fw_study_panel *p, fw_text *out) {
+    double x = fw_study_panel_x(p, fmax(t->point[0].error, t->reference.error));
+    double y = fw_study_panel_y(p, t->point[0].instructions);
     fw_svg_put(out,
                "circle cx='{c}' cy='{c}' r='8' fill='none' stroke='#1f2328' stroke-width='2.2'", x,
                y);
@@ -82,47 +82,48 @@ static void chosen(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
 }
 
 /* costs that are only modelled where others are counted: a white dot in the marker */
-static void hollow(const fw_tradeoff *t, const fw_tradeoff_curve *c, const fw_panel *p,
-                   fw_text *out) {
+static void hollow(const fw_study_tradeoff *t, const fw_study_tradeoff_curve *c,
+                   const fw_study_panel *p, fw_text *out) {
     for (int i = c->first; i < c->first + c->count && !t->instructions_why; i++) {
-        const fw_tradeoff_point *at = &t->point[i];
+        const fw_study_tradeoff_point *at = &t->point[i];
         if (at->state != FW_TRADEOFF_DONE || at->by != FW_COUNT_MODEL) continue;
         if (!isfinite(at->instructions) || (at->floor && i > c->first && at[-1].floor)) continue;
         fw_svg_put(out, "circle cx='{c}' cy='{c}' r='1.7' fill='#fff'",
-                   fw_panel_x(p, fmax(at->error, t->reference.error)),
-                   fw_panel_y(p, at->instructions));
+                   fw_study_panel_x(p, fmax(at->error, t->reference.error)),
+                   fw_study_panel_y(p, at->instructions));
     }
 }
 
-static void points(const fw_tradeoff *t, fw_panel *p, bool methods, fw_text *out) {
+static void points(const fw_study_tradeoff *t, fw_study_panel *p, bool methods, fw_text *out) {
     int shown = 0;
-    fw_labels labels = {0};
+    fw_study_labels labels = {0};
     for (int i = 0; i < t->ncurve; i++) {
-        const fw_tradeoff_curve *c = &t->curve[i];
+        const fw_study_tradeoff_curve *c = &t->curve[i];
         double x[FW_TRADEOFF_TOLERANCES], y[FW_TRADEOFF_TOLERANCES];
         int n = 0;
         if (!(methods ? c->as_method : c->as_integrator)) continue;
         for (int k = 0; k < c->count; k++) {
-            const fw_tradeoff_point *at = &t->point[c->first + k];
+            const fw_study_tradeoff_point *at = &t->point[c->first + k];
             if (at->state != FW_TRADEOFF_DONE || !isfinite(at->instructions)) continue;
             if (k > 0 && at->floor && at[-1].floor) continue; /* nothing more is known there */
-            x[n] = fw_panel_x(p, fmax(at->error, t->reference.error));
-            y[n++] = fw_panel_y(p, at->instructions);
+            x[n] = fw_study_panel_x(p, fmax(at->error, t->reference.error));
+            y[n++] = fw_study_panel_y(p, at->instructions);
         }
-        fw_panel_curve(p, x, y, n, shown, out);
+        fw_study_panel_curve(p, x, y, n, shown, out);
         hollow(t, c, p, out);
         if (n > 0)
-            fw_labels_add(&labels, methods ? c->method : c->integrator, x[n - 1], y[n - 1], shown);
+            fw_study_labels_add(&labels, methods ? c->method : c->integrator, x[n - 1], y[n - 1],
+                                shown);
         shown++;
     }
-    fw_labels_draw(&labels, p, out);
+    fw_study_labels_draw(&labels, p, out);
     chosen(t, p, out);
 }
 
 /* ---- the model ---- */
 
 /* "hinges: elastica"; NULL: nothing to draw */
-static const char *kind_text(const fw_tradeoff_model *m) {
+static const char *kind_text(const fw_study_tradeoff_model *m) {
     if (m->state != FW_TRADEOFF_DONE || !isfinite(m->change) || m->change <= 0) return NULL;
     if (strcmp(m->kind, "hinge") == 0) return "hinges as ";
     if (strcmp(m->kind, "effects") == 0) return "effects left out";
@@ -130,18 +131,18 @@ static const char *kind_text(const fw_tradeoff_model *m) {
     return "process: ";
 }
 
-static void models(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
+static void models(const fw_study_tradeoff *t, const fw_study_panel *p, fw_text *out) {
     int n = 0;
     for (int i = 0; i < t->nmodel; i++)
         n += kind_text(&t->model[i]) != NULL;
     double step = fmin(30, p->height / fmax(1, n + 1)), y = p->y + step;
     for (int i = 0; i < t->nmodel; i++) {
-        const fw_tradeoff_model *m = &t->model[i];
+        const fw_study_tradeoff_model *m = &t->model[i];
         const char *kind = kind_text(m);
         if (!kind) continue;
         bool process = strcmp(m->kind, "process") == 0, hinge = strcmp(m->kind, "hinge") == 0;
         const char *colour = process ? "#E69F00" : m->chosen ? "#D55E00" : "#8c959f";
-        double x = fw_panel_x(p, fmax(m->change, 1e-16));
+        double x = fw_study_panel_x(p, fmax(m->change, 1e-16));
         x = fmin(x, p->x + p->width);
         fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='{r}' stroke-width='7' stroke-opacity='0.55'",
                    p->x, y, x, colour);
@@ -151,7 +152,7 @@ static void models(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
                     "stroke-width='3' paint-order='stroke'",
                     x + 9.0, y + 4.0);
         fw_markup(out, "{r}{s} ", kind, process || hinge ? m->name : "");
-        say_exact(out, m->change);
+        report_exact(out, m->change);
         fw_text_add(out, m->chosen && hinge ? " (chosen)" : "");
         fw_svg_close(out, "text\n");
         y += step;
@@ -165,22 +166,22 @@ static void models(const fw_tradeoff *t, const fw_panel *p, fw_text *out) {
 
 /* ---- masks ---- */
 
-static void masks(const fw_tradeoff *t, fw_text *out) {
-    fw_panel p = {.x = COLUMN + LEFT, .y = LOWER, .width = PLOT_W, .height = LOWER_H};
-    p.ax = fw_axis_new(true), p.ay = fw_axis_new(false);
+static void masks(const fw_study_tradeoff *t, fw_text *out) {
+    fw_study_panel p = {.x = COLUMN + LEFT, .y = LOWER, .width = PLOT_W, .height = LOWER_H};
+    p.ax = fw_study_axis_new(true), p.ay = fw_study_axis_new(false);
     double x[16], y[16];
     for (int i = 0; i < t->nmask; i++) {
-        fw_axis_add(&p.ax, 1e9 * t->mask[i].edge_m);
-        fw_axis_add(&p.ay, (double)t->mask[i].bytes);
+        fw_study_axis_add(&p.ax, 1e9 * t->mask[i].edge_m);
+        fw_study_axis_add(&p.ay, (double)t->mask[i].bytes);
     }
     if (t->nmask == 0) return;
-    fw_axis_end(&p.ax), fw_axis_end(&p.ay);
-    fw_panel_frame(&p, "masks", "chord error of arcs, nm", "bytes of GDSII", out);
+    fw_study_axis_end(&p.ax), fw_study_axis_end(&p.ay);
+    fw_study_panel_frame(&p, "masks", "chord error of arcs, nm", "bytes of GDSII", out);
     for (int i = 0; i < t->nmask; i++) {
-        x[i] = fw_panel_x(&p, 1e9 * t->mask[i].edge_m);
-        y[i] = fw_panel_y(&p, (double)t->mask[i].bytes);
+        x[i] = fw_study_panel_x(&p, 1e9 * t->mask[i].edge_m);
+        y[i] = fw_study_panel_y(&p, (double)t->mask[i].bytes);
     }
-    fw_panel_curve(&p, x, y, t->nmask, 0, out);
+    fw_study_panel_curve(&p, x, y, t->nmask, 0, out);
     for (int i = 0; i < t->nmask; i++) {
         if (!t->mask[i].usual) continue;
         fw_svg_put(out,
@@ -198,7 +199,7 @@ static void masks(const fw_tradeoff *t, fw_text *out) {
         if (!isfinite(t->mask[i].deflection)) continue;
         fw_svg_open(out, "text x='{c}' y='{c}'", p.x + p.width + 10.0, p.y + 38.0 + 15.0 * i);
         fw_text_real(out, "%.3g nm: ", 1e9 * t->mask[i].tolerance_m);
-        say_exact(out, t->mask[i].deflection);
+        report_exact(out, t->mask[i].deflection);
         fw_svg_close(out, "text");
     }
     fw_svg_close(out, "g\n");
@@ -206,7 +207,7 @@ static void masks(const fw_tradeoff *t, fw_text *out) {
 
 /* ---- the whole ---- */
 
-static void headline(const fw_tradeoff *t, fw_text *out) {
+static void headline(const fw_study_tradeoff *t, fw_text *out) {
     fw_svg_put(out,
                "text x='20' y='28' font-size='18' font-weight='600' fill='#1f2328'>{s}, {s}: what "
                "accuracy costs\n",
@@ -235,8 +236,8 @@ static void headline(const fw_tradeoff *t, fw_text *out) {
     fw_svg_open(out, "text x='20' y='95' font-size='12' fill='#57606a'");
     if (isfinite(t->floor)) {
         fw_text_add(out, "Grey: digits below ");
-        say_exact(out, t->floor);
-        fw_text_printf(out, ", %s. ", fw_tradeoff_floor_text(t));
+        report_exact(out, t->floor);
+        fw_text_printf(out, ", %s. ", fw_study_tradeoff_floor_text(t));
     }
     if (!t->instructions_why) fw_text_add(out, "White dot: cost by a model, not counted.");
     fw_svg_close(out, "text\n");
@@ -249,9 +250,9 @@ static void headline(const fw_tradeoff *t, fw_text *out) {
     fw_svg_close(out, "text\n");
 }
 
-fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
-    fw_panel p = {.x = LEFT, .y = TOP, .width = PLOT_W, .height = PLOT_H};
-    const fw_tradeoff_point *c = &t->point[0];
+fw_status fw_study_tradeoff_svg(const fw_study_tradeoff *t, fw_text *out) {
+    fw_study_panel p = {.x = LEFT, .y = TOP, .width = PLOT_W, .height = PLOT_H};
+    const fw_study_tradeoff_point *c = &t->point[0];
     char title[2][120];
     bool row = t->row;
     snprintf(title[0], sizeof title[0], "integrators, by %s", row ? "chain" : c->method);
@@ -269,15 +270,16 @@ fw_status fw_tradeoff_svg(const fw_tradeoff *t, fw_text *out) {
     p.ax = errors(t), p.ay = costs(t);
     for (int k = 0; k < 2; k++) {
         p.x = LEFT + k * COLUMN;
-        fw_panel_frame(&p, title[k], "error of the peak deflection, relative",
-                       t->instructions_why ? "instructions, by a model" : "instructions", out);
+        fw_study_panel_frame(&p, title[k], "error of the peak deflection, relative",
+                             t->instructions_why ? "instructions, by a model" : "instructions",
+                             out);
         marks(t, &p, out);
         points(t, &p, k == 1, out);
     }
     p.x = LEFT, p.y = LOWER, p.height = LOWER_H;
     p.bare = true;
-    fw_panel_frame(&p, "what no tolerance takes away", "change of the peak deflection, relative",
-                   "", out);
+    fw_study_panel_frame(&p, "what no tolerance takes away",
+                         "change of the peak deflection, relative", "", out);
     models(t, &p, out);
     masks(t, out);
     fw_svg_end(out);

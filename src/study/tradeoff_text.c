@@ -13,12 +13,12 @@ static void number(fw_text *out, double x, const char *format, int width) {
         fw_text_printf(out, "%*s", width, "-");
 }
 
-static void cost(fw_text *out, const fw_tradeoff_point *p) {
+static void cost(fw_text *out, const fw_study_tradeoff_point *p) {
     number(out, p->instructions / 1e6, "%10.2f", 10);
     fw_text_add(out, p->by == FW_COUNT_CALLGRIND ? "  " : p->by == FW_COUNT_SCALED ? "~ " : "? ");
 }
 
-static void time_of(fw_text *out, const fw_tradeoff_time *x) {
+static void time_of(fw_text *out, const fw_study_tradeoff_time *x) {
     if (x->pairs == 0)
         fw_text_add(out, "          -");
     else if (!x->told)
@@ -27,14 +27,14 @@ static void time_of(fw_text *out, const fw_tradeoff_time *x) {
         fw_text_real(out, "%11.2f", x->ratio);
 }
 
-const char *fw_tradeoff_floor_text(const fw_tradeoff *t) {
+const char *fw_study_tradeoff_floor_text(const fw_study_tradeoff *t) {
     if (!t->floor_what) return "nothing";
     if (strcmp(t->floor_what, "solid") == 0) return "what the verdict allows its model of hinges";
     if (strcmp(t->floor_what, "hinge") == 0) return "what a better model of the hinges changes";
     return "what the effects that were left out change";
 }
 
-static void row(const fw_tradeoff_point *p, const char *mark, fw_text *out) {
+static void row(const fw_study_tradeoff_point *p, const char *mark, fw_text *out) {
     fw_text_printf(out, "%s%-24s%-18s", mark, p->method, p->integrator);
     number(out, p->rtol, "%6.0e", 6);
     fw_text_add(out, p->floor ? "  <" : "   ");
@@ -46,8 +46,8 @@ static void row(const fw_tradeoff_point *p, const char *mark, fw_text *out) {
     fw_text_add(out, "\n");
 }
 
-static void answer(const fw_tradeoff *t, fw_text *out) {
-    const fw_tradeoff_point *c = &t->point[0];
+static void answer(const fw_study_tradeoff *t, fw_text *out) {
+    const fw_study_tradeoff_point *c = &t->point[0];
     fw_text_printf(out, "%s, scene %s%s%s: simulate takes %s + %s by itself", t->device,
                    t->scene->name ? t->scene->name : "(unnamed)", t->flow ? ", flow " : "",
                    t->flow ? t->flow : "", c->method, c->integrator);
@@ -75,7 +75,7 @@ static void answer(const fw_tradeoff *t, fw_text *out) {
         fw_text_add(out, "\n");
     }
     if (isfinite(t->over_cheapest)) {
-        const fw_tradeoff_point *best = &t->point[t->cheapest];
+        const fw_study_tradeoff_point *best = &t->point[t->cheapest];
         fw_text_add(out, "it costs x");
         fw_text_real(out, "%.2f", t->over_cheapest);
         fw_text_printf(out, " the cheapest that would have done: %s + %s at ", best->method,
@@ -86,12 +86,12 @@ static void answer(const fw_tradeoff *t, fw_text *out) {
     if (isfinite(t->floor)) {
         fw_text_add(out, "digits below ");
         number(out, t->floor, "%.1e", 1);
-        fw_text_printf(out, " tell nothing: that is %s\n", fw_tradeoff_floor_text(t));
+        fw_text_printf(out, " tell nothing: that is %s\n", fw_study_tradeoff_floor_text(t));
     }
 }
 
-static void reference(const fw_tradeoff *t, fw_text *out) {
-    const fw_tradeoff_reference *r = &t->reference;
+static void reference(const fw_study_tradeoff *t, fw_text *out) {
+    const fw_study_tradeoff_reference *r = &t->reference;
     if (!r->run[0]) {
         fw_text_add(out, "no reference: no tighter run ended within its share of the budget\n");
         return;
@@ -108,7 +108,7 @@ static void reference(const fw_tradeoff *t, fw_text *out) {
     fw_text_add(out, "\n");
 }
 
-static void settings(const fw_tradeoff *t, fw_text *out) {
+static void settings(const fw_study_tradeoff *t, fw_text *out) {
     int order[ROWS], n = 0;
     for (int i = 0; i < t->npoint; i++) { /* the front by cost */
         if (!t->point[i].front && i != 0) continue;
@@ -128,7 +128,7 @@ static void settings(const fw_tradeoff *t, fw_text *out) {
 }
 
 /* the cheapest setting of every method and of every integrator that is good enough */
-static void curves(const fw_tradeoff *t, fw_text *out) {
+static void curves(const fw_study_tradeoff *t, fw_text *out) {
     if (t->rows_only) {
         fw_text_add(out,
                     "\nintegrators are not compared: with inertia none ends within its share of "
@@ -137,11 +137,11 @@ static void curves(const fw_tradeoff *t, fw_text *out) {
     }
     fw_text_add(out, "\ncheapest within the accuracy\n");
     for (int i = 0; i < t->ncurve; i++) {
-        const fw_tradeoff_curve *c = &t->curve[i];
-        const fw_tradeoff_point *best = NULL, *point = &t->point[c->first];
+        const fw_study_tradeoff_curve *c = &t->curve[i];
+        const fw_study_tradeoff_point *best = NULL, *point = &t->point[c->first];
         if (!c->as_method && !c->as_integrator) continue;
         for (int k = 0; k < c->count; k++)
-            if (fw_tradeoff_good(t, &point[k]) &&
+            if (fw_study_tradeoff_good(t, &point[k]) &&
                 (!best || point[k].instructions < best->instructions))
                 best = &point[k];
         if (best) {
@@ -153,7 +153,7 @@ static void curves(const fw_tradeoff *t, fw_text *out) {
     }
 }
 
-static void honesty(const fw_tradeoff *t, fw_text *out) {
+static void honesty(const fw_study_tradeoff *t, fw_text *out) {
     if (t->judged == 0) return;
     fw_text_printf(out, "\nestimated errors: not below the true one in %d of %d settings; ",
                    t->honest, t->judged);
@@ -162,17 +162,17 @@ static void honesty(const fw_tradeoff *t, fw_text *out) {
     number(out, t->honesty[2], "%.2g", 1);
     fw_text_add(out, " times it, median ");
     number(out, t->honesty[1], "%.2g", 1);
-    const fw_tradeoff_point *p = &t->point[t->least_honest];
+    const fw_study_tradeoff_point *p = &t->point[t->least_honest];
     fw_text_printf(out, "; least of %s + %s at ", p->method, p->integrator);
     number(out, p->rtol, "%.0e", 1);
     fw_text_add(out, "\n");
 }
 
-static void models(const fw_tradeoff *t, fw_text *out) {
+static void models(const fw_study_tradeoff *t, fw_text *out) {
     fw_text_printf(out, "\n  %-10s%-28s%10s%10s%14s\n", "model", "", "changes", "bound",
                    "M instr.");
     for (int i = 0; i < t->nmodel; i++) {
-        const fw_tradeoff_model *m = &t->model[i];
+        const fw_study_tradeoff_model *m = &t->model[i];
         fw_text_printf(out, "%s%-10s%-28s", m->chosen ? "* " : "  ", m->kind, m->name);
         if (m->state != FW_TRADEOFF_DONE) {
             fw_text_printf(out, "  - %s\n", m->why ? m->why : "could not be run");
@@ -185,7 +185,7 @@ static void models(const fw_tradeoff *t, fw_text *out) {
     }
 }
 
-static void masks(const fw_tradeoff *t, fw_text *out) {
+static void masks(const fw_study_tradeoff *t, fw_text *out) {
     if (t->mask_why) {
         fw_text_printf(out, "\nno mask: %s\n", t->mask_why);
         return;
@@ -193,7 +193,7 @@ static void masks(const fw_tradeoff *t, fw_text *out) {
     fw_text_printf(out, "\n  %-12s%10s%12s%14s\n", "mask, nm", "vertices", "GDSII bytes",
                    "deflection");
     for (int i = 0; i < t->nmask; i++) {
-        const fw_tradeoff_mask *m = &t->mask[i];
+        const fw_study_tradeoff_mask *m = &t->mask[i];
         fw_text_add(out, m->usual ? "* " : "  ");
         fw_text_real(out, "%-12.4g", 1e9 * m->tolerance_m);
         fw_text_printf(out, "%10ld%12ld", m->vertices, m->bytes);
@@ -203,7 +203,7 @@ static void masks(const fw_tradeoff *t, fw_text *out) {
     }
 }
 
-fw_status fw_tradeoff_text(const fw_tradeoff *t, fw_text *out) {
+fw_status fw_study_tradeoff_text(const fw_study_tradeoff *t, fw_text *out) {
     answer(t, out);
     reference(t, out);
     settings(t, out);

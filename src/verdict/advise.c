@@ -8,7 +8,7 @@
 /* no change of a flexure can help */
 static const char *hopeless(const fw_device *device, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
         if (v->workspace.required && !v->workspace.reachable)
             return "part of the required workspace is out of reach: no flexure can change that; "
                    "make the links longer or the workspace smaller";
@@ -44,21 +44,22 @@ static fw_status conclude(fw_arena *arena, fw_verdict *verdict, const char *load
 
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
-    FW_TRY(fw_change_parameters(arena, device, options, verdict));
+    FW_TRY(fw_verdict_change_parameters(arena, device, options, verdict));
     verdict->advice_note = hopeless(device, verdict);
     if (verdict->advice_note) return FW_OK;
-    FW_NEED(verdict->advice = fw_arena_array(arena, fw_advice, 2 * (size_t)device->nflexure));
-    fw_trial trial;
+    FW_NEED(verdict->advice =
+                fw_arena_array(arena, fw_verdict_advice, 2 * (size_t)device->nflexure));
+    fw_verdict_trial trial;
     bool done = false;
     const char *loads = NULL;
-    FW_TRY(fw_trial_start(arena, device, options, verdict, &trial));
-    FW_TRY(fw_change_lengths(&trial, verdict, &done));
+    FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
+    FW_TRY(fw_verdict_change_lengths(&trial, verdict, &done));
     if (!done) {
-        FW_TRY(fw_trial_start(arena, device, options, verdict, &trial));
-        FW_TRY(fw_change_widths(&trial, verdict, &done));
+        FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
+        FW_TRY(fw_verdict_change_widths(&trial, verdict, &done));
     }
     verdict->advice_verified = done;
-    FW_TRY(fw_trial_start(arena, device, options, verdict, &trial));
-    FW_TRY(fw_change_loads(&trial, &loads, &done));
+    FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
+    FW_TRY(fw_verdict_change_loads(&trial, &loads, &done));
     return conclude(arena, verdict, done ? loads : NULL);
 }

@@ -7,28 +7,29 @@ enum { ROUNDS = 14 };
 /* an advice nobody could follow is none: twelve times as long, four times as wide */
 static const double most_longer = 12.0, most_wider = 4.0;
 
-static bool accepted(const fw_trial *trial) {
+static bool accepted(const fw_verdict_trial *trial) {
     return trial->decision == FW_ACCEPT && trial->drawn;
 }
 
-static double excess(const fw_trial_hinge *h) {
+static double excess(const fw_verdict_trial_hinge *h) {
     return fmax(h->utilisation_high, h->reach);
 }
 
-static fw_flexure *flexure_of(fw_trial *trial, const fw_trial_hinge *h) {
-    return &trial->changed->flexure[trial->changed->joint[h->joint].flexure];
+static fw_device_flexure *flexure_of(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h) {
+    return &trial->changed->flexure[trial->changed->revolute[h->joint].flexure];
 }
 
 /* repeats `change` on every hinge (and reason against a scene) that is not accepted, and judges,
    until all are; gives up when a change is not possible or the worst hinge gets no better by it */
-static fw_status repeat(fw_trial *trial,
-                        bool (*change)(fw_trial *, const fw_trial_hinge *, double)) {
+static fw_status repeat(fw_verdict_trial *trial,
+                        bool (*change)(fw_verdict_trial *, const fw_verdict_trial_hinge *,
+                                       double)) {
     double worst_before = HUGE_VAL;
     for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
         double worst = 0.0, extra = round > 5 ? 1.02 : 1.0;
         bool any = false;
         for (int k = 0; k < trial->nhinge; k++) {
-            const fw_trial_hinge *h = &trial->hinge[k];
+            const fw_verdict_trial_hinge *h = &trial->hinge[k];
             if (h->decision == FW_ACCEPT) continue;
             if (h->joint != FW_NONE) worst = fmax(worst, excess(h));
             if (!change(trial, h, extra)) return FW_OK;
@@ -36,9 +37,10 @@ static fw_status repeat(fw_trial *trial,
         }
         if (!any || (round > 1 && worst > 0 && worst > 0.999 * worst_before)) return FW_OK;
         worst_before = worst > 0 ? worst : HUGE_VAL;
-        bool made = trial->made;
-        FW_TRY(fw_trial_run(trial));
-        if (trial->made != made) worst_before = HUGE_VAL; /* corners are tighter than the drawing */
+        bool fabricated = trial->fabricated;
+        FW_TRY(fw_verdict_trial_run(trial));
+        if (trial->fabricated != fabricated)
+            worst_before = HUGE_VAL; /* corners are tighter than the drawing */
         if (!trial->drawn) return FW_OK;
     }
     return FW_OK;
@@ -47,26 +49,26 @@ static fw_status repeat(fw_trial *trial,
 /* ---- lengths: strain per radian goes with 1/L ---- */
 
 /* rounded up to 1 um of length, or 0.1 um of the radius where the file gives that */
-static bool lengthen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+static bool lengthen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, double extra) {
     if (h->joint == FW_NONE) return false;        /* softer flexures are less stable */
     if (h->utilisation_high <= 1.0) return false; /* its solids meet: length is not the cause */
-    fw_flexure *f = flexure_of(trial, h);
+    fw_device_flexure *f = flexure_of(trial, h);
     if (f->kind == FW_FLEXURE_PATH) return false; /* which of its pieces is the designer's choice */
     double length = f->length_m * fmin(fmax(h->utilisation_high * extra, 1.0005), 3.0);
     bool by_radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
     double unit = by_radius ? 1e-7 * f->angle_rad : 1e-6;
     f->length_m = ceil(length / unit - 1e-6) * unit;
     if (f->kind == FW_FLEXURE_CSFH) f->radius_m = f->length_m / f->angle_rad;
-    const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
+    const fw_device_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
     return f->length_m <= most_longer * was->length_m;
 }
 
-static fw_status add_line(fw_trial *trial, fw_verdict *out, const fw_flexure *f, const char *what,
-                          const char *attribute, double to_m, double from_m) {
+static fw_status add_line(fw_verdict_trial *trial, fw_verdict *out, const fw_device_flexure *f,
+                          const char *what, const char *attribute, double to_m, double from_m) {
     char to[32], from[32];
     fw_number_text(to, sizeof to, to_m * 1e6, 6);
     fw_number_text(from, sizeof from, from_m * 1e6, 4);
-    fw_advice *advice = &out->advice[out->nadvice++];
+    fw_verdict_advice *advice = &out->advice[out->nadvice++];
     advice->value = to_m;
     FW_NEED(advice->value_text = fw_arena_printf(trial->arena, "%s um", to));
     FW_NEED(advice->set_path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
@@ -75,11 +77,11 @@ static fw_status add_line(fw_trial *trial, fw_verdict *out, const fw_flexure *f,
     return FW_OK;
 }
 
-fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done) {
+fw_status fw_verdict_change_lengths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
     FW_TRY(repeat(trial, lengthen));
     *done = accepted(trial);
     for (int i = 0; *done && i < trial->device->nflexure; i++) {
-        const fw_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
+        const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->length_m == was->length_m) continue;
         bool arc = f->kind == FW_FLEXURE_CSFH;
         if (f->length_given || !arc)
@@ -94,17 +96,17 @@ fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done) {
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
 
 /* flexures that vary have no one width to change */
-static bool widen_one(fw_trial *trial, fw_flexure *f, double by) {
-    if (fw_flexure_varies(f)) return false;
+static bool widen_one(fw_verdict_trial *trial, fw_device_flexure *f, double by) {
+    if (fw_device_flexure_varies(f)) return false;
     f->width_m = ceil(f->width_m * fmin(fmax(by, 1.0005), 1.5) * 1e7 - 1e-6) * 1e-7;
-    const fw_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
+    const fw_device_flexure *was = &trial->device->flexure[f - trial->changed->flexure];
     bool slender = f->width_m <= 0.25 * f->length_m &&
                    (f->kind != FW_FLEXURE_CSFH || f->width_m <= 0.5 * f->radius_m);
     return slender && f->width_m <= most_wider * was->width_m;
 }
 
 /* what a scene bears goes with the stiffness of all flexures, t^3 */
-static bool widen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+static bool widen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, double extra) {
     if (h->utilisation_high <= 1.0) return false;
     if (h->joint != FW_NONE)
         return widen_one(trial, flexure_of(trial, h), sqrt(h->utilisation_high * extra));
@@ -114,11 +116,11 @@ static bool widen(fw_trial *trial, const fw_trial_hinge *h, double extra) {
     return trial->changed->nflexure > 0;
 }
 
-fw_status fw_change_widths(fw_trial *trial, fw_verdict *out, bool *done) {
+fw_status fw_verdict_change_widths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
     FW_TRY(repeat(trial, widen));
     *done = accepted(trial);
     for (int i = 0; *done && i < trial->device->nflexure; i++) {
-        const fw_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
+        const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->width_m != was->width_m)
             FW_TRY(add_line(trial, out, f, "width", "width", f->width_m, was->width_m));
     }
@@ -132,16 +134,16 @@ static bool same(const char *a, const char *b) {
 }
 
 /* a scene or workspace is scaled once per round, by the hinge that it strains most */
-static bool is_worst(const fw_trial *trial, const fw_trial_hinge *h) {
+static bool is_worst(const fw_verdict_trial *trial, const fw_verdict_trial_hinge *h) {
     for (int k = 0; k < trial->nhinge; k++) {
-        const fw_trial_hinge *o = &trial->hinge[k];
+        const fw_verdict_trial_hinge *o = &trial->hinge[k];
         if (o == h || o->decision == FW_ACCEPT || !same(o->scene, h->scene)) continue;
         if (excess(o) > excess(h) || (excess(o) == excess(h) && o < h)) return false;
     }
     return true;
 }
 
-static bool lighten(fw_trial *trial, const fw_trial_hinge *h, double extra) {
+static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, double extra) {
     if (!is_worst(trial, h)) return true;
     double over = excess(h) * extra;
     double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);
@@ -151,7 +153,7 @@ static bool lighten(fw_trial *trial, const fw_trial_hinge *h, double extra) {
             return fw_effects_scale(&trial->changed->scene[i], by);
         }
     for (int i = 0; i < trial->changed->nworkspace; i++) {
-        fw_workspace_box *w = &trial->changed->workspace[i];
+        fw_device_workspace_box *w = &trial->changed->workspace[i];
         if (w->flow && !same(w->flow, h->flow)) continue;
         w->x_min_m *= by, w->x_max_m *= by;
         w->y_min_m *= by, w->y_max_m *= by;
@@ -172,8 +174,8 @@ static void add_share(fw_text *text, double share) {
 }
 
 /* "the loads of scene push to 50 %"; what is scaled besides forces and torques is named */
-static void say_scene(fw_text *text, const fw_scene *s, double share, const char **join) {
-    fw_effects_loads loads;
+static void report_scene(fw_text *text, const fw_device_scene *s, double share, const char **join) {
+    fw_effects_load_scaling loads;
     int plain = 0, others = 0, named = 0;
     fw_effects_find_loads(s, &loads);
     for (int i = 0; i < loads.count; i++) {
@@ -198,15 +200,15 @@ static void say_scene(fw_text *text, const fw_scene *s, double share, const char
 }
 
 /* the share that is left of each scene's loads and of each workspace */
-static fw_status say_loads(fw_trial *trial, const char **sentence) {
+static fw_status report_loads(fw_verdict_trial *trial, const char **sentence) {
     fw_text text = fw_text_new(trial->arena);
     const char *join = "";
     for (int i = 0; i < trial->device->nscene; i++)
         if (trial->share[i] < 0.9999)
-            say_scene(&text, &trial->device->scene[i], trial->share[i], &join);
+            report_scene(&text, &trial->device->scene[i], trial->share[i], &join);
     for (int i = 0; i < trial->device->nworkspace; i++) {
-        const fw_workspace_box *was = &trial->device->workspace[i],
-                               *w = &trial->changed->workspace[i];
+        const fw_device_workspace_box *was = &trial->device->workspace[i],
+                                      *w = &trial->changed->workspace[i];
         double share =
             fmin(kept(w->x_max_m, was->x_max_m),
                  fmin(kept(w->y_max_m, was->y_max_m), kept(w->phi_max_rad, was->phi_max_rad)));
@@ -221,10 +223,10 @@ static fw_status say_loads(fw_trial *trial, const char **sentence) {
     return FW_OK;
 }
 
-fw_status fw_change_loads(fw_trial *trial, const char **sentence, bool *done) {
+fw_status fw_verdict_change_loads(fw_verdict_trial *trial, const char **sentence, bool *done) {
     FW_TRY(repeat(trial, lighten));
     *done = accepted(trial);
-    if (*done) FW_TRY(say_loads(trial, sentence));
+    if (*done) FW_TRY(report_loads(trial, sentence));
     *done = *done && *sentence;
     return FW_OK;
 }

@@ -16,7 +16,8 @@
    accepted and the one before it the limit is enclosed by glances: by the secant of
    ln(utilisation), straight where that goes with a power of x, or by halving where the secant
    gains less than half. There the whole verdict is asked, on both sides of the limit, and tells
-   what glances are off by; until a value that is accepted and one that is not are within 1 % of
+   what coarse judgements are off by; until a value that is accepted and one that is not are within
+   1 % of
    the change, a thousandth of the value, or one unit of the last digit. All values are decimal
    numbers in the unit as written; what is printed was judged as printed.
 
@@ -44,24 +45,24 @@ enum { MOST_TRIALS = 40, MOST_IN_ALL = 600, FEWEST_RINGS = 4, MOST_RINGS = 9 };
 static const double known_to = 0.01;
 /* and the value to this part of it: of a small change nobody types all digits */
 static const double as_typed = 1e-3;
-/* a glance may be off by less than this: a closer look pays */
+/* a coarse judgement may be off by less than this: refinement pays */
 static const double worth_a_look = 1.05;
-static const double clear_of_limit = 0.997; /* at a glance */
+static const double clear_of_limit = 0.997; /* coarsely */
 static const double least_step = 1e-4;      /* of the range: nobody asks for a finer digit */
 static const double factor_without_bounds = 4.0;
 static const double ring_factor = 1.5;
 
 typedef struct look { /* at one value */
     double at;        /* in the unit as written */
-    double coarse;    /* largest utilisation at a glance, numbers taken as they are; NaN: not run */
-    bool rejected;    /* for certain, at a glance */
+    double coarse;    /* largest utilisation coarsely, numbers taken as they are; NaN: not run */
+    bool rejected;    /* for certain, coarsely */
     bool judged, accepted; /* as closely as any verdict */
 } look;
 
 typedef struct hunt { /* for one parameter; values in the unit as written */
-    fw_trial *trial;
-    const fw_parameter *parameter;
-    fw_unit unit;
+    fw_verdict_trial *trial;
+    const fw_device_parameter *parameter;
+    fw_quantity_unit unit;
     const char *unit_text;
     double now, low, high, range;
     double digit; /* no value is finer */
@@ -77,7 +78,7 @@ static bool spent(const hunt *h) {
 /* ---- values ---- */
 
 /* of a dimension in SI: "kg m s-2"; a parameter computed from others has no unit of its own */
-static const char *si_unit(fw_arena *arena, fw_dimension d) {
+static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
     const struct {
         const char *symbol;
         int power;
@@ -119,29 +120,30 @@ static double distance(const hunt *h, const look *l) {
 static fw_status run(hunt *h, double at, bool glance) {
     const char *value = value_text(h, at, 12);
     FW_NEED(value);
-    const fw_set set = {h->parameter->name, value};
+    const fw_device_set set = {h->parameter->name, value};
     h->trials++;
-    return fw_trial_restate(h->trial, &set, glance);
+    return fw_verdict_trial_restate(h->trial, &set, glance);
 }
 
-static bool acceptable(const fw_trial *trial) {
+static bool acceptable(const fw_verdict_trial *trial) {
     return trial->decision == FW_ACCEPT && trial->drawn;
 }
 
 static fw_status glance(hunt *h, double at, look *out) {
     FW_TRY(run(h, at, true));
     *out = (look){.at = at,
-                  .coarse = fw_trial_excess(h->trial),
+                  .coarse = fw_verdict_trial_excess(h->trial),
                   .rejected = h->trial->decision == FW_REJECT || !h->trial->drawn};
     return FW_OK;
 }
 
-/* judged as any device; then at a glance, at the corner that now governs: what glances are off by
+/* judged as any device; then coarsely, at the corner that now governs: what coarse judgements are
+   off by
  */
 static fw_status judge(hunt *h, double at, look *out) {
     FW_TRY(run(h, at, false));
     bool accepted = acceptable(h->trial);
-    double excess = fw_trial_excess(h->trial);
+    double excess = fw_verdict_trial_excess(h->trial);
     FW_TRY(glance(h, at, out));
     out->judged = true;
     out->accepted = accepted;
@@ -324,11 +326,11 @@ static fw_status is_count(hunt *h, bool *count) {
     FW_NEED(value);
     fw_arena *scratch = fw_arena_part(h->trial->arena, 0);
     FW_NEED(scratch);
-    const fw_restated *r = &h->trial->options->restated;
+    const fw_verdict_restated *r = &h->trial->options->restated;
     const fw_device *device = NULL;
-    fw_variant_verdict *variant =
-        fw_arena_array(scratch, fw_variant_verdict, (size_t)h->trial->verdict->nvariant);
-    const fw_set set = {h->parameter->name, value};
+    fw_verdict_variant_verdict *variant =
+        fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)h->trial->verdict->nvariant);
+    const fw_device_set set = {h->parameter->name, value};
     fw_status status = variant ? r->with(r->context, scratch, &set, &device, variant) : FW_NOMEM;
     fw_arena_free(scratch);
     *count = status != FW_OK;
@@ -336,18 +338,18 @@ static fw_status is_count(hunt *h, bool *count) {
 }
 
 /* *ok false: nothing says how far to look */
-static fw_status begin(fw_trial *trial, const fw_parameter *p, hunt *h, bool *ok) {
+static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, hunt *h, bool *ok) {
     *h = (hunt){.trial = trial, .parameter = p, .unit_text = p->unit, .bias = 1};
     *ok = false;
-    if (!fw_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
-        !fw_dimension_equal(h->unit.dimension, p->dimension)) {
+    if (!fw_quantity_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
+        !fw_quantity_dimension_equal(h->unit.dimension, p->dimension)) {
         FW_NEED(h->unit_text = si_unit(trial->arena, p->dimension));
-        h->unit = (fw_unit){.factor = 1, .dimension = p->dimension};
+        h->unit = (fw_quantity_unit){.factor = 1, .dimension = p->dimension};
     }
-    double ends[2] = {p->min, p->max}, v = h->now = fw_unit_from_si(&h->unit, p->value);
+    double ends[2] = {p->min, p->max}, v = h->now = fw_quantity_unit_from_si(&h->unit, p->value);
     for (int i = 0; i < 2; i++) {
         double away = (i == 0) == (v > 0) ? 1 / factor_without_bounds : factor_without_bounds;
-        ends[i] = isinf(ends[i]) ? v * away : fw_unit_from_si(&h->unit, ends[i]);
+        ends[i] = isinf(ends[i]) ? v * away : fw_quantity_unit_from_si(&h->unit, ends[i]);
     }
     h->low = fmin(ends[0], v);
     h->high = fmax(ends[1], v);
@@ -361,13 +363,13 @@ static fw_status begin(fw_trial *trial, const fw_parameter *p, hunt *h, bool *ok
     return FW_OK;
 }
 
-static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) {
+static fw_status say(const hunt *h, const look *best, fw_verdict_parameter_advice *out) {
     fw_arena *arena = h->trial->arena;
     const char *now = value_text(h, h->now, 6);
     const char *low = value_text(h, h->low, 6), *high = value_text(h, h->high, 6);
     FW_NEED(now && low && high ? now : NULL);
-    out->low = fw_unit_to_si(&h->unit, h->low);
-    out->high = fw_unit_to_si(&h->unit, h->high);
+    out->low = fw_quantity_unit_to_si(&h->unit, h->low);
+    out->high = fw_quantity_unit_to_si(&h->unit, h->high);
     out->trials = h->trials;
     if (!best->accepted && spent(h)) {
         FW_NEED(out->text = fw_arena_printf(
@@ -384,7 +386,7 @@ static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) 
         return FW_OK;
     }
     out->found = FW_PARAMETER_ACCEPTS;
-    out->to = fw_unit_to_si(&h->unit, best->at);
+    out->to = fw_quantity_unit_to_si(&h->unit, best->at);
     out->change = fabs(out->to - out->from) / fabs(out->from);
     FW_NEED(out->value_text = value_text(h, best->at, 12));
     char share[32] = "";
@@ -399,15 +401,15 @@ static fw_status say(const hunt *h, const look *best, fw_parameter_advice *out) 
 }
 
 /* share: of the work that is left, for this parameter */
-static fw_status look_into(fw_trial *trial, const fw_parameter *p, double excess, int left,
-                           double share, fw_parameter_advice *out) {
-    *out = (fw_parameter_advice){.name = p->name,
-                                 .found = FW_PARAMETER_NOT_LOOKED,
-                                 .from = p->value,
-                                 .to = (double)NAN,
-                                 .low = (double)NAN,
-                                 .high = (double)NAN,
-                                 .change = (double)NAN};
+static fw_status look_into(fw_verdict_trial *trial, const fw_device_parameter *p, double excess,
+                           int left, double share, fw_verdict_parameter_advice *out) {
+    *out = (fw_verdict_parameter_advice){.name = p->name,
+                                         .found = FW_PARAMETER_NOT_LOOKED,
+                                         .from = p->value,
+                                         .to = (double)NAN,
+                                         .low = (double)NAN,
+                                         .high = (double)NAN,
+                                         .change = (double)NAN};
     hunt h;
     bool ok = false;
     if (left > 0) FW_TRY(begin(trial, p, &h, &ok));
@@ -424,23 +426,23 @@ static fw_status look_into(fw_trial *trial, const fw_parameter *p, double excess
 }
 
 static int by_change(const void *a, const void *b) {
-    const fw_parameter_advice *p = (const fw_parameter_advice *)a,
-                              *q = (const fw_parameter_advice *)b;
+    const fw_verdict_parameter_advice *p = (const fw_verdict_parameter_advice *)a,
+                                      *q = (const fw_verdict_parameter_advice *)b;
     if (p->found != q->found) return p->found < q->found ? -1 : 1;
     if (p->found == FW_PARAMETER_ACCEPTS && p->change != q->change)
         return p->change < q->change ? -1 : 1;
     return strcmp(p->name, q->name);
 }
 
-fw_status fw_change_parameters(fw_arena *arena, const fw_device *device,
-                               const fw_verdict_options *options, fw_verdict *out) {
+fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
+                                       const fw_verdict_options *options, fw_verdict *out) {
     int left = MOST_IN_ALL, n = device->nparameter;
     if (!options->restated.with || n == 0) return FW_OK;
-    FW_NEED(out->parameter = fw_arena_array(arena, fw_parameter_advice, (size_t)n));
-    fw_trial
+    FW_NEED(out->parameter = fw_arena_array(arena, fw_verdict_parameter_advice, (size_t)n));
+    fw_verdict_trial
         trial; /* one for all: what one finds to be the worst corner, the next looks at first */
-    FW_TRY(fw_trial_start(arena, device, options, out, &trial));
-    double excess = fw_trial_excess(&trial);
+    FW_TRY(fw_verdict_trial_start(arena, device, options, out, &trial));
+    double excess = fw_verdict_trial_excess(&trial);
     for (int i = 0; i < n; i++) {
         FW_TRY(look_into(&trial, &device->parameter[i], excess, left, 1.0 / (n - i),
                          &out->parameter[i]));

@@ -8,8 +8,8 @@ enum { FW_REASONS = 3 }; /* of one scene at most */
 
 /* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
    effect ends), pull_in[i], and reasons of v */
-fw_status fw_verdict_scene(fw_arena *arena, const fw_scene *scene, int i,
-                           const fw_motion_options *options, fw_diags *diags,
-                           fw_variant_verdict *v);
+fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
+                           const fw_dynamics_motion_options *options, fw_diags *diags,
+                           fw_verdict_variant_verdict *v);
 
 #endif

@@ -23,11 +23,12 @@ static fw_status copy_device(fw_arena *arena, const fw_device *device, fw_device
 }
 
 /* the tightest device that the flow may make, where that is worse than the drawn one */
-static void remember_made(const fw_variant_verdict *v, fw_trial_hinge *to,
-                          const fw_layout *layout) {
-    const fw_made_verdict *made = v->made;
+static void remember_fabricated(const fw_verdict_variant_verdict *v, fw_verdict_trial_hinge *to,
+                                const fw_layout *layout) {
+    const fw_verdict_fabricated_verdict *fabricated = v->fabricated;
     for (int k = 0; k < v->nhinge; k++) {
-        const fw_hinge_verdict *h = &made->corner[made->hinge[k].corner].hinge[k];
+        const fw_verdict_hinge_verdict *h =
+            &fabricated->corner[fabricated->hinge[k].corner].hinge[k];
         if (h->joint != to->joint || !h->scene) continue;
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
         if (h->decision > to->decision) to->decision = h->decision;
@@ -41,72 +42,75 @@ static void remember_made(const fw_variant_verdict *v, fw_trial_hinge *to,
     }
 }
 
-static void remember_suspect(fw_trial *trial, const fw_verdict *verdict) {
+static void remember_suspect(fw_verdict_trial *trial, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &verdict->variant[i];
-        if (!v->made || v->made->decision == FW_ACCEPT) continue;
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        if (!v->fabricated || v->fabricated->decision == FW_ACCEPT) continue;
         trial->suspected[i] = true;
         for (int k = 0; k < v->ninput; k++)
-            trial->suspect[i * FW_MADE_INPUTS + k] = v->made->corner[v->made->at].x[k];
+            trial->suspect[i * FW_FABRICATION_INPUTS + k] =
+                v->fabricated->corner[v->fabricated->at].x[k];
     }
 }
 
-static void remember(fw_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
+static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
     trial->nhinge = verdict->nhinge;
     trial->decision = verdict->decision;
-    trial->made = false;
+    trial->fabricated = false;
     for (int i = 0; i < verdict->nvariant; i++)
-        trial->made = trial->made || verdict->variant[i].made;
+        trial->fabricated = trial->fabricated || verdict->variant[i].fabricated;
     for (int k = 0; k < verdict->nhinge; k++) {
-        const fw_hinge_verdict *h = &verdict->hinge[k];
+        const fw_verdict_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
-        trial->hinge[k] = (fw_trial_hinge){h->joint,
-                                           h->decision,
-                                           h->utilisation_high,
-                                           h->utilisation_high - h->numeric,
-                                           meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
-                                           h->scene,
-                                           h->flow};
+        trial->hinge[k] =
+            (fw_verdict_trial_hinge){h->joint,
+                                     h->decision,
+                                     h->utilisation_high,
+                                     h->utilisation_high - h->numeric,
+                                     meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
+                                     h->scene,
+                                     h->flow};
         for (int i = 0; i < verdict->nvariant; i++)
-            if (verdict->variant[i].made)
-                remember_made(&verdict->variant[i], &trial->hinge[k], layout);
+            if (verdict->variant[i].fabricated)
+                remember_fabricated(&verdict->variant[i], &trial->hinge[k], layout);
     }
     for (int i = 0; i < verdict->nvariant; i++)
         for (int k = 0; k < verdict->variant[i].nreason; k++) {
-            const fw_reason *r = &verdict->variant[i].reason[k];
+            const fw_verdict_reason *r = &verdict->variant[i].reason[k];
             if (r->number == 237 || r->number == 238) continue; /* as made: here and above */
-            trial->hinge[trial->nhinge++] = (fw_trial_hinge){.joint = FW_NONE,
-                                                             .decision = r->decision,
-                                                             .utilisation_high = 1 / r->keep,
-                                                             .likely = 1 / r->keep,
-                                                             .scene = r->scene,
-                                                             .flow = r->flow};
+            trial->hinge[trial->nhinge++] =
+                (fw_verdict_trial_hinge){.joint = FW_NONE,
+                                         .decision = r->decision,
+                                         .utilisation_high = 1 / r->keep,
+                                         .likely = 1 / r->keep,
+                                         .scene = r->scene,
+                                         .flow = r->flow};
         }
     for (int i = 0; i < verdict->nvariant; i++) { /* beside hinges; gone: has no utilisation */
-        const fw_made_verdict *made = verdict->variant[i].made;
-        if (!made || made->decision == FW_ACCEPT) continue;
-        const fw_made_corner *c = &made->corner[made->at];
+        const fw_verdict_fabricated_verdict *fabricated = verdict->variant[i].fabricated;
+        if (!fabricated || fabricated->decision == FW_ACCEPT) continue;
+        const fw_verdict_fabricated_corner *c = &fabricated->corner[fabricated->at];
         if (!c->why) continue;
         trial->hinge[trial->nhinge++] =
-            (fw_trial_hinge){.joint = FW_NONE,
-                             .decision = made->decision,
-                             .utilisation_high = c->scene ? 1 / c->keep : 1.3,
-                             .likely = c->scene ? 1 / c->keep : 1.3,
-                             .scene = c->scene ? c->scene : "as made",
-                             .flow = verdict->variant[i].variant->flow};
+            (fw_verdict_trial_hinge){.joint = FW_NONE,
+                                     .decision = fabricated->decision,
+                                     .utilisation_high = c->scene ? 1 / c->keep : 1.3,
+                                     .likely = c->scene ? 1 / c->keep : 1.3,
+                                     .scene = c->scene ? c->scene : "as made",
+                                     .flow = verdict->variant[i].variant->flow};
     }
 }
 
-fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
-                         const fw_verdict_options *options, const fw_verdict *verdict,
-                         fw_trial *trial) {
-    *trial = (fw_trial){
+fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
+                                 const fw_verdict_options *options, const fw_verdict *verdict,
+                                 fw_verdict_trial *trial) {
+    *trial = (fw_verdict_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
     size_t n = (size_t)verdict->nvariant;
-    size_t most = (size_t)device->njoint + n * (FW_REASONS * (size_t)device->nscene + 1);
-    FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_MADE_INPUTS));
+    size_t most = (size_t)device->nrevolute + n * (FW_REASONS * (size_t)device->nscene + 1);
+    FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
-    FW_NEED(trial->hinge = fw_arena_array(arena, fw_trial_hinge, most));
+    FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
     for (int i = 0; i < device->nscene; i++)
         trial->share[i] = 1;
@@ -127,51 +131,52 @@ static fw_verdict_options quiet(const fw_verdict_options *options) {
 /* ---- the description read again ---- */
 
 /* a point of the ranges `from` at the same place of the ranges `to` */
-static double carried(const fw_made_input *from, const fw_made_input *to, double x) {
+static double carried(const fw_verdict_fabrication_input *from,
+                      const fw_verdict_fabrication_input *to, double x) {
     double wide = from->high - from->low;
     return wide > 0 ? to->low + (x - from->low) / wide * (to->high - to->low) : to->nominal;
 }
 
-static const fw_motion *const *motions_of(const fw_trial *trial, int i) {
-    return (const fw_motion *const *)trial->verdict->variant[i].motion;
+static const fw_dynamics_motion *const *motions_of(const fw_verdict_trial *trial, int i) {
+    return (const fw_dynamics_motion *const *)trial->verdict->variant[i].motion;
 }
 
 /* ranges follow what was changed (a thickness), and so does the corner that governed last */
-static fw_status take_suspect(const fw_trial *trial, fw_arena *scratch, int i,
-                              fw_variant_verdict *v) {
-    const fw_variant_verdict *was = &trial->verdict->variant[i];
+static fw_status take_suspect(const fw_verdict_trial *trial, fw_arena *scratch, int i,
+                              fw_verdict_variant_verdict *v) {
+    const fw_verdict_variant_verdict *was = &trial->verdict->variant[i];
     if (!trial->suspected[i] || was->ninput != v->ninput) return FW_OK;
-    double *x = fw_arena_array(scratch, double, FW_MADE_INPUTS);
+    double *x = fw_arena_array(scratch, double, FW_FABRICATION_INPUTS);
     FW_NEED(x);
     for (int k = 0; k < v->ninput; k++)
-        x[k] = carried(&was->input[k], &v->input[k], trial->suspect[i * FW_MADE_INPUTS + k]);
+        x[k] = carried(&was->input[k], &v->input[k], trial->suspect[i * FW_FABRICATION_INPUTS + k]);
     v->suspect = x;
     return FW_OK;
 }
 
-static void keep_suspect(fw_trial *trial, const fw_variant_verdict *variant) {
+static void keep_suspect(fw_verdict_trial *trial, const fw_verdict_variant_verdict *variant) {
     for (int i = 0; i < trial->verdict->nvariant; i++) {
-        const fw_variant_verdict *v = &variant[i], *was = &trial->verdict->variant[i];
-        if (!v->made || was->ninput != v->ninput) continue; /* accepted: it is the tightest */
+        const fw_verdict_variant_verdict *v = &variant[i], *was = &trial->verdict->variant[i];
+        if (!v->fabricated || was->ninput != v->ninput) continue; /* accepted: it is the tightest */
         trial->suspected[i] = true;
         for (int k = 0; k < v->ninput; k++)
-            trial->suspect[i * FW_MADE_INPUTS + k] =
-                carried(&v->input[k], &was->input[k], v->made->corner[v->made->at].x[k]);
+            trial->suspect[i * FW_FABRICATION_INPUTS + k] = carried(
+                &v->input[k], &was->input[k], v->fabricated->corner[v->fabricated->at].x[k]);
     }
 }
 
 /* of a motion: as at a corner. A row of equilibria is solved at every one. */
 static const int samples_of_a_glance = 65;
 
-static fw_status restate(fw_trial *trial, fw_arena *scratch, const fw_set *set,
+static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,
                          const fw_verdict_options *options) {
-    const fw_restated *r = &trial->options->restated;
+    const fw_verdict_restated *r = &trial->options->restated;
     int n = trial->verdict->nvariant;
     const fw_device *device = NULL;
     const fw_layout *layout = NULL;
     fw_diags diags = fw_diags_new(scratch);
     fw_verdict again = {.nvariant = n,
-                        .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
+                        .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     FW_NEED(again.variant);
     FW_TRY(r->with(r->context, scratch, set, &device, again.variant));
     for (int i = 0; i < n; i++) {
@@ -186,18 +191,19 @@ static fw_status restate(fw_trial *trial, fw_arena *scratch, const fw_set *set,
 }
 
 /* of a flow whose worst corner nothing is known of, all are looked at once */
-static bool unknown_corners(const fw_trial *trial) {
+static bool unknown_corners(const fw_verdict_trial *trial) {
     bool unknown = false;
     for (int i = 0; i < trial->verdict->nvariant; i++)
         unknown = unknown || (trial->verdict->variant[i].ninput > 0 && !trial->suspected[i]);
     return unknown;
 }
 
-fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
+fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, bool glance) {
     fw_verdict_options o = quiet(trial->options);
     o.work = &trial->work;
     if (glance) {
-        if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_look);
+        if (o.motion.rtol <= 0)
+            o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
         if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))
             o.corners = FW_CORNERS_SUSPECT;
         if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
@@ -216,7 +222,7 @@ fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance) {
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }
 
-double fw_trial_excess(const fw_trial *trial) {
+double fw_verdict_trial_excess(const fw_verdict_trial *trial) {
     double most = trial->nhinge > 0 ? 0.0 : (double)NAN;
     for (int k = 0; k < trial->nhinge; k++)
         most = fmax(most, fmax(trial->hinge[k].likely, trial->hinge[k].reach));
@@ -226,7 +232,7 @@ double fw_trial_excess(const fw_trial *trial) {
 /* ---- a copy that was changed ---- */
 
 /* in an arena of its own, given back at once: a plan runs dozens of trials */
-fw_status fw_trial_run(fw_trial *trial) {
+fw_status fw_verdict_trial_run(fw_verdict_trial *trial) {
     int n = trial->verdict->nvariant;
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
@@ -234,15 +240,15 @@ fw_status fw_trial_run(fw_trial *trial) {
     const fw_layout *layout = NULL;
     const fw_verdict_options o = quiet(trial->options);
     fw_verdict again = {.nvariant = n,
-                        .variant = fw_arena_array(scratch, fw_variant_verdict, (size_t)n)};
+                        .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;
     for (int i = 0; status == FW_OK && i < n; i++)
-        again.variant[i] = (fw_variant_verdict){
+        again.variant[i] = (fw_verdict_variant_verdict){
             .variant = trial->verdict->variant[i].variant,
             .input = trial->verdict->variant[i].input,
             .ninput = trial->verdict->variant[i].ninput,
             .like = motions_of(trial, i),
-            .suspect = trial->suspected[i] ? trial->suspect + i * FW_MADE_INPUTS : NULL};
+            .suspect = trial->suspected[i] ? trial->suspect + i * FW_FABRICATION_INPUTS : NULL};
     if (status == FW_OK)
         status = fw_verdict_run(scratch, trial->changed, &o, &diags, &again, &layout);
     trial->drawn = status == FW_OK && layout && layout->drawn;

@@ -4,55 +4,55 @@
 #define FW_VERDICT_TRIAL_H
 #include "verdict/verdict.h"
 
-typedef struct fw_trial_hinge { /* what a change needs to know of a hinge's verdict */
+typedef struct fw_verdict_trial_hinge { /* what a change needs to know of a hinge's verdict */
     int joint; /* FW_NONE: no hinge, but a reason against the scene: utilisation_high is then 1 over
                   the share of its loads that it may bear */
-    fw_decision decision;
+    fw_verdict_decision decision;
     double utilisation_high;
     double likely;     /* the same without what closer numbers would take away */
     double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
     const char *scene; /* of the device, or "workspace" */
     const char *flow;
-} fw_trial_hinge;
+} fw_verdict_trial_hinge;
 
-typedef struct fw_trial {
+typedef struct fw_verdict_trial {
     double work;             /* fw_verdict_options.work of the trials so far */
     fw_arena *arena;         /* of the plan: outlives the trial */
     const fw_device *device; /* as described */
     fw_device *changed;      /* a copy; flexures, loads and workspaces are its own */
     const fw_verdict_options *options;
-    const fw_verdict *verdict; /* of the device as described */
-    fw_trial_hinge *hinge;     /* (nhinge) of the last run */
+    const fw_verdict *verdict;     /* of the device as described */
+    fw_verdict_trial_hinge *hinge; /* (nhinge) of the last run */
     int nhinge;
-    double *suspect; /* (nvariant x FW_MADE_INPUTS) corner of each flow that governed last */
+    double *suspect; /* (nvariant x FW_FABRICATION_INPUTS) corner of each flow that governed last */
     bool *suspected; /* (nvariant) there is one */
     double *share;   /* (device->nscene) of each scene's loads that is left */
-    fw_decision decision;
+    fw_verdict_decision decision;
     bool drawn;
-    bool made; /* the last run looked at what the flows make of it, too */
-} fw_trial;
+    bool fabricated; /* the last run looked at what the flows make of it, too */
+} fw_verdict_trial;
 
 /* copies the device and takes over the verdict that it has */
-fw_status fw_trial_start(fw_arena *arena, const fw_device *device,
-                         const fw_verdict_options *options, const fw_verdict *verdict,
-                         fw_trial *trial);
+fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
+                                 const fw_verdict_options *options, const fw_verdict *verdict,
+                                 fw_verdict_trial *trial);
 /* judges `changed`; what could not be run is a rejection that is not drawn */
-fw_status fw_trial_run(fw_trial *trial);
+fw_status fw_verdict_trial_run(fw_verdict_trial *trial);
 
 /* judges the description read again with `set` instead of `changed`. glance: coarsely, as drawn and
    at the corners that were not accepted last; what that rejects is rejected */
-fw_status fw_trial_restate(fw_trial *trial, const fw_set *set, bool glance);
+fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, bool glance);
 /* the largest `likely` (or reach) of the last run; NaN: it was not run */
-double fw_trial_excess(const fw_trial *trial);
+double fw_verdict_trial_excess(const fw_verdict_trial *trial);
 
 /* parameters.c: every declared parameter alone */
-fw_status fw_change_parameters(fw_arena *arena, const fw_device *device,
-                               const fw_verdict_options *options, fw_verdict *out);
+fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
+                                       const fw_verdict_options *options, fw_verdict *out);
 
 /* changes.c: each tries to reach an accepted, drawn device by one kind of change. *done: it did,
    and wrote its advice (lines into verdict->advice, or a sentence). */
-fw_status fw_change_lengths(fw_trial *trial, fw_verdict *out, bool *done);
-fw_status fw_change_widths(fw_trial *trial, fw_verdict *out, bool *done);
-fw_status fw_change_loads(fw_trial *trial, const char **sentence, bool *done);
+fw_status fw_verdict_change_lengths(fw_verdict_trial *trial, fw_verdict *out, bool *done);
+fw_status fw_verdict_change_widths(fw_verdict_trial *trial, fw_verdict *out, bool *done);
+fw_status fw_verdict_change_loads(fw_verdict_trial *trial, const char **sentence, bool *done);
 
 #endif

@@ -3,7 +3,7 @@
 #include "base/constants.h"
 #include "verdict/fatigue.h"
 #include "verdict/scene.h"
-#include "verdict/watch.h"
+#include "verdict/strain_monitor.h"
 #include <math.h>
 
 /* motion: largest difference of any hinge's peak section moment, joint force included, between
@@ -11,10 +11,10 @@
    six-bar, 2.9 % (0.7 % at the governing hinge); strain: largest error of the closed form on
    held-out shapes, 2.9 %; workspace: largest moment that joint forces added at the governing hinge
    in the same cases, 21 % */
-const fw_model_error fw_verdict_model_error = {0.029, 0.029, 0.21};
-const double fw_verdict_first_look = 3e-2;
+const fw_verdict_model_errors fw_verdict_model_error = {0.029, 0.029, 0.21};
+const double fw_verdict_first_accuracy = 3e-2;
 
-const char *fw_decision_text(fw_decision decision) {
+const char *fw_verdict_decision_text(fw_verdict_decision decision) {
     switch (decision) {
     case FW_ACCEPT:
         return "accept";
@@ -26,13 +26,13 @@ const char *fw_decision_text(fw_decision decision) {
     return "inconclusive";
 }
 
-static fw_decision decide(double low, double high) {
+static fw_verdict_decision decide(double low, double high) {
     if (low > 1.0) return FW_REJECT;
     return high < 1.0 ? FW_ACCEPT : FW_INCONCLUSIVE;
 }
 
 /* the worse decision, then the higher utilisation; the band holds that of both */
-void fw_verdict_keep_worst(fw_hinge_verdict *worst, const fw_hinge_verdict *other) {
+void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other) {
     double low = fmax(worst->utilisation_low, other->utilisation_low);
     double high = fmax(worst->utilisation_high, other->utilisation_high);
     double breaks = worst->scene ? worst->failure_probability : (double)NAN;
@@ -42,7 +42,7 @@ void fw_verdict_keep_worst(fw_hinge_verdict *worst, const fw_hinge_verdict *othe
     worst->utilisation_high = high;
 }
 
-bool fw_verdict_governs(const fw_hinge_verdict *h, const fw_hinge_verdict *other) {
+bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other) {
     if (h->decision != other->decision) return h->decision > other->decision;
     return h->utilisation > other->utilisation;
 }
@@ -54,37 +54,38 @@ static double beyond_fit(const fw_flexure_result *c) {
 }
 
 /* the solids meet first: what happens then is not in the model, so it cannot be accepted */
-static void collide(const fw_hinge_layout *drawn, fw_hinge_verdict *out) {
+static void collide(const fw_layout_hinge_layout *drawn, fw_verdict_hinge_verdict *out) {
     out->touches = drawn && drawn->drawn && drawn->free_rad > 0.0 &&
                    fabs(out->peak_angle_rad) > drawn->free_rad;
     if (out->touches && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
 }
 
-static double strain_error(const fw_motion *motion) {
-    const fw_watch *saw = motion->observed, *looser = motion->compared;
+static double strain_error(const fw_dynamics_motion *motion) {
+    const fw_verdict_strain_monitor *saw = motion->observed, *looser = motion->compared;
     if (!saw || !looser || motion->ended) return 0.0;
-    return fw_watch_error(saw, looser, motion->stats.estimate_margin);
+    return fw_verdict_strain_monitor_error(saw, looser, motion->stats.estimate_margin);
 }
 
 /* what a hinge is judged by, the same for all that is run */
 typedef struct judged {
     const fw_mechanism *m;
-    const fw_hinge *hinge;
-    const fw_hinge_layout *drawn;
+    const fw_mechanism_hinge *hinge;
+    const fw_layout_hinge_layout *drawn;
     double youngs_Pa, safety_factor;
     double repetitions; /* of every scene; NaN: static */
 } judged;
 
 /* peak stress at the root as it is, against the plain distribution of strengths */
-static void chance(const judged *by, fw_hinge_verdict *out) {
-    const fw_weibull *w = &by->hinge->limits.weibull;
+static void chance(const judged *by, fw_verdict_hinge_verdict *out) {
+    const fw_flexure_weibull *w = &by->hinge->limits.weibull;
     if (w->known)
-        out->failure_probability = fw_weibull_probability(w, out->peak_strain * by->youngs_Pa);
+        out->failure_probability =
+            fw_flexure_weibull_probability(w, out->peak_strain * by->youngs_Pa);
 }
 
 /* a repeated motion that uses more of its fatigue limit than its peak does of the static one: the
    limits become those of this motion, its bands the same share of the larger utilisation */
-static void fatigue(const judged *by, const fw_fatigue *f, fw_hinge_verdict *out) {
+static void fatigue(const judged *by, const fw_verdict_fatigue *f, fw_verdict_hinge_verdict *out) {
     out->fatigue_utilisation = by->safety_factor * f->utilisation;
     out->damage = f->damage;
     out->cycles = f->cycles;
@@ -106,7 +107,8 @@ static bool repeats(const judged *by) {
 
 /* strain that the peak has beyond that of either root by bending alone (inside the arc, along the
    force) is taken to belong to all of the history */
-static fw_status tire(fw_arena *arena, const judged *by, fw_turning *root, fw_hinge_verdict *out) {
+static fw_status count_fatigue(fw_arena *arena, const judged *by, fw_maths_turning *root,
+                               fw_verdict_hinge_verdict *out) {
     if (!repeats(by) || !root) return FW_OK;
     double most = 0;
     for (int side = 0; side < 2; side++) {
@@ -115,9 +117,9 @@ static fw_status tire(fw_arena *arena, const judged *by, fw_turning *root, fw_hi
             most = fmax(most, fabs(root[side].value[i]));
     }
     double scale = most > 0 ? fmax(1.0, out->peak_strain / most) : 1.0;
-    fw_fatigue f;
-    FW_TRY(fw_fatigue_of(arena, &by->hinge->limits.life, root, scale * by->youngs_Pa,
-                         by->repetitions, &f));
+    fw_verdict_fatigue f;
+    FW_TRY(fw_verdict_fatigue_of(arena, &by->hinge->limits.life, root, scale * by->youngs_Pa,
+                                 by->repetitions, &f));
     fatigue(by, &f, out);
     return FW_OK;
 }
@@ -125,11 +127,11 @@ static fw_status tire(fw_arena *arena, const judged *by, fw_turning *root, fw_hi
 /* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
    never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
    the angle over the limit angle and of the search for the strain */
-static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_motion *motion,
-                             const fw_watch *watch, int k, const char *scene,
-                             fw_hinge_verdict *out) {
-    const fw_peak *peak = &motion->peak[by->hinge->pin];
-    const fw_strain_peak *strain = &watch->hinge[k];
+static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamics_motion *motion,
+                             const fw_verdict_strain_monitor *monitor, int k, const char *scene,
+                             fw_verdict_hinge_verdict *out) {
+    const fw_dynamics_peak *peak = &motion->peak[by->hinge->pin];
+    const fw_verdict_strain_peak *strain = &monitor->hinge[k];
     const fw_flexure_result *c = &by->hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
     double by_strain = strain->strain / out->strain_limit;
@@ -146,13 +148,13 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_motion 
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
     double strains = fw_verdict_model_error.strain + beyond_fit(c);
-    double model = fw_motion_model_error(by->m, motion) + strains;
+    double model = fw_verdict_motion_model_error(by->m, motion) + strains;
     out->numeric = numeric;
-    out->lasting = fmin(model, fw_motion_lasting_error(by->m) + strains);
+    out->lasting = fmin(model, fw_verdict_motion_lasting_error(by->m) + strains);
     out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     chance(by, out);
-    FW_TRY(tire(arena, by, watch->root ? watch->root[k] : NULL, out));
+    FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
     collide(by->drawn, out);
     return FW_OK;
@@ -161,7 +163,7 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_motion 
 /* of required poses only the rotations are known, so that every repetition is taken to go to the
    worst one and as far to the other side */
 static void judge_workspace(const judged *by, const fw_workspace_result *workspace,
-                            fw_hinge_verdict *out) {
+                            fw_verdict_hinge_verdict *out) {
     const fw_workspace_peak *peak = &workspace->peak[by->hinge->pin];
     const fw_flexure_result *c = &by->hinge->closed_form;
     out->scene = "workspace";
@@ -179,10 +181,10 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
         out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
     chance(by, out);
     if (repeats(by)) {
-        const fw_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
-        const fw_strain_life *law = &by->hinge->limits.life;
-        const fw_fatigue f = {fw_fatigue_utilisation(law, &one, 1, by->repetitions),
-                              fw_miner(law, &one, 1, by->repetitions, 1), 1};
+        const fw_maths_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
+        const fw_flexure_strain_life *law = &by->hinge->limits.life;
+        const fw_verdict_fatigue f = {fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
+                                      fw_verdict_miner(law, &one, 1, by->repetitions, 1), 1};
         fatigue(by, &f, out);
     }
     out->decision = decide(out->utilisation_low, out->utilisation_high);
@@ -191,7 +193,8 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
 
 /* a hinge that has turned once is past every limit: the rest of the scene is not needed */
 
-static void warn_ended(const fw_scene *scene, const fw_motion *motion, fw_diags *diags) {
+static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                       fw_diags *diags) {
     char t[32];
     fw_diag_warning(diags, 205, scene->place,
                     "scene %s was ended after %s ms, when a joint had turned by more than a whole "
@@ -206,7 +209,7 @@ static const double fw_hinges_good_enough = 0.03;
 static const long fw_most_beams = 100000;
 
 /* an exact beam counts for as many closed forms as it costs */
-static double work_of(const fw_mechanism *m, const fw_motion *motion) {
+static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
     double each = motion->ledger.hinge.used == FW_HINGE_ELASTICA ? 30 : 1;
     return each * (double)motion->stats.rhs * m->nhinge;
 }
@@ -214,10 +217,10 @@ static double work_of(const fw_mechanism *m, const fw_motion *motion) {
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
-                            fw_diags *diags, fw_variant_verdict *v, fw_watch *watch,
-                            fw_watch *other) {
+                            fw_diags *diags, fw_verdict_variant_verdict *v,
+                            fw_verdict_strain_monitor *monitor, fw_verdict_strain_monitor *other) {
     size_t n = (size_t)device->nscene;
-    fw_motion_options motion = options->motion;
+    fw_dynamics_motion_options motion = options->motion;
     motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
@@ -225,31 +228,33 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    FW_NEED(v->reason = fw_arena_array(arena, fw_reason, FW_REASONS * n + 1)); /* as made */
+    FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, FW_REASONS * n + 1)); /* as made */
     for (size_t i = 0; i < n; i++) {
-        const fw_scene *scene = &device->scene[i];
+        const fw_device_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
-        FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &watch[i]));
-        motion.observe = fw_watch_see;
-        motion.unsettled = fw_watch_unsettled;
-        motion.context = &watch[i];
-        FW_TRY(fw_watch_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
+        FW_TRY(fw_verdict_strain_monitor_new(arena, m, layout, device->limits.cycles > 0,
+                                             &monitor[i]));
+        motion.observe = fw_verdict_strain_monitor_record;
+        motion.unsettled = fw_verdict_strain_monitor_unsettled;
+        motion.context = &monitor[i];
+        FW_TRY(
+            fw_verdict_strain_monitor_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
-        if (watch[i].no_memory) return FW_NOMEM;
+        if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
-        if (v->motion[i]) FW_TRY(fw_level_strains(arena, m, v->motion[i]->level));
+        if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;
 }
 
-static void warn_touching(const fw_device *device, const fw_hinge_layout *drawn,
-                          const fw_hinge_verdict *h, fw_diags *diags) {
+static void warn_touching(const fw_device *device, const fw_layout_hinge_layout *drawn,
+                          const fw_verdict_hinge_verdict *h, fw_diags *diags) {
     char peak[32], free_turn[32];
     double degrees = 180.0 / FW_PI;
-    fw_diag_warning(diags, 204, device->joint[h->joint].place,
+    fw_diag_warning(diags, 204, device->revolute[h->joint].place,
                     "hinge %s turns by %s deg in %s (%s), but its drawn solids touch at %s deg: "
                     "use a smaller subtended angle, a longer arc or a smaller load",
                     h->id, fw_number_text(peak, sizeof peak, h->peak_angle_rad * degrees, 3),
@@ -258,40 +263,42 @@ static void warn_touching(const fw_device *device, const fw_hinge_layout *drawn,
 }
 
 /* before anything was run */
-static fw_hinge_verdict blank_verdict(const judged *by) {
-    const fw_limit *limit = fw_limits_governing(&by->hinge->limits);
+static fw_verdict_hinge_verdict blank_verdict(const judged *by) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&by->hinge->limits);
     double allowed = limit ? limit->allowable_Pa : by->m->variant->material.strength.value;
-    return (fw_hinge_verdict){.id = by->m->pin[by->hinge->pin].id,
-                              .joint = by->hinge->pin,
-                              .flow = by->m->variant->flow,
-                              .limit = limit,
-                              .limit_Pa = allowed,
-                              .strain_limit = allowed / by->safety_factor / by->youngs_Pa,
-                              .limit_angle_rad = by->hinge->closed_form.limit_angle_rad,
-                              .failure_probability = (double)NAN,
-                              .fatigue_utilisation = (double)NAN,
-                              .damage = (double)NAN,
-                              .cycles = (double)NAN};
+    return (fw_verdict_hinge_verdict){.id = by->m->pin[by->hinge->pin].id,
+                                      .joint = by->hinge->pin,
+                                      .flow = by->m->variant->flow,
+                                      .limit = limit,
+                                      .limit_Pa = allowed,
+                                      .strain_limit = allowed / by->safety_factor / by->youngs_Pa,
+                                      .limit_angle_rad = by->hinge->closed_form.limit_angle_rad,
+                                      .failure_probability = (double)NAN,
+                                      .fatigue_utilisation = (double)NAN,
+                                      .damage = (double)NAN,
+                                      .cycles = (double)NAN};
 }
 
 static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const judged *by, int k,
-                             const fw_watch *watch, fw_diags *diags, fw_variant_verdict *v) {
-    const fw_hinge_verdict blank = blank_verdict(by);
+                             const fw_verdict_strain_monitor *monitor, fw_diags *diags,
+                             fw_verdict_variant_verdict *v) {
+    const fw_verdict_hinge_verdict blank = blank_verdict(by);
     double *used = v->used + (size_t)k * ((size_t)device->nscene + 1);
     v->hinge[k] = blank;
     for (int i = 0; i <= device->nscene; i++)
         used[i] = (double)NAN;
     for (int i = 0; i < device->nscene; i++) {
         if (!v->motion[i]) continue;
-        fw_hinge_verdict now = blank;
-        const fw_watch *saw = v->motion[i]->observed ? v->motion[i]->observed : &watch[i];
+        fw_verdict_hinge_verdict now = blank;
+        const fw_verdict_strain_monitor *saw =
+            v->motion[i]->observed ? v->motion[i]->observed : &monitor[i];
         FW_TRY(judge_scene(arena, by, v->motion[i], saw, k, device->scene[i].name, &now));
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
     if (v->workspace.required) { /* the poses that can be reached */
-        fw_hinge_verdict now = blank;
+        fw_verdict_hinge_verdict now = blank;
         judge_workspace(by, &v->workspace, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[device->nscene] = now.utilisation;
@@ -301,41 +308,44 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
 }
 
 /* each hinge may break the device: its survival is the product of theirs */
-static fw_status in_series(fw_arena *arena, fw_variant_verdict *v) {
+static fw_status in_series(fw_arena *arena, fw_verdict_variant_verdict *v) {
     double *each;
     int n = 0;
     FW_NEED(each = fw_arena_array(arena, double, (size_t)v->nhinge));
     for (int k = 0; k < v->nhinge; k++)
         if (!isnan(v->hinge[k].failure_probability)) each[n++] = v->hinge[k].failure_probability;
-    v->failure_probability = n > 0 && n == v->nhinge ? fw_series_probability(each, n) : (double)NAN;
+    v->failure_probability =
+        n > 0 && n == v->nhinge ? fw_flexure_series_probability(each, n) : (double)NAN;
     return FW_OK;
 }
 
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *m, const fw_verdict_options *options,
-                             fw_diags *diags, fw_variant_verdict *v) {
+                             fw_diags *diags, fw_verdict_variant_verdict *v) {
     v->mechanism = m;
     v->governing = FW_NONE;
     v->nreason = 0;
     v->nhinge = m->nhinge;
-    FW_NEED(v->hinge = fw_arena_array(arena, fw_hinge_verdict, (size_t)m->nhinge));
+    FW_NEED(v->hinge = fw_arena_array(arena, fw_verdict_hinge_verdict, (size_t)m->nhinge));
     size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
     FW_NEED(v->used = fw_arena_array(arena, double, rows));
-    fw_watch *watch = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
-    fw_watch *other = fw_arena_array(arena, fw_watch, (size_t)device->nscene);
-    FW_NEED(watch && other ? watch : NULL);
-    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, watch, other));
+    fw_verdict_strain_monitor *monitor =
+        fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
+    fw_verdict_strain_monitor *other =
+        fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
+    FW_NEED(monitor && other ? monitor : NULL);
+    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     for (int k = 0; k < m->nhinge; k++) {
-        const fw_hinge *hinge = &m->hinge[k];
+        const fw_mechanism_hinge *hinge = &m->hinge[k];
         const judged by = {.m = m,
                            .hinge = hinge,
                            .drawn = layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL,
                            .youngs_Pa = m->variant->material.youngs.value,
                            .safety_factor = device->safety_factor,
                            .repetitions = device->limits.cycles};
-        FW_TRY(judge_hinge(arena, device, &by, k, watch, diags, v));
+        FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     FW_TRY(in_series(arena, v));
     v->decision = FW_ACCEPT;

@@ -7,13 +7,17 @@
 #include "dynamics/dynamics.h"
 #include "statics/level.h"
 #include "statics/pull_in.h"
-#include "verdict/made.h"
+#include "verdict/verdict_fabrication.h"
 #include "workspace/workspace.h"
 
-typedef enum fw_decision { FW_ACCEPT, FW_INCONCLUSIVE, FW_REJECT } fw_decision; /* worst last */
-const char *fw_decision_text(fw_decision decision);
+typedef enum fw_verdict_decision {
+    FW_ACCEPT,
+    FW_INCONCLUSIVE,
+    FW_REJECT
+} fw_verdict_decision; /* worst last */
+const char *fw_verdict_decision_text(fw_verdict_decision decision);
 
-typedef struct fw_hinge_verdict {
+typedef struct fw_verdict_hinge_verdict {
     const char *id;    /* joint */
     const char *flow;  /* of the governing variant, may be NULL */
     const char *scene; /* that governs, or "workspace" */
@@ -24,195 +28,207 @@ typedef struct fw_hinge_verdict {
     double lasting; /* relative part of it that neither a tighter run nor a better model of the
                        hinges would take away */
     double t_s;     /* NaN for the workspace */
-    fw_decision decision;
+    fw_verdict_decision decision;
     int joint;
-    double force_share;    /* part of the peak strain that the joint force adds to the rotation's */
-    bool touches;          /* the drawn solids meet before the peak angle */
-    const fw_limit *limit; /* which criterion governs; NULL: a plain number without a source */
-    double limit_Pa;       /* peak stress that it allows in this motion, before the safety factor */
+    double force_share; /* part of the peak strain that the joint force adds to the rotation's */
+    bool touches;       /* the drawn solids meet before the peak angle */
+    const fw_flexure_limit
+        *limit;      /* which criterion governs; NULL: a plain number without a source */
+    double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
     double fatigue_utilisation, damage, cycles; /* NaN: no cycles asked; cycles: of one repetition;
                                                    damage: Miner's sum, no safety factor */
-} fw_hinge_verdict;
+} fw_verdict_hinge_verdict;
 
-typedef struct fw_reason { /* why a scene is not accepted, beside the bands of its hinges */
+typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
     const char *scene, *flow;
     int number; /* FW-Dnnn */
-    fw_decision decision;
+    fw_verdict_decision decision;
     double keep;      /* share of its loads that may be accepted: where advice starts to look */
     const char *text; /* a sentence */
-} fw_reason;
+} fw_verdict_reason;
 
-typedef struct fw_made_corner { /* one device that the flow may make, judged like the drawn one */
-    const double *x;            /* (ninput) */
-    const char *what;           /* "nominal", "printed edge -0.15 um, thickness 49 um" */
-    fw_hinge_verdict *hinge; /* (nhinge) worst over the scenes; utilisation 0 where `why` says that
+typedef struct
+    fw_verdict_fabricated_corner { /* one device that the flow may make, judged like the drawn
+                                      one */
+    const double *x;               /* (ninput) */
+    const char *what;              /* "nominal", "printed edge -0.15 um, thickness 49 um" */
+    fw_verdict_hinge_verdict
+        *hinge;        /* (nhinge) worst over the scenes; utilisation 0 where `why` says that
                                 nothing was run */
-    const char *why;         /* what speaks against it beside its hinges, or NULL */
-    const char *scene;       /* of `why`; NULL: of none (a flexure is gone) */
-    double keep;             /* share of its loads that it may bear */
-    fw_decision decision;
-} fw_made_corner;
+    const char *why;   /* what speaks against it beside its hinges, or NULL */
+    const char *scene; /* of `why`; NULL: of none (a flexure is gone) */
+    double keep;       /* share of its loads that it may bear */
+    fw_verdict_decision decision;
+} fw_verdict_fabricated_corner;
 
-typedef struct fw_made_hinge {
+typedef struct fw_verdict_fabricated_hinge {
     int corner;    /* of those that were run, the tightest */
     double most;   /* bound on the utilisation at any corner, run or not, numbers included */
     double sigma;  /* of the nominal utilisation, first order, inputs independent */
     double *share; /* (ninput) dU/dx sigma_x */
-} fw_made_hinge;
+} fw_verdict_fabricated_hinge;
 
-typedef struct fw_made_verdict {
-    fw_made_corner *corner; /* (ncorner) the first is the nominal device */
+typedef struct fw_verdict_fabricated_verdict {
+    fw_verdict_fabricated_corner *corner; /* (ncorner) the first is the nominal device */
     int ncorner;
-    fw_made_hinge *hinge; /* (nhinge) */
-    fw_decision decision; /* accept: all of them; reject: the nominal one is rejected */
-    int governing, at;    /* hinge and corner; FW_NONE: a corner without hinges to judge */
-    double error;         /* largest |ln U - ln of the first-order estimate| where both are known */
-    bool all;             /* every corner was run */
-    int held;             /* input that must be held closer so that it accepts, or FW_NONE */
+    fw_verdict_fabricated_hinge *hinge; /* (nhinge) */
+    fw_verdict_decision decision; /* accept: all of them; reject: the nominal one is rejected */
+    int governing, at;            /* hinge and corner; FW_NONE: a corner without hinges to judge */
+    double error; /* largest |ln U - ln of the first-order estimate| where both are known */
+    bool all;     /* every corner was run */
+    int held;     /* input that must be held closer so that it accepts, or FW_NONE */
     double held_low, held_high;
     double held_share;   /* share of every range about the nominal that would do; NaN: not asked */
     const char *control; /* a sentence: what must be known or held; NULL: it accepts */
     const char *reason;  /* a sentence: why it does not accept */
-} fw_made_verdict;
+} fw_verdict_fabricated_verdict;
 
-typedef struct fw_variant_verdict { /* one flow: a material and a thickness */
-    const fw_variant *variant;
-    const fw_made_input *input; /* (ninput) what the flow may make of it; none: as drawn only */
+typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickness */
+    const fw_mechanism_variant *variant;
+    const fw_verdict_fabrication_input
+        *input; /* (ninput) what the flow may make of it; none: as drawn only */
     int ninput;
-    const double *suspect;        /* (ninput) a corner to look at first, or NULL */
-    const fw_motion *const *like; /* (nscene) of a device much like it, or NULL: what acts there by
+    const double *suspect; /* (ninput) a corner to look at first, or NULL */
+    const fw_dynamics_motion *const
+        *like; /* (nscene) of a device much like it, or NULL: what acts there by
                                      far acts here (fw_effect_choice.like) */
-    fw_made_verdict *made;        /* NULL: not asked for, or the drawn device is not accepted */
-    fw_decision drawn;            /* decision of the drawn geometry alone */
+    fw_verdict_fabricated_verdict
+        *fabricated;           /* NULL: not asked for, or the drawn device is not accepted */
+    fw_verdict_decision drawn; /* decision of the drawn geometry alone */
     double *used; /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
                      last, in the workspace; NaN: none */
     const fw_mechanism *mechanism;
-    const fw_motion **motion;   /* (device->nscene) NULL where the scene is not for this flow,
+    const fw_dynamics_motion *
+        *motion; /* (device->nscene) NULL where the scene is not for this flow,
                                    or has no motion: a reason says why */
-    const fw_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    bool beyond_pull_in;        /* a scene may ask for more than its pull-in voltage */
-    fw_reason *reason;          /* (nreason) */
+    const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
+    bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
+    fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
     fw_workspace_result workspace;
-    fw_hinge_verdict *hinge; /* (mechanism->nhinge) */
+    fw_verdict_hinge_verdict *hinge; /* (mechanism->nhinge) */
     int nhinge;
-    fw_decision decision;
+    fw_verdict_decision decision;
     int governing;              /* index into hinge, or FW_NONE */
     double failure_probability; /* of all its hinges in series; NaN: not known */
-} fw_variant_verdict;
+} fw_verdict_variant_verdict;
 
-typedef struct fw_advice {  /* one change that accepts, verified by running it */
-    const char *set_path;   /* "flexure[A]/@length" */
-    const char *text;       /* "flexure A: arc length >= 312 um accepts (now 75 um)" */
-    double value;           /* SI */
-    const char *value_text; /* "312 um" */
-} fw_advice;
+typedef struct fw_verdict_advice { /* one change that accepts, verified by running it */
+    const char *set_path;          /* "flexure[A]/@length" */
+    const char *text;              /* "flexure A: arc length >= 312 um accepts (now 75 um)" */
+    double value;                  /* SI */
+    const char *value_text;        /* "312 um" */
+} fw_verdict_advice;
 
-typedef enum fw_parameter_found {
+typedef enum fw_verdict_parameter_found {
     FW_PARAMETER_ACCEPTS,
     FW_PARAMETER_NONE,      /* no value that was tried is accepted */
     FW_PARAMETER_NOT_LOOKED /* nothing says how far to look, there are too many of them, or it took
                                too long */
-} fw_parameter_found;
+} fw_verdict_parameter_found;
 
-typedef struct fw_parameter_advice { /* the smallest change of one parameter alone that accepts */
-    const char *name;                /* what --set takes */
-    fw_parameter_found found;
+typedef struct
+    fw_verdict_parameter_advice { /* the smallest change of one parameter alone that accepts */
+    const char *name;             /* what --set takes */
+    fw_verdict_parameter_found found;
     double from, to;        /* SI; to: NaN where there is none */
     double low, high;       /* SI: where it was looked for; NaN: not looked */
     double change;          /* |to - from| / |from|, infinite from 0; NaN: none */
     const char *value_text; /* "12.4 um": the very text that was run and accepted; NULL: none */
     const char *text;       /* "width: 12.4 um accepts; now 10 um (24 % more)" */
     int trials;
-} fw_parameter_advice;
+} fw_verdict_parameter_advice;
 
 typedef struct fw_verdict {
-    fw_decision decision;        /* as drawn and as made */
-    fw_decision drawn;           /* of the drawn geometry alone */
-    fw_variant_verdict *variant; /* (nvariant) */
+    fw_verdict_decision decision;        /* as drawn and as made */
+    fw_verdict_decision drawn;           /* of the drawn geometry alone */
+    fw_verdict_variant_verdict *variant; /* (nvariant) */
     int nvariant;
-    fw_hinge_verdict *hinge; /* (nhinge) worst over the variants, by joint */
+    fw_verdict_hinge_verdict *hinge; /* (nhinge) worst over the variants, by joint */
     int nhinge;
     int governing;              /* index into hinge, or FW_NONE */
     double failure_probability; /* of the worst variant; NaN: not known */
     double accuracy_wanted, accuracy_estimated;
-    double accuracy_left_out; /* largest sum of bounds that a scene leaves out by itself (auto); it
+    double accuracy_left_out;  /* largest sum of bounds that a scene leaves out by itself (auto); it
                                  is part of the estimate */
-    fw_advice *advice;        /* (nadvice) for a rejected or inconclusive design */
+    fw_verdict_advice *advice; /* (nadvice) for a rejected or inconclusive design */
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */
     const char *advice_note;
-    fw_parameter_advice *parameter; /* (nparameter) the smallest change first; none for an accepted
+    fw_verdict_parameter_advice
+        *parameter; /* (nparameter) the smallest change first; none for an accepted
                                        design */
     int nparameter;
     const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
 } fw_verdict;
 
-typedef enum fw_corners {
+typedef enum fw_verdict_corners {
     FW_CORNERS_AUTO,   /* as drawn, then as made */
     FW_CORNERS_NONE,   /* as drawn only */
     FW_CORNERS_FIRST,  /* stop at the first corner that is not accepted: for trials */
     FW_CORNERS_SUSPECT /* only that of `suspect`, where there is one: for looking around */
-} fw_corners;
+} fw_verdict_corners;
 
 /* The same description read again with one more --set, for advice on parameters; this room does not
    read files. with: fills *device and the nvariant entries of `variant` (variant, input, ninput) in
    `arena`; anything but FW_OK, FW_NOMEM and FW_CANCELLED: it cannot be read with that value. */
-typedef struct fw_restated {
-    fw_status (*with)(void *context, fw_arena *arena, const fw_set *set, const fw_device **device,
-                      fw_variant_verdict *variant);
+typedef struct fw_verdict_restated {
+    fw_status (*with)(void *context, fw_arena *arena, const fw_device_set *set,
+                      const fw_device **device, fw_verdict_variant_verdict *variant);
     void *context;
-} fw_restated;
+} fw_verdict_restated;
 
 /* What flow i may make of a device that has been drawn (layout NULL: it cannot be): fills input and
    ninput of a variant, whose ranges it already has without the drawing. fill NULL: those stand. */
-typedef struct fw_made_of {
+typedef struct fw_verdict_fabricated_of {
     fw_status (*fill)(void *context, fw_arena *arena, const fw_device *device,
-                      const fw_layout *layout, int i, fw_variant_verdict *variant);
+                      const fw_layout *layout, int i, fw_verdict_variant_verdict *variant);
     void *context;
-} fw_made_of;
+} fw_verdict_fabricated_of;
 
 typedef struct fw_verdict_options {
-    fw_motion_options motion;
+    fw_dynamics_motion_options motion;
     bool with_advice;
-    fw_corners corners;
+    fw_verdict_corners corners;
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
-    bool at_a_glance; /* no closer look at what is undecided: for trials */
+    bool at_a_glance; /* no refinement of what is undecided: for trials */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
-    fw_restated restated; /* with NULL: no advice on parameters */
-    fw_made_of made_of;
+    fw_verdict_restated restated; /* with NULL: no advice on parameters */
+    fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;
 
 /* what the model itself may be wrong by, relative, beside the numerical error
  * (docs/theory/verdict.md) */
-typedef struct fw_model_error {
+typedef struct fw_verdict_model_errors {
     double motion;    /* revolute joints at the elastic centres against geometrically exact beams */
     double strain;    /* closed-form peak strain against 3-D finite elements */
     double workspace; /* joint forces are not known for a required pose */
-} fw_model_error;
-extern const fw_model_error fw_verdict_model_error;
+} fw_verdict_model_errors;
+extern const fw_verdict_model_errors fw_verdict_model_error;
 /* accuracy of a first look */
-extern const double fw_verdict_first_look;
+extern const double fw_verdict_first_accuracy;
 
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
-   peak where that is known (level.c), else fw_verdict_model_error.motion */
-double fw_motion_model_error(const fw_mechanism *mechanism, const fw_motion *motion);
+   peak where that is known (verdict_level.c), else fw_verdict_model_error.motion */
+double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
+                                     const fw_dynamics_motion *motion);
 /* the part of it that exact beams have too */
-double fw_motion_lasting_error(const fw_mechanism *mechanism);
+double fw_verdict_motion_lasting_error(const fw_mechanism *mechanism);
 /* fills the strains of a step to the next level (may be NULL), on both levels */
-fw_status fw_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
-                           const fw_level_step *step);
+fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_statics_level_step *step);
 
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
    are then bounded instead of resolved along the flexure. */
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism *mechanism, const fw_verdict_options *options,
-                             fw_diags *diags, fw_variant_verdict *verdict);
+                             fw_diags *diags, fw_verdict_variant_verdict *verdict);
 /* after fw_verdict_variant, where that accepts: judges what the flow may make of the
    device; raises verdict->decision and adds a reason where it is not accepted */
-fw_status fw_verdict_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                          const fw_verdict_options *options, fw_variant_verdict *verdict);
+fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
+                                   const fw_layout *layout, const fw_verdict_options *options,
+                                   fw_verdict_variant_verdict *verdict);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of
    nvariant with `variant` set. Layout trouble is no error here: `layout` is NULL then. */
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,

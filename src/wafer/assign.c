@@ -20,7 +20,7 @@ static int64_t size_of(int64_t v) {
     return v < 0 ? -v : v;
 }
 
-static void align(const fw_wafer_asked *asked, fw_diags *diags, fw_wafer_grid *g) {
+static void align(const fw_device_wafer_asked *asked, fw_diags *diags, fw_wafer_grid *g) {
     int row = g->site[0].row, first = -1, last = -1;
     int64_t least = INT64_MAX;
     for (int i = 0; i < g->nsite; i++) /* from the top: of two rows as near the upper one */
@@ -67,8 +67,8 @@ static int nearest(const fw_wafer_grid *g, double x, double y) {
     return best;
 }
 
-static void give_tests(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
-                       fw_wafer_grid *g) {
+static void give_tests(const fw_wafer_form *form, const fw_device_wafer_asked *asked,
+                       fw_diags *diags, fw_wafer_grid *g) {
     double far = 0.6 * (double)form->usable_dbu;
     int left = 0;
     for (int i = 0; i < g->nsite; i++)
@@ -88,8 +88,8 @@ static int step(bool blocks, int at, int of, int steps) {
     return blocks ? (int)((int64_t)at * steps / of) : at % steps;
 }
 
-fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
-                          fw_wafer_grid *g) {
+fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_device_wafer_asked *asked,
+                          fw_diags *diags, fw_wafer_grid *g) {
     if (asked->alignment) align(asked, diags, g);
     if (asked->tests > 0) give_tests(form, asked, diags, g);
     int n0 = asked->nsweep > 0 ? asked->sweep[0].steps : 1;
@@ -104,7 +104,8 @@ fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die, int *dies) {
+fw_status fw_wafer_dies(fw_arena *arena, const fw_device_wafer_asked *asked, fw_geometry_box die,
+                        int *dies) {
     fw_diags silent = fw_diags_new(arena); /* the wafer says it when it is laid out */
     fw_wafer_form form;
     fw_wafer_grid grid;

@@ -26,8 +26,8 @@ static int64_t dbu(double m) {
     return (int64_t)floor(m * 1e9 + 0.5);
 }
 
-static fw_status refuse(const fw_wafer_asked *asked, fw_diags *diags, const char *what, double m,
-                        const char *advice) {
+static fw_status refuse(const fw_device_wafer_asked *asked, fw_diags *diags, const char *what,
+                        double m, const char *advice) {
     char number[32];
     return fw_diag_error(diags, 190, asked->place, "<wafer>: %s is %s mm; %s", what,
                          fw_number_text(number, sizeof number, m * 1e3, 6), advice);
@@ -40,7 +40,8 @@ static double plate_for(double diameter_m) {
     return diameter_m + 2 * PLATE_RIM_M;
 }
 
-fw_status fw_wafer_form_of(const fw_wafer_asked *asked, fw_diags *diags, fw_wafer_form *form) {
+fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
+                           fw_wafer_form *form) {
     int known = -1;
     for (size_t i = 0; i < sizeof semi / sizeof semi[0]; i++)
         if (fabs(asked->diameter_m - semi[i].diameter_m) <= NEAR * semi[i].diameter_m)

@@ -2,7 +2,7 @@
 /* The wafer map as a picture: rim with flat or notch, edge exclusion, dies coloured by variant with
    their ids, and a legend. 1 user unit = 1 mm; made for people, so rounded to 1 um. */
 #include "base/svg.h"
-#include "wafer/notes.h"
+#include "wafer/wafer_notes.h"
 #include <math.h>
 #include <string.h>
 

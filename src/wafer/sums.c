@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/tessellate.h"
-#include "wafer/notes.h"
+#include "wafer/wafer_notes.h"
 #include <math.h>
 
 static void add_mask(const fw_mask *mask, double times, fw_wafer_sum *s) {
@@ -12,7 +12,7 @@ static void add_mask(const fw_mask *mask, double times, fw_wafer_sum *s) {
             vertices += x->part[k].count;
         of->polygons += times * (x->npart == 0 ? 1 : x->npart);
         of->vertices += times * vertices;
-        of->area_m2 += times * 0.5e-18 * (double)fw_polygon_area2(&x->polygon);
+        of->area_m2 += times * 0.5e-18 * (double)fw_geometry_polygon_area2(&x->polygon);
     }
     for (int k = 0; k < mask->table->nlayer; k++) {
         s[k].width_m = fmin(s[k].width_m, mask->measure[k].width_m);
@@ -32,13 +32,13 @@ fw_status fw_wafer_sums(const fw_wafer *w, fw_arena *arena, fw_wafer_sum **out) 
     return FW_OK;
 }
 
-fw_box fw_wafer_extent(const fw_wafer *w) {
+fw_geometry_box fw_wafer_extent(const fw_wafer *w) {
     if (w->plate) return w->plate->box;
-    fw_box b = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    fw_geometry_box b = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int i = 0; i < w->grid.nsite; i++) {
         double x = w->grid.site[i].x * 1e-9, y = w->grid.site[i].y * 1e-9;
-        b = (fw_box){fmin(b.x0, x), fmin(b.y0, y), fmax(b.x1, x + w->grid.width * 1e-9),
-                     fmax(b.y1, y + w->grid.height * 1e-9)};
+        b = (fw_geometry_box){fmin(b.x0, x), fmin(b.y0, y), fmax(b.x1, x + w->grid.width * 1e-9),
+                              fmax(b.y1, y + w->grid.height * 1e-9)};
     }
     return b;
 }

@@ -15,7 +15,7 @@ enum { FW_WAFER_MOST_DIES = 20000 };
 typedef struct fw_wafer_form {
     double diameter_m, flat_m, notch_m; /* flat: length of the chord; 0: none. notch: depth */
     double edge_m;
-    fw_wafer_side side;
+    fw_device_wafer_side side;
     int64_t usable_dbu;           /* radius inside the edge exclusion */
     int64_t flat_dbu;             /* centre to the usable side of the flat; no flat: usable_dbu */
     int64_t notch_dbu, avoid_dbu; /* centre to rim at the notch; radius about it to stay away from;
@@ -23,11 +23,12 @@ typedef struct fw_wafer_form {
     double plate_m;               /* edge of the square plate */
 } fw_wafer_form;
 /* FW_INPUT (FW-D190): no flat known, or what is stated contradicts itself */
-fw_status fw_wafer_form_of(const fw_wafer_asked *asked, fw_diags *diags, fw_wafer_form *form);
+fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
+                           fw_wafer_form *form);
 /* do all points of the rectangle lie in the usable area? exact */
 bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
 
-/* ---- places: grid.c, assign.c ---- */
+/* ---- places: wafer_grid.c, assign.c ---- */
 typedef enum fw_wafer_kind { FW_WAFER_DIE, FW_WAFER_ALIGNMENT, FW_WAFER_TEST } fw_wafer_kind;
 
 typedef struct fw_wafer_site {
@@ -46,13 +47,14 @@ typedef struct fw_wafer_grid {
 } fw_wafer_grid;
 /* all whole dies of width x height dbu; kinds and variants are left at FW_WAFER_DIE and 0 */
 fw_status fw_wafer_grid_fill(fw_arena *arena, const fw_wafer_form *form,
-                             const fw_wafer_asked *asked, int32_t width, int32_t height,
+                             const fw_device_wafer_asked *asked, int32_t width, int32_t height,
                              fw_diags *diags, fw_wafer_grid *grid);
 /* alignment sites, test dies, then the steps of the sweeps: variant = step0 + steps0 step1 */
-fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_wafer_asked *asked, fw_diags *diags,
-                          fw_wafer_grid *grid);
+fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_device_wafer_asked *asked,
+                          fw_diags *diags, fw_wafer_grid *grid);
 /* dies that are devices, for the process; 0: what is asked for cannot be laid out */
-fw_status fw_wafer_dies(fw_arena *arena, const fw_wafer_asked *asked, fw_box die, int *dies);
+fw_status fw_wafer_dies(fw_arena *arena, const fw_device_wafer_asked *asked, fw_geometry_box die,
+                        int *dies);
 
 /* "C" and "07" of "C07"; columns are written with as many digits as the last one, two at least */
 enum { FW_WAFER_NAME = 16 };
@@ -61,13 +63,13 @@ const char *fw_wafer_column_name(const fw_wafer_grid *grid, int column, char nam
 
 /* ---- what is placed ---- */
 typedef struct fw_wafer_variant {
-    const fw_mask *mask;  /* NULL: could not be made; its dies are then those of `stand_in` */
-    fw_box die, window;   /* of its layout */
-    double value[2];      /* SI, of the parameters that are swept */
-    const char *decision; /* "accept", "inconclusive", "reject"; NULL: not judged */
-    double utilisation;   /* largest; NaN: not known */
-    const char *why;      /* why its dies are other ones, or NULL */
-    int dies;             /* filled by fw_wafer_build */
+    const fw_mask *mask; /* NULL: could not be made; its dies are then those of `stand_in` */
+    fw_geometry_box die, window; /* of its layout */
+    double value[2];             /* SI, of the parameters that are swept */
+    const char *decision;        /* "accept", "inconclusive", "reject"; NULL: not judged */
+    double utilisation;          /* largest; NaN: not known */
+    const char *why;             /* why its dies are other ones, or NULL */
+    int dies;                    /* filled by fw_wafer_build */
 } fw_wafer_variant;
 
 typedef struct fw_wafer_input {
@@ -110,9 +112,9 @@ typedef struct fw_wafer {
     fw_wafer_run *run; /* (nrun) */
     int nrun;
     int dies, alignments, tests;
-    bool ids;        /* dies are lettered */
-    fw_vec2 id_at;   /* lower left corner of the id from that of a place, m */
-    double stroke_m; /* of its letters */
+    bool ids;               /* dies are lettered */
+    fw_geometry_vec2 id_at; /* lower left corner of the id from that of a place, m */
+    double stroke_m;        /* of its letters */
     bool rejected;
 } fw_wafer;
 
@@ -133,6 +135,6 @@ fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file
 
 /* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
    and are centred */
-void fw_wafer_origin(const fw_wafer_grid *grid, fw_box die, int32_t *dx, int32_t *dy);
+void fw_wafer_origin(const fw_wafer_grid *grid, fw_geometry_box die, int32_t *dx, int32_t *dy);
 
 #endif

@@ -7,7 +7,7 @@ enum { ENDS = 2 * FW_SIX, DEPTH = 120 }; /* ends: least of A..F, then most */
 
 typedef struct proving {
     const fw_arena *arena;
-    const fw_loop *loop;
+    const fw_workspace_loop *loop;
     double relative, size[3];
     fw_workspace_proof *proof;
     double found[ENDS]; /* best proved at a pose so far, as a quantity that is to be largest */
@@ -15,36 +15,36 @@ typedef struct proving {
 } proving;
 
 /* the joint angle of hinge e % 6, or its negative for the ends from below */
-static double towards(int e, fw_interval angle, bool far) {
+static double towards(int e, fw_maths_interval angle, bool far) {
     if (e < FW_SIX) return far ? -angle.lo : -angle.hi;
     return far ? angle.hi : angle.lo;
 }
 
 /* rotations beyond +-180 deg would be others by a turn */
-static bool unambiguous(fw_interval psi) {
+static bool unambiguous(fw_maths_interval psi) {
     return psi.lo > -FW_PI && psi.hi < FW_PI;
 }
 
-static fw_interval angle_over(const proving *p, const fw_loop_box *known, int hinge,
-                              const double half[3], bool *clear) {
-    fw_interval psi = fw_form_range(&known->psi[hinge], half);
+static fw_maths_interval angle_over(const proving *p, const fw_workspace_loop_box *known, int hinge,
+                                    const double half[3], bool *clear) {
+    fw_maths_interval psi = fw_form_range(&known->psi[hinge], half);
     *clear = *clear && unambiguous(psi);
-    return fw_loop_angle_range(p->loop, hinge, psi);
+    return fw_workspace_loop_angle_range(p->loop, hinge, psi);
 }
 
 /* what the hinges' angles are at one pose; false: out of reach for certain */
 static bool try_pose(proving *p, const double pose[3]) {
-    const fw_box3 box = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
-    fw_loop_box known;
+    const fw_workspace_box3 box = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
+    fw_workspace_loop_box known;
     double half[3];
     for (int i = 0; i < 3; i++)
         fw_box3_middle(&box, i, &half[i]);
-    fw_loop_pose_box(p->loop, &box, &known);
+    fw_workspace_loop_pose_box(p->loop, &box, &known);
     if (known.reached == FW_OUT_OF_REACH) return false;
     if (known.reached != FW_REACHED) return true;
     for (int e = 0; e < ENDS; e++) {
         bool clear = true;
-        fw_interval angle = angle_over(p, &known, e % FW_SIX, half, &clear);
+        fw_maths_interval angle = angle_over(p, &known, e % FW_SIX, half, &clear);
         double now = towards(e, angle, false);
         if (!clear || !(now > p->found[e])) continue;
         p->found[e] = now;
@@ -54,7 +54,7 @@ static bool try_pose(proving *p, const double pose[3]) {
     return true;
 }
 
-static void pose_in(const fw_box3 *box, int corner, double pose[3]) {
+static void pose_in(const fw_workspace_box3 *box, int corner, double pose[3]) {
     for (int i = 0; i < 3; i++) {
         double unused;
         pose[i] = corner < 0        ? fw_box3_middle(box, i, &unused)
@@ -64,12 +64,12 @@ static void pose_in(const fw_box3 *box, int corner, double pose[3]) {
 }
 
 /* one enclosure of the box: does it say all that is wanted? */
-static bool enough(proving *p, const fw_box3 *box, fw_reached *reached) {
-    fw_loop_box known;
+static bool enough(proving *p, const fw_workspace_box3 *box, fw_workspace_reached *reached) {
+    fw_workspace_loop_box known;
     double half[3], far[ENDS];
     for (int i = 0; i < 3; i++)
         fw_box3_middle(box, i, &half[i]);
-    fw_loop_pose_box(p->loop, box, &known);
+    fw_workspace_loop_pose_box(p->loop, box, &known);
     *reached = known.reached;
     if (known.reached != FW_REACHED) return false;
     bool clear = true;
@@ -85,7 +85,7 @@ static bool enough(proving *p, const fw_box3 *box, fw_reached *reached) {
 
 /* the coordinate along which the box is longest, measured in the whole box; FW_NONE: no double lies
    between its ends */
-static int longest(const proving *p, const fw_box3 *box) {
+static int longest(const proving *p, const fw_workspace_box3 *box) {
     int axis = FW_NONE;
     double most = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -97,14 +97,14 @@ static int longest(const proving *p, const fw_box3 *box) {
     return axis;
 }
 
-static fw_proof_end walk(proving *p, const fw_box3 *whole, long most, fw_text *tree,
-                         double pose[3]) {
-    fw_box3 stack[DEPTH];
+static fw_workspace_proof_end walk(proving *p, const fw_workspace_box3 *whole, long most,
+                                   fw_text *tree, double pose[3]) {
+    fw_workspace_box3 stack[DEPTH];
     int depth = 0;
     stack[depth++] = *whole;
     while (depth > 0) {
-        fw_box3 box = stack[--depth];
-        fw_reached reached;
+        fw_workspace_box3 box = stack[--depth];
+        fw_workspace_reached reached;
         if (p->proof->boxes++ >= most || fw_arena_cancelled(p->arena)) return FW_UNDECIDED;
         pose_in(&box, -1, pose);
         if (!try_pose(p, pose)) return FW_REFUTED;
@@ -134,8 +134,10 @@ static fw_proof_end walk(proving *p, const fw_box3 *whole, long most, fw_text *t
    the tree of boxes. Error: proved. Cost about 1.5 us per box, some 100 boxes. Source:
    docs/theory/workspace.md. Test: test_certify.c, test_required.c,
    tests/accept/check_certificate.py. */
-fw_status fw_certify_box(fw_arena *arena, const fw_loop *loop, const fw_box3 *box, double relative,
-                         long most, fw_workspace_proof *proof, double pose[3], fw_proof_end *end) {
+fw_status fw_workspace_certify_box(fw_arena *arena, const fw_workspace_loop *loop,
+                                   const fw_workspace_box3 *box, double relative, long most,
+                                   fw_workspace_proof *proof, double pose[3],
+                                   fw_workspace_proof_end *end) {
     *proof = (fw_workspace_proof){0};
     proving p = {.arena = arena, .loop = loop, .relative = relative, .proof = proof};
     for (int i = 0; i < 3; i++) {
@@ -158,7 +160,7 @@ fw_status fw_certify_box(fw_arena *arena, const fw_loop *loop, const fw_box3 *bo
     /* a hair more, so that another enclosure of the same numbers can confirm it */
     for (int i = 0; i < FW_SIX; i++)
         proof->angle_rad[i] =
-            (fw_interval){fw_down(-p.bound[i] - 1e-12), fw_up(p.bound[i + FW_SIX] + 1e-12)};
+            (fw_maths_interval){fw_down(-p.bound[i] - 1e-12), fw_up(p.bound[i + FW_SIX] + 1e-12)};
     proof->tree = tree.data;
     proof->proved = true;
     return FW_OK;

@@ -2,15 +2,15 @@
 #include "workspace/survey.h"
 
 typedef struct open_box {
-    fw_box3 box;
+    fw_workspace_box3 box;
     double far; /* not passed within it */
 } open_box;
 
 typedef struct end { /* largest of sign * coordinate */
     const fw_arena *arena;
-    const fw_loop *loop;
-    const fw_allowed *allowed;
-    fw_box3 whole;
+    const fw_workspace_loop *loop;
+    const fw_workspace_allowed *allowed;
+    fw_workspace_box3 whole;
     int coordinate;
     double sign, slack, relative;
     double found, bound; /* proved to be reached; proved not to be passed */
@@ -29,7 +29,8 @@ typedef struct planes { /* a[i].d <= t[i] for every pose of the set in the box *
     int count;
 } planes;
 
-static void plane(planes *p, const fw_form *f, double sign, double limit, const double half[3]) {
+static void plane(planes *p, const fw_workspace_form *f, double sign, double limit,
+                  const double half[3]) {
     double reach = 0.0;
     for (int i = 0; i < 3; i++) {
         p->a[p->count][i] = sign * f->grad[i];
@@ -41,13 +42,15 @@ static void plane(planes *p, const fw_form *f, double sign, double limit, const 
 }
 
 /* may the rotation be that of the range, less a whole turn? Then no plane bounds it. */
-static bool wraps(const fw_form *f, const fw_bound *range, const double half[3]) {
+static bool wraps(const fw_workspace_form *f, const fw_workspace_bound *range,
+                  const double half[3]) {
     const double turn = 6.283; /* somewhat less than one */
-    fw_interval now = fw_form_range(f, half);
+    fw_maths_interval now = fw_form_range(f, half);
     return !(now.hi < turn + range->low.lo && now.lo > range->high.hi - turn);
 }
 
-static void planes_of(const end *e, const fw_loop_box *known, const double half[3], planes *p) {
+static void planes_of(const end *e, const fw_workspace_loop_box *known, const double half[3],
+                      planes *p) {
     p->count = 0;
     if (known->reached != FW_REACHED) return;
     for (int i = 3; i < FW_SIX; i++) {
@@ -130,8 +133,8 @@ static double constrained(const double g[3], const double half[3], const planes 
     return best;
 }
 
-static double most_of(const end *e, const fw_loop_box *known, const double half[3]) {
-    const fw_form *f = &known->extent[e->coordinate];
+static double most_of(const end *e, const fw_workspace_loop_box *known, const double half[3]) {
+    const fw_workspace_form *f = &known->extent[e->coordinate];
     planes p;
     planes_of(e, known, half, &p);
     double g[3], at = e->sign > 0.0 ? f->at.hi : -f->at.lo;
@@ -141,26 +144,27 @@ static double most_of(const end *e, const fw_loop_box *known, const double half[
 }
 
 /* a pose of the set, if the point is one */
-static void try_point(end *e, const fw_box3 *box) {
-    fw_box3 point;
-    fw_loop_box known;
-    fw_interval share;
+static void try_point(end *e, const fw_workspace_box3 *box) {
+    fw_workspace_box3 point;
+    fw_workspace_loop_box known;
+    fw_maths_interval share;
     double half[3];
     for (int i = 0; i < 3; i++) {
         point.lo[i] = point.hi[i] = 0.5 * (box->lo[i] + box->hi[i]);
         fw_box3_middle(&point, i, &half[i]);
     }
     unsigned open = FW_WANT_ALL;
-    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, &point, &open, &known, &share) != FW_INSIDE)
+    if (fw_workspace_reach_judge(e->loop, e->allowed, 3, 0.0, &point, &open, &known, &share) !=
+        FW_INSIDE)
         return;
-    fw_interval range = fw_form_range(&known.extent[e->coordinate], half);
+    fw_maths_interval range = fw_form_range(&known.extent[e->coordinate], half);
     double now = e->sign > 0.0 ? range.lo : -range.hi;
     if (!(now > e->found)) return;
     e->found = now;
     e->pose[0] = known.place.x.m, e->pose[1] = known.place.y.m, e->pose[2] = known.phi.m;
 }
 
-static int longest(const end *e, const fw_box3 *box) {
+static int longest(const end *e, const fw_workspace_box3 *box) {
     int axis = 0;
     double most = 0.0;
     for (int i = 0; i < 3; i++) {
@@ -172,7 +176,7 @@ static int longest(const end *e, const fw_box3 *box) {
 
 /* ---- the search ---- */
 
-static void put(end *e, const fw_box3 *box, double far) {
+static void put(end *e, const fw_workspace_box3 *box, double far) {
     long at = e->open++;
     for (; at > 0 && e->heap[(at - 1) / 2].far < far; at = (at - 1) / 2)
         e->heap[at] = e->heap[(at - 1) / 2];
@@ -192,13 +196,14 @@ static open_box take(end *e) {
 }
 
 /* bounds a box and keeps it when it may lead farther than what is found, by more than the slack */
-static void look(end *e, const fw_box3 *box, double far) {
-    fw_loop_box known;
-    fw_interval share;
+static void look(end *e, const fw_workspace_box3 *box, double far) {
+    fw_workspace_loop_box known;
+    fw_maths_interval share;
     double half[3];
     e->boxes++;
     unsigned open = FW_WANT_ALL;
-    if (fw_reach_judge(e->loop, e->allowed, 3, 0.0, box, &open, &known, &share) == FW_OUTSIDE)
+    if (fw_workspace_reach_judge(e->loop, e->allowed, 3, 0.0, box, &open, &known, &share) ==
+        FW_OUTSIDE)
         return;
     for (int i = 0; i < 3; i++)
         fw_box3_middle(box, i, &half[i]);
@@ -223,7 +228,7 @@ static fw_status search(end *e, long most) {
         open_box next = take(e);
         int axis = longest(e, &next.box);
         double middle = 0.5 * (next.box.lo[axis] + next.box.hi[axis]);
-        fw_box3 lower = next.box, upper = next.box;
+        fw_workspace_box3 lower = next.box, upper = next.box;
         lower.hi[axis] = upper.lo[axis] = middle;
         look(e, &lower, next.far);
         look(e, &upper, next.far);
@@ -232,13 +237,14 @@ static fw_status search(end *e, long most) {
     return FW_OK;
 }
 
-fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                           double relative, long most, fw_survey *survey) {
-    fw_allowed allowed = fw_limits_allow(loop, limits);
-    fw_box3 whole = fw_reach_whole(loop, &allowed);
+fw_status fw_workspace_reach_extents(fw_arena *arena, const fw_workspace_loop *loop,
+                                     const fw_workspace_reach_limits *limits, double relative,
+                                     long most, fw_workspace_survey *survey) {
+    fw_workspace_allowed allowed = fw_workspace_limits_allow(loop, limits);
+    fw_workspace_box3 whole = fw_workspace_reach_whole(loop, &allowed);
     double nan_ = (double)NAN;
     for (int c = 0; c < 3; c++) {
-        survey->least[c] = survey->most[c] = (fw_interval){nan_, nan_};
+        survey->least[c] = survey->most[c] = (fw_maths_interval){nan_, nan_};
         if (!(whole.lo[c] < whole.hi[c])) return FW_OK;
     }
     fw_mark mark = fw_arena_mark(arena);
@@ -246,10 +252,11 @@ fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_
     FW_NEED(heap);
     for (int c = 0; c < 3; c++)
         for (int s = 0; s < 2; s++) {
-            fw_loop_box known;
+            fw_workspace_loop_box known;
             double half[3];
-            fw_loop_joint_box(loop, &whole, (fw_interval){-(double)INFINITY, (double)INFINITY},
-                              FW_WANT_ALL, &known);
+            fw_workspace_loop_joint_box(loop, &whole,
+                                        (fw_maths_interval){-(double)INFINITY, (double)INFINITY},
+                                        FW_WANT_ALL, &known);
             for (int i = 0; i < 3; i++)
                 fw_box3_middle(&whole, i, &half[i]);
             end e = {.arena = arena,
@@ -269,8 +276,8 @@ fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_
                 return status;
             }
             if (!(e.found > -(double)INFINITY)) continue; /* no pose was found */
-            fw_interval end_of =
-                s ? (fw_interval){e.found, e.bound} : (fw_interval){-e.bound, -e.found};
+            fw_maths_interval end_of =
+                s ? (fw_maths_interval){e.found, e.bound} : (fw_maths_interval){-e.bound, -e.found};
             *(s ? &survey->most[c] : &survey->least[c]) = end_of;
             for (int i = 0; i < 3; i++)
                 (s ? survey->most_at : survey->least_at)[c][i] = e.pose[i];

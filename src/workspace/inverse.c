@@ -7,29 +7,29 @@ static double wrapped(double angle_rad) {
     return remainder(angle_rad, 2.0 * FW_PI);
 }
 
-static fw_dyad dyad(fw_vec2 o, fw_vec2 elbow, fw_vec2 q) {
+static fw_workspace_dyad dyad(fw_geometry_vec2 o, fw_geometry_vec2 elbow, fw_geometry_vec2 q) {
     double ux = elbow.x - o.x, uy = elbow.y - o.y, wx = q.x - elbow.x, wy = q.y - elbow.y;
     double cross = ux * wy - uy * wx, dot = ux * wx + uy * wy;
-    return (fw_dyad){.base = o,
-                     .l_m = hypot(ux, uy),
-                     .m_m = hypot(wx, wy),
-                     .alpha0_rad = atan2(uy, ux),
-                     .beta0_rad = atan2(cross, dot),
-                     .sign = cross < 0.0 ? -1.0 : 1.0};
+    return (fw_workspace_dyad){.base = o,
+                               .l_m = hypot(ux, uy),
+                               .m_m = hypot(wx, wy),
+                               .alpha0_rad = atan2(uy, ux),
+                               .beta0_rad = atan2(cross, dot),
+                               .sign = cross < 0.0 ? -1.0 : 1.0};
 }
 
-bool fw_six_bar_set_up(const fw_mechanism *m, fw_six_bar *out) {
+bool fw_workspace_six_bar_set_up(const fw_mechanism *m, fw_workspace_six_bar *out) {
     if (!m->device->six_bar || m->npin < FW_SIX || m->nbody < 5) return false;
-    fw_vec2 p[FW_SIX];
+    fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
-        p[i] = fw_pin_place(m, &m->pin[i], 0);
-    const fw_mass *platform = &m->body[2];
-    *out = (fw_six_bar){.left = dyad(p[0], p[1], p[2]), .right = dyad(p[5], p[4], p[3])};
-    out->centre = (fw_vec2){platform->x_m, platform->y_m};
-    out->to_c = (fw_vec2){p[2].x - platform->x_m, p[2].y - platform->y_m};
-    out->to_d = (fw_vec2){p[3].x - platform->x_m, p[3].y - platform->y_m};
+        p[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);
+    const fw_mechanism_mass *platform = &m->body[2];
+    *out = (fw_workspace_six_bar){.left = dyad(p[0], p[1], p[2]), .right = dyad(p[5], p[4], p[3])};
+    out->centre = (fw_geometry_vec2){platform->x_m, platform->y_m};
+    out->to_c = (fw_geometry_vec2){p[2].x - platform->x_m, p[2].y - platform->y_m};
+    out->to_d = (fw_geometry_vec2){p[3].x - platform->x_m, p[3].y - platform->y_m};
     for (int i = 0; i < FW_SIX; i++) { /* rotation already there in the drawn pose */
-        const fw_pin *pin = &m->pin[i];
+        const fw_mechanism_pin *pin = &m->pin[i];
         double a = pin->body_a == FW_GROUND ? 0.0 : m->body[pin->body_a].phi_rad;
         double b = pin->body_b == FW_GROUND ? 0.0 : m->body[pin->body_b].phi_rad;
         out->start_rad[i] = b - a - pin->free_angle_rad;
@@ -39,7 +39,8 @@ bool fw_six_bar_set_up(const fw_mechanism *m, fw_six_bar *out) {
 
 /* elbow:  beta = +-acos((d^2 - l^2 - m^2)/(2 l m)), base: alpha = ang(v) - atan2(m sin b, l + m cos
    b) out: rotations of the two links from the drawn pose; false when d is out of [|l-m|, l+m] */
-static bool solve(const fw_dyad *k, fw_vec2 q, double *base_rad, double *elbow_rad) {
+static bool solve(const fw_workspace_dyad *k, fw_geometry_vec2 q, double *base_rad,
+                  double *elbow_rad) {
     double vx = q.x - k->base.x, vy = q.y - k->base.y;
     double cosine = (vx * vx + vy * vy - k->l_m * k->l_m - k->m_m * k->m_m) / (2 * k->l_m * k->m_m);
     if (!(fabs(cosine) <= 1.0)) return false;
@@ -54,14 +55,14 @@ static bool solve(const fw_dyad *k, fw_vec2 q, double *base_rad, double *elbow_r
    in: displacement of the platform's centre (m) and its rotation (rad); out: phi_b - phi_a - free
    angle of A..F (6), rad; exact up to rounding (1e-15), cost two acos and four atan2 source:
    docs/theory/workspace.md; test_inverse.c reference_poses */
-bool fw_six_bar_solve(const fw_six_bar *k, double x_m, double y_m, double phi_rad,
-                      double angle_rad[FW_SIX], int *leg) {
+bool fw_workspace_six_bar_solve(const fw_workspace_six_bar *k, double x_m, double y_m,
+                                double phi_rad, double angle_rad[FW_SIX], int *leg) {
     double c = cos(phi_rad), s = sin(phi_rad);
-    fw_vec2 centre = {k->centre.x + x_m, k->centre.y + y_m};
-    fw_vec2 at_c = {centre.x + c * k->to_c.x - s * k->to_c.y,
-                    centre.y + s * k->to_c.x + c * k->to_c.y};
-    fw_vec2 at_d = {centre.x + c * k->to_d.x - s * k->to_d.y,
-                    centre.y + s * k->to_d.x + c * k->to_d.y};
+    fw_geometry_vec2 centre = {k->centre.x + x_m, k->centre.y + y_m};
+    fw_geometry_vec2 at_c = {centre.x + c * k->to_c.x - s * k->to_c.y,
+                             centre.y + s * k->to_c.x + c * k->to_c.y};
+    fw_geometry_vec2 at_d = {centre.x + c * k->to_d.x - s * k->to_d.y,
+                             centre.y + s * k->to_d.x + c * k->to_d.y};
     double a, b, f, e;
     *leg = 0;
     if (!solve(&k->left, at_c, &a, &b)) return false;
@@ -74,9 +75,10 @@ bool fw_six_bar_solve(const fw_six_bar *k, double x_m, double y_m, double phi_ra
     return true;
 }
 
-bool fw_six_bar_inverse(const fw_mechanism *m, double x_m, double y_m, double phi_rad,
-                        double angle_rad[FW_SIX], int *leg) {
-    fw_six_bar k;
+bool fw_workspace_six_bar_inverse(const fw_mechanism *m, double x_m, double y_m, double phi_rad,
+                                  double angle_rad[FW_SIX], int *leg) {
+    fw_workspace_six_bar k;
     *leg = 0;
-    return fw_six_bar_set_up(m, &k) && fw_six_bar_solve(&k, x_m, y_m, phi_rad, angle_rad, leg);
+    return fw_workspace_six_bar_set_up(m, &k) &&
+           fw_workspace_six_bar_solve(&k, x_m, y_m, phi_rad, angle_rad, leg);
 }

@@ -1,93 +1,100 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/loop.h"
 
-FW_CENTRED fw_centred2 plus(fw_centred2 a, fw_centred2 b) {
-    return (fw_centred2){fw_centred_add(a.x, b.x), fw_centred_add(a.y, b.y)};
+FW_CENTRED fw_workspace_centred2 plus(fw_workspace_centred2 a, fw_workspace_centred2 b) {
+    return (fw_workspace_centred2){fw_centred_add(a.x, b.x), fw_centred_add(a.y, b.y)};
 }
 
-FW_CENTRED fw_centred2 minus(fw_centred2 a, fw_centred2 b) {
-    return (fw_centred2){fw_centred_sub(a.x, b.x), fw_centred_sub(a.y, b.y)};
+FW_CENTRED fw_workspace_centred2 minus(fw_workspace_centred2 a, fw_workspace_centred2 b) {
+    return (fw_workspace_centred2){fw_centred_sub(a.x, b.x), fw_centred_sub(a.y, b.y)};
 }
 
-FW_CENTRED fw_centred dot(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_maths_centred dot(fw_workspace_centred2 a, fw_workspace_centred2 b) {
     return fw_centred_add(fw_centred_mul(a.x, b.x), fw_centred_mul(a.y, b.y));
 }
 
-FW_CENTRED fw_centred cross(fw_centred2 a, fw_centred2 b) {
+FW_CENTRED fw_maths_centred cross(fw_workspace_centred2 a, fw_workspace_centred2 b) {
     return fw_centred_sub(fw_centred_mul(a.x, b.y), fw_centred_mul(a.y, b.x));
 }
 
-FW_CENTRED fw_centred2 quarter(fw_centred2 a) { /* J a */
-    return (fw_centred2){fw_centred_negated(a.y), a.x};
+FW_CENTRED fw_workspace_centred2 quarter(fw_workspace_centred2 a) { /* J a */
+    return (fw_workspace_centred2){fw_centred_negated(a.y), a.x};
 }
 
-FW_CENTRED fw_centred2 exactly(fw_vec2 p) {
-    return (fw_centred2){fw_centred_exact(p.x), fw_centred_exact(p.y)};
+FW_CENTRED fw_workspace_centred2 exactly(fw_geometry_vec2 p) {
+    return (fw_workspace_centred2){fw_centred_exact(p.x), fw_centred_exact(p.y)};
 }
 
-FW_CENTRED fw_centred2 rotated(fw_vec2 p, fw_centred s, fw_centred c) {
-    return (fw_centred2){fw_centred_sub(fw_centred_scaled(c, p.x), fw_centred_scaled(s, p.y)),
-                         fw_centred_add(fw_centred_scaled(s, p.x), fw_centred_scaled(c, p.y))};
+FW_CENTRED fw_workspace_centred2 rotated(fw_geometry_vec2 p, fw_maths_centred s,
+                                         fw_maths_centred c) {
+    return (fw_workspace_centred2){
+        fw_centred_sub(fw_centred_scaled(c, p.x), fw_centred_scaled(s, p.y)),
+        fw_centred_add(fw_centred_scaled(s, p.x), fw_centred_scaled(c, p.y))};
 }
 
 /* ---- the mechanism ---- */
 
-static fw_vec2 from_to(fw_vec2 a, fw_vec2 b) {
-    return (fw_vec2){b.x - a.x, b.y - a.y};
+static fw_geometry_vec2 from_to(fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    return (fw_geometry_vec2){b.x - a.x, b.y - a.y};
 }
 
-static fw_leg leg_of(fw_vec2 o, fw_vec2 elbow, fw_vec2 q, fw_vec2 centre) {
-    fw_leg leg = {.base = o, .a = from_to(o, elbow), .b = from_to(elbow, q)};
+static fw_workspace_leg leg_of(fw_geometry_vec2 o, fw_geometry_vec2 elbow, fw_geometry_vec2 q,
+                               fw_geometry_vec2 centre) {
+    fw_workspace_leg leg = {.base = o, .a = from_to(o, elbow), .b = from_to(elbow, q)};
     leg.to = from_to(centre, q);
     leg.a2 = dot(exactly(leg.a), exactly(leg.a));
     leg.b2 = dot(exactly(leg.b), exactly(leg.b));
-    fw_interval side = fw_centred_range(cross(exactly(leg.a), exactly(leg.b)));
+    fw_maths_interval side = fw_centred_range(cross(exactly(leg.a), exactly(leg.b)));
     leg.sign = side.lo > 0.0 ? 1.0 : side.hi < 0.0 ? -1.0 : 0.0;
     return leg;
 }
 
-bool fw_loop_make(const fw_vec2 p[FW_SIX], fw_vec2 centre, const double start_rad[FW_SIX],
-                  fw_loop *out) {
-    *out = (fw_loop){.leg = {leg_of(p[0], p[1], p[2], centre), leg_of(p[5], p[4], p[3], centre)},
-                     .centre = centre};
+bool fw_workspace_loop_make(const fw_geometry_vec2 p[FW_SIX], fw_geometry_vec2 centre,
+                            const double start_rad[FW_SIX], fw_workspace_loop *out) {
+    *out = (fw_workspace_loop){
+        .leg = {leg_of(p[0], p[1], p[2], centre), leg_of(p[5], p[4], p[3], centre)},
+        .centre = centre};
     for (int i = 0; i < FW_SIX; i++)
         out->start_rad[i] = start_rad[i];
     return out->leg[0].sign != 0.0 && out->leg[1].sign != 0.0;
 }
 
-bool fw_loop_set_up(const fw_mechanism *m, fw_loop *out) {
-    fw_six_bar k;
-    if (!fw_six_bar_set_up(m, &k)) return false;
-    fw_vec2 p[FW_SIX];
+bool fw_workspace_loop_set_up(const fw_mechanism *m, fw_workspace_loop *out) {
+    fw_workspace_six_bar k;
+    if (!fw_workspace_six_bar_set_up(m, &k)) return false;
+    fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
-        p[i] = fw_pin_place(m, &m->pin[i], 0);
-    return fw_loop_make(p, k.centre, k.start_rad, out);
+        p[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);
+    return fw_workspace_loop_make(p, k.centre, k.start_rad, out);
 }
 
 static double sense(int hinge) {
     return hinge < 3 ? 1.0 : -1.0;
 }
 
-fw_interval fw_loop_psi_range(const fw_loop *k, int hinge, fw_interval angle) {
-    fw_interval turn = fw_interval_sub(angle, fw_interval_point(k->start_rad[hinge]));
+fw_maths_interval fw_workspace_loop_psi_range(const fw_workspace_loop *k, int hinge,
+                                              fw_maths_interval angle) {
+    fw_maths_interval turn = fw_interval_sub(angle, fw_interval_point(k->start_rad[hinge]));
     return sense(hinge) > 0.0 ? turn : fw_interval_negated(turn);
 }
 
-fw_interval fw_loop_angle_range(const fw_loop *k, int hinge, fw_interval psi) {
-    fw_interval turn = sense(hinge) > 0.0 ? psi : fw_interval_negated(psi);
+fw_maths_interval fw_workspace_loop_angle_range(const fw_workspace_loop *k, int hinge,
+                                                fw_maths_interval psi) {
+    fw_maths_interval turn = sense(hinge) > 0.0 ? psi : fw_interval_negated(psi);
     return fw_interval_add(turn, fw_interval_point(k->start_rad[hinge]));
 }
 
 /* ---- forms ---- */
 
 /* at the middle of the box */
-FW_CENTRED fw_interval middle_of(fw_centred a) {
-    return (fw_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
+FW_CENTRED fw_maths_interval middle_of(fw_maths_centred a) {
+    return (fw_maths_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
 }
 
 /* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (centred.h) */
-FW_CENTRED fw_form form(fw_interval at, const fw_centred *grad, int n, const double half[3]) {
-    fw_form f = {.at = at};
+FW_CENTRED fw_workspace_form form(fw_maths_interval at, const fw_maths_centred *grad, int n,
+                                  const double half[3]) {
+    fw_workspace_form f = {.at = at};
     for (int i = 0; i < n; i++) {
         f.grad[i] = grad[i].m;
         f.rest += half[i] * 0.5 * (grad[i].e + grad[i].r);
@@ -98,7 +105,7 @@ FW_CENTRED fw_form form(fw_interval at, const fw_centred *grad, int n, const dou
 
 /* ---- one leg ---- */
 
-static const fw_interval any = {-(double)INFINITY, (double)INFINITY};
+static const fw_maths_interval any = {-(double)INFINITY, (double)INFINITY};
 
 typedef struct coordinates { /* of the box: how the platform depends on them */
     int n;
@@ -115,39 +122,41 @@ typedef struct coordinates { /* of the box: how the platform depends on them */
    operations, 20 where only the reach is wanted. Source: the velocity of Q = O + a + b, dotted with
    b and with a. Test: test_loop.c.
  */
-FW_CENTRED fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 *dq,
-                            const coordinates *on, fw_centred phi, fw_interval d2_allowed,
-                            unsigned wanted, fw_form *reach, fw_form psi[3], fw_centred2 *elbow,
-                            fw_centred *side) {
+FW_CENTRED fw_workspace_reached solve(const fw_workspace_leg *leg, fw_workspace_centred2 q,
+                                      const fw_workspace_centred2 *dq, const coordinates *on,
+                                      fw_maths_centred phi, fw_maths_interval d2_allowed,
+                                      unsigned wanted, fw_workspace_form *reach,
+                                      fw_workspace_form psi[3], fw_workspace_centred2 *elbow,
+                                      fw_maths_centred *side) {
     const unsigned legs = FW_WANT_D | FW_WANT_F | FW_WANT_REST;
-    fw_centred2 v = minus(q, exactly(leg->base));
-    fw_centred d2 = dot(v, v), of_a[3], of_b[3], grad[3];
+    fw_workspace_centred2 v = minus(q, exactly(leg->base));
+    fw_maths_centred d2 = dot(v, v), of_a[3], of_b[3], grad[3];
     if (wanted & FW_WANT_E) {
         for (int i = 0; i < on->n; i++)
             grad[i] = fw_centred_scaled(dot(v, dq[i]), 2.0);
         *reach = form(middle_of(d2), grad, on->n, on->half);
-        fw_interval range = fw_form_range(reach, on->half);
+        fw_maths_interval range = fw_form_range(reach, on->half);
         if (range.hi < d2_allowed.lo || range.lo > d2_allowed.hi) return FW_OUT_OF_REACH;
     }
     if (!(wanted & (legs | FW_WANT_BRANCH))) return FW_REACHED;
-    fw_centred inverse = fw_centred_inverse(d2);
-    fw_centred k =
+    fw_maths_centred inverse = fw_centred_inverse(d2);
+    fw_maths_centred k =
         fw_centred_scaled(fw_centred_add(fw_centred_exact(1.0),
                                          fw_centred_mul(fw_centred_sub(leg->a2, leg->b2), inverse)),
                           0.5);
-    fw_centred h2 = fw_centred_sub(fw_centred_mul(leg->a2, inverse), fw_centred_mul(k, k));
+    fw_maths_centred h2 = fw_centred_sub(fw_centred_mul(leg->a2, inverse), fw_centred_mul(k, k));
     if (h2.m + h2.r < 0.0) return FW_OUT_OF_REACH;
     if (!(h2.m - h2.r > 0.0)) return FW_MAY_BE_OUT;
     if (!(wanted & legs)) return FW_REACHED;
-    fw_centred h = fw_centred_scaled(fw_centred_sqrt(h2), -leg->sign);
-    fw_centred2 jv = quarter(v);
-    fw_centred2 a = {fw_centred_add(fw_centred_mul(k, v.x), fw_centred_mul(h, jv.x)),
-                     fw_centred_add(fw_centred_mul(k, v.y), fw_centred_mul(h, jv.y))};
-    fw_centred2 b = minus(v, a), a0 = exactly(leg->a), b0 = exactly(leg->b);
+    fw_maths_centred h = fw_centred_scaled(fw_centred_sqrt(h2), -leg->sign);
+    fw_workspace_centred2 jv = quarter(v);
+    fw_workspace_centred2 a = {fw_centred_add(fw_centred_mul(k, v.x), fw_centred_mul(h, jv.x)),
+                               fw_centred_add(fw_centred_mul(k, v.y), fw_centred_mul(h, jv.y))};
+    fw_workspace_centred2 b = minus(v, a), a0 = exactly(leg->a), b0 = exactly(leg->b);
     *side = fw_centred_negated(fw_centred_mul(h, d2));
     *elbow = plus(exactly(leg->base), a);
-    fw_centred gain = fw_centred_inverse(*side);
-    fw_interval turn_a = any, turn_b = any;
+    fw_maths_centred gain = fw_centred_inverse(*side);
+    fw_maths_interval turn_a = any, turn_b = any;
     if (wanted & (FW_WANT_F | FW_WANT_REST)) {
         for (int i = 0; i < on->n; i++)
             of_a[i] = fw_centred_mul(dot(dq[i], b), gain);
@@ -171,36 +180,38 @@ FW_CENTRED fw_reached solve(const fw_leg *leg, fw_centred2 q, const fw_centred2 
 }
 
 /* platform hinge Q of a leg at the pose: T + R(phi) to, and its derivatives by x, y, phi */
-FW_CENTRED fw_centred2 platform_hinge(const fw_leg *leg, fw_centred2 at, fw_centred s, fw_centred c,
-                                      fw_centred2 dq[3]) {
-    fw_centred2 arm = rotated(leg->to, s, c);
-    dq[0] = exactly((fw_vec2){1.0, 0.0});
-    dq[1] = exactly((fw_vec2){0.0, 1.0});
+FW_CENTRED fw_workspace_centred2 platform_hinge(const fw_workspace_leg *leg,
+                                                fw_workspace_centred2 at, fw_maths_centred s,
+                                                fw_maths_centred c, fw_workspace_centred2 dq[3]) {
+    fw_workspace_centred2 arm = rotated(leg->to, s, c);
+    dq[0] = exactly((fw_geometry_vec2){1.0, 0.0});
+    dq[1] = exactly((fw_geometry_vec2){0.0, 1.0});
     dq[2] = quarter(arm);
     return plus(at, arm);
 }
 
-void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
+void fw_workspace_loop_pose_box(const fw_workspace_loop *k, const fw_workspace_box3 *box,
+                                fw_workspace_loop_box *out) {
     coordinates on = {.n = 3, .turns = {0.0, 0.0, 1.0}};
-    fw_centred axis[3], s, c;
+    fw_maths_centred axis[3], s, c;
     for (int i = 0; i < 3; i++) {
         double middle = fw_box3_middle(box, i, &on.half[i]);
         axis[i] = fw_centred_axis(middle, on.half[i]);
     }
     fw_centred_turn(axis[2], &s, &c);
-    out->place = (fw_centred2){axis[0], axis[1]};
+    out->place = (fw_workspace_centred2){axis[0], axis[1]};
     out->phi = axis[2];
-    fw_centred2 at = plus(exactly(k->centre), out->place), dq[3];
+    fw_workspace_centred2 at = plus(exactly(k->centre), out->place), dq[3];
     out->reached = FW_REACHED;
     for (int side = 0; side < 2; side++) {
-        const fw_leg *leg = &k->leg[side];
-        fw_form psi[3];
+        const fw_workspace_leg *leg = &k->leg[side];
+        fw_workspace_form psi[3];
         int base = side ? 5 : 0, step = side ? -1 : 1;
-        fw_centred2 q = platform_hinge(leg, at, s, c, dq);
+        fw_workspace_centred2 q = platform_hinge(leg, at, s, c, dq);
         out->hinge[base] = exactly(leg->base);
         out->hinge[base + 2 * step] = q;
-        fw_reached now = solve(leg, q, dq, &on, axis[2], any, FW_WANT_ALL, &out->d2[side], psi,
-                               &out->hinge[base + step], &out->cross[side]);
+        fw_workspace_reached now = solve(leg, q, dq, &on, axis[2], any, FW_WANT_ALL, &out->d2[side],
+                                         psi, &out->hinge[base + step], &out->cross[side]);
         for (int i = 0; i < 3 && now == FW_REACHED; i++)
             out->psi[base + i * step] = psi[i];
         if (now == FW_REACHED || out->reached == FW_OUT_OF_REACH) continue;
@@ -213,10 +224,12 @@ void fw_loop_pose_box(const fw_loop *k, const fw_box3 *box, fw_loop_box *out) {
 
 /* where hinges and platform are, the left links turned: C = A + a + b, the platform's centre of
    mass C - to_c */
-FW_CENTRED void places(const fw_loop *k, const coordinates *on, fw_centred2 a, fw_centred2 at_c,
-                       fw_centred2 ja, fw_centred2 jb, fw_centred2 to_c, fw_loop_box *out) {
-    fw_centred2 jc = quarter(to_c), dt[3], none = exactly((fw_vec2){0.0, 0.0});
-    dt[2] = (fw_centred2){fw_centred_negated(jc.x), fw_centred_negated(jc.y)};
+FW_CENTRED void places(const fw_workspace_loop *k, const coordinates *on, fw_workspace_centred2 a,
+                       fw_workspace_centred2 at_c, fw_workspace_centred2 ja,
+                       fw_workspace_centred2 jb, fw_workspace_centred2 to_c,
+                       fw_workspace_loop_box *out) {
+    fw_workspace_centred2 jc = quarter(to_c), dt[3], none = exactly((fw_geometry_vec2){0.0, 0.0});
+    dt[2] = (fw_workspace_centred2){fw_centred_negated(jc.x), fw_centred_negated(jc.y)};
     dt[1] = plus(jb, on->n == 3 ? dt[2] : none);
     dt[0] = plus(ja, dt[1]);
     out->hinge[0] = exactly(k->leg[0].base);
@@ -224,7 +237,7 @@ FW_CENTRED void places(const fw_loop *k, const coordinates *on, fw_centred2 a, f
     out->hinge[2] = at_c;
     out->hinge[5] = exactly(k->leg[1].base);
     out->place = minus(minus(at_c, to_c), exactly(k->centre));
-    fw_centred x[3], y[3], one[3];
+    fw_maths_centred x[3], y[3], one[3];
     for (int i = 0; i < on->n; i++)
         x[i] = dt[i].x, y[i] = dt[i].y, one[i] = fw_centred_exact(on->turns[i]);
     out->extent[0] = form(middle_of(out->place.x), x, on->n, on->half);
@@ -234,18 +247,20 @@ FW_CENTRED void places(const fw_loop *k, const coordinates *on, fw_centred2 a, f
 
 /* C and D for rotations of the three left links, their derivatives by the coordinates. With the
    platform's rotation given (a slice) it does not depend on them. */
-FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_centred turn[3],
-                            fw_interval d2_m2, unsigned wanted, fw_loop_box *out) {
-    fw_centred s, c;
-    const fw_leg *left = &k->leg[0], *right = &k->leg[1];
+FW_CENTRED void from_joints(const fw_workspace_loop *k, const coordinates *on,
+                            const fw_maths_centred turn[3], fw_maths_interval d2_m2,
+                            unsigned wanted, fw_workspace_loop_box *out) {
+    fw_maths_centred s, c;
+    const fw_workspace_leg *left = &k->leg[0], *right = &k->leg[1];
     fw_centred_turn(turn[0], &s, &c);
-    fw_centred2 a = rotated(left->a, s, c);
+    fw_workspace_centred2 a = rotated(left->a, s, c);
     fw_centred_turn(turn[1], &s, &c);
-    fw_centred2 b = rotated(left->b, s, c);
+    fw_workspace_centred2 b = rotated(left->b, s, c);
     fw_centred_turn(turn[2], &s, &c);
-    fw_centred2 platform = rotated(from_to(left->to, right->to), s, c);
-    fw_centred2 at_c = plus(plus(exactly(left->base), a), b), at_d = plus(at_c, platform);
-    fw_centred2 ja = quarter(a), jb = quarter(b), dq[3], none = exactly((fw_vec2){0.0, 0.0});
+    fw_workspace_centred2 platform = rotated(from_to(left->to, right->to), s, c);
+    fw_workspace_centred2 at_c = plus(plus(exactly(left->base), a), b), at_d = plus(at_c, platform);
+    fw_workspace_centred2 ja = quarter(a), jb = quarter(b), dq[3],
+                          none = exactly((fw_geometry_vec2){0.0, 0.0});
     /* coordinates A, B, C turn the links from there on; a slice's platform does not turn */
     dq[2] = quarter(platform);
     dq[1] = plus(jb, on->n == 3 ? dq[2] : none);
@@ -254,7 +269,7 @@ FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_ce
     out->cross[0] = cross(a, b);
     out->hinge[3] = at_d;
     if (wanted & FW_WANT_REST) places(k, on, a, at_c, ja, jb, rotated(left->to, s, c), out);
-    fw_form psi[3];
+    fw_workspace_form psi[3];
     out->leg = 1;
     out->reached = solve(right, at_d, dq, on, turn[2], d2_m2, wanted, &out->d2[1], psi,
                          &out->hinge[4], &out->cross[1]);
@@ -264,38 +279,43 @@ FW_CENTRED void from_joints(const fw_loop *k, const coordinates *on, const fw_ce
     if (wanted & (FW_WANT_D | FW_WANT_REST)) out->psi[3] = psi[2];
 }
 
-fw_centred fw_loop_left_cross(const fw_loop *k, double c, double half) {
-    fw_centred sine, cosine;
+fw_maths_centred fw_workspace_loop_left_cross(const fw_workspace_loop *k, double c, double half) {
+    fw_maths_centred sine, cosine;
     fw_centred_turn(fw_centred_axis(c, half), &sine, &cosine);
     return cross(exactly(k->leg[0].a), rotated(k->leg[0].b, sine, cosine));
 }
 
-void fw_loop_joint_box(const fw_loop *k, const fw_box3 *box, fw_interval d2_m2, unsigned wanted,
-                       fw_loop_box *out) {
+void fw_workspace_loop_joint_box(const fw_workspace_loop *k, const fw_workspace_box3 *box,
+                                 fw_maths_interval d2_m2, unsigned wanted,
+                                 fw_workspace_loop_box *out) {
     coordinates on = {.n = 3, .turns = {1.0, 1.0, 1.0}};
-    fw_centred axis[3], turn[3];
+    fw_maths_centred axis[3], turn[3];
     for (int i = 0; i < 3; i++) {
         double middle = fw_box3_middle(box, i, &on.half[i]);
         axis[i] = fw_centred_axis(middle, on.half[i]);
         turn[i] = i ? fw_centred_add(turn[i - 1], axis[i]) : axis[i];
-        out->psi[i] = (fw_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1, i == 2}};
+        out->psi[i] =
+            (fw_workspace_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1, i == 2}};
     }
     from_joints(k, &on, turn, d2_m2, wanted, out);
 }
 
-void fw_loop_slice_box(const fw_loop *k, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
-                       unsigned wanted, fw_loop_box *out) {
+void fw_workspace_loop_slice_box(const fw_workspace_loop *k, const fw_workspace_box3 *box,
+                                 double phi_rad, fw_maths_interval d2_m2, unsigned wanted,
+                                 fw_workspace_loop_box *out) {
     coordinates on = {.n = 2};
-    fw_centred axis[2], turn[3];
+    fw_maths_centred axis[2], turn[3];
     for (int i = 0; i < 2; i++) {
         double middle = fw_box3_middle(box, i, &on.half[i]);
         axis[i] = fw_centred_axis(middle, on.half[i]);
-        out->psi[i] = (fw_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1}};
+        out->psi[i] =
+            (fw_workspace_form){.at = fw_interval_point(middle), .grad = {i == 0, i == 1}};
     }
     turn[0] = axis[0];
     turn[1] = fw_centred_add(axis[0], axis[1]);
     turn[2] = fw_centred_exact(phi_rad);
-    out->psi[2] = (fw_form){.at = fw_interval_sub(fw_interval_point(phi_rad), middle_of(turn[1])),
+    out->psi[2] =
+        (fw_workspace_form){.at = fw_interval_sub(fw_interval_point(phi_rad), middle_of(turn[1])),
                             .grad = {-1.0, -1.0}};
     from_joints(k, &on, turn, d2_m2, wanted, out);
 }

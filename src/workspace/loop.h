@@ -11,59 +11,68 @@
 #include "maths/centred.h"
 #include "workspace/inverse.h"
 
-typedef struct fw_centred2 {
-    fw_centred x, y;
-} fw_centred2;
+typedef struct fw_workspace_centred2 {
+    fw_maths_centred x, y;
+} fw_workspace_centred2;
 
-typedef struct fw_leg { /* from the ground up, as drawn; the mechanism is what these doubles say */
-    fw_vec2 base;       /* A or F, m */
-    fw_vec2 a, b;       /* base to elbow, elbow to platform hinge, m */
-    fw_vec2 to;         /* from the platform's centre of mass to that hinge, m */
-    double sign;        /* of the elbow's cross product a x b: the assembly branch */
-    fw_centred a2, b2;  /* squared lengths, m2 */
-} fw_leg;
+typedef struct
+    fw_workspace_leg { /* from the ground up, as drawn; the mechanism is what these doubles say */
+    fw_geometry_vec2 base;   /* A or F, m */
+    fw_geometry_vec2 a, b;   /* base to elbow, elbow to platform hinge, m */
+    fw_geometry_vec2 to;     /* from the platform's centre of mass to that hinge, m */
+    double sign;             /* of the elbow's cross product a x b: the assembly branch */
+    fw_maths_centred a2, b2; /* squared lengths, m2 */
+} fw_workspace_leg;
 
-typedef struct fw_loop {
-    fw_leg leg[2];  /* A-B-C, F-E-D */
-    fw_vec2 centre; /* platform's centre of mass as drawn, m */
+typedef struct fw_workspace_loop {
+    fw_workspace_leg leg[2]; /* A-B-C, F-E-D */
+    fw_geometry_vec2 centre; /* platform's centre of mass as drawn, m */
     double start_rad[FW_SIX];
-} fw_loop;
+} fw_workspace_loop;
 
-typedef struct fw_box3 {
+typedef struct fw_workspace_box3 {
     double lo[3], hi[3];
-} fw_box3;
+} fw_workspace_box3;
 
-typedef struct fw_form { /* value at the middle + grad.d within +- rest, for every d of the box */
-    fw_interval at;
+typedef struct
+    fw_workspace_form { /* value at the middle + grad.d within +- rest, for every d of the box */
+    fw_maths_interval at;
     double grad[3], rest;
-} fw_form;
+} fw_workspace_form;
 
-typedef enum fw_reached { FW_REACHED, FW_OUT_OF_REACH, FW_MAY_BE_OUT } fw_reached;
+typedef enum fw_workspace_reached {
+    FW_REACHED,
+    FW_OUT_OF_REACH,
+    FW_MAY_BE_OUT
+} fw_workspace_reached;
 
-typedef struct fw_loop_box {   /* what is known of a box */
-    fw_form d2[2];             /* squared reach of both legs, m2 */
-    fw_form psi[FW_SIX];       /* rotation of every hinge from the drawn pose, rad */
-    fw_centred2 hinge[FW_SIX]; /* where the hinges are, m */
-    fw_centred cross[2];       /* a x b of both legs, m2: 0 where the leg is stretched or folded */
-    fw_centred2 place;         /* of the platform's centre of mass from the drawn one, m */
-    fw_centred phi;            /* rotation of the platform, rad */
-    fw_form extent[3];         /* of x, y, phi; joint boxes only */
-    int leg;                   /* that is out of reach */
-    fw_reached reached;
-} fw_loop_box;
+typedef struct fw_workspace_loop_box {   /* what is known of a box */
+    fw_workspace_form d2[2];             /* squared reach of both legs, m2 */
+    fw_workspace_form psi[FW_SIX];       /* rotation of every hinge from the drawn pose, rad */
+    fw_workspace_centred2 hinge[FW_SIX]; /* where the hinges are, m */
+    fw_maths_centred cross[2]; /* a x b of both legs, m2: 0 where the leg is stretched or folded */
+    fw_workspace_centred2 place; /* of the platform's centre of mass from the drawn one, m */
+    fw_maths_centred phi;        /* rotation of the platform, rad */
+    fw_workspace_form extent[3]; /* of x, y, phi; joint boxes only */
+    int leg;                     /* that is out of reach */
+    fw_workspace_reached reached;
+} fw_workspace_loop_box;
 
 /* false: the drawn pose has no branch (a leg stretched or folded) or it is no six-bar */
-bool fw_loop_set_up(const fw_mechanism *mechanism, fw_loop *loop);
-bool fw_loop_make(const fw_vec2 hinge[FW_SIX], fw_vec2 centre, const double start_rad[FW_SIX],
-                  fw_loop *loop);
+bool fw_workspace_loop_set_up(const fw_mechanism *mechanism, fw_workspace_loop *loop);
+bool fw_workspace_loop_make(const fw_geometry_vec2 hinge[FW_SIX], fw_geometry_vec2 centre,
+                            const double start_rad[FW_SIX], fw_workspace_loop *loop);
 
 /* range of psi_i for a range of the engine's joint angle */
-fw_interval fw_loop_psi_range(const fw_loop *loop, int hinge, fw_interval angle);
-fw_interval fw_loop_angle_range(const fw_loop *loop, int hinge, fw_interval psi);
+fw_maths_interval fw_workspace_loop_psi_range(const fw_workspace_loop *loop, int hinge,
+                                              fw_maths_interval angle);
+fw_maths_interval fw_workspace_loop_angle_range(const fw_workspace_loop *loop, int hinge,
+                                                fw_maths_interval psi);
 
 /* poses: x, y (m) and phi (rad) from the drawn one; `middle` and the half widths are chosen so that
    the box lies within middle +- half */
-void fw_loop_pose_box(const fw_loop *loop, const fw_box3 *box, fw_loop_box *out);
+void fw_workspace_loop_pose_box(const fw_workspace_loop *loop, const fw_workspace_box3 *box,
+                                fw_workspace_loop_box *out);
 /* What is wanted of a box of rotations: D and F their psi, E the reach of the right leg, which
    stands for its psi; BRANCH whether that leg can be there at all; REST everything else but the
    rotations of A, B, C, phi, the left leg's cross product and D's place, which always come. What is
@@ -80,25 +89,27 @@ enum {
 };
 /* rotations of A, B, C (rad). Where d2 of the right leg is wanted and certain to be outside of
    `d2_m2`, the box is called out of reach and nothing more is computed. */
-void fw_loop_joint_box(const fw_loop *loop, const fw_box3 *box, fw_interval d2_m2, unsigned wanted,
-                       fw_loop_box *out);
+void fw_workspace_loop_joint_box(const fw_workspace_loop *loop, const fw_workspace_box3 *box,
+                                 fw_maths_interval d2_m2, unsigned wanted,
+                                 fw_workspace_loop_box *out);
 /* rotations of A and B (rad) with the platform at the rotation phi; box[2] is not used */
-void fw_loop_slice_box(const fw_loop *loop, const fw_box3 *box, double phi_rad, fw_interval d2_m2,
-                       unsigned wanted, fw_loop_box *out);
+void fw_workspace_loop_slice_box(const fw_workspace_loop *loop, const fw_workspace_box3 *box,
+                                 double phi_rad, fw_maths_interval d2_m2, unsigned wanted,
+                                 fw_workspace_loop_box *out);
 
 /* a x b of the left leg, m2, for rotations of B within c +- half */
-fw_centred fw_loop_left_cross(const fw_loop *loop, double c, double half);
+fw_maths_centred fw_workspace_loop_left_cross(const fw_workspace_loop *loop, double c, double half);
 
 /* range of a form over the box with these half widths */
-static inline fw_interval fw_form_range(const fw_form *f, const double half[3]) {
+static inline fw_maths_interval fw_form_range(const fw_workspace_form *f, const double half[3]) {
     double reach = 0.0;
     for (int i = 0; i < 3; i++)
         reach += fabs(f->grad[i]) * half[i];
     reach = fw_grown(reach + f->rest);
-    return (fw_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
+    return (fw_maths_interval){fw_down(f->at.lo - reach), fw_up(f->at.hi + reach)};
 }
 
-static inline double fw_box3_middle(const fw_box3 *box, int axis, double *half) {
+static inline double fw_box3_middle(const fw_workspace_box3 *box, int axis, double *half) {
     double c = 0.5 * (box->lo[axis] + box->hi[axis]);
     double up = box->hi[axis] - c, down = c - box->lo[axis];
     *half = fw_up(up > down ? up : down);

@@ -8,16 +8,16 @@ enum { FW_SLICES = 5 };
 
 typedef struct fw_workspace_slice {
     double phi_rad;
-    fw_measure area; /* m2 */
+    fw_workspace_measure area; /* m2 */
 } fw_workspace_slice;
 
 typedef struct fw_workspace_map {
     const char *none; /* why there is nothing below; NULL: there is */
-    fw_loop loop;
+    fw_workspace_loop loop;
     double limit_rad[FW_SIX];
-    fw_reach_limits limits;
-    fw_measure volume; /* m2 rad */
-    fw_survey survey;
+    fw_workspace_reach_limits limits;
+    fw_workspace_measure volume; /* m2 rad */
+    fw_workspace_survey survey;
     fw_workspace_slice
         slice[FW_SLICES]; /* at 0 and at a third and two thirds of the way to the ends */
 } fw_workspace_map;

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/reach.h"
 #include "base/constants.h"
-#include "workspace/cut.h"
+#include "workspace/workspace_cut.h"
 
 enum { MOST_LEVEL = 14, FIRST_CELLS = 64, FIRST_SUM = 1024 };
 
 static const int judged[] = {4, 2, 3, 5}; /* hinges, the one that costs least first */
 
-fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
-    fw_reach_limits l;
+fw_workspace_reach_limits fw_workspace_limits_symmetric(const double limit_rad[FW_SIX]) {
+    fw_workspace_reach_limits l;
     for (int i = 0; i < FW_SIX; i++)
         l.high_rad[i] = limit_rad[i], l.low_rad[i] = -limit_rad[i];
     return l;
@@ -17,75 +17,84 @@ fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]) {
 /* The elbow turns on the side of its drawn branch only: from b by psi, with a x R(psi) b of that
    sign. Where a limit lets it pass the stretched or folded leg, the range ends there, rounded
    outward. */
-static fw_bound on_branch(const fw_leg *leg, fw_bound psi) {
+static fw_workspace_bound on_branch(const fw_workspace_leg *leg, fw_workspace_bound psi) {
     double along = leg->a.x * leg->b.x + leg->a.y * leg->b.y;
     double side = leg->a.x * leg->b.y - leg->a.y * leg->b.x, elbow = atan2(side, along);
     double half = 0.5 * FW_TURN, slack = 1e-14;
     double lo = leg->sign > 0.0 ? -elbow : -half - elbow;
     double hi = leg->sign > 0.0 ? half - elbow : -elbow;
-    if (psi.low.lo < lo) psi.low = (fw_interval){lo - slack, lo + slack};
-    if (psi.high.hi > hi) psi.high = (fw_interval){hi - slack, hi + slack};
+    if (psi.low.lo < lo) psi.low = (fw_maths_interval){lo - slack, lo + slack};
+    if (psi.high.hi > hi) psi.high = (fw_maths_interval){hi - slack, hi + slack};
     return psi;
 }
 
 /* |O Q|^2 with the elbow turned by psi: |a|^2 + |b|^2 + 2 (cos psi a.b - sin psi a x b) */
-static fw_interval reach2(const fw_leg *leg, fw_interval psi) {
-    fw_interval ax = fw_interval_point(leg->a.x), ay = fw_interval_point(leg->a.y);
-    fw_interval bx = fw_interval_point(leg->b.x), by = fw_interval_point(leg->b.y);
-    fw_interval along = fw_interval_add(fw_interval_mul(ax, bx), fw_interval_mul(ay, by));
-    fw_interval side = fw_interval_sub(fw_interval_mul(ax, by), fw_interval_mul(ay, bx));
-    fw_interval both = fw_interval_sub(fw_interval_mul(fw_interval_cos(psi), along),
-                                       fw_interval_mul(fw_interval_sin(psi), side));
+static fw_maths_interval reach2(const fw_workspace_leg *leg, fw_maths_interval psi) {
+    fw_maths_interval ax = fw_interval_point(leg->a.x), ay = fw_interval_point(leg->a.y);
+    fw_maths_interval bx = fw_interval_point(leg->b.x), by = fw_interval_point(leg->b.y);
+    fw_maths_interval along =
+        fw_interval_add(fw_maths_interval_mul(ax, bx), fw_maths_interval_mul(ay, by));
+    fw_maths_interval side =
+        fw_interval_sub(fw_maths_interval_mul(ax, by), fw_maths_interval_mul(ay, bx));
+    fw_maths_interval both =
+        fw_interval_sub(fw_maths_interval_mul(fw_maths_interval_cos(psi), along),
+                        fw_maths_interval_mul(fw_maths_interval_sin(psi), side));
     return fw_interval_add(fw_interval_add(fw_centred_range(leg->a2), fw_centred_range(leg->b2)),
                            fw_interval_add(both, both));
 }
 
-fw_allowed fw_limits_allow(const fw_loop *k, const fw_reach_limits *l) {
-    fw_allowed out;
+fw_workspace_allowed fw_workspace_limits_allow(const fw_workspace_loop *k,
+                                               const fw_workspace_reach_limits *l) {
+    fw_workspace_allowed out;
     for (int i = 0; i < FW_SIX; i++) {
-        fw_interval low = fw_loop_psi_range(k, i, fw_interval_point(l->low_rad[i]));
-        fw_interval high = fw_loop_psi_range(k, i, fw_interval_point(l->high_rad[i]));
-        out.psi[i] = i < 3 ? (fw_bound){low, high} : (fw_bound){high, low};
+        fw_maths_interval low = fw_workspace_loop_psi_range(k, i, fw_interval_point(l->low_rad[i]));
+        fw_maths_interval high =
+            fw_workspace_loop_psi_range(k, i, fw_interval_point(l->high_rad[i]));
+        out.psi[i] = i < 3 ? (fw_workspace_bound){low, high} : (fw_workspace_bound){high, low};
     }
     out.psi[1] = on_branch(&k->leg[0], out.psi[1]);
     /* the right leg's elbow counts from the ground up, as psi does */
-    const fw_leg *right = &k->leg[1];
-    fw_bound elbow = on_branch(right, out.psi[4]);
-    fw_interval at_low = reach2(right, elbow.low), at_high = reach2(right, elbow.high);
-    out.d2 = right->sign > 0.0 ? (fw_bound){at_high, at_low} : (fw_bound){at_low, at_high};
+    const fw_workspace_leg *right = &k->leg[1];
+    fw_workspace_bound elbow = on_branch(right, out.psi[4]);
+    fw_maths_interval at_low = reach2(right, elbow.low), at_high = reach2(right, elbow.high);
+    out.d2 = right->sign > 0.0 ? (fw_workspace_bound){at_high, at_low}
+                               : (fw_workspace_bound){at_low, at_high};
     return out;
 }
 
-fw_box3 fw_reach_whole(const fw_loop *k, const fw_allowed *allowed) {
+fw_workspace_box3 fw_workspace_reach_whole(const fw_workspace_loop *k,
+                                           const fw_workspace_allowed *allowed) {
     (void)k;
-    fw_box3 box;
+    fw_workspace_box3 box;
     for (int i = 0; i < 3; i++)
         box.lo[i] = allowed->psi[i].low.lo, box.hi[i] = allowed->psi[i].high.hi;
     return box;
 }
 
 /* share of the box where f <= limit, given that the box is a little smaller than +- half */
-static fw_interval below(const fw_form *f, const double half[3], fw_interval limit, double slack) {
+static fw_maths_interval below(const fw_workspace_form *f, const double half[3],
+                               fw_maths_interval limit, double slack) {
     double p[3];
     for (int i = 0; i < 3; i++)
         p[i] = fabs(f->grad[i]) * half[i];
     double least = fw_down(fw_down(limit.lo - f->at.hi) - f->rest);
     double most = fw_up(fw_up(limit.hi - f->at.lo) + f->rest);
-    double low = fw_cut_share(p, least).lo, high = fw_cut_share(p, most).hi;
+    double low = fw_workspace_cut_share(p, least).lo, high = fw_workspace_cut_share(p, most).hi;
     if (low < 1.0) low = low > slack ? low - slack : 0.0;
     if (high > 0.0) high = high + slack < 1.0 ? high + slack : 1.0;
-    return (fw_interval){low, high};
+    return (fw_maths_interval){low, high};
 }
 
-static fw_form mirrored(const fw_form *f) {
-    return (fw_form){.at = fw_interval_negated(f->at),
-                     .grad = {-f->grad[0], -f->grad[1], -f->grad[2]},
-                     .rest = f->rest};
+static fw_workspace_form mirrored(const fw_workspace_form *f) {
+    return (fw_workspace_form){.at = fw_interval_negated(f->at),
+                               .grad = {-f->grad[0], -f->grad[1], -f->grad[2]},
+                               .rest = f->rest};
 }
 
 /* A rotation found beyond +-180 deg is another one less a turn: outside only where that is out of
    range too. *known: it cannot reach round to the other side. */
-static fw_inside stands(fw_interval now, const fw_bound *range, double period, bool *known) {
+static fw_workspace_inside stands(fw_maths_interval now, const fw_workspace_bound *range,
+                                  double period, bool *known) {
     double most = period - 1e-9; /* less than a turn, whatever rounding does */
     double next = most + range->low.lo, last = range->high.hi - most;
     *known = now.lo > last && now.hi < next;
@@ -97,18 +106,19 @@ static fw_inside stands(fw_interval now, const fw_bound *range, double period, b
 
 /* One hinge over a box: narrows the share that all hinges leave. Two planes per hinge stand for its
    constraint; at least 1 - sum(1 - v_i) of the box is within all of them, at most min v_i. */
-static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double period,
-                           const double half[3], double slack, fw_interval *share) {
-    fw_interval now = fw_form_range(f, half);
+static fw_workspace_inside one_hinge(const fw_workspace_form *f, const fw_workspace_bound *range,
+                                     double period, const double half[3], double slack,
+                                     fw_maths_interval *share) {
+    fw_maths_interval now = fw_form_range(f, half);
     bool clear;
-    fw_inside where = stands(now, range, period, &clear);
+    fw_workspace_inside where = stands(now, range, period, &clear);
     if (where != FW_CUT) return where;
     if (!clear) {
         share->lo = 0.0; /* may reach round to the other side: nothing known */
         return FW_CUT;
     }
-    fw_form minus = mirrored(f);
-    fw_interval top = {1.0, 1.0}, bottom = {1.0, 1.0};
+    fw_workspace_form minus = mirrored(f);
+    fw_maths_interval top = {1.0, 1.0}, bottom = {1.0, 1.0};
     if (now.hi > range->high.lo) top = below(f, half, range->high, slack);
     if (now.lo < range->low.hi)
         bottom = below(&minus, half, fw_interval_negated(range->low), slack);
@@ -122,28 +132,30 @@ static fw_inside one_hinge(const fw_form *f, const fw_bound *range, double perio
 
 /* The right elbow is judged by its leg's reach, which has no singularity: d2 falls as |elbow|
  * grows. */
-fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimensions,
-                         double phi_rad, const fw_box3 *box, unsigned *open, fw_loop_box *known,
-                         fw_interval *share) {
+fw_workspace_inside fw_workspace_reach_judge(const fw_workspace_loop *k,
+                                             const fw_workspace_allowed *allowed, int dimensions,
+                                             double phi_rad, const fw_workspace_box3 *box,
+                                             unsigned *open, fw_workspace_loop_box *known,
+                                             fw_maths_interval *share) {
     const unsigned wanted = *open;
     double half[3] = {0}, slack = 0.0;
     for (int i = 0; i < dimensions; i++) {
         double c = fw_box3_middle(box, i, &half[i]);
         slack += 0x1p-50 * (1e-3 + fabs(c) / half[i]);
     }
-    const fw_interval d2 = {allowed->d2.low.lo, allowed->d2.high.hi};
+    const fw_maths_interval d2 = {allowed->d2.low.lo, allowed->d2.high.hi};
     if (dimensions == 3)
-        fw_loop_joint_box(k, box, d2, wanted, known);
+        fw_workspace_loop_joint_box(k, box, d2, wanted, known);
     else
-        fw_loop_slice_box(k, box, phi_rad, d2, wanted, known);
-    *share = (fw_interval){1.0, 1.0};
+        fw_workspace_loop_slice_box(k, box, phi_rad, d2, wanted, known);
+    *share = (fw_maths_interval){1.0, 1.0};
     if (known->reached == FW_OUT_OF_REACH) return FW_OUTSIDE;
     *open = 0;
     for (int n = 0; n < 4; n++) {
         int i = judged[n];
         if (i < dimensions || !(wanted & 1u << i)) continue;
         bool elbow = i == 4;
-        fw_inside one = FW_CUT;
+        fw_workspace_inside one = FW_CUT;
         if (elbow)
             one = one_hinge(&known->d2[1], &allowed->d2, (double)INFINITY, half, slack, share);
         else if (known->reached == FW_REACHED)
@@ -160,8 +172,8 @@ fw_inside fw_reach_judge(const fw_loop *k, const fw_allowed *allowed, int dimens
    = sum of +-g_i half_i/2 as the part lies above or below the middle, reach = sum |g_i| (half_i/2 +
    off_i) + rest, off what rounding has moved the edge between parts by. Some ten roundings of
    numbers below `reach`: 2^-48 of it. Test: test_reach_random.c. */
-static void decide_parts(const fw_form *f, const fw_bound *range, double period, int parts,
-                         const double half[3], const double off[3], unsigned *inside,
+static void decide_parts(const fw_workspace_form *f, const fw_workspace_bound *range, double period,
+                         int parts, const double half[3], const double off[3], unsigned *inside,
                          unsigned *outside) {
     bool clear;
     double step[3], reach = f->rest;
@@ -184,9 +196,10 @@ static void decide_parts(const fw_form *f, const fw_bound *range, double period,
     }
 }
 
-void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *box,
-                    const double between[3], unsigned open, const fw_loop_box *known,
-                    unsigned *inside, unsigned *outside) {
+void fw_workspace_reach_parts(const fw_workspace_allowed *allowed, int dimensions,
+                              const fw_workspace_box3 *box, const double between[3], unsigned open,
+                              const fw_workspace_loop_box *known, unsigned *inside,
+                              unsigned *outside) {
     double half[3] = {0}, off[3] = {0};
     const int parts = 1 << dimensions;
     for (int i = 0; i < dimensions; i++) {
@@ -211,7 +224,7 @@ void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *bo
 /* ---- the sum ---- */
 
 typedef struct cell {
-    fw_interval part; /* of the measure that its inside has */
+    fw_maths_interval part; /* of the measure that its inside has */
     unsigned short at[3];
     unsigned char level, open;     /* FW_WANT_*: what is not proved of it */
     unsigned char inside, outside; /* bits of its parts of which that is proved already */
@@ -219,13 +232,13 @@ typedef struct cell {
 
 typedef struct search {
     fw_arena *arena;
-    const fw_loop *loop;
-    fw_allowed allowed;
+    const fw_workspace_loop *loop;
+    fw_workspace_allowed allowed;
     int dimensions;
     double phi_rad;
-    fw_box3 whole;
-    fw_interval decided; /* sum over boxes that are inside, or too small to be halved */
-    fw_interval about;   /* that and the open ones, but for rounding: says when to sum up */
+    fw_workspace_box3 whole;
+    fw_maths_interval decided; /* sum over boxes that are inside, or too small to be halved */
+    fw_maths_interval about;   /* that and the open ones, but for rounding: says when to sum up */
     long boxes;
     int level;  /* deepest looked at */
     cell *heap; /* (count) neither inside nor outside; the one that leaves most open first */
@@ -242,24 +255,25 @@ static double edge(const search *s, int axis, unsigned i, int level) {
    integral_-h^h sin(c + s) ds = 2 sin(c) sin(h), c the elbow's angle at the middle:
      |a x b|(c) 2 sin(h) (w_A w_C)      inside
    and |a x b| times the box's volume where only a part counts. m2 rad^n */
-static fw_interval weight(const search *s, const fw_box3 *box, const fw_loop_box *known,
-                          fw_inside where, fw_interval share) {
+static fw_maths_interval weight(const search *s, const fw_workspace_box3 *box,
+                                const fw_workspace_loop_box *known, fw_workspace_inside where,
+                                fw_maths_interval share) {
     double half, widths = box->hi[0] - box->lo[0];
     fw_box3_middle(box, 1, &half);
     if (s->dimensions == 3) widths *= box->hi[2] - box->lo[2];
     /* what rounding of the widths and the library's sine change: some 1e-15; this is 1e-12 */
-    const fw_interval unit = {1.0 - 0x1p-40, 1.0 + 0x1p-40};
-    fw_centred side = known->cross[0];
+    const fw_maths_interval unit = {1.0 - 0x1p-40, 1.0 + 0x1p-40};
+    fw_maths_centred side = known->cross[0];
     if (side.m < 0.0) side = fw_centred_negated(side);
-    fw_interval density = {side.m - side.e, side.m + side.e};
+    fw_maths_interval density = {side.m - side.e, side.m + side.e};
     double factor = widths * 2.0 * sin(half);
     if (where != FW_INSIDE) {
-        density = (fw_interval){side.m - side.r, side.m + side.r};
+        density = (fw_maths_interval){side.m - side.r, side.m + side.r};
         factor = widths * (box->hi[1] - box->lo[1]);
     }
     if (!(density.lo > 0.0))
         density.lo = 0.0; /* across the stretched leg: the branch has part of it */
-    fw_interval size = fw_interval_mul_sizes(unit, fw_interval_point(factor));
+    fw_maths_interval size = fw_interval_mul_sizes(unit, fw_interval_point(factor));
     return fw_interval_mul_sizes(fw_interval_mul_sizes(density, size), share);
 }
 
@@ -301,38 +315,40 @@ static cell take(search *s) {
 
 /* ---- the search ---- */
 
-static void note_parts(const search *s, const fw_box3 *box, const fw_loop_box *known, cell *c) {
+static void note_parts(const search *s, const fw_workspace_box3 *box,
+                       const fw_workspace_loop_box *known, cell *c) {
     double between[3];
     unsigned inside, outside;
     for (int i = 0; i < s->dimensions; i++)
         between[i] = edge(s, i, 2u * c->at[i] + 1u, c->level + 1);
-    fw_reach_parts(&s->allowed, s->dimensions, box, between, c->open, known, &inside, &outside);
+    fw_workspace_reach_parts(&s->allowed, s->dimensions, box, between, c->open, known, &inside,
+                             &outside);
     c->inside = (unsigned char)inside, c->outside = (unsigned char)outside;
 }
 
 /* a part that is inside for certain; false: the left leg may be stretched or folded in it */
-static bool count_inside(search *s, const fw_box3 *box) {
-    fw_loop_box known;
+static bool count_inside(search *s, const fw_workspace_box3 *box) {
+    fw_workspace_loop_box known;
     double half, middle = fw_box3_middle(box, 1, &half);
-    known.cross[0] = fw_loop_left_cross(s->loop, middle, half);
+    known.cross[0] = fw_workspace_loop_left_cross(s->loop, middle, half);
     if (!(known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r)) return false;
-    fw_interval part = weight(s, box, &known, FW_INSIDE, fw_interval_point(1.0));
+    fw_maths_interval part = weight(s, box, &known, FW_INSIDE, fw_interval_point(1.0));
     s->about.lo += part.lo, s->about.hi += part.hi;
     s->decided = fw_interval_add(s->decided, part);
     return true;
 }
 
 /* looks at one box; keeps it when it is neither inside nor outside */
-static fw_status look(search *s, const fw_box3 *box, const unsigned short at[3], int level,
-                      unsigned open) {
-    fw_loop_box known;
-    fw_interval share;
+static fw_status look(search *s, const fw_workspace_box3 *box, const unsigned short at[3],
+                      int level, unsigned open) {
+    fw_workspace_loop_box known;
+    fw_maths_interval share;
     s->boxes++;
     if (level > s->level) s->level = level;
-    fw_inside where =
-        fw_reach_judge(s->loop, &s->allowed, s->dimensions, s->phi_rad, box, &open, &known, &share);
+    fw_workspace_inside where = fw_workspace_reach_judge(s->loop, &s->allowed, s->dimensions,
+                                                         s->phi_rad, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
-    fw_interval part = weight(s, box, &known, where, share);
+    fw_maths_interval part = weight(s, box, &known, where, share);
     if (!(part.lo > 0.0)) part.lo = 0.0;
     bool sure = known.cross[0].m * s->loop->leg[0].sign > known.cross[0].r;
     if (where == FW_INSIDE && !sure) part.lo = 0.0;
@@ -359,7 +375,7 @@ static fw_status split(search *s) {
             edges[i][k] = edge(s, i, 2u * parent.at[i] + k, level);
     for (int child = 0; child < 1 << s->dimensions; child++) {
         unsigned short at[3];
-        fw_box3 box;
+        fw_workspace_box3 box;
         for (int i = 0; i < 3; i++) {
             int upper = child >> i & 1;
             at[i] = (unsigned short)(2 * parent.at[i] + upper);
@@ -373,8 +389,8 @@ static fw_status split(search *s) {
 }
 
 /* the bracket that all boxes give together, cut with those before */
-static void sum_up(search *s, double relative, fw_measure *out) {
-    fw_interval all = s->decided;
+static void sum_up(search *s, double relative, fw_workspace_measure *out) {
+    fw_maths_interval all = s->decided;
     for (size_t i = 0; i < s->count; i++)
         all = fw_interval_add(all, s->heap[i].part);
     s->about = all;
@@ -386,7 +402,8 @@ static void sum_up(search *s, double relative, fw_measure *out) {
 }
 
 /* Measure of a set of joint rotations by branch and bound: boxes that are inside count whole, boxes
-   outside not, of the others the share that the planes of all hinges leave (cut.h); what they leave
+   outside not, of the others the share that the planes of all hinges leave (workspace_cut.h); what
+   they leave
    open falls fourfold with every halving. The box that leaves most open is halved next, along all
    coordinates. Its own forms decide two of five parts beforehand, which need no look; what is
    proved of a box is not asked again within it: most open boxes are cut by one hinge, and the parts
@@ -396,8 +413,8 @@ static void sum_up(search *s, double relative, fw_measure *out) {
    dpsi_B at constant phi, one to one on the branch (a x b of one sign). in: limits rad; out: m2
    rad, or m2. Error: proved; sums are rounded outward. Cost about 0.5 us per box. Source:
    docs/theory/workspace.md. Test: test_reach.c, test_reach_random.c. */
-static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
-    *out = (fw_measure){.value = {0.0, (double)INFINITY}};
+static fw_status measured(search *s, fw_workspace_proof_effort effort, fw_workspace_measure *out) {
+    *out = (fw_workspace_measure){.value = {0.0, (double)INFINITY}};
     for (int i = 0; i < s->dimensions; i++)
         if (!(s->whole.lo[i] < s->whole.hi[i])) {
             out->value.hi = 0.0; /* the limits leave nothing */
@@ -425,25 +442,28 @@ static fw_status measured(search *s, fw_effort effort, fw_measure *out) {
     return FW_OK;
 }
 
-static fw_status scratch(search *s, fw_effort effort, fw_measure *out) {
+static fw_status scratch(search *s, fw_workspace_proof_effort effort, fw_workspace_measure *out) {
     fw_mark mark = fw_arena_mark(s->arena);
     fw_status status = measured(s, effort, out);
     fw_arena_rewind(s->arena, mark);
     return status;
 }
 
-fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                          fw_effort effort, fw_measure *volume) {
+fw_status fw_workspace_reach_volume(fw_arena *arena, const fw_workspace_loop *loop,
+                                    const fw_workspace_reach_limits *limits,
+                                    fw_workspace_proof_effort effort,
+                                    fw_workspace_measure *volume) {
     search s = {.arena = arena, .loop = loop, .dimensions = 3};
-    s.allowed = fw_limits_allow(loop, limits);
-    s.whole = fw_reach_whole(loop, &s.allowed);
+    s.allowed = fw_workspace_limits_allow(loop, limits);
+    s.whole = fw_workspace_reach_whole(loop, &s.allowed);
     return scratch(&s, effort, volume);
 }
 
-fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                        double phi_rad, fw_effort effort, fw_measure *area) {
+fw_status fw_workspace_reach_area(fw_arena *arena, const fw_workspace_loop *loop,
+                                  const fw_workspace_reach_limits *limits, double phi_rad,
+                                  fw_workspace_proof_effort effort, fw_workspace_measure *area) {
     search s = {.arena = arena, .loop = loop, .dimensions = 2, .phi_rad = phi_rad};
-    s.allowed = fw_limits_allow(loop, limits);
-    s.whole = fw_reach_whole(loop, &s.allowed);
+    s.allowed = fw_workspace_limits_allow(loop, limits);
+    s.whole = fw_workspace_reach_whole(loop, &s.allowed);
     return scratch(&s, effort, area);
 }

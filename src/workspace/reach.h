@@ -5,55 +5,64 @@
 #define FW_WORKSPACE_REACH_H
 #include "workspace/loop.h"
 
-typedef struct fw_reach_limits { /* of the joint angle A..F, the free angle taken off; rad */
+typedef struct
+    fw_workspace_reach_limits { /* of the joint angle A..F, the free angle taken off; rad */
     double low_rad[FW_SIX], high_rad[FW_SIX];
-} fw_reach_limits;
+} fw_workspace_reach_limits;
 
-typedef struct fw_bound { /* a range whose ends are known within rounding */
-    fw_interval low, high;
-} fw_bound;
+typedef struct fw_workspace_bound { /* a range whose ends are known within rounding */
+    fw_maths_interval low, high;
+} fw_workspace_bound;
 
-typedef struct fw_allowed { /* what the limits say of the rotations psi, and of the right elbow */
-    fw_bound psi[FW_SIX];   /* rad */
-    fw_bound d2;            /* squared reach of the right leg, m2: the same as that of its elbow */
-} fw_allowed;
-fw_allowed fw_limits_allow(const fw_loop *loop, const fw_reach_limits *limits);
+typedef struct
+    fw_workspace_allowed { /* what the limits say of the rotations psi, and of the right elbow */
+    fw_workspace_bound psi[FW_SIX]; /* rad */
+    fw_workspace_bound d2; /* squared reach of the right leg, m2: the same as that of its elbow */
+} fw_workspace_allowed;
+fw_workspace_allowed fw_workspace_limits_allow(const fw_workspace_loop *loop,
+                                               const fw_workspace_reach_limits *limits);
 
-fw_reach_limits fw_limits_symmetric(const double limit_rad[FW_SIX]);
+fw_workspace_reach_limits fw_workspace_limits_symmetric(const double limit_rad[FW_SIX]);
 
-typedef struct fw_measure {
-    fw_interval value; /* m2 rad of a volume, m2 of an area */
-    long boxes;        /* looked at; parts that a box decides beforehand are not */
-    int level;         /* most halvings of every coordinate */
-    bool reached;      /* the relative width asked for */
-} fw_measure;
+typedef struct fw_workspace_measure {
+    fw_maths_interval value; /* m2 rad of a volume, m2 of an area */
+    long boxes;              /* looked at; parts that a box decides beforehand are not */
+    int level;               /* most halvings of every coordinate */
+    bool reached;            /* the relative width asked for */
+} fw_workspace_measure;
 
 /* stops when width <= relative * value.lo, or before more than `most` boxes would be looked at */
-typedef struct fw_effort {
+typedef struct fw_workspace_proof_effort {
     double relative;
     long most;
-} fw_effort;
+} fw_workspace_proof_effort;
 
-fw_status fw_reach_volume(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                          fw_effort effort, fw_measure *volume);
-fw_status fw_reach_area(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                        double phi_rad, fw_effort effort, fw_measure *area);
+fw_status fw_workspace_reach_volume(fw_arena *arena, const fw_workspace_loop *loop,
+                                    const fw_workspace_reach_limits *limits,
+                                    fw_workspace_proof_effort effort, fw_workspace_measure *volume);
+fw_status fw_workspace_reach_area(fw_arena *arena, const fw_workspace_loop *loop,
+                                  const fw_workspace_reach_limits *limits, double phi_rad,
+                                  fw_workspace_proof_effort effort, fw_workspace_measure *area);
 
-typedef enum fw_inside { FW_OUTSIDE, FW_INSIDE, FW_CUT } fw_inside;
+typedef enum fw_workspace_inside { FW_OUTSIDE, FW_INSIDE, FW_CUT } fw_workspace_inside;
 /* where a box of joint rotations stands, for `dimensions` 3 (A, B, C) or 2 (A, B at rotation phi).
    share: of the box that is within the limits. open (FW_WANT_*): in, what is not proved yet of a
    box around this one, with FW_WANT_REST if all of `known` is to be set; the rest is not looked at.
    Out: what is not proved of this box, unless it is outside. */
-fw_inside fw_reach_judge(const fw_loop *loop, const fw_allowed *allowed, int dimensions,
-                         double phi_rad, const fw_box3 *box, unsigned *open, fw_loop_box *known,
-                         fw_interval *share);
+fw_workspace_inside fw_workspace_reach_judge(const fw_workspace_loop *loop,
+                                             const fw_workspace_allowed *allowed, int dimensions,
+                                             double phi_rad, const fw_workspace_box3 *box,
+                                             unsigned *open, fw_workspace_loop_box *known,
+                                             fw_maths_interval *share);
 /* Which of the parts of a cut box, halved along every coordinate at `between` (its middle within
    rounding), its forms decide already: bits, of which bit i is set for the upper half along i. open
-   and known: what fw_reach_judge left of the box. */
-void fw_reach_parts(const fw_allowed *allowed, int dimensions, const fw_box3 *box,
-                    const double between[3], unsigned open, const fw_loop_box *known,
-                    unsigned *inside, unsigned *outside);
+   and known: what fw_workspace_reach_judge left of the box. */
+void fw_workspace_reach_parts(const fw_workspace_allowed *allowed, int dimensions,
+                              const fw_workspace_box3 *box, const double between[3], unsigned open,
+                              const fw_workspace_loop_box *known, unsigned *inside,
+                              unsigned *outside);
 /* all rotations of A, B (and C) that the limits of these hinges and the branch leave */
-fw_box3 fw_reach_whole(const fw_loop *loop, const fw_allowed *allowed);
+fw_workspace_box3 fw_workspace_reach_whole(const fw_workspace_loop *loop,
+                                           const fw_workspace_allowed *allowed);
 
 #endif

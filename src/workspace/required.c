@@ -7,13 +7,13 @@ enum { COARSE = 9, FINE = 17, MOST_BOXES = 20000 };
 
 static const double sharpness = 1e-3; /* of the proved ends of ranges, relative */
 
-static double along(const fw_box3 *box, int axis, int i, int n) {
+static double along(const fw_workspace_box3 *box, int axis, int i, int n) {
     return box->lo[axis] + (box->hi[axis] - box->lo[axis]) * i / (n - 1);
 }
 
 /* largest |angle| of every joint over an n x n x n grid; false at a pose out of reach (in `at`) */
-static bool scan(const fw_six_bar *k, const fw_box3 *box, int n, fw_workspace_peak peak[FW_SIX],
-                 double at[3]) {
+static bool scan(const fw_workspace_six_bar *k, const fw_workspace_box3 *box, int n,
+                 fw_workspace_peak peak[FW_SIX], double at[3]) {
     for (int j = 0; j < FW_SIX; j++)
         peak[j] = (fw_workspace_peak){0};
     for (int i = 0; i < n * n * n; i++) {
@@ -22,7 +22,7 @@ static bool scan(const fw_six_bar *k, const fw_box3 *box, int n, fw_workspace_pe
         int leg;
         for (int axis = 0; axis < 3; axis++)
             at[axis] = along(box, axis, step[axis], n);
-        if (!fw_six_bar_solve(k, at[0], at[1], at[2], angle, &leg)) return false;
+        if (!fw_workspace_six_bar_solve(k, at[0], at[1], at[2], angle, &leg)) return false;
         for (int j = 0; j < FW_SIX; j++)
             if (fabs(angle[j]) > fabs(peak[j].angle_rad))
                 peak[j] = (fw_workspace_peak){angle[j], 0, at[0], at[1], at[2]};
@@ -31,7 +31,8 @@ static bool scan(const fw_six_bar *k, const fw_box3 *box, int n, fw_workspace_pe
 }
 
 /* climbs from the best grid pose by steps that halve, staying inside the box */
-static void refine(const fw_six_bar *k, const fw_box3 *box, int joint, fw_workspace_peak *peak) {
+static void refine(const fw_workspace_six_bar *k, const fw_workspace_box3 *box, int joint,
+                   fw_workspace_peak *peak) {
     double at[3] = {peak->x_m, peak->y_m, peak->phi_rad};
     for (double step = 1.0 / (FINE - 1); step > 1e-9;) {
         bool better = false;
@@ -41,7 +42,7 @@ static void refine(const fw_six_bar *k, const fw_box3 *box, int joint, fw_worksp
             memcpy(to, at, sizeof to);
             to[axis] += (move % 2 ? -step : step) * width;
             to[axis] = fmin(fmax(to[axis], box->lo[axis]), box->hi[axis]);
-            if (fw_six_bar_solve(k, to[0], to[1], to[2], angle, &leg) &&
+            if (fw_workspace_six_bar_solve(k, to[0], to[1], to[2], angle, &leg) &&
                 fabs(angle[joint]) > fabs(peak->angle_rad)) {
                 *peak = (fw_workspace_peak){angle[joint], 0, to[0], to[1], to[2]};
                 memcpy(at, to, sizeof at);
@@ -63,7 +64,8 @@ static void unreachable(fw_workspace_result *result, const double at[3]) {
    best one climbed to its local maximum. Not a proof; the error is what the refinement from a 9^3
    to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1 ms. source:
    docs/theory/workspace.md; test_required.c corners_and_interior */
-static bool sampled(const fw_six_bar *k, const fw_box3 *box, fw_workspace_result *result) {
+static bool sampled(const fw_workspace_six_bar *k, const fw_workspace_box3 *box,
+                    fw_workspace_result *result) {
     fw_workspace_peak coarse[FW_SIX], fine[FW_SIX];
     double at[3];
     if (!scan(k, box, COARSE, coarse, at) || !scan(k, box, FINE, fine, at)) {
@@ -86,7 +88,7 @@ static bool sampled(const fw_six_bar *k, const fw_box3 *box, fw_workspace_result
 
 /* the end of the proved range that is farther from zero, and how much nearer the truth may be */
 static fw_workspace_peak peak_of(const fw_workspace_proof *proof, int hinge) {
-    fw_interval range = proof->angle_rad[hinge];
+    fw_maths_interval range = proof->angle_rad[hinge];
     bool above = range.hi >= -range.lo;
     const fw_workspace_extreme *at = above ? &proof->most[hinge] : &proof->least[hinge];
     double far = above ? range.hi : range.lo, near = above ? at->angle_rad.lo : at->angle_rad.hi;
@@ -94,16 +96,17 @@ static fw_workspace_peak peak_of(const fw_workspace_proof *proof, int hinge) {
 }
 
 /* one required box: proved where that can be, else sampled; false: not reachable */
-static fw_status one_box(fw_arena *arena, const fw_six_bar *k, const fw_loop *loop,
-                         const fw_workspace_box *asked, fw_workspace_proof *proof,
-                         fw_workspace_result *result, bool *whole) {
-    const fw_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
-                         {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k,
+                         const fw_workspace_loop *loop, const fw_device_workspace_box *asked,
+                         fw_workspace_proof *proof, fw_workspace_result *result, bool *whole) {
+    const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
+                                   {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
     result->volume_m2_rad +=
         (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]);
-    fw_proof_end end = FW_UNDECIDED;
+    fw_workspace_proof_end end = FW_UNDECIDED;
     double at[3];
-    if (loop) FW_TRY(fw_certify_box(arena, loop, &box, sharpness, MOST_BOXES, proof, at, &end));
+    if (loop)
+        FW_TRY(fw_workspace_certify_box(arena, loop, &box, sharpness, MOST_BOXES, proof, at, &end));
     *whole = end == FW_PROVED;
     if (end == FW_REFUTED) unreachable(result, at);
     if (end == FW_UNDECIDED) {
@@ -131,13 +134,14 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
                                     .asked = in_flow,
                                     .box_reachable = whole,
                                     .proof = proof};
-    fw_six_bar k;
-    fw_loop loop;
-    bool known = fw_six_bar_set_up(m, &k), provable = known && fw_loop_set_up(m, &loop);
+    fw_workspace_six_bar k;
+    fw_workspace_loop loop;
+    bool known = fw_workspace_six_bar_set_up(m, &k),
+         provable = known && fw_workspace_loop_set_up(m, &loop);
     const char *held = NULL;
-    if (known) FW_TRY(fw_six_bar_restrained(arena, m, &held));
+    if (known) FW_TRY(fw_workspace_six_bar_foreign_joint(arena, m, &held));
     for (int i = 0; i < m->device->nworkspace; i++) {
-        const fw_workspace_box *asked = &m->device->workspace[i];
+        const fw_device_workspace_box *asked = &m->device->workspace[i];
         if (!fw_device_in_flow(asked->flow, m->variant->flow)) continue;
         if (!known) {
             fw_diag_error(diags, 200, asked->place,

@@ -36,7 +36,8 @@ static bool attach(const graph *g, int a, int b) {
    hold: a driver of a hinge, or a joint that, alone or through further bodies, holds two of the
    six-bar's bodies (or the ground) together. What merely rides on one of them takes none.
    Output: its id, NULL when there is none. Cost linear in joints. Test: test_required.c riders. */
-fw_status fw_six_bar_restrained(fw_arena *arena, const fw_mechanism *m, const char **id) {
+fw_status fw_workspace_six_bar_foreign_joint(fw_arena *arena, const fw_mechanism *m,
+                                             const char **id) {
     fw_mark mark = fw_arena_mark(arena);
     graph g = {.m = m};
     FW_NEED(g.parent = fw_arena_array(arena, int, (size_t)m->nbody));
@@ -46,14 +47,15 @@ fw_status fw_six_bar_restrained(fw_arena *arena, const fw_mechanism *m, const ch
         g.parent[i] = i;
     for (int i = FW_SIX; i < m->npin; i++)
         join(&g, m->pin[i].body_a, m->pin[i].body_b);
-    for (int i = 0; i < m->ntie; i++)
-        join(&g, m->tie[i].body_a, m->tie[i].body_b);
+    for (int i = 0; i < m->njoint; i++)
+        join(&g, m->joint[i].body_a, m->joint[i].body_b);
     for (int i = FW_SIX; i < m->npin && !*id; i++)
         if (!attach(&g, m->pin[i].body_a, m->pin[i].body_b)) *id = m->pin[i].id;
-    for (int i = 0; i < m->ntie && !*id; i++)
-        if (!attach(&g, m->tie[i].body_a, m->tie[i].body_b)) *id = m->tie[i].id;
+    for (int i = 0; i < m->njoint && !*id; i++)
+        if (!attach(&g, m->joint[i].body_a, m->joint[i].body_b)) *id = m->joint[i].id;
     for (int i = 0; i < m->ndriver && !*id; i++)
-        if (m->driver[i].joint != FW_NONE && m->driver[i].joint < FW_SIX) *id = m->driver[i].id;
+        if (m->driver[i].revolute != FW_NONE && m->driver[i].revolute < FW_SIX)
+            *id = m->driver[i].id;
     fw_arena_rewind(arena, mark);
     return FW_OK;
 }

@@ -9,46 +9,50 @@ enum { FW_TRIANGLES = 20 };
 /* With these three hinges passive and the other three driven, the platform cannot be held where the
    three are in line: twice the triangle's area is 0 there. The conditioning length is that over the
    triangle's longest side: the arm with which the least favourable force is held. */
-typedef struct fw_triangle {
+typedef struct fw_workspace_triangle {
     int hinge[3];
-    fw_interval area2_m2;    /* holds its value, at every pose */
-    fw_interval length_m;    /* holds the least conditioning length */
-    double pose[3];          /* where it is at most length_m.hi; x m, y m, phi rad */
-    bool regular;            /* proved: in line at no pose */
-    bool positive, negative; /* proved at poses of the set; both: singular in between */
-} fw_triangle;
+    fw_maths_interval area2_m2; /* holds its value, at every pose */
+    fw_maths_interval length_m; /* holds the least conditioning length */
+    double pose[3];             /* where it is at most length_m.hi; x m, y m, phi rad */
+    bool regular;               /* proved: in line at no pose */
+    bool positive, negative;    /* proved at poses of the set; both: singular in between */
+} fw_workspace_triangle;
 
-typedef struct fw_regularity {
-    fw_interval sine[2]; /* of the elbow's angle, left and right leg: 0 is a serial singularity */
+typedef struct fw_workspace_regularity {
+    fw_maths_interval
+        sine[2]; /* of the elbow's angle, left and right leg: 0 is a serial singularity */
     bool regular[2];
-    fw_triangle passive[FW_TRIANGLES];
+    fw_workspace_triangle passive[FW_TRIANGLES];
     long boxes;
-} fw_regularity;
+} fw_workspace_regularity;
 
-typedef struct fw_survey {
-    fw_regularity singular;               /* over the reachable set */
+typedef struct fw_workspace_survey {
+    fw_workspace_regularity singular;     /* over the reachable set */
     double share[FW_SIX];                 /* of the boundary, by hinge; adds up to 1; an estimate */
     double exponent;                      /* d ln V / d ln limits, an estimate */
-    fw_interval least[3], most[3];        /* where the ends of x, y (m) and phi (rad) lie, proved */
+    fw_maths_interval least[3], most[3];  /* where the ends of x, y (m) and phi (rad) lie, proved */
     double least_at[3][3], most_at[3][3]; /* poses near them, proved to be inside */
-} fw_survey;
+} fw_workspace_survey;
 
 /* boxes of 2^-level of the limits' ranges */
-fw_status fw_reach_survey(const fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                          int level, fw_survey *survey);
+fw_status fw_workspace_reach_survey(const fw_arena *arena, const fw_workspace_loop *loop,
+                                    const fw_workspace_reach_limits *limits, int level,
+                                    fw_workspace_survey *survey);
 /* the same singularities over a box of poses */
-fw_status fw_required_survey(const fw_arena *arena, const fw_loop *loop, const fw_box3 *box,
-                             fw_regularity *singular);
+fw_status fw_workspace_required_survey(const fw_arena *arena, const fw_workspace_loop *loop,
+                                       const fw_workspace_box3 *box,
+                                       fw_workspace_regularity *singular);
 
 /* ends of x, y and phi, each within `relative` of its distance from the drawn pose, or as near as
    `most` boxes lead */
-fw_status fw_reach_extents(fw_arena *arena, const fw_loop *loop, const fw_reach_limits *limits,
-                           double relative, long most, fw_survey *survey);
+fw_status fw_workspace_reach_extents(fw_arena *arena, const fw_workspace_loop *loop,
+                                     const fw_workspace_reach_limits *limits, double relative,
+                                     long most, fw_workspace_survey *survey);
 
-void fw_regularity_start(fw_regularity *singular);
+void fw_workspace_regularity_start(fw_workspace_regularity *singular);
 /* known: of a box that is not outside; `inside`: its middle is proved to belong to the set */
-void fw_regularity_add(const fw_loop *loop, fw_regularity *singular, const fw_loop_box *known,
-                       bool inside);
-void fw_regularity_end(fw_regularity *singular);
+void fw_workspace_regularity_add(const fw_workspace_loop *loop, fw_workspace_regularity *singular,
+                                 const fw_workspace_loop_box *known, bool inside);
+void fw_workspace_regularity_end(fw_workspace_regularity *singular);
 
 #endif

@@ -2,15 +2,15 @@
 /* Inverse kinematics of the six-bar ABCDEF and the hinge rotations over the required workspace. */
 #ifndef FW_WORKSPACE_WORKSPACE_H
 #define FW_WORKSPACE_WORKSPACE_H
-#include "maths/interval.h"
+#include "maths/maths_interval.h"
 #include "mechanism/mechanism.h"
 
 enum { FW_SIX = 6 };
 
 /* joint rotations (phi_b - phi_a, from the drawn pose) for a platform pose given as displacement of
    its centre of mass and rotation. false: out of reach, *leg is 0 (A-B-C) or 1 (F-E-D). */
-bool fw_six_bar_inverse(const fw_mechanism *mechanism, double x_m, double y_m, double phi_rad,
-                        double angle_rad[FW_SIX], int *leg);
+bool fw_workspace_six_bar_inverse(const fw_mechanism *mechanism, double x_m, double y_m,
+                                  double phi_rad, double angle_rad[FW_SIX], int *leg);
 
 typedef struct fw_workspace_peak {
     double angle_rad;         /* with its sign; certified: the far end of the proved range */
@@ -21,7 +21,7 @@ typedef struct fw_workspace_peak {
 typedef struct fw_workspace_extreme { /* a pose, and the range that its joint angle is proved to be
                                          in */
     double pose[3];                   /* x m, y m, phi rad */
-    fw_interval angle_rad;
+    fw_maths_interval angle_rad;
 } fw_workspace_extreme;
 
 /* One required box: every pose of it can be assembled on the drawn branch with every hinge's angle
@@ -31,7 +31,7 @@ typedef struct fw_workspace_extreme { /* a pose, and the range that its joint an
 typedef struct fw_workspace_proof {
     bool proved;
     double low[3], high[3];                           /* the box: x m, y m, phi rad */
-    fw_interval angle_rad[FW_SIX];                    /* holds the joint angle at every pose */
+    fw_maths_interval angle_rad[FW_SIX];              /* holds the joint angle at every pose */
     fw_workspace_extreme least[FW_SIX], most[FW_SIX]; /* near the ends of that range */
     const char *tree;
     long boxes; /* looked at */

@@ -4,7 +4,7 @@
    what it means in each. */
 #include "base/text.h"
 #include "quantity/law_kind.h"
-#include "xml/table.h"
+#include "xml/xml_table.h"
 #include <string.h>
 
 static const fw_quantity_law_attribute *find(const fw_quantity_law_kind *kind, const char *name) {
@@ -41,25 +41,25 @@ static const char *sentence_of(fw_arena *arena, const char *name) {
     return fw_text_end(&text) == FW_OK ? text.data : NULL;
 }
 
-static fw_attribute_row row_of(const fw_quantity_law_attribute *a) {
-    static const fw_kind kind[] = {[FW_QUANTITY_LAW_NUMBER] = FW_KIND_NUMBER,
-                                   [FW_QUANTITY_LAW_POINTS] = FW_KIND_TABLE,
-                                   [FW_QUANTITY_LAW_EXPRESSION] = FW_KIND_TIMED};
-    return (fw_attribute_row){.name = a->name,
-                              .kind = kind[a->form],
-                              .dimension = a->dimension,
-                              .unit = a->unit,
-                              .ranged = a->least < a->most,
-                              .open = a->open,
-                              .whole = a->whole,
-                              .min = a->least,
-                              .max = a->most,
-                              .reason = a->reason,
-                              .fallback = a->absent_text};
+static fw_xml_attribute_row row_of(const fw_quantity_law_attribute *a) {
+    static const fw_xml_kind kind[] = {[FW_QUANTITY_LAW_NUMBER] = FW_KIND_NUMBER,
+                                       [FW_QUANTITY_LAW_POINTS] = FW_KIND_TABLE,
+                                       [FW_QUANTITY_LAW_EXPRESSION] = FW_KIND_TIMED};
+    return (fw_xml_attribute_row){.name = a->name,
+                                  .kind = kind[a->form],
+                                  .dimension = a->dimension,
+                                  .unit = a->unit,
+                                  .ranged = a->least < a->most,
+                                  .open = a->open,
+                                  .whole = a->whole,
+                                  .min = a->least,
+                                  .max = a->most,
+                                  .reason = a->reason,
+                                  .fallback = a->absent_text};
 }
 
 /* "law" itself, a word among the names of the laws */
-static fw_status choice(fw_arena *arena, fw_attribute_row *row) {
+static fw_status choice(fw_arena *arena, fw_xml_attribute_row *row) {
     const char **words;
     size_t n = 0;
     while (fw_quantity_law_kinds[n])
@@ -67,18 +67,18 @@ static fw_status choice(fw_arena *arena, fw_attribute_row *row) {
     FW_NEED(words = fw_arena_array(arena, const char *, n + 1));
     for (size_t i = 0; i < n; i++)
         words[i] = fw_quantity_law_kinds[i]->name;
-    *row = (fw_attribute_row){.name = "law",
-                              .kind = FW_KIND_WORD,
-                              .words = words,
-                              .fallback = words[0],
-                              .sentence = "How it goes with time: one of those above."};
+    *row = (fw_xml_attribute_row){.name = "law",
+                                  .kind = FW_KIND_WORD,
+                                  .words = words,
+                                  .fallback = words[0],
+                                  .sentence = "How it goes with time: one of those above."};
     return FW_OK;
 }
 
 fw_status fw_xml_law_attributes(fw_arena *arena, fw_xml_attributes *all) {
-    fw_attribute_row *row;
+    fw_xml_attribute_row *row;
     int n = 0;
-    FW_NEED(row = fw_arena_array(arena, fw_attribute_row, FW_ATTRIBUTES_MOST));
+    FW_NEED(row = fw_arena_array(arena, fw_xml_attribute_row, FW_ATTRIBUTES_MOST));
     FW_TRY(choice(arena, &row[n++]));
     for (const fw_quantity_law_kind *const *kind = fw_quantity_law_kinds; *kind; kind++)
         for (int i = 0; i < (*kind)->attributes && n < FW_ATTRIBUTES_MOST; i++) {
@@ -91,14 +91,15 @@ fw_status fw_xml_law_attributes(fw_arena *arena, fw_xml_attributes *all) {
     return FW_OK;
 }
 
-fw_status fw_xml_attributes_of(fw_arena *arena, const fw_element_row *row, fw_xml_attributes *all) {
+fw_status fw_xml_attributes_of(fw_arena *arena, const fw_xml_element_row *row,
+                               fw_xml_attributes *all) {
     *all = (fw_xml_attributes){row->attribute, row->nattribute};
     if (!row->timed) return FW_OK;
     fw_xml_attributes law;
-    fw_attribute_row *both;
+    fw_xml_attribute_row *both;
     FW_TRY(fw_xml_law_attributes(arena, &law));
     size_t own = (size_t)row->nattribute, more = (size_t)law.count;
-    FW_NEED(both = fw_arena_array(arena, fw_attribute_row, own + more));
+    FW_NEED(both = fw_arena_array(arena, fw_xml_attribute_row, own + more));
     memcpy(both, row->attribute, own * sizeof *both);
     memcpy(both + own, law.item, more * sizeof *both);
     *all = (fw_xml_attributes){both, row->nattribute + law.count};

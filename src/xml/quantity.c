@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "xml/quantity.h"
+#include "xml/xml_quantity.h"
 #include "base/text.h"
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@ static const char *const status_words[] = {"stated",   "derived", "typical",
 static const char *const true_word[] = {"true", NULL};
 #define DECIMAL .kind = FW_KIND_DECIMAL
 #define SIZE    DECIMAL, .ranged = true, .max = 1e300, .reason = "it is a size"
-const fw_attribute_row fw_quantity_rows[FW_QUANTITY_ROWS] = {
+const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS] = {
     {"id", .datatype = "NCName", .required = true, .sentence = "Name that references use."},
     {"value", DECIMAL, .sentence = "In the unit; needed unless it is unknown."},
     {"u", SIZE, .sentence = "Standard uncertainty, in the unit; 0: exact."},
@@ -27,22 +27,22 @@ const fw_attribute_row fw_quantity_rows[FW_QUANTITY_ROWS] = {
     {"most", DECIMAL, .sentence = "Highest value that makes sense at all."},
 };
 
-static fw_place value_place(const fw_element *e, const char *name) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
+static fw_place value_place(const fw_xml_element *e, const char *name) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, name);
     return a ? a->place : e->place;
 }
 
-fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *diags,
-                          fw_source_text **source, int *nsource) {
+fw_status fw_xml_sources_read(fw_arena *arena, const fw_xml_element *parent, fw_diags *diags,
+                              fw_xml_source_text **source, int *nsource) {
     int count = 0;
     size_t before = diags->errors;
-    for (const fw_element *e = parent->first_child; e; e = e->next)
+    for (const fw_xml_element *e = parent->first_child; e; e = e->next)
         count += strcmp(e->name, "source") == 0;
     *nsource = 0;
-    FW_NEED(*source = fw_arena_array(arena, fw_source_text, (size_t)count));
-    for (const fw_element *e = parent->first_child; e; e = e->next) {
+    FW_NEED(*source = fw_arena_array(arena, fw_xml_source_text, (size_t)count));
+    for (const fw_xml_element *e = parent->first_child; e; e = e->next) {
         if (strcmp(e->name, "source") != 0) continue;
-        const fw_attribute *id = fw_xml_attribute(e, "id");
+        const fw_xml_attribute *id = fw_xml_attribute_of(e, "id");
         if (!id || !id->value[0]) {
             fw_diag_error(diags, 43, e->place, "<source> has no id; add id=\"...\"");
             continue;
@@ -54,15 +54,15 @@ fw_status fw_sources_read(fw_arena *arena, const fw_element *parent, fw_diags *d
             fw_diag_error(diags, 45, id->place, "source '%s' is given twice; rename one",
                           id->value);
         else
-            (*source)[(*nsource)++] = (fw_source_text){id->value, e->text};
+            (*source)[(*nsource)++] = (fw_xml_source_text){id->value, e->text};
     }
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 
-static void check_names(const fw_element *e, fw_diags *diags) {
+static void check_names(const fw_xml_element *e, fw_diags *diags) {
     const char *known[FW_QUANTITY_ROWS];
     for (int k = 0; k < FW_QUANTITY_ROWS; k++)
-        known[k] = fw_quantity_rows[k].name;
+        known[k] = fw_xml_quantity_rows[k].name;
     for (int i = 0; i < e->nattribute; i++) {
         int found = 0;
         for (int k = 0; k < FW_QUANTITY_ROWS; k++)
@@ -78,8 +78,8 @@ static void check_names(const fw_element *e, fw_diags *diags) {
 }
 
 /* 1 when present and a number; absent leaves *value NaN without a word */
-static int number(const fw_element *e, const char *name, fw_diags *diags, double *value) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
+static int number(const fw_xml_element *e, const char *name, fw_diags *diags, double *value) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, name);
     *value = (double)NAN;
     if (!a) return 0;
     if (fw_number_parse(a->value, strlen(a->value), value)) return 1;
@@ -91,11 +91,12 @@ static int number(const fw_element *e, const char *name, fw_diags *diags, double
     return 0;
 }
 
-static void read_unit(const fw_element *e, fw_diags *diags, fw_quantity *q, fw_unit *unit) {
-    const fw_attribute *a = fw_xml_attribute(e, "unit");
+static void read_unit(const fw_xml_element *e, fw_diags *diags, fw_quantity *q,
+                      fw_quantity_unit *unit) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "unit");
     const char *wrong;
     size_t wrong_n;
-    *unit = (fw_unit){.factor = 1.0};
+    *unit = (fw_quantity_unit){.factor = 1.0};
     if (!a) {
         fw_diag_error(diags, 43, e->place,
                       "<q> has no unit; add unit=\"...\" (unit=\"1\" for a pure "
@@ -103,34 +104,34 @@ static void read_unit(const fw_element *e, fw_diags *diags, fw_quantity *q, fw_u
         return;
     }
     q->unit = a->value;
-    if (fw_unit_parse(a->value, strlen(a->value), unit, &wrong, &wrong_n)) {
+    if (fw_quantity_unit_parse(a->value, strlen(a->value), unit, &wrong, &wrong_n)) {
         q->dimension = unit->dimension;
         return;
     }
-    const char *better = fw_unit_suggestion(wrong, wrong_n, NULL);
+    const char *better = fw_quantity_unit_suggestion(wrong, wrong_n, NULL);
     fw_diag_error(diags, 21, fw_xml_inside(a, (size_t)(wrong - a->value)),
                   "unknown unit '%.*s' in \"%s\"%s%s%s", (int)wrong_n, wrong, a->value,
                   better ? "; did you mean '" : "", better ? better : "",
                   better ? "'?" : "; the symbols are listed in docs/reference/device.md");
 }
 
-static void read_status(const fw_element *e, fw_diags *diags, fw_quantity *q) {
-    const fw_attribute *a = fw_xml_attribute(e, "status");
+static void read_status(const fw_xml_element *e, fw_diags *diags, fw_quantity *q) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "status");
     q->status = FW_ASSUMED;
     if (!a)
         fw_diag_error(diags, 43, e->place,
                       "<q> has no status; add status=\"measured\", stated, "
                       "derived, typical or assumed");
-    else if (!fw_value_status_parse(a->value, &q->status))
+    else if (!fw_quantity_value_status_parse(a->value, &q->status))
         fw_diag_error(diags, 48, a->place,
                       "status \"%s\" is not one of measured, stated, derived, "
                       "typical, assumed",
                       a->value);
 }
 
-static void read_source(const fw_element *e, const fw_source_text *source, int nsource,
+static void read_source(const fw_xml_element *e, const fw_xml_source_text *source, int nsource,
                         fw_diags *diags, fw_quantity *q) {
-    const fw_attribute *a = fw_xml_attribute(e, "src");
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "src");
     q->source = "";
     if (!a) {
         fw_diag_error(diags, 43, e->place,
@@ -148,8 +149,8 @@ static void read_source(const fw_element *e, const fw_source_text *source, int n
 }
 
 /* exactly one of u, urel, lo with hi */
-static void read_uncertainty(const fw_element *e, fw_diags *diags, double written,
-                             const fw_unit *unit, fw_quantity *q) {
+static void read_uncertainty(const fw_xml_element *e, fw_diags *diags, double written,
+                             const fw_quantity_unit *unit, fw_quantity *q) {
     double u, urel, lo, hi;
     size_t before = diags->errors;
     int has_u = number(e, "u", diags, &u), has_urel = number(e, "urel", diags, &urel);
@@ -173,12 +174,12 @@ static void read_uncertainty(const fw_element *e, fw_diags *diags, double writte
         return;
     }
     double wide = has_u ? u : has_urel ? urel * fabs(written) : (hi - lo) / sqrt(12.0);
-    fw_unit scale = *unit;
+    fw_quantity_unit scale = *unit;
     scale.offset = 0.0; /* a width has no zero point */
-    q->uncertainty = fw_unit_to_si(&scale, wide);
+    q->uncertainty = fw_quantity_unit_to_si(&scale, wide);
     if (has_lo) {
         q->interval = true;
-        q->low = fw_unit_to_si(unit, lo), q->high = fw_unit_to_si(unit, hi);
+        q->low = fw_quantity_unit_to_si(unit, lo), q->high = fw_quantity_unit_to_si(unit, hi);
     }
     if (!isfinite(q->uncertainty)) {
         q->uncertainty = 0.0;
@@ -186,8 +187,9 @@ static void read_uncertainty(const fw_element *e, fw_diags *diags, double writte
     }
 }
 
-static void read_value(const fw_element *e, fw_diags *diags, const fw_unit *unit, fw_quantity *q) {
-    const fw_attribute *unknown = fw_xml_attribute(e, "unknown");
+static void read_value(const fw_xml_element *e, fw_diags *diags, const fw_quantity_unit *unit,
+                       fw_quantity *q) {
+    const fw_xml_attribute *unknown = fw_xml_attribute_of(e, "unknown");
     if (unknown) {
         q->unknown = true;
         if (strcmp(unknown->value, "true") != 0)
@@ -195,20 +197,20 @@ static void read_value(const fw_element *e, fw_diags *diags, const fw_unit *unit
                           "unknown=\"%s\"; only unknown=\"true\" has a "
                           "meaning, else leave it out",
                           unknown->value);
-        if (fw_xml_attribute(e, "value"))
+        if (fw_xml_attribute_of(e, "value"))
             fw_diag_error(diags, 70, value_place(e, "value"),
                           "a value and unknown=\"true\" exclude "
                           "each other; remove one");
         return;
     }
     double written;
-    if (!fw_xml_attribute(e, "value")) {
+    if (!fw_xml_attribute_of(e, "value")) {
         fw_diag_error(diags, 43, e->place,
                       "<q> has no value; add value=\"...\" or unknown=\"true\"");
         return;
     }
     if (!number(e, "value", diags, &written)) return;
-    q->value = fw_unit_to_si(unit, written);
+    q->value = fw_quantity_unit_to_si(unit, written);
     if (!isfinite(q->value)) {
         fw_diag_error(diags, 28, value_place(e, "value"), "the value is too large in SI units");
         return;
@@ -216,7 +218,7 @@ static void read_value(const fw_element *e, fw_diags *diags, const fw_unit *unit
     read_uncertainty(e, diags, written, unit, q);
 }
 
-bool fw_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags) {
+bool fw_xml_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags) {
     bool given = range->least != 0.0 || range->most != 0.0;
     if (!given || q->unknown || (q->value >= range->least && q->value <= range->most)) return true;
     char value[32], least[32], most[32];
@@ -235,7 +237,8 @@ bool fw_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_
 }
 
 /* least and most, both or none */
-static void read_range(const fw_element *e, fw_diags *diags, const fw_unit *unit, fw_quantity *q) {
+static void read_range(const fw_xml_element *e, fw_diags *diags, const fw_quantity_unit *unit,
+                       fw_quantity *q) {
     double least, most;
     size_t before = diags->errors;
     int has_least = number(e, "least", diags, &least), has_most = number(e, "most", diags, &most);
@@ -245,25 +248,26 @@ static void read_range(const fw_element *e, fw_diags *diags, const fw_unit *unit
                       "a plausible range needs least and most, the smaller one first");
         return;
     }
-    q->least = fw_unit_to_si(unit, least);
-    q->most = fw_unit_to_si(unit, most);
-    fw_quantity_check_range(q, q, diags);
+    q->least = fw_quantity_unit_to_si(unit, least);
+    q->most = fw_quantity_unit_to_si(unit, most);
+    fw_xml_quantity_check_range(q, q, diags);
 }
 
-fw_status fw_quantity_read(fw_arena *arena, const fw_element *element, const fw_source_text *source,
-                           int nsource, fw_diags *diags, fw_quantity *q) {
+fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
+                               const fw_xml_source_text *source, int nsource, fw_diags *diags,
+                               fw_quantity *q) {
     (void)arena;
     size_t before = diags->errors;
     *q = (fw_quantity){.unit = "", .source = "", .place = element->place};
     check_names(element, diags);
-    const fw_attribute *id = fw_xml_attribute(element, "id");
-    const fw_attribute *note = fw_xml_attribute(element, "note");
+    const fw_xml_attribute *id = fw_xml_attribute_of(element, "id");
+    const fw_xml_attribute *note = fw_xml_attribute_of(element, "note");
     if (!id || !id->value[0])
         fw_diag_error(diags, 43, element->place, "<q> has no id; add id=\"...\"");
     else
         q->id = id->value;
     q->note = note ? note->value : NULL;
-    fw_unit unit;
+    fw_quantity_unit unit;
     read_unit(element, diags, q, &unit);
     read_status(element, diags, q);
     read_source(element, source, nsource, diags, q);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which elements and attributes there are, and which are missing. */
 #include "base/text.h"
-#include "xml/reader.h"
+#include "xml/xml_reader.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- rows of a table ---- */
 
-const fw_element_row *fw_xml_row_at(const fw_xml_table *table, int i) {
+const fw_xml_element_row *fw_xml_row_at(const fw_xml_table *table, int i) {
     for (int k = 0; table->part[k] && i >= 0; k++)
-        for (const fw_element_row *row = table->part[k]; row->name; row++)
+        for (const fw_xml_element_row *row = table->part[k]; row->name; row++)
             if (i-- == 0) return row;
     return NULL;
 }
@@ -18,16 +18,16 @@ const fw_element_row *fw_xml_row_at(const fw_xml_table *table, int i) {
 int fw_xml_row_index(const fw_xml_table *table, const char *name) {
     int i = 0;
     for (int k = 0; table->part[k]; k++)
-        for (const fw_element_row *row = table->part[k]; row->name; row++, i++)
+        for (const fw_xml_element_row *row = table->part[k]; row->name; row++, i++)
             if (strcmp(row->name, name) == 0) return i;
     return -1;
 }
 
-const fw_element_row *fw_xml_row_find(const fw_xml_table *table, const char *name) {
+const fw_xml_element_row *fw_xml_row_find(const fw_xml_table *table, const char *name) {
     return fw_xml_row_at(table, fw_xml_row_index(table, name));
 }
 
-bool fw_xml_row_inside(const fw_element_row *row, const char *parent) {
+bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent) {
     if (!parent[0]) return !row->parent[0];
     size_t n = strlen(parent), length;
     for (const char *at = row->parent; *at; at += length + (at[length] == ' ')) {
@@ -37,21 +37,22 @@ bool fw_xml_row_inside(const fw_element_row *row, const char *parent) {
     return false;
 }
 
-const fw_xml_numbers *fw_xml_numbers_of(const fw_xml_reader *r, const fw_element_row *row) {
+const fw_xml_numbers *fw_xml_numbers_of(const fw_xml_reader *r, const fw_xml_element_row *row) {
     return row && row->numbers ? row->numbers : &r->table->numbers;
 }
 
 /* ---- from elements to records ---- */
 
-static void unknown_element(fw_xml_reader *r, const fw_element *e, const fw_element_row *inside) {
+static void unknown_element(fw_xml_reader *r, const fw_xml_element *e,
+                            const fw_xml_element_row *inside) {
     const char *parent = inside ? inside->name : "";
     const int number = fw_xml_numbers_of(r, inside)->element;
     const char *names[FW_ELEMENTS_MOST];
     size_t n = 0;
-    const fw_element_row *row;
+    const fw_xml_element_row *row;
     for (int i = 0; (row = fw_xml_row_at(r->table, i)) != NULL && n < FW_ELEMENTS_MOST; i++)
         if (fw_xml_row_inside(row, parent)) names[n++] = row->name;
-    const char *better = fw_full(r->diags) ? NULL : fw_did_you_mean(e->name, names, n);
+    const char *better = fw_xml_full(r->diags) ? NULL : fw_did_you_mean(e->name, names, n);
     r->unknown_element = true;
     if (better) { /* what it would have declared is not missed again */
         r->broken[fw_xml_row_find(r->table, better)->space] = true;
@@ -69,8 +70,8 @@ static void unknown_element(fw_xml_reader *r, const fw_element *e, const fw_elem
 
 /* an attribute that was probably meant counts as there and failed, so that it is not missed again
  */
-static void unknown_attribute(fw_xml_reader *r, fw_record *record, const fw_attribute *a) {
-    const fw_element_row *row = record->row;
+static void unknown_attribute(fw_xml_reader *r, fw_xml_record *record, const fw_xml_attribute *a) {
+    const fw_xml_element_row *row = record->row;
     const fw_xml_numbers *numbers = fw_xml_numbers_of(r, row);
     const fw_place place = numbers->at_value ? a->place : a->name_place;
     char list[512] = "it has none";
@@ -78,7 +79,7 @@ static void unknown_attribute(fw_xml_reader *r, fw_record *record, const fw_attr
     int best = -1, least = 3;
     for (int i = 0; i < record->nattribute; i++) {
         const char *name = record->attribute[i].name;
-        int distance = fw_full(r->diags) ? 3 : fw_edit_distance(a->name, name, 2);
+        int distance = fw_xml_full(r->diags) ? 3 : fw_edit_distance(a->name, name, 2);
         if (distance < least && (size_t)distance < strlen(name)) {
             least = distance;
             best = i;
@@ -96,10 +97,10 @@ static void unknown_attribute(fw_xml_reader *r, fw_record *record, const fw_attr
                       "<%s> has no attribute '%.64s'; known are: %s", row->name, a->name, list);
 }
 
-static void read_attributes(fw_xml_reader *r, fw_record *record) {
-    const fw_element_row *row = record->row;
+static void read_attributes(fw_xml_reader *r, fw_xml_record *record) {
+    const fw_xml_element_row *row = record->row;
     for (int i = 0; i < record->element->nattribute; i++) {
-        const fw_attribute *a = &record->element->attribute[i];
+        const fw_xml_attribute *a = &record->element->attribute[i];
         int k = 0;
         while (k < record->nattribute && strcmp(record->attribute[k].name, a->name) != 0)
             k++;
@@ -111,7 +112,7 @@ static void read_attributes(fw_xml_reader *r, fw_record *record) {
     if (row->apart) return;
     for (int k = 0; k < record->nattribute; k++) {
         fw_xml_cell *cell = &record->cell[k];
-        const fw_attribute_row *attribute = &record->attribute[k];
+        const fw_xml_attribute_row *attribute = &record->attribute[k];
         if (cell->given) {
             cell->missing = false;
             continue;
@@ -129,16 +130,16 @@ static void read_attributes(fw_xml_reader *r, fw_record *record) {
 typedef struct walk {
     fw_xml_reader *r;
     int seen[FW_ELEMENTS_MOST]; /* per row of the table */
-    const fw_element
+    const fw_xml_element
         *once[FW_ELEMENTS_MOST]; /* the last one of a row that may stand once in its parent */
     bool needs;                  /* some row of the table is one that must be there */
 } walk;
 
 /* how often an element may stand: once in its parent, or `most` in the file */
-static bool too_often(walk *w, const fw_element *e, const fw_element_row *row, size_t k) {
+static bool too_often(walk *w, const fw_xml_element *e, const fw_xml_element_row *row, size_t k) {
     fw_xml_reader *r = w->r;
     if (row->once) {
-        const fw_element *first = w->once[k];
+        const fw_xml_element *first = w->once[k];
         if (first && first->parent == e->parent) {
             fw_diag_error(r->diags, fw_xml_numbers_of(r, row)->once, e->place,
                           "<%s> is given twice (first at line %d); one is allowed, so remove one",
@@ -154,14 +155,14 @@ static bool too_often(walk *w, const fw_element *e, const fw_element_row *row, s
     return true;
 }
 
-static fw_status read_element(walk *w, fw_element *e, int parent);
+static fw_status read_element(walk *w, fw_xml_element *e, int parent);
 
 /* what must stand in an element at least once */
-static void check_needed(fw_xml_reader *r, const fw_element *e, const fw_element_row *row) {
-    const fw_element_row *child;
+static void check_needed(fw_xml_reader *r, const fw_xml_element *e, const fw_xml_element_row *row) {
+    const fw_xml_element_row *child;
     for (int i = 0; (child = fw_xml_row_at(r->table, i)) != NULL; i++) {
         if (!child->needed || !fw_xml_row_inside(child, row->name)) continue;
-        const fw_element *c = e->first_child;
+        const fw_xml_element *c = e->first_child;
         while (c && strcmp(c->name, child->name) != 0)
             c = c->next;
         if (!c)
@@ -170,14 +171,15 @@ static void check_needed(fw_xml_reader *r, const fw_element *e, const fw_element
     }
 }
 
-static fw_status read_children(walk *w, fw_element *e, const fw_element_row *row, int self) {
-    for (fw_element *child = e->first_child; child; child = child->next)
+static fw_status read_children(walk *w, fw_xml_element *e, const fw_xml_element_row *row,
+                               int self) {
+    for (fw_xml_element *child = e->first_child; child; child = child->next)
         FW_TRY(read_element(w, child, self));
     if (w->needs) check_needed(w->r, e, row);
     return FW_OK;
 }
 
-static fw_status add_record(fw_xml_reader *r, fw_element *e, const fw_element_row *row,
+static fw_status add_record(fw_xml_reader *r, fw_xml_element *e, const fw_xml_element_row *row,
                             int parent) {
     if (r->nrecord == r->capacity) {
         int more = r->capacity ? 2 * r->capacity : 64;
@@ -191,7 +193,7 @@ static fw_status add_record(fw_xml_reader *r, fw_element *e, const fw_element_ro
         if (!kept->item) FW_TRY(fw_xml_attributes_of(r->arena, row, kept));
         all = *kept;
     }
-    fw_record record = {
+    fw_xml_record record = {
         .element = e, .row = row, .attribute = all.item, .nattribute = all.count, .parent = parent};
     FW_NEED(record.cell = fw_arena_array(r->arena, fw_xml_cell, (size_t)record.nattribute));
     read_attributes(r, &record);
@@ -200,10 +202,11 @@ static fw_status add_record(fw_xml_reader *r, fw_element *e, const fw_element_ro
 }
 
 /* the row of an element in its parent; NULL: it does not belong there, which is reported */
-static const fw_element_row *row_of(walk *w, const fw_element *e, const fw_element_row *inside) {
+static const fw_xml_element_row *row_of(walk *w, const fw_xml_element *e,
+                                        const fw_xml_element_row *inside) {
     fw_xml_reader *r = w->r;
     int index = fw_xml_row_index(r->table, e->name);
-    const fw_element_row *row = fw_xml_row_at(r->table, index);
+    const fw_xml_element_row *row = fw_xml_row_at(r->table, index);
     const char *parent = inside ? inside->name : "";
     if (!row) {
         unknown_element(r, e, inside);
@@ -220,16 +223,16 @@ static const fw_element_row *row_of(walk *w, const fw_element *e, const fw_eleme
     return too_often(w, e, row, (size_t)index) ? NULL : row;
 }
 
-static fw_status read_element(walk *w, fw_element *e, int parent) {
+static fw_status read_element(walk *w, fw_xml_element *e, int parent) {
     fw_xml_reader *r = w->r;
-    const fw_element_row *row = row_of(w, e, parent < 0 ? NULL : r->record[parent].row);
+    const fw_xml_element_row *row = row_of(w, e, parent < 0 ? NULL : r->record[parent].row);
     if (!row) return FW_OK;
     if (e->text[0] && !row->text)
         fw_diag_error(r->diags, fw_xml_numbers_of(r, row)->text, e->text_place,
                       "text is not expected inside <%s>; values stand in attributes, remarks in "
                       "<!-- -->",
                       e->name);
-    const fw_element_row *own = row;
+    const fw_xml_element_row *own = row;
     if (row->specialise) FW_TRY(row->specialise(r, e, &own));
     if (!own) return FW_OK;
     int self = r->nrecord;
@@ -239,7 +242,7 @@ static fw_status read_element(walk *w, fw_element *e, int parent) {
 
 static fw_status check_root(fw_xml_reader *r) {
     const fw_xml_table *t = r->table;
-    const fw_element *root = r->root;
+    const fw_xml_element *root = r->root;
     if (strcmp(root->name, t->root) != 0)
         return fw_diag_error(r->diags, t->numbers.root, root->place,
                              "the file's first element is <%.64s>, a %s begins with <%s "
@@ -254,13 +257,13 @@ static fw_status check_root(fw_xml_reader *r) {
 
 fw_status fw_xml_records_read(fw_xml_reader *r) {
     walk w = {.r = r};
-    const fw_element_row *row;
+    const fw_xml_element_row *row;
     for (int i = 0; (row = fw_xml_row_at(r->table, i)) != NULL; i++)
         w.needs = w.needs || row->needed;
     FW_TRY(check_root(r));
     FW_TRY(read_element(&w, r->root, -1));
     for (int i = r->nrecord - 1; i > 0; i--) { /* backwards, so that the first comes first */
-        fw_record *parent = &r->record[r->record[i].parent];
+        fw_xml_record *parent = &r->record[r->record[i].parent];
         r->record[i].next = parent->first_child;
         parent->first_child = &r->record[i];
     }
@@ -272,7 +275,7 @@ fw_status fw_xml_records_read(fw_xml_reader *r) {
 typedef struct entry {
     int space;
     int within; /* record whose own ids these are, -1: of the whole file */
-    const fw_attribute *id;
+    const fw_xml_attribute *id;
     int order;
 } entry;
 
@@ -289,11 +292,11 @@ fw_status fw_xml_ids_check(fw_xml_reader *r) {
     FW_NEED(entries);
     size_t n = 0;
     for (int i = 0; i < r->nrecord; i++) {
-        const fw_record *record = &r->record[i];
+        const fw_xml_record *record = &r->record[i];
         const char *key = record->row->key;
-        if (record->row->space == 0 || !fw_text_of(record, key)) continue;
+        if (record->row->space == 0 || !fw_xml_text_of(record, key)) continue;
         entries[n++] = (entry){record->row->space, record->row->within ? record->parent : -1,
-                               fw_cell_of(record, key)->given, i};
+                               fw_xml_cell_of(record, key)->given, i};
     }
     qsort(entries, n, sizeof *entries, compare);
     for (size_t i = 1, first = 0; i < n; i++) {

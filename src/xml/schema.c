@@ -2,10 +2,10 @@
 /* What is generated from the rows of a table: schemas for editors and xmllint (the program itself
    does not use them), reference pages, and a list in JSON for forms. */
 #include "base/json.h"
-#include "xml/reader.h"
+#include "xml/xml_reader.h"
 #include <string.h>
 
-bool fw_kind_is_expression(fw_kind kind) {
+bool fw_xml_kind_is_expression(fw_xml_kind kind) {
     return kind == FW_KIND_NUMBER || kind == FW_KIND_ANY || kind == FW_KIND_TIMED ||
            kind == FW_KIND_TABLE;
 }
@@ -16,7 +16,7 @@ static void schema_pattern(fw_text *out, const char *pattern) {
     fw_text_printf(out, "<data type=\"string\"><param name=\"pattern\">%s</param></data>", pattern);
 }
 
-static void schema_decimal(fw_text *out, const fw_attribute_row *a) {
+static void schema_decimal(fw_text *out, const fw_xml_attribute_row *a) {
     fw_text_printf(out, "<data type=\"%s\">", a->whole ? "integer" : "double");
     if (a->ranged) {
         fw_text_printf(out, "<param name=\"min%slusive\">", a->open ? "Exc" : "Inc");
@@ -26,7 +26,7 @@ static void schema_decimal(fw_text *out, const fw_attribute_row *a) {
     fw_text_add(out, "</data>");
 }
 
-static void schema_value(fw_text *out, const fw_attribute_row *a) {
+static void schema_value(fw_text *out, const fw_xml_attribute_row *a) {
     if (a->kind == FW_KIND_WORD || a->kind == FW_KIND_WORDS) {
         const char *open = a->kind == FW_KIND_WORD ? "" : "<list><zeroOrMore>";
         fw_text_printf(out, "%s<choice>", open);
@@ -41,13 +41,13 @@ static void schema_value(fw_text *out, const fw_attribute_row *a) {
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_\\-]{0,63}");
     else if (a->kind == FW_KIND_NAME)
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_]{0,63}");
-    else if (fw_kind_is_expression(a->kind))
+    else if (fw_xml_kind_is_expression(a->kind))
         schema_pattern(out, "[ -~\\s]*\\S[ -~\\s]*");
     else
         fw_text_add(out, "<text/>");
 }
 
-static void schema_attribute(fw_text *out, const fw_attribute_row *a) {
+static void schema_attribute(fw_text *out, const fw_xml_attribute_row *a) {
     const char *open = a->required ? "" : "<optional>", *close = a->required ? "" : "</optional>";
     fw_text_printf(out, "      %s<attribute name=\"%s\">", open, a->name);
     schema_value(out, a);
@@ -55,8 +55,9 @@ static void schema_attribute(fw_text *out, const fw_attribute_row *a) {
 }
 
 /* in any order; how often each may stand only where some row says so */
-static void schema_children(const fw_xml_table *table, const fw_element_row *parent, fw_text *out) {
-    const fw_element_row *row;
+static void schema_children(const fw_xml_table *table, const fw_xml_element_row *parent,
+                            fw_text *out) {
+    const fw_xml_element_row *row;
     int count = 0;
     bool counted = false;
     for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
@@ -83,7 +84,7 @@ static void schema_children(const fw_xml_table *table, const fw_element_row *par
 }
 
 fw_status fw_xml_schema(const fw_xml_table *table, fw_text *out) {
-    const fw_element_row *e;
+    const fw_xml_element_row *e;
     fw_text_printf(out,
                    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                    "<!-- generated from %s; do not edit -->\n"
@@ -115,10 +116,10 @@ fw_status fw_xml_schema(const fw_xml_table *table, fw_text *out) {
 
 static void page_number(fw_text *out, double value, const char *unit) {
     char buffer[FW_LABEL];
-    fw_text_add(out, fw_in_unit(buffer, value, unit));
+    fw_text_add(out, fw_xml_in_unit(buffer, value, unit));
 }
 
-static void page_value(const fw_xml_table *table, const fw_attribute_row *a, fw_text *out) {
+static void page_value(const fw_xml_table *table, const fw_xml_attribute_row *a, fw_text *out) {
     switch (a->kind) {
     case FW_KIND_TEXT:
         fw_text_add(out, "text");
@@ -157,13 +158,13 @@ static void page_value(const fw_xml_table *table, const fw_attribute_row *a, fw_
         if (strcmp(a->unit, "1") == 0)
             fw_text_add(out, a->whole ? "whole number" : "pure number");
         else
-            fw_text_printf(out, "%s, e.g. in `%s`", fw_dimension_text(out->arena, a->dimension),
-                           a->unit);
+            fw_text_printf(out, "%s, e.g. in `%s`",
+                           fw_quantity_dimension_text(out->arena, a->dimension), a->unit);
         break;
     }
 }
 
-static void page_range(fw_text *out, const fw_attribute_row *a) {
+static void page_range(fw_text *out, const fw_xml_attribute_row *a) {
     if (!a->ranged) return;
     fw_text_add(out, a->open ? " Above " : " At least ");
     page_number(out, a->min, a->unit);
@@ -172,7 +173,7 @@ static void page_range(fw_text *out, const fw_attribute_row *a) {
     fw_text_printf(out, " (%s).", a->reason);
 }
 
-void fw_xml_page_attribute(const fw_xml_table *table, const fw_attribute_row *a, fw_text *out) {
+void fw_xml_page_attribute(const fw_xml_table *table, const fw_xml_attribute_row *a, fw_text *out) {
     fw_text_printf(out, "| `%s` | ", a->name);
     page_value(table, a, out);
     fw_text_printf(out, " | %s | %s",
@@ -184,7 +185,7 @@ void fw_xml_page_attribute(const fw_xml_table *table, const fw_attribute_row *a,
     fw_text_add(out, " |\n");
 }
 
-void fw_xml_page_element(const fw_element_row *e, fw_text *out) {
+void fw_xml_page_element(const fw_xml_element_row *e, fw_text *out) {
     fw_text_printf(out, "\n### `<%s>`\n\n%s", e->name, e->sentence);
     for (const char *at = e->parent; *at;) {
         size_t n = strcspn(at, " ");
@@ -209,22 +210,23 @@ static const char *const kind_text[] = {
     [FW_KIND_WORDS] = "words",   [FW_KIND_FORM] = "form",     [FW_KIND_DECIMAL] = "decimal"};
 
 /* in the unit of the row, to the digits that messages have */
-static void json_bound(fw_json *out, const char *key, const fw_attribute_row *a, double value) {
-    fw_unit unit = {.factor = 1.0};
-    if (a->unit && a->unit[0]) fw_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL);
+static void json_bound(fw_json *out, const char *key, const fw_xml_attribute_row *a, double value) {
+    fw_quantity_unit unit = {.factor = 1.0};
+    if (a->unit && a->unit[0]) fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL);
     if (a->ranged)
-        fw_json_number(out, key, fw_unit_from_si(&unit, value), 12);
+        fw_json_number(out, key, fw_quantity_unit_from_si(&unit, value), 12);
     else
         fw_json_null(out, key);
 }
 
-static void json_attribute(const fw_xml_table *table, const fw_attribute_row *a, fw_json *out) {
+static void json_attribute(const fw_xml_table *table, const fw_xml_attribute_row *a, fw_json *out) {
     bool fixed = a->kind == FW_KIND_NUMBER || a->kind == FW_KIND_TIMED;
     fw_json_object(out, NULL);
     fw_json_text(out, "name", a->name);
     fw_json_text(out, "type", kind_text[a->kind]);
-    fw_json_text(out, "unit", fw_kind_is_expression(a->kind) ? a->unit : NULL);
-    fw_json_text(out, "dimension", fixed ? fw_dimension_text(out->out->arena, a->dimension) : NULL);
+    fw_json_text(out, "unit", fw_xml_kind_is_expression(a->kind) ? a->unit : NULL);
+    fw_json_text(out, "dimension",
+                 fixed ? fw_quantity_dimension_text(out->out->arena, a->dimension) : NULL);
     fw_json_text(out, "default", a->fallback);
     json_bound(out, "minimum", a, a->min);
     json_bound(out, "maximum", a, a->max);
@@ -245,7 +247,8 @@ static void json_attribute(const fw_xml_table *table, const fw_attribute_row *a,
     fw_json_end(out);
 }
 
-static fw_status json_element(const fw_xml_table *table, const fw_element_row *row, fw_json *out) {
+static fw_status json_element(const fw_xml_table *table, const fw_xml_element_row *row,
+                              fw_json *out) {
     fw_xml_attributes all;
     FW_TRY(fw_xml_attributes_of(out->out->arena, row, &all));
     fw_json_object(out, NULL);
@@ -271,7 +274,7 @@ static fw_status json_element(const fw_xml_table *table, const fw_element_row *r
 
 fw_status fw_xml_table_json(const fw_xml_table *table, fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
-    const fw_element_row *row;
+    const fw_xml_element_row *row;
     fw_json_list(out, NULL);
     for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
         fw_json_line(out, 0);

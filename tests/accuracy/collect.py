@@ -157,7 +157,7 @@ def hinge_costs(build):
     """instructions of every cheap level of every hinge"""
     program, found = build / "tests/accuracy/accuracy_levels", []
     for device in hinge_ladder.DEVICES:
-        said, status, parts = callgrind.count(program, [ROOT / "docs/gallery" / device / "device.xml"], "fw_ladder_climb")
+        said, status, parts = callgrind.count(program, [ROOT / "docs/gallery" / device / "device.xml"], "fw_plan_ladder_climb")
         names = list(csv.reader(io.StringIO(said)))
         if status or len(names) != len(parts):
             sys.exit(f"{device}: {len(names)} levels, {len(parts)} counted, status {status}")

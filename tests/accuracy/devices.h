@@ -21,7 +21,7 @@ static inline int survey_bounds_kind(uint64_t seed) {
 static inline void survey_stiffen(rig *r, uint64_t *seed) {
     int count = 1 + (rig_random(seed) < 0.4);
     for (int i = 0; i < count; i++) {
-        fw_pin *p = &r->m.pin[(int)(r->m.npin * rig_random(seed))];
+        fw_mechanism_pin *p = &r->m.pin[(int)(r->m.npin * rig_random(seed))];
         double factor = bounds_log(seed, 10, 1e7), zeta = bounds_log(seed, 1e-4, 1);
         p->stiffness_Nm_per_rad *= factor;
         if (rig_random(seed) < 0.7) /* of a body of some 1e-15 kg m^2 about the joint */

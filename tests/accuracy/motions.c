@@ -28,7 +28,7 @@ typedef struct truth {
 typedef struct job {
     fw_arena *arena;
     rig r;
-    fw_motion_options options;
+    fw_dynamics_motion_options options;
     const char *problem;
     int windows; /* 0: another problem */
     bool error;  /* there is a reference */
@@ -72,7 +72,7 @@ static double larger(double worst, double value) {
     return !(value <= worst) ? value : worst; /* not a number stays */
 }
 
-static void windows_errors(const job *j, const fw_motion *m, row *out) {
+static void windows_errors(const job *j, const fw_dynamics_motion *m, row *out) {
     const double *q = m->q + (size_t)(m->nsample - 1) * 3 * (size_t)m->nbody;
     double a = j->truth.angle, x = q[0] - .5 * sin(q[2]), y = q[1] + .5 * cos(q[2]);
     out->state = larger(fabs(x + sin(a)), fabs(y - cos(a)));
@@ -82,7 +82,7 @@ static void windows_errors(const job *j, const fw_motion *m, row *out) {
     out->peak = fabs(most / fabs(a) - 1);
 }
 
-static void other_errors(const job *j, const fw_motion *m, row *out) {
+static void other_errors(const job *j, const fw_dynamics_motion *m, row *out) {
     double most = 0;
     for (int p = 0; p < j->truth.npin; p++)
         most = larger(most, fabs(j->truth.peak[p]));
@@ -102,7 +102,7 @@ static void other_errors(const job *j, const fw_motion *m, row *out) {
     }
 }
 
-static void errors(const job *j, const fw_motion *m, row *out) {
+static void errors(const job *j, const fw_dynamics_motion *m, row *out) {
     double most = 0, said = 0;
     for (int p = 0; p < m->npin; p++) {
         most = larger(most, fabs(m->peak[p].angle_rad));
@@ -119,16 +119,17 @@ static void errors(const job *j, const fw_motion *m, row *out) {
 
 /* ---- one motion ---- */
 
-fw_status measured(job *j, fw_diags *diags, const fw_motion **m);
-__attribute__((noinline)) fw_status measured(job *j, fw_diags *diags, const fw_motion **m) {
-    return fw_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, diags, m);
+fw_status measured(job *j, fw_diags *diags, const fw_dynamics_motion **m);
+__attribute__((noinline)) fw_status measured(job *j, fw_diags *diags,
+                                             const fw_dynamics_motion **m) {
+    return fw_dynamics_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, diags, m);
 }
 
 static row move(job *j) {
     row out = {.state = (double)NAN, .peak = (double)NAN, .estimate = (double)NAN};
     fw_mark mark = fw_arena_mark(j->arena);
     fw_diags diags = fw_diags_new(j->arena);
-    const fw_motion *m = NULL;
+    const fw_dynamics_motion *m = NULL;
     double began = cpu_seconds();
     if (measured(j, &diags, &m) != FW_OK || !m) {
         static char text[256];
@@ -149,7 +150,7 @@ static row move(job *j) {
 /* A curve ends where a run took more evaluations than this: what lies beyond is dear everywhere. A
    number, not a time, so that every machine counts the same runs. */
 static long most_rhs(const job *j) {
-    const fw_motion_options *o = &j->options;
+    const fw_dynamics_motion_options *o = &j->options;
     bool dense = o->method && strcmp(o->method, "chain") != 0;
     bool dearest = o->integrator && strcmp(o->integrator, "gsl-bsimp") == 0;
     return dense || dearest ? 12000 : 60000;
@@ -184,7 +185,8 @@ static void curve(job *j, const wish *w, const char *setting) {
 
 /* NULL behind the last; the first integrator of the table is `auto` */
 static const char *setting_at(const char *kind, size_t i) {
-    return is(kind, "by-method") ? fw_method_at(i).name : fw_integrator_at(i + 1).name;
+    return is(kind, "by-method") ? fw_multibody_method_at(i).name
+                                 : fw_dynamics_integrator_at(i + 1).name;
 }
 
 static void curves(job *j, const wish *w) {
@@ -205,7 +207,7 @@ static bool set_up(job *j, const char *problem) {
     int n = 0;
     j->problem = problem;
     j->error = true;
-    j->options = (fw_motion_options){.samples = 2, .effects = {.mode = FW_EFFECTS_ALL}};
+    j->options = (fw_dynamics_motion_options){.samples = 2, .effects = {.mode = FW_EFFECTS_ALL}};
     if (is(problem, "six-bar")) {
         j->r = rig_six_bar(j->arena, false);
         j->options.samples = 11;

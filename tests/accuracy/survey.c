@@ -22,29 +22,31 @@ enum { INTEGRATORS = 3, MOST_STEPS = 100000 };
 typedef struct device {
     fw_arena *arena;
     bounds_device *d;
-    const fw_motion *truth;
+    const fw_dynamics_motion *truth;
     double size, unknown; /* largest deflection rad; what the truth may be off by, relative */
 } device;
 
-static const fw_motion *move(const device *d, const fw_motion_options *options) {
+static const fw_dynamics_motion *move(const device *d, const fw_dynamics_motion_options *options) {
     fw_diags diags = fw_diags_new(d->arena);
-    fw_motion_options o = *options;
-    const fw_motion *motion = NULL;
+    fw_dynamics_motion_options o = *options;
+    const fw_dynamics_motion *motion = NULL;
     if (o.most_steps == 0) o.most_steps = MOST_STEPS;
-    fw_status status = fw_move_scene(d->arena, &d->d->r.m, &d->d->r.scene, &o, &diags, &motion);
+    fw_status status =
+        fw_statics_move_scene(d->arena, &d->d->r.m, &d->d->r.scene, &o, &diags, &motion);
     return status == FW_OK ? motion : NULL;
 }
 
 /* one run alone, with all effects */
-static const fw_motion *alone(const device *d, const char *integrator, double rtol, long most) {
-    return move(d, &(fw_motion_options){.integrator = integrator,
-                                        .rtol = rtol,
-                                        .looser = 1,
-                                        .most_steps = most,
-                                        .effects = {.mode = FW_EFFECTS_ALL}});
+static const fw_dynamics_motion *alone(const device *d, const char *integrator, double rtol,
+                                       long most) {
+    return move(d, &(fw_dynamics_motion_options){.integrator = integrator,
+                                                 .rtol = rtol,
+                                                 .looser = 1,
+                                                 .most_steps = most,
+                                                 .effects = {.mode = FW_EFFECTS_ALL}});
 }
 
-static double apart(const fw_motion *a, const fw_motion *b) {
+static double apart(const fw_dynamics_motion *a, const fw_dynamics_motion *b) {
     double most = 0;
     for (int i = 0; i < a->npin; i++)
         most = fmax(most, fabs(fabs(a->peak[i].angle_rad) - fabs(b->peak[i].angle_rad)));
@@ -54,7 +56,7 @@ static double apart(const fw_motion *a, const fw_motion *b) {
 static bool find_truth(device *d) {
     d->truth = alone(d, NULL, 1e-13, 0);
     if (!d->truth) return false;
-    const fw_motion *other = alone(d, "gsl-rk8pd", 1e-12, 0);
+    const fw_dynamics_motion *other = alone(d, "gsl-rk8pd", 1e-12, 0);
     if (!other) other = alone(d, "radau5", 1e-11, 0);
     d->size = 0;
     for (int i = 0; i < d->truth->npin; i++)
@@ -93,7 +95,7 @@ static void search_grid(const device *d, survey_row row[SURVEY_ACCURACIES]) {
         for (int e = 1; e <= 12; e++) {
             fw_mark mark = fw_arena_mark(d->arena);
             const long most = steps_worth_it(d, row, stages[g], far);
-            const fw_motion *m = alone(d, survey_integrators[g], pow(10, -e), most);
+            const fw_dynamics_motion *m = alone(d, survey_integrators[g], pow(10, -e), most);
             double error = m ? apart(m, d->truth) / d->size : HUGE_VAL;
             double cost = m ? survey_cost(m, bodies) : HUGE_VAL;
             bool needed = false;
@@ -117,7 +119,7 @@ static void search_grid(const device *d, survey_row row[SURVEY_ACCURACIES]) {
 
 static void judge(const device *d, double accuracy, survey_row *row) {
     fw_mark mark = fw_arena_mark(d->arena);
-    const fw_motion *m = move(d, &(fw_motion_options){.accuracy = accuracy});
+    const fw_dynamics_motion *m = move(d, &(fw_dynamics_motion_options){.accuracy = accuracy});
     row->moved = m != NULL;
     if (m) {
         row->true_error = apart(m, d->truth) / d->size;
@@ -186,7 +188,7 @@ static int one(const char *seed, const char *integrator, const char *rtol) {
     static bounds_device made;
     device d = {.arena = fw_arena_new(0), .d = &made};
     int group;
-    const fw_motion *m = NULL;
+    const fw_dynamics_motion *m = NULL;
     if (survey_device(d.arena, strtoull(seed, NULL, 10), &made, &group))
         m = alone(&d, strcmp(integrator, "auto") == 0 ? NULL : integrator, strtod(rtol, NULL), 0);
     if (m)

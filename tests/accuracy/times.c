@@ -18,11 +18,11 @@ int main(void) {
         for (int a = 0; a < ACCURACIES; a++) {
             fw_mark mark = fw_arena_mark(arena);
             fw_diags diags = fw_diags_new(arena);
-            const fw_motion *m = NULL;
-            const fw_motion_options o = {
+            const fw_dynamics_motion *m = NULL;
+            const fw_dynamics_motion_options o = {
                 .accuracy = pow(10, -(a + 1)), .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
             double began = cpu_seconds();
-            if (fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m) != FW_OK) return 7;
+            if (fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m) != FW_OK) return 7;
             if (c >= 0) ms[a][c] = 1e3 * (cpu_seconds() - began);
             fw_arena_rewind(arena, mark);
         }

@@ -25,7 +25,7 @@ static void one(uint64_t seed) {
             fw_verdict v;
             letters[i] = '-';
             if (device_judge(arena, xml, accuracies[i], &v, &message) != FW_OK) continue;
-            letters[i] = *fw_decision_text(v.decision);
+            letters[i] = *fw_verdict_decision_text(v.decision);
             if (v.governing != FW_NONE) used = v.hinge[v.governing].utilisation;
         }
         printf("%llu,%s,%.6f\n", (unsigned long long)seed, letters, used);

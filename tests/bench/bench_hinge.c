@@ -18,11 +18,11 @@ enum { ROUNDS = 21 };
 typedef struct hinge {
     fw_flexure_input in;
     fw_flexure_result closed;
-    fw_hinge_law law;
-    fw_hinge_rest rest;
-    fw_beam_piece piece;
-    fw_beam beam;
-    fw_elastica *e;
+    fw_flexure_hinge_law law;
+    fw_flexure_hinge_rest rest;
+    fw_flexure_beam_piece piece;
+    fw_flexure_beam beam;
+    fw_flexure_elastica *e;
     double wrench[3], way[100][3]; /* way: twists of a loop of rotation and force */
     double used, worst;            /* worst: of the errors told */
     long passes, calls;
@@ -45,22 +45,22 @@ static void closed_form(hinge *h, long n) {
 }
 
 static void law_slopes(hinge *h, long n) {
-    fw_hinge_at at;
+    fw_flexure_hinge_at at;
     for (long i = 0; i < n; i++) {
-        fw_hinge_law_slopes(&h->law, &h->rest, 1e-3 * (double)(i & 255), &at);
+        fw_flexure_hinge_law_slopes(&h->law, &h->rest, 1e-3 * (double)(i & 255), &at);
         h->used += at.kx_N_per_m.slope + at.ky_N_per_m.slope + at.drift_m.slope;
     }
 }
 
 static void law_curves(hinge *h, long n) {
-    fw_hinge_at at;
+    fw_flexure_hinge_at at;
     for (long i = 0; i < n; i++) {
-        fw_hinge_law_at(&h->law, 1e-3 * (double)(i & 255), &at);
+        fw_flexure_hinge_law_at(&h->law, 1e-3 * (double)(i & 255), &at);
         h->used += at.kx_N_per_m.curve + at.ky_N_per_m.curve + at.drift_m.curve;
     }
 }
 
-static void look(hinge *h, const fw_elastica_result *at) {
+static void look(hinge *h, const fw_flexure_elastica_result *at) {
     h->used += at->wrench[0] + at->twist[1] + at->stiffness[0][0];
     h->worst = fmax(h->worst, at->error);
     h->passes += at->passes;
@@ -69,14 +69,14 @@ static void look(hinge *h, const fw_elastica_result *at) {
 }
 
 static void loop(hinge *h, long n, bool warm, bool wrench) {
-    fw_elastica_result at;
+    fw_flexure_elastica_result at;
     for (long i = 0; i < n; i++) {
         double a = 0.02 * M_PI * (double)(i % 100), c = cos(a), s = sin(a);
         if (wrench) {
             const double load[3] = {h->wrench[0] * s, h->wrench[1] * c, h->wrench[2] * s};
-            fw_elastica_of_wrench(h->e, load, 1e-8, warm, &at);
+            fw_flexure_elastica_of_wrench(h->e, load, 1e-8, warm, &at);
         } else {
-            fw_elastica_of_twist(h->e, h->way[i % 100], 1e-8, warm, &at);
+            fw_flexure_elastica_of_twist(h->e, h->way[i % 100], 1e-8, warm, &at);
         }
         look(h, &at);
     }
@@ -96,17 +96,17 @@ static void wrench_warm(hinge *h, long n) {
 }
 
 static void compliance(hinge *h, long n) {
-    fw_beam_linear out;
+    fw_flexure_beam_linear out;
     for (long i = 0; i < n; i++) {
-        fw_beam_compliance(&h->beam, &out);
+        fw_flexure_beam_compliance(&h->beam, &out);
         h->used += out.c[1][1];
     }
 }
 
 static void peak(hinge *h, long n) {
-    fw_elastica_state out;
+    fw_flexure_elastica_state out;
     for (long i = 0; i < n; i++) {
-        fw_elastica_peak_strain(h->e, &out);
+        fw_flexure_elastica_peak_strain(h->e, &out);
         h->used += out.strain[0];
     }
 }
@@ -149,18 +149,18 @@ static bool set_up(hinge *h, fw_arena *arena, bool leaf) {
                                .strength_Pa = 500e6,
                                .safety_factor = 1};
     fw_flexure_closed_form(&h->in, &h->closed);
-    fw_hinge_law_of(&h->in, &h->closed, &h->law);
-    h->rest = fw_hinge_rest_of(&h->law);
-    fw_beam_of_flexure(&h->in, &h->closed, &h->piece, &h->beam);
-    if (fw_elastica_new(arena, &h->beam, NULL, false, &h->e)) return false;
+    fw_flexure_hinge_law_of(&h->in, &h->closed, &h->law);
+    h->rest = fw_flexure_hinge_rest_of(&h->law);
+    fw_flexure_beam_of_flexure(&h->in, &h->closed, &h->piece, &h->beam);
+    if (fw_flexure_elastica_new(arena, &h->beam, NULL, false, &h->e)) return false;
     h->wrench[0] = 0.17 * h->closed.stiffness_Nm_per_rad;
     h->wrench[1] = h->wrench[2] = 100e-6;
     for (int i = 0; i < 100; i++) {
-        fw_elastica_result at;
+        fw_flexure_elastica_result at;
         double a = 0.02 * M_PI * i;
-        const fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
-                                       {0.17 * sin(a), 1e-4 * cos(a), 1e-4 * sin(a)}};
-        fw_elastica_solve(h->e, &task, 1e-10, false, &at);
+        const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                               {0.17 * sin(a), 1e-4 * cos(a), 1e-4 * sin(a)}};
+        fw_flexure_elastica_solve(h->e, &task, 1e-10, false, &at);
         if (at.code > FW_ELASTICA_ROUGH) return false;
         for (int k = 0; k < 3; k++)
             h->way[i][k] = at.twist[k];

@@ -5,7 +5,8 @@
      in a list  64 hinges that do not wait for each other, as when all of a mechanism are judged
      by one call  the same 64 by fw_flexure_closed_forms, which takes four arcs at once
    Inputs vary, so that branches are taken as they come. All of a result is worked out, the estimate
-   of its error too. A crystal is prepared once (fw_crystal_cubic: its moduli and the direction of
+   of its error too. A crystal is prepared once (fw_flexure_crystal_cubic: its moduli and the
+   direction of
    the hinge in it), as all hinges of a material and direction share it.
    `bench_hinge_closed CASE COUNT` evaluates one case (from 0) so many times and
    says nothing: what valgrind counts for two counts gives the instructions of one evaluation. */
@@ -44,7 +45,7 @@ static fw_flexure_input hinge_of(int kind) {
     if (kind == DEEP_ARC) in.depth_m = 85e-6;
     if (kind == LEAF || kind == LEAF_CRYSTAL) in.kind = FW_FLEXURE_LEAF;
     if (kind == ARC_CRYSTAL || kind == LEAF_CRYSTAL)
-        in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0.3);
+        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 0.3);
     return in;
 }
 
@@ -105,24 +106,24 @@ static double part(int kind) {
 
 static double law(int what) {
     fw_flexure_result out;
-    fw_hinge_law l;
+    fw_flexure_hinge_law l;
     fw_flexure_closed_form(&h1, &out);
-    fw_hinge_law_of(&h1, &out, &l);
-    const fw_hinge_rest rest = fw_hinge_rest_of(&l);
+    fw_flexure_hinge_law_of(&h1, &out, &l);
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&l);
     double carry = 0;
     for (int i = 0; i < repeat; i++) {
-        fw_hinge_at at;
+        fw_flexure_hinge_at at;
         double th = 0.001 * ((i & 511) - 256) + 1e-30 * carry;
         if (what == 2) {
             double twist[3] = {th, 1e-7, 2e-7}, wrench[3], tangent[3][3];
-            fw_hinge_law_wrench(&l, &rest, twist, wrench, tangent);
+            fw_flexure_hinge_law_wrench(&l, &rest, twist, wrench, tangent);
             carry = wrench[1] + tangent[0][1];
             continue;
         }
         if (what)
-            fw_hinge_law_at(&l, th, &at);
+            fw_flexure_hinge_law_at(&l, th, &at);
         else
-            fw_hinge_law_slopes(&l, &rest, th, &at);
+            fw_flexure_hinge_law_slopes(&l, &rest, th, &at);
         carry = at.kx_N_per_m.slope + at.drift_m.slope + at.ky_N_per_m.value;
     }
     return carry;

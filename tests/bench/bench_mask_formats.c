@@ -9,12 +9,12 @@
 enum { HINGES = 1000, VERTICES = 1000, ROW = 40 };
 static const double pitch_m = 400e-6, half_width_m = 5e-6;
 
-static fw_vec2 place(int k) {
-    return (fw_vec2){(k % ROW) * pitch_m, (k / ROW) * pitch_m};
+static fw_geometry_vec2 place(int k) {
+    return (fw_geometry_vec2){(k % ROW) * pitch_m, (k / ROW) * pitch_m};
 }
 
-static fw_point rounded(fw_vec2 p) {
-    return (fw_point){(int32_t)floor(p.x * 1e9 + .5), (int32_t)floor(p.y * 1e9 + .5)};
+static fw_geometry_point rounded(fw_geometry_vec2 p) {
+    return (fw_geometry_point){(int32_t)floor(p.x * 1e9 + .5), (int32_t)floor(p.y * 1e9 + .5)};
 }
 
 /* radius, start and sweep of hinge k: none like another */
@@ -24,27 +24,28 @@ static void form(int k, double *radius_m, double *start_rad, double *sweep_rad) 
     *sweep_rad = 3 + .002 * k;
 }
 
-static fw_polygon flat(fw_arena *arena, int k) {
-    fw_polygon p = {fw_arena_array(arena, fw_point, VERTICES), VERTICES};
+static fw_geometry_polygon flat(fw_arena *arena, int k) {
+    fw_geometry_polygon p = {fw_arena_array(arena, fw_geometry_point, VERTICES), VERTICES};
     double radius, start, sweep;
-    fw_vec2 o = place(k);
+    fw_geometry_vec2 o = place(k);
     form(k, &radius, &start, &sweep);
     for (int i = 0; p.vertex && i < VERTICES; i++) {
         int outer = i < VERTICES / 2, j = outer ? i : VERTICES - 1 - i;
         double r = radius + (outer ? half_width_m : -half_width_m);
         double angle = start + sweep * j / (VERTICES / 2 - 1);
-        p.vertex[i] = rounded((fw_vec2){o.x + r * cos(angle), o.y + r * sin(angle)});
+        p.vertex[i] = rounded((fw_geometry_vec2){o.x + r * cos(angle), o.y + r * sin(angle)});
     }
     return p;
 }
 
-static fw_contour chords(fw_arena *arena, const fw_polygon *p) {
-    fw_contour c = {fw_arena_array(arena, fw_segment, (size_t)p->count), p->count};
+static fw_geometry_contour chords(fw_arena *arena, const fw_geometry_polygon *p) {
+    fw_geometry_contour c = {fw_arena_array(arena, fw_geometry_segment, (size_t)p->count),
+                             p->count};
     for (int i = 0; c.segment && i < p->count; i++) {
-        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
-        c.segment[i] = (fw_segment){.kind = FW_LINE,
-                                    .a = {a.x_dbu * 1e-9, a.y_dbu * 1e-9},
-                                    .b = {b.x_dbu * 1e-9, b.y_dbu * 1e-9}};
+        fw_geometry_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        c.segment[i] = (fw_geometry_segment){.kind = FW_LINE,
+                                             .a = {a.x_dbu * 1e-9, a.y_dbu * 1e-9},
+                                             .b = {b.x_dbu * 1e-9, b.y_dbu * 1e-9}};
     }
     return c;
 }
@@ -70,7 +71,7 @@ static outcome write_once(void *context) {
 }
 
 static int build(fw_arena *arena, fw_mask_shape *shape, bool arcs) {
-    static const fw_piece piece = {.label = "hinge"};
+    static const fw_layout_piece piece = {.label = "hinge"};
     for (int k = 0; k < HINGES; k++) {
         double radius, start, sweep;
         form(k, &radius, &start, &sweep);
@@ -79,8 +80,9 @@ static int build(fw_arena *arena, fw_mask_shape *shape, bool arcs) {
         if (!shape[k].polygon.vertex) return 0;
         if (!arcs)
             shape[k].contour = chords(arena, &shape[k].polygon);
-        else if (fw_contour_ring_sector(arena, place(k), radius - half_width_m,
-                                        radius + half_width_m, start, sweep, &shape[k].contour))
+        else if (fw_geometry_contour_ring_sector(arena, place(k), radius - half_width_m,
+                                                 radius + half_width_m, start, sweep,
+                                                 &shape[k].contour))
             return 0;
         if (!shape[k].contour.segment) return 0;
     }

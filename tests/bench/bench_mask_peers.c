@@ -10,23 +10,25 @@ enum { HINGES = 1000, VERTICES = 1000, ROW = 100 };
 static const double PITCH_M = 300e-6, BIAS_M = 1.5e-6;
 
 /* two half circles of radius r on either side of a neck of 8 um, in a block; y0 upwards */
-static fw_status hinge(fw_arena *arena, int k, double r_m, fw_contour *out) {
+static fw_status hinge(fw_arena *arena, int k, double r_m, fw_geometry_contour *out) {
     double h = r_m + 4e-6, w = r_m + 20e-6;
-    fw_vec2 o = {k % ROW * PITCH_M, k / ROW * PITCH_M};
-    fw_outline c = fw_outline_start(arena, (fw_vec2){o.x - w, o.y - h});
-    fw_outline_line(&c, (fw_vec2){o.x - r_m, o.y - h}, 0);
-    fw_outline_arc_to(&c, (fw_vec2){o.x, o.y - h}, -acos(-1.0), (fw_vec2){o.x + r_m, o.y - h}, 0);
-    fw_outline_line(&c, (fw_vec2){o.x + w, o.y - h}, 0);
-    fw_outline_line(&c, (fw_vec2){o.x + w, o.y + h}, 0);
-    fw_outline_line(&c, (fw_vec2){o.x + r_m, o.y + h}, 0);
-    fw_outline_arc_to(&c, (fw_vec2){o.x, o.y + h}, -acos(-1.0), (fw_vec2){o.x - r_m, o.y + h}, 0);
-    fw_outline_line(&c, (fw_vec2){o.x - w, o.y + h}, 0);
-    return fw_outline_close(&c, out);
+    fw_geometry_vec2 o = {k % ROW * PITCH_M, k / ROW * PITCH_M};
+    fw_geometry_outline c = fw_geometry_outline_start(arena, (fw_geometry_vec2){o.x - w, o.y - h});
+    fw_geometry_outline_line(&c, (fw_geometry_vec2){o.x - r_m, o.y - h}, 0);
+    fw_geometry_outline_arc_to(&c, (fw_geometry_vec2){o.x, o.y - h}, -acos(-1.0),
+                               (fw_geometry_vec2){o.x + r_m, o.y - h}, 0);
+    fw_geometry_outline_line(&c, (fw_geometry_vec2){o.x + w, o.y - h}, 0);
+    fw_geometry_outline_line(&c, (fw_geometry_vec2){o.x + w, o.y + h}, 0);
+    fw_geometry_outline_line(&c, (fw_geometry_vec2){o.x + r_m, o.y + h}, 0);
+    fw_geometry_outline_arc_to(&c, (fw_geometry_vec2){o.x, o.y + h}, -acos(-1.0),
+                               (fw_geometry_vec2){o.x - r_m, o.y + h}, 0);
+    fw_geometry_outline_line(&c, (fw_geometry_vec2){o.x - w, o.y + h}, 0);
+    return fw_geometry_outline_close(&c, out);
 }
 
 typedef struct job {
     fw_arena *arena;
-    const fw_contour *contour; /* (HINGES) exact, as drawn */
+    const fw_geometry_contour *contour; /* (HINGES) exact, as drawn */
     double tolerance_m;
     fw_mask mask;
     const fw_mask_format *format;
@@ -37,10 +39,10 @@ typedef struct job {
 /* biased, flattened and rounded to the grid */
 static fw_status bias_all(job *j, fw_mask_shape *shape) {
     for (int k = 0; k < HINGES; k++) {
-        fw_contour moved;
+        fw_geometry_contour moved;
         int a, b;
-        FW_TRY(fw_contour_offset(j->arena, &j->contour[k], BIAS_M, &moved, &a, &b));
-        FW_TRY(fw_tessellate(j->arena, &moved, j->tolerance_m, &shape[k].polygon));
+        FW_TRY(fw_geometry_contour_offset(j->arena, &j->contour[k], BIAS_M, &moved, &a, &b));
+        FW_TRY(fw_geometry_tessellate(j->arena, &moved, j->tolerance_m, &shape[k].polygon));
     }
     return FW_OK;
 }
@@ -114,16 +116,16 @@ static bool read_input(job *j, const char *path) {
     FILE *file = fopen(path, "rb");
     bool good = file != NULL;
     for (int k = 0; good && k < HINGES; k++) {
-        fw_polygon *p = &j->mask.shape[k].polygon;
-        *p = (fw_polygon){fw_arena_array(j->arena, fw_point, VERTICES), VERTICES};
-        good = p->vertex && fread(p->vertex, sizeof(fw_point), VERTICES, file) == VERTICES;
+        fw_geometry_polygon *p = &j->mask.shape[k].polygon;
+        *p = (fw_geometry_polygon){fw_arena_array(j->arena, fw_geometry_point, VERTICES), VERTICES};
+        good = p->vertex && fread(p->vertex, sizeof(fw_geometry_point), VERTICES, file) == VERTICES;
     }
     if (file) fclose(file);
     return good;
 }
 
 /* radii, one to a line */
-static bool read_radii(job *j, fw_contour *contour, const char *path) {
+static bool read_radii(job *j, fw_geometry_contour *contour, const char *path) {
     FILE *file = fopen(path, "r");
     char line[64];
     int k = 0;
@@ -146,11 +148,12 @@ int main(int argc, char **argv) {
                                   .roles = 1};
     static const fw_mask_table table = {
         .flow = "bench", .reading = "chrome down", .layer = &layer, .nlayer = 1};
-    static const fw_piece piece = {.label = "hinge"};
+    static const fw_layout_piece piece = {.label = "hinge"};
     if (argc != 3) return 2;
     fw_arena *arena = fw_arena_new((size_t)2 << 30);
     fw_mask_shape *shape = arena ? fw_arena_array(arena, fw_mask_shape, HINGES) : NULL;
-    fw_contour *contour = arena ? fw_arena_array(arena, fw_contour, HINGES) : NULL;
+    fw_geometry_contour *contour =
+        arena ? fw_arena_array(arena, fw_geometry_contour, HINGES) : NULL;
     if (!shape || !contour) return 1;
     for (int k = 0; k < HINGES; k++)
         shape[k].piece = &piece;

@@ -7,7 +7,7 @@
    cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices [FILE]] */
 #include "geometry/segment.h"
 #include "mask/rule.h"
-#include "mask/rules.h"
+#include "mask/mask_rules.h"
 #include "mask/stream.h"
 #include <fcntl.h>
 #include <stdio.h>
@@ -37,19 +37,19 @@ static void must(bool fine, const char *what) {
 }
 
 /* the k-th of a square field, 300 um apart */
-static void hinge(fw_arena *arena, int k, uint64_t *seed, fw_contour *out) {
+static void hinge(fw_arena *arena, int k, uint64_t *seed, fw_geometry_contour *out) {
     double r = 1e-6 * (70 + 20 * uniform(seed)), w = 1e-6 * (6 + 4 * uniform(seed));
     double from = 6 * uniform(seed), sweep = 2.1 + 3.1 * uniform(seed);
-    fw_vec2 c = {3e-4 * (k % 316), 3e-4 * (k / 316)}; /* whole rows */
-    fw_vec2 at = {c.x + (r + w / 2) * cos(from), c.y + (r + w / 2) * sin(from)};
-    fw_vec2 a = {c.x + r * cos(from), c.y + r * sin(from)};
-    fw_vec2 b = {c.x + r * cos(from + sweep), c.y + r * sin(from + sweep)};
-    fw_outline o = fw_outline_start(arena, at);
-    fw_outline_arc(&o, c, sweep, 0);
-    fw_outline_arc(&o, b, FW_PI, 0);
-    fw_outline_arc(&o, c, -sweep, 0);
-    fw_outline_arc_to(&o, a, FW_PI, at, 0);
-    must(fw_outline_close(&o, out) == FW_OK, "a hinge");
+    fw_geometry_vec2 c = {3e-4 * (k % 316), 3e-4 * (k / 316)}; /* whole rows */
+    fw_geometry_vec2 at = {c.x + (r + w / 2) * cos(from), c.y + (r + w / 2) * sin(from)};
+    fw_geometry_vec2 a = {c.x + r * cos(from), c.y + r * sin(from)};
+    fw_geometry_vec2 b = {c.x + r * cos(from + sweep), c.y + r * sin(from + sweep)};
+    fw_geometry_outline o = fw_geometry_outline_start(arena, at);
+    fw_geometry_outline_arc(&o, c, sweep, 0);
+    fw_geometry_outline_arc(&o, b, FW_PI, 0);
+    fw_geometry_outline_arc(&o, c, -sweep, 0);
+    fw_geometry_outline_arc_to(&o, a, FW_PI, at, 0);
+    must(fw_geometry_outline_close(&o, out) == FW_OK, "a hinge");
 }
 
 typedef struct times {
@@ -69,9 +69,9 @@ static void print(const char *what, times *t, const char *of) {
 
 typedef struct field {
     fw_arena *arena;
-    fw_contour *drawn;
+    fw_geometry_contour *drawn;
     fw_mask_shape *shape;
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int n;
 } field;
 
@@ -79,13 +79,13 @@ static field new_field(int n) {
     field f = {.arena = fw_arena_new(0), .n = n};
     uint64_t seed = 1;
     must(f.arena, "memory");
-    f.drawn = fw_arena_array(f.arena, fw_contour, (size_t)n);
+    f.drawn = fw_arena_array(f.arena, fw_geometry_contour, (size_t)n);
     f.shape = fw_arena_array(f.arena, fw_mask_shape, (size_t)n);
-    f.piece = fw_arena_array(f.arena, fw_piece, (size_t)n);
+    f.piece = fw_arena_array(f.arena, fw_layout_piece, (size_t)n);
     must(f.drawn && f.shape && f.piece, "memory");
     for (int k = 0; k < n; k++) {
         hinge(f.arena, k, &seed, &f.drawn[k]);
-        f.piece[k] = (fw_piece){.contour = f.drawn[k], .label = "hinge"};
+        f.piece[k] = (fw_layout_piece){.contour = f.drawn[k], .label = "hinge"};
         f.shape[k] = (fw_mask_shape){.piece = &f.piece[k], .contour = f.drawn[k]};
     }
     return f;
@@ -94,8 +94,8 @@ static field new_field(int n) {
 static void bias(field *f) {
     int i, j;
     for (int k = 0; k < f->n; k++)
-        must(fw_contour_offset(f->arena, &f->drawn[k], bias_m, &f->shape[k].contour, &i, &j) ==
-                 FW_OK,
+        must(fw_geometry_contour_offset(f->arena, &f->drawn[k], bias_m, &f->shape[k].contour, &i,
+                                        &j) == FW_OK,
              "bias");
 }
 
@@ -120,13 +120,13 @@ static void bench_rules(field *f, const fw_mask_table *table) {
         fw_mark mark = fw_arena_mark(f->arena);
         double from = now_ms();
         must(fw_mask_join(f->arena, f->shape, f->n, &diags) == FW_OK, "joints");
-        fw_rules rules = {.arena = f->arena,
-                          .table = table,
-                          .shape = f->shape,
-                          .nshape = f->n,
-                          .tolerance_m = tolerance_m};
-        must(fw_rules_start(&rules, &measure) == FW_OK && fw_rules_check(&rules, false) == FW_OK &&
-                 rules.nfinding == 0,
+        fw_mask_rules rules = {.arena = f->arena,
+                               .table = table,
+                               .shape = f->shape,
+                               .nshape = f->n,
+                               .tolerance_m = tolerance_m};
+        must(fw_mask_rules_start(&rules, &measure) == FW_OK &&
+                 fw_mask_rules_check(&rules, false) == FW_OK && rules.nfinding == 0,
              "rules");
         t.ms[t.n++] = now_ms() - from;
         snprintf(found, sizeof found, "least width %.4f um", 1e6 * measure.width_m);
@@ -138,7 +138,8 @@ static void bench_rules(field *f, const fw_mask_table *table) {
 static void flatten(field *f, int n) {
     for (int k = 0; k < n; k++) {
         fw_mask_shape *s = &f->shape[k];
-        must(fw_tessellate(f->arena, &s->contour, tolerance_m, &s->polygon) == FW_OK, "flattening");
+        must(fw_geometry_tessellate(f->arena, &s->contour, tolerance_m, &s->polygon) == FW_OK,
+             "flattening");
         s->part = &s->polygon;
         s->npart = 1;
     }
@@ -152,7 +153,8 @@ static void bench_certificate(field *f) {
         double from = now_ms();
         for (int k = 0; k < f->n; k++) {
             fw_mask_shape *s = &f->shape[k];
-            must(fw_polygon_check(f->arena, &s->polygon, &s->report) == FW_OK && s->report.simple,
+            must(fw_geometry_polygon_check(f->arena, &s->polygon, &s->report) == FW_OK &&
+                     s->report.simple,
                  "certificate");
         }
         t.ms[t.n++] = now_ms() - from;
@@ -223,24 +225,26 @@ static void bench_stream(double vertices, const fw_mask_table *table, const char
         fw_text_reserve(&out, BUFFER);
         long count = 0, bytes = 0;
         double from = now_ms();
-        fw_gds_begin(&out, "FLEXWRIGHT");
-        fw_gds_cell_begin(&out, "FIELD");
+        fw_mask_gds_begin(&out, "FLEXWRIGHT");
+        fw_mask_gds_cell_begin(&out, "FIELD");
         for (int k = 0; k < n; k++) {
             fw_mark before = fw_arena_mark(f.arena);
-            fw_contour biased;
-            fw_polygon flat;
-            must(fw_contour_offset(f.arena, &f.drawn[k], bias_m, &biased, &i, &j) == FW_OK, "bias");
-            must(fw_tessellate(f.arena, &biased, tolerance_m, &flat) == FW_OK, "flattening");
+            fw_geometry_contour biased;
+            fw_geometry_polygon flat;
+            must(fw_geometry_contour_offset(f.arena, &f.drawn[k], bias_m, &biased, &i, &j) == FW_OK,
+                 "bias");
+            must(fw_geometry_tessellate(f.arena, &biased, tolerance_m, &flat) == FW_OK,
+                 "flattening");
             if (out.length + 64 + 8 * (size_t)flat.count > BUFFER) {
                 bytes += (long)out.length;
                 flush(&out, file);
             }
-            fw_gds_boundary(&out, &table->layer[0], &flat);
+            fw_mask_gds_boundary(&out, &table->layer[0], &flat);
             count += flat.count;
             fw_arena_rewind(f.arena, before);
         }
-        fw_gds_cell_end(&out);
-        fw_gds_end(&out);
+        fw_mask_gds_cell_end(&out);
+        fw_mask_gds_end(&out);
         bytes += (long)out.length;
         flush(&out, file);
         all.ms[all.n++] = now_ms() - from;

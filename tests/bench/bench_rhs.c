@@ -16,10 +16,10 @@ enum { ROUNDS = 15, CASES = 32 };
 
 typedef struct bench {
     const char *name, *label;
-    fw_model *model;
-    fw_kernel *kernel; /* NULL: the general code, or lanes */
+    fw_multibody_model *model;
+    fw_multibody_kernel *kernel; /* NULL: the general code, or lanes */
     bool project;
-    fw_lanes *lanes;
+    fw_multibody_lanes *lanes;
     double *y, *f, *start;
     double each; /* divide by: bodies or designs */
     long repeat;
@@ -32,12 +32,12 @@ static double now_ns(void) {
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-static fw_model *model_of(fw_arena *arena, const rig *r, double *topology_ms) {
+static fw_multibody_model *model_of(fw_arena *arena, const rig *r, double *topology_ms) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_choice choice = {0};
     fw_effect_ledger ledger;
-    fw_terms *terms = fw_arena_one(arena, fw_terms);
-    fw_model *m = NULL;
+    fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
+    fw_multibody_model *m = NULL;
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
     for (int b = 0; b < r->m.nbody; b++) {
         q[3 * b] = r->m.body[b].x_m;
@@ -45,33 +45,33 @@ static fw_model *model_of(fw_arena *arena, const rig *r, double *topology_ms) {
         q[3 * b + 2] = r->m.body[b].phi_rad;
     }
     double began = now_ns();
-    if (fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, terms) ||
-        fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, NULL, &diags, &m))
+    if (fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, loads) ||
+        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, NULL, &diags, &m))
         exit(1);
     if (topology_ms) *topology_ms = 1e-6 * (now_ns() - began);
     return m;
 }
 
 /* a state a little off the assembled pose, moving */
-static void set_state(bench *b, const fw_model *m, uint64_t seed) {
+static void set_state(bench *b, const fw_multibody_model *m, uint64_t seed) {
     for (int i = 0; i < m->ny; i++)
         b->y[i] = 0.1 * (rig_random(&seed) - 0.5);
 }
 
 static void once(bench *b) {
     if (b->lanes) {
-        fw_lanes_rhs(b->lanes, b->y, b->f);
-        const int w = fw_lanes_width(b->lanes), from = (b->model->nq + 2) * w;
+        fw_multibody_lanes_rhs(b->lanes, b->y, b->f);
+        const int w = fw_multibody_lanes_width(b->lanes), from = (b->model->nq + 2) * w;
         for (int i = 0; i < w; i++) /* an angle of every design in the first group */
             b->y[2 * w + i] += 1e-30 * b->f[from + i];
     } else if (b->project) {
         memcpy(b->y, b->start, (size_t)b->model->ny * sizeof *b->y);
-        if (!fw_kernel_project(b->kernel, b->y, b->f)) exit(1);
+        if (!fw_multibody_kernel_project(b->kernel, b->y, b->f)) exit(1);
     } else if (b->kernel) {
-        fw_kernel_rhs(b->kernel, b->y, b->f);
+        fw_multibody_kernel_rhs(b->kernel, b->y, b->f);
         b->y[2] += 1e-30 * b->f[b->model->nq + 2];
     } else {
-        fw_model_rhs(b->model, 0, b->y, b->f);
+        fw_multibody_model_rhs(b->model, 0, b->y, b->f);
         b->y[2] += 1e-30 * b->f[b->model->nq + 2];
     }
 }
@@ -87,8 +87,8 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static bench make(fw_arena *arena, const char *name, const char *label, fw_model *m,
-                  fw_kernel *kernel) {
+static bench make(fw_arena *arena, const char *name, const char *label, fw_multibody_model *m,
+                  fw_multibody_kernel *kernel) {
     bench b = {.name = name, .label = label, .model = m, .kernel = kernel};
     size_t n = (size_t)m->ny;
     b.y = fw_arena_array(arena, double, n);
@@ -100,27 +100,27 @@ static bench make(fw_arena *arena, const char *name, const char *label, fw_model
     return b;
 }
 
-static fw_kernel *kernel_of(fw_arena *arena, const fw_model *m, bool loop) {
-    fw_kernel *k = NULL;
-    if (fw_kernel_new(arena, m, &k) || !k) exit(1);
+static fw_multibody_kernel *kernel_of(fw_arena *arena, const fw_multibody_model *m, bool loop) {
+    fw_multibody_kernel *k = NULL;
+    if (fw_multibody_kernel_new(arena, m, &k) || !k) exit(1);
     if (!loop) k->core.loop = NULL;
     return k;
 }
 
-static bench make_lanes(fw_arena *arena, const fw_model *m, const char *set) {
+static bench make_lanes(fw_arena *arena, const fw_multibody_model *m, const char *set) {
     static char label[3][48];
     static int at = 0;
-    bench b = make(arena, set, label[at], (fw_model *)(uintptr_t)m, NULL);
-    const fw_model *eight[8] = {m, m, m, m, m, m, m, m};
-    if (fw_lanes_new(arena, eight, 8, set, &b.lanes)) exit(1);
-    b.y = fw_arena_array(arena, double, fw_lanes_size(b.lanes));
-    b.f = fw_arena_array(arena, double, fw_lanes_size(b.lanes));
+    bench b = make(arena, set, label[at], (fw_multibody_model *)(uintptr_t)m, NULL);
+    const fw_multibody_model *eight[8] = {m, m, m, m, m, m, m, m};
+    if (fw_multibody_lanes_new(arena, eight, 8, set, &b.lanes)) exit(1);
+    b.y = fw_arena_array(arena, double, fw_multibody_lanes_size(b.lanes));
+    b.f = fw_arena_array(arena, double, fw_multibody_lanes_size(b.lanes));
     double *y = fw_arena_array(arena, double, (size_t)m->ny);
     for (int d = 0; d < 8; d++) {
         uint64_t seed = (uint64_t)d;
         for (int i = 0; i < m->ny; i++)
             y[i] = 0.1 * (rig_random(&seed) - 0.5);
-        fw_lanes_put(b.lanes, d, y, b.y);
+        fw_multibody_lanes_put(b.lanes, d, y, b.y);
     }
     b.each = 8;
     snprintf(label[at], sizeof label[at], "six-bar, 8 designs, %s, per design", set);
@@ -133,8 +133,8 @@ static int make_all(fw_arena *arena, bench *b) {
     static char label[8][64];
     rig *six = fw_arena_one(arena, rig), *twice = fw_arena_one(arena, rig);
     *six = rig_six_bar(arena, false), *twice = rig_six_bar(arena, true);
-    fw_model *m = model_of(arena, six, NULL), *d = model_of(arena, twice, NULL);
-    fw_model *general = model_of(arena, six, NULL);
+    fw_multibody_model *m = model_of(arena, six, NULL), *d = model_of(arena, twice, NULL);
+    fw_multibody_model *general = model_of(arena, six, NULL);
     general->kernel = NULL;
     b[n++] = make(arena, "general", "six-bar, general code", general, NULL);
     b[n++] = make(arena, "blocks", "six-bar, 2 x 2 blocks", m, kernel_of(arena, m, false));
@@ -145,15 +145,15 @@ static int make_all(fw_arena *arena, bench *b) {
     for (int i = 0; i < m->ny; i++) /* a step's error off the constraints */
         b[n].start[i] = i < 2 * m->nq ? 1e-8 * b[n].y[i] : 0;
     memcpy(b[n].y, b[n].start, (size_t)m->ny * sizeof(double));
-    fw_kernel_rhs(b[n].kernel, b[n].y, b[n].f);
+    fw_multibody_kernel_rhs(b[n].kernel, b[n].y, b[n].f);
     b[n++].project = true;
-    for (int i = 0; fw_lanes_set(i); i++)
-        b[n++] = make_lanes(arena, m, fw_lanes_set(i));
+    for (int i = 0; fw_multibody_lanes_set(i); i++)
+        b[n++] = make_lanes(arena, m, fw_multibody_lanes_set(i));
     for (int i = 0, windows = 10; windows <= 10000; windows *= 10, i++) {
         rig *r = fw_arena_one(arena, rig);
         double ms;
         *r = rig_windows(arena, windows);
-        fw_model *big = model_of(arena, r, &ms);
+        fw_multibody_model *big = model_of(arena, r, &ms);
         snprintf(label[i], sizeof label[i], "%d four-bars, per body (model in %.1f ms)", windows,
                  ms);
         b[n] = make(arena, "windows", label[i], big, kernel_of(arena, big, true));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flexwright's side of the comparison: error against CPU time of whole motions, through
-   fw_simulate as every user calls it.
+   fw_dynamics_simulate as every user calls it.
 
    bench_transient sixbar    every method and every integrator, 10 ms
    bench_transient windows   N four-bar windows, 10 s: error of B0
@@ -14,13 +14,13 @@
 typedef struct job {
     fw_arena *arena;
     rig r;
-    fw_motion_options options;
+    fw_dynamics_motion_options options;
     const six_reference *reference; /* six-bar: error against the table */
     int windows;                    /* windows: N */
     int whole; /* time of the whole call: checks, plan, assembly, second run for the error */
 } job;
 
-static double six_worst(const job *j, const fw_motion *m) {
+static double six_worst(const job *j, const fw_dynamics_motion *m) {
     double worst = 0;
     for (int k = 1; k <= 10; k++) {
         double q[15];
@@ -32,7 +32,7 @@ static double six_worst(const job *j, const fw_motion *m) {
     return worst;
 }
 
-static double b0_error(const job *j, const fw_motion *m) {
+static double b0_error(const job *j, const fw_dynamics_motion *m) {
     const double *q = m->q + (size_t)(m->nsample - 1) * 3 * (size_t)m->nbody;
     const double *v = m->v + (size_t)(m->nsample - 1) * 3 * (size_t)m->nbody;
     double x = -.5 * sin(q[2]), y = .5 * cos(q[2]);
@@ -45,9 +45,10 @@ static outcome simulate(void *context) {
     outcome o = {.error = 0};
     fw_mark mark = fw_arena_mark(j->arena);
     fw_diags diags = fw_diags_new(j->arena);
-    const fw_motion *m = NULL;
+    const fw_dynamics_motion *m = NULL;
     double began = cpu_seconds();
-    fw_status status = fw_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, &diags, &m);
+    fw_status status =
+        fw_dynamics_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, &diags, &m);
     if (status != FW_OK || !m) {
         static char text[256];
         snprintf(text, sizeof text, "%s", diags.count ? diags.item[0].message : "no motion");
@@ -95,12 +96,12 @@ static void six_bar(const request *wish) {
     j.options.samples = 11;
     char setting[128];
     size_t methods = 0;
-    while (fw_method_at(methods).name)
+    while (fw_multibody_method_at(methods).name)
         methods++;
-    for (size_t i = 0; i < methods || fw_integrator_at(i - methods).name; i++) {
+    for (size_t i = 0; i < methods || fw_dynamics_integrator_at(i - methods).name; i++) {
         bool by_method = i < methods;
-        j.options.method = by_method ? fw_method_at(i).name : "chain";
-        j.options.integrator = by_method ? "dop853" : fw_integrator_at(i - methods).name;
+        j.options.method = by_method ? fw_multibody_method_at(i).name : "chain";
+        j.options.integrator = by_method ? "dop853" : fw_dynamics_integrator_at(i - methods).name;
         if (!by_method && strcmp(j.options.integrator, "dop853") == 0) continue;
         if (!by_method && strcmp(j.options.integrator, "auto") == 0) continue;
         snprintf(setting, sizeof setting, "%s + %s", j.options.method, j.options.integrator);
@@ -149,10 +150,11 @@ static void scaling(const request *wish) {
 enum { LONG_ROWS = 2001 };
 
 /* largest deviation over 2000 times, mm and rad, from a run at the tightest tolerance */
-static outcome long_once(job *j, const fw_motion *fine) {
+static outcome long_once(job *j, const fw_dynamics_motion *fine) {
     fw_diags diags = fw_diags_new(j->arena);
-    const fw_motion *m = NULL;
-    fw_status status = fw_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, &diags, &m);
+    const fw_dynamics_motion *m = NULL;
+    fw_status status =
+        fw_dynamics_simulate(j->arena, &j->r.m, &j->r.scene, &j->options, &diags, &m);
     if (status != FW_OK) return (outcome){.failed = "failed"};
     outcome o = {.cpu_s = m->stats.cpu_s, .rhs = m->stats.rhs};
     for (int i = 0; i < LONG_ROWS * 15; i++)
@@ -171,9 +173,9 @@ static void long_run(const request *wish) {
         for (int i = 0; !damped && i < j.r.m.npin; i++)
             j.r.m.pin[i].damping_Nms_per_rad = 0;
         fw_diags diags = fw_diags_new(j.arena);
-        const fw_motion *fine = NULL;
+        const fw_dynamics_motion *fine = NULL;
         j.options.rtol = 1e-13;
-        if (fw_simulate(j.arena, &j.r.m, &j.r.scene, &j.options, &diags, &fine) == FW_OK)
+        if (fw_dynamics_simulate(j.arena, &j.r.m, &j.r.scene, &j.options, &diags, &fine) == FW_OK)
             for (int e = 7; e <= 12; e++) {
                 j.options.rtol = pow(10, -e);
                 if (wanted(wish, setting, e))

@@ -3,7 +3,7 @@
    circle of 94 mm, each of 60 arc hinges and a frame. Rows: CPU ms and bytes of laying it out
    (places, cells, ids, plate), of each file, and of all together; everything but making the one
    die's mask. */
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include "measure.h"
 #include "wafer/wafer.h"
 
@@ -36,19 +36,19 @@ static fw_mask_layer layer_of(int number, const char *id, unsigned roles) {
 }
 
 typedef struct pieces {
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int count, capacity;
 } pieces;
 
-static int put(work *w, pieces *p, fw_role role, fw_contour contour) {
-    fw_piece item = {role, FW_NONE - 1, FW_NONE, "piece", contour};
+static int put(work *w, pieces *p, fw_layout_role role, fw_geometry_contour contour) {
+    fw_layout_piece item = {role, FW_NONE - 1, FW_NONE, "piece", contour};
     return fw_layout_add(w->arena, item, &p->piece, &p->count, &p->capacity) == FW_OK;
 }
 
 static int bar(work *w, pieces *p, double x0, double y0, double x1, double y1) {
-    fw_contour c;
-    fw_box b = {x0 * UM_, y0 * UM_, x1 * UM_, y1 * UM_};
-    return fw_contour_rectangle(w->arena, b, &c) == FW_OK && put(w, p, FW_ROLE_FRAME, c);
+    fw_geometry_contour c;
+    fw_geometry_box b = {x0 * UM_, y0 * UM_, x1 * UM_, y1 * UM_};
+    return fw_geometry_contour_rectangle(w->arena, b, &c) == FW_OK && put(w, p, FW_ROLE_FRAME, c);
 }
 
 /* die of 3 mm: bars of a frame that stand apart, hinges in the window */
@@ -56,17 +56,18 @@ static int make_die(work *w) {
     pieces p = {0};
     if (!bar(w, &p, 50, 50, 2950, 400) || !bar(w, &p, 50, 2800, 2950, 2950)) return 0;
     for (int k = 0; k < HINGES; k++) {
-        fw_contour c;
-        fw_vec2 o = {(300 + 340 * (k % ROW)) * UM_, (580 + 290 * (k / ROW)) * UM_};
+        fw_geometry_contour c;
+        fw_geometry_vec2 o = {(300 + 340 * (k % ROW)) * UM_, (580 + 290 * (k / ROW)) * UM_};
         double r = (50 + k) * UM_, t = 5 * UM_;
-        if (fw_contour_ring_sector(w->arena, o, r - t, r + t, 0.3 * k, 3 + 0.02 * k, &c) != FW_OK ||
+        if (fw_geometry_contour_ring_sector(w->arena, o, r - t, r + t, 0.3 * k, 3 + 0.02 * k, &c) !=
+                FW_OK ||
             !put(w, &p, FW_ROLE_FLEXURE, c))
             return 0;
     }
     fw_layout layout = {.drawn = true, .piece = p.piece, .npiece = p.count};
     fw_mask_options options = {.tolerance_m = 3e-9};
-    w->variant.die = (fw_box){0, 0, 3e-3, 3e-3};
-    w->variant.window = (fw_box){400e-6, 400e-6, 2600e-6, 2800e-6};
+    w->variant.die = (fw_geometry_box){0, 0, 3e-3, 3e-3};
+    w->variant.window = (fw_geometry_box){400e-6, 400e-6, 2600e-6, 2800e-6};
     w->variant.decision = "accept";
     return fw_mask_build(w->arena, &layout, &w->table, "die", &options, &w->diags,
                          &w->variant.mask) == FW_OK;

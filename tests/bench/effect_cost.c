@@ -47,19 +47,19 @@ static char *read_all(fw_arena *arena, const char *name, size_t *n) {
 }
 
 /* the material of the description, at 50 um where it states no thickness */
-static fw_variant variant_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
-    fw_variant v = {.thickness_m = 1,
-                    .explicit_mass_scale = 1,
-                    .explicit_stiffness_scale = 1,
-                    .explicit_damping_scale = 1};
-    fw_materials all;
+static fw_mechanism_variant variant_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
+    fw_mechanism_variant v = {.thickness_m = 1,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1};
+    fw_device_materials all;
     size_t n;
     if (!d->material_ref) return v;
     const char *file = FW_SOURCE_DATA_DIR "/processes/base.xml", *xml = read_all(arena, file, &n);
-    need(fw_materials_read(arena, file, xml, n, diags, &all), diags, file);
-    const fw_material *found = fw_material_find(&all, d->material_ref);
+    need(fw_device_materials_read(arena, file, xml, n, diags, &all), diags, file);
+    const fw_device_material *found = fw_device_material_find(&all, d->material_ref);
     if (!found) fail("unknown material");
-    v.material = fw_material_with(found, &d->material);
+    v.material = fw_device_material_with(found, &d->material);
     v.thickness_m = isnan(d->thickness_m) ? 50e-6 : d->thickness_m;
     return v;
 }
@@ -67,7 +67,7 @@ static fw_variant variant_of(fw_arena *arena, const fw_device *d, fw_diags *diag
 static const fw_mechanism *mechanism_of(fw_arena *arena, const fw_device *d, fw_diags *diags) {
     const fw_layout *layout = NULL;
     const fw_mechanism *m = NULL;
-    fw_variant *variant = fw_arena_one(arena, fw_variant);
+    fw_mechanism_variant *variant = fw_arena_one(arena, fw_mechanism_variant);
     if (!variant) fail("memory");
     *variant = variant_of(arena, d, diags);
     fw_diags drawing = fw_diags_new(arena);
@@ -77,46 +77,47 @@ static const fw_mechanism *mechanism_of(fw_arena *arena, const fw_device *d, fw_
 }
 
 /* all that the scene calls for, but for one effect; says what that is */
-static void compile(const fw_effect_case *c, const char *off, fw_terms *terms) {
+static void compile(const fw_effect_case *c, const char *off, fw_effects_loads *loads) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
-    if (fw_terms_new(c->arena, c->mechanism, c->scene, terms) != FW_OK) fail("memory");
+    if (fw_effects_loads_new(c->arena, c->mechanism, c->scene, loads) != FW_OK) fail("memory");
     for (size_t i = 0; i < count; i++) {
         if (!row[i]->called_for(c)) continue;
         printf("calls %s %d\n", row[i]->id, row[i]->count ? row[i]->count(c) : 1);
         if (off && strcmp(row[i]->id, off) == 0) continue;
-        if (row[i]->add(c, terms) != FW_OK) fail(row[i]->id);
+        if (row[i]->add(c, loads) != FW_OK) fail(row[i]->id);
     }
 }
 
-static fw_model *model_of(fw_arena *arena, const fw_mechanism *mechanism, const fw_scene *scene,
-                          const request *r, fw_diags *diags) {
+static fw_multibody_model *model_of(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_device_scene *scene, const request *r,
+                                    fw_diags *diags) {
     const fw_effect_case c = {.arena = arena, .mechanism = mechanism, .scene = scene};
-    fw_terms *terms = fw_arena_one(arena, fw_terms);
+    fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
     double *q = fw_arena_array(arena, double, 3 * (size_t)mechanism->nbody);
-    fw_model *m = NULL;
-    if (!terms || !q) fail("memory");
-    compile(&c, r->off, terms);
+    fw_multibody_model *m = NULL;
+    if (!loads || !q) fail("memory");
+    compile(&c, r->off, loads);
     for (int b = 0; b < mechanism->nbody; b++) {
-        const fw_mass *from = &mechanism->body[b];
+        const fw_mechanism_mass *from = &mechanism->body[b];
         q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
     }
-    need(fw_effects_strain(arena, mechanism, terms, &mechanism), diags, "strains");
-    need(fw_model_new(arena, mechanism, terms, q, scene->duration_s, NULL, diags, &m), diags,
-         "model");
+    need(fw_effects_strain(arena, mechanism, loads, &mechanism), diags, "strains");
+    need(fw_multibody_model_new(arena, mechanism, loads, q, scene->duration_s, NULL, diags, &m),
+         diags, "model");
     if (r->general) m->kernel = NULL;
     m->piece = 0.4 * scene->duration_s;
     return m;
 }
 
-void measured(fw_model *m, double t, const double *y, double *f, long count);
-__attribute__((noinline)) void measured(fw_model *m, double t, const double *y, double *f,
+void measured(fw_multibody_model *m, double t, const double *y, double *f, long count);
+__attribute__((noinline)) void measured(fw_multibody_model *m, double t, const double *y, double *f,
                                         long count) {
     for (long i = 0; i < count; i++)
-        fw_model_rhs(m, t, y, f);
+        fw_multibody_model_rhs(m, t, y, f);
 }
 
-static void run(fw_model *m, double t, const request *r, fw_arena *arena) {
+static void run(fw_multibody_model *m, double t, const request *r, fw_arena *arena) {
     double *y = fw_arena_array(arena, double, (size_t)m->ny), sum = 0;
     double *f = fw_arena_array(arena, double, (size_t)m->ny);
     uint64_t z = 5;
@@ -125,9 +126,9 @@ static void run(fw_model *m, double t, const request *r, fw_arena *arena) {
         z = z * 6364136223846793005u + 1442695040888963407u;
         y[i] = r->still && i >= m->nq ? 0 : r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
     }
-    fw_model_set_switches(m, 0, y);
-    fw_friction_begin(m);
-    if (!fw_friction_decide(m, t / m->scale.time_s, y)) fail("friction jams");
+    fw_multibody_model_set_switches(m, 0, y);
+    fw_multibody_friction_begin(m);
+    if (!fw_multibody_friction_decide(m, t / m->scale.time_s, y)) fail("friction jams");
     measured(m, t / m->scale.time_s, y, f, r->count);
     for (int i = 0; i < 2 * m->nq; i++)
         sum += fabs(f[i]);
@@ -186,12 +187,12 @@ static void open_file(opened *o, const char *file) {
 static void serve(const request *r, const opened *o) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    const fw_scene *scene = NULL;
+    const fw_device_scene *scene = NULL;
     printf("scene %s %s\n", r->file, r->scene);
     for (int i = 0; i < o->device->nscene; i++)
         if (strcmp(o->device->scene[i].name, r->scene) == 0) scene = &o->device->scene[i];
     if (!scene) fail("no such scene");
-    fw_model *m = model_of(arena, o->mechanism, scene, r, &diags);
+    fw_multibody_model *m = model_of(arena, o->mechanism, scene, r, &diags);
     run(m, 0.4 * scene->duration_s, r, arena);
     fw_arena_free(arena);
 }

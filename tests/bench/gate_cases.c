@@ -23,14 +23,14 @@ static const double pi = 3.14159265358979323846;
 typedef struct gate {
     fw_arena *arena;
     rig r;
-    fw_motion_options motion;
-    fw_kernel *kernel;
+    fw_dynamics_motion_options motion;
+    fw_multibody_kernel *kernel;
     double *y, *f;
     int ny;
     fw_flexure_input hinge;
-    fw_elastica *beam;
+    fw_flexure_elastica *beam;
     six_bar_fixture fixture;
-    fw_loop loop;
+    fw_workspace_loop loop;
     fw_plan *plan;
     char *xml;
     size_t length;
@@ -48,8 +48,8 @@ static bool prepare_rhs(gate *g) {
     fw_diags diags = fw_diags_new(g->arena);
     const fw_effect_choice choice = {0};
     fw_effect_ledger ledger;
-    fw_terms *terms = fw_arena_one(g->arena, fw_terms);
-    fw_model *m = NULL;
+    fw_effects_loads *loads = fw_arena_one(g->arena, fw_effects_loads);
+    fw_multibody_model *m = NULL;
     double q[15];
     for (int b = 0; b < 5; b++) {
         q[3 * b] = g->r.m.body[b].x_m;
@@ -57,9 +57,10 @@ static bool prepare_rhs(gate *g) {
         q[3 * b + 2] = g->r.m.body[b].phi_rad;
     }
     if (!must(fw_effects_compile(g->arena, &g->r.m, &g->r.scene, &choice, 1e-3, &diags, &ledger,
-                                 terms)) ||
-        !must(fw_model_new(g->arena, &g->r.m, terms, q, g->r.scene.duration_s, NULL, &diags, &m)) ||
-        !must(fw_kernel_new(g->arena, m, &g->kernel)) || !g->kernel)
+                                 loads)) ||
+        !must(fw_multibody_model_new(g->arena, &g->r.m, loads, q, g->r.scene.duration_s, NULL,
+                                     &diags, &m)) ||
+        !must(fw_multibody_kernel_new(g->arena, m, &g->kernel)) || !g->kernel)
         return false;
     g->ny = m->ny;
     g->y = fw_arena_array(g->arena, double, (size_t)m->ny);
@@ -72,7 +73,7 @@ static bool prepare_rhs(gate *g) {
 
 static bool run_rhs(gate *g) {
     for (int i = 0; i < 1000; i++) {
-        fw_kernel_rhs(g->kernel, g->y, g->f);
+        fw_multibody_kernel_rhs(g->kernel, g->y, g->f);
         g->y[2] += 1e-30 * g->f[g->ny / 2];
     }
     return isfinite(g->y[2]) != 0;
@@ -80,26 +81,26 @@ static bool run_rhs(gate *g) {
 
 static bool run_motion(gate *g) {
     fw_diags diags = fw_diags_new(g->arena);
-    const fw_motion *m = NULL;
-    return must(fw_simulate(g->arena, &g->r.m, &g->r.scene, &g->motion, &diags, &m));
+    const fw_dynamics_motion *m = NULL;
+    return must(fw_dynamics_simulate(g->arena, &g->r.m, &g->r.scene, &g->motion, &diags, &m));
 }
 
 static bool prepare_six_bar(gate *g) {
     g->r = rig_six_bar(g->arena, false);
-    g->motion = (fw_motion_options){.rtol = 1e-8, .samples = 11};
+    g->motion = (fw_dynamics_motion_options){.rtol = 1e-8, .samples = 11};
     return true;
 }
 
 static bool prepare_squeezer(gate *g) {
     g->r = rig_squeezer(g->arena);
-    g->motion = (fw_motion_options){.rtol = 1e-8, .samples = 11};
+    g->motion = (fw_dynamics_motion_options){.rtol = 1e-8, .samples = 11};
     return true;
 }
 
 static bool prepare_windows(gate *g) {
     g->r = rig_windows(g->arena, 100);
     g->r.scene.duration_s = 1;
-    g->motion = (fw_motion_options){.rtol = 1e-8, .samples = 2};
+    g->motion = (fw_dynamics_motion_options){.rtol = 1e-8, .samples = 2};
     return true;
 }
 
@@ -133,12 +134,12 @@ static bool run_closed_form(gate *g) {
 
 static bool prepare_elastica(gate *g) {
     static fw_flexure_result closed;
-    static fw_beam_piece piece;
-    static fw_beam beam;
+    static fw_flexure_beam_piece piece;
+    static fw_flexure_beam beam;
     prepare_hinge(g);
     fw_flexure_closed_form(&g->hinge, &closed);
-    fw_beam_of_flexure(&g->hinge, &closed, &piece, &beam);
-    return must(fw_elastica_new(g->arena, &beam, NULL, false, &g->beam));
+    fw_flexure_beam_of_flexure(&g->hinge, &closed, &piece, &beam);
+    return must(fw_flexure_elastica_new(g->arena, &beam, NULL, false, &g->beam));
 }
 
 /* a loop of rotations up to 10 degrees under 0.1 mN, each from the one before */
@@ -146,10 +147,10 @@ static bool run_elastica(gate *g) {
     bool good = true;
     for (int i = 0; i < 25; i++) {
         const double a = 0.08 * pi * i;
-        const fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
-                                       {0.17 * sin(a), 1e-4 * cos(a), 1e-4 * sin(a)}};
-        fw_elastica_result at;
-        fw_elastica_solve(g->beam, &task, 1e-8, i > 0, &at);
+        const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                               {0.17 * sin(a), 1e-4 * cos(a), 1e-4 * sin(a)}};
+        fw_flexure_elastica_result at;
+        fw_flexure_elastica_solve(g->beam, &task, 1e-8, i > 0, &at);
         good = good && at.code == FW_ELASTICA_OK;
         g->used += at.wrench[0];
     }
@@ -158,16 +159,17 @@ static bool run_elastica(gate *g) {
 
 static bool prepare_workspace(gate *g) {
     six_bar_make(&g->fixture, six_bar_reference);
-    return fw_loop_set_up(&g->fixture.mechanism, &g->loop);
+    return fw_workspace_loop_set_up(&g->fixture.mechanism, &g->loop);
 }
 
 static bool run_workspace(gate *g) {
     double limit[FW_SIX];
-    fw_measure out;
+    fw_workspace_measure out;
     for (int h = 0; h < FW_SIX; h++)
         limit[h] = 10 * pi / 180;
-    const fw_reach_limits limits = fw_limits_symmetric(limit);
-    return must(fw_reach_volume(g->arena, &g->loop, &limits, (fw_effort){1e-2, 5000000}, &out));
+    const fw_workspace_reach_limits limits = fw_workspace_limits_symmetric(limit);
+    return must(fw_workspace_reach_volume(g->arena, &g->loop, &limits,
+                                          (fw_workspace_proof_effort){1e-2, 5000000}, &out));
 }
 
 /* ---- the gallery's six-bar ---- */
@@ -181,7 +183,7 @@ static bool read_file(gate *g) {
     return g->length > 0;
 }
 
-static bool new_plan(gate *g, fw_corners corners) {
+static bool new_plan(gate *g, fw_verdict_corners corners) {
     fw_plan_options options = fw_plan_options_default();
     options.verdict.corners = corners;
     g->plan = fw_plan_new(&options);

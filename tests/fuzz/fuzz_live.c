@@ -10,9 +10,9 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n);
 
-static fw_live *live;
+static fw_plan_live *live;
 
-static void check(fw_live_answer a) {
+static void check(fw_plan_live_answer a) {
     json_error_t error;
     if (!a.text || strlen(a.text) != a.length) __builtin_trap();
     json_t *root = json_loadb(a.text, a.length, JSON_REJECT_DUPLICATES, &error);
@@ -37,9 +37,9 @@ static void as_text(const uint8_t *data, size_t n, unsigned which) {
         json_object_set(root, "text", text);
         char *request = json_dumps(root, 0);
         if (request)
-            check(which % 3 == 0   ? fw_live_preview(live, request, strlen(request))
-                  : which % 3 == 1 ? fw_live_pose(live, request, strlen(request))
-                                   : fw_live_edit(live, request, strlen(request)));
+            check(which % 3 == 0   ? fw_plan_live_preview(live, request, strlen(request))
+                  : which % 3 == 1 ? fw_plan_live_pose(live, request, strlen(request))
+                                   : fw_plan_live_edit(live, request, strlen(request)));
         free(request);
     }
     json_decref(text);
@@ -47,17 +47,17 @@ static void as_text(const uint8_t *data, size_t n, unsigned which) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t n) {
-    const fw_live_settings settings = {.memory_cap = (size_t)64 * 1024 * 1024};
+    const fw_plan_live_settings settings = {.memory_cap = (size_t)64 * 1024 * 1024};
     if (n == 0) return 0;
-    if (!live) live = fw_live_new(&settings);
+    if (!live) live = fw_plan_live_new(&settings);
     if (!live) return 0;
     unsigned which = data[0];
     const char *request = (const char *)data + 1;
     if (which & 0x80)
         as_text(data + 1, n - 1, which);
     else
-        check(which % 3 == 0   ? fw_live_preview(live, request, n - 1)
-              : which % 3 == 1 ? fw_live_pose(live, request, n - 1)
-                               : fw_live_edit(live, request, n - 1));
+        check(which % 3 == 0   ? fw_plan_live_preview(live, request, n - 1)
+              : which % 3 == 1 ? fw_plan_live_pose(live, request, n - 1)
+                               : fw_plan_live_edit(live, request, n - 1));
     return 0;
 }

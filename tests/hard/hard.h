@@ -21,16 +21,16 @@ static inline bool hard_quick(void) {
 
 typedef struct outcome {
     fw_status status;
-    const fw_motion *m;  /* NULL unless FW_OK */
-    const char *message; /* of the last error, else of the last warning; "" */
-    int number;          /* its FW-D */
+    const fw_dynamics_motion *m; /* NULL unless FW_OK */
+    const char *message;         /* of the last error, else of the last warning; "" */
+    int number;                  /* its FW-D */
 } outcome;
 
-static inline outcome hard_try(fw_arena *arena, const rig *r, fw_motion_options o) {
+static inline outcome hard_try(fw_arena *arena, const rig *r, fw_dynamics_motion_options o) {
     fw_diags diags = fw_diags_new(arena);
     outcome out = {.message = ""};
     if (o.effects.mode == FW_EFFECTS_AUTO) o.effects.mode = FW_EFFECTS_ALL;
-    out.status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &out.m);
+    out.status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &out.m);
     for (int worst = FW_WARNING; worst <= FW_ERROR; worst++)
         for (size_t i = 0; i < diags.count; i++)
             if ((int)diags.item[i].severity == worst)
@@ -42,7 +42,8 @@ static inline outcome hard_try(fw_arena *arena, const rig *r, fw_motion_options 
     return out;
 }
 
-static inline const fw_motion *hard_run(fw_arena *arena, const rig *r, fw_motion_options o) {
+static inline const fw_dynamics_motion *hard_run(fw_arena *arena, const rig *r,
+                                                 fw_dynamics_motion_options o) {
     outcome out = hard_try(arena, r, o);
     if (out.status != FW_OK) fail_msg("%s", out.message);
     assert_true(out.m->stats.max_constraint_norm <= 1e-12 ||
@@ -50,20 +51,20 @@ static inline const fw_motion *hard_run(fw_arena *arena, const rig *r, fw_motion
     return out.m;
 }
 
-static inline const double *hard_q(const fw_motion *m, int row) {
+static inline const double *hard_q(const fw_dynamics_motion *m, int row) {
     return m->q + (size_t)row * 3 * (size_t)m->nbody;
 }
-static inline const double *hard_v(const fw_motion *m, int row) {
+static inline const double *hard_v(const fw_dynamics_motion *m, int row) {
     return m->v + (size_t)row * 3 * (size_t)m->nbody;
 }
 
 /* ---- parts that models.h lacks ---- */
 
-static inline fw_tie *hard_tie(fw_arena *arena, rig *r, const char *id, fw_tie_kind kind, int a,
-                               int b) {
-    if (!r->m.tie) r->m.tie = fw_arena_array(arena, fw_tie, 16);
-    fw_tie *t = &r->m.tie[r->m.ntie++];
-    *t = (fw_tie){.id = id, .kind = kind, .body_a = a, .body_b = b};
+static inline fw_device_joint *hard_tie(fw_arena *arena, rig *r, const char *id,
+                                        fw_device_joint_kind kind, int a, int b) {
+    if (!r->m.joint) r->m.joint = fw_arena_array(arena, fw_device_joint, 16);
+    fw_device_joint *t = &r->m.joint[r->m.njoint++];
+    *t = (fw_device_joint){.id = id, .kind = kind, .body_a = a, .body_b = b};
     return t;
 }
 
@@ -71,15 +72,16 @@ static inline fw_tie *hard_tie(fw_arena *arena, rig *r, const char *id, fw_tie_k
 static inline void hard_local(const rig *r, int body, double x, double y, double *lx, double *ly) {
     *lx = x, *ly = y;
     if (body == FW_GROUND) return;
-    const fw_mass *m = &r->m.body[body];
+    const fw_mechanism_mass *m = &r->m.body[body];
     double dx = x - m->x_m, dy = y - m->y_m, c = cos(m->phi_rad), s = sin(m->phi_rad);
     *lx = c * dx + s * dy, *ly = -s * dx + c * dy;
 }
 
 /* a tie whose points a and b are one world point */
-static inline fw_tie *hard_tie_at(fw_arena *arena, rig *r, const char *id, fw_tie_kind kind, int a,
-                                  int b, double x, double y) {
-    fw_tie *t = hard_tie(arena, r, id, kind, a, b);
+static inline fw_device_joint *hard_tie_at(fw_arena *arena, rig *r, const char *id,
+                                           fw_device_joint_kind kind, int a, int b, double x,
+                                           double y) {
+    fw_device_joint *t = hard_tie(arena, r, id, kind, a, b);
     hard_local(r, a, x, y, &t->ax_m, &t->ay_m);
     hard_local(r, b, x, y, &t->bx_m, &t->by_m);
     t->angle_rad =
@@ -87,36 +89,38 @@ static inline fw_tie *hard_tie_at(fw_arena *arena, rig *r, const char *id, fw_ti
     return t;
 }
 
-static inline fw_driver *hard_driver(fw_arena *arena, rig *r, const char *id, int joint, int tie,
-                                     fw_law law) {
-    if (!r->m.driver) r->m.driver = fw_arena_array(arena, fw_driver, 8);
-    fw_driver *d = &r->m.driver[r->m.ndriver++];
-    *d = (fw_driver){.id = id, .joint = joint, .tie = tie, .law = law};
+static inline fw_device_driver *hard_driver(fw_arena *arena, rig *r, const char *id, int revolute,
+                                            int joint, fw_quantity_law law) {
+    if (!r->m.driver) r->m.driver = fw_arena_array(arena, fw_device_driver, 8);
+    fw_device_driver *d = &r->m.driver[r->m.ndriver++];
+    *d = (fw_device_driver){.id = id, .revolute = revolute, .joint = joint, .law = law};
     return d;
 }
 
 /* a law from text; `of` is what it gives: rad, m, or nothing for a factor */
-static inline fw_law hard_law(fw_arena *arena, const char *text, fw_dimension of) {
-    const fw_names none = {NULL, 0};
-    fw_expression_error error;
-    fw_program *program = NULL;
-    if (fw_program_compile(arena, text, strlen(text), &none, of, &program, &error) != FW_OK)
+static inline fw_quantity_law hard_law(fw_arena *arena, const char *text,
+                                       fw_quantity_dimension of) {
+    const fw_quantity_names none = {NULL, 0};
+    fw_quantity_expression_error error;
+    fw_quantity_program *program = NULL;
+    if (fw_quantity_program_compile(arena, text, strlen(text), &none, of, &program, &error) !=
+        FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = &fw_quantity_law_expression, .program = program};
+    return (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = program};
 }
 
-static inline fw_spring *hard_spring(rig *r, const char *id, int a, double ax, double ay, int b,
-                                     double bx, double by, double k, double length) {
-    fw_spring *s = &r->m.spring[r->m.nspring++];
-    *s = (fw_spring){.id = id,
-                     .body_a = a,
-                     .body_b = b,
-                     .ax_m = ax,
-                     .ay_m = ay,
-                     .bx_m = bx,
-                     .by_m = by,
-                     .stiffness_N_per_m = k,
-                     .length_m = length};
+static inline fw_device_spring *hard_spring(rig *r, const char *id, int a, double ax, double ay,
+                                            int b, double bx, double by, double k, double length) {
+    fw_device_spring *s = &r->m.spring[r->m.nspring++];
+    *s = (fw_device_spring){.id = id,
+                            .body_a = a,
+                            .body_b = b,
+                            .ax_m = ax,
+                            .ay_m = ay,
+                            .bx_m = bx,
+                            .by_m = by,
+                            .stiffness_N_per_m = k,
+                            .length_m = length};
     return s;
 }
 
@@ -136,55 +140,59 @@ static inline void hard_bars(rig *r, const double (*p)[2], int n, double mass) {
 
 /* ---- the bare model: terms, assembled pose, method of one's own ---- */
 
-static inline fw_model *hard_model(fw_arena *arena, const rig *r, const fw_method *method) {
+static inline fw_multibody_model *hard_model(fw_arena *arena, const rig *r,
+                                             const fw_multibody_method *method) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms *terms = fw_arena_one(arena, fw_terms);
+    fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody), moved;
     for (int b = 0; b < r->m.nbody; b++) {
-        const fw_mass *p = &r->m.body[b];
+        const fw_mechanism_mass *p = &r->m.body[b];
         q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
     }
-    fw_model *m = NULL; /* without the fast kernel, which knows one method only */
+    fw_multibody_model *m = NULL; /* without the fast kernel, which knows one method only */
     assert_int_equal(
-        fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, terms), FW_OK);
-    assert_int_equal(fw_assemble(arena, &r->m, q, &moved, &diags), FW_OK);
-    assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, method, &diags, &m),
-                     FW_OK);
+        fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, loads), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &r->m, q, &moved, &diags), FW_OK);
+    assert_int_equal(
+        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, method, &diags, &m),
+        FW_OK);
     m->kernel = NULL;
     return m;
 }
 
 /* integrates the bare model by dop853 at rtol from the scene's initial velocities; y (ny) is the
    end. Tolerances as they are: no lower or upper bound. FW_ODE_SMALL: more than most_steps, too. */
-static inline fw_ode_result hard_integrate(fw_arena *arena, const rig *r, fw_model *m, double rtol,
-                                           long most_steps, double *y) {
-    const fw_ode ode = {.context = m,
-                        .rhs = fw_model_rhs,
-                        .project = fw_model_project,
-                        .n = m->ny,
-                        .controlled = 2 * m->nq,
-                        .positions = m->nq};
+static inline fw_maths_ode_result hard_integrate(fw_arena *arena, const rig *r,
+                                                 fw_multibody_model *m, double rtol,
+                                                 long most_steps, double *y) {
+    const fw_maths_ode ode = {.context = m,
+                              .rhs = fw_multibody_model_rhs,
+                              .project = fw_multibody_model_project,
+                              .n = m->ny,
+                              .controlled = 2 * m->nq,
+                              .positions = m->nq};
     double *atol = fw_arena_array(arena, double, (size_t)m->ny);
-    fw_stepper *s = NULL;
+    fw_maths_stepper *s = NULL;
     memset(y, 0, (size_t)m->ny * sizeof *y);
     for (int i = 0; i < m->ny; i++)
         atol[i] = rtol;
     for (int i = 0; i < r->scene.ninitial; i++) {
-        const fw_initial *v = &r->scene.initial[i];
+        const fw_device_initial *v = &r->scene.initial[i];
         double *to = y + m->nq + 3 * v->body, unit = m->scale.time_s / m->scale.length_m;
         to[0] = v->vx_m_per_s * unit, to[1] = v->vy_m_per_s * unit;
         to[2] = v->omega_rad_per_s * m->scale.time_s;
     }
-    assert_int_equal(fw_stepper_new(arena, fw_stepper_find("dop853"), &ode, rtol, atol, &s), FW_OK);
-    fw_stepper_start(s, 0, y, r->scene.duration_s / m->scale.time_s);
-    fw_ode_result result = FW_ODE_STEP;
+    assert_int_equal(
+        fw_maths_stepper_new(arena, fw_maths_stepper_find("dop853"), &ode, rtol, atol, &s), FW_OK);
+    fw_maths_stepper_start(s, 0, y, r->scene.duration_s / m->scale.time_s);
+    fw_maths_ode_result result = FW_ODE_STEP;
     while (s->t < s->t_end && result == FW_ODE_STEP && s->steps < most_steps)
-        result = fw_stepper_step(s);
+        result = fw_maths_stepper_step(s);
     memcpy(y, s->y, (size_t)m->ny * sizeof *y);
     if (s->t < s->t_end && result == FW_ODE_STEP) result = FW_ODE_SMALL;
-    fw_stepper_free(s);
+    fw_maths_stepper_free(s);
     return result;
 }
 

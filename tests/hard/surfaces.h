@@ -37,19 +37,19 @@ static inline const fw_device *surfaces_device(fw_arena *arena, const char *scen
 static inline const fw_mechanism *surfaces_mechanism(fw_arena *arena, const fw_device *d,
                                                      fw_diags *diags) {
     size_t n;
-    fw_materials all;
+    fw_device_materials all;
     const char *base = FW_TEST_SOURCE_DIR "/processes/base.xml";
     const char *xml = surfaces_file(arena, base, &n);
-    surfaces_need(fw_materials_read(arena, base, xml, n, diags, &all), diags);
-    fw_variant *v = fw_arena_one(arena, fw_variant);
+    surfaces_need(fw_device_materials_read(arena, base, xml, n, diags, &all), diags);
+    fw_mechanism_variant *v = fw_arena_one(arena, fw_mechanism_variant);
     const fw_layout *layout = NULL;
     const fw_mechanism *m = NULL;
-    *v = (fw_variant){.material =
-                          fw_material_with(fw_material_find(&all, d->material_ref), &d->material),
-                      .thickness_m = d->thickness_m,
-                      .explicit_mass_scale = 1,
-                      .explicit_stiffness_scale = 1,
-                      .explicit_damping_scale = 1};
+    *v = (fw_mechanism_variant){.material = fw_device_material_with(
+                                    fw_device_material_find(&all, d->material_ref), &d->material),
+                                .thickness_m = d->thickness_m,
+                                .explicit_mass_scale = 1,
+                                .explicit_stiffness_scale = 1,
+                                .explicit_damping_scale = 1};
     surfaces_need(fw_layout_build(arena, d, diags, &layout), diags);
     surfaces_need(fw_mechanism_build(arena, d, layout, v, diags, &m), diags);
     return m;

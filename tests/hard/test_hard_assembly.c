@@ -9,10 +9,10 @@ static outcome assemble(fw_arena *arena, const rig *r, double *moved) {
     outcome out = {.message = ""};
     double q[60];
     for (int b = 0; b < r->m.nbody; b++) {
-        const fw_mass *p = &r->m.body[b];
+        const fw_mechanism_mass *p = &r->m.body[b];
         q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
     }
-    out.status = fw_assemble(arena, &r->m, q, moved, &diags);
+    out.status = fw_assembly_assemble(arena, &r->m, q, moved, &diags);
     for (size_t i = 0; i < diags.count; i++)
         if (diags.item[i].severity == FW_ERROR)
             out.message = diags.item[i].message, out.number = diags.item[i].number;
@@ -86,7 +86,7 @@ static void test_others(void **state) {
     rig r = rig_new(arena, 1, 1, 0); /* a rod to the ground that is shorter than the way */
     rig_body(&r, "bar", 1, 0.1, 0.5, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
-    fw_tie *rod = hard_tie(arena, &r, "rod", FW_TIE_DISTANCE, FW_GROUND, 0);
+    fw_device_joint *rod = hard_tie(arena, &r, "rod", FW_JOINT_DISTANCE, FW_GROUND, 0);
     rod->ax_m = 5, rod->bx_m = 0.5, rod->length_m = 3;
     outcome out = assemble(arena, &r, &moved);
     print_message("assembly: rod 25 %% too short: %s\n", out.message);
@@ -98,7 +98,7 @@ static void test_others(void **state) {
     rig_body(&w, "q", 1, 0.1, 1.5, 0, 0);
     rig_pin(&w, "P", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&w, "Q", 1, FW_GROUND, 2, 0, 0, 0);
-    fw_tie *weld = hard_tie_at(arena, &w, "weld", FW_TIE_WELD, 0, 1, 1, 0);
+    fw_device_joint *weld = hard_tie_at(arena, &w, "weld", FW_JOINT_WELD, 0, 1, 1, 0);
     weld->angle_rad = 0.5;
     out = assemble(arena, &w, &moved);
     print_message("assembly: welded askew: %s\n", out.message);
@@ -108,7 +108,8 @@ static void test_others(void **state) {
                                         third one that misses the crossing does not */
     rig_body(&s, "cart", 1, 0.1, 0.3, 0.2, 0);
     for (int i = 0; i < 3; i++) {
-        fw_tie *g = hard_tie(arena, &s, i < 2 ? "guide" : "third", FW_TIE_PRISMATIC, FW_GROUND, 0);
+        fw_device_joint *g =
+            hard_tie(arena, &s, i < 2 ? "guide" : "third", FW_JOINT_PRISMATIC, FW_GROUND, 0);
         g->axis_rad = i, g->ax_m = i == 2 ? 0.5 : 0;
         if (i == 0) continue;
         out = assemble(arena, &s, &moved);

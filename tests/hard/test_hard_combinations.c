@@ -25,27 +25,30 @@ static int body_of(const rig *r) {
 /* ---- laws ---- */
 
 /* smooth; with a corner; that jumps */
-static const fw_law *any_law(fw_arena *arena, double end_s, bool jumps) {
-    fw_law *law = fw_arena_one(arena, fw_law);
+static const fw_quantity_law *any_law(fw_arena *arena, double end_s, bool jumps) {
+    fw_quantity_law *law = fw_arena_one(arena, fw_quantity_law);
     double *t = fw_arena_array(arena, double, 6), *v = fw_arena_array(arena, double, 6);
     switch ((int)lot(0, jumps ? 5 : 3)) {
     case 0:
-        *law = (fw_law){
-            .kind = &fw_quantity_law_sine, .frequency_Hz = lot(0.5, 8) / end_s, .end_s = (double)INFINITY};
+        *law = (fw_quantity_law){.kind = &fw_quantity_law_sine,
+                                 .frequency_Hz = lot(0.5, 8) / end_s,
+                                 .end_s = (double)INFINITY};
         break;
     case 1:
-        *law = hard_law(arena, "1 - cos(2000 rad/s * t)", (fw_dimension){0});
+        *law = hard_law(arena, "1 - cos(2000 rad/s * t)", (fw_quantity_dimension){0});
         break;
     case 2: /* corners */
         for (int i = 0; i < 6; i++)
             t[i] = i * end_s / 5, v[i] = i ? lot(-1, 1) : 0;
-        *law = (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 6};
+        *law = (fw_quantity_law){
+            .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 6};
         break;
     case 3:
-        *law = (fw_law){.kind = &fw_quantity_law_step, .start_s = lot(0, end_s), .end_s = (double)INFINITY};
+        *law = (fw_quantity_law){
+            .kind = &fw_quantity_law_step, .start_s = lot(0, end_s), .end_s = (double)INFINITY};
         break;
     default:
-        *law = (fw_law){.kind = &fw_quantity_law_step, .start_s = lot(0, end_s / 2)};
+        *law = (fw_quantity_law){.kind = &fw_quantity_law_step, .start_s = lot(0, end_s / 2)};
         law->end_s = lot(law->start_s + 0.1 * end_s, end_s);
     }
     return law;
@@ -54,40 +57,40 @@ static const fw_law *any_law(fw_arena *arena, double end_s, bool jumps) {
 /* ---- effects, one function each; all may be there together ---- */
 
 static void some_friction(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
-    s->friction = fw_arena_array(arena, fw_friction_use, 32);
+    fw_device_scene *s = &r->scene;
+    s->friction = fw_arena_array(arena, fw_device_friction_use, 32);
     for (int i = 0; i < r->m.npin; i++)
         if (chance(0.5)) {
             double mu = lot(0.05, 0.35);
             s->friction[s->nfriction++] =
-                (fw_friction_use){.joint = i,
-                                  .tie = FW_NONE,
-                                  .coefficient = mu,
-                                  .static_coefficient = chance(0.5) ? NOT : mu * lot(1, 2),
-                                  .radius_m = decades(-5.5, -4),
-                                  .preload_N = chance(0.5) ? 0 : 3e-3 * lot(0, 1)};
+                (fw_device_friction_use){.revolute = i,
+                                         .joint = FW_NONE,
+                                         .coefficient = mu,
+                                         .static_coefficient = chance(0.5) ? NOT : mu * lot(1, 2),
+                                         .radius_m = decades(-5.5, -4),
+                                         .preload_N = chance(0.5) ? 0 : 3e-3 * lot(0, 1)};
         }
 }
 
 static void some_contact(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
-    s->contact = fw_arena_array(arena, fw_contact_use, 8);
+    fw_device_scene *s = &r->scene;
+    s->contact = fw_arena_array(arena, fw_device_contact_use, 8);
     for (int n = 1 + (int)lot(0, 3); n > 0; n--) {
         int b = body_of(r), a = chance(0.5) ? FW_GROUND : body_of(r);
         if (a == b) a = FW_GROUND;
         bool inside = chance(0.5);
-        fw_contact_use u = {.id = "touch",
-                            .joint = FW_NONE,
-                            .side = inside ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
-                            .body_a = a,
-                            .body_b = b,
-                            .bx_m = lot(-3e-4, 3e-4),
-                            .by_m = lot(-3e-4, 3e-4),
-                            .stiffness_N_per_m = decades(0.5, 4),
-                            .damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4)};
-        fw_vec2 at = fw_local_place(&r->m, b, u.bx_m, u.by_m);
+        fw_device_contact_use u = {.id = "touch",
+                                   .joint = FW_NONE,
+                                   .side = inside ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
+                                   .body_a = a,
+                                   .body_b = b,
+                                   .bx_m = lot(-3e-4, 3e-4),
+                                   .by_m = lot(-3e-4, 3e-4),
+                                   .stiffness_N_per_m = decades(0.5, 4),
+                                   .damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4)};
+        fw_geometry_vec2 at = fw_mechanism_local_place(&r->m, b, u.bx_m, u.by_m);
         hard_local(r, a, at.x + lot(-1e-3, 1e-3), at.y + lot(-1e-3, 1e-3), &u.ax_m, &u.ay_m);
-        fw_vec2 from = fw_local_place(&r->m, a, u.ax_m, u.ay_m);
+        fw_geometry_vec2 from = fw_mechanism_local_place(&r->m, a, u.ax_m, u.ay_m);
         double now = hypot(at.x - from.x, at.y - from.y), gap = lot(-2e-6, 1e-4);
         u.distance_m = inside ? now + gap : fmax(0.1 * now, now - gap);
         s->contact[s->ncontact++] = u;
@@ -95,37 +98,38 @@ static void some_contact(fw_arena *arena, rig *r) {
 }
 
 static void some_tendons(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
-    s->tendon = fw_arena_array(arena, fw_tendon, 4);
+    fw_device_scene *s = &r->scene;
+    s->tendon = fw_arena_array(arena, fw_device_tendon, 4);
     for (int n = 1 + (int)lot(0, 2); n > 0; n--) {
-        fw_tendon *t = &s->tendon[s->ntendon++];
+        fw_device_tendon *t = &s->tendon[s->ntendon++];
         bool pulled = chance(0.5);
-        *t = (fw_tendon){.id = "tendon",
-                         .eyelet = fw_arena_array(arena, fw_eyelet, 4),
-                         .neyelet = 2 + (int)lot(0, 3),
-                         .pull_N = pulled ? decades(-5, -3.3) : NOT,
-                         .draw_m = pulled ? NOT : -lot(0, 4e-5),
-                         .stiffness_N_per_m = decades(0, 3),
-                         .damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4),
-                         .slack_m = lot(-2e-6, 3e-5),
-                         .law = any_law(arena, s->duration_s, chance(0.5))};
+        *t = (fw_device_tendon){.id = "tendon",
+                                .eyelet = fw_arena_array(arena, fw_device_eyelet, 4),
+                                .neyelet = 2 + (int)lot(0, 3),
+                                .pull_N = pulled ? decades(-5, -3.3) : NOT,
+                                .draw_m = pulled ? NOT : -lot(0, 4e-5),
+                                .stiffness_N_per_m = decades(0, 3),
+                                .damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4),
+                                .slack_m = lot(-2e-6, 3e-5),
+                                .law = any_law(arena, s->duration_s, chance(0.5))};
         for (int i = 0; i < t->neyelet; i++) {
             int b = i == 0 ? FW_GROUND : body_of(r);
-            t->eyelet[i] = (fw_eyelet){.body = b,
-                                       .x_m = b == FW_GROUND ? lot(-2e-3, -1e-3) : lot(-4e-4, 4e-4),
-                                       .y_m = lot(-4e-4, 4e-4)};
+            t->eyelet[i] =
+                (fw_device_eyelet){.body = b,
+                                   .x_m = b == FW_GROUND ? lot(-2e-3, -1e-3) : lot(-4e-4, 4e-4),
+                                   .y_m = lot(-4e-4, 4e-4)};
         }
     }
 }
 
 static void some_cables(fw_arena *arena, rig *r) {
-    r->m.spring = fw_arena_array(arena, fw_spring, 8);
+    r->m.spring = fw_arena_array(arena, fw_device_spring, 8);
     for (int n = 1 + (int)lot(0, 3); n > 0; n--) {
         int b = body_of(r);
-        const fw_mass *m = &r->m.body[b];
+        const fw_mechanism_mass *m = &r->m.body[b];
         double x = m->x_m + lot(-2e-3, 2e-3), y = m->y_m + lot(1e-3, 2e-3);
-        fw_spring *s = hard_spring(r, "line", FW_GROUND, x, y, b, 0, 0, decades(-0.5, 3),
-                                   hypot(x - m->x_m, y - m->y_m) * lot(0.98, 1.05));
+        fw_device_spring *s = hard_spring(r, "line", FW_GROUND, x, y, b, 0, 0, decades(-0.5, 3),
+                                          hypot(x - m->x_m, y - m->y_m) * lot(0.98, 1.05));
         s->cable = chance(0.7), s->damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4);
     }
 }
@@ -133,7 +137,7 @@ static void some_cables(fw_arena *arena, rig *r) {
 static void some_stops(rig *r) {
     for (int i = 0; i < r->m.npin; i++)
         if (chance(0.4)) {
-            fw_pin *p = &r->m.pin[i];
+            fw_mechanism_pin *p = &r->m.pin[i];
             p->stop_min_rad = chance(0.2) ? NOT : -lot(0.005, 0.2);
             p->stop_max_rad = chance(0.2) ? NOT : lot(0.005, 0.2);
             p->stop_stiffness_Nm_per_rad = decades(-5.5, -2);
@@ -142,63 +146,63 @@ static void some_stops(rig *r) {
 }
 
 static void some_combs(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
-    s->comb = fw_arena_array(arena, fw_comb, 2);
+    fw_device_scene *s = &r->scene;
+    s->comb = fw_arena_array(arena, fw_device_comb, 2);
     int b = body_of(r);
-    s->comb[s->ncomb++] = (fw_comb){.id = "comb",
-                                    .kind = FW_ELECTRODES_COMB,
-                                    .body_a = FW_GROUND,
-                                    .body_b = b,
-                                    .direction_rad = lot(0, 6),
-                                    .fingers = 20,
-                                    .gap_m = 2e-2, /* no pull-in: it moves by less */
-                                    .overlap_m = 3e-3,
-                                    .length_m = 2e-2,
-                                    .depth_m = 50e-6,
-                                    .voltage_V = decades(1, 2),
-                                    .law = any_law(arena, s->duration_s, chance(0.5))};
+    s->comb[s->ncomb++] = (fw_device_comb){.id = "comb",
+                                           .kind = FW_ELECTRODES_COMB,
+                                           .body_a = FW_GROUND,
+                                           .body_b = b,
+                                           .direction_rad = lot(0, 6),
+                                           .fingers = 20,
+                                           .gap_m = 2e-2, /* no pull-in: it moves by less */
+                                           .overlap_m = 3e-3,
+                                           .length_m = 2e-2,
+                                           .depth_m = 50e-6,
+                                           .voltage_V = decades(1, 2),
+                                           .law = any_law(arena, s->duration_s, chance(0.5))};
 }
 
 static void some_air(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
-    s->air = fw_arena_array(arena, fw_air, 4);
+    fw_device_scene *s = &r->scene;
+    s->air = fw_arena_array(arena, fw_device_air, 4);
     for (int n = 1 + (int)lot(0, 2); n > 0; n--)
-        s->air[s->nair++] = (fw_air){.kind = FW_AIR_SLIDE,
-                                     .body = body_of(r),
-                                     .against = FW_GROUND,
-                                     .gap_m = decades(-6, -4.5),
-                                     .area_m2 = decades(-8, -6.5),
-                                     .x_m = NOT,
-                                     .y_m = NOT,
-                                     .direction_rad = NOT,
-                                     .length_m = NOT,
-                                     .depth_m = NOT,
-                                     .pressure_Pa = NOT,
-                                     .temperature_K = NOT,
-                                     .viscosity_Pas = NOT};
+        s->air[s->nair++] = (fw_device_air){.kind = FW_AIR_SLIDE,
+                                            .body = body_of(r),
+                                            .against = FW_GROUND,
+                                            .gap_m = decades(-6, -4.5),
+                                            .area_m2 = decades(-8, -6.5),
+                                            .x_m = NOT,
+                                            .y_m = NOT,
+                                            .direction_rad = NOT,
+                                            .length_m = NOT,
+                                            .depth_m = NOT,
+                                            .pressure_Pa = NOT,
+                                            .temperature_K = NOT,
+                                            .viscosity_Pas = NOT};
 }
 
 static void some_loads(fw_arena *arena, rig *r) {
-    fw_scene *s = &r->scene;
+    fw_device_scene *s = &r->scene;
     for (int i = 0; i < s->nforce; i++)
         if (chance(0.5)) s->force[i].law = any_law(arena, s->duration_s, true);
     for (int i = 0; i < s->ntorque; i++)
         if (chance(0.5)) s->torque[i].law = any_law(arena, s->duration_s, true);
     if (chance(0.5)) s->gravity = true, s->gx_m_per_s2 = lot(-9, 9), s->gy_m_per_s2 = lot(-9, 9);
     if (chance(0.5)) {
-        s->base = fw_arena_array(arena, fw_base_motion, 1);
-        s->base[s->nbase++] = (fw_base_motion){.ax_m_per_s2 = lot(-100, 100),
-                                               .ay_m_per_s2 = lot(-100, 100),
-                                               .law = any_law(arena, s->duration_s, true)};
+        s->base = fw_arena_array(arena, fw_device_base_motion, 1);
+        s->base[s->nbase++] = (fw_device_base_motion){.ax_m_per_s2 = lot(-100, 100),
+                                                      .ay_m_per_s2 = lot(-100, 100),
+                                                      .law = any_law(arena, s->duration_s, true)};
     }
     if (chance(0.3)) {
-        s->temperature = fw_arena_array(arena, fw_temperature, 1);
+        s->temperature = fw_arena_array(arena, fw_device_temperature, 1);
         s->temperature[s->ntemperature++] =
-            (fw_temperature){.change_K = lot(-200, 200),
-                             .expansion_per_K = 2e-5,
-                             .substrate_expansion_per_K = chance(0.5) ? 0 : 3e-5,
-                             .modulus_change_per_K = chance(0.5) ? 0 : -6e-5,
-                             .law = any_law(arena, s->duration_s, false)};
+            (fw_device_temperature){.change_K = lot(-200, 200),
+                                    .expansion_per_K = 2e-5,
+                                    .substrate_expansion_per_K = chance(0.5) ? 0 : 3e-5,
+                                    .modulus_change_per_K = chance(0.5) ? 0 : -6e-5,
+                                    .law = any_law(arena, s->duration_s, false)};
     }
 }
 
@@ -219,9 +223,9 @@ static rig any_scene(fw_arena *arena, int c, char *what) {
     bool closed = r.m.pin[r.m.npin - 1].body_b == FW_GROUND ||
                   (r.m.npin > 1 && r.m.pin[r.m.npin - 2].body_b == FW_GROUND);
     if (!closed && chance(0.3)) {
-        fw_law law = hard_law(
+        fw_quantity_law law = hard_law(
             arena, chance(0.5) ? "0.2 rad * sin(2000 rad/s * t)" : "0.1 rad * min(1, t / 1e-3 s)",
-            (fw_dimension){.rad = 1});
+            (fw_quantity_dimension){.rad = 1});
         hard_driver(arena, &r, "motor", 0, FW_NONE, law), *what++ = 'd';
     }
     if (r.scene.nbase) *what++ = 'b';
@@ -250,7 +254,7 @@ enum {
     METHODS = sizeof method / sizeof method[0]
 };
 
-static void check_numbers(const fw_motion *m) {
+static void check_numbers(const fw_dynamics_motion *m) {
     for (int k = 0; k < m->nsample; k++)
         for (int i = 0; i < 3 * m->nbody; i++)
             assert_true(isfinite(hard_q(m, k)[i]) && isfinite(hard_v(m, k)[i]));
@@ -270,11 +274,11 @@ static void combinations(void **state) {
         char what[16];
         rig r = any_scene(arena, c, what);
         const tool *by = &integrator[(int)lot(0, TOOLS)];
-        fw_motion_options o = {.integrator = by->name,
-                               .method = method[(int)lot(0, METHODS)],
-                               .rtol = by->least * decades(0, 1),
-                               .most_steps = 100000,
-                               .samples = 21};
+        fw_dynamics_motion_options o = {.integrator = by->name,
+                                        .method = method[(int)lot(0, METHODS)],
+                                        .rtol = by->least * decades(0, 1),
+                                        .most_steps = 100000,
+                                        .samples = 21};
         outcome out = hard_try(arena, &r, o);
         if (out.status != FW_OK) {
             print_message("%d %s by %s, %s: %s\n", c, what, o.method,
@@ -283,7 +287,7 @@ static void combinations(void **state) {
             failed += out.number != 244 && out.number != 242;
         } else {
             check_numbers(out.m);
-            const fw_motion_stats *s = &out.m->stats;
+            const fw_dynamics_motion_stats *s = &out.m->stats;
             double share = s->energy_error / (by->allowed * s->rtol);
             if (share > 1 || one || s->cpu_s > 1)
                 print_message("%d %s by %s, %s: rtol %.1e, energy %.1e, %ld events, %ld steps, "

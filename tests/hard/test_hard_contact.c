@@ -35,7 +35,7 @@ static void know(fw_arena *arena, trial *c) {
 }
 
 /* largest error over all samples, relative to the size of the motion */
-static double error_of(const trial *c, const fw_motion *m) {
+static double error_of(const trial *c, const fw_dynamics_motion *m) {
     double worst = 0;
     for (int k = 0; k < SAMPLES; k++)
         worst = fmax(worst, fabs(hard_q(m, k)[3 * c->body + c->part] - c->known[k]));
@@ -49,9 +49,9 @@ static void refine(fw_arena *arena, trial *c) {
     for (int e = 3; e <= 13; e += e == 3 ? 3 : 1) {
         if (hard_quick() && e != 3 && e != 8 && e != 13) continue;
         double rtol = pow(10, -e);
-        const fw_motion *m =
-            hard_run(arena, &c->r,
-                     (fw_motion_options){.rtol = rtol, .integrator = "dop853", .samples = SAMPLES});
+        const fw_dynamics_motion *m = hard_run(
+            arena, &c->r,
+            (fw_dynamics_motion_options){.rtol = rtol, .integrator = "dop853", .samples = SAMPLES});
         error = error_of(c, m);
         print_message("%-22s rtol 1e-%02d: error %.1e, %ld events (%ld), energy %.1e, %ld steps\n",
                       c->name, e, error, m->stats.events, c->count, m->stats.energy_error,
@@ -78,13 +78,13 @@ static void agree(fw_arena *arena, trial *c) {
         if (c->r.m.npin == 0 && strcmp(by[i][1], "minimal") == 0) continue; /* knows pins only */
         if (hard_quick() && i % 4) continue;
         bool fixed = strcmp(by[i][0], "rk4") == 0, low = strcmp(by[i][0], "generalised-alpha") == 0;
-        fw_motion_options o = {.rtol = low                    ? 1e-8
-                                       : fixed && c->r.m.npin ? 1e-12
-                                                              : 1e-10,
-                               .integrator = by[i][0],
-                               .method = by[i][1],
-                               .samples = SAMPLES};
-        const fw_motion *m = hard_run(arena, &c->r, o);
+        fw_dynamics_motion_options o = {.rtol = low                    ? 1e-8
+                                                : fixed && c->r.m.npin ? 1e-12
+                                                                       : 1e-10,
+                                        .integrator = by[i][0],
+                                        .method = by[i][1],
+                                        .samples = SAMPLES};
+        const fw_dynamics_motion *m = hard_run(arena, &c->r, o);
         double error = error_of(c, m);
         print_message("%-22s %-17s %-23s: error %.1e, %ld events, energy %.1e, %ld steps\n",
                       c->name, by[i][0], by[i][1], error, m->stats.events, m->stats.energy_error,
@@ -96,25 +96,25 @@ static void agree(fw_arena *arena, trial *c) {
 
 /* ---- bounces ---- */
 
-static fw_contact_use *touch(fw_arena *arena, rig *r, fw_contact_side side, int a, int b,
-                             double distance, double k, double c) {
-    if (!r->scene.contact) r->scene.contact = fw_arena_array(arena, fw_contact_use, 16);
-    fw_contact_use *u = &r->scene.contact[r->scene.ncontact++];
-    *u = (fw_contact_use){.id = "touch",
-                          .joint = FW_NONE,
-                          .side = side,
-                          .body_a = a,
-                          .body_b = b,
-                          .distance_m = distance,
-                          .stiffness_N_per_m = k,
-                          .damping_Ns_per_m = c};
+static fw_device_contact_use *touch(fw_arena *arena, rig *r, fw_device_contact_side side, int a,
+                                    int b, double distance, double k, double c) {
+    if (!r->scene.contact) r->scene.contact = fw_arena_array(arena, fw_device_contact_use, 16);
+    fw_device_contact_use *u = &r->scene.contact[r->scene.ncontact++];
+    *u = (fw_device_contact_use){.id = "touch",
+                                 .joint = FW_NONE,
+                                 .side = side,
+                                 .body_a = a,
+                                 .body_b = b,
+                                 .distance_m = distance,
+                                 .stiffness_N_per_m = k,
+                                 .damping_Ns_per_m = c};
     return u;
 }
 
 /* outside: a mass on a guide falls from `height` on a round thing below it; inside: a free one in a
    hole falls on its floor */
-static trial bouncing(fw_arena *arena, fw_contact_side side, double height, double k, double zeta,
-                      double duration) {
+static trial bouncing(fw_arena *arena, fw_device_contact_side side, double height, double k,
+                      double zeta, double duration) {
     bounce *b = fw_arena_one(arena, bounce);
     double m = 0.3, c = 2 * zeta * sqrt(k * m), d = side == FW_CONTACT_INSIDE ? 0.6 : 0.2;
     double sign = -1, floor = side == FW_CONTACT_INSIDE ? -d : d;
@@ -130,8 +130,8 @@ static trial bouncing(fw_arena *arena, fw_contact_side side, double height, doub
                .kappa = 1e3};
     rig_body(&t.r, "ball", m, 1e-3, 0, floor + height, 0);
     if (side == FW_CONTACT_OUTSIDE) {
-        fw_tie *guide =
-            hard_tie_at(arena, &t.r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 0, 0, floor + height);
+        fw_device_joint *guide =
+            hard_tie_at(arena, &t.r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 0, 0, floor + height);
         guide->axis_rad = HARD_PI / 2;
     }
     touch(arena, &t.r, side, FW_GROUND, 0, d, k, c);
@@ -148,7 +148,7 @@ static void bounces(void **state) {
         for (int side = 0; side < 2; side++) {
             fw_arena *arena = fw_arena_new(0);
             double rest = 3 * sqrt(2 * 0.1 / G) / zeta[k];
-            trial t = bouncing(arena, (fw_contact_side)side, 0.1, stiff[k], zeta[k], rest);
+            trial t = bouncing(arena, (fw_device_contact_side)side, 0.1, stiff[k], zeta[k], rest);
             refine(arena, &t);
             assert_true(t.count >= 21 && isinf((double)((bounce *)t.exact)->end));
             if (k == 0) agree(arena, &t);
@@ -171,9 +171,10 @@ static void thousand_bounces(void **state) {
         double period = 2 * fall + (double)bounce_lasts(b);
         t.r.scene.duration_s = ((double)count + 0.01) * period;
         know(arena, &t);
-        const fw_motion *m = hard_run(
-            arena, &t.r,
-            (fw_motion_options){.rtol = 1e-12, .integrator = "dop853", .samples = SAMPLES});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &t.r,
+                     (fw_dynamics_motion_options){
+                         .rtol = 1e-12, .integrator = "dop853", .samples = SAMPLES});
         double error = error_of(&t, m);
         print_message("%ld bounces, k %.0e: %ld events, error %.1e, energy %.1e, %ld steps\n",
                       count, k, m->stats.events, error, m->stats.energy_error, m->stats.steps);
@@ -200,8 +201,9 @@ static void grazes(void **state) {
         touch(arena, &r, FW_CONTACT_INSIDE, FW_GROUND, 0, way, 1e5, 0);
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -G;
         r.scene.duration_s = 1.7 * sqrt(2 * top / G);
-        const fw_motion *m = hard_run(
-            arena, &r, (fw_motion_options){.rtol = 1e-11, .integrator = "dop853", .samples = 3});
+        const fw_dynamics_motion *m = hard_run(
+            arena, &r,
+            (fw_dynamics_motion_options){.rtol = 1e-11, .integrator = "dop853", .samples = 3});
         print_message("grazes by %.0e: %ld events, %ld steps\n", over, m->stats.events,
                       m->stats.steps);
         assert_int_equal(m->stats.events, over > 0 ? 2 : 0);
@@ -285,20 +287,20 @@ static trial slack_pendulum(fw_arena *arena, bool cable, double zeta) {
     t.r = rig_new(arena, 1, 0, 1);
     rig_body(&t.r, "bob", m, 1e-3, x0, y0, 0);
     if (cable) {
-        fw_spring *line = hard_spring(&t.r, "line", FW_GROUND, 0, 0, 0, 0, 0, k, length);
+        fw_device_spring *line = hard_spring(&t.r, "line", FW_GROUND, 0, 0, 0, 0, 0, k, length);
         line->cable = true, line->damping_Ns_per_m = c;
     } else {
-        fw_tendon *line = t.r.scene.tendon = fw_arena_array(arena, fw_tendon, 1);
-        *line = (fw_tendon){.id = "line",
-                            .eyelet = fw_arena_array(arena, fw_eyelet, 2),
-                            .neyelet = 2,
-                            .pull_N = (double)NAN,
-                            .draw_m = 0,
-                            .stiffness_N_per_m = k,
-                            .damping_Ns_per_m = c,
-                            .slack_m = length - hypot(x0, y0)};
-        line->eyelet[0] = (fw_eyelet){.body = FW_GROUND};
-        line->eyelet[1] = (fw_eyelet){.body = 0};
+        fw_device_tendon *line = t.r.scene.tendon = fw_arena_array(arena, fw_device_tendon, 1);
+        *line = (fw_device_tendon){.id = "line",
+                                   .eyelet = fw_arena_array(arena, fw_device_eyelet, 2),
+                                   .neyelet = 2,
+                                   .pull_N = (double)NAN,
+                                   .draw_m = 0,
+                                   .stiffness_N_per_m = k,
+                                   .damping_Ns_per_m = c,
+                                   .slack_m = length - hypot(x0, y0)};
+        line->eyelet[0] = (fw_device_eyelet){.body = FW_GROUND};
+        line->eyelet[1] = (fw_device_eyelet){.body = 0};
         t.r.scene.ntendon = 1;
     }
     t.r.scene.gravity = true, t.r.scene.gy_m_per_s2 = -G;
@@ -347,10 +349,10 @@ static void driven_stop(void **state) {
         t.part = 2;
         t.r = rig_new(arena, 1, 1, 0);
         rig_body(&t.r, "rotor", 1, (double)d.j, 0, 0, 0);
-        fw_pin *p = rig_pin(&t.r, "O", FW_GROUND, 0, 0, 0, (double)d.k, 0);
+        fw_mechanism_pin *p = rig_pin(&t.r, "O", FW_GROUND, 0, 0, 0, (double)d.k, 0);
         p->stop_min_rad = (double)NAN, p->stop_max_rad = (double)d.at;
         p->stop_stiffness_Nm_per_rad = (double)d.ks, p->stop_damping_Nms_per_rad = (double)d.cs;
-        fw_law law = hard_law(arena, "sin(14 rad/s * t)", (fw_dimension){0});
+        fw_quantity_law law = hard_law(arena, "sin(14 rad/s * t)", (fw_quantity_dimension){0});
         rig_torque(&t.r, 0, (double)d.m);
         t.r.scene.torque[0].law = &law;
         t.r.scene.duration_s = 8;
@@ -397,15 +399,18 @@ static void sticks_and_slips(void **state) {
     t.r = rig_new(arena, 2, 0, 1);
     rig_body(&t.r, "belt", 3, 1, 0, 0, 0);
     rig_body(&t.r, "mass", (double)b.m, 1, 0, 0, 0);
-    hard_tie(arena, &t.r, "rail", FW_TIE_PRISMATIC, FW_GROUND, 0);
-    hard_tie(arena, &t.r, "rub", FW_TIE_PRISMATIC, 0, 1);
+    hard_tie(arena, &t.r, "rail", FW_JOINT_PRISMATIC, FW_GROUND, 0);
+    hard_tie(arena, &t.r, "rub", FW_JOINT_PRISMATIC, 0, 1);
     rig_velocity(&t.r, 0, (double)b.v, 0, 0);
     rig_velocity(&t.r, 1, (double)b.v, 0, 0);
     hard_spring(&t.r, "spring", FW_GROUND, -5, 0, 1, 0, 0, (double)b.k, 5);
-    t.r.scene.friction = fw_arena_array(arena, fw_friction_use, 1);
-    t.r.scene.friction[t.r.scene.nfriction++] = (fw_friction_use){
-        .joint = FW_NONE, .tie = 1, .coefficient = 0.35, .static_coefficient = 0.6, .preload_N = 4};
-    fw_law law = hard_law(arena, "0.15 m/s * t", (fw_dimension){.m = 1});
+    t.r.scene.friction = fw_arena_array(arena, fw_device_friction_use, 1);
+    t.r.scene.friction[t.r.scene.nfriction++] = (fw_device_friction_use){.revolute = FW_NONE,
+                                                                         .joint = 1,
+                                                                         .coefficient = 0.35,
+                                                                         .static_coefficient = 0.6,
+                                                                         .preload_N = 4};
+    fw_quantity_law law = hard_law(arena, "0.15 m/s * t", (fw_quantity_dimension){.m = 1});
     hard_driver(arena, &t.r, "motor", FW_NONE, 0, law);
     t.r.scene.duration_s = 20.2;
     refine(arena, &t);

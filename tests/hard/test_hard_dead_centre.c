@@ -32,7 +32,7 @@ static double side(const rig *r, const double *q) {
     double at[3][2];
     static const int body[3] = {0, 0, 1};
     for (int i = 0; i < 3; i++) {
-        const fw_pin *p = &r->m.pin[i];
+        const fw_mechanism_pin *p = &r->m.pin[i];
         const double *b = q + 3 * body[i];
         double x = i == 2 ? p->ax_m : i == 1 ? p->ax_m : p->bx_m;
         double y = i == 2 ? p->ay_m : i == 1 ? p->ay_m : p->by_m;
@@ -52,8 +52,9 @@ static void test_six_bar(void **state) {
     for (size_t k = 0; k < (hard_quick() ? 2 : sizeof start / sizeof start[0]); k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = straight(arena, start[k].bend, start[k].speed);
-        const fw_motion *fine = hard_run(
-            arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = ROWS, .reactions = true});
+        const fw_dynamics_motion *fine = hard_run(
+            arena, &r,
+            (fw_dynamics_motion_options){.rtol = 1e-12, .samples = ROWS, .reactions = true});
         double worst = 0, force = 0;
         int passes = 0;
         for (int i = 1; i < ROWS; i++)
@@ -61,14 +62,14 @@ static void test_six_bar(void **state) {
         for (int i = 0; i < fine->npin; i++)
             force = fmax(force, fine->force_peak[i].force_N);
         int refused = 0, count = 0;
-        for (size_t i = 0; fw_method_at(i).name; i++, count++) {
-            outcome out =
-                hard_try(arena, &r,
-                         (fw_motion_options){
-                             .rtol = 1e-11, .samples = ROWS, .method = fw_method_at(i).name});
+        for (size_t i = 0; fw_multibody_method_at(i).name; i++, count++) {
+            outcome out = hard_try(
+                arena, &r,
+                (fw_dynamics_motion_options){
+                    .rtol = 1e-11, .samples = ROWS, .method = fw_multibody_method_at(i).name});
             if (out.status != FW_OK) {
                 refused++;
-                print_message("  %s: %s\n", fw_method_at(i).name, out.message);
+                print_message("  %s: %s\n", fw_multibody_method_at(i).name, out.message);
                 continue;
             }
             for (int c = 0; c < ROWS * 15; c++)
@@ -98,11 +99,12 @@ static void test_slider_crank(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "B", 0, 1, r0, 0, 0, 0);
     rig_pin(&r, "P", 1, 2, r0 + l, 0, 0, 0);
-    hard_tie(arena, &r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 2);
+    hard_tie(arena, &r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 2);
     rig_velocity(&r, 0, 0, 0, 50);
     rig_velocity(&r, 1, 0, 2.5, -50 * r0 / l); /* fits */
     r.scene.duration_s = 2;
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = 401});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-11, .samples = 401});
     double worst = 0, newton = 0;
     for (int i = 0; i < 401; i++) {
         double a = hard_q(m, i)[2], s = r0 * sin(a);
@@ -124,7 +126,7 @@ static void test_driven_beyond_reach(void **state) {
     const double r0 = 0.1, l = 0.3, start = 1.0;
     double s = r0 * sin(start), x0 = r0 * cos(start) + sqrt(l * l - s * s);
     double when = (r0 + l - x0) / 0.02;
-    for (size_t i = 0; fw_method_at(i).name; i++) {
+    for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_new(arena, 3, 3, 0);
         rig_body(&r, "crank", 1, 0.01, r0 / 2 * cos(start), s / 2, start);
@@ -133,16 +135,18 @@ static void test_driven_beyond_reach(void **state) {
         rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
         rig_pin(&r, "B", 0, 1, r0 * cos(start), s, 0, 0);
         rig_pin(&r, "P", 1, 2, x0, 0, 0, 0);
-        fw_tie *guide = hard_tie(arena, &r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 2);
+        fw_device_joint *guide = hard_tie(arena, &r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 2);
         guide->free_length_m = x0;
         hard_driver(arena, &r, "motor", FW_NONE, 0,
-                    hard_law(arena, "0.02 m/s * t", (fw_dimension){.m = 1}));
+                    hard_law(arena, "0.02 m/s * t", (fw_quantity_dimension){.m = 1}));
         r.scene.duration_s = 2 * when;
-        outcome out = hard_try(
-            arena, &r,
-            (fw_motion_options){.rtol = 1e-9, .samples = 11, .method = fw_method_at(i).name});
+        outcome out =
+            hard_try(arena, &r,
+                     (fw_dynamics_motion_options){
+                         .rtol = 1e-9, .samples = 11, .method = fw_multibody_method_at(i).name});
         print_message("dead centre, slider driven beyond the reach at %.6f s, %s: %s\n", when,
-                      fw_method_at(i).name, out.status == FW_OK ? "ACCEPTED" : out.message);
+                      fw_multibody_method_at(i).name,
+                      out.status == FW_OK ? "ACCEPTED" : out.message);
         assert_int_equal(out.status, FW_SOLVER);
         const char *said = strstr(out.message, " s on")  ? strstr(out.message, "from ") + 5
                            : strstr(out.message, " at ") ? strstr(out.message, " at ") + 4

@@ -34,7 +34,7 @@ static double wrapped(double angle) {
 
 /* largest deviation of the second crank from its branch; its bar points from its tip to the ground
  */
-static double off_branch(const fw_motion *m, bool is_crossed) {
+static double off_branch(const fw_dynamics_motion *m, bool is_crossed) {
     double worst = 0;
     for (int i = 0; i < m->nsample; i++) {
         double first = hard_q(m, i)[2], second = hard_q(m, i)[8] + HARD_PI;
@@ -53,16 +53,16 @@ static void run(const char *what, bool driven, bool is_crossed) {
         if (driven) {
             r.m.pin[2].free_angle_rad = start;
             hard_driver(arena, &r, "motor", 2, FW_NONE,
-                        hard_law(arena, "1 rad/s * t", (fw_dimension){.rad = 1}));
+                        hard_law(arena, "1 rad/s * t", (fw_quantity_dimension){.rad = 1}));
         }
         if (!driven || !is_crossed) { /* of a parallelogram; projected where it is crossed */
             rig_velocity(&r, 0, -crank / 2 * sin(start), crank / 2 * cos(start), 1);
             rig_velocity(&r, 1, -crank * sin(start), crank * cos(start), 0);
             rig_velocity(&r, 2, -crank / 2 * sin(start), crank / 2 * cos(start), 1);
         }
-        const fw_motion *m =
-            hard_run(arena, &r,
-                     (fw_motion_options){.rtol = pow(10, -e), .samples = ROWS, .reactions = true});
+        const fw_dynamics_motion *m = hard_run(
+            arena, &r,
+            (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = ROWS, .reactions = true});
         double worst = off_branch(m, is_crossed), force = 0, error = 0;
         for (int i = 0; i < m->npin; i++)
             if (m->force_peak[i].force_N > force)
@@ -120,10 +120,10 @@ static void test_kite(void **state) {
         rig_pin(&r, "D", 2, FW_GROUND, a, 0, 0, 0);
         r.m.pin[2].free_angle_rad = start;
         hard_driver(arena, &r, "motor", 2, FW_NONE,
-                    hard_law(arena, "1 rad/s * t", (fw_dimension){.rad = 1}));
+                    hard_law(arena, "1 rad/s * t", (fw_quantity_dimension){.rad = 1}));
         r.scene.duration_s = 2.4;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 25});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 25});
         double worst = 0;
         for (int i = 0; i < 25; i++) {
             double angle = start + m->t_s[i], x = a * cos(angle), y = a * sin(angle);
@@ -152,9 +152,9 @@ static void test_ablation(void **state) {
             rig_velocity(&r, 1, -crank * sin(1), crank * cos(1), 0);
             rig_velocity(&r, 2, -crank / 2 * sin(1), crank / 2 * cos(1), 1);
             r.scene.duration_s = 40 * HARD_PI;
-            outcome out = hard_try(
-                arena, &r,
-                (fw_motion_options){.rtol = pow(10, -e), .samples = ROWS, .stabilise = how[k]});
+            outcome out = hard_try(arena, &r,
+                                   (fw_dynamics_motion_options){
+                                       .rtol = pow(10, -e), .samples = ROWS, .stabilise = how[k]});
             kept += out.status == FW_OK && off_branch(out.m, false) < 1e-6;
             fw_arena_free(arena);
         }

@@ -6,18 +6,18 @@
 
 static const double NOT = (double)NAN;
 
-static void rub(fw_arena *arena, rig *r, int pin, int tie, double mu_s, double mu_k, double radius,
-                double preload) {
-    if (!r->scene.friction) r->scene.friction = fw_arena_array(arena, fw_friction_use, 64);
-    r->scene.friction[r->scene.nfriction++] = (fw_friction_use){.joint = pin,
-                                                                .tie = tie,
-                                                                .coefficient = mu_k,
-                                                                .static_coefficient = mu_s,
-                                                                .radius_m = radius,
-                                                                .preload_N = preload};
+static void rub(fw_arena *arena, rig *r, int pin, int joint, double mu_s, double mu_k,
+                double radius, double preload) {
+    if (!r->scene.friction) r->scene.friction = fw_arena_array(arena, fw_device_friction_use, 64);
+    r->scene.friction[r->scene.nfriction++] = (fw_device_friction_use){.revolute = pin,
+                                                                       .joint = joint,
+                                                                       .coefficient = mu_k,
+                                                                       .static_coefficient = mu_s,
+                                                                       .radius_m = radius,
+                                                                       .preload_N = preload};
 }
 
-static double largest_angle(const fw_motion *m) {
+static double largest_angle(const fw_dynamics_motion *m) {
     double most = 0;
     for (int i = 0; i < m->npin; i++)
         most = fmax(most, fabs(m->peak[i].angle_rad));
@@ -43,10 +43,11 @@ static void random_mechanisms(void **state) {
             double preload = rig_random(&seed) < 0.5 ? 0 : 3e-3 * rig_random(&seed);
             rub(arena, &r, i, FW_NONE, more, mu, 1e-4 * level, preload);
         }
-        fw_law law = hard_law(arena, "sin(9000 rad/s * t)", (fw_dimension){0});
+        fw_quantity_law law = hard_law(arena, "sin(9000 rad/s * t)", (fw_quantity_dimension){0});
         for (int i = 0; i < r.scene.nforce && c % 3 == 0; i++)
             r.scene.force[i].law = &law;
-        outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-9, .samples = 31});
+        outcome out =
+            hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-9, .samples = 31});
         if (out.status != FW_OK) {
             print_message("case %d: %s\n", c, out.message);
             jams += out.number == 244;
@@ -54,7 +55,7 @@ static void random_mechanisms(void **state) {
             fw_arena_free(arena);
             continue;
         }
-        const fw_motion *m = out.m;
+        const fw_dynamics_motion *m = out.m;
         int still = 0;
         for (int k = 1; k < m->nsample; k++) {
             double speed = 0;
@@ -95,12 +96,12 @@ static void more_joints_than_freedoms(void **state) {
             rub(arena, &r, i, FW_NONE, 0.3, 0.2, 30e-6, 0.4e-3);
         }
         rub(arena, &r, 2, FW_NONE, NOT, 0.1, 20e-6, 0);
-        const fw_motion *first = NULL;
+        const fw_dynamics_motion *first = NULL;
         for (int k = 0; k < 4; k++) {
             if (twice && k == 1) continue; /* not for minimal */
             if (hard_quick() && (k == 1 || k == 2)) continue;
-            fw_motion_options o = {.method = methods[k], .rtol = 1e-11, .samples = 61};
-            const fw_motion *m = hard_run(arena, &r, o);
+            fw_dynamics_motion_options o = {.method = methods[k], .rtol = 1e-11, .samples = 61};
+            const fw_dynamics_motion *m = hard_run(arena, &r, o);
             print_message("six-bar%s, %s: %ld events, %ld steps, energy %.1e\n",
                           twice ? " (D twice)" : "", methods[k], m->stats.events, m->stats.steps,
                           m->stats.energy_error);
@@ -136,11 +137,12 @@ static void thousand_cycles(void **state) {
     rig_velocity(&r, 0, 0, 0, rate);
     rig_velocity(&r, 1, 0, 0, rate);
     hard_driver(arena, &r, "motor", 0, FW_NONE,
-                hard_law(arena, "0.4 rad/s * t", (fw_dimension){.rad = 1}));
+                hard_law(arena, "0.4 rad/s * t", (fw_quantity_dimension){.rad = 1}));
     rub(arena, &r, 2, FW_NONE, mu_s, mu_k, radius, n);
     r.scene.duration_s = first + ((double)cycles + 0.5) * period;
-    fw_motion_options o = {.method = "chain", .integrator = "dop853", .rtol = 1e-10, .samples = 2};
-    const fw_motion *m = hard_run(arena, &r, o);
+    fw_dynamics_motion_options o = {
+        .method = "chain", .integrator = "dop853", .rtol = 1e-10, .samples = 2};
+    const fw_dynamics_motion *m = hard_run(arena, &r, o);
     double late = 0.5 * period, x = mu_k * n * radius / k;
     double want = late < slips ? x + d * cos(w * late) + rate / w * sin(w * late)
                                : x - d + rate * (late - slips);

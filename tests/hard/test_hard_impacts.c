@@ -12,13 +12,14 @@ static void test_ten_thousand_touches(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_new(arena, 1, 1, 0);
         rig_body(&r, "rotor", 1, 1, 0, 0, 0);
-        fw_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
+        fw_mechanism_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
         p->stop_min_rad = -0.3, p->stop_max_rad = 0.3, p->stop_stiffness_Nm_per_rad = k;
         rig_velocity(&r, 0, 0, 0, 2);
         int rounds = hard_quick() ? 50 : 2500;
         double period = 2 * (0.3 + HARD_PI / sqrt(k));
         r.scene.duration_s = rounds * period;
-        const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = 6});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-11, .samples = 6});
         double place = 0, rate = 0;
         for (int i = 1; i < 6; i++) {
             place = fmax(place, fabs(hard_q(m, i)[2]));
@@ -45,14 +46,14 @@ static void test_six_bar_in_stops(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
         for (int i = 0; i < 6; i++) {
-            fw_pin *p = &r.m.pin[i];
+            fw_mechanism_pin *p = &r.m.pin[i];
             p->stop_min_rad = -0.02, p->stop_max_rad = 0.02;
             p->stop_stiffness_Nm_per_rad = 1e-2, p->stop_damping_Nms_per_rad = 1e-9;
         }
         rig_velocity(&r, 2, 3, 1, 500);
         r.scene.duration_s = 5e-3;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 51});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 51});
         double most = 0;
         for (int i = 0; i < 6; i++)
             most = fmax(most, fabs(m->peak[i].angle_rad));
@@ -76,16 +77,16 @@ static void test_cables(void **state) {
         rig r = rig_new(arena, 1, 0, 4);
         rig_body(&r, "weight", 1, 0.05, 0, 0, 0);
         for (int i = 0; i < 4; i++) {
-            fw_spring *s = hard_spring(&r, "cable", FW_GROUND, corner[i][0], corner[i][1], 0,
-                                       0.1 * corner[i][0], 0.1 * corner[i][1], 2e4, 1.3);
+            fw_device_spring *s = hard_spring(&r, "cable", FW_GROUND, corner[i][0], corner[i][1], 0,
+                                              0.1 * corner[i][0], 0.1 * corner[i][1], 2e4, 1.3);
             s->cable = true;
             s->damping_Ns_per_m = i == 2 ? 3 : 0;
         }
         rig_velocity(&r, 0, 3, 2, 5);
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
         r.scene.duration_s = 5;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 11});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 11});
         print_message("impacts: weight in four cables, rtol 1e-%d: %ld events, energy %.1e, %ld "
                       "steps\n",
                       e, m->stats.events, m->stats.energy_error, m->stats.steps);
@@ -102,12 +103,13 @@ static void at_rest(double rtol) {
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "bar", 1, 1.0 / 12, 0.5, 0, 0);
-    fw_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
+    fw_mechanism_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     p->stop_min_rad = -0.5, p->stop_max_rad = (double)NAN;
     p->stop_stiffness_Nm_per_rad = 1e6, p->stop_damping_Nms_per_rad = 30;
     r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 10;
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = rtol, .samples = 11});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = rtol, .samples = 11});
     double low = 0.5, high = 0.50001; /* m g l cos(angle) = k (angle - 0.5) */
     for (int i = 0; i < 100; i++) {
         double middle = 0.5 * (low + high);
@@ -151,12 +153,14 @@ static void test_driver_with_kinks(void **state) {
             r.m.pin[i].free_angle_rad = r.m.body[i + 1].phi_rad - r.m.body[i].phi_rad;
         rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
         r.m.pin[3].free_angle_rad = r.m.body[0].phi_rad;
-        hard_driver(
-            arena, &r, "motor", 3, FW_NONE,
-            (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = KINKS + 1});
+        hard_driver(arena, &r, "motor", 3, FW_NONE,
+                    (fw_quantity_law){.kind = &fw_quantity_law_table,
+                                      .table_t_s = t,
+                                      .table_value = v,
+                                      .ntable = KINKS + 1});
         r.scene.duration_s = 2;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 101});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 101});
         double worst = 0; /* rows at the kinks */
         for (int i = 0; i <= KINKS; i++)
             worst = fmax(worst, fabs(hard_q(m, i)[2] - r.m.body[0].phi_rad - v[i]));

@@ -105,19 +105,22 @@ static long double twice_integrated(const load *l, double end) {
     return sum;
 }
 
-static const fw_law *swinging(fw_arena *arena, const load *l) {
-    fw_law *law = fw_arena_one(arena, fw_law);
-    *law = (fw_law){.kind = &fw_quantity_law_sine,
-                    .end_s = (double)INFINITY,
-                    .frequency_Hz = l->w / (2 * HARD_PI),
-                    .phase_rad = l->p};
+static const fw_quantity_law *swinging(fw_arena *arena, const load *l) {
+    fw_quantity_law *law = fw_arena_one(arena, fw_quantity_law);
+    *law = (fw_quantity_law){.kind = &fw_quantity_law_sine,
+                             .end_s = (double)INFINITY,
+                             .frequency_Hz = l->w / (2 * HARD_PI),
+                             .phase_rad = l->p};
     return law;
 }
 
-static void rub(fw_arena *arena, rig *r, int pin, int tie, double mu, double radius) {
-    r->scene.friction = fw_arena_array(arena, fw_friction_use, 1);
-    r->scene.friction[r->scene.nfriction++] = (fw_friction_use){
-        .joint = pin, .tie = tie, .coefficient = mu, .static_coefficient = NOT, .radius_m = radius};
+static void rub(fw_arena *arena, rig *r, int pin, int joint, double mu, double radius) {
+    r->scene.friction = fw_arena_array(arena, fw_device_friction_use, 1);
+    r->scene.friction[r->scene.nfriction++] = (fw_device_friction_use){.revolute = pin,
+                                                                       .joint = joint,
+                                                                       .coefficient = mu,
+                                                                       .static_coefficient = NOT,
+                                                                       .radius_m = radius};
 }
 
 static load any_load(uint64_t *seed) {
@@ -130,7 +133,8 @@ static load any_load(uint64_t *seed) {
 static void put(fw_arena *arena, rig *r, const load *l, bool across) {
     rig_force(r, 0, across ? 0 : l->a, across ? l->a : 0);
     r->scene.force[0].law = swinging(arena, l);
-    r->scene.force = memcpy(fw_arena_array(arena, fw_force, 2), r->scene.force, sizeof(fw_force));
+    r->scene.force =
+        memcpy(fw_arena_array(arena, fw_device_force, 2), r->scene.force, sizeof(fw_device_force));
     rig_force(r, 0, 0, across ? l->c : l->d);
 }
 
@@ -147,8 +151,8 @@ static void disc(uint64_t seed, double rtol, const char *integrator, tally *t) {
     put(arena, &r, &l, false);
     rub(arena, &r, 0, FW_NONE, drag, 1);
     r.scene.duration_s = end;
-    const fw_motion *m =
-        hard_run(arena, &r, (fw_motion_options){.rtol = rtol, .integrator = integrator});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = rtol, .integrator = integrator});
     long double want = wide(omega) * wide(end) - wide(drag / inertia) * twice_integrated(&l, end);
     judge(t, "disc", l.d, rtol, (double)want, m->peak[0].angle_rad, m->peak[0].error_rad,
           omega * end, m->stats.steps);
@@ -164,13 +168,14 @@ static void block(uint64_t seed, double rtol, const char *integrator, tally *t) 
     double speed = 1.1 * drag / mass * 2 * l.a * end;
     rig r = rig_new(arena, 1, 0, 0);
     rig_body(&r, "block", mass, 0.1, 0, 0, 0);
-    hard_tie(arena, &r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 0);
+    hard_tie(arena, &r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 0);
     rig_velocity(&r, 0, speed, 0, 0);
     put(arena, &r, &l, true);
     rub(arena, &r, FW_NONE, 0, drag, 0);
     r.scene.duration_s = end;
-    const fw_motion *m = hard_run(
-        arena, &r, (fw_motion_options){.rtol = rtol, .integrator = integrator, .reactions = true});
+    const fw_dynamics_motion *m = hard_run(
+        arena, &r,
+        (fw_dynamics_motion_options){.rtol = rtol, .integrator = integrator, .reactions = true});
     long double want = wide(speed) * wide(end) - wide(drag / mass) * twice_integrated(&l, end);
     judge(t, "block", l.c, rtol, (double)want, m->travel_peak[0].travel_m,
           m->travel_peak[0].error_m, speed * end, m->stats.steps);
@@ -242,8 +247,8 @@ static void over_the_top(uint64_t seed, double rtol, const char *integrator, tal
     r.scene.gy_m_per_s2 = (double)-G;
     r.scene.duration_s = end;
     rub(arena, &r, 0, FW_NONE, drag, 1);
-    const fw_motion *motion =
-        hard_run(arena, &r, (fw_motion_options){.rtol = rtol, .integrator = integrator});
+    const fw_dynamics_motion *motion =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = rtol, .integrator = integrator});
     static double known[4096]; /* by seeds: the same for all tolerances */
     double *truth = &known[seed_given % 4096];
     if (*truth == 0) {

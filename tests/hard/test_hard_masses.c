@@ -16,7 +16,7 @@ static rig light_links(fw_arena *arena, double factor) {
     return r;
 }
 
-static double apart(const fw_motion *a, const fw_motion *b) {
+static double apart(const fw_dynamics_motion *a, const fw_dynamics_motion *b) {
     double worst = 0;
     for (int i = 0; i < ROWS * 15; i++)
         worst = fmax(worst, fabs(a->q[i] - b->q[i]) / (i % 3 == 2 ? 1 : mm));
@@ -29,10 +29,10 @@ static void test_light_links(void **state) {
     static const double factor[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
     enum { CASES = sizeof factor / sizeof factor[0] };
     fw_arena *arena = fw_arena_new(0);
-    const fw_motion *m[CASES];
+    const fw_dynamics_motion *m[CASES];
     for (int i = 0; i < CASES; i++) {
         rig r = light_links(arena, factor[i]);
-        m[i] = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = ROWS});
+        m[i] = hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-11, .samples = ROWS});
     }
     for (int i = 0; i < CASES; i++) {
         double to_limit = apart(m[i], m[CASES - 1]);
@@ -54,13 +54,16 @@ static void test_ablation(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = light_links(arena, 1e-10);
-    const fw_motion *good = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-8, .samples = ROWS});
-    for (size_t i = 0; fw_method_at(i).name; i++) {
-        outcome out = hard_try(
-            arena, &r,
-            (fw_motion_options){.rtol = 1e-8, .samples = ROWS, .method = fw_method_at(i).name});
+    const fw_dynamics_motion *good =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-8, .samples = ROWS});
+    for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
+        outcome out =
+            hard_try(arena, &r,
+                     (fw_dynamics_motion_options){
+                         .rtol = 1e-8, .samples = ROWS, .method = fw_multibody_method_at(i).name});
         if (out.status != FW_OK) {
-            print_message("masses, links at 1e-10, %s: %s\n", fw_method_at(i).name, out.message);
+            print_message("masses, links at 1e-10, %s: %s\n", fw_multibody_method_at(i).name,
+                          out.message);
             continue;
         }
         double off = apart(out.m, good), said = out.m->stats.energy_error;
@@ -68,7 +71,8 @@ static void test_ablation(void **state) {
             said = fmax(said, out.m->peak[p].error_rad);
         print_message("masses, links at 1e-10, %-23s: off by %.1e and says %.1e, %ld steps at rtol "
                       "%.0e\n",
-                      fw_method_at(i).name, off, said, out.m->stats.steps, out.m->stats.rtol);
+                      fw_multibody_method_at(i).name, off, said, out.m->stats.steps,
+                      out.m->stats.rtol);
         assert_true(off <= 30 * said + 1e-6);
     }
     fw_arena_free(arena);
@@ -89,7 +93,8 @@ static void test_ratio(void **state) {
         rig_pin(&r, "P", 0, 1, -1, 0, 0, 0);
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
         r.scene.duration_s = 3;
-        const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = 4});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 4});
         double alone = fabs(2 * hard_q(m, 1)[0] - 0.9862917511318753193556);
         double change = fmax(fabs(hard_q(m, 3)[2] - limit[0]), fabs(hard_q(m, 3)[5] - limit[1]));
         limit[0] = hard_q(m, 3)[2], limit[1] = hard_q(m, 3)[5];
@@ -119,7 +124,8 @@ static void test_alternating_chain(void **state) {
         }
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
         r.scene.duration_s = 0.2;
-        const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-9, .samples = 6});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-9, .samples = 6});
         print_message(
             "masses: chain of 12 bars, 1 and 1e-%d kg in turn, by %s and %s: energy %.1e, "
             "%ld steps, %.0f ms\n",

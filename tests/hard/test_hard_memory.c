@@ -5,7 +5,7 @@
 #include "hard.h"
 
 /* allocations of one run; *said: a warning, whose text is allocated too, or the refusal */
-static long allocations(const rig *r, fw_motion_options o, long *steps, int *said) {
+static long allocations(const rig *r, fw_dynamics_motion_options o, long *steps, int *said) {
     fw_arena *arena = fw_arena_new(0);
     long before = fw_arena_count();
     outcome out = hard_try(arena, r, o);
@@ -27,9 +27,11 @@ static void test_steps_allocate_nothing(void **state) {
     }
     int said[2];
     for (int kind = 0; kind < 2; kind++)
-        for (size_t i = 0; kind ? fw_integrator_at(i).name : fw_method_at(i).name; i++) {
-            const char *name = kind ? fw_integrator_at(i).name : fw_method_at(i).name;
-            fw_motion_options o = {.rtol = 1e-5, .samples = 5, .reactions = true};
+        for (size_t i = 0;
+             kind ? fw_dynamics_integrator_at(i).name : fw_multibody_method_at(i).name; i++) {
+            const char *name =
+                kind ? fw_dynamics_integrator_at(i).name : fw_multibody_method_at(i).name;
+            fw_dynamics_motion_options o = {.rtol = 1e-5, .samples = 5, .reactions = true};
             *(kind ? &o.integrator : &o.method) = name;
             long count[2], steps[2];
             for (int k = 0; k < 2; k++) {
@@ -54,7 +56,7 @@ static void test_linear(void **state) {
         fw_arena *rigs = fw_arena_new(0), *arena = fw_arena_new((size_t)1 << 30);
         rig r = rig_windows(rigs, n);
         r.scene.duration_s = 0.05;
-        hard_run(arena, &r, (fw_motion_options){.rtol = 1e-6, .samples = 2});
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-6, .samples = 2});
         double per = (double)fw_arena_peak(arena) / r.m.nbody;
         print_message("memory: N = %d four-bars, %d bodies: %.1f MB, %.0f bytes per body\n", n,
                       r.m.nbody, 1e-6 * (double)fw_arena_peak(arena), per);

@@ -46,8 +46,9 @@ static int judged;
 static void at_tolerance(fw_arena *arena, const trial *t, int c, double rtol) {
     double error = 0, explained = rtol * t->length / t->size * t->passed * (1 + (double)t->events);
     if (explained > 1e-3) return;
-    const fw_motion *m = hard_run(
-        arena, &t->r, (fw_motion_options){.rtol = rtol, .samples = SAMPLES, .most_steps = 200000});
+    const fw_dynamics_motion *m = hard_run(
+        arena, &t->r,
+        (fw_dynamics_motion_options){.rtol = rtol, .samples = SAMPLES, .most_steps = 200000});
     for (int i = 0; i < SAMPLES; i++)
         error = fmax(error, fabs(hard_q(m, i)[t->part] - t->known[i]) / t->size);
     bool seen = t->graze > 100 * explained;
@@ -104,15 +105,15 @@ static void draw_drop(fw_arena *arena, int c, trial *t) {
     rig *r = &t->r;
     *r = rig_new(arena, 1, 0, 0);
     rig_body(r, "ball", m, m * size * size * decades(-2, 0), 0, size + gap, 0);
-    r->scene.contact = fw_arena_array(arena, fw_contact_use, 1);
-    r->scene.contact[r->scene.ncontact++] = (fw_contact_use){.id = "touch",
-                                                             .joint = FW_NONE,
-                                                             .side = FW_CONTACT_OUTSIDE,
-                                                             .body_a = FW_GROUND,
-                                                             .body_b = 0,
-                                                             .distance_m = size,
-                                                             .stiffness_N_per_m = k,
-                                                             .damping_Ns_per_m = b.c};
+    r->scene.contact = fw_arena_array(arena, fw_device_contact_use, 1);
+    r->scene.contact[r->scene.ncontact++] = (fw_device_contact_use){.id = "touch",
+                                                                    .joint = FW_NONE,
+                                                                    .side = FW_CONTACT_OUTSIDE,
+                                                                    .body_a = FW_GROUND,
+                                                                    .body_b = 0,
+                                                                    .distance_m = size,
+                                                                    .stiffness_N_per_m = k,
+                                                                    .damping_Ns_per_m = b.c};
     r->scene.gravity = true, r->scene.gy_m_per_s2 = -fall;
     r->scene.duration_s = (double)b.t + more;
     t->part = 1, t->size = gap, t->length = size;
@@ -178,22 +179,23 @@ static void cycle_trial(const cycle *y, double start, trial *t) {
             y->d * y->w / y->v, y->k, y->w, y->slide, y->rest, y->v, y->v / y->w / y->rest, start);
 }
 
-static void rub(fw_arena *arena, rig *r, int pin, int tie, double mu_s, double mu_k, double preload,
-                double radius) {
-    r->scene.friction = fw_arena_array(arena, fw_friction_use, 1);
-    r->scene.friction[r->scene.nfriction++] = (fw_friction_use){.joint = pin,
-                                                                .tie = tie,
-                                                                .coefficient = mu_k,
-                                                                .static_coefficient = mu_s,
-                                                                .preload_N = preload,
-                                                                .radius_m = radius};
+static void rub(fw_arena *arena, rig *r, int pin, int joint, double mu_s, double mu_k,
+                double preload, double radius) {
+    r->scene.friction = fw_arena_array(arena, fw_device_friction_use, 1);
+    r->scene.friction[r->scene.nfriction++] = (fw_device_friction_use){.revolute = pin,
+                                                                       .joint = joint,
+                                                                       .coefficient = mu_k,
+                                                                       .static_coefficient = mu_s,
+                                                                       .preload_N = preload,
+                                                                       .radius_m = radius};
 }
 
 /* a law that is `from` at 0 and rises by `rate` per second */
-static fw_law rising(fw_arena *arena, double from, double rate, double end_s) {
+static fw_quantity_law rising(fw_arena *arena, double from, double rate, double end_s) {
     double *t = fw_arena_array(arena, double, 2), *x = fw_arena_array(arena, double, 2);
     t[1] = 2 * end_s, x[0] = from, x[1] = from + rate * t[1];
-    return (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = x, .ntable = 2};
+    return (fw_quantity_law){
+        .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = x, .ntable = 2};
 }
 
 static void draw_belt(fw_arena *arena, int c, trial *t) {
@@ -204,8 +206,8 @@ static void draw_belt(fw_arena *arena, int c, trial *t) {
     *r = rig_new(arena, 2, 0, 1);
     rig_body(r, "belt", m * decades(-1, 1), m * size * size, 0, 0, 0);
     rig_body(r, "mass", m, m * size * size, 0, 0, 0);
-    hard_tie(arena, r, "rail", FW_TIE_PRISMATIC, FW_GROUND, 0);
-    hard_tie(arena, r, "rub", FW_TIE_PRISMATIC, 0, 1);
+    hard_tie(arena, r, "rail", FW_JOINT_PRISMATIC, FW_GROUND, 0);
+    hard_tie(arena, r, "rub", FW_JOINT_PRISMATIC, 0, 1);
     hard_spring(r, "spring", FW_GROUND, -reach, 0, 1, 0, 0, y.k, reach);
     rub(arena, r, FW_NONE, 1, mu, mu * y.slide / y.rest, y.k * y.rest / mu, 0);
     rig_velocity(r, 0, y.v, 0, 0);
@@ -231,12 +233,12 @@ static void draw_strained(fw_arena *arena, int c, trial *t) {
     rig *r = &t->r;
     *r = rig_new(arena, 1, 1, 0);
     rig_body(r, "rotor", j / (size * size), j, 0, 0, 0);
-    fw_pin *p = rig_pin(r, "axle", FW_GROUND, 0, 0, 0, y.k, 0);
+    fw_mechanism_pin *p = rig_pin(r, "axle", FW_GROUND, 0, 0, 0, y.k, 0);
     p->free_angle_rad = start; /* wound: the torque k start turns it forwards */
     rub(arena, r, 0, FW_NONE, mu, mu * y.slide / y.rest, y.k * y.rest / mu / size, size);
     rig_torque(r, 0, 1);
     cycle_trial(&y, start, t);
-    fw_law *law = fw_arena_one(arena, fw_law);
+    fw_quantity_law *law = fw_arena_one(arena, fw_quantity_law);
     *law = rising(arena, 0, y.k * y.v, r->scene.duration_s);
     r->scene.torque[0].law = law;
     t->part = 2, t->length = fmax(1, y.v * r->scene.duration_s);

@@ -25,8 +25,8 @@ static void test_2000_s(void **state) {
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_pendulum(arena);
     r.scene.duration_s = hard_quick() ? 100 : 2000;
-    const fw_motion *m =
-        hard_run(arena, &r, (fw_motion_options){.rtol = 1e-13, .samples = hard_quick() ? 2 : 21});
+    const fw_dynamics_motion *m = hard_run(
+        arena, &r, (fw_dynamics_motion_options){.rtol = 1e-13, .samples = hard_quick() ? 2 : 21});
     int last = hard_quick() ? 0 : 4;
     for (int i = 0; i <= last; i++) { /* the bob of the reference is twice as far out */
         const double *q = hard_q(m, row[i]), *v = hard_v(m, row[i]), *want = reference[i] + 1;
@@ -51,8 +51,9 @@ static void test_10_s(void **state) {
     for (int i = 0; i < 3; i++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_pendulum(arena);
-        const fw_motion *m = hard_run(
-            arena, &r, (fw_motion_options){.rtol = 1e-13, .samples = 11, .stabilise = how[i]});
+        const fw_dynamics_motion *m = hard_run(
+            arena, &r,
+            (fw_dynamics_motion_options){.rtol = 1e-13, .samples = 11, .stabilise = how[i]});
         energy[i] = m->stats.energy_error;
         double x = 2 * hard_q(m, 10)[0];
         print_message("pendulum 10 s, stabilise %-10s: energy %.1e, x to %.1e, constraint %.1e, "

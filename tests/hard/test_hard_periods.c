@@ -30,9 +30,9 @@ static void test_periods(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = oscillator(arena, amplitude, &omega);
         r.scene.duration_s = (double)periods * 2 * HARD_PI / omega;
-        const fw_motion *m =
+        const fw_dynamics_motion *m =
             hard_run(arena, &r,
-                     (fw_motion_options){
+                     (fw_dynamics_motion_options){
                          .rtol = pow(10, -e), .samples = 11, .most_steps = 40 * 1000 * 1000});
         double phase = 0, size = 0, couple = 0;
         for (int i = 1; i < 11; i++) {
@@ -68,7 +68,7 @@ static void test_ablation(void **state) {
         r.scene.duration_s = (double)periods * 2 * HARD_PI / omega;
         outcome out = hard_try(
             arena, &r,
-            (fw_motion_options){
+            (fw_dynamics_motion_options){
                 .rtol = 1e-9, .samples = 2, .stabilise = how[k], .most_steps = 1000 * 1000});
         if (out.status != FW_OK)
             print_message("periods: %ld, stabilise %-10s: %s\n", periods, how[k], out.message);
@@ -87,8 +87,8 @@ static void test_limit(void **state) {
     double omega;
     rig r = oscillator(arena, 0.8, &omega);
     r.scene.duration_s = 1000 * 2 * HARD_PI / omega;
-    outcome out =
-        hard_try(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = 2, .most_steps = 1000});
+    outcome out = hard_try(
+        arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 2, .most_steps = 1000});
     assert_int_equal(out.status, FW_LIMIT);
     assert_int_equal(out.number, 108);
     print_message("periods: %s\n", out.message);

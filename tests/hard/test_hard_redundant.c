@@ -9,26 +9,26 @@ enum { ROWS = 11, N = 15 };
 static const double mm = 1e-3;
 
 /* error of every row against the same without the redundant joint, in mm and rad */
-static double compare(const fw_motion *m, const fw_motion *reference) {
+static double compare(const fw_dynamics_motion *m, const fw_dynamics_motion *reference) {
     double worst = 0;
     for (int i = 0; i < ROWS * N; i++)
         worst = fmax(worst, fabs(m->q[i] - reference->q[i]) / (i % 3 == 2 ? 1 : mm));
     return worst;
 }
 
-static const fw_motion *plain_motion(fw_arena *arena) {
+static const fw_dynamics_motion *plain_motion(fw_arena *arena) {
     rig r = rig_six_bar(arena, false);
-    return hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = ROWS});
+    return hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = ROWS});
 }
 
 /* hinge D 1 + `more` times; every copy off by `off` metres in its local points */
 static rig with_copies(fw_arena *arena, int more, double off) {
     rig r = rig_six_bar(arena, false);
-    fw_pin *pin = fw_arena_array(arena, fw_pin, 16);
+    fw_mechanism_pin *pin = fw_arena_array(arena, fw_mechanism_pin, 16);
     memcpy(pin, r.m.pin, (size_t)r.m.npin * sizeof *pin);
     r.m.pin = pin;
     for (int i = 1; i <= more; i++) {
-        fw_pin *p = rig_pin(&r, i == 1 ? "D2" : "D3", 2, 3, 2.20 * mm, 2.75 * mm, 0, 0);
+        fw_mechanism_pin *p = rig_pin(&r, i == 1 ? "D2" : "D3", 2, 3, 2.20 * mm, 2.75 * mm, 0, 0);
         p->ax_m += i * off, p->by_m -= i * off / 3;
     }
     return r;
@@ -38,12 +38,12 @@ static void test_hinge_twice_and_thrice(void **state) {
     (void)state;
     static const double off[] = {0, 1e-19, 4e-19}; /* an ulp of these coordinates is 4e-19 m */
     fw_arena *arena = fw_arena_new(0);
-    const fw_motion *one = plain_motion(arena);
+    const fw_dynamics_motion *one = plain_motion(arena);
     for (int more = 1; more <= 2; more++)
         for (size_t k = 0; k < sizeof off / sizeof off[0]; k++) {
             rig r = with_copies(arena, more, off[k]);
-            const fw_motion *m =
-                hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = ROWS});
+            const fw_dynamics_motion *m =
+                hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = ROWS});
             double worst = compare(m, one), force = 0;
             for (int i = 0; i < ROWS; i++)
                 for (int c = 0; c < 2; c++) { /* the copies share the force */
@@ -70,7 +70,8 @@ static void test_hinge_slightly_elsewhere(void **state) {
     for (size_t k = 0; k < sizeof off / sizeof off[0]; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = with_copies(arena, 1, off[k]);
-        outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = ROWS});
+        outcome out =
+            hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-10, .samples = ROWS});
         print_message("redundant: hinge D twice, %.0e m apart: %s\n", off[k],
                       out.status == FW_OK ? "accepted" : out.message);
         assert_int_equal(out.status, FW_SOLVER);
@@ -84,32 +85,32 @@ static void test_hinge_slightly_elsewhere(void **state) {
 static void test_guides_and_welds(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    const fw_motion *m[2];
+    const fw_dynamics_motion *m[2];
     for (int k = 0; k < 2; k++) {
         rig r = rig_new(arena, 1, 0, 1);
         rig_body(&r, "cart", 2, 0.3, 0.5, 0.2, 0.4);
         for (int i = 0; i <= k; i++) {
-            fw_tie *t = hard_tie_at(arena, &r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 0,
-                                    0.5 + i * 3 * cos(0.3), 0.2 + i * 3 * sin(0.3));
+            fw_device_joint *t = hard_tie_at(arena, &r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 0,
+                                             0.5 + i * 3 * cos(0.3), 0.2 + i * 3 * sin(0.3));
             t->axis_rad = 0.3;
         }
         hard_spring(&r, "spring", FW_GROUND, 2, 1, 0, 0.1, 0.1, 30, 0.5);
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
         r.scene.duration_s = 3;
-        m[k] = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = 4});
+        m[k] = hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 4});
     }
     double guides = 0, welds = 0;
     for (int i = 0; i < 12; i++)
         guides = fmax(guides, fabs(m[0]->q[i] - m[1]->q[i]));
     for (int k = 0; k < 2; k++) {
         rig r = rig_six_bar(arena, false);
-        fw_mass *body = fw_arena_array(arena, fw_mass, 6);
+        fw_mechanism_mass *body = fw_arena_array(arena, fw_mechanism_mass, 6);
         memcpy(body, r.m.body, 5 * sizeof *body);
         r.m.body = body;
         rig_body(&r, "extra", 1e-8, 1e-15, 1.7 * mm, 3.2 * mm, 0.3);
         for (int i = 0; i <= 2 * k; i++)
-            hard_tie_at(arena, &r, "weld", FW_TIE_WELD, 2, 5, (1.6 + i) * mm, (3 - 0.3 * i) * mm);
-        m[k] = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = 4});
+            hard_tie_at(arena, &r, "weld", FW_JOINT_WELD, 2, 5, (1.6 + i) * mm, (3 - 0.3 * i) * mm);
+        m[k] = hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 4});
     }
     for (int i = 0; i < 4 * 18; i++)
         welds = fmax(welds, fabs(m[0]->q[i] - m[1]->q[i]) / (i % 3 == 2 ? 1 : mm));
@@ -126,7 +127,7 @@ static rig driven_twice(fw_arena *arena, const char *second, bool same_pin) {
     hard_bars(&r, p, 3, 1);
     rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "D", 2, FW_GROUND, 1, 0, 0, 0);
-    const fw_dimension rad = {.rad = 1};
+    const fw_quantity_dimension rad = {.rad = 1};
     double start = atan2(0.4, 0.3);
     r.m.pin[2].free_angle_rad = start;
     r.m.pin[3].free_angle_rad = -(r.m.body[2].phi_rad);
@@ -153,7 +154,8 @@ static void test_drivers(void **state) {
     for (size_t i = 0; i < sizeof second / sizeof second[0]; i++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = driven_twice(arena, second[i].law, second[i].same_pin);
-        outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = 21});
+        outcome out =
+            hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-10, .samples = 21});
         if (second[i].fits) {
             if (out.status != FW_OK) fail_msg("%s", out.message);
             double worst = 0;
@@ -182,20 +184,21 @@ static void test_drivers(void **state) {
 /* the other methods: right, or refused in words */
 static void test_methods(void **state) {
     (void)state;
-    for (size_t i = 0; fw_method_at(i).name; i++) {
+    for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
         fw_arena *arena = fw_arena_new(0);
-        const fw_motion *one = plain_motion(arena);
+        const fw_dynamics_motion *one = plain_motion(arena);
         rig r = with_copies(arena, 2, 0);
-        outcome out = hard_try(
-            arena, &r,
-            (fw_motion_options){.rtol = 1e-12, .samples = ROWS, .method = fw_method_at(i).name});
+        outcome out =
+            hard_try(arena, &r,
+                     (fw_dynamics_motion_options){
+                         .rtol = 1e-12, .samples = ROWS, .method = fw_multibody_method_at(i).name});
         double worst = out.status == FW_OK ? compare(out.m, one) : 0;
         if (out.status == FW_OK)
-            print_message("redundant: hinge D thrice by %-22s: to %.1e\n", fw_method_at(i).name,
-                          worst);
+            print_message("redundant: hinge D thrice by %-22s: to %.1e\n",
+                          fw_multibody_method_at(i).name, worst);
         else
-            print_message("redundant: hinge D thrice by %-22s: %s\n", fw_method_at(i).name,
-                          out.message);
+            print_message("redundant: hinge D thrice by %-22s: %s\n",
+                          fw_multibody_method_at(i).name, out.message);
         assert_true(worst < 1e-9);
         fw_arena_free(arena);
     }

@@ -19,7 +19,7 @@ static rig toggle(fw_arena *arena, double rise, double damping) {
     rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 0, damping);
     rig_pin(&r, "apex", 0, 1, half, rise, 0, 0);
     rig_pin(&r, "C", 1, 2, 2 * half, 0, 0, 0);
-    fw_tie *guide = hard_tie(arena, &r, "guide", FW_TIE_PRISMATIC, FW_GROUND, 2);
+    fw_device_joint *guide = hard_tie(arena, &r, "guide", FW_JOINT_PRISMATIC, FW_GROUND, 2);
     guide->stiffness_N_per_m = 1000;
     guide->free_length_m = 2 * half;
     return r;
@@ -48,15 +48,15 @@ static void test_pushed_over(void **state) {
     for (int share = 80; share <= 120; share += 40) {
         fw_arena *arena = fw_arena_new(0);
         rig r = toggle(arena, rise, 0.3);
-        fw_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = 20};
-        const fw_mass *left = &r.m.body[0];
+        fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = 20};
+        const fw_mechanism_mass *left = &r.m.body[0];
         rig_force(&r, 0, 0, -fold * share / 100);
         hard_local(&r, 0, 2 * left->x_m, 2 * left->y_m, &r.scene.force[0].x_m,
                    &r.scene.force[0].y_m);
         r.scene.force[0].law = &ramp;
         r.scene.duration_s = hard_quick() ? 22 : 30;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = 1e-9, .samples = ROWS});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-9, .samples = ROWS});
         double y = apex(hard_q(m, ROWS - 1)), y0 = apex(hard_q(m, 0));
         /* at rest the spring's force at the apex, 4 k (c - half) y / c downwards, holds the load
            up: before the fold between the rise and the fold, or beyond the drawn pose's mirror
@@ -91,9 +91,9 @@ static void test_static_fold(void **state) {
     hard_local(&r, 0, cos(start), sin(start), &r.scene.force[0].x_m, &r.scene.force[0].y_m);
     r.scene.duration_s = 1;
     fw_diags diags = fw_diags_new(arena);
-    const fw_static_options o = {.path = true};
+    const fw_statics_static_options o = {.path = true};
     const fw_statics *s = NULL;
-    fw_status status = fw_static_equilibrium(arena, &r.m, &r.scene, &o, &diags, &s);
+    fw_status status = fw_statics_solve(arena, &r.m, &r.scene, &o, &diags, &s);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     double at = 0, way = 0;
     int folds = 0;
@@ -128,7 +128,8 @@ static void test_over_the_ridge(void **state) {
         rig_velocity(&r, 1, -1.5 * rise * w, half / 2 * w, -w);
         rig_velocity(&r, 2, -2 * rise * w, 0, 0);
         r.scene.duration_s = 0.5;
-        outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = ROWS});
+        outcome out =
+            hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-11, .samples = ROWS});
         assert_int_equal(out.status, FW_OK);
         assert_int_equal(out.number, 0); /* velocities fit */
         double lowest = 1;
@@ -157,7 +158,8 @@ static void test_stop_on_the_far_side(void **state) {
     rig_force(&r, 0, 0, -1.3 * fold);
     hard_local(&r, 0, cos(start), sin(start), &r.scene.force[0].x_m, &r.scene.force[0].y_m);
     r.scene.duration_s = 2;
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-9, .samples = ROWS});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-9, .samples = ROWS});
     double end = hard_q(m, ROWS - 1)[2];
     print_message(
         "snap: against a stop at -0.1 rad: rests at %.6f rad, %ld touches, energy %.1e, by "

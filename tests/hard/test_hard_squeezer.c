@@ -35,7 +35,8 @@ static void test_at_30_ms(void **state) {
     static const int pin[3] = {2, 3, 4};
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_squeezer(arena);
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-13, .samples = 2});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-13, .samples = 2});
     double e[4] = {0};
     for (int b = 0; b < 7; b++) {
         double want[3] = {0};
@@ -77,8 +78,8 @@ static void test_to_50_ms(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_squeezer(arena);
         r.scene.duration_s = 0.05;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 11});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 11});
         double f = 0, balance = 0, first = 0;
         for (int i = 0; i < 11; i++) {
             const double *q = hard_q(m, i), *v = hard_v(m, i);
@@ -86,7 +87,7 @@ static void test_to_50_ms(void **state) {
                               q[1] + .00608 * sin(q[2]) - path[i][1]));
             double energy = 0;
             for (int b = 0; b < 7; b++) {
-                const fw_mass *p = &r.m.body[b];
+                const fw_mechanism_mass *p = &r.m.body[b];
                 const double *w = v + 3 * b;
                 energy += 0.5 * (p->mass_kg * (w[0] * w[0] + w[1] * w[1]) +
                                  p->inertia_kg_m2 * w[2] * w[2]);
@@ -120,7 +121,8 @@ static void test_start(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_squeezer(arena);
-    const fw_motion *m = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = 2});
+    const fw_dynamics_motion *m =
+        hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 2});
     double e = 0;
     near("beta''", m->accel[2], 14222.4439199541138705911625887, 14222, 1e-10, &e);
     near("theta''", m->accel[5] - m->accel[2], -10666.8329399655854029433719415, 14222, 1e-10, &e);

@@ -23,7 +23,7 @@ static void test_bar(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_velocity(&r, 0, vx, vy, w);
     r.scene.duration_s = 0.1;
-    outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = 2});
+    outcome out = hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-10, .samples = 2});
     assert_int_equal(out.status, FW_OK);
     double want = (mass * l * vy + inertia * w) / (inertia + mass * l * l);
     const double *v = hard_v(out.m, 0);
@@ -47,7 +47,7 @@ static void test_bar(void **state) {
 static void test_is_the_mass_orthogonal_one(void **state) {
     (void)state;
     uint64_t seed = 11;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         double pythagoras = 0, again = 0, joints = 0;
         int refused = 0;
         for (int run = 0; run < (hard_quick() ? 6 : 30); run++) {
@@ -63,9 +63,10 @@ static void test_is_the_mass_orthogonal_one(void **state) {
                 rig_velocity(&r, b, v[3 * b], v[3 * b + 1], v[3 * b + 2]);
             }
             r.scene.duration_s = run % 3 == 2 ? 1e-3 : 1e-5;
-            outcome out = hard_try(
-                arena, &r,
-                (fw_motion_options){.rtol = 1e-8, .samples = 2, .method = fw_method_at(k).name});
+            outcome out =
+                hard_try(arena, &r,
+                         (fw_dynamics_motion_options){
+                             .rtol = 1e-8, .samples = 2, .method = fw_multibody_method_at(k).name});
             if (out.status != FW_OK) {
                 refused++;
                 fw_arena_free(arena);
@@ -82,9 +83,10 @@ static void test_is_the_mass_orthogonal_one(void **state) {
             r.scene.ninitial = 0;
             for (int b = 0; b < r.m.nbody; b++)
                 rig_velocity(&r, b, after[3 * b], after[3 * b + 1], after[3 * b + 2]);
-            outcome twice = hard_try(
-                arena, &r,
-                (fw_motion_options){.rtol = 1e-8, .samples = 2, .method = fw_method_at(k).name});
+            outcome twice =
+                hard_try(arena, &r,
+                         (fw_dynamics_motion_options){
+                             .rtol = 1e-8, .samples = 2, .method = fw_multibody_method_at(k).name});
             assert_int_equal(twice.status, FW_OK);
             assert_int_equal(twice.number, 0); /* nothing to say */
             again = fmax(again, twice.m->stats.velocity_moved);
@@ -92,7 +94,7 @@ static void test_is_the_mass_orthogonal_one(void **state) {
         }
         print_message("start, %-23s: T(v) = T(v+) + T(v - v+) to %.1e, G v+ %.1e, moved when asked "
                       "again %.1e, %d refuse\n",
-                      fw_method_at(k).name, pythagoras, joints, again, refused);
+                      fw_multibody_method_at(k).name, pythagoras, joints, again, refused);
         assert_true(pythagoras < 1e-10);
         assert_true(again < 1e-10);
     }
@@ -106,9 +108,9 @@ static void test_driver(void **state) {
     rig_body(&r, "arm", 2, 0.5, 0.5, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     hard_driver(arena, &r, "motor", 0, FW_NONE,
-                hard_law(arena, "3 rad/s * t", (fw_dimension){.rad = 1}));
+                hard_law(arena, "3 rad/s * t", (fw_quantity_dimension){.rad = 1}));
     r.scene.duration_s = 1;
-    outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = 3});
+    outcome out = hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-10, .samples = 3});
     assert_int_equal(out.status, FW_OK);
     assert_near(hard_v(out.m, 0)[2], 3, 1e-13);
     assert_near(hard_v(out.m, 2)[2], 3, 1e-13);

@@ -17,7 +17,7 @@ static rig stiff(fw_arena *arena, double factor) {
     return r;
 }
 
-static double apart(const fw_motion *a, const fw_motion *b) {
+static double apart(const fw_dynamics_motion *a, const fw_dynamics_motion *b) {
     double worst = 0;
     for (int i = 0; i < ROWS * 15; i++)
         worst = fmax(worst, fabs(a->q[i] - b->q[i]) / (i % 3 == 2 ? 1 : mm));
@@ -30,18 +30,20 @@ static void test_two_stiff_hinges(void **state) {
     double factor = hard_quick() ? 1e4 : 1e6;
     fw_arena *arena = fw_arena_new(0);
     rig r = stiff(arena, factor);
-    const fw_motion *fine = hard_run(
-        arena, &r, (fw_motion_options){.rtol = 1e-11, .samples = ROWS, .integrator = "dop853"});
+    const fw_dynamics_motion *fine = hard_run(
+        arena, &r,
+        (fw_dynamics_motion_options){.rtol = 1e-11, .samples = ROWS, .integrator = "dop853"});
     for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
-        if (strcmp(name[i], "auto") != 0 && !fw_stepper_find(name[i])) continue;
+        if (strcmp(name[i], "auto") != 0 && !fw_maths_stepper_find(name[i])) continue;
         double rtol = strcmp(name[i], "generalised-alpha") == 0 ? 1e-4 : 1e-8;
         outcome out = hard_try(
-            arena, &r, (fw_motion_options){.rtol = rtol, .samples = ROWS, .integrator = name[i]});
+            arena, &r,
+            (fw_dynamics_motion_options){.rtol = rtol, .samples = ROWS, .integrator = name[i]});
         if (out.status != FW_OK) {
             print_message("stiffness ratio %.0e, %s: %s\n", factor, name[i], out.message);
             fail_msg("%s", name[i]);
         }
-        const fw_motion_stats *s = &out.m->stats;
+        const fw_dynamics_motion_stats *s = &out.m->stats;
         double error = apart(out.m, fine);
         print_message("stiffness ratio %.0e, %-17s (%s) rtol %.0e: off by %.1e, %ld steps, %ld "
                       "evaluations, %ld factorisations, %.0f ms, energy %.1e\n",
@@ -57,16 +59,16 @@ static void test_limit_is_a_weld(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig w = rig_six_bar(arena, false);
-    hard_tie_at(arena, &w, "B", FW_TIE_WELD, 0, 1, 0.20 * mm, 1.40 * mm);
-    hard_tie_at(arena, &w, "D", FW_TIE_WELD, 2, 3, 2.20 * mm, 2.75 * mm);
+    hard_tie_at(arena, &w, "B", FW_JOINT_WELD, 0, 1, 0.20 * mm, 1.40 * mm);
+    hard_tie_at(arena, &w, "D", FW_JOINT_WELD, 2, 3, 2.20 * mm, 2.75 * mm);
     w.scene.duration_s = 2e-3;
-    const fw_motion *welded =
-        hard_run(arena, &w, (fw_motion_options){.rtol = 1e-11, .samples = ROWS});
+    const fw_dynamics_motion *welded =
+        hard_run(arena, &w, (fw_dynamics_motion_options){.rtol = 1e-11, .samples = ROWS});
     for (double factor = 1e2; factor <= (hard_quick() ? 1e4 : 1e6); factor *= 100) {
         rig r = stiff(arena, factor);
         r.scene.duration_s = 2e-3;
-        const fw_motion *m =
-            hard_run(arena, &r, (fw_motion_options){.rtol = 1e-10, .samples = ROWS});
+        const fw_dynamics_motion *m =
+            hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-10, .samples = ROWS});
         double off = apart(m, welded);
         print_message("stiffness ratio %.0e: %.1e off a weld, by %s, %ld steps\n", factor, off,
                       m->integrator, m->stats.steps);

@@ -49,22 +49,22 @@ static const char scenes[] =
 enum { SAMPLES = 2001 };
 static const double GAP_M = 8e-6; /* as the description has it */
 
-static fw_vec2 point(const double *q, int body, double x, double y) {
-    if (body == FW_GROUND) return (fw_vec2){x, y};
+static fw_geometry_vec2 point(const double *q, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){x, y};
     double c = cos(q[3 * body + 2]), s = sin(q[3 * body + 2]);
-    return (fw_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
+    return (fw_geometry_vec2){q[3 * body] + c * x - s * y, q[3 * body + 1] + s * x + c * y};
 }
 
 /* how far the two points of a pin are apart */
 static double apart(const rig *r, const double *q, int pin) {
-    const fw_pin *p = &r->m.pin[pin];
-    fw_vec2 a = point(q, p->body_a, p->ax_m, p->ay_m);
-    fw_vec2 b = point(q, p->body_b, p->bx_m, p->by_m);
+    const fw_mechanism_pin *p = &r->m.pin[pin];
+    fw_geometry_vec2 a = point(q, p->body_a, p->ax_m, p->ay_m);
+    fw_geometry_vec2 b = point(q, p->body_b, p->bx_m, p->by_m);
     return hypot(b.x - a.x, b.y - a.y);
 }
 
 static double rate(const rig *r, const double *v, int pin) {
-    const fw_pin *p = &r->m.pin[pin];
+    const fw_mechanism_pin *p = &r->m.pin[pin];
     double a = p->body_a == FW_GROUND ? 0 : v[3 * p->body_a + 2];
     return (p->body_b == FW_GROUND ? 0 : v[3 * p->body_b + 2]) - a;
 }
@@ -74,7 +74,7 @@ typedef struct history {
     int open, slides, holds, closings;
 } history;
 
-static history history_of(const rig *r, const fw_motion *m, int pin, double gap_m) {
+static history history_of(const rig *r, const fw_dynamics_motion *m, int pin, double gap_m) {
     history h = {0};
     bool before = false;
     for (int k = 0; k < m->nsample; k++) {
@@ -87,17 +87,17 @@ static history history_of(const rig *r, const fw_motion *m, int pin, double gap_
     return h;
 }
 
-static double differ(const fw_motion *a, const fw_motion *b) {
+static double differ(const fw_dynamics_motion *a, const fw_dynamics_motion *b) {
     double worst = 0;
     for (int i = 0; i < a->nsample * a->npin; i++)
         worst = fmax(worst, fabs(a->angle_rad[i] - b->angle_rad[i]));
     return worst;
 }
 
-static const fw_motion *at(fw_arena *arena, const rig *r, double rtol, const char *integrator,
-                           const fw_motion *best) {
-    fw_motion_options o = {.rtol = rtol, .integrator = integrator, .samples = SAMPLES};
-    const fw_motion *m = hard_run(arena, r, o);
+static const fw_dynamics_motion *at(fw_arena *arena, const rig *r, double rtol,
+                                    const char *integrator, const fw_dynamics_motion *best) {
+    fw_dynamics_motion_options o = {.rtol = rtol, .integrator = integrator, .samples = SAMPLES};
+    const fw_dynamics_motion *m = hard_run(arena, r, o);
     print_message("%s, %s, rtol %.0e: %ld events, %ld steps, energy %.1e, off %.1e rad\n",
                   r->scene.name, m->integrator, rtol, m->stats.events, m->stats.steps,
                   m->stats.energy_error, best ? differ(m, best) : 0);
@@ -109,14 +109,15 @@ static const fw_motion *at(fw_arena *arena, const rig *r, double rtol, const cha
    rtol 1e-5 to 1e-11 towards 1e-12: the angles become one, the events the same ones (from `settled`
    on), the energies close, and nothing takes more steps than its fastest vibration asks for.
    Returns the motion at 1e-12. */
-static const fw_motion *refine(fw_arena *arena, const rig *r, double settled, long most_steps) {
-    const fw_motion *best = at(arena, r, 1e-12, NULL, NULL);
+static const fw_dynamics_motion *refine(fw_arena *arena, const rig *r, double settled,
+                                        long most_steps) {
+    const fw_dynamics_motion *best = at(arena, r, 1e-12, NULL, NULL);
     double before = (double)INFINITY;
     assert_true(best->stats.energy_error < 1e-9);
     for (int e = 5; e <= 11; e += 2) {
         if (hard_quick() && e != 7) continue;
         double rtol = pow(10, -e);
-        const fw_motion *m = at(arena, r, rtol, NULL, best);
+        const fw_dynamics_motion *m = at(arena, r, rtol, NULL, best);
         double off = differ(m, best);
         long missing = labs(m->stats.events - best->stats.events);
         assert_true(off < before / 5 && off < 1e4 * rtol);
@@ -128,7 +129,7 @@ static const fw_motion *refine(fw_arena *arena, const rig *r, double settled, lo
     return best;
 }
 
-static history print_history(const rig *r, const fw_motion *m, int pin) {
+static history print_history(const rig *r, const fw_dynamics_motion *m, int pin) {
     history h = history_of(r, m, pin, GAP_M);
     print_message(
         "%s: %d samples open, %d rubbing, %d holding; closed %d times, turns up to %.3f\n",
@@ -140,7 +141,7 @@ static void rattle(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = surfaces_rig(arena, scenes, "rattle");
-    const fw_motion *best = refine(arena, &r, 1e-9, 6 * 2500);
+    const fw_dynamics_motion *best = refine(arena, &r, 1e-9, 6 * 2500);
     history h = print_history(&r, best, 0);
     assert_true(h.open > 500 && h.slides > 200 && h.closings >= 6);
     assert_true(best->stats.events < 600); /* each turn of two hinges, each touch, each parting */
@@ -154,28 +155,29 @@ static void rattle(void **state) {
 /* presses the surfaces of a hinge on each other, in the middle of where they face each other, by
    `times` what closes the gap: a pair of forces at the hinge's own points */
 static void press(fw_arena *arena, rig *r, int pin, double times, double gap_m, double rise_s) {
-    const fw_pin *p = &r->m.pin[pin];
-    const fw_hinge *h = &r->m.hinge[p->hinge];
-    fw_hinge_at at;
-    fw_hinge_law_at(&h->law, 0, &at);
+    const fw_mechanism_pin *p = &r->m.pin[pin];
+    const fw_mechanism_hinge *h = &r->m.hinge[p->hinge];
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(&h->law, 0, &at);
     double turn = p->body_a == FW_GROUND ? 0 : r->m.body[p->body_a].phi_rad;
     double middle = 0.5 * (h->cover_from_rad + h->cover_to_rad) + turn;
     double f = times * gap_m * fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
     if (h->convex_is_a) f = -f;
-    fw_law *law = fw_arena_one(arena, fw_law);
-    *law = (fw_law){.kind = &fw_quantity_law_ramp, .rise_s = rise_s, .end_s = (double)INFINITY};
-    fw_force *to = fw_arena_array(arena, fw_force, (size_t)r->scene.nforce + 2);
+    fw_quantity_law *law = fw_arena_one(arena, fw_quantity_law);
+    *law = (fw_quantity_law){
+        .kind = &fw_quantity_law_ramp, .rise_s = rise_s, .end_s = (double)INFINITY};
+    fw_device_force *to = fw_arena_array(arena, fw_device_force, (size_t)r->scene.nforce + 2);
     memcpy(to, r->scene.force, (size_t)r->scene.nforce * sizeof *to);
     r->scene.force = to;
     for (int side = 0; side < 2; side++) {
         int body = side ? p->body_b : p->body_a;
         if (body == FW_GROUND) continue;
-        to[r->scene.nforce++] = (fw_force){.body = body,
-                                           .x_m = side ? p->bx_m : p->ax_m,
-                                           .y_m = side ? p->by_m : p->ay_m,
-                                           .fx_N = (side ? f : -f) * cos(middle),
-                                           .fy_N = (side ? f : -f) * sin(middle),
-                                           .law = law};
+        to[r->scene.nforce++] = (fw_device_force){.body = body,
+                                                  .x_m = side ? p->bx_m : p->ax_m,
+                                                  .y_m = side ? p->by_m : p->ay_m,
+                                                  .fx_N = (side ? f : -f) * cos(middle),
+                                                  .fy_N = (side ? f : -f) * sin(middle),
+                                                  .law = law};
     }
 }
 
@@ -188,7 +190,7 @@ static void held(void **state) {
     const int pin[] = {0, 2, 5};
     for (int i = 0; i < 3; i++)
         press(arena, &r, pin[i], 1.5, GAP_M, 5e-4);
-    const fw_motion *best = refine(arena, &r, 1e-7, 6 * 2500);
+    const fw_dynamics_motion *best = refine(arena, &r, 1e-7, 6 * 2500);
     for (int i = 0; i < 3; i++) {
         history h = print_history(&r, best, pin[i]);
         int last = SAMPLES - 1, earlier = SAMPLES * 4 / 5;
@@ -213,18 +215,18 @@ static void pulled(void **state) {
     fw_arena *arena = fw_arena_new(0);
     rig r = surfaces_rig(arena, scenes, "pulled"), bare = r;
     bare.scene.ncontact = 0;
-    outcome out = hard_try(arena, &bare, (fw_motion_options){.rtol = 1e-8, .samples = 2});
+    outcome out = hard_try(arena, &bare, (fw_dynamics_motion_options){.rtol = 1e-8, .samples = 2});
     assert_int_equal(out.number, 242);
-    const fw_motion *best = refine(arena, &r, 1e-7, 6 * 2500);
-    const fw_contact_use *stop = &r.scene.contact[0];
-    const fw_eyelet *eye = r.scene.tendon[1].eyelet;
+    const fw_dynamics_motion *best = refine(arena, &r, 1e-7, 6 * 2500);
+    const fw_device_contact_use *stop = &r.scene.contact[0];
+    const fw_device_eyelet *eye = r.scene.tendon[1].eyelet;
     int against = 0, free = 0, slack = 0, taut = 0;
     double drawn = 0;
     for (int k = 0; k < SAMPLES; k++) {
         const double *q = hard_q(best, k);
-        fw_vec2 tip = point(q, stop->body_b, stop->bx_m, stop->by_m);
-        fw_vec2 a = point(q, eye[0].body, eye[0].x_m, eye[0].y_m);
-        fw_vec2 b = point(q, eye[1].body, eye[1].x_m, eye[1].y_m);
+        fw_geometry_vec2 tip = point(q, stop->body_b, stop->bx_m, stop->by_m);
+        fw_geometry_vec2 a = point(q, eye[0].body, eye[0].x_m, eye[0].y_m);
+        fw_geometry_vec2 b = point(q, eye[1].body, eye[1].x_m, eye[1].y_m);
         double away = hypot(tip.x - stop->ax_m, tip.y - stop->ay_m) - stop->distance_m;
         double length = hypot(b.x - a.x, b.y - a.y);
         if (k == 0) drawn = length + r.scene.tendon[1].slack_m;

@@ -11,12 +11,12 @@ static rig scaled(fw_arena *arena, double length, double mass, double time) {
     rig r = rig_six_bar(arena, false);
     double inertia = mass * length * length, torque = inertia / (time * time);
     for (int b = 0; b < r.m.nbody; b++) {
-        fw_mass *p = &r.m.body[b];
+        fw_mechanism_mass *p = &r.m.body[b];
         p->mass_kg *= mass, p->inertia_kg_m2 *= inertia;
         p->x_m *= length, p->y_m *= length;
     }
     for (int i = 0; i < r.m.npin; i++) {
-        fw_pin *p = &r.m.pin[i];
+        fw_mechanism_pin *p = &r.m.pin[i];
         p->ax_m *= length, p->ay_m *= length, p->bx_m *= length, p->by_m *= length;
         p->stiffness_Nm_per_rad *= torque, p->damping_Nms_per_rad *= torque * time;
     }
@@ -30,8 +30,8 @@ static void test_sizes(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = scaled(arena, 1, 1, 1);
-    const fw_motion_options o = {.rtol = 1e-12, .samples = ROWS};
-    const fw_motion *one = hard_run(arena, &r, o);
+    const fw_dynamics_motion_options o = {.rtol = 1e-12, .samples = ROWS};
+    const fw_dynamics_motion *one = hard_run(arena, &r, o);
     double worst = 0, energy = 0;
     int count = 0;
     static const double length[] = {1e-6, 1e-3, 1, 1e3, 1e6}, mass[] = {1e-12, 1e-6, 1, 1e6, 1e12},
@@ -41,7 +41,7 @@ static void test_sizes(void **state) {
             for (size_t c = 0; c < 3; c++, count++) {
                 fw_mark mark = fw_arena_mark(arena);
                 rig s = scaled(arena, length[a], mass[b], time[c]);
-                const fw_motion *m = hard_run(arena, &s, o);
+                const fw_dynamics_motion *m = hard_run(arena, &s, o);
                 double unit[2] = {1e-3 * length[a], 1}, off = 0;
                 for (int i = 0; i < ROWS * N; i++) {
                     double u = unit[i % 3 == 2];
@@ -75,17 +75,17 @@ static void test_far_away(void **state) {
     (void)state;
     const double cell = 0x1p-20; /* m */
     fw_arena *arena = fw_arena_new(0);
-    const fw_motion *m[3];
+    const fw_dynamics_motion *m[3];
     static const double away[3] = {0, 0x1p11, -0x1p13}; /* m: up to 2.7 million sizes */
     for (int k = 0; k < 3; k++) {
         rig r = rig_six_bar(arena, false);
         for (int b = 0; b < 5; b++) {
-            fw_mass *p = &r.m.body[b];
+            fw_mechanism_mass *p = &r.m.body[b];
             p->x_m = round(p->x_m / cell) * cell + away[k];
             p->y_m = round(p->y_m / cell) * cell - away[k] / 2;
         }
         for (int i = 0; i < r.m.npin; i++) {
-            fw_pin *p = &r.m.pin[i];
+            fw_mechanism_pin *p = &r.m.pin[i];
             double x = p->body_a == FW_GROUND ? p->ax_m : p->bx_m, y;
             static const double at[7][2] = {{0.70, 0.15}, {0.20, 1.40}, {0.80, 2.70}, {2.20, 2.75},
                                             {2.85, 1.45}, {2.30, 0.15}, {2.20, 2.75}};
@@ -98,7 +98,7 @@ static void test_far_away(void **state) {
                 *up[side] = ground ? y - away[k] / 2 : y - away[k] / 2 - r.m.body[body[side]].y_m;
             }
         }
-        m[k] = hard_run(arena, &r, (fw_motion_options){.rtol = 1e-12, .samples = ROWS});
+        m[k] = hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = ROWS});
     }
     for (int k = 1; k < 3; k++) {
         double angle = 0, place = 0;

@@ -13,13 +13,13 @@ typedef struct tally {
 } tally;
 
 /* the model of the hinges that a scene was judged with */
-static fw_hinge_model model_of(const fw_verdict *v, const char *scene) {
-    const fw_motion *motion = v->variant[0].motion[0]; /* there is one scene */
+static fw_effects_hinge_model model_of(const fw_verdict *v, const char *scene) {
+    const fw_dynamics_motion *motion = v->variant[0].motion[0]; /* there is one scene */
     return motion && strcmp(scene, "workspace") != 0 ? motion->ledger.hinge.used
                                                      : FW_HINGE_REVOLUTE;
 }
 
-static double apart(const fw_hinge_verdict *a, const fw_hinge_verdict *b) {
+static double apart(const fw_verdict_hinge_verdict *a, const fw_verdict_hinge_verdict *b) {
     return fmax(a->utilisation_low - b->utilisation_high, b->utilisation_low - a->utilisation_high);
 }
 
@@ -29,10 +29,11 @@ static void compare(uint64_t seed, const fw_verdict *loose, const fw_verdict *ti
         (loose->decision == FW_REJECT && tight->decision == FW_ACCEPT)) {
         n->flipped++;
         print_message("device %llu: %s at the default, %s tighter\n", (unsigned long long)seed,
-                      fw_decision_text(loose->decision), fw_decision_text(tight->decision));
+                      fw_verdict_decision_text(loose->decision),
+                      fw_verdict_decision_text(tight->decision));
     }
     for (int k = 0; k < loose->nhinge; k++) {
-        const fw_hinge_verdict *a = &loose->hinge[k], *b = &tight->hinge[k];
+        const fw_verdict_hinge_verdict *a = &loose->hinge[k], *b = &tight->hinge[k];
         if (!a->scene || !b->scene || strcmp(a->scene, b->scene) != 0) continue;
         if (a->utilisation > 50) continue; /* ended after a whole turn */
         double off = fabs(a->utilisation - b->utilisation);

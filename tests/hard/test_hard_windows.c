@@ -57,7 +57,7 @@ static double spread(const double *q, int n) {
     return worst;
 }
 
-static double spread_of(const fw_motion *m, int n) {
+static double spread_of(const fw_dynamics_motion *m, int n) {
     double worst = 0;
     for (int i = 0; i < m->nsample; i++)
         worst = fmax(worst, spread(hard_q(m, i), n));
@@ -76,8 +76,8 @@ static void test_every_tolerance(void **state) {
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_windows(arena, n);
             r.scene.duration_s = reference[i].t;
-            const fw_motion *m =
-                hard_run(arena, &r, (fw_motion_options){.rtol = pow(10, -e), .samples = 101});
+            const fw_dynamics_motion *m = hard_run(
+                arena, &r, (fw_dynamics_motion_options){.rtol = pow(10, -e), .samples = 101});
             double error = error_of(hard_q(m, 100), hard_v(m, 100), reference[i].b0);
             worst = fmax(worst, spread_of(m, n));
             if (e >= 10) at_10 = fmax(at_10, error);
@@ -104,7 +104,8 @@ static void test_many_rows(void **state) {
         for (double rtol = 1e-5; rtol > 1e-10; rtol *= 0.4, all++) {
             fw_arena *arena = fw_arena_new((size_t)1 << 30);
             rig r = rig_windows(arena, n);
-            outcome out = hard_try(arena, &r, (fw_motion_options){.rtol = rtol, .samples = ROWS});
+            outcome out =
+                hard_try(arena, &r, (fw_dynamics_motion_options){.rtol = rtol, .samples = ROWS});
             if (out.status != FW_OK) fail_msg("N %d rtol %g: %s", n, rtol, out.message);
             worst = fmax(worst, out.m->stats.max_constraint_norm);
             assert_true(out.m->stats.max_constraint_norm < rtol);
@@ -128,9 +129,10 @@ static void test_ablation_projection(void **state) {
             for (int e = 4; e <= 11; e += 2) {
                 fw_arena *arena = fw_arena_new(0);
                 rig r = rig_windows(arena, windows[i]);
-                outcome out = hard_try(
-                    arena, &r,
-                    (fw_motion_options){.rtol = pow(10, -e), .samples = 51, .stabilise = how[k]});
+                outcome out =
+                    hard_try(arena, &r,
+                             (fw_dynamics_motion_options){
+                                 .rtol = pow(10, -e), .samples = 51, .stabilise = how[k]});
                 all += k == 0, tight += k == 0 && e >= 6;
                 if (out.status != FW_OK) {
                     refused[k]++;
@@ -154,13 +156,13 @@ static void test_ablation_projection(void **state) {
 
 static double shift; /* eps of the method below */
 
-static bool factor(fw_model *m) {
-    fw_chain_assemble(m);
-    return fw_chain_factor(&m->chain, shift);
+static bool factor(fw_multibody_model *m) {
+    fw_multibody_chain_assemble(m);
+    return fw_multibody_chain_factor(&m->chain, shift);
 }
 
-static fw_method chain_with_shift(void) {
-    fw_method method = *fw_method_find("chain");
+static fw_multibody_method chain_with_shift(void) {
+    fw_multibody_method method = *fw_multibody_method_find("chain");
     method.factor = factor;
     return method;
 }
@@ -170,7 +172,7 @@ static void test_ablation_shift(void **state) {
     (void)state;
     static const double epsilon[] = {1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 0};
     static const int row[] = {0, 1, 2, 3, 4};
-    const fw_method method = chain_with_shift();
+    const fw_multibody_method method = chain_with_shift();
     int most = hard_quick() ? 2 : 5;
     for (size_t k = 0; k < sizeof epsilon / sizeof epsilon[0]; k++) {
         int all = 0, passed = 0, failed = 0, tight = 0, of_tight = 0;
@@ -181,9 +183,9 @@ static void test_ablation_shift(void **state) {
                 fw_arena *arena = fw_arena_new(0);
                 int n = reference[row[i]].n;
                 rig r = rig_windows(arena, n);
-                fw_model *m = hard_model(arena, &r, &method);
+                fw_multibody_model *m = hard_model(arena, &r, &method);
                 double *y = fw_arena_array(arena, double, (size_t)m->ny), q[3], v[3];
-                fw_ode_result result = hard_integrate(arena, &r, m, pow(10, -e), 3000, y);
+                fw_maths_ode_result result = hard_integrate(arena, &r, m, pow(10, -e), 3000, y);
                 for (int c = 0; c < 3; c++) {
                     double unit = c == 2 ? 1 : m->scale.length_m;
                     const double start[3] = {0, 0.5, 0};
@@ -212,7 +214,7 @@ static void test_ablation_shift(void **state) {
 /* a method gives the right answer or says that it cannot */
 static void test_every_method(void **state) {
     (void)state;
-    for (size_t i = 0; fw_method_at(i).name; i++) {
+    for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
         int right = 0, refused = 0, wrong = 0;
         const char *said = "";
         for (int k = 0; k < (hard_quick() ? 1 : 3); k++)
@@ -220,10 +222,11 @@ static void test_every_method(void **state) {
                 fw_arena *arena = fw_arena_new(0);
                 static char copy[400];
                 rig r = rig_windows(arena, reference[k].n);
-                outcome out = hard_try(arena, &r,
-                                       (fw_motion_options){.rtol = pow(10, -e),
-                                                           .samples = 51,
-                                                           .method = fw_method_at(i).name});
+                outcome out = hard_try(
+                    arena, &r,
+                    (fw_dynamics_motion_options){.rtol = pow(10, -e),
+                                                 .samples = 51,
+                                                 .method = fw_multibody_method_at(i).name});
                 if (out.status != FW_OK) {
                     refused++;
                     snprintf(copy, sizeof copy, "%s", out.message);
@@ -238,7 +241,8 @@ static void test_every_method(void **state) {
                 fw_arena_free(arena);
             }
         print_message("windows, method %-22s: %2d right, %2d refused, %d wrong%s%s\n",
-                      fw_method_at(i).name, right, refused, wrong, *said ? "; says: " : "", said);
+                      fw_multibody_method_at(i).name, right, refused, wrong,
+                      *said ? "; says: " : "", said);
         assert_int_equal(wrong, 0);
     }
 }

@@ -26,25 +26,25 @@ static char *read_all(FILE *f, size_t *n) {
     return data;
 }
 
-typedef fw_live_answer (*function)(fw_live *live, const char *request, size_t n);
+typedef fw_plan_live_answer (*function)(fw_plan_live *live, const char *request, size_t n);
 
-static fw_live_answer table(fw_live *live, const char *request, size_t n) {
+static fw_plan_live_answer table(fw_plan_live *live, const char *request, size_t n) {
     (void)request, (void)n;
-    return fw_live_table(live);
+    return fw_plan_live_table(live);
 }
 
 static function named(const char *kind) {
     return strcmp(kind, "table") == 0     ? table
-           : strcmp(kind, "preview") == 0 ? fw_live_preview
-           : strcmp(kind, "pose") == 0    ? fw_live_pose
-           : strcmp(kind, "edit") == 0    ? fw_live_edit
+           : strcmp(kind, "preview") == 0 ? fw_plan_live_preview
+           : strcmp(kind, "pose") == 0    ? fw_plan_live_pose
+           : strcmp(kind, "edit") == 0    ? fw_plan_live_edit
                                           : NULL;
 }
 
-static int once(fw_live *live, function f) {
+static int once(fw_plan_live *live, function f) {
     size_t n = 0;
     char *request = f == table ? NULL : read_all(stdin, &n);
-    fw_live_answer a = f(live, request, n);
+    fw_plan_live_answer a = f(live, request, n);
     fwrite(a.text, 1, a.length, stdout);
     free(request);
     return a.status == FW_OK ? 0 : 2;
@@ -78,14 +78,14 @@ static size_t held(void) {
     return m.uordblks + m.hblkhd;
 }
 
-static void must(fw_live_answer a, const char *part) {
+static void must(fw_plan_live_answer a, const char *part) {
     if (a.status == FW_OK && strstr(a.text, part)) return;
     fprintf(stderr, "live memory: no %s in %.300s\n", part, a.text);
     exit(1);
 }
 
 /* 10 000 in all: small mechanisms, devices with flexures, poses, changes, mistakes */
-static int memory(fw_live *live) {
+static int memory(fw_plan_live *live) {
     enum { ROUNDS = 10000, WARM = 500 };
     static const char small[] = "tests/data/effect-costs/free.xml";
     static const char six_bar[] = "docs/gallery/reference-six-bar/device.xml";
@@ -98,19 +98,19 @@ static int memory(fw_live *live) {
     size_t before = 0;
     for (int i = 0; i < ROUNDS; i++) {
         if (i % 50 == 0)
-            must(fw_live_preview(live, whole, strlen(whole)), "\"accept\"");
+            must(fw_plan_live_preview(live, whole, strlen(whole)), "\"accept\"");
         else if (i % 50 == 1)
-            must(fw_live_preview(live, wrong, strlen(wrong)), "\"invalid\"");
+            must(fw_plan_live_preview(live, wrong, strlen(wrong)), "\"invalid\"");
         else if (i % 50 == 2)
-            must(fw_live_edit(live, change, strlen(change)), "200 deg");
+            must(fw_plan_live_edit(live, change, strlen(change)), "200 deg");
         else if (i % 10 == 3)
-            must(fw_live_pose(live, drag, strlen(drag)), "\"reachable\":true");
+            must(fw_plan_live_pose(live, drag, strlen(drag)), "\"reachable\":true");
         else if (i % 50 == 4)
-            must(fw_live_table(live), "flexure");
-        else if (i % 50 == 5 && fw_live_preview(live, few, 9).status != FW_USAGE)
+            must(fw_plan_live_table(live), "flexure");
+        else if (i % 50 == 5 && fw_plan_live_preview(live, few, 9).status != FW_USAGE)
             exit(1);
         else
-            must(fw_live_preview(live, few, strlen(few)), "\"motion\":{");
+            must(fw_plan_live_preview(live, few, strlen(few)), "\"motion\":{");
         if (i == WARM) before = held();
     }
     size_t after = held();
@@ -127,7 +127,7 @@ static int rising(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static int speed(fw_live *live, int argc, char **argv) {
+static int speed(fw_plan_live *live, int argc, char **argv) {
     int n = argc > 7 ? atoi(argv[7]) : 100;
     double from = atof(argv[4]), to = atof(argv[5]);
     double *spent = calloc((size_t)(n > 0 ? n : 1), sizeof *spent);
@@ -138,7 +138,7 @@ static int speed(fw_live *live, int argc, char **argv) {
                  argv[6]);
         char *request = request_of(argv[2], json_pack("{s:{s:s}}", "set", argv[3], value));
         double start = cpu_s();
-        fw_live_answer a = fw_live_preview(live, request, strlen(request));
+        fw_plan_live_answer a = fw_plan_live_preview(live, request, strlen(request));
         spent[i] = cpu_s() - start;
         if (a.status != FW_OK || !strstr(a.text, "\"status\":\"ok\""))
             printf("%s: %.200s\n", value, a.text);
@@ -152,7 +152,7 @@ static int speed(fw_live *live, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
-    fw_live *live = fw_live_new(NULL);
+    fw_plan_live *live = fw_plan_live_new(NULL);
     function f = argc > 1 ? named(argv[1]) : NULL;
     int status = 2;
     if (live && f)
@@ -163,6 +163,6 @@ int main(int argc, char **argv) {
         status = speed(live, argc, argv);
     else
         fputs("live table|preview|pose|edit|memory|speed ...; see tests/live/live.c\n", stderr);
-    fw_live_free(live);
+    fw_plan_live_free(live);
     return status;
 }

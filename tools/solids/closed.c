@@ -16,8 +16,8 @@ int main(void) {
         fw_flexure_result o;
         fw_flexure_closed_form(&in, &o);
         printf("%.12g %.12g %.12g %.12g %.12g %.12g\n", o.strain_per_rad / o.concentration,
-               fw_fillet_concentration(row.width_m, row.fillet_m), o.depth_factor, o.poisson,
-               o.strain_per_rad, o.strain_fit_per_rad);
+               fw_flexure_fillet_concentration(row.width_m, row.fillet_m), o.depth_factor,
+               o.poisson, o.strain_per_rad, o.strain_fit_per_rad);
     }
     return 0;
 }

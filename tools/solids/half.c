@@ -8,7 +8,7 @@
    From the first root's block to the middle section, which stays plane and is turned by 1 N m (the
    half depth by half of it) about the wafer's normal, free to move and to change its width. um, uN,
    MPa. Cost: some ms, the solver's some seconds. tools/solids/README.md */
-#include "continuum/deck.h"
+#include "continuum/continuum_deck.h"
 #include "row.h"
 #include <stdlib.h>
 
@@ -17,7 +17,7 @@ static const double rotation_um = 10;
 
 static void number(fw_text *deck, const char *before, double value) {
     fw_text_add(deck, before);
-    fw_deck_number(deck, value);
+    fw_continuum_deck_number(deck, value);
 }
 
 static int node_at(const fw_continuum_mesh *m, int i, int j, int k) {
@@ -104,13 +104,13 @@ static void deck_of(fw_text *deck, const solid_row *row, const fw_continuum_mesh
                                             .c12_Pa = row_silicon_Pa[1],
                                             .c44_Pa = row_silicon_Pa[2],
                                             .crystal_rad = -row->axis_rad};
-    fw_deck_head(deck, "half of a strip");
+    fw_continuum_deck_head(deck, "half of a strip");
     fw_text_add(deck, "*NODE, NSET=NALL\n");
-    fw_deck_nodes(deck, m, (fw_pose){0, 0, 0}, 1);
+    fw_continuum_deck_nodes(deck, m, (fw_geometry_pose){0, 0, 0}, 1);
     fw_text_printf(deck, "*NODE, NSET=NREF\n%d, 0, 0, 0\n*ELEMENT, TYPE=C3D20R, ELSET=EALL\n",
                    reference);
-    fw_deck_bricks(deck, m, 1, 1);
-    fw_deck_material(deck, &material, "M", "EALL", 0);
+    fw_continuum_deck_bricks(deck, m, 1, 1);
+    fw_continuum_deck_material(deck, &material, "M", "EALL", 0);
     turned_section(deck, m, reference);
     held(deck, m, reference);
     fw_text_printf(deck, "*STEP\n*STATIC, SOLVER=SPOOLES\n*CLOAD\n%d,2", reference);

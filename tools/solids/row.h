@@ -48,8 +48,8 @@ static inline fw_flexure_input row_input(const solid_row *row) {
                            .strength_Pa = 500e6,
                            .safety_factor = 1};
     if (row->silicon)
-        in.crystal = fw_crystal_cubic(row_silicon_Pa[0], row_silicon_Pa[1], row_silicon_Pa[2],
-                                      row->axis_rad);
+        in.crystal = fw_flexure_crystal_cubic(row_silicon_Pa[0], row_silicon_Pa[1],
+                                              row_silicon_Pa[2], row->axis_rad);
     return in;
 }
 

@@ -14,7 +14,7 @@ static void pose(const rig *r, double *q) {
 static double gap(const rig *r, const double *q) {
     double worst = 0;
     for (int i = 0; i < r->m.npin; i++) {
-        const fw_pin *p = &r->m.pin[i];
+        const fw_mechanism_pin *p = &r->m.pin[i];
         const double ground[3] = {0};
         const double *a = p->body_a == FW_GROUND ? ground : q + 3 * p->body_a;
         const double *b = p->body_b == FW_GROUND ? ground : q + 3 * p->body_b;
@@ -34,7 +34,7 @@ static void test_already_closed(void **state) {
     rig r = rig_six_bar(arena, false);
     double q[15], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
     assert_true(moved < 1e-17);
     fw_arena_free(arena);
 }
@@ -52,7 +52,7 @@ static void test_from_a_bad_guess(void **state) {
         pose(&r, q);
         for (int i = 0; i < 3 * r.m.nbody; i++)
             q[i] += (i % 3 == 2 ? turn : unit) * (rig_random(&seed) - 0.5);
-        assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+        assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
         assert_true(gap(&r, q) <= 1e-12 * unit);
         assert_true(moved > 0);
         fw_arena_free(arena);
@@ -71,7 +71,7 @@ static void test_mass_weighted(void **state) {
     rig_pin_local(&r, "P", 0, 0, 0, 1, 0, 0);
     double q[6], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
     assert_near(q[0], 3, 1e-12);
     assert_near(q[3], 3, 1e-12);
     assert_near(moved, 3, 1e-12);
@@ -91,7 +91,7 @@ static void test_impossible(void **state) {
     rig_pin_local(&r, "right", 1, 0.5e-3, 0, FW_GROUND, 3e-3, 0);
     double q[6], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
     assert_int_equal(diags.count, 1);
     assert_int_equal(diags.item[0].number, 100);
     print_message("%s\n", diags.item[0].message);
@@ -103,7 +103,7 @@ static void test_impossible(void **state) {
     assert_int_equal(sscanf(by, "open by %lf um", &um), 1);
     assert_near(um, 1000.0 / 3, 5);
     q[0] = (double)NAN;
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_INPUT);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_INPUT);
     fw_arena_free(arena);
 }
 
@@ -118,9 +118,9 @@ static rig rig_engine(fw_arena *arena, double e) {
     rig_pin_local(&r, "A", FW_GROUND, 0, 0, 0, -0.025, 0);
     rig_pin_local(&r, "B", 0, 0.025, 0, 1, -0.08, 0);
     rig_pin_local(&r, "C", 1, 0.08, 0, 2, 0, 0);
-    r.m.tie = fw_arena_array(arena, fw_tie, 1);
-    r.m.tie[r.m.ntie++] =
-        (fw_tie){.id = "S", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND, .body_b = 2, .ay_m = e};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){
+        .id = "S", .kind = FW_JOINT_PRISMATIC, .body_a = FW_GROUND, .body_b = 2, .ay_m = e};
     return r;
 }
 
@@ -189,10 +189,11 @@ static void test_hard_guesses(void **state) {
                     q[b + 2] += run == 0 && how == 2 ? 0 : turn;
                 }
                 memcpy(again, q, n * sizeof *q);
-                good += fw_assemble(arena, &r.m, q, &moved, &diags) == FW_OK;
+                good += fw_assembly_assemble(arena, &r.m, q, &moved, &diags) == FW_OK;
                 assert_near(gap(&r, q), 0, 1e-14 * extent(q, n));
                 if (run % 10 == 0) {
-                    assert_int_equal(fw_assemble(arena, &r.m, again, &moved, &diags), FW_OK);
+                    assert_int_equal(fw_assembly_assemble(arena, &r.m, again, &moved, &diags),
+                                     FW_OK);
                     assert_memory_equal(q, again, n * sizeof *q);
                 }
                 fw_arena_free(arena);
@@ -219,7 +220,7 @@ static void test_mass_ratio(void **state) {
         pose(&r, q);
         for (int i = 0; i < 21; i++)
             q[i] += (i % 3 == 2 ? 3 : 0.03) * (rig_random(&seed) - 0.5);
-        assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+        assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
         assert_true(gap(&r, q) < 1e-15);
         fw_arena_free(arena);
     }
@@ -238,7 +239,7 @@ static void test_nearest(void **state) {
     rig_pin_local(&r, "O", FW_GROUND, 0, 0, 0, -1, 0);
     double q[3], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
     /* nearly without inertia: the centre goes to the point of the unit circle nearest to it */
     assert_near(q[0], 3 / hypot(3, 4.5), 1e-7);
     assert_near(q[1], 4.5 / hypot(3, 4.5), 1e-7);
@@ -250,14 +251,14 @@ static void test_nearest(void **state) {
     for (int i = 0; i < 15; i++)
         guess[i] += (i % 3 == 2 ? 0.2 : 2e-4) * (rig_random(&seed) - 0.5);
     memcpy(best, guess, sizeof best);
-    assert_int_equal(fw_assemble(arena, &s.m, best, &moved, &diags), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &s.m, best, &moved, &diags), FW_OK);
     for (int k = 0; k < 30; k++) {
         double other[15], here = 0, there = 0;
         for (int i = 0; i < 15; i++)
             other[i] = best[i] + (i % 3 == 2 ? 1e-3 : 1e-6) * (rig_random(&seed) - 0.5);
-        assert_int_equal(fw_assemble(arena, &s.m, other, &moved, &diags), FW_OK);
+        assert_int_equal(fw_assembly_assemble(arena, &s.m, other, &moved, &diags), FW_OK);
         for (int i = 0; i < 15; i++) {
-            const fw_mass *m = &s.m.body[i / 3];
+            const fw_mechanism_mass *m = &s.m.body[i / 3];
             double weight = i % 3 == 2 ? m->inertia_kg_m2 : m->mass_kg;
             here += weight * (best[i] - guess[i]) * (best[i] - guess[i]);
             there += weight * (other[i] - guess[i]) * (other[i] - guess[i]);
@@ -282,7 +283,7 @@ static void test_turns(void **state) {
             q[i] += i % 3 == 2 ? turn * (i - 7) + 4 * (rig_random(&seed) - 0.5)
                                : 4e-3 * (rig_random(&seed) - 0.5);
         memcpy(guess, q, sizeof q);
-        assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+        assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
         for (int b = 2; b < 15; b += 3)
             assert_true(fabs(q[b] - guess[b]) <= turn / 2 + 1e-9);
     }
@@ -301,7 +302,7 @@ static void test_far_away(void **state) {
             double q[21], moved;
             pose(&r, q);
             q[6 + axis] += far[k];
-            fw_status status = fw_assemble(arena, &r.m, q, &moved, &diags);
+            fw_status status = fw_assembly_assemble(arena, &r.m, q, &moved, &diags);
             if (status == FW_OK) {
                 assert_true(gap(&r, q) < 1e-12);
             } else {
@@ -333,10 +334,10 @@ static void test_four_bar_branches(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_four_bar(arena);
-    fw_driver driver = {.id = "hold",
-                        .joint = 0,
-                        .tie = FW_NONE,
-                        .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
+    fw_device_driver driver = {.id = "hold",
+                               .revolute = 0,
+                               .joint = FW_NONE,
+                               .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
     r.m.pin[0].free_angle_rad = 0.2; /* the step gives 1 rad: the crank stands at 1.2 rad */
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
@@ -432,38 +433,38 @@ static void test_rank(void **state) {
     fw_arena_free(arena);
 }
 
-/* ---- ties and drivers ---- */
+/* ---- joints and drivers ---- */
 
-static void test_ties(void **state) {
+static void test_joints(void **state) {
     (void)state;
     uint64_t seed = 21;
     for (int run = 0; run < 60; run++) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
         rig r = rig_engine(arena, 0.01);
-        fw_tie *tie = fw_arena_array(arena, fw_tie, 3);
-        tie[0] = r.m.tie[0];
+        fw_device_joint *joint = fw_arena_array(arena, fw_device_joint, 3);
+        joint[0] = r.m.joint[0];
         /* a plate welded to the piston at 30 degrees, and a rod from it to the ground */
-        fw_mass *body = fw_arena_array(arena, fw_mass, 4);
+        fw_mechanism_mass *body = fw_arena_array(arena, fw_mechanism_mass, 4);
         memcpy(body, r.m.body, 3 * sizeof *body);
-        body[3] = (fw_mass){"plate", 0.2, 1e-4, 0.2, 0.05, 0};
+        body[3] = (fw_mechanism_mass){"plate", 0.2, 1e-4, 0.2, 0.05, 0};
         r.m.body = body, r.m.nbody = 4;
-        tie[1] = (fw_tie){.id = "W",
-                          .kind = FW_TIE_WELD,
-                          .body_a = 2,
-                          .body_b = 3,
-                          .ax_m = 0.03,
-                          .bx_m = -0.02,
-                          .angle_rad = 0.5};
-        tie[2] = (fw_tie){.id = "R",
-                          .kind = FW_TIE_DISTANCE,
-                          .body_a = FW_GROUND,
-                          .body_b = 3,
-                          .ax_m = 0.2,
-                          .ay_m = -0.1,
-                          .bx_m = 0.02,
-                          .length_m = 0.14};
-        r.m.tie = tie, r.m.ntie = 3;
+        joint[1] = (fw_device_joint){.id = "W",
+                                     .kind = FW_JOINT_WELD,
+                                     .body_a = 2,
+                                     .body_b = 3,
+                                     .ax_m = 0.03,
+                                     .bx_m = -0.02,
+                                     .angle_rad = 0.5};
+        joint[2] = (fw_device_joint){.id = "R",
+                                     .kind = FW_JOINT_DISTANCE,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 3,
+                                     .ax_m = 0.2,
+                                     .ay_m = -0.1,
+                                     .bx_m = 0.02,
+                                     .length_m = 0.14};
+        r.m.joint = joint, r.m.njoint = 3;
         double q[12];
         pose(&r, q);
         for (int i = 0; i < 12 && run > 0; i++)
@@ -495,10 +496,11 @@ static void test_impossible_driver(void **state) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
         rig r = rig_four_bar(arena);
-        fw_driver driver = {.id = "motor",
-                            .joint = 3,
-                            .tie = FW_NONE,
-                            .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
+        fw_device_driver driver = {
+            .id = "motor",
+            .revolute = 3,
+            .joint = FW_NONE,
+            .law = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY}};
         r.m.pin[3].free_angle_rad = ask[i] - 1;
         r.m.driver = &driver, r.m.ndriver = 1;
         double q[9];
@@ -529,26 +531,26 @@ static void test_gap_of_slides(void **state) {
     rig_body(&r, "b", 1, 0.1, 1.5, 0, 0);
     rig_pin_local(&r, "A", FW_GROUND, 0, 0, 0, -0.5, 0);
     rig_pin_local(&r, "B", 0, 0.5, 0, 1, -0.5, 0);
-    r.m.tie = fw_arena_array(arena, fw_tie, 3);
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "C",
-                                   .kind = FW_TIE_PRISMATIC,
-                                   .body_a = FW_GROUND,
-                                   .body_b = 1,
-                                   .ay_m = 2.5,
-                                   .bx_m = 0.5};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 3);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "C",
+                                                .kind = FW_JOINT_PRISMATIC,
+                                                .body_a = FW_GROUND,
+                                                .body_b = 1,
+                                                .ay_m = 2.5,
+                                                .bx_m = 0.5};
     double q[6], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
     assert_non_null(strstr(diags.item[0].message, "joint C stays open by 1500 mm at best"));
     r.m.npin = 0; /* three welds in a ring that turns by 0.3 rad */
-    r.m.ntie = 3;
+    r.m.njoint = 3;
     for (int i = 0; i < 3; i++)
-        r.m.tie[i] = (fw_tie){.id = "W",
-                              .kind = FW_TIE_WELD,
-                              .body_a = i == 0 ? FW_GROUND : i - 1,
-                              .body_b = i == 2 ? FW_GROUND : i,
-                              .angle_rad = i == 1 ? 0.3 : 0};
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+        r.m.joint[i] = (fw_device_joint){.id = "W",
+                                         .kind = FW_JOINT_WELD,
+                                         .body_a = i == 0 ? FW_GROUND : i - 1,
+                                         .body_b = i == 2 ? FW_GROUND : i,
+                                         .angle_rad = i == 1 ? 0.3 : 0};
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
     assert_non_null(strstr(diags.item[1].message, "joint W stays open by 17.19 deg at best"));
     fw_arena_free(arena);
 }
@@ -560,13 +562,15 @@ static void test_one_unit(void **state) {
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_new(arena, 1, 0, 0);
     rig_body(&r, "a", 1, 0.1, 0.5, 0, 0);
-    r.m.tie = fw_arena_array(arena, fw_tie, 2);
-    r.m.ntie = 2;
-    r.m.tie[0] = (fw_tie){"r1", FW_TIE_DISTANCE, FW_GROUND, 0, 0, 0, -0.5, 0, .length_m = 1};
-    r.m.tie[1] = (fw_tie){"r2", FW_TIE_DISTANCE, FW_GROUND, 0, 10, 0, 0.5, 0, .length_m = 2};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 2);
+    r.m.njoint = 2;
+    r.m.joint[0] =
+        (fw_device_joint){"r1", FW_JOINT_DISTANCE, FW_GROUND, 0, 0, 0, -0.5, 0, .length_m = 1};
+    r.m.joint[1] =
+        (fw_device_joint){"r2", FW_JOINT_DISTANCE, FW_GROUND, 0, 10, 0, 0.5, 0, .length_m = 2};
     double q[3], moved;
     pose(&r, q);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_SOLVER);
     const char *text = diags.item[0].message;
     assert_non_null(strstr(text, "measures 10 m and the other sides reach 4 m together: 6 m"));
     assert_null(strstr(text, " mm"));
@@ -627,17 +631,17 @@ static void test_assembled(void **state) {
     rig r = rig_six_bar(arena, false);
     const fw_mechanism *m;
     double far = -1;
-    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
+    assert_int_equal(fw_assembly_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
     assert_ptr_equal(m, &r.m);
     assert_int_equal(diags.count, 0);
     assert_near(far, 0, 0);
     r.m.body[2].x_m += 1e-10; /* hardly: a note */
-    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
+    assert_int_equal(fw_assembly_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
     assert_int_equal(diags.item[0].number, 115);
     assert_int_equal(diags.item[0].severity, FW_NOTE);
     assert_true(far > 1e-12 && far < 2e-10);
     r.m.body[2].x_m += 3e-4, r.m.body[4].phi_rad += 0.3;
-    assert_int_equal(fw_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
+    assert_int_equal(fw_assembly_assembled(arena, &r.m, &diags, &m, &far), FW_OK);
     assert_ptr_not_equal(m, &r.m);
     assert_int_equal(diags.item[1].number, 115);
     assert_int_equal(diags.item[1].severity, FW_WARNING);
@@ -661,11 +665,11 @@ static void test_out_of_memory(void **state) {
     double q[15], moved;
     pose(&r, q);
     fw_arena_fail_at(0, 0);
-    assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
+    assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_OK);
     long count = fw_arena_count();
     for (long n = 1; n <= count; n++) {
         fw_arena_fail_at(n, 0);
-        assert_int_equal(fw_assemble(arena, &r.m, q, &moved, &diags), FW_NOMEM);
+        assert_int_equal(fw_assembly_assemble(arena, &r.m, q, &moved, &diags), FW_NOMEM);
     }
     fw_arena_fail_at(0, 0);
     /* from a bad guess, with the report */
@@ -691,7 +695,7 @@ int main(void) {
         cmocka_unit_test(test_nearest),        cmocka_unit_test(test_turns),
         cmocka_unit_test(test_far_away),       cmocka_unit_test(test_four_bar_branches),
         cmocka_unit_test(test_other_side),     cmocka_unit_test(test_rank),
-        cmocka_unit_test(test_ties),           cmocka_unit_test(test_impossible_driver),
+        cmocka_unit_test(test_joints),         cmocka_unit_test(test_impossible_driver),
         cmocka_unit_test(test_always_refused), cmocka_unit_test(test_gap_of_slides),
         cmocka_unit_test(test_one_unit),       cmocka_unit_test(test_assembled),
         cmocka_unit_test(test_out_of_memory),

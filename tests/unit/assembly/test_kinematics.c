@@ -3,7 +3,7 @@
 #include "assembly/kinematics.h"
 #include "dynamics/models.h"
 
-static const fw_kinematics_options everything = {.effects = {.mode = FW_EFFECTS_ALL}};
+static const fw_assembly_kinematics_options everything = {.effects = {.mode = FW_EFFECTS_ALL}};
 
 static void pose(const rig *r, double *q) {
     for (int b = 0; b < r->m.nbody; b++) {
@@ -33,9 +33,9 @@ static rig rig_engine(fw_arena *arena, const engine *p, double phi) {
     rig_pin_local(&r, "A", FW_GROUND, 0, 0, 0, -p->r / 2, 0);
     rig_pin_local(&r, "B", 0, p->r / 2, 0, 1, -p->l / 2, 0);
     rig_pin_local(&r, "C", 1, p->l / 2, 0, 2, 0, 0);
-    r.m.tie = fw_arena_array(arena, fw_tie, 1);
-    r.m.tie[r.m.ntie++] = (fw_tie){
-        .id = "S", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND, .body_b = 2, .ay_m = p->e};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){
+        .id = "S", .kind = FW_JOINT_PRISMATIC, .body_a = FW_GROUND, .body_b = 2, .ay_m = p->e};
     r.scene.duration_s = 1;
     return r;
 }
@@ -69,10 +69,10 @@ static void test_slider_crank(void **state) {
         r.m.body[1].inertia_kg_m2 = 1e-15;
         rig_force(&r, 2, p.gas, 0);
         pose(&r, q);
-        fw_kinematics_options o = everything;
+        fw_assembly_kinematics_options o = everything;
         o.independent = "crank.phi", o.rate = &w, o.accel = &dw, o.nrate = o.naccel = 1;
-        const fw_kinematics *k;
-        if (fw_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
+        const fw_assembly_kinematics *k;
+        if (fw_assembly_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
             fail_with(&diags);
         engine_exact(&p, phi, w, dw, x, rod);
         assert_near(q[6], x[0], 1e-15);
@@ -84,8 +84,8 @@ static void test_slider_crank(void **state) {
         /* piston: m x'' = gas + rod_x, rod force along the rod, wall force = -rod_y */
         double along = (p.piston_mass * x[2] - p.gas), wall = -along * tan(rod[0]);
         assert_near(k->reaction_N[4], along, 1e-6 * fabs(along)); /* 1e-9 kg of rod remain */
-        assert_near(k->tie_N[1], wall, 1e-6 * fabs(along));
-        assert_near(k->tie_N[0], 0, 1e-9 * fabs(along));
+        assert_near(k->joint_N[1], wall, 1e-6 * fabs(along));
+        assert_near(k->joint_N[0], 0, 1e-9 * fabs(along));
         /* power: torque w = d/dt kinetic energy - gas x' */
         double crank = 1e-4 + p.crank_mass * p.r * p.r / 4;
         double torque = (crank * dw * w + (p.piston_mass * x[2] - p.gas) * x[1]) / w;
@@ -140,10 +140,10 @@ static void test_four_bar(void **state) {
         double phi = 0.2 + 0.31 * i, w = 2.7, dw = -1.9, q[9];
         rig r = rig_four_bar(arena, phi);
         pose(&r, q);
-        fw_kinematics_options o = everything;
+        fw_assembly_kinematics_options o = everything;
         o.independent = "crank.phi", o.rate = &w, o.accel = &dw, o.nrate = o.naccel = 1;
-        const fw_kinematics *k;
-        if (fw_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
+        const fw_assembly_kinematics *k;
+        if (fw_assembly_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
             fail_with(&diags);
         double psi[3] = {q[8], 0, 0};
         freudenstein(1, 2.5, 3, 3.2, phi, w, dw, psi);
@@ -153,7 +153,7 @@ static void test_four_bar(void **state) {
         /* the torque's power is the change of the kinetic energy */
         double power = 0;
         for (int c = 0; c < 9; c++) {
-            const fw_mass *m = &r.m.body[c / 3];
+            const fw_mechanism_mass *m = &r.m.body[c / 3];
             power += (c % 3 == 2 ? m->inertia_kg_m2 : m->mass_kg) * k->v[c] * k->a[c];
         }
         assert_near(k->drive[0] * w, power, 1e-10 * fabs(power) + 1e-10);
@@ -188,11 +188,11 @@ static void test_six_bar(void **state) {
             rate[i] = value[16 + 3 * i + 2] * 1e3;
             accel[i] = value[31 + 3 * i + 2] * 1e6;
         }
-        fw_kinematics_options o = everything;
+        fw_assembly_kinematics_options o = everything;
         o.independent = "AB.phi, BC.phi,CD.phi";
         o.rate = rate, o.accel = accel, o.nrate = o.naccel = 3;
-        const fw_kinematics *k;
-        if (fw_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
+        const fw_assembly_kinematics *k;
+        if (fw_assembly_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k) != FW_OK)
             fail_with(&diags);
         for (int i = 0; i < 15; i++) {
             double unit = i % 3 == 2 ? 1 : 1e-3;
@@ -227,9 +227,9 @@ static void test_choice(void **state) {
     rig r = rig_six_bar(arena, true); /* a hinge written twice changes nothing */
     double q[15];
     pose(&r, q);
-    fw_kinematics_options o = everything;
-    const fw_kinematics *k;
-    assert_int_equal(fw_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_OK);
+    fw_assembly_kinematics_options o = everything;
+    const fw_assembly_kinematics *k;
+    assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_OK);
     assert_int_equal(k->independent.count, 3);
     assert_true(k->independent.automatic);
     assert_true(k->independent.condition < 10);
@@ -248,7 +248,8 @@ static void test_choice(void **state) {
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         o.independent = wrong[i].list;
         size_t before = diags.count;
-        assert_int_equal(fw_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_USAGE);
+        assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k),
+                         FW_USAGE);
         assert_int_equal(diags.count, before + 1);
         assert_int_equal(diags.item[before].number, 117);
         if (!strstr(diags.item[before].message, wrong[i].word))
@@ -257,9 +258,9 @@ static void test_choice(void **state) {
     print_message("%s\n", diags.item[diags.count - 1].message);
     double rate[2] = {1, 2};
     o.independent = "AB.phi,BC.phi,CD.phi", o.rate = rate, o.nrate = 2;
-    assert_int_equal(fw_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_USAGE);
+    assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_USAGE);
     rate[0] = (double)NAN, o.nrate = 1;
-    assert_int_equal(fw_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_USAGE);
+    assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k), FW_USAGE);
     fw_arena_free(arena);
 }
 
@@ -274,10 +275,10 @@ static void test_dead_centre(void **state) {
         rig r = rig_engine(arena, &p, i ? 0 : 1e-5);
         double q[9];
         pose(&r, q);
-        fw_kinematics_options o = everything;
-        const fw_kinematics *k;
+        fw_assembly_kinematics_options o = everything;
+        const fw_assembly_kinematics *k;
         o.independent = "piston.x";
-        fw_status status = fw_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k);
+        fw_status status = fw_assembly_kinematics_solve(arena, &r.m, NULL, q, &o, &diags, &k);
         if (i == 0) {
             assert_int_equal(status, FW_OK);
             assert_true(k->independent.condition > 1e4);
@@ -293,14 +294,14 @@ static void test_dead_centre(void **state) {
 
 /* ---- drivers ---- */
 
-static fw_driver sine(const char *id, int pin, double frequency, double phase) {
-    return (fw_driver){.id = id,
-                       .joint = pin,
-                       .tie = FW_NONE,
-                       .law = {.kind = &fw_quantity_law_sine,
-                               .end_s = (double)INFINITY,
-                               .frequency_Hz = frequency,
-                               .phase_rad = phase}};
+static fw_device_driver sine(const char *id, int pin, double frequency, double phase) {
+    return (fw_device_driver){.id = id,
+                              .revolute = pin,
+                              .joint = FW_NONE,
+                              .law = {.kind = &fw_quantity_law_sine,
+                                      .end_s = (double)INFINITY,
+                                      .frequency_Hz = frequency,
+                                      .phase_rad = phase}};
 }
 
 /* the piston that a driven crank moves against the closed form, and its reactions against the same
@@ -313,13 +314,14 @@ static void test_driven_crank(void **state) {
     const double turn = 2 * acos(-1.0), f = 1.3, phase = 0.4;
     rig r = rig_engine(arena, &p, sin(phase));
     rig_force(&r, 2, p.gas, 0);
-    fw_driver driver = sine("motor", 0, f, phase);
+    fw_device_driver driver = sine("motor", 0, f, phase);
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
     pose(&r, q);
-    const fw_kinematics *k;
+    const fw_assembly_kinematics *k;
     enum { N = 41 };
-    if (fw_kinematics_follow(arena, &r.m, &r.scene, q, N, &everything, &diags, &k) != FW_OK)
+    if (fw_assembly_kinematics_follow(arena, &r.m, &r.scene, q, N, &everything, &diags, &k) !=
+        FW_OK)
         fail_with(&diags);
     for (int i = 0; i < N; i++) {
         double t = (double)i / (N - 1), phi = sin(turn * f * t + phase), x[3], rod[3];
@@ -333,15 +335,16 @@ static void test_driven_crank(void **state) {
         assert_near(k[i].a[5], rod[2], 1e-10);
         rig free = r;
         free.m.ndriver = 0;
-        fw_kinematics_options o = everything;
+        fw_assembly_kinematics_options o = everything;
         o.independent = "crank.phi", o.rate = &w, o.accel = &dw, o.nrate = o.naccel = 1;
-        const fw_kinematics *other;
-        assert_int_equal(fw_kinematics_solve(arena, &free.m, &r.scene, k[i].q, &o, &diags, &other),
-                         FW_OK);
+        const fw_assembly_kinematics *other;
+        assert_int_equal(
+            fw_assembly_kinematics_solve(arena, &free.m, &r.scene, k[i].q, &o, &diags, &other),
+            FW_OK);
         assert_near(k[i].driver_N[0], other->drive[0], 1e-10);
         for (int c = 0; c < 6; c++)
             assert_near(k[i].reaction_N[c], other->reaction_N[c], 1e-9);
-        assert_near(k[i].tie_N[1], other->tie_N[1], 1e-9);
+        assert_near(k[i].joint_N[1], other->joint_N[1], 1e-9);
     }
     fw_arena_free(arena);
 }
@@ -354,14 +357,16 @@ static void test_driven_six_bar(void **state) {
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_six_bar(arena, false);
     const double half = acos(-1.0); /* B and F turn the other way */
-    fw_driver driver[3] = {sine("a", 0, 40, 0), sine("b", 1, 55, half), sine("f", 5, 35, half)};
+    fw_device_driver driver[3] = {sine("a", 0, 40, 0), sine("b", 1, 55, half),
+                                  sine("f", 5, 35, half)};
     r.m.driver = driver, r.m.ndriver = 3;
     r.scene.duration_s = 1e-3;
     double q[15];
     pose(&r, q);
-    const fw_kinematics *k;
+    const fw_assembly_kinematics *k;
     enum { N = 401 };
-    if (fw_kinematics_follow(arena, &r.m, &r.scene, q, N, &everything, &diags, &k) != FW_OK)
+    if (fw_assembly_kinematics_follow(arena, &r.m, &r.scene, q, N, &everything, &diags, &k) !=
+        FW_OK)
         fail_with(&diags);
     double h = r.scene.duration_s / (N - 1), worst_v = 0, worst_a = 0, most_v = 0, most_a = 0;
     for (int i = 3; i < N - 3; i++)
@@ -389,15 +394,17 @@ static void test_ramp(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_four_bar(arena, 0.0);
-    fw_driver driver = {.id = "motor",
-                        .joint = 0,
-                        .tie = FW_NONE,
-                        .law = {.kind = &fw_quantity_law_ramp, .start_s = 0.25, .rise_s = 0.5}};
+    fw_device_driver driver = {
+        .id = "motor",
+        .revolute = 0,
+        .joint = FW_NONE,
+        .law = {.kind = &fw_quantity_law_ramp, .start_s = 0.25, .rise_s = 0.5}};
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
     pose(&r, q);
-    const fw_kinematics *k;
-    if (fw_kinematics_follow(arena, &r.m, &r.scene, q, 9, &everything, &diags, &k) != FW_OK)
+    const fw_assembly_kinematics *k;
+    if (fw_assembly_kinematics_follow(arena, &r.m, &r.scene, q, 9, &everything, &diags, &k) !=
+        FW_OK)
         fail_with(&diags);
     for (int i = 0; i < 9; i++) {
         double t = i / 8.0, phi = fmin(1, fmax(0, (t - 0.25) / 0.5));
@@ -413,20 +420,22 @@ static void test_lost(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_four_bar(arena, 2.0);
-    fw_driver driver = sine("rocker", 3, 1, 0);
+    fw_device_driver driver = sine("rocker", 3, 1, 0);
     r.m.driver = &driver, r.m.ndriver = 1;
     double q[9];
     pose(&r, q);
     r.m.pin[3].free_angle_rad = -q[8]; /* the law starts where the rocker is */
     driver.law.phase_rad = 0;
-    const fw_kinematics *k;
-    assert_int_equal(fw_kinematics_follow(arena, &r.m, &r.scene, q, 50, &everything, &diags, &k),
-                     FW_SOLVER);
+    const fw_assembly_kinematics *k;
+    assert_int_equal(
+        fw_assembly_kinematics_follow(arena, &r.m, &r.scene, q, 50, &everything, &diags, &k),
+        FW_SOLVER);
     assert_int_equal(diags.item[0].number, 118);
     print_message("%s\n", diags.item[0].message);
     r.m.ndriver = 0;
-    assert_int_equal(fw_kinematics_follow(arena, &r.m, &r.scene, q, 50, &everything, &diags, &k),
-                     FW_USAGE);
+    assert_int_equal(
+        fw_assembly_kinematics_follow(arena, &r.m, &r.scene, q, 50, &everything, &diags, &k),
+        FW_USAGE);
     fw_arena_free(arena);
 }
 
@@ -437,15 +446,16 @@ static void test_out_of_memory(void **state) {
     rig r = rig_six_bar(arena, false);
     double q[15], rate[3] = {1, 2, 3};
     pose(&r, q);
-    fw_kinematics_options o = everything;
+    fw_assembly_kinematics_options o = everything;
     o.independent = "AB.phi,BC.phi,CD.phi", o.rate = rate, o.nrate = 3;
-    const fw_kinematics *k;
+    const fw_assembly_kinematics *k;
     fw_arena_fail_at(0, 0);
-    assert_int_equal(fw_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k), FW_OK);
+    assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k), FW_OK);
     long count = fw_arena_count();
     for (long n = 1; n <= count; n++) {
         fw_arena_fail_at(n, 0);
-        assert_int_equal(fw_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k), FW_NOMEM);
+        assert_int_equal(fw_assembly_kinematics_solve(arena, &r.m, &r.scene, q, &o, &diags, &k),
+                         FW_NOMEM);
     }
     fw_arena_fail_at(0, 0);
     fw_arena_free(arena);

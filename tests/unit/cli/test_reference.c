@@ -52,7 +52,7 @@ static void diagnostics_page(void **state) {
 static void every_command_is_complete(void **state) {
     (void)state;
     size_t n;
-    const fw_command *command = fw_command_table(&n);
+    const fw_cli_command *command = fw_cli_command_table(&n);
     for (size_t i = 0; i < n; i++) {
         assert_non_null(command[i].run);
         assert_true(strlen(command[i].summary) > 10 && strlen(command[i].text) > 40);

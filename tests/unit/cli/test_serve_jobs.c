@@ -45,9 +45,9 @@ static const struct {
 };
 enum { NKINDS = sizeof kinds / sizeof kinds[0], NOPTIONS = sizeof options / sizeof options[0] };
 
-static const fw_command *command_named(const char *name) {
+static const fw_cli_command *command_named(const char *name) {
     size_t n;
-    const fw_command *command = fw_command_table(&n);
+    const fw_cli_command *command = fw_cli_command_table(&n);
     for (size_t i = 0; i < n; i++)
         if (strcmp(command[i].name, name) == 0) return &command[i];
     return NULL;
@@ -57,7 +57,7 @@ static fw_status build(fw_arena *arena, const char *request, const char *const *
     const char *kind = NULL, *why = NULL;
     json_t *json = json_loads(request, JSON_DECODE_ANY, NULL);
     assert_non_null(json);
-    fw_status status = fw_job_command(arena, json, "-device.xml", &kind, argv, &why);
+    fw_status status = fw_serve_job_command(arena, json, "-device.xml", &kind, argv, &why);
     assert_true((status == FW_OK) == (why == NULL));
     json_decref(json);
     return status;
@@ -84,7 +84,7 @@ static void every_kind_with_all_options(void **state) {
     for (int i = 0; i < NOPTIONS; i++)
         fw_text_printf(&all, "%s\"%s\": %s", i ? ", " : "", options[i].name, options[i].value);
     for (int k = 0; k < NKINDS; k++) {
-        const fw_command *command = command_named(kinds[k]);
+        const fw_cli_command *command = command_named(kinds[k]);
         if (!command) continue; /* not in this version: the job says so */
         const char *const *argv;
         const char *request = fw_arena_printf(
@@ -144,7 +144,7 @@ static void what_is_not_in_the_table_cannot_be_said(void **state) {
         const char *kind, *why = NULL;
         json_t *json = json_loads(refused[i], JSON_ALLOW_NUL, NULL);
         assert_non_null(json);
-        if (fw_job_command(arena, json, "d.xml", &kind, &argv, &why) != FW_INPUT || !why)
+        if (fw_serve_job_command(arena, json, "d.xml", &kind, &argv, &why) != FW_INPUT || !why)
             fail_msg("%s is taken", refused[i]);
         json_decref(json);
     }

@@ -8,23 +8,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static fw_external_run call(const fw_external_room *room, const char *program, const char *word,
-                            double timeout_s) {
+static fw_continuum_external_run call(const fw_continuum_external_room *room, const char *program,
+                                      const char *word, double timeout_s) {
     const char *argv[] = {program, word, NULL};
-    fw_external_run run;
-    assert_int_equal(fw_external_call(room, argv, "log", timeout_s, &run), FW_OK);
+    fw_continuum_external_run run;
+    assert_int_equal(fw_continuum_external_call(room, argv, "log", timeout_s, &run), FW_OK);
     return run;
 }
 
 static void ends(void **state) {
     (void)state;
     fw_arena *work = fw_arena_new(0);
-    fw_external_room room;
-    assert_int_equal(fw_external_room_open(work, &room), FW_OK);
+    fw_continuum_external_room room;
+    assert_int_equal(fw_continuum_external_room_open(work, &room), FW_OK);
     struct stat info;
     assert_int_equal(stat(room.path, &info), 0);
     assert_int_equal(info.st_mode & 0777, 0700);
-    fw_external_run run = call(&room, "/bin/true", NULL, 10);
+    fw_continuum_external_run run = call(&room, "/bin/true", NULL, 10);
     assert_int_equal(run.end, FW_EXTERNAL_DONE);
     run = call(&room, "/bin/false", NULL, 10);
     assert_int_equal(run.end, FW_EXTERNAL_FAILED);
@@ -42,17 +42,17 @@ static void ends(void **state) {
     assert_int_equal(run.end, FW_EXTERNAL_CANCELLED);
     char path[sizeof room.path];
     memcpy(path, room.path, sizeof path);
-    fw_external_room_close(&room);
+    fw_continuum_external_room_close(&room);
     assert_int_not_equal(access(path, F_OK), 0);
-    fw_external_room_close(&room); /* twice does no harm */
+    fw_continuum_external_room_close(&room); /* twice does no harm */
 }
 
 /* the environment is ours, the directory too */
 static void surroundings(void **state) {
     (void)state;
     fw_arena *work = fw_arena_new(0);
-    fw_external_room room;
-    assert_int_equal(fw_external_room_open(work, &room), FW_OK);
+    fw_continuum_external_room room;
+    assert_int_equal(fw_continuum_external_room_open(work, &room), FW_OK);
     setenv("SOME_SECRET", "value", 1);
     assert_int_equal(call(&room, "/usr/bin/env", NULL, 10).end, FW_EXTERNAL_DONE);
     char file[700], text[2000] = {0};
@@ -64,9 +64,10 @@ static void surroundings(void **state) {
     assert_true(n > 0);
     assert_non_null(strstr(text, "OMP_NUM_THREADS=1\n"));
     assert_null(strstr(text, "SOME_SECRET"));
-    assert_int_equal(fw_external_write(&room, "a", "b", 1), FW_OK);
-    assert_int_equal(fw_external_write(&room, "a", "b", 1), FW_IO); /* nothing is written over */
-    fw_external_room_close(&room);
+    assert_int_equal(fw_continuum_external_write(&room, "a", "b", 1), FW_OK);
+    assert_int_equal(fw_continuum_external_write(&room, "a", "b", 1),
+                     FW_IO); /* nothing is written over */
+    fw_continuum_external_room_close(&room);
 }
 
 static void found(void **state) {
@@ -102,14 +103,14 @@ static void principal_values(void **state) {
         double value[3],
             sorted[3] = {fmin(p[0], fmin(p[1], p[2])), 0, fmax(p[0], fmax(p[1], p[2]))};
         sorted[1] = p[0] + p[1] + p[2] - sorted[0] - sorted[2];
-        fw_results_principal((double[6]){A[0][0], A[1][1], A[2][2], A[0][1], A[1][2], A[2][0]},
-                             value);
+        fw_continuum_results_principal(
+            (double[6]){A[0][0], A[1][1], A[2][2], A[0][1], A[1][2], A[2][0]}, value);
         for (int i = 0; i < 3; i++)
             assert_near(value[i], sorted[i], 2e-8); /* double values: square root of round-off */
         if (n % 3 != 0) assert_near(value[2], sorted[2], 1e-13);
     }
     double zero[3];
-    fw_results_principal((double[6]){0}, zero);
+    fw_continuum_results_principal((double[6]){0}, zero);
     assert_near(zero[2], 0, 0);
 }
 
@@ -124,18 +125,20 @@ static const char printed[] = "\n displacements (vx,vy,vz) for set NREF and time
 static void print_file(void **state) {
     (void)state;
     const int node[2] = {7, 8};
-    fw_result_step step[2] = {{.have_move = {false}}};
-    assert_int_equal(fw_results_print(printed, node, 2, step, 2), FW_OK);
+    fw_continuum_result_step step[2] = {{.have_move = {false}}};
+    assert_int_equal(fw_continuum_results_print(printed, node, 2, step, 2), FW_OK);
     assert_near(step[0].move[0][0], 1.5e-3, 0);
     assert_near(step[0].move[0][1], -2, 0);
     assert_near(step[0].move[1][2], 0, 0); /* an exponent of three digits */
     assert_near(step[0].force[1][2], 3, 0);
     assert_true(step[0].have_move[0] && step[0].have_move[1] && step[0].have_force[1]);
     assert_false(step[0].have_force[0] || step[1].have_move[0]);
-    assert_int_equal(fw_results_print(" displacements (vx) time  0.1000000E+01\n 7 nonsense 1 2\n",
-                                      node, 2, step, 2),
+    assert_int_equal(
+        fw_continuum_results_print(" displacements (vx) time  0.1000000E+01\n 7 nonsense 1 2\n",
+                                   node, 2, step, 2),
+        FW_SOLVER);
+    assert_int_equal(fw_continuum_results_print(" forces and time  NaN\n", node, 2, step, 2),
                      FW_SOLVER);
-    assert_int_equal(fw_results_print(" forces and time  NaN\n", node, 2, step, 2), FW_SOLVER);
 }
 
 static const char fields[] =
@@ -151,18 +154,19 @@ static const char fields[] =
 
 static void field_file(void **state) {
     (void)state;
-    fw_result_peak strain[3], stress[3];
+    fw_continuum_result_peak strain[3], stress[3];
     int found_steps;
-    assert_int_equal(fw_results_fields(fields, strain, stress, 3, &found_steps), FW_OK);
+    assert_int_equal(fw_continuum_results_fields(fields, strain, stress, 3, &found_steps), FW_OK);
     assert_int_equal(found_steps, 3);
     assert_near(strain[2].principal, 2e-3, 1e-15);
     assert_int_equal(strain[2].node, 357);
     assert_near(stress[2].principal, 100, 1e-12);
     assert_near(stress[2].mises, sqrt(0.5 * (105.0 * 105 + 25 + 100 * 100)), 1e-10);
-    assert_int_equal(fw_results_fields("  100CL  103 3.000000000        3317\n -4  STRESS      6\n"
-                                       " -1       356 1.00000E+02\n",
-                                       strain, stress, 3, &found_steps),
-                     FW_SOLVER);
+    assert_int_equal(
+        fw_continuum_results_fields("  100CL  103 3.000000000        3317\n -4  STRESS      6\n"
+                                    " -1       356 1.00000E+02\n",
+                                    strain, stress, 3, &found_steps),
+        FW_SOLVER);
 }
 
 int main(void) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lattice is valid, closed, has the volume of the exact outline; the deck says what the mesh
    is, twice the same. No solver needed. */
-#include "continuum/deck.h"
+#include "continuum/continuum_deck.h"
 #include "shapes.h"
 #include "test.h"
 #include <stdlib.h>
@@ -47,9 +47,9 @@ static void volume(void **state) {
         for (int root = 0; root < 2; root++) {
             fw_continuum_shape shape = shape_of(which, (fw_continuum_root)root);
             const char *why;
-            fw_contour outline;
+            fw_geometry_contour outline;
             assert_int_equal(fw_continuum_outline(*state, &shape, &outline, &why), FW_OK);
-            double exact = fw_contour_area(&outline), error[2];
+            double exact = fw_geometry_contour_area(&outline), error[2];
             assert_relative(exact, area_of(&shape), 1e-12);
             for (int n = 0; n < 2; n++) {
                 fw_continuum_mesh mesh;
@@ -98,13 +98,13 @@ static void general_centre_line(void **state) {
         .depth_m = 20e-6,
         .block_half_m = 30e-6,
         .block_length_m = 40e-6};
-    fw_contour outline;
+    fw_geometry_contour outline;
     const char *why = "";
     if (fw_continuum_outline(*state, &shape, &outline, &why) != FW_OK) fail_msg("%s", why);
     double one = shape.fillet_m * shape.fillet_m * (1 - M_PI / 4), R = 80e-6;
     double area = 270e-6 * 6e-6 + 4 * 30e-6 * 40e-6 + 2 * one + fillet_area(R - 3e-6, 3e-6, true) +
                   fillet_area(R + 3e-6, 3e-6, false);
-    assert_relative(fw_contour_area(&outline), area, 1e-12);
+    assert_relative(fw_geometry_contour_area(&outline), area, 1e-12);
     fw_continuum_mesh mesh;
     build(*state, &shape, 1, &mesh);
     fw_continuum_quality q = fw_continuum_mesh_quality(&mesh);

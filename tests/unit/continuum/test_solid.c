@@ -12,7 +12,7 @@ enum { AB, BC, CD, DE, EF, BODIES };
 
 /* hinge axes A, F +y, B +x, E -x, C, D -y; the chains from the base to the platform go from the
    first root to the second */
-static fw_solid_device six_bar(fw_arena *arena) {
+static fw_continuum_solid_device six_bar(fw_arena *arena) {
     static const double x[6] = {-700e-6, -1200e-6, -400e-6, 400e-6, 1200e-6, 700e-6};
     static const double y[6] = {-1000e-6, 0, 700e-6, 700e-6, 0, -1000e-6};
     static const double axis[6] = {M_PI / 2, 0, -M_PI / 2, -M_PI / 2, M_PI, M_PI / 2};
@@ -20,21 +20,22 @@ static fw_solid_device six_bar(fw_arena *arena) {
     static const int second[6] = {AB, BC, CD, CD, DE, EF};
     static const char *const id[6] = {"A", "B", "C", "D", "E", "F"};
     static const char *const link[BODIES] = {"AB", "BC", "CD", "DE", "EF"};
-    fw_solid_device d = {
+    fw_continuum_solid_device d = {
         .nhinge = 6, .nbody = BODIES, .material = {.youngs_Pa = 147079.09e6, .poisson = 0.22}};
-    d.hinge = fw_arena_array(arena, fw_solid_hinge, 6);
-    d.body = fw_arena_array(arena, fw_solid_body, BODIES);
+    d.hinge = fw_arena_array(arena, fw_continuum_solid_hinge, 6);
+    d.body = fw_arena_array(arena, fw_continuum_solid_body, BODIES);
     for (int h = 0; h < 6; h++) {
         fw_continuum_shape shape = shape_of(1, FW_ROOT_RIGID);
         double W = shape.centre_x_m;
-        d.hinge[h] = (fw_solid_hinge){id[h],
-                                      shape,
-                                      {x[h] - W * cos(axis[h]), y[h] - W * sin(axis[h]), axis[h]},
-                                      first[h],
-                                      second[h]};
+        d.hinge[h] =
+            (fw_continuum_solid_hinge){id[h],
+                                       shape,
+                                       {x[h] - W * cos(axis[h]), y[h] - W * sin(axis[h]), axis[h]},
+                                       first[h],
+                                       second[h]};
     }
     for (int b = 0; b < BODIES; b++)
-        d.body[b] = (fw_solid_body){
+        d.body[b] = (fw_continuum_solid_body){
             .id = link[b], .x_m = (x[b] + x[b + 1]) / 2, .y_m = (y[b] + y[b + 1]) / 2};
     return d;
 }
@@ -64,8 +65,8 @@ static void driven(void **state) {
     for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
         /* forty seconds of processor alone */
         if (strcmp(rows[n].name, "L2") == 0 && !getenv("FLEXWRIGHT_SLOW")) continue;
-        fw_solid_device d = six_bar(arena);
-        fw_solid_result r;
+        fw_continuum_solid_device d = six_bar(arena);
+        fw_continuum_solid_result r;
         const double angle[3] = {rows[n].AB, rows[n].CD, rows[n].EF};
         const double moment[3] = {rows[n].M_AB, rows[n].M_CD, rows[n].M_EF};
         static const int body[3] = {AB, CD, EF};
@@ -73,8 +74,9 @@ static void driven(void **state) {
             d.body[body[k]].driven = true;
             d.body[body[k]].rotation_rad = angle[k];
         }
-        fw_status status = fw_solid_solve(
-            arena, &d, &(fw_solid_options){.plane_stress = true, .increments = 4}, &diags, &r);
+        fw_status status = fw_continuum_solid_solve(
+            arena, &d, &(fw_continuum_solid_options){.plane_stress = true, .increments = 4}, &diags,
+            &r);
         if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no message");
         print_message("%s: x %.4f y %.4f um, moments %.1f %.1f %.1f, strain %.6f at %s; %d bricks, "
                       "%.1f s\n",
@@ -115,27 +117,28 @@ typedef struct engine {
     const fw_device *device;
     const fw_layout *layout;
     const fw_mechanism *mechanism;
-    fw_variant variant;
-    fw_solid_device solid;
+    fw_mechanism_variant variant;
+    fw_continuum_solid_device solid;
 } engine;
 
 static void read_engine(fw_arena *arena, fw_diags *diags, engine *e) {
     const char *xml = six_bar_xml;
-    e->variant = (fw_variant){.thickness_m = 50e-6,
-                              .explicit_mass_scale = 1,
-                              .explicit_stiffness_scale = 1,
-                              .explicit_damping_scale = 1,
-                              .material = {.id = "m",
-                                           .youngs = {.value = 169e9},
-                                           .poisson = {.value = 0.22},
-                                           .density = {.value = 2330},
-                                           .strength = {.value = 1e9}}};
+    e->variant = (fw_mechanism_variant){.thickness_m = 50e-6,
+                                        .explicit_mass_scale = 1,
+                                        .explicit_stiffness_scale = 1,
+                                        .explicit_damping_scale = 1,
+                                        .material = {.id = "m",
+                                                     .youngs = {.value = 169e9},
+                                                     .poisson = {.value = 0.22},
+                                                     .density = {.value = 2330},
+                                                     .strength = {.value = 1e9}}};
     fw_status status = fw_device_read(arena, "d.xml", xml, strlen(xml), NULL, 0, diags, &e->device);
     if (status == FW_OK) status = fw_layout_build(arena, e->device, diags, &e->layout);
     if (status == FW_OK)
         status = fw_mechanism_build(arena, e->device, e->layout, &e->variant, diags, &e->mechanism);
     if (status == FW_OK)
-        status = fw_solid_device_of(arena, e->mechanism, &e->device->scene[0], diags, &e->solid);
+        status = fw_continuum_solid_device_of(arena, e->mechanism, &e->device->scene[0], diags,
+                                              &e->solid);
     if (status != FW_OK) fail_msg("%s", diags->count ? diags->item[0].message : "no message");
 }
 
@@ -149,8 +152,8 @@ static void as_drawn(void **state) {
     assert_int_equal(e.solid.nhinge, 6);
     assert_int_equal(e.solid.nforce, 1);
     for (int h = 0; h < 6; h++) {
-        const fw_hinge_layout *drawn = &e.layout->hinge[h];
-        const fw_solid_hinge *solid = &e.solid.hinge[h];
+        const fw_layout_hinge_layout *drawn = &e.layout->hinge[h];
+        const fw_continuum_solid_hinge *solid = &e.solid.hinge[h];
         assert_near(solid->pose.x_m, drawn->arc_centre.x, 1e-12);
         assert_near(solid->pose.y_m, drawn->arc_centre.y, 1e-12);
         assert_near(remainder(solid->pose.angle_rad - drawn->axis_rad, 2 * M_PI), 0, 1e-12);
@@ -161,7 +164,8 @@ static void as_drawn(void **state) {
     fw_text deck[2];
     for (int n = 0; n < 2; n++) {
         deck[n] = fw_text_new(arena);
-        assert_int_equal(fw_solid_deck(arena, &e.solid, &(fw_solid_options){0}, &diags, &deck[n]),
+        assert_int_equal(fw_continuum_solid_deck(arena, &e.solid, &(fw_continuum_solid_options){0},
+                                                 &diags, &deck[n]),
                          FW_OK);
     }
     assert_string_equal(deck[0].data, deck[1].data);
@@ -184,17 +188,17 @@ static void against_the_engine(void **state) {
     }
     engine e;
     const fw_statics *rest;
-    fw_solid_result r;
+    fw_continuum_solid_result r;
     read_engine(arena, &diags, &e);
-    const fw_static_options all = {.path = false};
-    assert_int_equal(
-        fw_static_equilibrium(arena, e.mechanism, &e.device->scene[0], &all, &diags, &rest), FW_OK);
+    const fw_statics_static_options all = {.path = false};
+    assert_int_equal(fw_statics_solve(arena, e.mechanism, &e.device->scene[0], &all, &diags, &rest),
+                     FW_OK);
     for (int b = AB; b <= EF; b += 2) {
         e.solid.body[b].driven = true;
         e.solid.body[b].rotation_rad = rest->q[3 * b + 2] - rest->rest_q[3 * b + 2];
     }
-    fw_status status =
-        fw_solid_solve(arena, &e.solid, &(fw_solid_options){.increments = 1}, &diags, &r);
+    fw_status status = fw_continuum_solid_solve(
+        arena, &e.solid, &(fw_continuum_solid_options){.increments = 1}, &diags, &r);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no message");
     for (int b = 0; b < BODIES; b++) {
         const double *q = &rest->q[3 * b], *q0 = &rest->rest_q[3 * b];
@@ -216,22 +220,24 @@ static void refusals(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     engine e;
-    fw_solid_device out;
+    fw_continuum_solid_device out;
     read_engine(arena, &diags, &e);
     fw_mechanism m = *e.mechanism;
-    fw_scene scene = e.device->scene[0];
+    fw_device_scene scene = e.device->scene[0];
     m.nspring = 1;
-    assert_int_equal(fw_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
+    assert_int_equal(fw_continuum_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
     m = *e.mechanism;
     m.npin = 7;
-    assert_int_equal(fw_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
+    assert_int_equal(fw_continuum_solid_device_of(arena, &m, NULL, &diags, &out), FW_GEOMETRY);
     scene.gravity = true;
     scene.gy_m_per_s2 = -9.81;
-    assert_int_equal(fw_solid_device_of(arena, e.mechanism, &scene, &diags, &out), FW_GEOMETRY);
+    assert_int_equal(fw_continuum_solid_device_of(arena, e.mechanism, &scene, &diags, &out),
+                     FW_GEOMETRY);
     e.solid.nhinge = 2; /* three links hang in the air */
     fw_text deck = fw_text_new(arena);
-    assert_int_equal(fw_solid_deck(arena, &e.solid, &(fw_solid_options){0}, &diags, &deck),
-                     FW_GEOMETRY);
+    assert_int_equal(
+        fw_continuum_solid_deck(arena, &e.solid, &(fw_continuum_solid_options){0}, &diags, &deck),
+        FW_GEOMETRY);
     assert_int_equal(diags.errors, 4);
     for (size_t i = 0; i < diags.count; i++)
         if (diags.item[i].severity == FW_ERROR) assert_int_equal(diags.item[i].number, 213);

@@ -24,7 +24,7 @@ static inline char *load(fw_arena *arena, const char *name, size_t *n) {
 #define GALLERY "docs/gallery/reference-six-bar/device.xml"
 
 /* reads a device that must be sound */
-static inline const fw_device *sound(fw_arena *arena, const char *xml, const fw_set *set,
+static inline const fw_device *sound(fw_arena *arena, const char *xml, const fw_device_set *set,
                                      int nset) {
     fw_diags diags = fw_diags_new(arena);
     const fw_device *device;
@@ -35,7 +35,7 @@ static inline const fw_device *sound(fw_arena *arena, const char *xml, const fw_
 }
 
 /* the only error must be this one */
-static inline void only_error(fw_arena *arena, const char *xml, const fw_set *set, int nset,
+static inline void only_error(fw_arena *arena, const char *xml, const fw_device_set *set, int nset,
                               int number, const char *says) {
     fw_diags diags = fw_diags_new(arena);
     const fw_device *device; /* may be what was understood, for looking up references */

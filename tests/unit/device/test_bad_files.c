@@ -14,7 +14,7 @@ typedef struct want {
 typedef struct expectation {
     want item[MOST];
     int n;
-    fw_set set[4];
+    fw_device_set set[4];
     int nset;
 } expectation;
 
@@ -32,7 +32,7 @@ static void read_expectation(fw_arena *arena, const char *name, expectation *e) 
             equals = strchr(path_end ? path_end : line + 6, '=');
             assert_non_null(equals);
             *equals = '\0';
-            e->set[e->nset++] = (fw_set){line + 6, equals + 1};
+            e->set[e->nset++] = (fw_device_set){line + 6, equals + 1};
         } else if (sscanf(line, "%d:%d FW-D%d", &w.line, &w.column, &w.number) == 3) {
             assert_true(e->n < MOST);
             e->item[e->n++] = w;
@@ -78,9 +78,9 @@ static void check_file(const char *name) {
     char *xml = load(arena, path, &n);
     fw_diags diags = fw_diags_new(arena);
     const fw_device *device;
-    fw_materials materials;
+    fw_device_materials materials;
     fw_status s = strncmp(name, "pack-", 5) == 0
-                      ? fw_materials_read(arena, name, xml, n, &diags, &materials)
+                      ? fw_device_materials_read(arena, name, xml, n, &diags, &materials)
                       : fw_device_read(arena, name, xml, n, e.set, e.nset, &diags, &device);
     if (s != FW_INPUT) fail_msg("%s: status %s", name, fw_status_text(s));
     compare(name, &diags, &e);

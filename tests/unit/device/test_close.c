@@ -21,7 +21,7 @@ static void point(pose p, double x, double y, double out[2]) {
 }
 
 static double gap_of(const fw_device *d, int joint) {
-    const fw_joint *j = &d->joint[joint];
+    const fw_device_revolute *j = &d->revolute[joint];
     double a[2] = {j->ax_m, j->ay_m}, b[2] = {j->bx_m, j->by_m};
     if (j->body_a >= 0) point(pose_of(d, j->body_a), j->ax_m, j->ay_m, a);
     if (j->body_b >= 0) point(pose_of(d, j->body_b), j->bx_m, j->by_m, b);
@@ -66,8 +66,8 @@ static void half_a_move_half_a_turn(void **state) {
             assert_true(gap_of(d, 0) < 1e-18);
             assert_near(d->body[0].x_m, 0.5 * gap, gap * gap / 1e-3);
             assert_near(d->body[0].phi_rad, 0.5 * gap / 1e-3, gap * gap / 1e-6);
-            assert_true(d->joint[0].x_m == 0 &&
-                        d->joint[0].y_m == 0); /* the ground does not move */
+            assert_true(d->revolute[0].x_m == 0 &&
+                        d->revolute[0].y_m == 0); /* the ground does not move */
         }
         fw_arena_free(arena);
     }

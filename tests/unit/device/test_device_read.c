@@ -26,7 +26,7 @@ static void the_gallery_device(void **state) {
     assert_string_equal(d->flow[1].material, "copper-plated");
     assert_relative(d->flow[1].thickness_m, 9e-6, 1e-15);
     assert_int_equal(d->nflexure, 6);
-    const fw_flexure *f = &d->flexure[1];
+    const fw_device_flexure *f = &d->flexure[1];
     assert_relative(f->length_m, 250e-6, 1e-15);
     assert_relative(f->radius_m, 250e-6 / (4 * pi / 3), 1e-15);
     assert_relative(f->width_m, 8.5e-6, 1e-15);
@@ -62,7 +62,7 @@ static void the_six_bar_expands(void **state) {
     static const int ends[][2] = {{FW_GROUND, 0}, {0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, FW_GROUND}};
     assert_true(d->six_bar);
     assert_int_equal(d->nbody, 5);
-    assert_int_equal(d->njoint, 6);
+    assert_int_equal(d->nrevolute, 6);
     for (int i = 0; i < 5; i++) {
         assert_string_equal(d->body[i].id, body[i]);
         assert_int_equal(d->body[i].platform, i == 2);
@@ -72,19 +72,19 @@ static void the_six_bar_expands(void **state) {
         assert_true(d->body[i].place.line > 20);
     }
     for (int i = 0; i < 6; i++) {
-        assert_string_equal(d->joint[i].id, joint[i]);
-        assert_int_equal(d->joint[i].body_a, ends[i][0]);
-        assert_int_equal(d->joint[i].body_b, ends[i][1]);
-        assert_int_equal(d->joint[i].flexure, i);
-        assert_true(isnan(d->joint[i].ax_m) && isnan(d->joint[i].axis_rad));
+        assert_string_equal(d->revolute[i].id, joint[i]);
+        assert_int_equal(d->revolute[i].body_a, ends[i][0]);
+        assert_int_equal(d->revolute[i].body_b, ends[i][1]);
+        assert_int_equal(d->revolute[i].flexure, i);
+        assert_true(isnan(d->revolute[i].ax_m) && isnan(d->revolute[i].axis_rad));
     }
     assert_relative(d->body[0].x_m, 0.45e-3, 1e-14); /* midpoint of A and B */
     assert_relative(d->body[0].y_m, 0.775e-3, 1e-14);
     assert_relative(d->body[2].y_m, 2.875e-3, 1e-15);
     assert_relative(d->body[2].plate_y_m, 2.875e-3, 1e-15);
     assert_relative(d->body[2].inertia_kg_m2, 0.01155e-12, 1e-14);
-    assert_relative(d->joint[4].x_m, 2.85e-3, 1e-15);
-    assert_relative(d->joint[5].damping_Nms_per_rad, 0.0075e-9, 1e-15);
+    assert_relative(d->revolute[4].x_m, 2.85e-3, 1e-15);
+    assert_relative(d->revolute[5].damping_Nms_per_rad, 0.0075e-9, 1e-15);
     fw_arena_free(arena);
 }
 
@@ -107,8 +107,9 @@ static void mass_from_the_shape(void **state) {
     assert_true(isnan(d->body[2].x_m));
     assert_relative(d->body[2].plate_x_m, 2.5e-3, 1e-15);
     assert_relative(d->body[2].plate_angle_rad, 5 * pi / 180, 1e-15);
-    assert_int_equal(d->joint[0].flexure, FW_NONE);
-    assert_true(isnan(d->joint[0].stiffness_Nm_per_rad) && isnan(d->joint[0].damping_Nms_per_rad));
+    assert_int_equal(d->revolute[0].flexure, FW_NONE);
+    assert_true(isnan(d->revolute[0].stiffness_Nm_per_rad) &&
+                isnan(d->revolute[0].damping_Nms_per_rad));
     fw_arena_free(arena);
 }
 
@@ -128,12 +129,12 @@ static void the_general_mechanism(void **state) {
         "<initial body=\"q\" vx=\"1 mm/s\" omega=\"30 rpm\"/></scene>");
     const fw_device *d = sound(arena, xml, NULL, 0);
     assert_false(d->six_bar);
-    assert_relative(d->joint[0].x_m, 3e-3, 1e-14); /* 5 - 2, turned by 90 deg */
-    assert_relative(d->joint[0].y_m, 7e-3, 1e-14);
-    assert_relative(d->joint[0].bx_m, -1e-3, 1e-15);
-    assert_relative(d->joint[0].free_angle_rad, 3 * pi / 180, 1e-15);
-    assert_int_equal(d->joint[1].body_a, FW_GROUND);
-    assert_relative(d->joint[1].x_m, 7e-3, 1e-15);
+    assert_relative(d->revolute[0].x_m, 3e-3, 1e-14); /* 5 - 2, turned by 90 deg */
+    assert_relative(d->revolute[0].y_m, 7e-3, 1e-14);
+    assert_relative(d->revolute[0].bx_m, -1e-3, 1e-15);
+    assert_relative(d->revolute[0].free_angle_rad, 3 * pi / 180, 1e-15);
+    assert_int_equal(d->revolute[1].body_a, FW_GROUND);
+    assert_relative(d->revolute[1].x_m, 7e-3, 1e-15);
     assert_relative(d->body[1].plate_height_m, 2e-3, 1e-15);
     assert_near(d->body[1].plate_x_m, 0.0, 0.0);
     assert_true(isnan(d->body[0].plate_x_m));
@@ -164,11 +165,11 @@ static void both_mechanisms_together(void **state) {
     fw_text_add(&xml, end);
     const fw_device *d = sound(arena, xml.data, NULL, 0);
     assert_int_equal(d->nbody, 6);
-    assert_int_equal(d->njoint, 7);
-    assert_int_equal(d->joint[6].body_a, 2);
-    assert_int_equal(d->joint[6].body_b, 5);
-    assert_int_equal(d->joint[6].flexure, 2);
-    assert_relative(d->joint[6].x_m, 2e-3, 1e-14);
+    assert_int_equal(d->nrevolute, 7);
+    assert_int_equal(d->revolute[6].body_a, 2);
+    assert_int_equal(d->revolute[6].body_b, 5);
+    assert_int_equal(d->revolute[6].flexure, 2);
+    assert_relative(d->revolute[6].x_m, 2e-3, 1e-14);
     fw_arena_free(arena);
 }
 
@@ -200,7 +201,7 @@ static void memory_runs_out(void **state) {
     fw_arena *outer = fw_arena_new(0);
     size_t n;
     char *xml = load(outer, GALLERY, &n);
-    const fw_set set[] = {{"link", "150 um"}, {"flexure[A]/@length", "2*link"}};
+    const fw_device_set set[] = {{"link", "150 um"}, {"flexure[A]/@length", "2*link"}};
     for (int ever = 0; ever < 2; ever++)
         for (long at = 1;; at++) {
             fw_arena *arena = fw_arena_new(0);

@@ -2,7 +2,7 @@
 /* The table of elements and what is generated from it. To regenerate the committed pages:
    FW_WRITE_REFERENCE=1 test_device_table */
 #include "device/device.h"
-#include "device/table.h"
+#include "device/device_table.h"
 #include "files.h"
 #include <stdlib.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ static void pages_are_current(void **state) {
 
 static void rows_are_complete(void **state) {
     (void)state;
-    const fw_element_row *e;
+    const fw_xml_element_row *e;
     int count = 0;
     assert_null(fw_xml_row_at(&fw_device_table, -1));
     for (int i = 0; (e = fw_xml_row_at(&fw_device_table, i)) != NULL; i++, count++) {
@@ -46,15 +46,15 @@ static void rows_are_complete(void **state) {
         assert_true(e->nattribute <= FW_ATTRIBUTES_MOST);
         bool key = e->key == NULL;
         for (int k = 0; k < e->nattribute; k++) {
-            const fw_attribute_row *a = &e->attribute[k];
-            fw_unit unit;
+            const fw_xml_attribute_row *a = &e->attribute[k];
+            fw_quantity_unit unit;
             assert_non_null(a->sentence);
             assert_true(a->sentence[strlen(a->sentence) - 1] == '.');
             key |= e->key && strcmp(e->key, a->name) == 0;
             assert_true(!a->required || !a->fallback);
             if (a->kind == FW_KIND_NUMBER) {
-                assert_true(fw_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL));
-                assert_true(fw_dimension_equal(unit.dimension, a->dimension));
+                assert_true(fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL));
+                assert_true(fw_quantity_dimension_equal(unit.dimension, a->dimension));
             }
             assert_true(!a->whole || (a->kind == FW_KIND_NUMBER && a->ranged));
             assert_true(!a->difference || a->dimension.K == 1);

@@ -27,37 +27,37 @@ static void all_joints(void **state) {
         "<spring id=\"c\" a=\"p\" b=\"q\" stiffness=\"3 N/m\" cable=\"yes\"/>"
         "<spring id=\"n\" a=\"p\" b=\"q\" stiffness=\"3 N/m\" cable=\"no\"/></mechanism>");
     const fw_device *d = sound(arena, xml, NULL, 0);
-    assert_int_equal(d->ntie, 3);
-    assert_int_equal(d->tie[0].kind, FW_TIE_DISTANCE);
-    assert_true(d->tie[0].body_a == 0 && d->tie[0].body_b == 1 && isnan(d->tie[0].length_m));
-    assert_relative(d->tie[0].by_m, 2e-3, 1e-15);
-    assert_int_equal(d->tie[1].kind, FW_TIE_PRISMATIC);
-    assert_int_equal(d->tie[1].body_b, FW_GROUND);
-    assert_relative(d->tie[1].axis_rad, pi / 6, 1e-15);
-    assert_true(isnan(d->tie[1].angle_rad));
-    assert_relative(d->tie[1].stiffness_N_per_m, 4, 1e-15);
-    assert_relative(d->tie[1].damping_Ns_per_m, 5, 1e-15);
-    assert_relative(d->tie[1].free_length_m, -2e-3, 1e-15);
-    assert_int_equal(d->tie[2].kind, FW_TIE_WELD);
-    assert_relative(d->tie[2].angle_rad, 1, 1e-15);
+    assert_int_equal(d->njoint, 3);
+    assert_int_equal(d->joint[0].kind, FW_JOINT_DISTANCE);
+    assert_true(d->joint[0].body_a == 0 && d->joint[0].body_b == 1 && isnan(d->joint[0].length_m));
+    assert_relative(d->joint[0].by_m, 2e-3, 1e-15);
+    assert_int_equal(d->joint[1].kind, FW_JOINT_PRISMATIC);
+    assert_int_equal(d->joint[1].body_b, FW_GROUND);
+    assert_relative(d->joint[1].axis_rad, pi / 6, 1e-15);
+    assert_true(isnan(d->joint[1].angle_rad));
+    assert_relative(d->joint[1].stiffness_N_per_m, 4, 1e-15);
+    assert_relative(d->joint[1].damping_Ns_per_m, 5, 1e-15);
+    assert_relative(d->joint[1].free_length_m, -2e-3, 1e-15);
+    assert_int_equal(d->joint[2].kind, FW_JOINT_WELD);
+    assert_relative(d->joint[2].angle_rad, 1, 1e-15);
     /* drivers may stand before what they drive; without an id they carry the joint's */
     assert_int_equal(d->ndriver, 2);
     assert_string_equal(d->driver[0].id, "r");
-    assert_true(d->driver[0].joint == 0 && d->driver[0].tie == FW_NONE);
+    assert_true(d->driver[0].revolute == 0 && d->driver[0].joint == FW_NONE);
     double v[3];
-    fw_law_value(&d->driver[0].law, 3, 3, v);
+    fw_quantity_law_value(&d->driver[0].law, 3, 3, v);
     assert_near(v[0], 6.1, 1e-15);
     assert_near(v[1], 2, 1e-15);
     assert_string_equal(d->driver[1].id, "pull");
-    assert_true(d->driver[1].joint == FW_NONE && d->driver[1].tie == 0);
-    fw_law_value(&d->driver[1].law, 3, 3, v);
+    assert_true(d->driver[1].revolute == FW_NONE && d->driver[1].joint == 0);
+    fw_quantity_law_value(&d->driver[1].law, 3, 3, v);
     assert_near(v[0], 7e-3, 1e-17);
-    assert_relative(d->joint[0].stop_min_rad, -400 * pi / 180, 1e-15);
-    assert_relative(d->joint[0].stop_max_rad, pi / 180, 1e-15);
-    assert_relative(d->joint[0].stop_stiffness_Nm_per_rad, 3, 1e-15);
-    assert_relative(d->joint[0].stop_damping_Nms_per_rad, 2, 1e-15);
-    assert_true(isnan(d->joint[1].stop_min_rad) && isnan(d->joint[1].stop_max_rad) &&
-                isnan(d->joint[1].stop_stiffness_Nm_per_rad));
+    assert_relative(d->revolute[0].stop_min_rad, -400 * pi / 180, 1e-15);
+    assert_relative(d->revolute[0].stop_max_rad, pi / 180, 1e-15);
+    assert_relative(d->revolute[0].stop_stiffness_Nm_per_rad, 3, 1e-15);
+    assert_relative(d->revolute[0].stop_damping_Nms_per_rad, 2, 1e-15);
+    assert_true(isnan(d->revolute[1].stop_min_rad) && isnan(d->revolute[1].stop_max_rad) &&
+                isnan(d->revolute[1].stop_stiffness_Nm_per_rad));
     assert_true(d->spring[0].cable && !d->spring[1].cable);
     fw_arena_free(arena);
 }
@@ -74,12 +74,12 @@ static void hinges_of_the_six_bar(void **state) {
                 "<mechanism><driver joint=\"F\" value=\"0.1 rad*sin(t/(1 ms))\"/></mechanism>");
     fw_text_add(&xml, end);
     const fw_device *d = sound(arena, xml.data, NULL, 0);
-    assert_true(d->driver[0].joint == 5 && d->driver[0].tie == FW_NONE);
-    assert_true(isnan(d->joint[5].stop_min_rad));
+    assert_true(d->driver[0].revolute == 5 && d->driver[0].joint == FW_NONE);
+    assert_true(isnan(d->revolute[5].stop_min_rad));
     fw_arena_free(arena);
 }
 
-static const fw_law *law_of(fw_arena *arena, const char *attributes) {
+static const fw_quantity_law *law_of(fw_arena *arena, const char *attributes) {
     fw_text xml = fw_text_new(arena);
     fw_text_printf(&xml,
                    DEVICE("<parameter name=\"late\" value=\"2 ms\"/>" ARM
@@ -87,7 +87,7 @@ static const fw_law *law_of(fw_arena *arena, const char *attributes) {
                           "<torque on=\"arm\" value=\"1 uN mm\" %s/></scene>"),
                    attributes, attributes);
     const fw_device *d = sound(arena, xml.data, NULL, 0);
-    const fw_law *a = d->scene[0].force[0].law, *b = d->scene[0].torque[0].law;
+    const fw_quantity_law *a = d->scene[0].force[0].law, *b = d->scene[0].torque[0].law;
     assert_true((a == NULL) == (b == NULL));
     if (a) assert_int_equal(a->kind, b->kind);
     return a;
@@ -99,7 +99,7 @@ static void laws(void **state) {
     assert_null(law_of(arena, ""));
     assert_null(law_of(arena, "law=\"step\""));
     assert_null(law_of(arena, "law=\"step\" start=\"0 ms\""));
-    const fw_law *l = law_of(arena, "start=\"late\""); /* step is the default */
+    const fw_quantity_law *l = law_of(arena, "start=\"late\""); /* step is the default */
     assert_int_equal(l->kind == &fw_quantity_law_step, 1);
     assert_relative(l->start_s, 2e-3, 1e-15);
     assert_true(isinf(l->end_s));
@@ -118,7 +118,7 @@ static void laws(void **state) {
     assert_true(l->table_value[1] == 0.25 && l->table_value[2] == -1);
     l = law_of(arena, "law=\"expression\" factor=\"sin(2*pi*t/(10 ms))\"");
     double v[3];
-    fw_law_value(l, 2.5e-3, 2.5e-3, v);
+    fw_quantity_law_value(l, 2.5e-3, 2.5e-3, v);
     assert_near(v[0], 1, 1e-15);
     assert_near(v[2], -4 * pi * pi * 1e4, 1e-6);
     fw_arena_free(arena);
@@ -139,7 +139,7 @@ static void sizes(void **state) {
     const fw_device *d = sound(arena, xml, NULL, 0);
     assert_relative(d->body[0].mass_kg, 1e-27, 1e-15);
     assert_relative(d->body[1].x_m, -2000, 1e-15);
-    assert_relative(d->joint[0].x_m, -3000, 1e-15);
+    assert_relative(d->revolute[0].x_m, -3000, 1e-15);
     fw_arena_free(arena);
 }
 
@@ -149,13 +149,13 @@ static void sets(void **state) {
     const char *xml =
         DEVICE("<mechanism>" BODIES "<prismatic id=\"s\" a=\"p\" b=\"q\" axis=\"0 deg\"/>"
                "<driver id=\"d\" joint=\"s\" value=\"1 mm\"/></mechanism>");
-    const fw_set set[] = {{"driver[d]/@value", "3 mm"}, {"prismatic[s]/@axis", "90 deg"}};
+    const fw_device_set set[] = {{"driver[d]/@value", "3 mm"}, {"prismatic[s]/@axis", "90 deg"}};
     const fw_device *d = sound(arena, xml, set, 2);
     double v[3];
-    fw_law_value(&d->driver[0].law, 0, 0, v);
+    fw_quantity_law_value(&d->driver[0].law, 0, 0, v);
     assert_near(v[0], 3e-3, 1e-18);
-    assert_relative(d->tie[0].axis_rad, pi / 2, 1e-15);
-    const fw_set wrong[] = {{"driver[d]/@value", "3 mm + t"}};
+    assert_relative(d->joint[0].axis_rad, pi / 2, 1e-15);
+    const fw_device_set wrong[] = {{"driver[d]/@value", "3 mm + t"}};
     only_error(arena, xml, wrong, 1, 26, "added");
     fw_arena_free(arena);
 }
@@ -211,7 +211,7 @@ static void long_table(void **state) {
     fw_text_add(&text, "\"");
     assert_int_equal(fw_text_end(&text), FW_OK);
     assert_true(text.length > 40000);
-    const fw_law *l = law_of(arena, text.data);
+    const fw_quantity_law *l = law_of(arena, text.data);
     assert_int_equal(l->ntable, POINTS);
     for (int i = 0; i < POINTS; i++) {
         assert_near(l->table_t_s[i], i * 5e-6, 1e-15);

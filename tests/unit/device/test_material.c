@@ -9,18 +9,18 @@ static void the_pack_is_sound(void **state) {
     fw_diags diags = fw_diags_new(arena);
     size_t n;
     char *xml = load(arena, "processes/base.xml", &n);
-    fw_materials m;
-    fw_status s = fw_materials_read(arena, "base.xml", xml, n, &diags, &m);
+    fw_device_materials m;
+    fw_status s = fw_device_materials_read(arena, "base.xml", xml, n, &diags, &m);
     if (s != FW_OK) fail_msg("%d: %s", diags.item[0].place.line, diags.item[0].message);
-    const fw_material *si = fw_material_find(&m, "silicon-100");
-    const fw_material *cu = fw_material_find(&m, "copper-plated");
+    const fw_device_material *si = fw_device_material_find(&m, "silicon-100");
+    const fw_device_material *cu = fw_device_material_find(&m, "copper-plated");
     assert_non_null(si);
     assert_non_null(cu);
     assert_in_range((long)(si->youngs.value / 1e9), 130, 169);
     assert_in_range((long)cu->density.value, 8000, 9000);
     assert_string_equal(si->criterion, "fracture");
     assert_true(si->youngs.uncertainty > 0 && si->youngs.source[0]);
-    assert_null(fw_material_find(&m, "unobtainium"));
+    assert_null(fw_device_material_find(&m, "unobtainium"));
     const struct {
         const char *id;
         double expansion, change;
@@ -30,7 +30,7 @@ static void the_pack_is_sound(void **state) {
                 {"silicon-substrate", 2.57e-6, 0},
                 {"glass-carrier", 3.3e-6, 0}};
     for (size_t i = 0; i < sizeof warm / sizeof warm[0]; i++) {
-        const fw_material *w = fw_material_find(&m, warm[i].id);
+        const fw_device_material *w = fw_device_material_find(&m, warm[i].id);
         assert_non_null(w);
         assert_relative(w->expansion.value, warm[i].expansion, 1e-14);
         assert_true(w->expansion.uncertainty > 0 && w->expansion.status == FW_TYPICAL);
@@ -38,7 +38,7 @@ static void the_pack_is_sound(void **state) {
         if (warm[i].change != 0) assert_relative(w->modulus_change.value, warm[i].change, 1e-14);
     }
     /* what limits are made of: fracture and fatigue of silicon, yield and fatigue of metals */
-    const fw_limit_data *l = &si->limit;
+    const fw_device_limit_data *l = &si->limit;
     assert_false(l->weibull_strength.unknown || l->weibull_modulus.unknown ||
                  l->weibull_area.unknown);
     assert_relative(l->weibull_area.value, 1e-8, 1e-14);
@@ -48,16 +48,16 @@ static void the_pack_is_sound(void **state) {
     assert_true(cu->limit.weibull_area.unknown);
     const char *const tires[] = {"silicon-100", "copper-plated", "aluminium"};
     for (int i = 0; i < 3; i++) {
-        l = &fw_material_find(&m, tires[i])->limit;
+        l = &fw_device_material_find(&m, tires[i])->limit;
         assert_false(l->fatigue_strength.unknown || l->fatigue_cycles.unknown ||
                      l->fatigue_exponent.unknown);
         assert_true(l->fatigue_strength.source[0] && l->fatigue_strength.status >= FW_TYPICAL);
     }
-    l = &fw_material_find(&m, "copper-film")->limit;
+    l = &fw_device_material_find(&m, "copper-film")->limit;
     assert_relative(l->film_yield.value, 116e6, 1e-14);
     assert_relative(l->film_yield_rise.value, 355e6, 1e-14);
     assert_relative(l->film_thickest.value, 3e-6, 1e-14);
-    assert_null(fw_material_find(&m, NULL));
+    assert_null(fw_device_material_find(&m, NULL));
     fw_arena_free(arena);
 }
 
@@ -68,24 +68,25 @@ static void crystals(void **state) {
     fw_diags diags = fw_diags_new(arena);
     size_t n;
     char *xml = load(arena, "processes/base.xml", &n);
-    fw_materials m;
-    assert_int_equal(fw_materials_read(arena, "base.xml", xml, n, &diags, &m), FW_OK);
-    const fw_material *si = fw_material_find(&m, "silicon-100");
-    assert_true(fw_material_is_crystal(si));
-    assert_false(fw_material_is_crystal(fw_material_find(&m, "copper-plated")));
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "base.xml", xml, n, &diags, &m), FW_OK);
+    const fw_device_material *si = fw_device_material_find(&m, "silicon-100");
+    assert_true(fw_device_material_is_crystal(si));
+    assert_false(fw_device_material_is_crystal(fw_device_material_find(&m, "copper-plated")));
     /* the pack's modulus is the harmonic mean of its own constants: 1/(S11 - S0/4) */
     double a = si->c11.value, b = si->c12.value, d = (a - b) * (a + 2 * b);
     double s0 = (a + 2 * b) / d - 0.5 / si->c44.value;
     assert_relative(si->youngs.value, 1 / ((a + b) / d - 0.25 * s0), 1e-4);
-    fw_material_override none = {.density = {.value = 2300, .unit = "kg/m3"}}, stiff = none;
+    fw_device_material_override none = {.density = {.value = 2300, .unit = "kg/m3"}}, stiff = none;
     none.youngs.unknown = none.poisson.unknown = none.strength.unknown = true;
     stiff.poisson.unknown = stiff.strength.unknown = true;
     stiff.youngs = (fw_quantity){.value = 160e9, .unit = "GPa"};
-    const fw_material same = fw_material_with(si, &none), other = fw_material_with(si, &stiff);
-    assert_true(fw_material_is_crystal(&same));
-    assert_false(fw_material_is_crystal(&other));
-    const fw_material blank = {.id = "w"};
-    assert_false(fw_material_is_crystal(&blank));
+    const fw_device_material same = fw_device_material_with(si, &none),
+                             other = fw_device_material_with(si, &stiff);
+    assert_true(fw_device_material_is_crystal(&same));
+    assert_false(fw_device_material_is_crystal(&other));
+    const fw_device_material blank = {.id = "w"};
+    assert_false(fw_device_material_is_crystal(&blank));
 
 #define C(id, value) "<q id='" id "' value='" value "' u='1' unit='GPa' status='typical' src='s'/>"
     const char *const bad[] = {
@@ -95,7 +96,7 @@ static void crystals(void **state) {
     const int number[] = {209, 209, 47};
     for (int i = 0; i < 3; i++) {
         diags = fw_diags_new(arena);
-        assert_int_equal(fw_materials_read(arena, "t", bad[i], strlen(bad[i]), &diags, &m),
+        assert_int_equal(fw_device_materials_read(arena, "t", bad[i], strlen(bad[i]), &diags, &m),
                          FW_INPUT);
         assert_int_equal(diags.item[0].number, number[i]);
     }
@@ -107,9 +108,9 @@ static void what_is_absent_is_unknown(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     const char *xml = PACK("<material id='w' name='wax'/>");
-    fw_materials m;
-    assert_int_equal(fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
-    const fw_material *w = fw_material_find(&m, "w");
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
+    const fw_device_material *w = fw_device_material_find(&m, "w");
     assert_true(w->youngs.unknown && w->poisson.unknown && w->density.unknown &&
                 w->strength.unknown && w->loss.unknown && w->expansion.unknown &&
                 w->modulus_change.unknown);
@@ -137,8 +138,9 @@ static void changes_with_temperature(void **state) {
                 {WARM("value='2.6e-6' unit='1'"), 25, 2.6e-6}};
     for (size_t i = 0; i < sizeof pack / sizeof pack[0]; i++) {
         fw_diags diags = fw_diags_new(arena);
-        fw_materials m;
-        fw_status s = fw_materials_read(arena, "t", pack[i].xml, strlen(pack[i].xml), &diags, &m);
+        fw_device_materials m;
+        fw_status s =
+            fw_device_materials_read(arena, "t", pack[i].xml, strlen(pack[i].xml), &diags, &m);
         assert_int_equal(s, pack[i].number ? FW_INPUT : FW_OK);
         if (pack[i].number) assert_int_equal(diags.item[0].number, pack[i].number);
         assert_relative(m.item[0].expansion.value, pack[i].value, 1e-14);
@@ -152,17 +154,17 @@ static void overrides_replace(void **state) {
     fw_diags diags = fw_diags_new(arena);
     const char *xml = PACK("<material id='w'><q id='youngs' value='100' u='5' unit='GPa' "
                            "status='typical' src='s'/></material>");
-    fw_materials m;
-    assert_int_equal(fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
     const char *device = DEVICE("<material ref=\"w\" youngs-modulus=\"160 GPa\"/>" ARM);
     const fw_device *d = sound(arena, device, NULL, 0);
-    fw_material with = fw_material_with(&m.item[0], &d->material);
+    fw_device_material with = fw_device_material_with(&m.item[0], &d->material);
     assert_relative(with.youngs.value, 160e9, 1e-15);
     assert_string_equal(with.youngs.source, "device file");
     assert_string_equal(with.youngs.unit, "GPa");
     assert_true(with.density.unknown);
-    fw_material_override none = {0}; /* never filled: changes nothing */
-    assert_relative(fw_material_with(&m.item[0], &none).youngs.value, 100e9, 1e-15);
+    fw_device_material_override none = {0}; /* never filled: changes nothing */
+    assert_relative(fw_device_material_with(&m.item[0], &none).youngs.value, 100e9, 1e-15);
     fw_arena_free(arena);
 }
 
@@ -172,8 +174,8 @@ static void limits_asked_and_overridden(void **state) {
     fw_diags diags = fw_diags_new(arena);
     const char *xml = PACK("<material id='w'><q id='fatigue-exponent' value='-0.1' u='0.05' "
                            "unit='1' status='measured' src='s'/></material>");
-    fw_materials m;
-    assert_int_equal(fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "t", xml, strlen(xml), &diags, &m), FW_OK);
     const char *device =
         DEVICE("<material ref=\"w\" weibull-strength=\"1.4 GPa\" weibull-modulus=\"12\" "
                "weibull-area=\"0.02 mm^2\" fatigue-strength=\"80 MPa\" "
@@ -184,8 +186,8 @@ static void limits_asked_and_overridden(void **state) {
     assert_relative(d->limits.failure_probability, 1e-4, 1e-15);
     assert_true(d->limits.survival);
     assert_relative(d->safety_factor, 1.5, 0);
-    fw_material with = fw_material_with(&m.item[0], &d->material);
-    const fw_limit_data *l = &with.limit;
+    fw_device_material with = fw_device_material_with(&m.item[0], &d->material);
+    const fw_device_limit_data *l = &with.limit;
     assert_relative(l->weibull_strength.value, 1.4e9, 1e-14);
     assert_relative(l->weibull_modulus.value, 12, 0);
     assert_relative(l->weibull_area.value, 2e-8, 1e-14);
@@ -199,11 +201,11 @@ static void limits_asked_and_overridden(void **state) {
     assert_false(with.strength_stated);
     const fw_device *plain =
         sound(arena, DEVICE("<material ref=\"w\" strength=\"1 GPa\"/>" ARM), NULL, 0);
-    assert_true(fw_material_with(&m.item[0], &plain->material).strength_stated);
+    assert_true(fw_device_material_with(&m.item[0], &plain->material).strength_stated);
     assert_true(isnan(plain->limits.cycles) && isnan(plain->limits.failure_probability));
     assert_false(plain->limits.survival);
-    fw_material_override none = {0};
-    assert_false(fw_material_with(&m.item[0], &none).strength_stated);
+    fw_device_material_override none = {0};
+    assert_false(fw_device_material_with(&m.item[0], &none).strength_stated);
     fw_arena_free(arena);
 }
 
@@ -214,9 +216,9 @@ static void memory_runs_out(void **state) {
     for (long n = 1;; n++) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
-        fw_materials m;
+        fw_device_materials m;
         fw_arena_fail_at(n, 1);
-        fw_status s = fw_materials_read(arena, "t", xml, strlen(xml), &diags, &m);
+        fw_status s = fw_device_materials_read(arena, "t", xml, strlen(xml), &diags, &m);
         long used = fw_arena_count();
         fw_arena_fail_at(0, 0);
         assert_int_equal(s, used >= n ? FW_NOMEM : FW_INPUT);

@@ -26,17 +26,17 @@ static void set_replaces_parameters(void **state) {
     fw_arena *arena = fw_arena_new(0);
     const char *xml = DEVICE("<parameter name=\"w\" value=\"2 mm\" min=\"1 mm\" max=\"5 mm\"/>" P(
         "v", "2*w") DIE("v") ARM);
-    const fw_set set[] = {{"w", "3 mm"}};
+    const fw_device_set set[] = {{"w", "3 mm"}};
     const fw_device *d = sound(arena, xml, set, 1);
     assert_relative(d->die.width_m, 6e-3, 1e-14);
     assert_true(d->parameter[0].overridden && !d->parameter[1].overridden);
-    const fw_set other[] = {
+    const fw_device_set other[] = {
         {"w", "1 mm"}, {"v", "w + 1 mm"}, {"w", "4 mm"}}; /* the last one holds */
     d = sound(arena, xml, other, 3);
     assert_relative(d->parameter[1].value, 5e-3, 1e-14);
-    const fw_set low = {"w", "0.5 mm"}, wrong = {"w", "3 mg"}, bare = {"w", "3"},
-                 odd = {"w", "3 mm +"}, circle = {"w", "v"}, far = {"ww", "1 mm"},
-                 empty = {"", "1 mm"}, null = {"w", NULL};
+    const fw_device_set low = {"w", "0.5 mm"}, wrong = {"w", "3 mg"}, bare = {"w", "3"},
+                        odd = {"w", "3 mm +"}, circle = {"w", "v"}, far = {"ww", "1 mm"},
+                        empty = {"", "1 mm"}, null = {"w", NULL};
     only_error(arena, xml, &low, 1, 57, "at least 1 mm");
     only_error(arena, xml, &wrong, 1, 25, "a mass, and a length is wanted");
     only_error(arena, xml, &bare, 1, 24, "has no unit");
@@ -53,17 +53,17 @@ static void set_replaces_attributes(void **state) {
     fw_arena *arena = fw_arena_new(0);
     size_t n;
     char *xml = load(arena, GALLERY, &n);
-    const fw_set set[] = {{"flexure[A]/@length", "312 um"},
-                          {"hinge[C]/@x", "0.81 mm"},
-                          {"scene[step-load]/@duration", "20 ms"},
-                          {"flow[al-masked-rie]/@thickness", "40 um"},
-                          {"die/@height", "6 mm"},
-                          {"flexure[B]/@fillet", "3 um"},
-                          {"link[AB]/@width", "2*link"},
-                          {"material/@poisson", "0.1"}};
+    const fw_device_set set[] = {{"flexure[A]/@length", "312 um"},
+                                 {"hinge[C]/@x", "0.81 mm"},
+                                 {"scene[step-load]/@duration", "20 ms"},
+                                 {"flow[al-masked-rie]/@thickness", "40 um"},
+                                 {"die/@height", "6 mm"},
+                                 {"flexure[B]/@fillet", "3 um"},
+                                 {"link[AB]/@width", "2*link"},
+                                 {"material/@poisson", "0.1"}};
     const fw_device *d = sound(arena, xml, set, 8);
     assert_relative(d->flexure[0].length_m, 312e-6, 1e-15);
-    assert_relative(d->joint[2].x_m, 0.81e-3, 1e-15);
+    assert_relative(d->revolute[2].x_m, 0.81e-3, 1e-15);
     assert_relative(d->scene[0].duration_s, 0.02, 1e-15);
     assert_relative(d->flow[0].thickness_m, 40e-6, 1e-15);
     assert_relative(d->die.height_m, 6e-3, 1e-15);
@@ -71,7 +71,7 @@ static void set_replaces_attributes(void **state) {
     assert_relative(d->body[0].width_m, 240e-6, 1e-15);
     assert_relative(d->material.poisson.value, 0.1, 1e-15);
     const struct {
-        fw_set set;
+        fw_device_set set;
         int number;
         const char *says;
     } bad[] = {
@@ -100,11 +100,11 @@ static void a_set_names_its_path(void **state) {
     fw_arena *arena = fw_arena_new(0);
     size_t n;
     char *xml = load(arena, GALLERY, &n);
-    const fw_set set[] = {{"flexure[A]/@length", "312 umm"},
-                          {"arc", "240 deg"},
-                          {"flexure[B]/@lenght", "1 um"},
-                          {"link", "0.5 m"},
-                          {"die/@height", "6 mm"}};
+    const fw_device_set set[] = {{"flexure[A]/@length", "312 umm"},
+                                 {"arc", "240 deg"},
+                                 {"flexure[B]/@lenght", "1 um"},
+                                 {"link", "0.5 m"},
+                                 {"die/@height", "6 mm"}};
     static const char *const file[] = {"--set flexure[B]/@lenght", "--set link",
                                        "--set flexure[A]/@length"};
     fw_diags diags = fw_diags_new(arena);

@@ -21,7 +21,7 @@ static void pieces_in_their_order(void **state) {
                       "<flexure id=\"B\" kind=\"leaf\" length=\"300 um\" width=\"12 um\"/>"),
               NULL, 0);
     assert_int_equal(d->nflexure, 2);
-    const fw_flexure *f = d->flexure;
+    const fw_device_flexure *f = d->flexure;
     assert_int_equal(f->kind, FW_FLEXURE_PATH);
     assert_int_equal(f->npiece, 4);
     static const double width[4][3] = {{8, 7.5, 7}, {7, 9, 7}, {7, 6.5, 6}, {6, 6, 6}};
@@ -37,9 +37,9 @@ static void pieces_in_their_order(void **state) {
     assert_relative(f->width_m, 6e-6, 1e-12);
     assert_relative(f->gap_m, 6e-6, 1e-12);
     assert_relative(f->fillet_m, 3e-6, 1e-12);
-    assert_true(fw_flexure_varies(f) && !fw_flexure_varies(f + 1));
-    fw_strip_piece piece[FW_STRIP_MOST];
-    assert_int_equal(fw_flexure_pieces(f, piece), 4);
+    assert_true(fw_device_flexure_varies(f) && !fw_device_flexure_varies(f + 1));
+    fw_geometry_strip_piece piece[FW_STRIP_MOST];
+    assert_int_equal(fw_device_flexure_pieces(f, piece), 4);
     assert_memory_equal(piece, f->piece, 4 * sizeof *piece);
     fw_arena_free(arena);
 }
@@ -52,16 +52,17 @@ static void middle_of_arcs_and_leaves(void **state) {
                 "width-middle=\"12 um\"/><flexure id=\"B\" kind=\"leaf\" length=\"300 um\" "
                 "width=\"12 um\" width-middle=\"t\"/><flexure id=\"C\" kind=\"leaf\" "
                 "length=\"300 um\" width=\"8 um\" width-middle=\"t\"/>");
-    const fw_set set = {"flexure[A]/@width-middle", "11 um"};
+    const fw_device_set set = {"flexure[A]/@width-middle", "11 um"};
     const fw_device *d = sound(arena, xml, NULL, 0), *e = sound(arena, xml, &set, 1);
     assert_relative(d->flexure[0].width_middle_m, 12e-6, 1e-12);
     assert_relative(e->flexure[0].width_middle_m, 11e-6, 1e-12);
-    assert_relative(fw_flexure_narrowest_m(&d->flexure[0]), 8e-6, 1e-12);
-    assert_relative(fw_flexure_narrowest_m(&d->flexure[1]), 8e-6, 1e-12);
-    assert_true(fw_flexure_varies(&d->flexure[0]) && fw_flexure_varies(&d->flexure[1]));
-    assert_false(fw_flexure_varies(&d->flexure[2])); /* stated, but no other */
-    fw_strip_piece piece[FW_STRIP_MOST];
-    assert_int_equal(fw_flexure_pieces(&d->flexure[0], piece), 1);
+    assert_relative(fw_device_flexure_narrowest_m(&d->flexure[0]), 8e-6, 1e-12);
+    assert_relative(fw_device_flexure_narrowest_m(&d->flexure[1]), 8e-6, 1e-12);
+    assert_true(fw_device_flexure_varies(&d->flexure[0]) &&
+                fw_device_flexure_varies(&d->flexure[1]));
+    assert_false(fw_device_flexure_varies(&d->flexure[2])); /* stated, but no other */
+    fw_geometry_strip_piece piece[FW_STRIP_MOST];
+    assert_int_equal(fw_device_flexure_pieces(&d->flexure[0], piece), 1);
     assert_relative(piece[0].curvature_per_m, 1e4, 1e-12);
     assert_relative(piece[0].length_m, 1e-4 * 200 * pi / 180, 1e-12);
     assert_relative(piece[0].width_m[1], 12e-6, 1e-12);

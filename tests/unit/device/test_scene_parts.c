@@ -27,13 +27,13 @@ static int teardown(void **state) {
     "<prismatic id=\"s\" a=\"p\" b=\"q\" b-x=\"-2 mm\" axis=\"0 deg\"/></mechanism>"
 #define SCENE(parts) DEVICE(BODIES "<scene name=\"s\" duration=\"1 s\">" parts "</scene>")
 
-static const fw_scene *scene_of(const char *xml) {
+static const fw_device_scene *scene_of(const char *xml) {
     return &sound(arena, xml, NULL, 0)->scene[0];
 }
 
 static void tendons(void **state) {
     (void)state;
-    const fw_scene *s =
+    const fw_device_scene *s =
         scene_of(SCENE("<tendon id=\"a\" pull=\"3 mN\" law=\"ramp\" rise=\"2 ms\"><eyelet on=\"p\" "
                        "x=\"1 mm\"/><eyelet on=\"q\" y=\"-1 mm\"/><eyelet on=\"ground\" x=\"7 mm\" "
                        "y=\"8 mm\"/></tendon><force on=\"p\" fx=\"1 uN\"/><tendon id=\"b\" "
@@ -41,7 +41,7 @@ static void tendons(void **state) {
                        "<eyelet on=\"ground\"/><eyelet on=\"p\"/></tendon>"));
     assert_int_equal(s->ntendon, 2);
     assert_int_equal(s->nforce, 1);
-    const fw_tendon *t = s->tendon;
+    const fw_device_tendon *t = s->tendon;
     assert_string_equal(t[0].id, "a");
     assert_relative(t[0].pull_N, 3e-3, 1e-15);
     assert_true(isnan(t[0].draw_m));
@@ -63,14 +63,14 @@ static void tendons(void **state) {
 
 static void combs(void **state) {
     (void)state;
-    const fw_scene *s =
+    const fw_device_scene *s =
         scene_of(SCENE("<comb-drive id=\"c\" kind=\"comb\" on=\"p\" x=\"1 um\" y=\"2 um\" "
                        "direction=\"90 deg\" fingers=\"2*15\" gap=\"3 um\" overlap=\"20 um\" "
                        "voltage=\"-40 V\"/><comb-drive id=\"d\" kind=\"plate\" on=\"p\" "
                        "against=\"q\" direction=\"0 deg\" gap=\"2 um\" length=\"100 um\" "
                        "depth=\"30 um\" voltage=\"1 kV\" law=\"sine\" frequency=\"1 kHz\"/>"));
     assert_int_equal(s->ncomb, 2);
-    const fw_comb *c = s->comb;
+    const fw_device_comb *c = s->comb;
     assert_int_equal(c[0].kind, FW_ELECTRODES_COMB);
     assert_true(c[0].body_a == FW_GROUND && c[0].body_b == 0 && c[0].fingers == 30);
     assert_relative(c[0].bx_m, 1e-6, 1e-15);
@@ -100,13 +100,13 @@ static void carriers(void **state) {
 
 static void shaking(void **state) {
     (void)state;
-    const fw_scene *s = scene_of(
+    const fw_device_scene *s = scene_of(
         SCENE("<base-motion ax=\"3 m/s^2\" law=\"half-sine\" start=\"1 ms\" rise=\"2 ms\"/>"
               "<base-motion ay=\"-4 mm/ms^2\" law=\"random\" frequency=\"20 Hz\" "
               "frequency-most=\"2 kHz\" lines=\"64\" seed=\"4294967295\"/><base-motion ax=\"1 "
               "m/s^2\" law=\"random\" frequency=\"1 Hz\" frequency-most=\"2 Hz\"/>"));
     assert_int_equal(s->nbase, 3);
-    const fw_base_motion *b = s->base;
+    const fw_device_base_motion *b = s->base;
     assert_relative(b[0].ax_m_per_s2, 3, 1e-15);
     assert_near(b[0].ay_m_per_s2, 0, 0);
     assert_int_equal(b[0].law->kind == &fw_quantity_law_half_sine, 1);
@@ -122,22 +122,22 @@ static void shaking(void **state) {
 
 static void surfaces(void **state) {
     (void)state;
-    const fw_scene *s = scene_of(
+    const fw_device_scene *s = scene_of(
         SCENE("<friction on=\"h\" coefficient=\"0.3\" static-coefficient=\"0.4\" preload=\"1 "
               "uN\"/><friction on=\"s\" coefficient=\"0\"/><contact id=\"k\" on=\"h\"/><contact "
               "id=\"l\" a=\"ground\" a-x=\"1 mm\" b=\"q\" b-y=\"2 mm\" side=\"outside\" "
               "distance=\"3 um\" stiffness=\"1 kN/m\" damping=\"1 N s/m\"/><contact id=\"m\" "
               "a=\"p\" b=\"q\" side=\"inside\" distance=\"0 um\" stiffness=\"1 N/m\"/>"));
-    const fw_friction_use *f = s->friction;
+    const fw_device_friction_use *f = s->friction;
     assert_int_equal(s->nfriction, 2);
-    assert_true(f[0].joint == 0 && f[0].tie == FW_NONE && isnan(f[0].radius_m));
+    assert_true(f[0].revolute == 0 && f[0].joint == FW_NONE && isnan(f[0].radius_m));
     assert_relative(f[0].coefficient, 0.3, 1e-15);
     assert_relative(f[0].static_coefficient, 0.4, 1e-15);
     assert_relative(f[0].preload_N, 1e-6, 1e-15);
-    assert_true(f[1].joint == FW_NONE && f[1].tie == 0 && isnan(f[1].static_coefficient));
+    assert_true(f[1].revolute == FW_NONE && f[1].joint == 0 && isnan(f[1].static_coefficient));
     assert_near(f[1].preload_N, 0, 0);
     assert_int_equal(s->ncontact, 3);
-    const fw_contact_use *c = s->contact;
+    const fw_device_contact_use *c = s->contact;
     assert_true(c[0].joint == 0 && isnan(c[0].distance_m) && isnan(c[0].stiffness_N_per_m));
     assert_true(c[1].joint == FW_NONE && c[1].side == FW_CONTACT_OUTSIDE);
     assert_true(c[1].body_a == FW_GROUND && c[1].body_b == 1);
@@ -153,7 +153,7 @@ static void surfaces(void **state) {
 
 static void surroundings(void **state) {
     (void)state;
-    const fw_scene *s = scene_of(
+    const fw_device_scene *s = scene_of(
         SCENE("<material-damping/><temperature change=\"-40 Cel - 20 Cel\"/><residual-stress "
               "mean=\"20 MPa\" gradient=\"-3 MPa/um\"/><air kind=\"slide\" gap=\"2 um\"/><air "
               "kind=\"squeeze\" on=\"p\" against=\"q\" x=\"1 mm\" direction=\"45 deg\" gap=\"3 "
@@ -167,7 +167,7 @@ static void surroundings(void **state) {
                 isnan(s->temperature[0].modulus_change_per_K) && s->temperature[0].law == NULL);
     assert_relative(s->stress[0].mean_Pa, 20e6, 1e-15);
     assert_relative(s->stress[0].gradient_Pa_per_m, -3e12, 1e-15);
-    const fw_air *a = s->air;
+    const fw_device_air *a = s->air;
     assert_true(a[0].kind == FW_AIR_SLIDE && a[0].body == FW_NONE && isnan(a[0].area_m2));
     assert_relative(a[0].gap_m, 2e-6, 1e-15);
     assert_relative(a[0].pressure_Pa, 101325, 0);
@@ -210,12 +210,13 @@ static void ids_and_sets(void **state) {
     assert_true(d->scene[0].ntendon == 2 && d->scene[1].ntendon == 1);
     assert_int_equal(d->scene[1].tendon[0].eyelet[0].body, 1);
     assert_true(d->scene[1].nfriction == 0 && d->scene[1].nbase == 2);
-    const fw_set set[] = {{"tendon[a]/@pull", "7 mN"}, {"friction[h]/@coefficient", "0.7"}};
+    const fw_device_set set[] = {{"tendon[a]/@pull", "7 mN"}, {"friction[h]/@coefficient", "0.7"}};
     d = sound(arena, TWO, set, 2);
     assert_relative(d->scene[0].tendon[0].pull_N, 7e-3, 1e-15);
     assert_relative(d->scene[0].friction[0].coefficient, 0.7, 1e-15);
-    const fw_set ambiguous = {"tendon[b]/@pull", "7 mN"}, unknown = {"tendon[c]/@pull", "7 mN"};
-    const fw_set nameless = {"base-motion/@ax", "2 m/s^2"};
+    const fw_device_set ambiguous = {"tendon[b]/@pull", "7 mN"},
+                        unknown = {"tendon[c]/@pull", "7 mN"};
+    const fw_device_set nameless = {"base-motion/@ax", "2 m/s^2"};
     only_error(arena, TWO, &ambiguous, 1, 55, "several scenes");
     only_error(arena, TWO, &unknown, 1, 55, "no such element has this id");
     only_error(arena, TWO, &nameless, 1, 55, "no names");

@@ -20,19 +20,19 @@ static int gone(void **state) {
     return 0;
 }
 
-static fw_status edit(const char *xml, size_t n, const fw_text_change *change, int nchange,
+static fw_status edit(const char *xml, size_t n, const fw_device_text_change *change, int nchange,
                       fw_text *out, fw_diags *diags) {
     *diags = fw_diags_new(arena);
     *out = fw_text_new(arena);
     return fw_device_edit(arena, "t.xml", xml, n, change, nchange, diags, out);
 }
 
-static fw_text_change set(const char *path, const char *value) {
-    return (fw_text_change){.kind = FW_CHANGE_SET, .path = path, .value = value};
+static fw_device_text_change set(const char *path, const char *value) {
+    return (fw_device_text_change){.kind = FW_CHANGE_SET, .path = path, .value = value};
 }
 
 /* the result of changes that can be made */
-static const char *changed(const char *xml, const fw_text_change *change, int nchange) {
+static const char *changed(const char *xml, const fw_device_text_change *change, int nchange) {
     fw_text out;
     fw_diags diags;
     if (edit(xml, strlen(xml), change, nchange, &out, &diags) != FW_OK)
@@ -41,7 +41,7 @@ static const char *changed(const char *xml, const fw_text_change *change, int nc
     return out.data;
 }
 
-static void refused(const char *xml, fw_text_change change, const char *says) {
+static void refused(const char *xml, fw_device_text_change change, const char *says) {
     fw_text out;
     fw_diags diags;
     assert_int_equal(edit(xml, strlen(xml), &change, 1, &out, &diags), FW_INPUT);
@@ -59,24 +59,25 @@ typedef struct place {
     char value[1024];
 } place;
 
-static int number_among_sisters(const fw_element *e) {
+static int number_among_sisters(const fw_xml_element *e) {
     int n = 1;
-    for (const fw_element *s = e->parent ? e->parent->first_child : NULL; s && s != e; s = s->next)
+    for (const fw_xml_element *s = e->parent ? e->parent->first_child : NULL; s && s != e;
+         s = s->next)
         n += strcmp(s->name, e->name) == 0;
     return n;
 }
 
-static void path_of(const fw_element *e, char *path, size_t n) {
+static void path_of(const fw_xml_element *e, char *path, size_t n) {
     char above[512] = "";
     if (e->parent) path_of(e->parent, above, sizeof above);
     snprintf(path, n, "%.400s%s%.60s[%d]", above, above[0] ? "/" : "", e->name,
              number_among_sisters(e));
 }
 
-static int collect(const fw_element *e, place *to, int n, int most) {
+static int collect(const fw_xml_element *e, place *to, int n, int most) {
     for (; e; e = e->next) {
         for (int i = 0; i < e->nattribute; i++) {
-            const fw_attribute *a = &e->attribute[i];
+            const fw_xml_attribute *a = &e->attribute[i];
             if (!a->raw) continue;
             assert_true(n < most);
             char element[480];
@@ -107,7 +108,7 @@ static void every_attribute_there_and_back(void **state) {
         fw_mark whole = fw_arena_mark(arena);
         const char *xml = load(arena, name, &n);
         fw_diags diags = fw_diags_new(arena);
-        fw_element *root;
+        fw_xml_element *root;
         assert_int_equal(fw_xml_read(arena, name, xml, n, &diags, &root), FW_OK);
         int count = collect(root, at, 0, MOST);
         assert_true(count > 40);
@@ -117,7 +118,8 @@ static void every_attribute_there_and_back(void **state) {
             static const char raw[] = "1.5 &amp; &lt;&quot;x&quot;> um";
             fw_mark mark = fw_arena_mark(arena);
             fw_text out, back;
-            fw_text_change there = set(at[i].path, other), here = set(at[i].path, at[i].value);
+            fw_device_text_change there = set(at[i].path, other),
+                                  here = set(at[i].path, at[i].value);
             if (edit(xml, n, &there, 1, &out, &diags) != FW_OK)
                 fail_msg("%s %s: %s", name, at[i].path, diags.item[0].message);
             assert_int_equal(out.length, n - at[i].length + strlen(raw));
@@ -159,7 +161,7 @@ static void paths_find_one_place(void **state) {
         {"device/@name", "name='d'", "name='9'"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
-        fw_text_change c = set(row[i].path, "9");
+        fw_device_text_change c = set(row[i].path, "9");
         const char *got = changed(TWO, &c, 1);
         const char *at = strstr(TWO, row[i].before);
         assert_non_null(at);
@@ -190,20 +192,24 @@ static void places_that_are_not_there(void **state) {
     refused(TWO, set("scene[one]//@name", "1"), "no path");
     refused(TWO, set("scene[one]/@flow", NULL), "to take out");
     refused(TWO, set("arc", "\x01"), "no longer XML");
-    refused(TWO, (fw_text_change){.kind = FW_CHANGE_REMOVE, .path = "device"}, "whole device");
-    refused(TWO, (fw_text_change){.kind = FW_CHANGE_REMOVE, .path = "arc/@x"}, "no such element");
-    refused(TWO, (fw_text_change){.kind = FW_CHANGE_ADD, .path = "scene[one]", .element = "a b"},
-            "no element can be called");
+    refused(TWO, (fw_device_text_change){.kind = FW_CHANGE_REMOVE, .path = "device"},
+            "whole device");
+    refused(TWO, (fw_device_text_change){.kind = FW_CHANGE_REMOVE, .path = "arc/@x"},
+            "no such element");
     refused(TWO,
-            (fw_text_change){.kind = FW_CHANGE_ADD, .path = "scene[one]/@name", .element = "a"},
-            "added to an element");
+            (fw_device_text_change){.kind = FW_CHANGE_ADD, .path = "scene[one]", .element = "a b"},
+            "no element can be called");
+    refused(
+        TWO,
+        (fw_device_text_change){.kind = FW_CHANGE_ADD, .path = "scene[one]/@name", .element = "a"},
+        "added to an element");
 }
 
 static void text_that_is_no_xml_is_said_with_its_place(void **state) {
     (void)state;
     fw_text out;
     fw_diags diags;
-    fw_text_change c = set("arc", "1");
+    fw_device_text_change c = set("arc", "1");
     static const char broken[] = "<device>\n  <a b=c/>\n</device>";
     assert_int_equal(edit(broken, strlen(broken), &c, 1, &out, &diags), FW_INPUT);
     assert_true(diags.errors == 1 && diags.item[0].place.line == 2);
@@ -213,18 +219,18 @@ static void text_that_is_no_xml_is_said_with_its_place(void **state) {
 
 static void attributes_come_and_go(void **state) {
     (void)state;
-    fw_text_change in = set("scene[one]/force[2]/@fy", "3 N"),
-                   out = set("scene[one]/force[2]/@fy", NULL);
+    fw_device_text_change in = set("scene[one]/force[2]/@fy", "3 N"),
+                          out = set("scene[one]/force[2]/@fy", NULL);
     const char *with = changed(TWO, &in, 1);
     assert_non_null(strstr(with, "<force on=\"x\" fx=\"2\" fy=\"3 N\"/>"));
     assert_string_equal(changed(with, &out, 1), TWO);
-    fw_text_change first = set("scene[one]/force[1]/@on", NULL);
+    fw_device_text_change first = set("scene[one]/force[1]/@on", NULL);
     assert_non_null(strstr(changed(TWO, &first, 1), "<force fx=\"1\"/><force on"));
     /* '=' and '>' in values, spaces around '=' */
     static const char odd[] = "<device><limits safety-factor = '=>' cycles='2'/></device>";
-    fw_text_change odd_out = set("limits/@safety-factor", NULL);
+    fw_device_text_change odd_out = set("limits/@safety-factor", NULL);
     assert_string_equal(changed(odd, &odd_out, 1), "<device><limits cycles='2'/></device>");
-    fw_text_change bare = set("limits/@cycles", "5");
+    fw_device_text_change bare = set("limits/@cycles", "5");
     assert_string_equal(changed("<device><limits/></device>", &bare, 1),
                         "<device><limits cycles=\"5\"/></device>");
     assert_string_equal(changed("<device><limits  ></limits></device>", &bare, 1),
@@ -235,13 +241,13 @@ static void elements_come_and_go(void **state) {
     (void)state;
     static const char lines[] = "<device>\n    <scene name=\"s\">\n        <force on=\"a\"/>\n"
                                 "        <!-- last -->\n    </scene>\n    <die/>\n</device>\n";
-    const fw_text_attribute given[] = {{"on", "CD"}, {"fx", "1 \"<N>\""}};
-    fw_text_change add = {.kind = FW_CHANGE_ADD,
-                          .path = "scene[s]",
-                          .element = "force",
-                          .attribute = given,
-                          .nattribute = 2};
-    fw_text_change remove = {.kind = FW_CHANGE_REMOVE, .path = "scene[s]/force[2]"};
+    const fw_device_text_attribute given[] = {{"on", "CD"}, {"fx", "1 \"<N>\""}};
+    fw_device_text_change add = {.kind = FW_CHANGE_ADD,
+                                 .path = "scene[s]",
+                                 .element = "force",
+                                 .attribute = given,
+                                 .nattribute = 2};
+    fw_device_text_change remove = {.kind = FW_CHANGE_REMOVE, .path = "scene[s]/force[2]"};
     const char *with = changed(lines, &add, 1);
     assert_string_equal(with, "<device>\n    <scene name=\"s\">\n        <force on=\"a\"/>\n"
                               "        <!-- last -->\n"
@@ -249,10 +255,10 @@ static void elements_come_and_go(void **state) {
                               "    </scene>\n    <die/>\n</device>\n");
     assert_string_equal(changed(with, &remove, 1), lines);
     /* into an element that closes itself, into the root, on one line, with DOS line ends */
-    fw_text_change inner = {.kind = FW_CHANGE_ADD, .path = "die", .element = "x"};
+    fw_device_text_change inner = {.kind = FW_CHANGE_ADD, .path = "die", .element = "x"};
     assert_non_null(
         strstr(changed(lines, &inner, 1), "    <die>\n      <x/>\n    </die>\n</device>"));
-    fw_text_change root = {.kind = FW_CHANGE_ADD, .path = "", .element = "flow"};
+    fw_device_text_change root = {.kind = FW_CHANGE_ADD, .path = "", .element = "flow"};
     assert_non_null(strstr(changed(lines, &root, 1), "    <die/>\n    <flow/>\n</device>\n"));
     assert_string_equal(changed("<device></device>", &root, 1), "<device>\n  <flow/>\n</device>");
     assert_string_equal(changed("<device/>", &root, 1), "<device>\n  <flow/>\n</device>");
@@ -261,21 +267,22 @@ static void elements_come_and_go(void **state) {
     assert_string_equal(changed("<d:device xmlns:d='u'/>", &root, 1),
                         "<d:device xmlns:d='u'>\n  <flow/>\n</d:device>");
     /* what is removed takes its children and its line along, and leaves what shares the line */
-    fw_text_change scene = {.kind = FW_CHANGE_REMOVE, .path = "scene[s]"};
+    fw_device_text_change scene = {.kind = FW_CHANGE_REMOVE, .path = "scene[s]"};
     assert_string_equal(changed(lines, &scene, 1), "<device>\n    <die/>\n</device>\n");
-    fw_text_change first = {.kind = FW_CHANGE_REMOVE, .path = "scene[one]/force[1]"};
+    fw_device_text_change first = {.kind = FW_CHANGE_REMOVE, .path = "scene[one]/force[1]"};
     assert_non_null(
         strstr(changed(TWO, &first, 1), "<scene name=\"one\"><force on=\"x\" fx=\"2\"/></scene>"));
-    fw_text_change tricky = {.kind = FW_CHANGE_REMOVE, .path = "a"};
+    fw_device_text_change tricky = {.kind = FW_CHANGE_REMOVE, .path = "a"};
     assert_string_equal(changed("<d><a x='/>'><!-- </a> --><a/><![CDATA[</a>]]></a><b/></d>",
-                                &(fw_text_change){.kind = FW_CHANGE_REMOVE, .path = "a[1]"}, 1),
+                                &(fw_device_text_change){.kind = FW_CHANGE_REMOVE, .path = "a[1]"},
+                                1),
                         "<d><b/></d>");
     refused("<d><a/><a/></d>", tricky, "several");
 }
 
 static void several_changes_are_all_or_nothing(void **state) {
     (void)state;
-    fw_text_change both[] = {set("arc", "2 deg"), set("scene[two]/force/@fx", "4")};
+    fw_device_text_change both[] = {set("arc", "2 deg"), set("scene[two]/force/@fx", "4")};
     const char *got = changed(TWO, both, 2);
     assert_non_null(strstr(got, "value=\"2 deg\""));
     assert_non_null(strstr(got, "fx=\"4\""));

@@ -31,7 +31,7 @@ static void all_of_it(void **state) {
               "<sweep parameter=\"arc\" from=\"180 deg\" to=\"240 deg\" steps=\"4\"/>"
               "<sweep parameter=\"half\" from=\"1 um\" to=\"half\" steps=\"3\"/>");
     const fw_device *d = sound(arena, xml, NULL, 0);
-    const fw_wafer_asked *w = &d->wafer;
+    const fw_device_wafer_asked *w = &d->wafer;
     assert_near(w->diameter_m, 0.15, 1e-15);
     assert_near(w->flat_m, 57.5e-3, 1e-15);
     assert_true(w->side == FW_SIDE_LEFT && w->centre == FW_CENTRE_STREET && w->blocks);

@@ -28,16 +28,16 @@ static inline void bounds_joint_damping(fw_arena *arena, bounds_device *d, uint6
     for (int i = 0; i < d->r.m.npin; i++)
         d->r.m.pin[i].damping_Nms_per_rad =
             2 * zeta / d->omega * d->r.m.pin[i].stiffness_Nm_per_rad * bounds_log(seed, 0.3, 3);
-    for (int i = 0; i < d->r.m.ntie; i++)
-        if (d->r.m.tie[i].kind == FW_TIE_PRISMATIC)
-            d->r.m.tie[i].damping_Ns_per_m =
-                2 * zeta / d->omega * d->r.m.tie[i].stiffness_N_per_m * rig_random(seed);
+    for (int i = 0; i < d->r.m.njoint; i++)
+        if (d->r.m.joint[i].kind == FW_JOINT_PRISMATIC)
+            d->r.m.joint[i].damping_Ns_per_m =
+                2 * zeta / d->omega * d->r.m.joint[i].stiffness_N_per_m * rig_random(seed);
 }
 
 static inline void bounds_joint_stop(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     (void)arena;
     int i = (int)(d->r.m.npin * rig_random(seed));
-    fw_pin *p = &d->r.m.pin[i];
+    fw_mechanism_pin *p = &d->r.m.pin[i];
     double phi_a = p->body_a == FW_GROUND ? 0 : d->r.m.body[p->body_a].phi_rad;
     double phi_b = p->body_b == FW_GROUND ? 0 : d->r.m.body[p->body_b].phi_rad;
     p->stop_stiffness_Nm_per_rad = 1e-4;
@@ -79,7 +79,7 @@ static inline bool bounds_make(fw_arena *arena, uint64_t seed, bounds_device *d)
     d->r.scene.duration_s = 1;
     d->omega = 1;
     for (int i = 0; i < d->r.m.npin; i++) { /* most are drawn free of force */
-        const fw_pin *p = &d->r.m.pin[i];
+        const fw_mechanism_pin *p = &d->r.m.pin[i];
         double a = p->body_a == FW_GROUND ? 0 : d->r.m.body[p->body_a].phi_rad;
         double b = p->body_b == FW_GROUND ? 0 : d->r.m.body[p->body_b].phi_rad;
         d->r.m.pin[i].free_angle_rad = b - a;
@@ -125,53 +125,56 @@ static inline bool bounds_has(const fw_effect_ledger *l, const char *id) {
 }
 
 /* NULL: it has no motion, because electrodes touch for instance. Rows of equilibria that end are
-   what fw_move_scene makes of them: inertia acts; *ended counts them */
-static inline const fw_motion *bounds_run_at(fw_arena *arena, const rig *r, fw_effect_mode mode,
-                                             const char *list, double accuracy, double rtol,
-                                             int *ended) {
+   what fw_statics_move_scene makes of them: inertia acts; *ended counts them */
+static inline const fw_dynamics_motion *bounds_run_at(fw_arena *arena, const rig *r,
+                                                      fw_effect_mode mode, const char *list,
+                                                      double accuracy, double rtol, int *ended) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *m = NULL;
-    fw_motion_options o = {.accuracy = 1e5 * rtol,
-                           .rtol = rtol,
-                           .samples = 2,
-                           .most_steps = 100000,
-                           .effects = {.mode = mode, .list = list}};
+    const fw_dynamics_motion *m = NULL;
+    fw_dynamics_motion_options o = {.accuracy = 1e5 * rtol,
+                                    .rtol = rtol,
+                                    .samples = 2,
+                                    .most_steps = 100000,
+                                    .effects = {.mode = mode, .list = list}};
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     const char *why;
-    if (fw_check_request(&r->m, &r->scene, &o, &diags) != FW_OK) return NULL;
+    if (fw_dynamics_check_request(&r->m, &r->scene, &o, &diags) != FW_OK) return NULL;
     if (fw_effects_compile(arena, &r->m, &r->scene, &o.effects, accuracy, &diags, &ledger,
-                           &terms) != FW_OK)
+                           &loads) != FW_OK)
         return NULL;
-    if (terms.quasi_static) {
+    if (loads.quasi_static) {
         o.rtol = 0;
-        if (fw_row_of_equilibria(arena, &r->m, &r->scene, &o, &ledger, &terms, &diags, &m, &why) ==
-            FW_OK)
+        if (fw_statics_quasi_static_motion(arena, &r->m, &r->scene, &o, &ledger, &loads, &diags, &m,
+                                           &why) == FW_OK)
             return m;
         ++*ended;
         o.rtol = rtol;
-        terms.quasi_static = false;
+        loads.quasi_static = false;
     }
     fw_status status =
-        fw_simulate_compiled(arena, &r->m, &r->scene, &o, &ledger, &terms, &diags, &m);
+        fw_dynamics_simulate_compiled(arena, &r->m, &r->scene, &o, &ledger, &loads, &diags, &m);
     assert_true(status == FW_OK || status == FW_SOLVER || status == FW_INPUT || status == FW_LIMIT);
     return status == FW_OK ? m : NULL;
 }
 
-static inline const fw_motion *bounds_run(fw_arena *arena, const rig *r, fw_effect_mode mode,
-                                          const char *list, double accuracy, int *ended) {
+static inline const fw_dynamics_motion *bounds_run(fw_arena *arena, const rig *r,
+                                                   fw_effect_mode mode, const char *list,
+                                                   double accuracy, int *ended) {
     return bounds_run_at(arena, r, mode, list, accuracy, 1e-9, ended);
 }
 
 /* largest difference of any peak over the largest peak of `all`; and what the runs do not know */
-static inline double bounds_apart(const fw_motion *all, const fw_motion *other, double *unknown) {
+static inline double bounds_apart(const fw_dynamics_motion *all, const fw_dynamics_motion *other,
+                                  double *unknown) {
     double apart = 0, most = 0, error = 0;
     for (int i = 0; i < all->npin; i++) {
         most = fmax(most, fabs(all->peak[i].angle_rad));
         apart = fmax(apart, fabs(fabs(all->peak[i].angle_rad) - fabs(other->peak[i].angle_rad)));
         error = fmax(error, all->peak[i].error_rad + other->peak[i].error_rad);
     }
-    error -= fw_motion_left_out(all) + fw_motion_left_out(other); /* that is what is looked at */
+    error -= fw_dynamics_motion_left_out(all) +
+             fw_dynamics_motion_left_out(other); /* that is what is looked at */
     *unknown = error / most;
     return apart / most;
 }
@@ -187,13 +190,13 @@ typedef struct bounds_trial {
     const bounds_device *d;
     uint64_t seed;
     double accuracy;
-    const fw_motion *all;
+    const fw_dynamics_motion *all;
     bounds_score *score;
 } bounds_trial;
 
 /* Is the change of `other` against all effects within the bound? A violation counts where runs a
    thousand times finer say the same: the errors that runs state of themselves are estimates. */
-static inline double bounds_judge(const bounds_trial *t, const fw_motion *other,
+static inline double bounds_judge(const bounds_trial *t, const fw_dynamics_motion *other,
                                   fw_effect_mode mode, const char *list, double bound,
                                   double *unknown, const char *what) {
     int ended = 0;
@@ -201,7 +204,8 @@ static inline double bounds_judge(const bounds_trial *t, const fw_motion *other,
     bound /= t->score->divide;
     if (change <= bound + *unknown) return change;
     const rig *r = &t->d->r;
-    const fw_motion *all = bounds_run_at(t->arena, r, FW_EFFECTS_ALL, NULL, 1e-3, 1e-12, &ended);
+    const fw_dynamics_motion *all =
+        bounds_run_at(t->arena, r, FW_EFFECTS_ALL, NULL, 1e-3, 1e-12, &ended);
     rig bare = *r;
     if (strcmp(what, "tendon") == 0) bare.scene.ntendon = 0;
     other = bounds_run_at(t->arena, &bare, mode, list, t->accuracy, 1e-12, &ended);
@@ -237,7 +241,7 @@ static inline void bounds_singles(const bounds_trial *t) {
         rig bare = t->d->r; /* tendons are kept: what their bound is of is a scene without */
         bool kept = strcmp(e->id, "tendon") == 0;
         if (kept) bare.scene.ntendon = 0;
-        const fw_motion *without =
+        const fw_dynamics_motion *without =
             kept ? bounds_run(t->arena, &bare, FW_EFFECTS_ALL, NULL, t->accuracy, &ended)
                  : bounds_run(t->arena, &t->d->r, FW_EFFECTS_LIST, list, t->accuracy, &ended);
         t->score->ended += ended;
@@ -259,7 +263,7 @@ static inline void bounds_singles(const bounds_trial *t) {
 static inline void bounds_auto(const bounds_trial *t) {
     double unknown;
     int ended = 0;
-    const fw_motion *some =
+    const fw_dynamics_motion *some =
         bounds_run(t->arena, &t->d->r, FW_EFFECTS_AUTO, NULL, t->accuracy, &ended);
     if (!some) {
         t->score->bad++;
@@ -281,7 +285,7 @@ static inline void bounds_auto(const bounds_trial *t) {
 static inline void bounds_none(const bounds_trial *t) {
     double sum = 0, unknown;
     int ended = 0;
-    const fw_motion *bare =
+    const fw_dynamics_motion *bare =
         bounds_run(t->arena, &t->d->r, FW_EFFECTS_NONE, NULL, t->accuracy, &ended);
     for (int i = 0; bare && i < t->all->ledger.count; i++)
         if (t->all->ledger.item[i].called_for && !bare->ledger.item[i].active)

@@ -13,11 +13,11 @@ typedef struct bounds_device {
     rig r;
     double turn;  /* rad: wanted of the static response to the loads */
     double omega; /* rad/s: about the lowest */
-    fw_law law[BOUNDS_LOADS];
+    fw_quantity_law law[BOUNDS_LOADS];
     double table_t[BOUNDS_LOADS][4], table_v[BOUNDS_LOADS][4];
     int laws;
     bool slow; /* the loads come slowly against the lowest mode */
-    fw_variant variant;
+    fw_mechanism_variant variant;
 } bounds_device;
 
 /* from a to b, evenly in its logarithm */
@@ -73,30 +73,30 @@ static inline rig bounds_chain(fw_arena *arena, uint64_t *seed) {
 /* a chain whose end slides on the ground, with a spring along or a point spring */
 static inline rig bounds_slider(fw_arena *arena, uint64_t *seed) {
     rig r = bounds_row(arena, seed, 2, false);
-    fw_mass *last = &r.m.body[1];
-    r.m.tie = fw_arena_array(arena, fw_tie, 1);
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "slide",
-                                   .kind = FW_TIE_DISTANCE,
-                                   .body_a = FW_GROUND,
-                                   .body_b = 1,
-                                   .ax_m = last->x_m + 1e-3 * (0.5 + rig_random(seed)),
-                                   .ay_m = last->y_m - 1e-3 * rig_random(seed)};
-    r.m.tie[0].length_m = hypot(r.m.tie[0].ax_m - last->x_m, r.m.tie[0].ay_m - last->y_m);
+    fw_mechanism_mass *last = &r.m.body[1];
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "slide",
+                                                .kind = FW_JOINT_DISTANCE,
+                                                .body_a = FW_GROUND,
+                                                .body_b = 1,
+                                                .ax_m = last->x_m + 1e-3 * (0.5 + rig_random(seed)),
+                                                .ay_m = last->y_m - 1e-3 * rig_random(seed)};
+    r.m.joint[0].length_m = hypot(r.m.joint[0].ax_m - last->x_m, r.m.joint[0].ay_m - last->y_m);
     if (rig_random(seed) < 0.5) return r;
     /* prismatic: a third body between the chain's end and the ground */
     rig p = bounds_row(arena, seed, 3, false);
     double axis = 0.7 * rig_random(seed);
-    p.m.tie = r.m.tie;
-    p.m.ntie = 1;
-    p.m.tie[0] = (fw_tie){.id = "slide",
-                          .kind = FW_TIE_PRISMATIC,
-                          .body_a = FW_GROUND,
-                          .body_b = 2,
-                          .ax_m = p.m.body[2].x_m,
-                          .ay_m = p.m.body[2].y_m,
-                          .axis_rad = axis,
-                          .angle_rad = p.m.body[2].phi_rad,
-                          .stiffness_N_per_m = bounds_log(seed, 0.1, 10)};
+    p.m.joint = r.m.joint;
+    p.m.njoint = 1;
+    p.m.joint[0] = (fw_device_joint){.id = "slide",
+                                     .kind = FW_JOINT_PRISMATIC,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 2,
+                                     .ax_m = p.m.body[2].x_m,
+                                     .ay_m = p.m.body[2].y_m,
+                                     .axis_rad = axis,
+                                     .angle_rad = p.m.body[2].phi_rad,
+                                     .stiffness_N_per_m = bounds_log(seed, 0.1, 10)};
     return p;
 }
 
@@ -105,7 +105,7 @@ static rig (*const bounds_devices[])(fw_arena *, uint64_t *) = {bounds_six_bar, 
 
 /* ---- loads ---- */
 
-static inline void bounds_table_law(bounds_device *d, uint64_t *seed, fw_law *l) {
+static inline void bounds_table_law(bounds_device *d, uint64_t *seed, fw_quantity_law *l) {
     double *at = d->table_t[d->laws - 1], *value = d->table_v[d->laws - 1];
     l->kind = &fw_quantity_law_table;
     l->ntable = 4;
@@ -116,17 +116,17 @@ static inline void bounds_table_law(bounds_device *d, uint64_t *seed, fw_law *l)
     }
 }
 
-static inline fw_law *bounds_new_law(bounds_device *d) {
-    fw_law *l = &d->law[d->laws++];
-    *l = (fw_law){.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
+static inline fw_quantity_law *bounds_new_law(bounds_device *d) {
+    fw_quantity_law *l = &d->law[d->laws++];
+    *l = (fw_quantity_law){.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
     return l;
 }
 
 /* continuous from 0 on, over a good part of the scene */
-static inline const fw_law *bounds_slow_law(bounds_device *d, uint64_t *seed) {
+static inline const fw_quantity_law *bounds_slow_law(bounds_device *d, uint64_t *seed) {
     double t = d->r.scene.duration_s, kind = rig_random(seed);
     if (d->laws == BOUNDS_LOADS) return NULL;
-    fw_law *l = bounds_new_law(d);
+    fw_quantity_law *l = bounds_new_law(d);
     l->start_s = rig_random(seed) < 0.5 ? 0 : 0.3 * t * rig_random(seed);
     if (kind < 0.4) {
         l->kind = &fw_quantity_law_ramp;
@@ -145,11 +145,11 @@ static inline const fw_law *bounds_slow_law(bounds_device *d, uint64_t *seed) {
 }
 
 /* of all kinds; NULL: constant */
-static inline const fw_law *bounds_law(bounds_device *d, uint64_t *seed) {
+static inline const fw_quantity_law *bounds_law(bounds_device *d, uint64_t *seed) {
     double t = d->r.scene.duration_s, kind = rig_random(seed);
     if (d->slow) return bounds_slow_law(d, seed);
     if (kind < 0.4 || d->laws == BOUNDS_LOADS) return NULL;
-    fw_law *l = bounds_new_law(d);
+    fw_quantity_law *l = bounds_new_law(d);
     l->start_s = rig_random(seed) < 0.5 ? 0 : 0.4 * t * rig_random(seed);
     if (kind < 0.55) {
         if (rig_random(seed) < 0.5) l->end_s = l->start_s + 0.5 * t * rig_random(seed);
@@ -175,7 +175,7 @@ static inline void bounds_add_loads(bounds_device *d, uint64_t *seed) {
             r->scene.torque[r->scene.ntorque - 1].law = bounds_law(d, seed);
         } else if (r->scene.nforce < r->m.nbody) {
             rig_force(r, b, 1e3 * (2 * rig_random(seed) - 1), 1e3 * (2 * rig_random(seed) - 1));
-            fw_force *f = &r->scene.force[r->scene.nforce - 1];
+            fw_device_force *f = &r->scene.force[r->scene.nforce - 1];
             f->law = bounds_law(d, seed);
             if (rig_random(seed) < 0.5) f->x_m = 5e-4 * (2 * rig_random(seed) - 1);
         }
@@ -184,19 +184,20 @@ static inline void bounds_add_loads(bounds_device *d, uint64_t *seed) {
 
 static inline double bounds_static(fw_arena *arena, const rig *r, double *omega) {
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     fw_diags diags = fw_diags_new(arena);
     const fw_effect_choice choice = {.mode = FW_EFFECTS_NONE};
     double force[60], u[60], turn[40], most = 0, work = 0, mass = 0;
     bool valid;
     assert_int_equal(
-        fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, &terms), FW_OK);
-    fw_terms_largest_force(&r->m, &terms, r->scene.duration_s, force);
-    assert_int_equal(fw_static_response(arena, &r->m, &terms, force, u, turn, &valid), FW_OK);
+        fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, &loads), FW_OK);
+    fw_effects_loads_largest_force(&r->m, &loads, r->scene.duration_s, force);
+    assert_int_equal(fw_effects_static_response(arena, &r->m, &loads, force, u, turn, &valid),
+                     FW_OK);
     for (int i = 0; i < r->m.npin && valid; i++)
         most = fmax(most, fabs(turn[i]));
     for (int i = 0; i < 3 * r->m.nbody && valid; i++) {
-        const fw_mass *b = &r->m.body[i / 3];
+        const fw_mechanism_mass *b = &r->m.body[i / 3];
         work += force[i] * u[i];
         mass += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * u[i] * u[i];
     }
@@ -208,7 +209,7 @@ static inline double bounds_static(fw_arena *arena, const rig *r, double *omega)
 static inline bool bounds_scale_loads(fw_arena *arena, bounds_device *d) {
     double turn = bounds_static(arena, &d->r, &d->omega);
     if (!(turn > 0) || !(d->omega > 0)) return false;
-    fw_scene *s = &d->r.scene;
+    fw_device_scene *s = &d->r.scene;
     for (int i = 0; i < s->nforce; i++)
         s->force[i].fx_N *= d->turn / turn, s->force[i].fy_N *= d->turn / turn;
     for (int i = 0; i < s->ntorque; i++)

@@ -14,28 +14,28 @@ static inline int bounds_body(const bounds_device *d, uint64_t *seed) {
 }
 
 /* some point of a body, and where it is in the world */
-static inline fw_vec2 bounds_point(uint64_t *seed) {
-    return (fw_vec2){3e-4 * (2 * rig_random(seed) - 1), 3e-4 * (2 * rig_random(seed) - 1)};
+static inline fw_geometry_vec2 bounds_point(uint64_t *seed) {
+    return (fw_geometry_vec2){3e-4 * (2 * rig_random(seed) - 1), 3e-4 * (2 * rig_random(seed) - 1)};
 }
 
 /* flexures for half of the devices: closed forms only, so that nothing but their spring, their
    material's damping and its softening is asked for */
 static inline void bounds_hinges(fw_arena *arena, bounds_device *d) {
     if (d->r.m.nhinge > 0) return;
-    d->r.m.hinge = fw_arena_array(arena, fw_hinge, (size_t)d->r.m.npin);
+    d->r.m.hinge = fw_arena_array(arena, fw_mechanism_hinge, (size_t)d->r.m.npin);
     d->r.m.nhinge = d->r.m.npin;
     for (int i = 0; i < d->r.m.npin; i++) {
-        d->r.m.hinge[i] = (fw_hinge){.pin = i, .axis_rad = (double)NAN, .stated = true};
+        d->r.m.hinge[i] = (fw_mechanism_hinge){.pin = i, .axis_rad = (double)NAN, .stated = true};
         d->r.m.pin[i].hinge = i;
     }
 }
 
 /* ---- base motion ---- */
 
-static inline const fw_law *bounds_shake(bounds_device *d, uint64_t *seed) {
+static inline const fw_quantity_law *bounds_shake(bounds_device *d, uint64_t *seed) {
     double t = d->r.scene.duration_s, kind = rig_random(seed);
     if (kind < 0.5 || d->laws == BOUNDS_LOADS) return bounds_law(d, seed);
-    fw_law *l = bounds_new_law(d);
+    fw_quantity_law *l = bounds_new_law(d);
     l->start_s = 0.4 * t * rig_random(seed);
     if (kind < 0.75) {
         l->kind = &fw_quantity_law_half_sine;
@@ -53,20 +53,20 @@ static inline const fw_law *bounds_shake(bounds_device *d, uint64_t *seed) {
 
 static inline void bounds_base_motion(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     int count = 1 + (rig_random(seed) < 0.3);
-    d->r.scene.base = fw_arena_array(arena, fw_base_motion, 2);
+    d->r.scene.base = fw_arena_array(arena, fw_device_base_motion, 2);
     for (int i = 0; i < count; i++) {
         double a = bounds_log(seed, 1e-5, 1) * d->turn * bounds_stiffness_Nm /
                    (bounds_mass_kg * bounds_length_m);
         double angle = 6.283 * rig_random(seed);
         d->r.scene.base[d->r.scene.nbase++] =
-            (fw_base_motion){a * cos(angle), a * sin(angle), .law = bounds_shake(d, seed)};
+            (fw_device_base_motion){a * cos(angle), a * sin(angle), .law = bounds_shake(d, seed)};
     }
 }
 
 /* ---- air ---- */
 
-static inline fw_air bounds_gas(uint64_t *seed, fw_air_kind kind) {
-    return (fw_air){
+static inline fw_device_air bounds_gas(uint64_t *seed, fw_device_air_kind kind) {
+    return (fw_device_air){
         .kind = kind,
         .against = FW_GROUND,
         .gap_m = bounds_log(seed, 0.5e-6, 50e-6),
@@ -79,13 +79,13 @@ static inline fw_air bounds_gas(uint64_t *seed, fw_air_kind kind) {
 
 static inline void bounds_air(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     int count = 1 + (int)(2 * rig_random(seed));
-    d->r.scene.air = fw_arena_array(arena, fw_air, 2);
+    d->r.scene.air = fw_arena_array(arena, fw_device_air, 2);
     for (int i = 0; i < count; i++) {
-        fw_air_kind kind = (fw_air_kind)(int)(3 * rig_random(seed));
-        fw_air a = bounds_gas(seed, kind);
+        fw_device_air_kind kind = (fw_device_air_kind)(int)(3 * rig_random(seed));
+        fw_device_air a = bounds_gas(seed, kind);
         a.body = rig_random(seed) < 0.4 && kind != FW_AIR_SQUEEZE ? FW_NONE : bounds_body(d, seed);
         if (kind == FW_AIR_SQUEEZE) { /* mostly wider than the motion */
-            fw_vec2 at = bounds_point(seed);
+            fw_geometry_vec2 at = bounds_point(seed);
             a.gap_m = bounds_log(seed, 0.3, 30) * d->turn * bounds_length_m;
             a.x_m = at.x, a.y_m = at.y;
             a.direction_rad = 6.283 * rig_random(seed);
@@ -99,11 +99,11 @@ static inline void bounds_air(fw_arena *arena, bounds_device *d, uint64_t *seed)
 /* ---- temperature, stress, damping of the material ---- */
 
 /* a law without jumps; NULL: constant */
-static inline const fw_law *bounds_warming(bounds_device *d, uint64_t *seed) {
+static inline const fw_quantity_law *bounds_warming(bounds_device *d, uint64_t *seed) {
     double t = d->r.scene.duration_s;
     if (rig_random(seed) < 0.5 || d->laws == BOUNDS_LOADS) return NULL;
     if (rig_random(seed) < 0.5) return bounds_slow_law(d, seed);
-    fw_law *l = bounds_new_law(d);
+    fw_quantity_law *l = bounds_new_law(d);
     l->kind = rig_random(seed) < 0.5 ? &fw_quantity_law_ramp : &fw_quantity_law_sine;
     l->start_s = rig_random(seed) < 0.5 ? 0 : 0.4 * t * rig_random(seed);
     l->rise_s = bounds_log(seed, 0.01, 1) * t;
@@ -114,12 +114,12 @@ static inline const fw_law *bounds_warming(bounds_device *d, uint64_t *seed) {
 static inline void bounds_temperature(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     bool law = rig_random(seed) < 0.5;
     if (rig_random(seed) < 0.6) bounds_hinges(arena, d);
-    d->r.scene.temperature = fw_arena_array(arena, fw_temperature, 1);
-    fw_temperature *t = &d->r.scene.temperature[d->r.scene.ntemperature++];
-    *t = (fw_temperature){.change_K = 100,
-                          .expansion_per_K = 2.6e-6,
-                          .substrate_expansion_per_K = 2.6e-6,
-                          .law = law ? bounds_warming(d, seed) : NULL};
+    d->r.scene.temperature = fw_arena_array(arena, fw_device_temperature, 1);
+    fw_device_temperature *t = &d->r.scene.temperature[d->r.scene.ntemperature++];
+    *t = (fw_device_temperature){.change_K = 100,
+                                 .expansion_per_K = 2.6e-6,
+                                 .substrate_expansion_per_K = 2.6e-6,
+                                 .law = law ? bounds_warming(d, seed) : NULL};
     double kind = rig_random(seed);
     if (kind < 0.7) /* another substrate: strain between next to nothing and what turns much */
         t->expansion_per_K +=
@@ -135,18 +135,18 @@ static inline void bounds_residual_stress(fw_arena *arena, bounds_device *d, uin
     d->variant.material.expansion = (fw_quantity){.unknown = true};
     d->variant.material.modulus_change = (fw_quantity){.unknown = true};
     d->r.m.variant = &d->variant;
-    d->r.scene.stress = fw_arena_array(arena, fw_residual_stress, 1);
+    d->r.scene.stress = fw_arena_array(arena, fw_device_residual_stress, 1);
     double strain = fmin(bounds_log(seed, 1e-6, 0.3) * d->turn, 0.01), rise = 0;
     if (rig_random(seed) < 0.5) rise = bounds_log(seed, 1e-4, 0.2); /* kappa times 1 mm */
-    d->r.scene.stress[d->r.scene.nstress++] = (fw_residual_stress){
+    d->r.scene.stress[d->r.scene.nstress++] = (fw_device_residual_stress){
         .mean_Pa = bounds_sign(seed) * strain * 169e9 / 0.78,
         .gradient_Pa_per_m = bounds_sign(seed) * rise / bounds_length_m * 169e9 / 0.78};
 }
 
 static inline void bounds_material_damping(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     bounds_hinges(arena, d);
-    d->r.scene.damping = fw_arena_array(arena, fw_material_damping, 1);
-    d->r.scene.damping[d->r.scene.ndamping++] = (fw_material_damping){
+    d->r.scene.damping = fw_arena_array(arena, fw_device_material_damping, 1);
+    d->r.scene.damping[d->r.scene.ndamping++] = (fw_device_material_damping){
         .loss_factor = bounds_log(seed, 1e-6, 0.3),
         .frequency_Hz =
             rig_random(seed) < 0.5 ? (double)NAN : d->omega / 6.28 * bounds_log(seed, 0.2, 5)};
@@ -154,19 +154,19 @@ static inline void bounds_material_damping(fw_arena *arena, bounds_device *d, ui
 
 /* ---- what drives ---- */
 
-static inline fw_eyelet bounds_eyelet(const bounds_device *d, uint64_t *seed, bool ground) {
-    fw_vec2 at = bounds_point(seed);
-    if (!ground) return (fw_eyelet){.body = bounds_body(d, seed), .x_m = at.x, .y_m = at.y};
-    return (fw_eyelet){.body = FW_GROUND, .x_m = 1e-3 + 6 * at.x, .y_m = 1e-3 + 6 * at.y};
+static inline fw_device_eyelet bounds_eyelet(const bounds_device *d, uint64_t *seed, bool ground) {
+    fw_geometry_vec2 at = bounds_point(seed);
+    if (!ground) return (fw_device_eyelet){.body = bounds_body(d, seed), .x_m = at.x, .y_m = at.y};
+    return (fw_device_eyelet){.body = FW_GROUND, .x_m = 1e-3 + 6 * at.x, .y_m = 1e-3 + 6 * at.y};
 }
 
 static inline void bounds_tendon(fw_arena *arena, bounds_device *d, uint64_t *seed) {
-    d->r.scene.tendon = fw_arena_array(arena, fw_tendon, 1);
-    fw_tendon *t = &d->r.scene.tendon[d->r.scene.ntendon++];
+    d->r.scene.tendon = fw_arena_array(arena, fw_device_tendon, 1);
+    fw_device_tendon *t = &d->r.scene.tendon[d->r.scene.ntendon++];
     double share = bounds_log(seed, 0.01, 1) * d->turn;
-    *t = (fw_tendon){.id = "tendon", .pull_N = (double)NAN, .draw_m = (double)NAN};
+    *t = (fw_device_tendon){.id = "tendon", .pull_N = (double)NAN, .draw_m = (double)NAN};
     t->neyelet = 2 + (rig_random(seed) < 0.4);
-    t->eyelet = fw_arena_array(arena, fw_eyelet, 3);
+    t->eyelet = fw_arena_array(arena, fw_device_eyelet, 3);
     t->eyelet[0] = bounds_eyelet(d, seed, false);
     t->eyelet[1] = bounds_eyelet(d, seed, t->neyelet == 2 || rig_random(seed) < 0.5);
     t->eyelet[2] = bounds_eyelet(d, seed, true);
@@ -185,21 +185,21 @@ static inline void bounds_tendon(fw_arena *arena, bounds_device *d, uint64_t *se
 
 /* wide enough for the motion, mostly; soft is the stiffness that the voltage takes */
 static inline void bounds_comb_drive(fw_arena *arena, bounds_device *d, uint64_t *seed) {
-    d->r.scene.comb = fw_arena_array(arena, fw_comb, 1);
-    fw_comb *b = &d->r.scene.comb[d->r.scene.ncomb++];
+    d->r.scene.comb = fw_arena_array(arena, fw_device_comb, 1);
+    fw_device_comb *b = &d->r.scene.comb[d->r.scene.ncomb++];
     double gap = bounds_log(seed, 1, 30) * d->turn * bounds_length_m;
     double soft =
         bounds_log(seed, 1e-4, 0.7) * bounds_stiffness_Nm / bounds_length_m / bounds_length_m;
-    fw_vec2 at = bounds_point(seed);
-    *b = (fw_comb){.id = "comb",
-                   .kind = rig_random(seed) < 0.5 ? FW_ELECTRODES_COMB : FW_ELECTRODES_PLATE,
-                   .body_a = FW_GROUND,
-                   .body_b = bounds_body(d, seed),
-                   .bx_m = at.x,
-                   .by_m = at.y,
-                   .direction_rad = 6.283 * rig_random(seed),
-                   .gap_m = gap,
-                   .depth_m = 50e-6};
+    fw_geometry_vec2 at = bounds_point(seed);
+    *b = (fw_device_comb){.id = "comb",
+                          .kind = rig_random(seed) < 0.5 ? FW_ELECTRODES_COMB : FW_ELECTRODES_PLATE,
+                          .body_a = FW_GROUND,
+                          .body_b = bounds_body(d, seed),
+                          .bx_m = at.x,
+                          .by_m = at.y,
+                          .direction_rad = 6.283 * rig_random(seed),
+                          .gap_m = gap,
+                          .depth_m = 50e-6};
     b->length_m = bounds_log(seed, 2, 20) * gap;
     double face = 8.854e-12 * b->depth_m * b->length_m;
     if (b->kind == FW_ELECTRODES_COMB) {
@@ -214,22 +214,22 @@ static inline void bounds_comb_drive(fw_arena *arena, bounds_device *d, uint64_t
 /* ---- what touches and rubs ---- */
 
 static inline void bounds_contact(fw_arena *arena, bounds_device *d, uint64_t *seed) {
-    d->r.scene.contact = fw_arena_array(arena, fw_contact_use, 1);
-    fw_contact_use *u = &d->r.scene.contact[d->r.scene.ncontact++];
-    fw_vec2 at = bounds_point(seed), away = bounds_point(seed);
+    d->r.scene.contact = fw_arena_array(arena, fw_device_contact_use, 1);
+    fw_device_contact_use *u = &d->r.scene.contact[d->r.scene.ncontact++];
+    fw_geometry_vec2 at = bounds_point(seed), away = bounds_point(seed);
     int body = bounds_body(d, seed);
-    fw_vec2 world = fw_local_place(&d->r.m, body, at.x, at.y);
+    fw_geometry_vec2 world = fw_mechanism_local_place(&d->r.m, body, at.x, at.y);
     double room = bounds_log(seed, 0.2, 30) * d->turn * bounds_length_m;
-    *u = (fw_contact_use){.id = "touch",
-                          .joint = FW_NONE,
-                          .body_a = FW_GROUND,
-                          .body_b = body,
-                          .ax_m = world.x + away.x,
-                          .ay_m = world.y + away.y,
-                          .bx_m = at.x,
-                          .by_m = at.y,
-                          .stiffness_N_per_m = bounds_log(seed, 1, 100),
-                          .damping_Ns_per_m = rig_random(seed) < 0.5 ? 0 : 1e-5};
+    *u = (fw_device_contact_use){.id = "touch",
+                                 .joint = FW_NONE,
+                                 .body_a = FW_GROUND,
+                                 .body_b = body,
+                                 .ax_m = world.x + away.x,
+                                 .ay_m = world.y + away.y,
+                                 .bx_m = at.x,
+                                 .by_m = at.y,
+                                 .stiffness_N_per_m = bounds_log(seed, 1, 100),
+                                 .damping_Ns_per_m = rig_random(seed) < 0.5 ? 0 : 1e-5};
     double now = hypot(away.x, away.y);
     u->side = rig_random(seed) < 0.5 ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE;
     u->distance_m = u->side == FW_CONTACT_INSIDE ? now + room : now - fmin(room, 0.9 * now);
@@ -238,14 +238,14 @@ static inline void bounds_contact(fw_arena *arena, bounds_device *d, uint64_t *s
 /* one joint to three, slides too; a joint twice has twice the friction */
 static inline void bounds_friction(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     int count = 1 + (int)(3 * rig_random(seed));
-    d->r.scene.friction = fw_arena_array(arena, fw_friction_use, 3);
+    d->r.scene.friction = fw_arena_array(arena, fw_device_friction_use, 3);
     for (int i = 0; i < count; i++) {
-        bool slides = d->r.m.ntie > 0 && d->r.m.tie[0].kind == FW_TIE_PRISMATIC;
+        bool slides = d->r.m.njoint > 0 && d->r.m.joint[0].kind == FW_JOINT_PRISMATIC;
         slides = slides && rig_random(seed) < 0.4;
         int joint = (int)(d->r.m.npin * rig_random(seed));
-        d->r.scene.friction[d->r.scene.nfriction++] = (fw_friction_use){
-            .joint = slides ? FW_NONE : joint,
-            .tie = slides ? 0 : FW_NONE,
+        d->r.scene.friction[d->r.scene.nfriction++] = (fw_device_friction_use){
+            .revolute = slides ? FW_NONE : joint,
+            .joint = slides ? 0 : FW_NONE,
             .coefficient = bounds_log(seed, slides ? 1e-6 : 1e-3, slides ? 1e-2 : 0.3),
             .static_coefficient = (double)NAN,
             .radius_m = bounds_log(seed, 1e-6, 1e-4),

@@ -17,7 +17,7 @@ typedef struct line_now {
     double ux, uy, l, rate, stretch, law, law_rate, force;
 } line_now;
 
-static inline line_now line_at(const fw_force_element *e, const fw_seen *s) {
+static inline line_now line_at(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const line *d = e->data;
     line_now n = {.law = 1};
     double dx = s->p[3] - s->p[0], dy = s->p[4] - s->p[1], all[3];
@@ -25,7 +25,7 @@ static inline line_now line_at(const fw_force_element *e, const fw_seen *s) {
     n.ux = dx / n.l, n.uy = dy / n.l;
     n.rate = n.ux * (s->w[3] - s->w[0]) + n.uy * (s->w[4] - s->w[1]);
     if (e->laws) {
-        fw_law_value(e->law[0], s->t_s, s->piece_s, all);
+        fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, all);
         n.law = all[0], n.law_rate = all[1];
     }
     n.stretch = n.l + s->load * d->draw * n.law - d->length;
@@ -39,13 +39,14 @@ static inline void line_push(double force, const line_now *n, double *f) {
     f[3] = -f[0], f[4] = -f[1];
 }
 
-static inline void line_force(const fw_force_element *e, const fw_seen *s, double *f) {
+static inline void line_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              double *f) {
     line_now n = line_at(e, s);
     line_push(n.force, &n, f);
 }
 
-static inline void line_tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                                double *damping) {
+static inline void line_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                double *stiffness, double *damping) {
     const line *d = e->data;
     line_now n = line_at(e, s);
     bool on = e->switches == 0 || s->on[0];
@@ -65,13 +66,15 @@ static inline void line_tangent(const fw_force_element *e, const fw_seen *s, dou
         }
 }
 
-static inline double line_energy(const fw_force_element *e, const fw_seen *s) {
+static inline double line_energy(const fw_effects_force_element *e,
+                                 const fw_effects_port_state *s) {
     const line *d = e->data;
     line_now n = line_at(e, s);
     return e->switches == 0 || s->on[0] ? 0.5 * d->k * n.stretch * n.stretch : 0;
 }
 
-static inline void line_power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+static inline void line_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              double power[2]) {
     const line *d = e->data;
     line_now n = line_at(e, s);
     bool on = e->switches == 0 || s->on[0];
@@ -80,38 +83,42 @@ static inline void line_power(const fw_force_element *e, const fw_seen *s, doubl
                s->load * d->pull * n.law * n.rate;
 }
 
-static inline double line_switch(const fw_force_element *e, const fw_seen *s, int i) {
+static inline double line_switch(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                 int i) {
     const line *d = e->data;
     line_now n = line_at(e, s);
     (void)i;
     return fmin(d->k * n.stretch, d->k * n.stretch + d->c * n.rate);
 }
 
-static inline void line_slope(const fw_force_element *e, const fw_seen *s, double *f) {
+static inline void line_slope(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              double *f) {
     const line *d = e->data;
     line_now n = line_at(e, s);
     bool on = e->switches == 0 || s->on[0];
     line_push(n.law * ((on ? d->k * d->draw : 0) + d->pull), &n, f);
 }
 
-static inline bool line_valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+static inline bool line_valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              const char **why) {
     *why = "the ends of the line meet";
     return line_at(e, s).l > 1e-6;
 }
 
-static const fw_element_class line_class = {.effect = "line",
-                                            .force = line_force,
-                                            .tangent = line_tangent,
-                                            .energy = line_energy,
-                                            .power = line_power,
-                                            .switch_value = line_switch,
-                                            .slope = line_slope,
-                                            .valid = line_valid};
+static const fw_effects_element_class line_class = {.effect = "line",
+                                                    .force = line_force,
+                                                    .tangent = line_tangent,
+                                                    .energy = line_energy,
+                                                    .power = line_power,
+                                                    .switch_value = line_switch,
+                                                    .slope = line_slope,
+                                                    .valid = line_valid};
 
-static inline fw_force_element *line_add(fw_arena *arena, fw_terms *t, const line *d, int a,
-                                         double ax, double ay, int b, double bx, double by) {
-    fw_force_element *e = fw_terms_add_element(arena, t, &line_class, 2);
-    e->port[0] = (fw_port){a, ax, ay}, e->port[1] = (fw_port){b, bx, by};
+static inline fw_effects_force_element *line_add(fw_arena *arena, fw_effects_loads *t,
+                                                 const line *d, int a, double ax, double ay, int b,
+                                                 double bx, double by) {
+    fw_effects_force_element *e = fw_effects_loads_add_element(arena, t, &line_class, 2);
+    e->port[0] = (fw_effects_port){a, ax, ay}, e->port[1] = (fw_effects_port){b, bx, by};
     e->size_N_per_m = d->k, e->force_N = fabs(d->pull);
     e->dissipates = d->c > 0, e->works = d->draw != 0 || d->pull != 0;
     e->data = d;
@@ -124,7 +131,8 @@ typedef struct bush {
     double k, kr, cr;
 } bush;
 
-static inline void bush_force(const fw_force_element *e, const fw_seen *s, double *f) {
+static inline void bush_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              double *f) {
     const bush *d = e->data;
     for (int i = 0; i < 2; i++)
         f[i] = d->k * (s->p[3 + i] - s->p[i]), f[3 + i] = -f[i];
@@ -132,8 +140,8 @@ static inline void bush_force(const fw_force_element *e, const fw_seen *s, doubl
     f[5] = -f[2];
 }
 
-static inline void bush_tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                                double *damping) {
+static inline void bush_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                double *stiffness, double *damping) {
     const bush *d = e->data;
     (void)s;
     for (int i = 0; i < 6; i++)
@@ -144,46 +152,48 @@ static inline void bush_tangent(const fw_force_element *e, const fw_seen *s, dou
         }
 }
 
-static inline double bush_energy(const fw_force_element *e, const fw_seen *s) {
+static inline double bush_energy(const fw_effects_force_element *e,
+                                 const fw_effects_port_state *s) {
     const bush *d = e->data;
     double x = s->p[3] - s->p[0], y = s->p[4] - s->p[1], turn = s->p[5] - s->p[2];
     return 0.5 * d->k * (x * x + y * y) + 0.5 * d->kr * turn * turn;
 }
 
-static inline void bush_power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+static inline void bush_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                              double power[2]) {
     const bush *d = e->data;
     double rate = s->w[5] - s->w[2];
     power[0] = d->cr * rate * rate, power[1] = 0;
 }
 
-static const fw_element_class bush_class = {.effect = "bush",
-                                            .force = bush_force,
-                                            .tangent = bush_tangent,
-                                            .energy = bush_energy,
-                                            .power = bush_power};
+static const fw_effects_element_class bush_class = {.effect = "bush",
+                                                    .force = bush_force,
+                                                    .tangent = bush_tangent,
+                                                    .energy = bush_energy,
+                                                    .power = bush_power};
 
 /* in the place of a pin, whose spring and damper go */
-static inline void bush_release(fw_arena *arena, const fw_mechanism *m, fw_terms *t, int pin,
-                                const bush *d) {
-    const fw_pin *p = &m->pin[pin];
-    fw_force_element *e = fw_terms_add_element(arena, t, &bush_class, 2);
-    e->port[0] = (fw_port){p->body_a, p->ax_m, p->ay_m};
-    e->port[1] = (fw_port){p->body_b, p->bx_m, p->by_m};
+static inline void bush_release(fw_arena *arena, const fw_mechanism *m, fw_effects_loads *t,
+                                int pin, const bush *d) {
+    const fw_mechanism_pin *p = &m->pin[pin];
+    fw_effects_force_element *e = fw_effects_loads_add_element(arena, t, &bush_class, 2);
+    e->port[0] = (fw_effects_port){p->body_a, p->ax_m, p->ay_m};
+    e->port[1] = (fw_effects_port){p->body_b, p->bx_m, p->by_m};
     e->pin = pin;
     e->dissipates = d->cr > 0;
     e->data = d;
     t->released[pin] = true;
     t->nreleased++;
     if (t->torsion_of[pin]) {
-        fw_torsion *spring = &t->torsion[t->torsion_of[pin] - 1];
+        fw_effects_torsion *spring = &t->torsion[t->torsion_of[pin] - 1];
         spring->stiffness_Nm_per_rad = spring->damping_Nms_per_rad = 0;
     }
 }
 
 /* ---- scenes ---- */
 
-static inline fw_terms rig_terms(fw_arena *arena, const rig *r) {
-    fw_terms t;
+static inline fw_effects_loads rig_terms(fw_arena *arena, const rig *r) {
+    fw_effects_loads t;
     fw_effect_ledger ledger;
     fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     fw_diags diags = fw_diags_new(arena);
@@ -192,23 +202,25 @@ static inline fw_terms rig_terms(fw_arena *arena, const rig *r) {
     return t;
 }
 
-static inline const fw_motion *rig_run_by(fw_arena *arena, const rig *r, const fw_terms *t,
-                                          const char *method, const char *integrator, double rtol,
-                                          int samples) {
+static inline const fw_dynamics_motion *rig_run_by(fw_arena *arena, const rig *r,
+                                                   const fw_effects_loads *t, const char *method,
+                                                   const char *integrator, double rtol,
+                                                   int samples) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *m;
-    const fw_motion_options o = {
+    const fw_dynamics_motion *m;
+    const fw_dynamics_motion_options o = {
         .method = method, .integrator = integrator, .rtol = rtol, .samples = samples};
-    fw_status status =
-        fw_simulate_compiled(arena, &r->m, &r->scene, &o, &(fw_effect_ledger){0}, t, &diags, &m);
+    fw_status status = fw_dynamics_simulate_compiled(arena, &r->m, &r->scene, &o,
+                                                     &(fw_effect_ledger){0}, t, &diags, &m);
     if (status != FW_OK)
         fail_msg("%s: %s", method ? method : "(default)",
                  diags.count ? diags.item[diags.count - 1].message : "no message");
     return m;
 }
 
-static inline const fw_motion *rig_run(fw_arena *arena, const rig *r, const fw_terms *t,
-                                       const char *method, double rtol, int samples) {
+static inline const fw_dynamics_motion *rig_run(fw_arena *arena, const rig *r,
+                                                const fw_effects_loads *t, const char *method,
+                                                double rtol, int samples) {
     return rig_run_by(arena, r, t, method, NULL, rtol, samples);
 }
 

@@ -8,34 +8,34 @@
 
 /* silicon, 50 um deep: arc (half angle > 0) or leaf; short enough that its stiffness along itself
    leaves the run affordable */
-static inline fw_hinge_law hinge_bounds_law(uint64_t *seed) {
+static inline fw_flexure_hinge_law hinge_bounds_law(uint64_t *seed) {
     const double E_Pa = 160e9, depth_m = 50e-6;
     double width_m = 1e-6 * bounds_log(seed, 5, 10), length_m = width_m * bounds_log(seed, 15, 50);
     double half_rad = rig_random(seed) < 0.6 ? 1 + 1.4 * rig_random(seed) : 0;
     double EA = E_Pa * depth_m * width_m, EI = EA * width_m * width_m / 12;
     double root_m = rig_random(seed) < 0.5 ? 0 : 0.5 * width_m, whole_m = length_m + 2 * root_m;
-    return (fw_hinge_law){.stiffness_Nm_per_rad = EI / whole_m,
-                          .half_angle_rad = half_rad,
-                          .length_m = length_m,
-                          .share = length_m / whole_m,
-                          .bend_m_per_N = length_m * length_m * length_m / (8 * EI),
-                          .root_m_per_N = root_m * length_m * length_m / (2 * EI),
-                          .axial_m_per_N = length_m / (2 * EA),
-                          .shear_m_per_N = 1.22 * length_m / (5.0 / 6 * EA)};
+    return (fw_flexure_hinge_law){.stiffness_Nm_per_rad = EI / whole_m,
+                                  .half_angle_rad = half_rad,
+                                  .length_m = length_m,
+                                  .share = length_m / whole_m,
+                                  .bend_m_per_N = length_m * length_m * length_m / (8 * EI),
+                                  .root_m_per_N = root_m * length_m * length_m / (2 * EI),
+                                  .axial_m_per_N = length_m / (2 * EA),
+                                  .shear_m_per_N = 1.22 * length_m / (5.0 / 6 * EA)};
 }
 
 static inline void hinge_bounds_flex(fw_arena *arena, bounds_device *d, uint64_t *seed) {
     fw_mechanism *m = &d->r.m;
-    m->hinge = fw_arena_array(arena, fw_hinge, (size_t)m->npin);
+    m->hinge = fw_arena_array(arena, fw_mechanism_hinge, (size_t)m->npin);
     m->nhinge = m->npin;
     double tau_s = bounds_log(seed, 1e-9, 1e-6);
     for (int i = 0; i < m->npin; i++) {
-        m->hinge[i] = (fw_hinge){.pin = i,
-                                 .law = hinge_bounds_law(seed),
-                                 .axis_rad = 6.283 * rig_random(seed),
-                                 .first_is_a = rig_random(seed) < 0.5,
-                                 .cover_from_rad = (double)NAN,
-                                 .cover_to_rad = (double)NAN};
+        m->hinge[i] = (fw_mechanism_hinge){.pin = i,
+                                           .law = hinge_bounds_law(seed),
+                                           .axis_rad = 6.283 * rig_random(seed),
+                                           .first_is_a = rig_random(seed) < 0.5,
+                                           .cover_from_rad = (double)NAN,
+                                           .cover_to_rad = (double)NAN};
         m->pin[i].hinge = i;
         m->pin[i].stiffness_Nm_per_rad = m->hinge[i].law.stiffness_Nm_per_rad;
         m->pin[i].damping_Nms_per_rad = tau_s * m->pin[i].stiffness_Nm_per_rad;
@@ -45,7 +45,7 @@ static inline void hinge_bounds_flex(fw_arena *arena, bounds_device *d, uint64_t
 static inline bool hinge_bounds_make(fw_arena *arena, uint64_t seed, bounds_device *d) {
     static rig (*const devices[])(fw_arena *, uint64_t *) = {bounds_six_bar, bounds_four_bar,
                                                              bounds_chain};
-    static const fw_variant variant = {.thickness_m = 50e-6};
+    static const fw_mechanism_variant variant = {.thickness_m = 50e-6};
     for (int i = 0; i < 5; i++)
         rig_random(&seed);
     memset(d, 0, sizeof *d);
@@ -54,7 +54,7 @@ static inline bool hinge_bounds_make(fw_arena *arena, uint64_t seed, bounds_devi
     d->turn = bounds_log(&seed, 1e-3, 0.2);
     d->r.scene.duration_s = d->omega = 1;
     for (int i = 0; i < d->r.m.npin; i++) {
-        const fw_pin *p = &d->r.m.pin[i];
+        const fw_mechanism_pin *p = &d->r.m.pin[i];
         double a = p->body_a == FW_GROUND ? 0 : d->r.m.body[p->body_a].phi_rad;
         double b = p->body_b == FW_GROUND ? 0 : d->r.m.body[p->body_b].phi_rad;
         d->r.m.pin[i].free_angle_rad = b - a;
@@ -83,13 +83,13 @@ typedef struct hinge_score {
 } hinge_score;
 
 /* NULL: the motion has none (a hinge wound up, no steps left); that says nothing of bounds */
-static inline const fw_motion *hinge_run(fw_arena *arena, const rig *r, fw_effect_mode mode,
-                                         const char *list, double accuracy) {
+static inline const fw_dynamics_motion *
+hinge_run(fw_arena *arena, const rig *r, fw_effect_mode mode, const char *list, double accuracy) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *m = NULL;
-    const fw_motion_options o = {
+    const fw_dynamics_motion *m = NULL;
+    const fw_dynamics_motion_options o = {
         .accuracy = accuracy, .rtol = 1e-8, .samples = 2, .effects = {.mode = mode, .list = list}};
-    return fw_simulate(arena, &r->m, &r->scene, &o, &diags, &m) == FW_OK ? m : NULL;
+    return fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &m) == FW_OK ? m : NULL;
 }
 
 static inline void hinge_bounds_try(uint64_t seed, hinge_score *score) {
@@ -98,10 +98,10 @@ static inline void hinge_bounds_try(uint64_t seed, hinge_score *score) {
     uint64_t more = seed ^ 0x5555;
     if (hinge_bounds_make(arena, seed, &d)) {
         double accuracy = bounds_log(&more, 1e-3, 0.5), unknown, bound = (double)INFINITY;
-        const fw_motion *all = hinge_run(arena, &d.r, FW_EFFECTS_ALL, NULL, 1e-3);
-        const fw_motion *pins =
+        const fw_dynamics_motion *all = hinge_run(arena, &d.r, FW_EFFECTS_ALL, NULL, 1e-3);
+        const fw_dynamics_motion *pins =
             hinge_run(arena, &d.r, FW_EFFECTS_LIST, "joint-damping,gravity,inertia", 1e-3);
-        const fw_motion *some = hinge_run(arena, &d.r, FW_EFFECTS_AUTO, NULL, accuracy);
+        const fw_dynamics_motion *some = hinge_run(arena, &d.r, FW_EFFECTS_AUTO, NULL, accuracy);
         if (!all || !pins || !some) {
             score->refused++;
             fw_arena_free(arena);

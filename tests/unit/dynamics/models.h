@@ -7,36 +7,36 @@
 
 typedef struct rig {
     fw_mechanism m;
-    fw_scene scene;
+    fw_device_scene scene;
 } rig;
 
 static inline rig rig_new(fw_arena *arena, int nbody, int npin, int nspring) {
     rig r = {0};
-    r.m.body = fw_arena_array(arena, fw_mass, (size_t)nbody);
-    r.m.pin = fw_arena_array(arena, fw_pin, (size_t)npin);
-    r.m.spring = fw_arena_array(arena, fw_spring, (size_t)nspring);
-    r.scene.force = fw_arena_array(arena, fw_force, (size_t)nbody);
-    r.scene.torque = fw_arena_array(arena, fw_torque, (size_t)nbody);
-    r.scene.initial = fw_arena_array(arena, fw_initial, (size_t)nbody);
+    r.m.body = fw_arena_array(arena, fw_mechanism_mass, (size_t)nbody);
+    r.m.pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)npin);
+    r.m.spring = fw_arena_array(arena, fw_device_spring, (size_t)nspring);
+    r.scene.force = fw_arena_array(arena, fw_device_force, (size_t)nbody);
+    r.scene.torque = fw_arena_array(arena, fw_device_torque, (size_t)nbody);
+    r.scene.initial = fw_arena_array(arena, fw_device_initial, (size_t)nbody);
     r.scene.name = "test";
     return r;
 }
 
 static inline void rig_body(rig *r, const char *id, double mass, double inertia, double x, double y,
                             double phi) {
-    r->m.body[r->m.nbody++] = (fw_mass){id, mass, inertia, x, y, phi};
+    r->m.body[r->m.nbody++] = (fw_mechanism_mass){id, mass, inertia, x, y, phi};
 }
 
 /* pin at a world point; bodies must be there already */
-static inline fw_pin *rig_pin(rig *r, const char *id, int a, int b, double x, double y, double k,
-                              double c) {
-    fw_pin *p = &r->m.pin[r->m.npin++];
-    *p = (fw_pin){.id = id,
-                  .body_a = a,
-                  .body_b = b,
-                  .stiffness_Nm_per_rad = k,
-                  .damping_Nms_per_rad = c,
-                  .hinge = FW_NONE};
+static inline fw_mechanism_pin *rig_pin(rig *r, const char *id, int a, int b, double x, double y,
+                                        double k, double c) {
+    fw_mechanism_pin *p = &r->m.pin[r->m.npin++];
+    *p = (fw_mechanism_pin){.id = id,
+                            .body_a = a,
+                            .body_b = b,
+                            .stiffness_Nm_per_rad = k,
+                            .damping_Nms_per_rad = c,
+                            .hinge = FW_NONE};
     double *to[2] = {&p->ax_m, &p->bx_m}, *up[2] = {&p->ay_m, &p->by_m};
     const int body[2] = {a, b};
     for (int i = 0; i < 2; i++) {
@@ -44,7 +44,7 @@ static inline fw_pin *rig_pin(rig *r, const char *id, int a, int b, double x, do
             *to[i] = x, *up[i] = y;
             continue;
         }
-        const fw_mass *m = &r->m.body[body[i]];
+        const fw_mechanism_mass *m = &r->m.body[body[i]];
         double dx = x - m->x_m, dy = y - m->y_m, co = cos(m->phi_rad), si = sin(m->phi_rad);
         *to[i] = co * dx + si * dy, *up[i] = -si * dx + co * dy;
     }
@@ -52,29 +52,29 @@ static inline fw_pin *rig_pin(rig *r, const char *id, int a, int b, double x, do
 }
 
 /* pin by local points, as a description states them */
-static inline fw_pin *rig_pin_local(rig *r, const char *id, int a, double ax, double ay, int b,
-                                    double bx, double by) {
-    fw_pin *p = &r->m.pin[r->m.npin++];
-    *p = (fw_pin){.id = id,
-                  .body_a = a,
-                  .body_b = b,
-                  .ax_m = ax,
-                  .ay_m = ay,
-                  .bx_m = bx,
-                  .by_m = by,
-                  .hinge = FW_NONE};
+static inline fw_mechanism_pin *rig_pin_local(rig *r, const char *id, int a, double ax, double ay,
+                                              int b, double bx, double by) {
+    fw_mechanism_pin *p = &r->m.pin[r->m.npin++];
+    *p = (fw_mechanism_pin){.id = id,
+                            .body_a = a,
+                            .body_b = b,
+                            .ax_m = ax,
+                            .ay_m = ay,
+                            .bx_m = bx,
+                            .by_m = by,
+                            .hinge = FW_NONE};
     return p;
 }
 
 static inline void rig_force(rig *r, int body, double fx, double fy) {
-    r->scene.force[r->scene.nforce++] = (fw_force){.body = body, .fx_N = fx, .fy_N = fy};
+    r->scene.force[r->scene.nforce++] = (fw_device_force){.body = body, .fx_N = fx, .fy_N = fy};
 }
 static inline void rig_torque(rig *r, int body, double value) {
-    r->scene.torque[r->scene.ntorque++] = (fw_torque){.body = body, .value_Nm = value};
+    r->scene.torque[r->scene.ntorque++] = (fw_device_torque){.body = body, .value_Nm = value};
 }
 static inline void rig_velocity(rig *r, int body, double vx, double vy, double omega) {
-    r->scene.initial[r->scene.ninitial++] =
-        (fw_initial){.body = body, .vx_m_per_s = vx, .vy_m_per_s = vy, .omega_rad_per_s = omega};
+    r->scene.initial[r->scene.ninitial++] = (fw_device_initial){
+        .body = body, .vx_m_per_s = vx, .vy_m_per_s = vy, .omega_rad_per_s = omega};
 }
 
 /* the reference six-bar ABCDEF in SI; `twice_d` adds a second hinge D (redundant) */
@@ -163,15 +163,15 @@ static inline rig rig_squeezer(fw_arena *arena) {
     rig_pin_local(&r, "A5", FW_GROUND, -.06934, -.00227, 4, -.02308, -.00916);
     rig_pin_local(&r, "H", 5, -.00579, 0, 6, -.00449, -.02772);
     rig_pin_local(&r, "A7", FW_GROUND, -.06934, -.00227, 6, -.00449, .01228);
-    r.m.spring[r.m.nspring++] = (fw_spring){.id = "CD",
-                                            .body_a = FW_GROUND,
-                                            .body_b = 2,
-                                            .ax_m = .014,
-                                            .ay_m = .072,
-                                            .bx_m = .00957,
-                                            .by_m = .00074,
-                                            .stiffness_N_per_m = 4530,
-                                            .length_m = .07785};
+    r.m.spring[r.m.nspring++] = (fw_device_spring){.id = "CD",
+                                                   .body_a = FW_GROUND,
+                                                   .body_b = 2,
+                                                   .ax_m = .014,
+                                                   .ay_m = .072,
+                                                   .bx_m = .00957,
+                                                   .by_m = .00074,
+                                                   .stiffness_N_per_m = 4530,
+                                                   .length_m = .07785};
     rig_torque(&r, 0, .033);
     r.scene.duration_s = 0.03;
     return r;

@@ -16,28 +16,29 @@ static fixture begin(void) {
     return f;
 }
 
-static fw_status simulate(fixture *f, const rig *r, int samples, const fw_motion **motion) {
-    const fw_motion_options o = {
+static fw_status simulate(fixture *f, const rig *r, int samples,
+                          const fw_dynamics_motion **motion) {
+    const fw_dynamics_motion_options o = {
         .rtol = 1e-12, .samples = samples, .effects = {.mode = FW_EFFECTS_AUTO}};
-    return fw_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, motion);
+    return fw_dynamics_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, motion);
 }
 
-static const fw_motion *run(fixture *f, const rig *r, int samples) {
-    const fw_motion *motion = NULL;
+static const fw_dynamics_motion *run(fixture *f, const rig *r, int samples) {
+    const fw_dynamics_motion *motion = NULL;
     if (simulate(f, r, samples, &motion) != FW_OK)
         fail_msg("%s", f->diags.count ? f->diags.item[0].message : "no diagnostic");
     return motion;
 }
 
 static void guide(fixture *f, rig *r, int body, double axis) {
-    r->m.tie = fw_arena_array(f->arena, fw_tie, 1);
-    r->m.tie[r->m.ntie++] = (fw_tie){.id = "guide",
-                                     .kind = FW_TIE_PRISMATIC,
-                                     .body_a = FW_GROUND,
-                                     .body_b = body,
-                                     .ax_m = r->m.body[body].x_m,
-                                     .ay_m = r->m.body[body].y_m,
-                                     .axis_rad = axis};
+    r->m.joint = fw_arena_array(f->arena, fw_device_joint, 1);
+    r->m.joint[r->m.njoint++] = (fw_device_joint){.id = "guide",
+                                                  .kind = FW_JOINT_PRISMATIC,
+                                                  .body_a = FW_GROUND,
+                                                  .body_b = body,
+                                                  .ax_m = r->m.body[body].x_m,
+                                                  .ay_m = r->m.body[body].y_m,
+                                                  .axis_rad = axis};
 }
 
 static bool said(const fixture *f, int number) {
@@ -53,25 +54,26 @@ static bool said(const fixture *f, int number) {
    2 sqrt(2 s/g) + 2 (pi - atan(w sqrt(2 s/g)))/w, w^2 = k/m */
 static void test_slack_fall(void **state) {
     (void)state;
-    static const fw_eyelet line[] = {{.body = FW_GROUND}, {.body = 0}};
+    static const fw_device_eyelet line[] = {{.body = FW_GROUND}, {.body = 0}};
     const double m = 1e-6, k = 0.05, g = 9.81, slack = 0.3e-3, top = -1e-3;
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 0, 0);
     rig_body(&r, "bob", m, 1e-13, 0, top, 0);
     guide(&f, &r, 0, PI / 2);
-    fw_tendon cable = {.id = "cable",
-                       .eyelet = (fw_eyelet *)line,
-                       .neyelet = 2,
-                       .pull_N = (double)NAN,
-                       .draw_m = 0,
-                       .stiffness_N_per_m = k,
-                       .slack_m = slack};
+    fw_device_tendon cable = {.id = "cable",
+                              .eyelet = (fw_device_eyelet *)line,
+                              .neyelet = 2,
+                              .pull_N = (double)NAN,
+                              .draw_m = 0,
+                              .stiffness_N_per_m = k,
+                              .slack_m = slack};
     r.scene.tendon = &cable, r.scene.ntendon = 1;
     r.scene.gravity = true, r.scene.gy_m_per_s2 = -g;
     double w = sqrt(k / m), fall = sqrt(2 * slack / g);
     double period = 2 * fall + 2 * (PI - atan(w * fall)) / w;
     r.scene.duration_s = 8 * period;
-    const fw_motion *o = run(&f, &r, 33); /* four samples per period: the second at the bottom */
+    const fw_dynamics_motion *o =
+        run(&f, &r, 33); /* four samples per period: the second at the bottom */
     double rest = m * g / k, depth = slack + rest + sqrt(rest * rest + 2 * rest * slack);
     for (int i = 0; i < 33; i += 2) {
         double want = i % 4 == 2 ? top - depth : top;
@@ -93,17 +95,17 @@ static void taut(const double s[4], double k, double m, double g, double rest, d
    (a quartic, solved here), then the elastic pendulum, integrated here by 20000 steps of order 4 */
 static void test_slack_pendulum(void **state) {
     (void)state;
-    static const fw_eyelet line[] = {{.body = FW_GROUND}, {.body = 0}};
+    static const fw_device_eyelet line[] = {{.body = FW_GROUND}, {.body = 0}};
     const double m = 1e-6, k = 0.2, g = 9.81, slack = 0.4e-3, x = 0.8e-3, y = -1e-3;
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 0, 0);
     rig_body(&r, "bob", m, 1e-13, x, y, 0);
-    fw_tendon cable = {.id = "cable",
-                       .eyelet = (fw_eyelet *)line,
-                       .neyelet = 2,
-                       .pull_N = (double)NAN,
-                       .stiffness_N_per_m = k,
-                       .slack_m = slack};
+    fw_device_tendon cable = {.id = "cable",
+                              .eyelet = (fw_device_eyelet *)line,
+                              .neyelet = 2,
+                              .pull_N = (double)NAN,
+                              .stiffness_N_per_m = k,
+                              .slack_m = slack};
     r.scene.tendon = &cable, r.scene.ntendon = 1;
     r.scene.gravity = true, r.scene.gy_m_per_s2 = -g;
     rig_velocity(&r, 0, -0.02, 0, 0);
@@ -125,7 +127,7 @@ static void test_slack_pendulum(void **state) {
     }
     assert_true(hypot(s[0], s[1]) > rest); /* still taut */
     r.scene.duration_s = low + 2e-3;
-    const fw_motion *o = run(&f, &r, 2);
+    const fw_dynamics_motion *o = run(&f, &r, 2);
     assert_int_equal(o->stats.events, 1);
     assert_near(o->q[3], s[0], 1e-9 * rest);
     assert_near(o->q[4], s[1], 1e-9 * rest);
@@ -138,24 +140,24 @@ static void test_slack_pendulum(void **state) {
    2 P/(m w), and in the other half it stays */
 static void test_pulled_by_a_sine(void **state) {
     (void)state;
-    static const fw_eyelet line[] = {
+    static const fw_device_eyelet line[] = {
         {.body = 0}, {.body = FW_GROUND, .x_m = 5e-3}, {.body = FW_GROUND, .x_m = 5e-3, .y_m = -1}};
-    static const fw_law sine = {
+    static const fw_quantity_law sine = {
         .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1000};
     const double m = 1e-6, pull = 1e-4, w = 2 * PI * 1000;
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 0, 0);
     rig_body(&r, "bob", m, 1e-13, 1e-3, 0, 0);
     guide(&f, &r, 0, 0);
-    fw_tendon cable = {.id = "cable",
-                       .eyelet = (fw_eyelet *)line,
-                       .neyelet = 3,
-                       .pull_N = pull,
-                       .draw_m = (double)NAN,
-                       .law = &sine};
+    fw_device_tendon cable = {.id = "cable",
+                              .eyelet = (fw_device_eyelet *)line,
+                              .neyelet = 3,
+                              .pull_N = pull,
+                              .draw_m = (double)NAN,
+                              .law = &sine};
     r.scene.tendon = &cable, r.scene.ntendon = 1;
     r.scene.duration_s = 3e-3;
-    const fw_motion *o = run(&f, &r, 7);
+    const fw_dynamics_motion *o = run(&f, &r, 7);
     double speed = 0, place = 1e-3;
     for (int i = 0; i < 7; i++) {
         assert_near(o->v[3 * i], speed, 1e-9);
@@ -170,18 +172,18 @@ static void test_pulled_by_a_sine(void **state) {
 
 /* ---- electrodes ---- */
 
-static rig plate(fixture *f, fw_comb *c, double volt) {
-    *c = (fw_comb){.id = "plate",
-                   .kind = FW_ELECTRODES_PLATE,
-                   .body_a = FW_GROUND,
-                   .gap_m = 3e-6,
-                   .length_m = 250e-6,
-                   .depth_m = 20e-6,
-                   .voltage_V = volt};
+static rig plate(fixture *f, fw_device_comb *c, double volt) {
+    *c = (fw_device_comb){.id = "plate",
+                          .kind = FW_ELECTRODES_PLATE,
+                          .body_a = FW_GROUND,
+                          .gap_m = 3e-6,
+                          .length_m = 250e-6,
+                          .depth_m = 20e-6,
+                          .voltage_V = volt};
     rig r = rig_new(f->arena, 1, 0, 0);
     rig_body(&r, "rotor", 2e-9, 1e-17, 0, 0, 0);
     guide(f, &r, 0, 0);
-    r.m.tie[0].stiffness_N_per_m = 2;
+    r.m.joint[0].stiffness_N_per_m = 2;
     r.scene.comb = c, r.scene.ncomb = 1;
     r.scene.duration_s = 1e-3;
     return r;
@@ -197,9 +199,9 @@ static void test_sudden_voltage(void **state) {
     static const double share[] = {0.5, 0.98, 1.02};
     for (int i = 0; i < 3; i++) {
         fixture f = begin();
-        fw_comb c;
+        fw_device_comb c;
         rig r = plate(&f, &c, share[i] * sudden);
-        const fw_motion *o;
+        const fw_dynamics_motion *o;
         fw_status status = simulate(&f, &r, 20001, &o);
         if (share[i] > 1) {
             assert_int_equal(status, FW_SOLVER);
@@ -220,13 +222,13 @@ static void test_sudden_voltage(void **state) {
 /* a voltage that changes: the source's share in the balance of energies */
 static void test_energy_of_a_law(void **state) {
     (void)state;
-    static const fw_law sine = {
+    static const fw_quantity_law sine = {
         .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3000};
     fixture f = begin();
-    fw_comb c;
+    fw_device_comb c;
     rig r = plate(&f, &c, 5);
     c.law = &sine;
-    const fw_motion *o = run(&f, &r, 11);
+    const fw_dynamics_motion *o = run(&f, &r, 11);
     double most = 0;
     for (int s = 0; s < 11; s++)
         most = fmax(most, fabs(o->q[3 * s]));

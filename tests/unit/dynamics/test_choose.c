@@ -4,18 +4,18 @@
 #include "quantity/law_kind.h"
 #include "models.h"
 
-static const fw_motion *run_to(fw_arena *arena, const rig *r, const char *integrator,
-                               double accuracy) {
+static const fw_dynamics_motion *run_to(fw_arena *arena, const rig *r, const char *integrator,
+                                        double accuracy) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {
+    fw_dynamics_motion_options o = {
         .integrator = integrator, .accuracy = accuracy, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     return motion;
 }
 
-static const fw_motion *run(fw_arena *arena, const rig *r, const char *integrator) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r, const char *integrator) {
     return run_to(arena, r, integrator, 0);
 }
 
@@ -33,7 +33,7 @@ static rig two_bars(fw_arena *arena, double stiff) {
 static void test_stiff_scenes(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    static fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5e-3};
+    static fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5e-3};
     for (int kind = 0; kind < 3; kind++) {
         rig r = two_bars(arena, 1e6);
         if (kind < 2) rig_torque(&r, 0, 2e-7);
@@ -42,11 +42,11 @@ static void test_stiff_scenes(void **state) {
             rig_velocity(&r, 0, 0, 0.05, 50);
             rig_velocity(&r, 1, 0, 0.15, 50);
         }
-        const fw_motion *m = run(arena, &r, NULL);
+        const fw_dynamics_motion *m = run(arena, &r, NULL);
         assert_string_equal(m->integrator, "radau5");
         assert_non_null(strstr(m->reason, "stiff, "));
         assert_true(m->stats.steps < 5000);
-        const fw_motion *same = run(arena, &r, "generalised-alpha");
+        const fw_dynamics_motion *same = run(arena, &r, "generalised-alpha");
         assert_near(m->peak[0].angle_rad, same->peak[0].angle_rad,
                     m->peak[0].error_rad + same->peak[0].error_rad);
     }
@@ -60,11 +60,11 @@ static void test_ordinary_scenes(void **state) {
                    rig_windows(arena, 3)};
     rig_torque(&some[0], 0, 2e-7);
     for (int i = 0; i < 4; i++) {
-        const fw_motion *m = run(arena, &some[i], NULL);
+        const fw_dynamics_motion *m = run(arena, &some[i], NULL);
         assert_string_equal(m->integrator, "dop853");
         assert_non_null(strstr(m->reason, "not stiff"));
     }
-    const fw_motion *m = run(arena, &some[0], "dopri5");
+    const fw_dynamics_motion *m = run(arena, &some[0], "dopri5");
     assert_string_equal(m->reason, "asked for");
     fw_arena_free(arena);
 }
@@ -80,9 +80,9 @@ static void test_the_border(void **state) {
             rig r = two_bars(arena, pow(10, k));
             rig_torque(&r, 0, 2e-7);
             double accuracy = tight ? 1e-8 : 1e-3;
-            const fw_motion *m = run_to(arena, &r, NULL, accuracy);
-            const fw_motion *a = run_to(arena, &r, "dop853", accuracy);
-            const fw_motion *b = run_to(arena, &r, "radau5", accuracy);
+            const fw_dynamics_motion *m = run_to(arena, &r, NULL, accuracy);
+            const fw_dynamics_motion *a = run_to(arena, &r, "dop853", accuracy);
+            const fw_dynamics_motion *b = run_to(arena, &r, "radau5", accuracy);
             long least = a->stats.rhs < b->stats.rhs ? a->stats.rhs : b->stats.rhs;
             assert_true(m->stats.rhs <= 2 * least);
             if (k < (tight ? 3 : 2)) assert_string_equal(m->integrator, "dop853");
@@ -103,9 +103,9 @@ static void test_what_is_not_excited(void **state) {
         r.m.pin[0].damping_Nms_per_rad = damped ? 1e-8 : 0;
         r.m.pin[1].damping_Nms_per_rad = 0;
         r.scene.duration_s = 1;
-        const fw_motion *m = run(arena, &r, NULL);
+        const fw_dynamics_motion *m = run(arena, &r, NULL);
         assert_string_equal(m->integrator, "radau5");
-        const fw_motion *explicit_ = run(arena, &r, "dop853");
+        const fw_dynamics_motion *explicit_ = run(arena, &r, "dop853");
         assert_true(2 * m->stats.steps < explicit_->stats.steps);
         assert_true(m->stats.rhs <= run(arena, &r, "radau5")->stats.rhs);
         if (!damped) assert_non_null(strstr(m->reason, "tried"));
@@ -122,7 +122,7 @@ static void test_a_trial_that_loses(void **state) {
     for (uint64_t seed = 1; seed < 60 && tried < 2; seed++) {
         rig r = rig_any(arena, seed);
         r.scene.duration_s *= 10;
-        const fw_motion *m = run(arena, &r, NULL), *other = run(arena, &r, "dop853");
+        const fw_dynamics_motion *m = run(arena, &r, NULL), *other = run(arena, &r, "dop853");
         if (strcmp(m->integrator, "dop853") != 0 || m->stats.runs <= other->stats.runs) continue;
         tried++;
         assert_int_equal(m->stats.runs, other->stats.runs + 1);

@@ -6,8 +6,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-static void find(fw_arena *arena, const rig *r, fw_envelope *e) {
-    assert_int_equal(fw_envelope_find(arena, &r->m, &r->scene, e), FW_OK);
+static void find(fw_arena *arena, const rig *r, fw_effects_envelope *e) {
+    assert_int_equal(fw_effects_envelope_find(arena, &r->m, &r->scene, e), FW_OK);
 }
 
 /* a bar pinned at one end: omega^2 = k/J, J about the pin; J shape_phi^2 = 1 */
@@ -25,7 +25,7 @@ static void one_mode(void **state) {
     fw_arena *arena = fw_arena_new(0);
     const double k = 1e-6, j = 3e-15 + 2e-8 * 1e-6, torque = 2e-9;
     rig r = lever(arena, k, 0, torque);
-    fw_envelope e;
+    fw_effects_envelope e;
     find(arena, &r, &e);
     assert_true(e.valid && e.modes == 1 && e.n == 3);
     double omega = sqrt(k / j);
@@ -43,9 +43,9 @@ static void one_mode(void **state) {
     /* one more torque of a tenth, for good or with the motion */
     const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
     const double more[3] = {0, 0, 0.1 * torque};
-    double answer = fw_envelope_answer(&c, more, 1);
+    double answer = fw_effects_envelope_answer(&c, more, 1);
     assert_true(answer >= 0.1 && answer < 0.12);
-    double swinging = fw_envelope_answer(&c, more, (double)INFINITY);
+    double swinging = fw_effects_envelope_answer(&c, more, (double)INFINITY);
     /* in step with it: int |sin w t|, of two whole arches and a part of the third */
     double arches = omega * 1e-3 - 2 * pi;
     assert_true(arches > 0 && arches < pi);
@@ -58,7 +58,7 @@ static void short_scene(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = lever(arena, 1e-6, 0, 2e-9);
-    fw_envelope e;
+    fw_effects_envelope e;
     for (double share = 0.05; share < 1; share += 0.1) {
         r.scene.duration_s = share * pi / sqrt(1e-6 / (3e-15 + 2e-8 * 1e-6));
         find(arena, &r, &e);
@@ -82,7 +82,7 @@ static void two_modes(void **state) {
     rig_pin(&r, "B", 0, 1, l, 0, 4, 0);
     rig_torque(&r, 1, 0.1);
     r.scene.duration_s = 5;
-    fw_envelope e;
+    fw_effects_envelope e;
     find(arena, &r, &e);
     assert_true(e.valid && e.modes == 2);
     /* in the bodies' turns: M = [jc + m l^2/4 + m l^2, m l^2/2; ., jc + m l^2/4] */
@@ -112,17 +112,17 @@ static void where_it_says_nothing(void **state) {
             rig_torque(&r, 0, 1e-9);
             r.scene.duration_s = 1e-3;
         }
-        fw_driver driver = {.joint = 0, .tie = FW_NONE};
+        fw_device_driver driver = {.revolute = 0, .joint = FW_NONE};
         if (i == 3) r.m.driver = &driver, r.m.ndriver = 1;
         if (i == 4) r.scene.torque[0].value_Nm = 1e-6;
-        fw_envelope e;
+        fw_effects_envelope e;
         find(arena, &r, &e);
         assert_false(e.valid);
         assert_non_null(e.why_not);
         if (!strstr(e.why_not, why[i])) fail_msg("%s: %s", why[i], e.why_not);
         const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
-        assert_true(isinf(fw_envelope_answer(&c, NULL, 1)));
-        assert_true(isinf(fw_envelope_stiffness(&c, 1e-9)));
+        assert_true(isinf(fw_effects_envelope_answer(&c, NULL, 1)));
+        assert_true(isinf(fw_effects_envelope_stiffness(&c, 1e-9)));
     }
     fw_arena_free(arena);
 }
@@ -134,7 +134,7 @@ typedef struct seen { /* largest over a run */
     double reach[60], angle[40], force[40];
 } seen;
 
-static void see(void *context, const fw_instant *at) {
+static void see(void *context, const fw_dynamics_instant *at) {
     seen *s = context;
     if (!at) return;
     for (int b = 0; b < s->m->nbody; b++) {
@@ -148,16 +148,16 @@ static void see(void *context, const fw_instant *at) {
     }
 }
 
-static const fw_motion *run(fw_arena *arena, const rig *r, seen *s, double *rate) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r, seen *s, double *rate) {
     enum { SAMPLES = 400 };
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *m = NULL;
-    const fw_motion_options o = {.rtol = 1e-9,
-                                 .samples = SAMPLES,
-                                 .effects = {.mode = FW_EFFECTS_ALL},
-                                 .observe = s ? see : NULL,
-                                 .context = s};
-    assert_int_equal(fw_simulate(arena, &r->m, &r->scene, &o, &diags, &m), FW_OK);
+    const fw_dynamics_motion *m = NULL;
+    const fw_dynamics_motion_options o = {.rtol = 1e-9,
+                                          .samples = SAMPLES,
+                                          .effects = {.mode = FW_EFFECTS_ALL},
+                                          .observe = s ? see : NULL,
+                                          .context = s};
+    assert_int_equal(fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &m), FW_OK);
     for (int k = 0; rate && k < SAMPLES; k++)
         for (int i = 0; i < r->m.npin; i++) {
             int a = r->m.pin[i].body_a, b = r->m.pin[i].body_b;
@@ -187,7 +187,7 @@ static void holds_every_run(void **state) {
     for (uint64_t seed = 500; seed < 800; seed++) {
         fw_arena *arena = fw_arena_new(0);
         bounds_device d;
-        fw_envelope e;
+        fw_effects_envelope e;
         if (bounds_make(arena, seed, &d)) {
             for (int i = 0; i < d.r.m.npin; i++)
                 d.r.m.pin[i].stop_stiffness_Nm_per_rad = 0;
@@ -196,7 +196,7 @@ static void holds_every_run(void **state) {
             if (e.valid) {
                 seen s = {.m = &d.r.m};
                 double rate[40] = {0}, peak = 0;
-                const fw_motion *m = run(arena, &d.r, &s, rate);
+                const fw_dynamics_motion *m = run(arena, &d.r, &s, rate);
                 for (int i = 0; i < m->npin; i++)
                     peak = fmax(peak, fabs(m->peak[i].angle_rad));
                 valid++;
@@ -225,7 +225,7 @@ static void stiffness_changes(void **state) {
     for (uint64_t seed = 2000; seed < 2200; seed++) {
         fw_arena *arena = fw_arena_new(0);
         bounds_device d;
-        fw_envelope e;
+        fw_effects_envelope e;
         uint64_t more = seed;
         if (bounds_make(arena, seed, &d)) {
             for (int i = 0; i < d.r.m.npin; i++)
@@ -236,13 +236,13 @@ static void stiffness_changes(void **state) {
                 double part = bounds_log(&more, 1e-6, 0.1), unknown;
                 bool same = rig_random(&more) < 0.5;
                 const fw_effect_case c = {arena, &d.r.m, &d.r.scene, &e, NULL};
-                double bound = fw_envelope_stiffness(&c, part);
-                const fw_motion *before = run(arena, &d.r, NULL, NULL);
+                double bound = fw_effects_envelope_stiffness(&c, part);
+                const fw_dynamics_motion *before = run(arena, &d.r, NULL, NULL);
                 for (int i = 0; i < d.r.m.npin; i++)
                     d.r.m.pin[i].stiffness_Nm_per_rad *=
                         1 + part * (same ? 1 : 2 * rig_random(&more) - 1);
-                for (int i = 0; i < d.r.m.ntie; i++)
-                    d.r.m.tie[i].stiffness_N_per_m *= 1 + (same ? part : 0);
+                for (int i = 0; i < d.r.m.njoint; i++)
+                    d.r.m.joint[i].stiffness_N_per_m *= 1 + (same ? part : 0);
                 double change = bounds_apart(before, run(arena, &d.r, NULL, NULL), &unknown);
                 valid++;
                 if (change > bound + unknown) {
@@ -264,13 +264,13 @@ static void softening(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = lever(arena, 1e-6, 0, 2e-9);
-    fw_envelope e;
+    fw_effects_envelope e;
     find(arena, &r, &e);
     const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
     for (int sign = -1; sign <= 1; sign += 2) {
         const double weight[3] = {sign * 3e-6, 0, 0};
         double part;
-        assert_int_equal(fw_envelope_softening(&c, weight, &part), FW_OK);
+        assert_int_equal(fw_effects_envelope_softening(&c, weight, &part), FW_OK);
         assert_near(part, 2 * 3e-6 * 1e-3 / 1e-6, 1e-6 * part);
     }
     fw_arena_free(arena);

@@ -2,11 +2,12 @@
 /* Stops and cables: events found on the dense output, against closed forms. */
 #include "models.h"
 
-static const fw_motion *run(fw_arena *arena, const rig *r, double rtol, int samples) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r, double rtol, int samples) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = rtol, .samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    fw_dynamics_motion_options o = {
+        .rtol = rtol, .samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     return motion;
 }
@@ -18,7 +19,7 @@ static const double PI = 3.14159265358979323846;
 static rig rotor(fw_arena *arena, double c) {
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "rotor", 1, J, 0, 0, 0);
-    fw_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
+    fw_mechanism_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     p->stop_min_rad = -0.3, p->stop_max_rad = 0.3;
     p->stop_stiffness_Nm_per_rad = 1e4, p->stop_damping_Nms_per_rad = c;
     rig_velocity(&r, 0, 0, 0, 2);
@@ -32,7 +33,7 @@ static void test_elastic_stops(void **state) {
     rig r = rotor(arena, 0);
     double period = 2 * (0.3 + PI / 100);
     r.scene.duration_s = 50 * period;
-    const fw_motion *m = run(arena, &r, 1e-12, 201);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12, 201);
     for (int k = 0; k < 201; k += 4) {
         assert_near(m->q[3 * k + 2], 0, 1e-9); /* 200 events, some rtol each */
         assert_near(m->v[3 * k + 2], 2, 1e-9);
@@ -53,7 +54,7 @@ static void test_damped_stop(void **state) {
     double wd = w * sqrt(1 - z * z), contact = atan2(2 * z * sqrt(1 - z * z), 2 * z * z - 1) / wd;
     double left = 2 * exp(-z * w * contact);
     r.scene.duration_s = 0.15 + contact + 0.2;
-    const fw_motion *m = run(arena, &r, 1e-12, 2);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12, 2);
     /* where it lets go: k g = c left */
     double g = 2 * z * w * left / (w * w);
     assert_near(m->v[3 + 2], -left, 1e-10);
@@ -73,7 +74,7 @@ static void test_grazing(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_new(arena, 1, 1, 0);
         rig_body(&r, "bar", 1e-6, 1e-12, 1e-3, 0, 0);
-        fw_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, k, 0);
+        fw_mechanism_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, k, 0);
         p->stop_min_rad = (double)NAN, p->stop_max_rad = 2 * amplitude * (1 - share);
         p->stop_stiffness_Nm_per_rad = stop;
         rig_torque(&r, 0, amplitude * k);
@@ -84,7 +85,7 @@ static void test_grazing(void **state) {
                arc = 2 * atan2(v / wk, -rest);
         double period = 2 * touch + arc / wk, t = fmod(r.scene.duration_s, period);
         t = fmin(t, period - t);
-        const fw_motion *m = run(arena, &r, 1e-10, 2);
+        const fw_dynamics_motion *m = run(arena, &r, 1e-10, 2);
         assert_int_equal(m->stats.events, 4);
         assert_near(m->peak[0].angle_rad, at + rest + hypot(rest, v / wk), m->peak[0].error_rad);
         /* the time of a touch is known to the tolerance over its speed, which falls with
@@ -102,18 +103,18 @@ static void test_cable(void **state) {
     rig r = rig_new(arena, 1, 1, 1);
     rig_body(&r, "weight", 1, 1, 0, -2, 0);
     r.m.npin = 0;
-    r.m.tie = fw_arena_array(arena, fw_tie, 1);
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "guide",
-                                   .kind = FW_TIE_PRISMATIC,
-                                   .body_a = FW_GROUND,
-                                   .body_b = 0,
-                                   .axis_rad = PI / 2};
-    r.m.spring[r.m.nspring++] = (fw_spring){.id = "cable",
-                                            .body_a = FW_GROUND,
-                                            .body_b = 0,
-                                            .stiffness_N_per_m = k,
-                                            .length_m = 2,
-                                            .cable = true};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "guide",
+                                                .kind = FW_JOINT_PRISMATIC,
+                                                .body_a = FW_GROUND,
+                                                .body_b = 0,
+                                                .axis_rad = PI / 2};
+    r.m.spring[r.m.nspring++] = (fw_device_spring){.id = "cable",
+                                                   .body_a = FW_GROUND,
+                                                   .body_b = 0,
+                                                   .stiffness_N_per_m = k,
+                                                   .length_m = 2,
+                                                   .cable = true};
     rig_velocity(&r, 0, 0, v, 0);
     r.scene.gravity = true;
     r.scene.gy_m_per_s2 = -g;
@@ -121,7 +122,7 @@ static void test_cable(void **state) {
        2 atan2(v w, -g)... of tan(wt/2) = -v w / g */
     double taut = 2 * (PI - atan(v * w / g)) / w;
     r.scene.duration_s = 3 * (2 * v / g + taut);
-    const fw_motion *m = run(arena, &r, 1e-12, 4);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12, 4);
     for (int i = 0; i < 4; i++) {
         assert_near(m->q[3 * i + 1], -2, 1e-10);
         assert_near(m->v[3 * i + 1], v, 1e-9);
@@ -137,9 +138,9 @@ static void test_force_peak(void **state) {
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_pendulum(arena);
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = 1e-11, .reactions = true};
-    const fw_motion *m = NULL;
-    assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
+    fw_dynamics_motion_options o = {.rtol = 1e-11, .reactions = true};
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
     /* released horizontally: w^2 = 2 m g l / (J + m l^2) at the bottom */
     double w2 = 2 * 9.81 * 0.5 / 0.5, most = 9.81 + w2 * 0.5;
     assert_near(m->force_peak[0].force_N, most, 1e-9);

@@ -7,37 +7,38 @@
 
 static const double PI = 3.14159265358979323846, NOT = (double)NAN;
 
-static const fw_motion *run_by(fw_arena *arena, const rig *r, const char *method,
-                               const char *integrator, double rtol, int samples) {
+static const fw_dynamics_motion *run_by(fw_arena *arena, const rig *r, const char *method,
+                                        const char *integrator, double rtol, int samples) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.method = method,
-                           .integrator = integrator,
-                           .rtol = rtol,
-                           .samples = samples,
-                           .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    fw_dynamics_motion_options o = {.method = method,
+                                    .integrator = integrator,
+                                    .rtol = rtol,
+                                    .samples = samples,
+                                    .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     return motion;
 }
 
-static const fw_motion *run(fw_arena *arena, const rig *r, double rtol, int samples) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r, double rtol, int samples) {
     return run_by(arena, r, NULL, "dop853", rtol, samples);
 }
 
-static fw_friction_use *rub(fw_arena *arena, rig *r, int joint, int tie, double mu_s, double mu_k) {
-    if (!r->scene.friction) r->scene.friction = fw_arena_array(arena, fw_friction_use, 16);
-    fw_friction_use *u = &r->scene.friction[r->scene.nfriction++];
-    *u = (fw_friction_use){
-        .joint = joint, .tie = tie, .coefficient = mu_k, .static_coefficient = mu_s};
+static fw_device_friction_use *rub(fw_arena *arena, rig *r, int revolute, int joint, double mu_s,
+                                   double mu_k) {
+    if (!r->scene.friction) r->scene.friction = fw_arena_array(arena, fw_device_friction_use, 16);
+    fw_device_friction_use *u = &r->scene.friction[r->scene.nfriction++];
+    *u = (fw_device_friction_use){
+        .revolute = revolute, .joint = joint, .coefficient = mu_k, .static_coefficient = mu_s};
     return u;
 }
 
-static fw_tie *slide(fw_arena *arena, rig *r, int a, int b, double axis) {
-    if (!r->m.tie) r->m.tie = fw_arena_array(arena, fw_tie, 8);
-    fw_tie *t = &r->m.tie[r->m.ntie++];
-    *t = (fw_tie){
-        .id = "slide", .kind = FW_TIE_PRISMATIC, .body_a = a, .body_b = b, .axis_rad = axis};
+static fw_device_joint *slide(fw_arena *arena, rig *r, int a, int b, double axis) {
+    if (!r->m.joint) r->m.joint = fw_arena_array(arena, fw_device_joint, 8);
+    fw_device_joint *t = &r->m.joint[r->m.njoint++];
+    *t = (fw_device_joint){
+        .id = "slide", .kind = FW_JOINT_PRISMATIC, .body_a = a, .body_b = b, .axis_rad = axis};
     return t;
 }
 
@@ -69,7 +70,7 @@ static void test_incline(void **state) {
         double n = MASS * G * cos(TILT) + preload, up = G * sin(TILT) + mu_k * n / MASS;
         double down = G * sin(TILT) - mu_k * n / MASS, stop = v / up, top = v * v / (2 * up);
         assert_true((mu_s * n > MASS * G * sin(TILT)) == holds);
-        const fw_motion *m = run(arena, &r, 1e-12, 101);
+        const fw_dynamics_motion *m = run(arena, &r, 1e-12, 101);
         for (int k = 0; k < 101; k++) {
             double t = m->t_s[k], after = t - stop, s = v * t - up * t * t / 2, rate = v - up * t;
             if (after > 0) {
@@ -95,7 +96,7 @@ static void test_at_the_limit(void **state) {
         double mu = tan(TILT) / share[k];
         rig r = incline(arena, NOT, mu, 0, 0);
         double down = fmax(0, G * sin(TILT) - mu * G * cos(TILT));
-        const fw_motion *m = run(arena, &r, 1e-12, 2);
+        const fw_dynamics_motion *m = run(arena, &r, 1e-12, 2);
         assert_near(m->q[3], -down * 2 * cos(TILT), 1e-11);
         assert_int_equal(m->stats.events, 0);
         assert_true(m->stats.steps < 30);
@@ -123,7 +124,7 @@ static void test_dying_swings(void **state) {
         half++;
     }
     assert_true(half > 4);
-    const fw_motion *m = run(arena, &r, 1e-12, 401);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12, 401);
     for (int i = 0; i < 401; i++) {
         double t = m->t_s[i], now = x0, want;
         int swing = (int)(t / (PI / w));
@@ -159,12 +160,12 @@ static void belt_new(fw_arena *arena, belt *b, double mu_s, double mu_k, double 
     slide(arena, r, 0, 1, 0);
     rig_velocity(r, 0, v, 0, 0);
     rig_velocity(r, 1, v, 0, 0);
-    r->m.spring[r->m.nspring++] = (fw_spring){.id = "tie",
-                                              .body_a = FW_GROUND,
-                                              .body_b = 1,
-                                              .ax_m = -reach,
-                                              .stiffness_N_per_m = k,
-                                              .length_m = reach};
+    r->m.spring[r->m.nspring++] = (fw_device_spring){.id = "tie",
+                                                     .body_a = FW_GROUND,
+                                                     .body_b = 1,
+                                                     .ax_m = -reach,
+                                                     .stiffness_N_per_m = k,
+                                                     .length_m = reach};
     r->scene.gravity = true;
     r->scene.gy_m_per_s2 = -10;
     rub(arena, r, FW_NONE, 1, mu_s, mu_k);
@@ -176,12 +177,13 @@ static void belt_new(fw_arena *arena, belt *b, double mu_s, double mu_k, double 
     r->scene.duration_s = b->first + cycles * b->period;
     b->t[0] = 0, b->t[1] = 2 * r->scene.duration_s;
     b->x[0] = 0, b->x[1] = v * b->t[1];
-    r->m.driver = fw_arena_array(arena, fw_driver, 1);
-    r->m.driver[r->m.ndriver++] = (fw_driver){
+    r->m.driver = fw_arena_array(arena, fw_device_driver, 1);
+    r->m.driver[r->m.ndriver++] = (fw_device_driver){
         .id = "motor",
-        .joint = FW_NONE,
-        .tie = 0,
-        .law = {.kind = &fw_quantity_law_table, .table_t_s = b->t, .table_value = b->x, .ntable = 2}};
+        .revolute = FW_NONE,
+        .joint = 0,
+        .law = {
+            .kind = &fw_quantity_law_table, .table_t_s = b->t, .table_value = b->x, .ntable = 2}};
 }
 
 /* 20 cycles: after each the mass lets go at x_s with the belt's speed */
@@ -195,7 +197,7 @@ static void test_stick_slip(void **state) {
         double n = 4, xs = mu_s * n / 40, xk = mu_k * n / 40, d = xs - xk, w = 10;
         double slips = 2 * (PI - atan(d * w / v)) / w;
         if (c) b.r.scene.duration_s += 0.25 * b.period;
-        const fw_motion *m = run(arena, &b.r, 1e-12, 501);
+        const fw_dynamics_motion *m = run(arena, &b.r, 1e-12, 501);
         for (int i = 0; i < 501; i++) {
             double t = m->t_s[i] - b.first, want = xs + v * t, rate = v;
             if (t > 0) t -= b.period * floor(t / b.period), want = xk - d + v * (t - slips);
@@ -306,7 +308,7 @@ static void test_pendulum(void **state) {
         fw_arena *arena = fw_arena_new(0);
         swing s;
         rig r = pendulum(arena, &s);
-        const fw_motion *m = run(arena, &r, rtol[c], 121);
+        const fw_dynamics_motion *m = run(arena, &r, rtol[c], 121);
         off[c] = 0;
         for (int k = 0; k < 121; k++) {
             if (k) swing_to(&s, m->t_s[k - 1], m->t_s[k]);
@@ -342,10 +344,11 @@ static void test_all_methods(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = four_bar(arena);
-    const fw_motion *first = NULL;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
-        const fw_motion *m = run_by(arena, &r, fw_method_at(k).name, "dop853", 1e-12, 41);
-        print_message("%s: %ld events, %ld steps, energy %.1e\n", fw_method_at(k).name,
+    const fw_dynamics_motion *first = NULL;
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
+        const fw_dynamics_motion *m =
+            run_by(arena, &r, fw_multibody_method_at(k).name, "dop853", 1e-12, 41);
+        print_message("%s: %ld events, %ld steps, energy %.1e\n", fw_multibody_method_at(k).name,
                       m->stats.events, m->stats.steps, m->stats.energy_error);
         assert_true(m->stats.energy_error < 1e-11);
         for (int i = 0; i < 9; i++)
@@ -365,14 +368,14 @@ static void test_all_methods(void **state) {
 
 static void test_all_integrators(void **state) {
     (void)state;
-    for (size_t k = 1; fw_integrator_at(k).name; k++) {
+    for (size_t k = 1; fw_dynamics_integrator_at(k).name; k++) {
         fw_arena *arena = fw_arena_new(0);
         swing s;
         rig r = pendulum(arena, &s);
         r.scene.duration_s = 8;
         swing_to(&s, 0, 8);
-        const char *name = fw_integrator_at(k).name;
-        const fw_motion *m = run_by(arena, &r, NULL, name, 1e-9, 2);
+        const char *name = fw_dynamics_integrator_at(k).name;
+        const fw_dynamics_motion *m = run_by(arena, &r, NULL, name, 1e-9, 2);
         print_message("%s: off %.1e, %ld events, %ld steps\n", name, m->q[5] - s.phi,
                       m->stats.events, m->stats.steps);
         assert_int_equal(m->stats.events, s.stops);
@@ -390,12 +393,12 @@ static void test_two_at_once(void **state) {
     rig r = rig_new(arena, 2, 0, 0);
     for (int i = 0; i < 2; i++) {
         rig_body(&r, "mass", 0.5, 1, i ? -0.37 : 0.37, i, 0);
-        fw_tie *t = slide(arena, &r, FW_GROUND, i, 0);
+        fw_device_joint *t = slide(arena, &r, FW_GROUND, i, 0);
         t->stiffness_N_per_m = 50, t->ay_m = i;
         rub(arena, &r, FW_NONE, i, 0.5, 0.4)->preload_N = 3;
     }
     r.scene.duration_s = 4;
-    const fw_motion *m = run(arena, &r, 1e-12, 41);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12, 41);
     for (int k = 0; k < 41; k++)
         assert_near(m->q[6 * k], -m->q[6 * k + 3], 1e-11);
     assert_true(m->stats.events >= 7 && m->stats.events <= 14);
@@ -418,9 +421,9 @@ static void test_jam(void **state) {
         r.scene.duration_s = 1;
         rub(arena, &r, 0, FW_NONE, NOT, 0.7)->radius_m = jams ? 0.96 : 0.95;
         fw_diags diags = fw_diags_new(arena);
-        fw_motion_options o = {.effects = {.mode = FW_EFFECTS_ALL}};
-        const fw_motion *m = NULL;
-        fw_status status = fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m);
+        fw_dynamics_motion_options o = {.effects = {.mode = FW_EFFECTS_ALL}};
+        const fw_dynamics_motion *m = NULL;
+        fw_status status = fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m);
         assert_int_equal(status, jams ? FW_SOLVER : FW_OK);
         assert_true((diags.count > 0 && diags.item[0].number == 244) == jams);
         fw_arena_free(arena);
@@ -439,17 +442,18 @@ static void test_jams_on_the_way(void **state) {
     rig_body(&r, "B", 25, 1, 0, y0, 0);
     slide(arena, &r, FW_GROUND, 0, 0);
     slide(arena, &r, FW_GROUND, 1, PI / 2);
-    fw_tie *rod = slide(arena, &r, 0, 1, 0);
-    *rod = (fw_tie){.id = "rod", .kind = FW_TIE_DISTANCE, .body_a = 0, .body_b = 1, .length_m = 1};
+    fw_device_joint *rod = slide(arena, &r, 0, 1, 0);
+    *rod = (fw_device_joint){
+        .id = "rod", .kind = FW_JOINT_DISTANCE, .body_a = 0, .body_b = 1, .length_m = 1};
     rig_velocity(&r, 0, -1, 0, 0);
     rig_velocity(&r, 1, 0, x0 / y0, 0);
     rig_force(&r, 0, -3, 0);
     rub(arena, &r, FW_NONE, 0, NOT, 0.8)->preload_N = 0.1;
     r.scene.duration_s = 2;
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = 1e-10, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *m = NULL;
-    assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_SOLVER);
+    fw_dynamics_motion_options o = {.rtol = 1e-10, .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_SOLVER);
     assert_int_equal(diags.item[0].number, 244);
     const char *at = strstr(diags.item[0].message, "unique value at ");
     assert_non_null(at);

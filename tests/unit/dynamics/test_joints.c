@@ -3,27 +3,30 @@
 #include "quantity/law_kind.h"
 #include "models.h"
 
-static const fw_motion *run(fw_arena *arena, const rig *r, double rtol) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r, double rtol) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = rtol, .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    fw_dynamics_motion_options o = {
+        .rtol = rtol, .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     assert_true(motion->stats.max_constraint_norm < 1e-12);
     return motion;
 }
 
-static fw_tie *rig_tie(fw_arena *arena, rig *r, fw_tie_kind kind, int a, int b) {
-    if (!r->m.tie) r->m.tie = fw_arena_array(arena, fw_tie, 8);
-    fw_tie *t = &r->m.tie[r->m.ntie++];
-    *t = (fw_tie){.id = "tie", .kind = kind, .body_a = a, .body_b = b};
+static fw_device_joint *rig_joint(fw_arena *arena, rig *r, fw_device_joint_kind kind, int a,
+                                  int b) {
+    if (!r->m.joint) r->m.joint = fw_arena_array(arena, fw_device_joint, 8);
+    fw_device_joint *t = &r->m.joint[r->m.njoint++];
+    *t = (fw_device_joint){.id = "tie", .kind = kind, .body_a = a, .body_b = b};
     return t;
 }
 
-static fw_driver *rig_driver(fw_arena *arena, rig *r, int joint, int tie, fw_law law) {
-    if (!r->m.driver) r->m.driver = fw_arena_array(arena, fw_driver, 4);
-    fw_driver *d = &r->m.driver[r->m.ndriver++];
-    *d = (fw_driver){.id = "driver", .joint = joint, .tie = tie, .law = law};
+static fw_device_driver *rig_driver(fw_arena *arena, rig *r, int revolute, int joint,
+                                    fw_quantity_law law) {
+    if (!r->m.driver) r->m.driver = fw_arena_array(arena, fw_device_driver, 4);
+    fw_device_driver *d = &r->m.driver[r->m.ndriver++];
+    *d = (fw_device_driver){.id = "driver", .revolute = revolute, .joint = joint, .law = law};
     return d;
 }
 
@@ -33,12 +36,12 @@ static void test_rod_is_the_pendulum(void **state) {
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_new(arena, 1, 0, 0);
     rig_body(&r, "bob", 1, 0.3, -1, 0, 0);
-    rig_tie(arena, &r, FW_TIE_DISTANCE, FW_GROUND, 0)->length_m = 1;
+    rig_joint(arena, &r, FW_JOINT_DISTANCE, FW_GROUND, 0)->length_m = 1;
     rig_velocity(&r, 0, 0, 0, 0.25);
     r.scene.gravity = true;
     r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 10;
-    const fw_motion *m = run(arena, &r, 1e-13);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-13);
     const double *q = m->q + 3 * (m->nsample - 1);
     assert_near(q[0], -0.2750874625761168600544, 1e-11); /* elliptic functions, 22 digits */
     assert_near(q[1], -0.9614192050991250642651, 1e-11);
@@ -46,7 +49,7 @@ static void test_rod_is_the_pendulum(void **state) {
     assert_true(m->stats.energy_error < 1e-12);
     /* the rod pulls with m g sin + m v^2 / L = 3 m g (-y) */
     double pull = 3 * 9.81 * 0.9614192050991250642651, x = q[0], y = q[1];
-    const double *f = m->tie_N + 3 * (m->nsample - 1);
+    const double *f = m->joint_N + 3 * (m->nsample - 1);
     assert_near(f[0], -pull * x, 1e-9);
     assert_near(f[1], -pull * y, 1e-9);
     assert_near(f[2], 0, 1e-12);
@@ -61,8 +64,8 @@ static void test_weld_is_one_body(void **state) {
     rig_body(&two, "p", 1, 0.1, 0.5, 0, 0.2);
     rig_body(&two, "q", 3, 0.4, 1.1, 0.4, -0.3);
     rig_pin(&two, "O", FW_GROUND, 0, 0, 0, 0, 0);
-    fw_tie *t = rig_tie(arena, &two, FW_TIE_WELD, 0, 1);
-    const fw_mass *p = &two.m.body[0], *q = &two.m.body[1];
+    fw_device_joint *t = rig_joint(arena, &two, FW_JOINT_WELD, 0, 1);
+    const fw_mechanism_mass *p = &two.m.body[0], *q = &two.m.body[1];
     double dx = q->x_m - p->x_m, dy = q->y_m - p->y_m; /* welded at the centre of q */
     t->ax_m = cos(0.2) * dx + sin(0.2) * dy, t->ay_m = -sin(0.2) * dx + cos(0.2) * dy;
     t->angle_rad = -0.5;
@@ -76,12 +79,12 @@ static void test_weld_is_one_body(void **state) {
         both[i]->scene.gy_m_per_s2 = -9.81;
         both[i]->scene.duration_s = 5;
     }
-    const fw_motion *a = run(arena, &two, 1e-13), *b = run(arena, &one, 1e-13);
+    const fw_dynamics_motion *a = run(arena, &two, 1e-13), *b = run(arena, &one, 1e-13);
     for (int k = 0; k < a->nsample; k++) {
         assert_near(a->q[6 * k + 2] - 0.2, b->q[3 * k + 2], 1e-11);
         assert_near(a->q[6 * k + 5] + 0.3, b->q[3 * k + 2], 1e-11);
         /* the weld carries what q needs: m_q (acceleration - g) and its torque */
-        const double *f = a->tie_N + 3 * k, *acc = a->accel + 6 * k + 3;
+        const double *f = a->joint_N + 3 * k, *acc = a->accel + 6 * k + 3;
         assert_near(f[0], 3 * acc[0], 1e-9);
         assert_near(f[1], 3 * (acc[1] + 9.81), 1e-9);
         assert_near(f[2], 0.4 * acc[2], 1e-9);
@@ -101,19 +104,21 @@ static void test_driven_slider_crank(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "B", 0, 1, radius, 0, 0, 0);
     rig_pin(&r, "P", 1, 2, radius + length, 0, 0, 0);
-    fw_tie *slide = rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 2);
+    fw_device_joint *slide = rig_joint(arena, &r, FW_JOINT_PRISMATIC, FW_GROUND, 2);
     slide->axis_rad = 0;
-    fw_names none = {NULL, 0};
-    fw_expression_error error;
-    fw_program *program;
+    fw_quantity_names none = {NULL, 0};
+    fw_quantity_expression_error error;
+    fw_quantity_program *program;
     const char *text = "500 rad/s * t";
-    assert_int_equal(fw_program_compile(arena, text, strlen(text), &none, (fw_dimension){.rad = 1},
-                                        &program, &error),
+    assert_int_equal(fw_quantity_program_compile(arena, text, strlen(text), &none,
+                                                 (fw_quantity_dimension){.rad = 1}, &program,
+                                                 &error),
                      FW_OK);
-    rig_driver(arena, &r, 0, FW_NONE, (fw_law){.kind = &fw_quantity_law_expression, .program = program});
+    rig_driver(arena, &r, 0, FW_NONE,
+               (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = program});
     r.scene.duration_s = 2e-2;
     rig_velocity(&r, 0, 0, w * radius / 2, w); /* fits: no warning needed */
-    const fw_motion *m = run(arena, &r, 1e-12);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-12);
     for (int k = 0; k < m->nsample; k++) {
         double a = w * m->t_s[k], s = radius * sin(a), root = sqrt(length * length - s * s);
         double x = radius * cos(a) + root;
@@ -143,14 +148,15 @@ static void test_table_law(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     static const double t[4] = {0, 1e-3, 1.5e-3, 4e-3}, g[4] = {0, 2, -1, 0.5};
-    fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 4};
+    fw_quantity_law law = {
+        .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 4};
     rig r = rig_new(arena, 1, 0, 0);
     rig_body(&r, "cart", 1e-8, 1e-14, 0, 0, 0);
-    rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0)->axis_rad = 0.3;
+    rig_joint(arena, &r, FW_JOINT_PRISMATIC, FW_GROUND, 0)->axis_rad = 0.3;
     rig_force(&r, 0, 1e-4 * cos(0.3), 1e-4 * sin(0.3));
     r.scene.force[0].law = &law;
     r.scene.duration_s = 5e-3;
-    const fw_motion *m = run(arena, &r, 1e-10);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-10);
     double area = 0.5e-3 * 2 + 0.25e-3 * (2 - 1) + 1.25e-3 * (-1 + 0.5) + 1e-3 * 0.5;
     const double *v = m->v + 3 * (m->nsample - 1);
     assert_near(hypot(v[0], v[1]), 1e4 * area, 1e-10);
@@ -169,9 +175,10 @@ static void test_ramped_driver(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "K", 0, 1, 1e-3, 0, 1e-6, 0);
     rig_driver(arena, &r, 0, FW_NONE,
-               (fw_law){.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3});
+               (fw_quantity_law){
+                   .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3});
     r.scene.duration_s = 3e-3;
-    const fw_motion *m = run(arena, &r, 1e-11);
+    const fw_dynamics_motion *m = run(arena, &r, 1e-11);
     const double *q = m->q + 6 * (m->nsample - 1);
     assert_near(q[2], 0.5, 1e-14);
     assert_true(m->stats.energy_error < 1e-10);
@@ -192,15 +199,15 @@ static void test_half_redundant(void **state) {
             rig_body(&r[i], "a", 1e-7, inertia, 1e-3, 0, 0);
             rig_body(&r[i], "b", 1e-7, inertia, 3e-3, 0, 0);
             rig_pin(&r[i], "O", FW_GROUND, 0, 0, 0, 1e-6, 0);
-            if (i > 0) rig_tie(arena, &r[i], FW_TIE_WELD, 0, 1)->ax_m = 2e-3;
+            if (i > 0) rig_joint(arena, &r[i], FW_JOINT_WELD, 0, 1)->ax_m = 2e-3;
             if (i != 1) rig_pin(&r[i], "p", 0, 1, 2e-3, 0, 0, 0);
             if (i == 0) rig_pin(&r[i], "q", 0, 1, 3e-3, 1e-3, 0, 0);
             rig_force(&r[i], 1, 0, 5e-5);
             r[i].scene.duration_s = 1e-2;
         }
-        const fw_motion *once = run(arena, &r[1], 1e-12);
+        const fw_dynamics_motion *once = run(arena, &r[1], 1e-12);
         for (int i = 0; i < 3; i += 2) {
-            const fw_motion *m = run(arena, &r[i], 1e-12);
+            const fw_dynamics_motion *m = run(arena, &r[i], 1e-12);
             assert_true(m->stats.steps < 3 * once->stats.steps);
             for (int k = 0; k < 6 * m->nsample; k++) {
                 double unit = k % 3 == 2 ? 1 : 1e-3;
@@ -212,15 +219,15 @@ static void test_half_redundant(void **state) {
     }
 }
 
-static const fw_motion *run_peaks(fw_arena *arena, const rig *r, double moved) {
+static const fw_dynamics_motion *run_peaks(fw_arena *arena, const rig *r, double moved) {
     fw_diags diags = fw_diags_new(arena);
-    fw_motion_options o = {.rtol = 1e-11,
-                           .samples = 2,
-                           .effects = {.mode = FW_EFFECTS_ALL},
-                           .reactions = true,
-                           .moved_m = moved};
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    fw_dynamics_motion_options o = {.rtol = 1e-11,
+                                    .samples = 2,
+                                    .effects = {.mode = FW_EFFECTS_ALL},
+                                    .reactions = true,
+                                    .moved_m = moved};
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     assert_near(motion->stats.assembly_moved_m, moved, 1e-15);
     return motion;
@@ -232,25 +239,25 @@ static void near_peak(double value, double error, double expected) {
 }
 
 /* extremes of what rods, slides, welds and drivers exert, and of travels, against closed forms */
-static void test_peaks_of_ties(void **state) {
+static void test_peaks_of_joints(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_new(arena, 1, 0, 0); /* rod: 3 m g at the bottom, from rest at its level */
     rig_body(&r, "bob", 2, 0.3, -1, 0, 0);
-    rig_tie(arena, &r, FW_TIE_DISTANCE, FW_GROUND, 0)->length_m = 1;
+    rig_joint(arena, &r, FW_JOINT_DISTANCE, FW_GROUND, 0)->length_m = 1;
     r.scene.gravity = true;
     r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 1.5;
-    const fw_motion *m = run_peaks(arena, &r, 0);
-    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 6 * 9.81);
+    const fw_dynamics_motion *m = run_peaks(arena, &r, 0);
+    near_peak(m->joint_peak[0].force_N, m->joint_peak[0].error_N, 6 * 9.81);
     /* a quarter of the period: K(sin(pi/4)) sqrt(l/g), K = 1.8540746773013719 */
-    assert_near(m->tie_peak[0].t_s, 1.8540746773013719 / sqrt(9.81), 1e-5);
-    assert_near(m->tie_peak[0].torque_Nm, 0, 0);
+    assert_near(m->joint_peak[0].t_s, 1.8540746773013719 / sqrt(9.81), 1e-5);
+    assert_near(m->joint_peak[0].torque_Nm, 0, 0);
     assert_near(m->travel_peak[0].travel_m, 0, 0);
 
     r = rig_new(arena, 1, 0, 0); /* a cart on a spring: amplitude v / omega, to the left first */
     rig_body(&r, "cart", 2, 1, 0, 0, 0);
-    fw_tie *t = rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
+    fw_device_joint *t = rig_joint(arena, &r, FW_JOINT_PRISMATIC, FW_GROUND, 0);
     t->stiffness_N_per_m = 50;
     rig_velocity(&r, 0, -1.5, 0, 0);
     r.scene.gravity = true;
@@ -260,18 +267,19 @@ static void test_peaks_of_ties(void **state) {
     m = run_peaks(arena, &r, 3e-6);
     near_peak(-m->travel_peak[0].travel_m, m->travel_peak[0].error_m, 0.3);
     assert_near(m->travel_peak[0].t_s, acos(0.0) / 5, 1e-5);
-    near_peak(m->tie_peak[0].force_N, m->tie_peak[0].error_N, 2 * 9.81);
-    near_peak(m->tie_peak[0].torque_Nm, m->tie_peak[0].torque_error_Nm, 0.7);
+    near_peak(m->joint_peak[0].force_N, m->joint_peak[0].error_N, 2 * 9.81);
+    near_peak(m->joint_peak[0].torque_Nm, m->joint_peak[0].torque_error_Nm, 0.7);
 
     r = rig_new(arena, 3, 1, 0); /* a weld that hangs on a driven cart, a wheel that is driven */
     rig_body(&r, "cart", 2, 1, 0, 0, 0);
     rig_body(&r, "load", 3, 1, 0, 0, 0);
     rig_body(&r, "wheel", 3, 0.4, 5, 0, 0);
     rig_pin(&r, "hub", FW_GROUND, 2, 5, 0, 0, 0);
-    rig_tie(arena, &r, FW_TIE_PRISMATIC, FW_GROUND, 0);
-    rig_tie(arena, &r, FW_TIE_WELD, 0, 1)->by_m = -0.25;
+    rig_joint(arena, &r, FW_JOINT_PRISMATIC, FW_GROUND, 0);
+    rig_joint(arena, &r, FW_JOINT_WELD, 0, 1)->by_m = -0.25;
     r.m.body[1].y_m = 0.25;
-    const fw_law sine = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 2};
+    const fw_quantity_law sine = {
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 2};
     rig_driver(arena, &r, FW_NONE, 0, sine);
     rig_driver(arena, &r, 0, FW_NONE, sine);
     rig_velocity(&r, 0, 4 * acos(-1.0), 0, 0); /* as fast as the laws start */
@@ -280,8 +288,8 @@ static void test_peaks_of_ties(void **state) {
     r.scene.duration_s = 0.45;
     m = run_peaks(arena, &r, 0);
     double most = pow(4 * acos(-1.0), 2); /* of the acceleration: 1 m, 1 rad times omega^2 */
-    near_peak(m->tie_peak[1].force_N, m->tie_peak[1].error_N, 3 * most);
-    near_peak(m->tie_peak[1].torque_Nm, m->tie_peak[1].torque_error_Nm, 3 * most * 0.25);
+    near_peak(m->joint_peak[1].force_N, m->joint_peak[1].error_N, 3 * most);
+    near_peak(m->joint_peak[1].torque_Nm, m->joint_peak[1].torque_error_Nm, 3 * most * 0.25);
     near_peak(m->driver_peak[0].force_N, m->driver_peak[0].error_N, 5 * most);
     assert_near(m->driver_peak[0].torque_Nm, 0, 0);
     near_peak(m->driver_peak[1].torque_Nm, m->driver_peak[1].torque_error_Nm, 0.4 * most);
@@ -294,7 +302,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rod_is_the_pendulum), cmocka_unit_test(test_weld_is_one_body),
         cmocka_unit_test(test_driven_slider_crank), cmocka_unit_test(test_table_law),
-        cmocka_unit_test(test_ramped_driver),       cmocka_unit_test(test_peaks_of_ties),
+        cmocka_unit_test(test_ramped_driver),       cmocka_unit_test(test_peaks_of_joints),
         cmocka_unit_test(test_half_redundant),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

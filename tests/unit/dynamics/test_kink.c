@@ -5,12 +5,12 @@
 #include "dynamics/run.h"
 #include <stdlib.h>
 
-typedef struct kink {
+typedef struct near_zero {
     double centre, width;
-} kink;
+} near_zero;
 
 static void slope(void *context, double t, const double *y, double *f) {
-    const kink *k = context;
+    const near_zero *k = context;
     (void)y;
     f[0] = hypot(t - k->centre, k->width);
 }
@@ -22,20 +22,21 @@ static long double integral(long double x, long double w) {
 }
 
 /* |error| of one step from 0 to 1 */
-static double one_step(const char *name, kink k) {
+static double one_step(const char *name, near_zero k) {
     fw_arena *arena = fw_arena_new(0);
-    const fw_ode ode = {.context = &k, .rhs = slope, .n = 1, .controlled = 1};
+    const fw_maths_ode ode = {.context = &k, .rhs = slope, .n = 1, .controlled = 1};
     const double atol = 1e9, start = 0;
-    fw_stepper *s;
-    assert_int_equal(fw_stepper_new(arena, fw_stepper_find(name), &ode, 1, &atol, &s), FW_OK);
-    fw_stepper_start(s, 0, &start, 1);
+    fw_maths_stepper *s;
+    assert_int_equal(fw_maths_stepper_new(arena, fw_maths_stepper_find(name), &ode, 1, &atol, &s),
+                     FW_OK);
+    fw_maths_stepper_start(s, 0, &start, 1);
     s->h_next = 1;
-    assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+    assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
     assert_true(s->t == 1);
     const long double centre = (long double)k.centre, width = (long double)k.width;
     const long double truth = integral(1 - centre, width) + integral(centre, width);
     double off = (double)fabsl((long double)s->y[0] - truth);
-    fw_stepper_free(s);
+    fw_maths_stepper_free(s);
     fw_arena_free(arena);
     return off;
 }
@@ -50,15 +51,16 @@ static int by_size(const void *a, const void *b) {
 static void bound(const char *name, double median) {
     enum { COUNT = 4000 };
     static double ratio[COUNT];
-    int n = 0, order = fw_stepper_find(name)->order;
+    int n = 0, order = fw_maths_stepper_find(name)->order;
     uint64_t seed = 7;
     for (int c = 0; c < COUNT; c++) {
         double beside = pow(10, -5 + 6.5 * rig_random(&seed)), where = rig_random(&seed);
-        kink k = {.centre = where < 0.5    ? 2 * where
-                            : where < 0.75 ? -beside
-                                           : 1 + beside,
-                  .width = pow(10, -6 + 6.5 * rig_random(&seed))};
-        double most = fw_kink_error(0, 1, k.centre, k.width, order), off = one_step(name, k);
+        near_zero k = {.centre = where < 0.5    ? 2 * where
+                                 : where < 0.75 ? -beside
+                                                : 1 + beside,
+                       .width = pow(10, -6 + 6.5 * rig_random(&seed))};
+        double most = fw_dynamics_near_zero_error(0, 1, k.centre, k.width, order),
+               off = one_step(name, k);
         double rounding = 1e-14 * (2 + fabs(k.centre));
         if (off > most + rounding)
             fail_msg("%s: %.3g at centre %g, width %g where %.3g are allowed", name, off, k.centre,
@@ -87,15 +89,17 @@ static void test_scales(void **state) {
     uint64_t seed = 3;
     for (int c = 0; c < 1000; c++) {
         double a = rig_random(&seed), h = rig_random(&seed), at = 4 * rig_random(&seed) - 2;
-        double w = pow(10, -6 * rig_random(&seed)), unit = fw_kink_error(0, 1, at, w, 8);
-        double moved = fw_kink_error(a, a + h, a + h * at, h * w, 8) / (h * h);
-        double turned = fw_kink_error(0, 1, 1 - at, w, 8);
+        double w = pow(10, -6 * rig_random(&seed)),
+               unit = fw_dynamics_near_zero_error(0, 1, at, w, 8);
+        double moved = fw_dynamics_near_zero_error(a, a + h, a + h * at, h * w, 8) / (h * h);
+        double turned = fw_dynamics_near_zero_error(0, 1, 1 - at, w, 8);
         assert_true(fabs(moved - unit) <= 1e-6 * unit + 1e-18);
         assert_true(fabs(turned - unit) <= 1e-6 * unit + 1e-18);
-        assert_true(fw_kink_error(0, 1, at, 2 * w, 8) <= unit || at <= 0 || at >= 1 || w < 0.1);
+        assert_true(fw_dynamics_near_zero_error(0, 1, at, 2 * w, 8) <= unit || at <= 0 || at >= 1 ||
+                    w < 0.1);
     }
-    assert_true(fw_kink_error(0, 1, 2, 0, 8) == 0); /* a straight line */
-    assert_near(fw_kink_error(0, 1, 0.5, 0, 8), 0.5, 1e-15);
+    assert_true(fw_dynamics_near_zero_error(0, 1, 2, 0, 8) == 0); /* a straight line */
+    assert_near(fw_dynamics_near_zero_error(0, 1, 0.5, 0, 8), 0.5, 1e-15);
 }
 
 int main(void) {

@@ -7,17 +7,17 @@
 
 typedef struct outcome {
     fw_status status;
-    const fw_motion *motion;
+    const fw_dynamics_motion *motion;
     const char *message;
 } outcome;
 
 static outcome run(fw_arena *arena, const rig *r, const char *method, double rtol) {
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
-    fw_motion_options o = {
+    fw_dynamics_motion_options o = {
         .method = method, .rtol = rtol, .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
     outcome out = {0};
-    out.status = fw_simulate(arena, &r->m, &r->scene, &o, diags, &out.motion);
+    out.status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, diags, &out.motion);
     out.message = diags->count ? diags->item[0].message : "";
     return out;
 }
@@ -27,8 +27,8 @@ static bool is(const char *a, const char *b) {
 }
 
 /* largest difference of all samples: lengths over `length`, velocities over their largest */
-static void motions_apart(const fw_motion *a, const fw_motion *b, double length, double *q,
-                          double *v) {
+static void motions_apart(const fw_dynamics_motion *a, const fw_dynamics_motion *b, double length,
+                          double *q, double *v) {
     double speed[2] = {0, 0};
     *q = *v = 0;
     int n = 3 * a->nbody * a->nsample;
@@ -47,15 +47,15 @@ static int compare_all(fw_arena *arena, const rig *r, const char *name, double r
     outcome chain = run(arena, r, "chain", rtol);
     assert_int_equal(chain.status, FW_OK);
     int count = 0;
-    for (size_t k = 1; fw_method_at(k).name; k++) {
-        const char *method = fw_method_at(k).name;
+    for (size_t k = 1; fw_multibody_method_at(k).name; k++) {
+        const char *method = fw_multibody_method_at(k).name;
         outcome other = run(arena, r, method, rtol);
         if (other.status == FW_SOLVER && is(method, "minimal")) {
             assert_non_null(strstr(other.message, "two bodies at a time"));
             continue;
         }
         if (other.status != FW_OK) fail_msg("%s, %s: %s", name, method, other.message);
-        const fw_motion *a = other.motion, *b = chain.motion;
+        const fw_dynamics_motion *a = other.motion, *b = chain.motion;
         double q, v, force = 0, size = 0;
         motions_apart(a, b, length, &q, &v);
         for (int i = 0; i < 2 * a->npin * a->nsample; i++) {
@@ -96,37 +96,38 @@ static void methods_agree_on_other_joints(void **state) {
     rig_body(&r, "flag", 1e-8, 1e-15, 20e-4, 3e-4, 0.2);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 1e-6, 1e-11);
     rig_pin(&r, "B", 0, 1, 4e-4, 0, 1e-6, 0);
-    r.m.tie = fw_arena_array(arena, fw_tie, 4);
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "guide",
-                                   .kind = FW_TIE_PRISMATIC,
-                                   .body_a = FW_GROUND,
-                                   .body_b = 2,
-                                   .axis_rad = 0.1,
-                                   .ax_m = 18e-4,
-                                   .stiffness_N_per_m = 0.02};
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "strut",
-                                   .kind = FW_TIE_DISTANCE,
-                                   .body_a = 1,
-                                   .body_b = 2,
-                                   .ax_m = 2e-4,
-                                   .length_m = 7e-4};
-    r.m.tie[r.m.ntie++] = (fw_tie){.id = "seam",
-                                   .kind = FW_TIE_WELD,
-                                   .body_a = 2,
-                                   .body_b = 3,
-                                   .ax_m = 2e-4,
-                                   .ay_m = 3e-4,
-                                   .angle_rad = 0.2};
+    r.m.joint = fw_arena_array(arena, fw_device_joint, 4);
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "guide",
+                                                .kind = FW_JOINT_PRISMATIC,
+                                                .body_a = FW_GROUND,
+                                                .body_b = 2,
+                                                .axis_rad = 0.1,
+                                                .ax_m = 18e-4,
+                                                .stiffness_N_per_m = 0.02};
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "strut",
+                                                .kind = FW_JOINT_DISTANCE,
+                                                .body_a = 1,
+                                                .body_b = 2,
+                                                .ax_m = 2e-4,
+                                                .length_m = 7e-4};
+    r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "seam",
+                                                .kind = FW_JOINT_WELD,
+                                                .body_a = 2,
+                                                .body_b = 3,
+                                                .ax_m = 2e-4,
+                                                .ay_m = 3e-4,
+                                                .angle_rad = 0.2};
     r.scene.duration_s = 2e-3;
-    fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3};
+    fw_quantity_law law = {
+        .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 3};
     rig_force(&r, 2, 2e-5, 1e-5);
     r.scene.force[0].law = &law;
     assert_int_equal(compare_all(arena, &r, "ties", 1e-12, 1e-3, true, 1e-10), 7);
-    r.m.driver = fw_arena_array(arena, fw_driver, 1);
-    r.m.driver[r.m.ndriver++] = (fw_driver){
+    r.m.driver = fw_arena_array(arena, fw_device_driver, 1);
+    r.m.driver[r.m.ndriver++] = (fw_device_driver){
         .id = "motor",
-        .joint = 0,
-        .tie = FW_NONE,
+        .revolute = 0,
+        .joint = FW_NONE,
         .law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = angle, .ntable = 3}};
     assert_int_equal(compare_all(arena, &r, "driven", 1e-12, 1e-3, true, 1e-10), 7);
     /* a driver whose speed jumps strikes the mechanism, and velocities that contradict the joints
@@ -174,17 +175,17 @@ static void every_method_gives_the_six_bar_table(void **state) {
     }
     fclose(file);
     assert_int_equal(row, 101);
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
-        outcome out = run(arena, &r, fw_method_at(k).name, 1e-13);
+        outcome out = run(arena, &r, fw_multibody_method_at(k).name, 1e-13);
         assert_int_equal(out.status, FW_OK);
         double worst = 0;
         for (int i = 0; i < 11; i++)
             for (int c = 0; c < 15; c++)
                 worst = fmax(worst, fabs(out.motion->q[15 * i + c] / (c % 3 == 2 ? 1 : 1e-3) -
                                          table[10 * i][c]));
-        if (!(worst <= 1e-11)) fail_msg("%s: %.1e", fw_method_at(k).name, worst);
+        if (!(worst <= 1e-11)) fail_msg("%s: %.1e", fw_multibody_method_at(k).name, worst);
         fw_arena_free(arena);
     }
 }
@@ -194,16 +195,16 @@ static void every_method_gives_andrews_squeezer(void **state) {
     (void)state;
     static const double beta = 15.810771195153707097, gamma = 0.040822240119645804858,
                         delta = 0.52440996587995406937, epsilon = 1.0480807410419378731;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_squeezer(arena);
-        outcome out = run(arena, &r, fw_method_at(k).name, 1e-13);
+        outcome out = run(arena, &r, fw_multibody_method_at(k).name, 1e-13);
         assert_int_equal(out.status, FW_OK);
         const double *q = out.motion->q + 21 * 10;
         const double error[] = {q[2] - beta, q[8] - gamma, q[14] - delta, q[20] - epsilon};
         for (int i = 0; i < 4; i++)
             if (!(fabs(error[i]) <= 1e-10))
-                fail_msg("%s, angle %d: %.1e", fw_method_at(k).name, i, error[i]);
+                fail_msg("%s, angle %d: %.1e", fw_multibody_method_at(k).name, i, error[i]);
         fw_arena_free(arena);
     }
 }
@@ -218,8 +219,8 @@ static void windows_pass_singular_positions(void **state) {
     } exact[] = {{1, 0.4783850577609705590054, 0.8781501787912093011639},
                  {2, 0.3284581108415408153786522, 0.9445185381786009621613}};
     for (int e = 0; e < 2; e++)
-        for (size_t k = 0; fw_method_at(k).name; k++) {
-            const char *method = fw_method_at(k).name;
+        for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
+            const char *method = fw_multibody_method_at(k).name;
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_windows(arena, exact[e].n);
             outcome out = run(arena, &r, method, 1e-11);

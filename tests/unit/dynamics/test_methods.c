@@ -2,22 +2,22 @@
 /* All methods solve the same equations, M a + G^T lambda = Q, G a = -gamma, on random M and G; what
    they report; memory and numbers that are none. */
 #include "multibody/methods.h"
-#include "multibody/dense.h"
+#include "multibody/multibody_dense.h"
 #include "models.h"
 
 enum { N = 15, ROWS = 12 };
 
 static const struct kernel_row {
     const char *name;
-    const fw_dense_kernel *kernel;
+    const fw_multibody_dense_kernel *kernel;
 } kernels[] = {
-    {"augmented", &fw_augmented_kernel},
-    {"udwadia-kalaba", &fw_udwadia_kalaba_kernel},
-    {"svd", &fw_svd_kernel},
-    {"qr", &fw_qr_kernel},
-    {"schur", &fw_schur_kernel},
-    {"block-least-squares", &fw_block_least_squares_kernel},
-    {"coordinate-partitioning", &fw_coordinate_partitioning_kernel},
+    {"augmented", &fw_multibody_augmented_kernel},
+    {"udwadia-kalaba", &fw_multibody_udwadia_kalaba_kernel},
+    {"svd", &fw_multibody_svd_kernel},
+    {"qr", &fw_multibody_qr_kernel},
+    {"schur", &fw_multibody_schur_kernel},
+    {"block-least-squares", &fw_multibody_block_least_squares_kernel},
+    {"coordinate-partitioning", &fw_multibody_coordinate_partitioning_kernel},
 };
 enum { KERNELS = sizeof kernels / sizeof kernels[0] };
 
@@ -53,34 +53,34 @@ static void residuals(const problem *p, const double *a, const double *lambda, d
                       double *constraint) {
     *force = *constraint = 0;
     for (int j = 0; j < N; j++) {
-        double sum = p->mass[j] * (a[j] - p->free[j]), terms = fabs(p->mass[j] * a[j]);
+        double sum = p->mass[j] * (a[j] - p->free[j]), loads = fabs(p->mass[j] * a[j]);
         for (int i = 0; i < p->rows; i++) {
             sum += p->g[i * N + j] * lambda[i];
-            terms += fabs(p->g[i * N + j] * lambda[i]);
+            loads += fabs(p->g[i * N + j] * lambda[i]);
         }
-        *force = fmax(*force, fabs(sum) / terms);
+        *force = fmax(*force, fabs(sum) / loads);
     }
     for (int i = 0; i < p->rows; i++) {
-        double sum = p->gamma[i], terms = fabs(sum);
+        double sum = p->gamma[i], loads = fabs(sum);
         for (int j = 0; j < N; j++) {
             sum += p->g[i * N + j] * a[j];
-            terms += fabs(p->g[i * N + j] * a[j]);
+            loads += fabs(p->g[i * N + j] * a[j]);
         }
-        *constraint = fmax(*constraint, fabs(sum) / terms);
+        *constraint = fmax(*constraint, fabs(sum) / loads);
     }
 }
 
-static void solve(fw_arena *arena, const fw_dense_kernel *kernel, const problem *p, double *a,
-                  double *lambda) {
-    fw_dense *d;
-    assert_int_equal(fw_dense_new(arena, p->rows, N, kernel, &d), FW_OK);
+static void solve(fw_arena *arena, const fw_multibody_dense_kernel *kernel, const problem *p,
+                  double *a, double *lambda) {
+    fw_multibody_dense *d;
+    assert_int_equal(fw_multibody_dense_new(arena, p->rows, N, kernel, &d), FW_OK);
     memcpy(d->g, p->g, (size_t)(p->rows * N) * sizeof *p->g);
     for (int j = 0; j < N; j++) {
         d->root[j] = 1 / sqrt(p->mass[j]);
         a[j] = p->free[j];
     }
-    assert_true(fw_dense_factor(d));
-    fw_dense_accelerate(d, p->gamma, a, lambda);
+    assert_true(fw_multibody_dense_factor(d));
+    fw_multibody_dense_accelerate(d, p->gamma, a, lambda);
 }
 
 static double difference(const double *a, const double *b, int n) {
@@ -121,17 +121,17 @@ static void kernels_agree(void **state) {
 
 typedef struct outcome {
     fw_status status;
-    const fw_motion *motion;
+    const fw_dynamics_motion *motion;
     const char *message;
 } outcome;
 
 static outcome run(fw_arena *arena, const rig *r, const char *method, double rtol) {
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
-    fw_motion_options o = {
+    fw_dynamics_motion_options o = {
         .method = method, .rtol = rtol, .samples = 11, .effects = {.mode = FW_EFFECTS_ALL}};
     outcome out = {0};
-    out.status = fw_simulate(arena, &r->m, &r->scene, &o, diags, &out.motion);
+    out.status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, diags, &out.motion);
     out.message = diags->count ? diags->item[0].message : "";
     return out;
 }
@@ -166,29 +166,30 @@ static void reports_say_what_was_met(void **state) {
 
 /* ---- memory ---- */
 
-static fw_model *six_bar_model(fw_arena *arena, const rig *r, const char *method,
-                               fw_status *status) {
+static fw_multibody_model *six_bar_model(fw_arena *arena, const rig *r, const char *method,
+                                         fw_status *status) {
     double q[15];
     for (int b = 0; b < 5; b++)
         q[3 * b] = r->m.body[b].x_m, q[3 * b + 1] = r->m.body[b].y_m, q[3 * b + 2] = 0;
     fw_diags diags = fw_diags_new(arena);
-    fw_model *m = NULL;
-    *status = fw_model_new(arena, &r->m, NULL, q, 1, fw_method_find(method), &diags, &m);
+    fw_multibody_model *m = NULL;
+    *status = fw_multibody_model_new(arena, &r->m, NULL, q, 1, fw_multibody_method_find(method),
+                                     &diags, &m);
     return m;
 }
 
 static void the_loop_allocates_nothing(void **state) {
     (void)state;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
         fw_status status;
-        fw_model *m = six_bar_model(arena, &r, fw_method_at(k).name, &status);
+        fw_multibody_model *m = six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
         assert_int_equal(status, FW_OK);
         double y[32] = {0}, f[32];
         long before = fw_arena_count();
-        fw_model_rhs(m, 0, y, f);
-        assert_true(fw_model_project(m, 0, y, f));
+        fw_multibody_model_rhs(m, 0, y, f);
+        assert_true(fw_multibody_model_project(m, 0, y, f));
         assert_int_equal(fw_arena_count(), before);
         fw_arena_free(arena);
     }
@@ -196,13 +197,13 @@ static void the_loop_allocates_nothing(void **state) {
 
 static void memory_short_is_said(void **state) {
     (void)state;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         fw_status status = FW_NOMEM;
         for (long n = 1; status == FW_NOMEM; n++) {
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_six_bar(arena, false);
             fw_arena_fail_at(n, 1);
-            six_bar_model(arena, &r, fw_method_at(k).name, &status);
+            six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
             fw_arena_fail_at(0, 0);
             fw_arena_free(arena);
             assert_true(n < 400);
@@ -214,17 +215,17 @@ static void memory_short_is_said(void **state) {
 /* states that are not numbers end as a refused evaluation, never in LAPACK */
 static void not_a_number_is_refused(void **state) {
     (void)state;
-    for (size_t k = 0; fw_method_at(k).name; k++) {
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
         fw_status status;
-        fw_model *m = six_bar_model(arena, &r, fw_method_at(k).name, &status);
+        fw_multibody_model *m = six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
         double y[32] = {0}, f[32];
         y[2] = (double)NAN;
-        fw_model_rhs(m, 0, y, f);
+        fw_multibody_model_rhs(m, 0, y, f);
         assert_true(isnan(f[15]));
         y[2] = 0, y[17] = (double)INFINITY;
-        fw_model_rhs(m, 0, y, f);
+        fw_multibody_model_rhs(m, 0, y, f);
         assert_true(!isfinite(f[15]));
         fw_arena_free(arena);
     }

@@ -3,11 +3,11 @@
    must not be below the distance from the peak of a far tighter run. */
 #include "models.h"
 
-static const fw_motion *simulate(fw_arena *arena, fw_diags *diags, const rig *r, double rtol,
-                                 int samples) {
-    const fw_motion *motion = NULL;
-    const fw_motion_options o = {.rtol = rtol, .samples = samples};
-    assert_int_equal(fw_simulate(arena, &r->m, &r->scene, &o, diags, &motion), FW_OK);
+static const fw_dynamics_motion *simulate(fw_arena *arena, fw_diags *diags, const rig *r,
+                                          double rtol, int samples) {
+    const fw_dynamics_motion *motion = NULL;
+    const fw_dynamics_motion_options o = {.rtol = rtol, .samples = samples};
+    assert_int_equal(fw_dynamics_simulate(arena, &r->m, &r->scene, &o, diags, &motion), FW_OK);
     return motion;
 }
 
@@ -18,11 +18,11 @@ typedef struct tally {
 
 static void honest(fw_arena *arena, fw_diags *diags, const rig *r, const double *rtol, int count,
                    tally *t) {
-    const fw_motion *truth = simulate(arena, diags, r, 1e-13, 0);
+    const fw_dynamics_motion *truth = simulate(arena, diags, r, 1e-13, 0);
     for (int i = 0; i < count; i++) {
-        const fw_motion *m = simulate(arena, diags, r, rtol[i], 0);
+        const fw_dynamics_motion *m = simulate(arena, diags, r, rtol[i], 0);
         for (int p = 0; p < m->npin; p++) {
-            /* extremes of both signs may tie: sizes count */
+            /* extremes of both signs may joint: sizes count */
             double error = fabs(fabs(m->peak[p].angle_rad) - fabs(truth->peak[p].angle_rad));
             double known = truth->peak[p].error_rad; /* the truth's own uncertainty */
             assert_true(m->peak[p].error_rad >= 0);
@@ -64,7 +64,7 @@ static void test_peak_is_the_extreme(void **state) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
         rig r = seed == 100 ? rig_six_bar(arena, false) : rig_any(arena, seed);
-        const fw_motion *m = simulate(arena, &diags, &r, 1e-11, 20001);
+        const fw_dynamics_motion *m = simulate(arena, &diags, &r, 1e-11, 20001);
         for (int p = 0; p < m->npin; p++) {
             double most = 0, at = 0;
             for (int i = 0; i < m->nsample; i++) {

@@ -8,18 +8,19 @@
 
 static const double pi = 3.14159265358979323846;
 
-static fw_law bell(fw_arena *arena, double height, double centre_s, double w_s) {
-    static const fw_names none = {NULL, 0};
-    fw_expression_error error;
-    fw_program *p;
+static fw_quantity_law bell(fw_arena *arena, double height, double centre_s, double w_s) {
+    static const fw_quantity_names none = {NULL, 0};
+    fw_quantity_expression_error error;
+    fw_quantity_program *p;
     const char *text =
         fw_arena_printf(arena, "%.17g*exp(-((t - %.17g s)/(%.17g s))^2)", height, centre_s, w_s);
-    assert_int_equal(
-        fw_program_compile(arena, text, strlen(text), &none, (fw_dimension){0}, &p, &error), FW_OK);
-    return (fw_law){.kind = &fw_quantity_law_expression, .program = p};
+    assert_int_equal(fw_quantity_program_compile(arena, text, strlen(text), &none,
+                                                 (fw_quantity_dimension){0}, &p, &error),
+                     FW_OK);
+    return (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = p};
 }
 
-static rig oscillator(fw_arena *arena, const fw_law *law) {
+static rig oscillator(fw_arena *arena, const fw_quantity_law *law) {
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "p", 1, 1, 1, 0, 0);
     rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 2, 0);
@@ -29,12 +30,12 @@ static rig oscillator(fw_arena *arena, const fw_law *law) {
     return r;
 }
 
-static fw_peak peak_of(fw_arena *arena, const rig *r, const char *integrator, double rtol,
-                       int pin) {
+static fw_dynamics_peak peak_of(fw_arena *arena, const rig *r, const char *integrator, double rtol,
+                                int pin) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *motion;
-    const fw_motion_options o = {.integrator = integrator, .rtol = rtol};
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
+    const fw_dynamics_motion *motion;
+    const fw_dynamics_motion_options o = {.integrator = integrator, .rtol = rtol};
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, &o, &diags, &motion);
     /* warnings may say that the tolerance is too loose, or that rk4 cannot do better */
     if (status != FW_OK || diags.errors > 0)
         fail_msg("%s: %s", integrator, diags.count ? diags.item[0].message : "");
@@ -51,12 +52,12 @@ static void test_every_integrator(void **state) {
     const double width[] = {0.01, 0.03, 0.1, 0.3}, degrees[] = {0.508, 1.523, 5.065, 14.894};
     for (int i = 0; i < 4; i++) {
         assert_near(swing(width[i]) * 180 / pi, degrees[i], 5e-4);
-        for (size_t k = 0; fw_integrator_at(k).name; k++) {
-            const char *name = fw_integrator_at(k).name;
+        for (size_t k = 0; fw_dynamics_integrator_at(k).name; k++) {
+            const char *name = fw_dynamics_integrator_at(k).name;
             fw_arena *arena = fw_arena_new(0);
-            const fw_law law = bell(arena, 1, 4.3, width[i]);
+            const fw_quantity_law law = bell(arena, 1, 4.3, width[i]);
             const rig r = oscillator(arena, &law);
-            fw_peak p = peak_of(arena, &r, name, 0, 0);
+            fw_dynamics_peak p = peak_of(arena, &r, name, 0, 0);
             double error = fabs(fabs(p.angle_rad) - swing(width[i]));
             if (error > p.error_rad || p.error_rad > 1e-3 * swing(width[i]))
                 fail_msg("%s, %g s: off by %g, stated %g of %g", name, width[i], error, p.error_rad,
@@ -81,9 +82,9 @@ static void test_honest(void **state) {
         }
         double w = 3e-4 * pow(1000, u[0]), centre = 4 * w + (8 - 6 * w - pi) * u[1];
         fw_arena *arena = fw_arena_new(0);
-        const fw_law law = bell(arena, 1, centre, w);
+        const fw_quantity_law law = bell(arena, 1, centre, w);
         const rig r = oscillator(arena, &law);
-        fw_peak p = peak_of(arena, &r, name[i % 5], rtol[i / 5 % 5], 0);
+        fw_dynamics_peak p = peak_of(arena, &r, name[i % 5], rtol[i / 5 % 5], 0);
         double error = fabs(fabs(p.angle_rad) - swing(w));
         worst = fmax(worst, error / p.error_rad);
         if (error > p.error_rad)
@@ -99,21 +100,24 @@ static void test_honest(void **state) {
 static void test_driver(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    const fw_law shake = bell(arena, 0.1, 4.3, 20e-3), early = bell(arena, 0.1, 0.1, 20e-3);
+    const fw_quantity_law shake = bell(arena, 0.1, 4.3, 20e-3),
+                          early = bell(arena, 0.1, 0.1, 20e-3);
     double peak[2], stated[2];
     for (int i = 0; i < 2; i++) {
         rig r = rig_new(arena, 2, 1, 0);
         rig_body(&r, "p", 1, 1, 0, 0, 0);
         rig_body(&r, "q", 1, 0.1, 0, -0.5, -pi / 2);
         rig_pin(&r, "R", 0, 1, 0, 0, 1, 0)->free_angle_rad = -pi / 2;
-        r.m.tie = fw_arena_one(arena, fw_tie);
-        *r.m.tie = (fw_tie){.id = "P", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND, .body_b = 0};
-        r.m.ntie = 1;
-        r.m.driver = fw_arena_one(arena, fw_driver);
-        *r.m.driver = (fw_driver){.id = "d", .joint = FW_NONE, .tie = 0, .law = i ? early : shake};
+        r.m.joint = fw_arena_one(arena, fw_device_joint);
+        *r.m.joint = (fw_device_joint){
+            .id = "P", .kind = FW_JOINT_PRISMATIC, .body_a = FW_GROUND, .body_b = 0};
+        r.m.njoint = 1;
+        r.m.driver = fw_arena_one(arena, fw_device_driver);
+        *r.m.driver = (fw_device_driver){
+            .id = "d", .revolute = FW_NONE, .joint = 0, .law = i ? early : shake};
         r.m.ndriver = 1;
         r.scene.duration_s = i ? 5.8 : 10;
-        fw_peak p = peak_of(arena, &r, NULL, i ? 1e-12 : 0, 0);
+        fw_dynamics_peak p = peak_of(arena, &r, NULL, i ? 1e-12 : 0, 0);
         peak[i] = fabs(p.angle_rad), stated[i] = p.error_rad;
     }
     assert_true(peak[1] > 0.1);

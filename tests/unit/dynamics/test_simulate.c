@@ -15,10 +15,11 @@ static fixture begin(void) {
     return f;
 }
 
-static const fw_motion *simulate(fixture *f, const rig *r, double rtol, int samples) {
-    const fw_motion *motion = NULL;
-    const fw_motion_options o = {.rtol = rtol, .samples = samples};
-    assert_int_equal(fw_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, &motion), FW_OK);
+static const fw_dynamics_motion *simulate(fixture *f, const rig *r, double rtol, int samples) {
+    const fw_dynamics_motion *motion = NULL;
+    const fw_dynamics_motion_options o = {.rtol = rtol, .samples = samples};
+    assert_int_equal(fw_dynamics_simulate(f->arena, &r->m, &r->scene, &o, &f->diags, &motion),
+                     FW_OK);
     assert_true(motion->stats.max_constraint_norm <= 1e-12);
     assert_int_equal(f->diags.errors, 0);
     return motion;
@@ -28,7 +29,7 @@ static const fw_motion *simulate(fixture *f, const rig *r, double rtol, int samp
 static double gap(const rig *r, const double *q) {
     double worst = 0;
     for (int i = 0; i < r->m.npin; i++) {
-        const fw_pin *p = &r->m.pin[i];
+        const fw_mechanism_pin *p = &r->m.pin[i];
         const int body[2] = {p->body_a, p->body_b};
         const double local[2][2] = {{p->ax_m, p->ay_m}, {p->bx_m, p->by_m}};
         double at[2][2];
@@ -43,7 +44,8 @@ static double gap(const rig *r, const double *q) {
 }
 
 /* error against the table in units of mm, rad, and of the largest velocity of each kind */
-static void compare_with_table(const rig *r, const fw_motion *m, double *error_q, double *error_v) {
+static void compare_with_table(const rig *r, const fw_dynamics_motion *m, double *error_q,
+                               double *error_v) {
     FILE *file = fopen(FW_TEST_SOURCE_DIR "/tests/data/sixbar_ref_0p1ms.txt", "r");
     assert_non_null(file);
     char line[2048];
@@ -84,7 +86,7 @@ static void test_six_bar_reference(void **state) {
     const double rtol[] = {1e-13, 1e-11, 1e-9, 1e-7};
     const double allowed[] = {1e-11, 1e-9, 1e-7, 1e-5};
     for (int i = 0; i < 4; i++) {
-        const fw_motion *m = simulate(&f, &r, rtol[i], 101);
+        const fw_dynamics_motion *m = simulate(&f, &r, rtol[i], 101);
         double q, v;
         compare_with_table(&r, m, &q, &v);
         print_message("rtol %g: q %.2e v %.2e steps %ld (%ld rejected) rhs %ld cpu %.3f ms + %.3f, "
@@ -125,7 +127,7 @@ static void test_six_bar_reactions(void **state) {
     };
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion *m = simulate(&f, &r, 1e-13, 101);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-13, 101);
     for (size_t i = 0; i < sizeof reference / sizeof reference[0]; i++)
         for (int k = 0; k < 12; k++)
             assert_near(m->reaction_N[12 * reference[i].row + k] * 1e3, -reference[i].lambda[k],
@@ -148,7 +150,7 @@ static void test_tiny_inertia(void **state) {
             r.scene.gravity = true;
             r.scene.gy_m_per_s2 = -9.81;
             r.scene.duration_s = 2.0 * (1.0 + J);
-            const fw_motion *m = simulate(&f, &r, tolerance[i], 2);
+            const fw_dynamics_motion *m = simulate(&f, &r, tolerance[i], 2);
             assert_near(fabs(m->peak[0].angle_rad), acos(-1.0), m->peak[0].error_rad);
             if (J > 5e-14) assert_true(m->peak[0].error_rad < 1e-3);
             assert_true(m->stats.steps < 200000);
@@ -162,7 +164,7 @@ static void test_redundant_hinge(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, true);
-    const fw_motion *m = simulate(&f, &r, 1e-13, 101);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-13, 101);
     double q, v;
     compare_with_table(&r, m, &q, &v);
     print_message("redundant: q %.2e v %.2e\n", q, v);
@@ -174,7 +176,7 @@ static void test_pendulum(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_pendulum(f.arena);
-    const fw_motion *m = simulate(&f, &r, 1e-13, 11);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-13, 11);
     const double *q = m->q + 3 * 10, *v = m->v + 3 * 10, *one = m->q + 3;
     print_message("pendulum: x %.2e energy %.2e steps %ld\n", 2 * q[0] + 0.2750874625761168600544,
                   m->stats.energy_error, m->stats.steps);
@@ -211,7 +213,7 @@ static void test_windows(void **state) {
         for (int k = 0; k < 3; k++) {
             fixture f = begin();
             rig r = rig_windows(f.arena, n[i]);
-            const fw_motion *m = simulate(&f, &r, rtol[k], 2);
+            const fw_dynamics_motion *m = simulate(&f, &r, rtol[k], 2);
             const double *q = m->q + 3 * m->nbody, *v = m->v + 3 * m->nbody;
             double c = cos(q[2]), s = sin(q[2]); /* B0: 0.5 above the centre of crank 0 */
             const double got[4] = {q[0] - 0.5 * s, q[1] + 0.5 * c, v[0] - 0.5 * c * v[2],
@@ -233,7 +235,7 @@ static void test_squeezer(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_squeezer(f.arena);
-    const fw_motion *m = simulate(&f, &r, 1e-13, 7);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-13, 7);
     const double *q = m->q + 21 * 6, *v = m->v + 21 * 6;
     const double beta = 15.810771195153707097, theta = -15.75637105841183947,
                  gamma = 0.040822240119645804858, phi = -0.53473011634207959377,
@@ -269,7 +271,7 @@ static void test_windows_keep_the_branch(void **state) {
         for (double rtol = 1e-5; rtol > 0.5e-12; rtol /= 10) {
             fixture f = begin();
             rig r = rig_windows(f.arena, n);
-            const fw_motion *m = simulate(&f, &r, rtol, 51);
+            const fw_dynamics_motion *m = simulate(&f, &r, rtol, 51);
             for (int i = 0; i < 51; i++)
                 for (int b = 1; b <= n; b++)
                     assert_near(m->q[(size_t)(3 * m->nbody * i + 3 * b + 2)],
@@ -285,23 +287,23 @@ static void test_energy_balance(void **state) {
     for (uint64_t seed = 500; seed < 530; seed++) {
         fixture f = begin();
         rig r = rig_any(f.arena, seed);
-        fw_spring springs[2] = {{.id = "s",
-                                 .body_a = FW_GROUND,
-                                 .body_b = 1,
-                                 .ax_m = 1e-3,
-                                 .ay_m = -2e-3,
-                                 .bx_m = 1e-4,
-                                 .by_m = 2e-4,
-                                 .stiffness_N_per_m = 0.2,
-                                 .damping_Ns_per_m = 1e-5,
-                                 .length_m = 1e-3},
-                                {.id = "t",
-                                 .body_a = 0,
-                                 .body_b = 1,
-                                 .ay_m = 3e-4,
-                                 .by_m = -2e-4,
-                                 .stiffness_N_per_m = 0.3,
-                                 .length_m = 5e-4}};
+        fw_device_spring springs[2] = {{.id = "s",
+                                        .body_a = FW_GROUND,
+                                        .body_b = 1,
+                                        .ax_m = 1e-3,
+                                        .ay_m = -2e-3,
+                                        .bx_m = 1e-4,
+                                        .by_m = 2e-4,
+                                        .stiffness_N_per_m = 0.2,
+                                        .damping_Ns_per_m = 1e-5,
+                                        .length_m = 1e-3},
+                                       {.id = "t",
+                                        .body_a = 0,
+                                        .body_b = 1,
+                                        .ay_m = 3e-4,
+                                        .by_m = -2e-4,
+                                        .stiffness_N_per_m = 0.3,
+                                        .length_m = 5e-4}};
         r.m.spring = springs;
         r.m.nspring = 2;
         r.scene.gravity = true;
@@ -313,10 +315,11 @@ static void test_energy_balance(void **state) {
         rig_velocity(&r, 0, 0, 0, 50);
         const double rtol[] = {1e-6, 1e-9, 1e-12};
         for (int k = 0; k < 3; k++) {
-            const fw_motion *motion = NULL;
-            const fw_motion_options o = {
+            const fw_dynamics_motion *motion = NULL;
+            const fw_dynamics_motion_options o = {
                 .rtol = rtol[k], .samples = 21, .effects = {.mode = FW_EFFECTS_ALL}};
-            assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &motion), FW_OK);
+            assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &motion),
+                             FW_OK);
             assert_true(motion->stats.energy_error < 300 * rtol[k]);
             assert_true(motion->stats.max_constraint_norm <= 1e-12);
             for (int i = 0; i < 21; i++) {
@@ -339,9 +342,9 @@ static void test_small_motion(void **state) {
         double scale = i ? 1e-6 : 1;
         r.scene.force[0].fx_N = 0.35e-4 * scale, r.scene.force[0].fy_N = -0.2e-4 * scale;
         r.scene.torque[0].value_Nm = -0.15e-7 * scale;
-        const fw_motion *m = NULL;
-        const fw_motion_options o = {.accuracy = 1e-4};
-        assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
+        const fw_dynamics_motion *m = NULL;
+        const fw_dynamics_motion_options o = {.accuracy = 1e-4};
+        assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
         assert_true(m->peak[5].error_rad < 1e-4 * fabs(m->peak[5].angle_rad));
         assert_true(fabs(m->peak[5].angle_rad) > 1e-2 * scale);
     }
@@ -357,7 +360,7 @@ static void test_far_from_the_origin(void **state) {
         far.m.body[b].x_m += 1;
     far.m.pin[0].ax_m += 1;
     far.m.pin[5].bx_m += 1;
-    const fw_motion *m = simulate(&f, &r, 1e-10, 5), *n = simulate(&f, &far, 1e-10, 5);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-10, 5), *n = simulate(&f, &far, 1e-10, 5);
     for (int i = 0; i < 6; i++)
         assert_near(n->peak[i].angle_rad, m->peak[i].angle_rad, 1e-9);
     fw_arena_free(f.arena);
@@ -367,10 +370,10 @@ static void test_repeatable(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion *m = simulate(&f, &r, 1e-8, 50), *n = simulate(&f, &r, 1e-8, 50);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-8, 50), *n = simulate(&f, &r, 1e-8, 50);
     assert_memory_equal(m->q, n->q, 50 * 15 * sizeof(double));
     assert_memory_equal(m->v, n->v, 50 * 15 * sizeof(double));
-    assert_memory_equal(m->peak, n->peak, 6 * sizeof(fw_peak));
+    assert_memory_equal(m->peak, n->peak, 6 * sizeof(fw_dynamics_peak));
     fw_arena_free(f.arena);
 }
 
@@ -380,7 +383,7 @@ static void test_contradicting_velocity(void **state) {
     rig r = rig_pendulum(f.arena);
     r.scene.gravity = false;
     rig_velocity(&r, 0, 1, 1, 0); /* along and across the arm */
-    const fw_motion *m = simulate(&f, &r, 1e-9, 2);
+    const fw_dynamics_motion *m = simulate(&f, &r, 1e-9, 2);
     assert_int_equal(f.diags.count, 1);
     assert_int_equal(f.diags.item[0].number, 106);
     assert_near(m->v[0], 0, 1e-15);
@@ -404,8 +407,8 @@ static void test_mistakes(void **state) {
     for (size_t i = 0; i < sizeof want / sizeof want[0]; i++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, false);
-        fw_motion_options o = {.samples = 3};
-        const fw_motion *m = NULL;
+        fw_dynamics_motion_options o = {.samples = 3};
+        const fw_dynamics_motion *m = NULL;
         switch (i) {
         case 0:
             r.scene.duration_s = 0;
@@ -441,7 +444,8 @@ static void test_mistakes(void **state) {
             r.scene.force[0].fx_N = 1e300;
             break;
         }
-        assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), want[i].status);
+        assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m),
+                         want[i].status);
         assert_null(m);
         assert_true(f.diags.count >= 1);
         if (want[i].number) assert_int_equal(f.diags.item[0].number, want[i].number);
@@ -454,14 +458,14 @@ static void test_cancel(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion_options o = {0};
-    const fw_motion *m = NULL;
+    const fw_dynamics_motion_options o = {0};
+    const fw_dynamics_motion *m = NULL;
     fw_cancel cancel = {0};
     fw_arena_stop_with(f.arena, &cancel);
     fw_cancel_request(&cancel, 2);
-    assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_CANCELLED);
+    assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_CANCELLED);
     fw_cancel_clear(&cancel);
-    assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
+    assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
     fw_arena_free(f.arena);
 }
 
@@ -472,11 +476,11 @@ static void test_memory(void **state) {
     for (int i = 0; i < 2; i++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, false);
-        const fw_motion_options o = {.samples = 3, .rtol = 1e-8};
-        const fw_motion *m = NULL;
+        const fw_dynamics_motion_options o = {.samples = 3, .rtol = 1e-8};
+        const fw_dynamics_motion *m = NULL;
         r.scene.duration_s *= i ? 20 : 1;
         fw_arena_fail_at(0, 0);
-        assert_int_equal(fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
+        assert_int_equal(fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m), FW_OK);
         if (i) assert_int_equal(fw_arena_count(), count);
         count = fw_arena_count();
         fw_arena_free(f.arena);
@@ -484,10 +488,10 @@ static void test_memory(void **state) {
     for (long n = 1; n <= count; n++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, false);
-        const fw_motion_options o = {.samples = 3, .rtol = 1e-8};
-        const fw_motion *m = NULL;
+        const fw_dynamics_motion_options o = {.samples = 3, .rtol = 1e-8};
+        const fw_dynamics_motion *m = NULL;
         fw_arena_fail_at(n, 0);
-        fw_status status = fw_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m);
+        fw_status status = fw_dynamics_simulate(f.arena, &r.m, &r.scene, &o, &f.diags, &m);
         fw_arena_fail_at(0, 0);
         assert_int_equal(status, FW_NOMEM);
         assert_null(m);

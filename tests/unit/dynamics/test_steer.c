@@ -3,15 +3,16 @@
    tests/accuracy. */
 #include "models.h"
 
-static const fw_motion *run(fw_arena *arena, const rig *r, const fw_motion_options *options) {
+static const fw_dynamics_motion *run(fw_arena *arena, const rig *r,
+                                     const fw_dynamics_motion_options *options) {
     fw_diags diags = fw_diags_new(arena);
-    const fw_motion *motion = NULL;
-    fw_status status = fw_simulate(arena, &r->m, &r->scene, options, &diags, &motion);
+    const fw_dynamics_motion *motion = NULL;
+    fw_status status = fw_dynamics_simulate(arena, &r->m, &r->scene, options, &diags, &motion);
     if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no diagnostic");
     return motion;
 }
 
-static double size_of(const fw_motion *m) {
+static double size_of(const fw_dynamics_motion *m) {
     double most = 0;
     for (int i = 0; i < m->npin; i++)
         most = fmax(most, fabs(m->peak[i].angle_rad));
@@ -25,12 +26,13 @@ static void test_errors_are_below(void **state) {
     const double accuracy[] = {1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10};
     for (uint64_t seed = 0; seed < 8; seed++) {
         const rig r = seed == 0 ? rig_six_bar(arena, false) : rig_any(arena, seed);
-        const fw_motion *truth =
-            run(arena, &r, &(fw_motion_options){.integrator = "gsl-rk8pd", .rtol = 1e-13});
+        const fw_dynamics_motion *truth =
+            run(arena, &r, &(fw_dynamics_motion_options){.integrator = "gsl-rk8pd", .rtol = 1e-13});
         long rhs[6];
         double rtol[6];
         for (int k = 0; k < 6; k++) {
-            const fw_motion *m = run(arena, &r, &(fw_motion_options){.accuracy = accuracy[k]});
+            const fw_dynamics_motion *m =
+                run(arena, &r, &(fw_dynamics_motion_options){.accuracy = accuracy[k]});
             double size = size_of(truth);
             for (int i = 0; i < m->npin; i++) {
                 double off = fabs(fabs(m->peak[i].angle_rad) - fabs(truth->peak[i].angle_rad));
@@ -52,8 +54,8 @@ static void test_no_more_than_asked_for(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const rig r = rig_six_bar(arena, false);
-    const fw_motion *m = run(arena, &r, &(fw_motion_options){0});
-    const fw_motion *fixed = run(arena, &r, &(fw_motion_options){.rtol = 1e-7});
+    const fw_dynamics_motion *m = run(arena, &r, &(fw_dynamics_motion_options){0});
+    const fw_dynamics_motion *fixed = run(arena, &r, &(fw_dynamics_motion_options){.rtol = 1e-7});
     print_message("  rtol %.2g and %.2g, %ld of %ld evaluations; %ld of %ld at 1e-7\n",
                   m->stats.rtol, m->stats.looser_rtol, m->stats.rhs, m->stats.all_rhs,
                   fixed->stats.rhs, fixed->stats.all_rhs);
@@ -69,10 +71,10 @@ static void test_without_an_estimate(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const rig r = rig_six_bar(arena, false);
-    const fw_motion_options both = {.rtol = 1e-7, .reactions = true};
-    fw_motion_options one = both;
+    const fw_dynamics_motion_options both = {.rtol = 1e-7, .reactions = true};
+    fw_dynamics_motion_options one = both;
     one.looser = 1;
-    const fw_motion *a = run(arena, &r, &both), *b = run(arena, &r, &one);
+    const fw_dynamics_motion *a = run(arena, &r, &both), *b = run(arena, &r, &one);
     assert_int_equal(a->stats.runs, 2);
     assert_int_equal(b->stats.runs, 1);
     assert_int_equal(b->stats.rhs, b->stats.all_rhs);
@@ -91,9 +93,9 @@ static void test_what_cannot_be_reached(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     rig r = rig_six_bar(arena, false);
-    const fw_motion *m = NULL;
-    const fw_motion_options o = {.accuracy = 1e-16};
-    assert_int_equal(fw_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
+    const fw_dynamics_motion *m = NULL;
+    const fw_dynamics_motion_options o = {.accuracy = 1e-16};
+    assert_int_equal(fw_dynamics_simulate(arena, &r.m, &r.scene, &o, &diags, &m), FW_OK);
     assert_true(m->stats.rtol <= 1e-13);
     assert_true(m->peak[0].error_rad > 1e-16 * size_of(m));
     fw_arena_free(arena);
@@ -109,11 +111,13 @@ static void test_effects_take_their_share(void **state) {
     r.scene.force[0].fx_N *= 0.01,
         r.scene.force[0].fy_N *= 0.01; /* the bounds are of small motion */
     r.scene.torque[0].value_Nm *= 0.01;
-    const fw_motion *all =
-        run(arena, &r, &(fw_motion_options){.accuracy = 1e-9, .effects = {.mode = FW_EFFECTS_ALL}});
+    const fw_dynamics_motion *all =
+        run(arena, &r,
+            &(fw_dynamics_motion_options){.accuracy = 1e-9, .effects = {.mode = FW_EFFECTS_ALL}});
     bool left = false;
     for (double accuracy = 1e-2; accuracy > 1e-7; accuracy /= 1.7) {
-        const fw_motion *m = run(arena, &r, &(fw_motion_options){.accuracy = accuracy});
+        const fw_dynamics_motion *m =
+            run(arena, &r, &(fw_dynamics_motion_options){.accuracy = accuracy});
         left = left || m->ledger.left_out > 0.2 * accuracy;
         double error = 0;
         for (int i = 0; i < m->npin; i++) {

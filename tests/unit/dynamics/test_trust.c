@@ -3,14 +3,14 @@
 #include "models.h"
 
 typedef struct outcome {
-    const fw_motion *motion;
+    const fw_dynamics_motion *motion;
     bool inaccurate, unbalanced; /* FW-D240, FW-D241 */
 } outcome;
 
-static outcome run(fw_arena *arena, const rig *r, const fw_motion_options *o) {
+static outcome run(fw_arena *arena, const rig *r, const fw_dynamics_motion_options *o) {
     fw_diags diags = fw_diags_new(arena);
     outcome out = {0};
-    assert_int_equal(fw_simulate(arena, &r->m, &r->scene, o, &diags, &out.motion), FW_OK);
+    assert_int_equal(fw_dynamics_simulate(arena, &r->m, &r->scene, o, &diags, &out.motion), FW_OK);
     for (size_t i = 0; i < diags.count; i++) {
         if (diags.item[i].number == 240) out.inaccurate = true;
         if (diags.item[i].number == 241) out.unbalanced = true;
@@ -33,8 +33,8 @@ static void test_chaos_comes_later(void **state) {
     r.scene.gravity = true;
     r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 20;
-    const outcome own = run(arena, &r, &(fw_motion_options){0});
-    const fw_peak *a = &own.motion->peak[0], *b = &own.motion->peak[1];
+    const outcome own = run(arena, &r, &(fw_dynamics_motion_options){0});
+    const fw_dynamics_peak *a = &own.motion->peak[0], *b = &own.motion->peak[1];
     print_message("  A %.9f +- %.1e at %.2f s, B %.3f +- %.1e at %.2f s\n", a->angle_rad,
                   a->error_rad, a->t_s, b->angle_rad, b->error_rad, b->t_s);
     assert_near(a->t_s, 6.268, 1e-3);
@@ -44,7 +44,7 @@ static void test_chaos_comes_later(void **state) {
     assert_true(own.inaccurate && !own.unbalanced);
     /* with a scene that ends in time there is nothing to warn of */
     r.scene.duration_s = 7;
-    const outcome shorter = run(arena, &r, &(fw_motion_options){0});
+    const outcome shorter = run(arena, &r, &(fw_dynamics_motion_options){0});
     assert_near(shorter.motion->peak[0].angle_rad, a->angle_rad, 1e-3);
     assert_true(!shorter.inaccurate && !shorter.unbalanced);
     fw_arena_free(arena);
@@ -65,7 +65,7 @@ static void test_nothing_moves(void **state) {
     r.scene.gravity = true;
     r.scene.gy_m_per_s2 = -10;
     r.scene.duration_s = 1;
-    const outcome still = run(arena, &r, &(fw_motion_options){0});
+    const outcome still = run(arena, &r, &(fw_dynamics_motion_options){0});
     assert_true(still.motion->stats.energy_error < 1e-4);
     assert_true(!still.inaccurate && !still.unbalanced);
     for (int i = 0; i < 3; i++)
@@ -84,11 +84,12 @@ static void test_energy_gets_lost(void **state) {
     rig_pin(&r, "B", FW_GROUND, 1, 4, 0, 200, 0);
     rig_velocity(&r, 1, 0, 30, 30);
     r.scene.duration_s = 1000;
-    const outcome lossy = run(arena, &r, &(fw_motion_options){.integrator = "rk4", .rtol = 1e-5});
+    const outcome lossy =
+        run(arena, &r, &(fw_dynamics_motion_options){.integrator = "rk4", .rtol = 1e-5});
     print_message("  balance %.2e\n", lossy.motion->stats.energy_error);
     assert_true(lossy.motion->stats.energy_error > 1e-2);
     assert_true(lossy.unbalanced);
-    const outcome sound = run(arena, &r, &(fw_motion_options){.rtol = 1e-9});
+    const outcome sound = run(arena, &r, &(fw_dynamics_motion_options){.rtol = 1e-9});
     assert_true(!sound.unbalanced);
     fw_arena_free(arena);
 }

@@ -12,13 +12,13 @@ enum { RIG_BODIES = 3, RIG_PORTS = 6 };
 typedef struct rig {
     fw_arena *arena;
     fw_diags diags;
-    fw_mass body[RIG_BODIES];
-    fw_variant variant;
+    fw_mechanism_mass body[RIG_BODIES];
+    fw_mechanism_variant variant;
     fw_mechanism m;
-    fw_scene scene;
+    fw_device_scene scene;
     fw_effect_ledger ledger;
-    fw_terms terms;
-    fw_force_element *e; /* the first */
+    fw_effects_loads loads;
+    fw_effects_force_element *e; /* the first */
     uint64_t random;
 } rig;
 
@@ -34,21 +34,21 @@ static inline void rig_new(rig *r, uint64_t seed) {
     r->arena = fw_arena_new(0);
     r->diags = fw_diags_new(r->arena);
     r->random = seed;
-    r->body[0] = (fw_mass){"first", 2e-8, 3e-15, 1e-3, 0.2e-3, 0.3};
-    r->body[1] = (fw_mass){"second", 1e-8, 2e-15, -0.4e-3, 0.9e-3, -1.1};
-    r->body[2] = (fw_mass){"third", 1e-8, 2e-15, 0.4e-3, -0.9e-3, 0};
+    r->body[0] = (fw_mechanism_mass){"first", 2e-8, 3e-15, 1e-3, 0.2e-3, 0.3};
+    r->body[1] = (fw_mechanism_mass){"second", 1e-8, 2e-15, -0.4e-3, 0.9e-3, -1.1};
+    r->body[2] = (fw_mechanism_mass){"third", 1e-8, 2e-15, 0.4e-3, -0.9e-3, 0};
     r->variant.thickness_m = 50e-6;
     r->m = (fw_mechanism){.body = r->body, .nbody = RIG_BODIES, .variant = &r->variant};
-    r->scene = (fw_scene){.name = "s", .duration_s = 1e-3};
+    r->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3};
 }
 
 static inline void rig_compile(rig *r) {
     const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(fw_effects_compile(r->arena, &r->m, &r->scene, &choice, 1e-3, &r->diags,
-                                        &r->ledger, &r->terms),
+                                        &r->ledger, &r->loads),
                      FW_OK);
-    assert_true(r->terms.nelement > 0);
-    r->e = &r->terms.element[0];
+    assert_true(r->loads.nelement > 0);
+    r->e = &r->loads.element[0];
 }
 
 static inline void rig_pose(const rig *r, double *q) {
@@ -66,7 +66,7 @@ static inline void rig_state(rig *r, double way, double turn, double *p, double 
         q[i] += size * rig_random(r);
         v[i] = 1e3 * size * rig_random(r);
     }
-    fw_element_look(r->e, q, v, p, w);
+    fw_effects_element_place_ports(r->e, q, v, p, w);
 }
 
 #endif

@@ -15,8 +15,9 @@ static inline double fw_check_slope(const double value[7], double h) {
            (60 * h);
 }
 
-static inline void fw_check_tangent(const fw_force_element *e, const fw_seen *s, double step_m,
-                                    double step_rad, double relative) {
+static inline void fw_check_tangent(const fw_effects_force_element *e,
+                                    const fw_effects_port_state *s, double step_m, double step_rad,
+                                    double relative) {
     int n = 3 * e->ports;
     double stiffness[FW_CHECK_MOST * FW_CHECK_MOST], damping[FW_CHECK_MOST * FW_CHECK_MOST];
     double x[2][FW_CHECK_MOST], f[FW_CHECK_MOST], value[FW_CHECK_MOST][7];
@@ -35,7 +36,7 @@ static inline void fw_check_tangent(const fw_force_element *e, const fw_seen *s,
                 memcpy(x[0], s->p, (size_t)n * sizeof(double));
                 memcpy(x[1], s->w, (size_t)n * sizeof(double));
                 x[which][j] += k * h;
-                fw_seen moved = *s;
+                fw_effects_port_state moved = *s;
                 moved.p = x[0], moved.w = x[1];
                 e->class_->force(e, &moved, f);
                 for (int i = 0; i < n; i++)
@@ -55,8 +56,8 @@ static inline void fw_check_tangent(const fw_force_element *e, const fw_seen *s,
 }
 
 /* f . w = -dE/dt - power[0] + power[1], dE/dt by differences along the motion p + w t */
-static inline void fw_check_power(const fw_force_element *e, const fw_seen *s, double step_s,
-                                  double relative) {
+static inline void fw_check_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                                  double step_s, double relative) {
     int n = 3 * e->ports;
     double f[FW_CHECK_MOST], p[FW_CHECK_MOST], energy[7] = {0}, power[2] = {0}, given = 0, size = 0;
     e->class_->force(e, s, f);
@@ -66,7 +67,7 @@ static inline void fw_check_power(const fw_force_element *e, const fw_seen *s, d
     }
     if (e->class_->power) e->class_->power(e, s, power);
     for (int k = -3; k <= 3 && e->class_->energy; k++) {
-        fw_seen moved = *s;
+        fw_effects_port_state moved = *s;
         for (int i = 0; i < n; i++)
             p[i] = s->p[i] + k * step_s * s->w[i];
         moved.p = p;
@@ -83,7 +84,8 @@ static inline void fw_check_power(const fw_force_element *e, const fw_seen *s, d
 }
 
 /* forces and moments about the origin add up to nothing */
-static inline void fw_check_balance(const fw_force_element *e, const fw_seen *s, double relative) {
+static inline void fw_check_balance(const fw_effects_force_element *e,
+                                    const fw_effects_port_state *s, double relative) {
     double f[FW_CHECK_MOST], sum[3] = {0}, force = 0, moment = 0;
     e->class_->force(e, s, f);
     for (int i = 0; i < e->ports; i++) {

@@ -5,7 +5,7 @@
 #define FW_TESTS_HINGE_RIGS_H
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "maths/dense.h"
+#include "maths/maths_dense.h"
 #include "test.h"
 
 enum { RIG_BODIES = 5, RIG_PINS = 6, RIG_N = 3 * RIG_BODIES };
@@ -13,28 +13,28 @@ enum { RIG_BODIES = 5, RIG_PINS = 6, RIG_N = 3 * RIG_BODIES };
 typedef struct rig {
     fw_arena *arena;
     fw_diags diags;
-    fw_mass body[RIG_BODIES];
-    fw_pin pin[RIG_PINS];
-    fw_hinge hinge[RIG_PINS];
-    fw_variant variant;
+    fw_mechanism_mass body[RIG_BODIES];
+    fw_mechanism_pin pin[RIG_PINS];
+    fw_mechanism_hinge hinge[RIG_PINS];
+    fw_mechanism_variant variant;
     fw_mechanism m;
-    fw_scene scene;
-    fw_envelope envelope;
-    fw_terms terms;
+    fw_device_scene scene;
+    fw_effects_envelope envelope;
+    fw_effects_loads loads;
     fw_effect_case c;
 } rig;
 
 /* H1 of the tables: r = 100 um, 270 degrees, 8 um wide, 50 um deep, nu = 0.22; no roots */
-static inline fw_hinge_law rig_h1(double E_Pa) {
+static inline fw_flexure_hinge_law rig_h1(double E_Pa) {
     double a = 0.75 * M_PI, L = 2 * a * 100e-6, EA = E_Pa * 50e-6 * 8e-6;
     double EI = EA * 8e-6 * 8e-6 / 12;
-    return (fw_hinge_law){.stiffness_Nm_per_rad = EI / L,
-                          .half_angle_rad = a,
-                          .length_m = L,
-                          .share = 1,
-                          .bend_m_per_N = L * L * L / (8 * EI),
-                          .axial_m_per_N = L / (2 * EA),
-                          .shear_m_per_N = L * 2 * (1 + 0.22) / (2 * 5.0 / 6 * EA)};
+    return (fw_flexure_hinge_law){.stiffness_Nm_per_rad = EI / L,
+                                  .half_angle_rad = a,
+                                  .length_m = L,
+                                  .share = 1,
+                                  .bend_m_per_N = L * L * L / (8 * EI),
+                                  .axial_m_per_N = L / (2 * EA),
+                                  .shear_m_per_N = L * 2 * (1 + 0.22) / (2 * 5.0 / 6 * EA)};
 }
 
 static inline void rig_new(rig *r, int bodies, int pins) {
@@ -50,8 +50,8 @@ static inline void rig_new(rig *r, int bodies, int pins) {
                           .nbody = bodies,
                           .npin = pins,
                           .nhinge = pins};
-    r->scene = (fw_scene){.name = "s", .duration_s = 1e-3};
-    r->envelope = (fw_envelope){.why_not = "not asked for"};
+    r->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3};
+    r->envelope = (fw_effects_envelope){.why_not = "not asked for"};
     r->c = (fw_effect_case){.arena = r->arena,
                             .mechanism = &r->m,
                             .scene = &r->scene,
@@ -59,26 +59,26 @@ static inline void rig_new(rig *r, int bodies, int pins) {
                             .diags = &r->diags};
 }
 
-static inline void rig_hinge(rig *r, int i, const char *id, int a, int b, fw_vec2 at, double axis,
-                             bool first_is_a) {
-    fw_vec2 pa = at, pb = at;
+static inline void rig_hinge(rig *r, int i, const char *id, int a, int b, fw_geometry_vec2 at,
+                             double axis, bool first_is_a) {
+    fw_geometry_vec2 pa = at, pb = at;
     if (a != FW_GROUND) pa.x -= r->body[a].x_m, pa.y -= r->body[a].y_m;
     if (b != FW_GROUND) pb.x -= r->body[b].x_m, pb.y -= r->body[b].y_m;
-    r->hinge[i] = (fw_hinge){.pin = i,
-                             .law = rig_h1(147.0790923914665e9),
-                             .axis_rad = axis,
-                             .first_is_a = first_is_a,
-                             .cover_from_rad = (double)NAN,
-                             .cover_to_rad = (double)NAN};
-    r->pin[i] = (fw_pin){.id = id,
-                         .body_a = a,
-                         .body_b = b,
-                         .ax_m = pa.x,
-                         .ay_m = pa.y,
-                         .bx_m = pb.x,
-                         .by_m = pb.y,
-                         .stiffness_Nm_per_rad = r->hinge[i].law.stiffness_Nm_per_rad,
-                         .hinge = i};
+    r->hinge[i] = (fw_mechanism_hinge){.pin = i,
+                                       .law = rig_h1(147.0790923914665e9),
+                                       .axis_rad = axis,
+                                       .first_is_a = first_is_a,
+                                       .cover_from_rad = (double)NAN,
+                                       .cover_to_rad = (double)NAN};
+    r->pin[i] = (fw_mechanism_pin){.id = id,
+                                   .body_a = a,
+                                   .body_b = b,
+                                   .ax_m = pa.x,
+                                   .ay_m = pa.y,
+                                   .bx_m = pb.x,
+                                   .by_m = pb.y,
+                                   .stiffness_Nm_per_rad = r->hinge[i].law.stiffness_Nm_per_rad,
+                                   .hinge = i};
 }
 
 /* ABCDEF of the tables; mirrored: drawn as its mirror image in the y axis */
@@ -91,20 +91,20 @@ static inline void rig_six_bar(rig *r, bool mirrored) {
     double s = mirrored ? -1e-6 : 1e-6;
     rig_new(r, 5, 6);
     for (int b = 0; b < 5; b++)
-        r->body[b] = (fw_mass){.id = "link",
-                               .mass_kg = 1e-8,
-                               .inertia_kg_m2 = 1e-15,
-                               .x_m = s * 0.5 * (x[b] + x[b + 1]),
-                               .y_m = 1e-6 * 0.5 * (y[b] + y[b + 1])};
+        r->body[b] = (fw_mechanism_mass){.id = "link",
+                                         .mass_kg = 1e-8,
+                                         .inertia_kg_m2 = 1e-15,
+                                         .x_m = s * 0.5 * (x[b] + x[b + 1]),
+                                         .y_m = 1e-6 * 0.5 * (y[b] + y[b + 1])};
     for (int i = 0; i < 6; i++) {
         double to = axis[i] * M_PI / 180;
-        fw_vec2 at = {s * x[i], 1e-6 * y[i]};
+        fw_geometry_vec2 at = {s * x[i], 1e-6 * y[i]};
         rig_hinge(r, i, id[i], first[i], second[i], at, mirrored ? M_PI - to : to, !mirrored);
     }
 }
 
 /* what exact beams are made of: the strip of rig_h1, without the corrections of a real one */
-static inline void rig_strip(fw_hinge *h, double E_Pa) {
+static inline void rig_strip(fw_mechanism_hinge *h, double E_Pa) {
     double a = 0.75 * M_PI;
     h->input = (fw_flexure_input){.kind = FW_FLEXURE_CSFH,
                                   .length_m = 2 * a * 100e-6,
@@ -123,11 +123,11 @@ static inline void rig_strip(fw_hinge *h, double E_Pa) {
 }
 
 static inline void rig_compile(rig *r) {
-    assert_int_equal(fw_terms_new(r->arena, &r->m, &r->scene, &r->terms), FW_OK);
-    assert_int_equal(fw_effect_joint_elasticity.add(&r->c, &r->terms), FW_OK);
-    assert_int_equal(fw_effect_joint_damping.add(&r->c, &r->terms), FW_OK);
+    assert_int_equal(fw_effects_loads_new(r->arena, &r->m, &r->scene, &r->loads), FW_OK);
+    assert_int_equal(fw_effect_joint_elasticity.add(&r->c, &r->loads), FW_OK);
+    assert_int_equal(fw_effect_joint_damping.add(&r->c, &r->loads), FW_OK);
     assert_true(fw_effect_nonlinear_hinge.called_for(&r->c));
-    assert_int_equal(fw_effect_nonlinear_hinge.add(&r->c, &r->terms), FW_OK);
+    assert_int_equal(fw_effect_nonlinear_hinge.add(&r->c, &r->loads), FW_OK);
 }
 
 static inline void rig_drawn(const rig *r, double *q) {
@@ -141,18 +141,18 @@ static inline void rig_forces(const rig *r, const double *q, double *force, doub
     double p[36], w[36], f[36], k[36 * 36], d[36 * 36];
     memset(force, 0, n * sizeof *force);
     if (stiffness) memset(stiffness, 0, n * n * sizeof *stiffness);
-    for (int i = 0; i < r->terms.nelement; i++) {
-        const fw_force_element *e = &r->terms.element[i];
+    for (int i = 0; i < r->loads.nelement; i++) {
+        const fw_effects_force_element *e = &r->loads.element[i];
         bool on[2] = {false, false};
-        fw_seen s = {.load = 1, .p = p, .w = w, .on = on};
-        fw_element_look(e, q, NULL, p, w);
+        fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = on};
+        fw_effects_element_place_ports(e, q, NULL, p, w);
         for (int j = 0; j < e->switches; j++)
             on[j] = e->class_->switch_value(e, &s, j) > 0;
         e->class_->force(e, &s, f);
-        fw_element_push(e, q, f, force);
+        fw_effects_element_add_forces(e, q, f, force);
         if (!stiffness) continue;
         e->class_->tangent(e, &s, k, d);
-        fw_element_spread(e, r->m.nbody, q, NULL, f, k, d, stiffness, NULL);
+        fw_effects_element_spread(e, r->m.nbody, q, NULL, f, k, d, stiffness, NULL);
     }
 }
 
@@ -172,7 +172,8 @@ static inline void rig_equilibrium(const rig *r, const double *load, int steps, 
                 for (int j = 0; j < n; j++)
                     stiffness[i * n + j] *= unit[i % 3] * unit[j % 3] * 1e6;
             }
-            assert_int_equal(fw_dense_solve_symmetric(r->arena, n, stiffness, x, x, &fine), FW_OK);
+            assert_int_equal(fw_maths_dense_solve_symmetric(r->arena, n, stiffness, x, x, &fine),
+                             FW_OK);
             assert_true(fine);
             for (int i = 0; i < n; i++)
                 largest = fmax(largest, fabs(x[i]));

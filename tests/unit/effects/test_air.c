@@ -11,42 +11,42 @@ static double number(uint64_t *seed) { /* in [-1, 1) */
     return 2 * ((double)(*seed >> 11) * 0x1p-53) - 1;
 }
 
-static fw_air any_air(fw_air_kind kind) {
+static fw_device_air any_air(fw_device_air_kind kind) {
     const double open = (double)NAN;
-    return (fw_air){.kind = kind,
-                    .body = FW_NONE,
-                    .against = FW_GROUND,
-                    .gap_m = 2e-6,
-                    .area_m2 = open,
-                    .length_m = 200e-6,
-                    .depth_m = 20e-6,
-                    .pressure_Pa = open,
-                    .temperature_K = open,
-                    .viscosity_Pas = open};
+    return (fw_device_air){.kind = kind,
+                           .body = FW_NONE,
+                           .against = FW_GROUND,
+                           .gap_m = 2e-6,
+                           .area_m2 = open,
+                           .length_m = 200e-6,
+                           .depth_m = 20e-6,
+                           .pressure_Pa = open,
+                           .temperature_K = open,
+                           .viscosity_Pas = open};
 }
 
-static fw_gas gas_at(double pressure_Pa) {
-    fw_air a = any_air(FW_AIR_SLIDE);
+static fw_effects_gas gas_at(double pressure_Pa) {
+    fw_device_air a = any_air(FW_AIR_SLIDE);
     a.pressure_Pa = pressure_Pa;
-    return fw_gas_of(&a);
+    return fw_effects_gas_of(&a);
 }
 
 /* ---- properties ---- */
 
 static void published_air(void **state) {
     (void)state;
-    assert_relative(fw_air_viscosity(293.15), 18.2e-6, 5e-3); /* CRC Handbook */
-    assert_relative(fw_air_viscosity(300), 18.5e-6, 5e-3);
-    assert_relative(fw_air_viscosity(400), 23.0e-6, 1e-2);
-    assert_relative(fw_air_viscosity(200), 13.3e-6, 1e-2);
-    fw_gas g = gas_at((double)NAN);
+    assert_relative(fw_effects_air_viscosity(293.15), 18.2e-6, 5e-3); /* CRC Handbook */
+    assert_relative(fw_effects_air_viscosity(300), 18.5e-6, 5e-3);
+    assert_relative(fw_effects_air_viscosity(400), 23.0e-6, 1e-2);
+    assert_relative(fw_effects_air_viscosity(200), 13.3e-6, 1e-2);
+    fw_effects_gas g = gas_at((double)NAN);
     assert_relative(g.density_kg_per_m3, 1.204, 1e-3);
     assert_relative(g.path_m, 65.43e-9, 1e-2); /* Jennings 1988 */
     assert_relative(g.path_m, 68e-9, 5e-2);    /* as often quoted */
     assert_relative(gas_at(100).path_m, g.path_m * 1013.25, 1e-14);
-    fw_air stated = any_air(FW_AIR_DRAG);
+    fw_device_air stated = any_air(FW_AIR_DRAG);
     stated.viscosity_Pas = 9e-6, stated.temperature_K = 400;
-    g = fw_gas_of(&stated);
+    g = fw_effects_gas_of(&stated);
     assert_true(g.viscosity_Pas == 9e-6 && g.temperature_K == 400);
 }
 
@@ -83,31 +83,34 @@ static void rectangle_integral(void **state) {
             value[k] = by_differences(ratio[i] * m, m, 1.0 / (ratio[i] * m));
         double once = (4 * value[1] - value[0]) / 3, again = (4 * value[2] - value[1]) / 3;
         double want = again + (again - once) / 15;
-        assert_relative(fw_rectangle_integral(1, 1.0 / ratio[i]), want, 2e-6);
-        assert_relative(fw_rectangle_integral(1.0 / ratio[i], 1), want, 2e-6);
+        assert_relative(fw_effects_rectangle_integral(1, 1.0 / ratio[i]), want, 2e-6);
+        assert_relative(fw_effects_rectangle_integral(1.0 / ratio[i], 1), want, 2e-6);
     }
-    assert_near(12 * fw_rectangle_integral(1, 1), 0.4217, 5e-5);    /* published for the square */
-    assert_relative(fw_rectangle_integral(1e4, 1), 1e4 / 12, 1e-4); /* a long strip */
+    assert_near(12 * fw_effects_rectangle_integral(1, 1), 0.4217,
+                5e-5); /* published for the square */
+    assert_relative(fw_effects_rectangle_integral(1e4, 1), 1e4 / 12, 1e-4); /* a long strip */
 }
 
 static void squeeze_coefficient(void **state) {
     (void)state;
-    fw_gas g = gas_at((double)NAN);
+    fw_effects_gas g = gas_at((double)NAN);
     g.path_m = 0;
-    fw_squeeze film = fw_air_squeeze(&g, 1e-4, 1e-4, 2e-6);
-    assert_relative(fw_squeeze_at(&film, 2e-6, NULL), 0.4217 * g.viscosity_Pas * 1e-16 / 8e-18,
-                    2e-4);
+    fw_effects_squeeze film = fw_effects_air_squeeze(&g, 1e-4, 1e-4, 2e-6);
+    assert_relative(fw_effects_squeeze_at(&film, 2e-6, NULL),
+                    0.4217 * g.viscosity_Pas * 1e-16 / 8e-18, 2e-4);
     g = gas_at(3e3); /* Kn near 1 */
-    film = fw_air_squeeze(&g, 3e-4, 2e-5, 2e-6);
+    film = fw_effects_air_squeeze(&g, 3e-4, 2e-5, 2e-6);
     for (int i = 0; i < 6; i++) {
         double gap = 1e-6 * (0.7 + i), h = 1e-3 * gap, slope, kn = g.path_m / gap;
-        double c = fw_squeeze_at(&film, gap, &slope);
-        double dense = 12 * g.viscosity_Pas * fw_rectangle_integral(3e-4, 2e-5) / pow(gap, 3);
+        double c = fw_effects_squeeze_at(&film, gap, &slope);
+        double dense =
+            12 * g.viscosity_Pas * fw_effects_rectangle_integral(3e-4, 2e-5) / pow(gap, 3);
         assert_relative(c, dense / (1 + 9.638 * pow(kn, 1.159)), 1e-12);
-        double rate =
-            (8 * (fw_squeeze_at(&film, gap + h, NULL) - fw_squeeze_at(&film, gap - h, NULL)) -
-             fw_squeeze_at(&film, gap + 2 * h, NULL) + fw_squeeze_at(&film, gap - 2 * h, NULL)) /
-            (12 * h);
+        double rate = (8 * (fw_effects_squeeze_at(&film, gap + h, NULL) -
+                            fw_effects_squeeze_at(&film, gap - h, NULL)) -
+                       fw_effects_squeeze_at(&film, gap + 2 * h, NULL) +
+                       fw_effects_squeeze_at(&film, gap - 2 * h, NULL)) /
+                      (12 * h);
         assert_relative(slope, rate, 1e-9);
     }
 }
@@ -117,26 +120,26 @@ static void squeeze_coefficient(void **state) {
 static void limits_of_dampers(void **state) {
     (void)state;
     const double r = 100e-6;
-    const fw_face disc = {pi * r * r, pi * r * r * r * r / 2, 2 * pi * r};
-    fw_gas dense = gas_at(1e9), thin = gas_at(1e-3);
+    const fw_effects_face disc = {pi * r * r, pi * r * r * r * r / 2, 2 * pi * r};
+    fw_effects_gas dense = gas_at(1e9), thin = gas_at(1e-3);
     double mu = dense.viscosity_Pas;
-    fw_damper d = fw_air_drag(&dense, &disc);
+    fw_effects_damper d = fw_effects_air_drag(&dense, &disc);
     assert_relative(d.force_Ns_per_m, 32.0 / 3 * mu * r, 1e-5);
     assert_relative(d.couple_Nms, 32.0 / 3 * mu * r * r * r, 1e-5);
     /* free molecules: each face loses p/sqrt(2 pi R T) v per area */
     double beat = thin.pressure_Pa / sqrt(2 * pi * 287.05 * thin.temperature_K);
-    d = fw_air_drag(&thin, &disc);
+    d = fw_effects_air_drag(&thin, &disc);
     assert_relative(d.force_Ns_per_m, 2 * beat * disc.area_m2, 1e-5);
     assert_relative(d.couple_Nms, 2 * beat * disc.polar_m4, 1e-5);
     /* a film: dense Couette flow; free molecules between two walls, one face */
-    d = fw_air_slide(&dense, &disc, 2e-6);
+    d = fw_effects_air_slide(&dense, &disc, 2e-6);
     assert_relative(d.force_Ns_per_m, mu * disc.area_m2 / 2e-6, 1e-4);
     assert_relative(d.couple_Nms, mu * disc.polar_m4 / 2e-6, 1e-4);
-    d = fw_air_slide(&thin, &disc, 2e-6);
+    d = fw_effects_air_slide(&thin, &disc, 2e-6);
     assert_relative(d.force_Ns_per_m, beat * disc.area_m2, 1e-4);
     /* at room pressure Kn = 0.0325 takes 6 % */
-    fw_gas room = gas_at((double)NAN);
-    d = fw_air_slide(&room, &disc, 2e-6);
+    fw_effects_gas room = gas_at((double)NAN);
+    d = fw_effects_air_slide(&room, &disc, 2e-6);
     assert_relative(d.force_Ns_per_m, mu * disc.area_m2 / 2e-6 / 1.065, 1e-3);
 }
 
@@ -145,33 +148,33 @@ static void limits_of_dampers(void **state) {
 typedef struct stand {
     fw_arena *arena;
     fw_diags diags;
-    fw_mass body[2];
-    fw_shape shape[2];
+    fw_mechanism_mass body[2];
+    fw_mechanism_shape shape[2];
     fw_mechanism m;
-    fw_variant variant;
-    fw_air air[3];
-    fw_scene scene;
+    fw_mechanism_variant variant;
+    fw_device_air air[3];
+    fw_device_scene scene;
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
 } stand;
 
 static void stand_new(stand *s) {
     memset(s, 0, sizeof *s);
     s->arena = fw_arena_new(0);
     s->diags = fw_diags_new(s->arena);
-    s->body[0] = (fw_mass){"a", 1e-8, 1e-16, 1e-4, 2e-4, 0.4};
-    s->body[1] = (fw_mass){"b", 1e-8, 1e-16, -3e-4, 5e-5, -1.1};
-    s->shape[0] = (fw_shape){1e-8, 4e-17, 5e-4};
-    s->shape[1] = (fw_shape){3e-8, 2e-16, 9e-4};
+    s->body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-16, 1e-4, 2e-4, 0.4};
+    s->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-16, -3e-4, 5e-5, -1.1};
+    s->shape[0] = (fw_mechanism_shape){1e-8, 4e-17, 5e-4};
+    s->shape[1] = (fw_mechanism_shape){3e-8, 2e-16, 9e-4};
     s->m = (fw_mechanism){.body = s->body, .shape = s->shape, .nbody = 2, .variant = &s->variant};
     s->variant.thickness_m = 15e-6;
-    s->scene = (fw_scene){.name = "s", .duration_s = 1e-3, .air = s->air};
+    s->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3, .air = s->air};
 }
 
 static fw_status compile(stand *s) {
     const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     return fw_effects_compile(s->arena, &s->m, &s->scene, &choice, 1e-3, &s->diags, &s->ledger,
-                              &s->terms);
+                              &s->loads);
 }
 
 /* film between body a and body b, as drawn at the gap */
@@ -181,7 +184,7 @@ static void squeeze_of(stand *s, int against) {
     s->air[0].x_m = 4e-5, s->air[0].y_m = -2e-5, s->air[0].direction_rad = 0.8;
     s->scene.nair = 1;
     assert_int_equal(compile(s), FW_OK);
-    assert_int_equal(s->terms.nelement, 1);
+    assert_int_equal(s->loads.nelement, 1);
 }
 
 static void every_class(void **state) {
@@ -190,7 +193,7 @@ static void every_class(void **state) {
         stand s;
         stand_new(&s);
         uint64_t seed = 77u + (unsigned)kind;
-        s.air[0] = any_air((fw_air_kind)kind);
+        s.air[0] = any_air((fw_device_air_kind)kind);
         s.scene.nair = 1;
         if (kind == FW_AIR_SQUEEZE)
             squeeze_of(&s, 1);
@@ -198,7 +201,7 @@ static void every_class(void **state) {
             assert_int_equal(compile(&s), FW_OK);
         for (int round = 0; round < 50; round++) {
             double q[6], v[6], p[6], w[6];
-            const fw_force_element *e = &s.terms.element[0];
+            const fw_effects_force_element *e = &s.loads.element[0];
             for (int i = 0; i < 6; i++)
                 v[i] = number(&seed) * (i % 3 == 2 ? 300 : 1e-2);
             for (int b = 0; b < 2; b++) {
@@ -206,10 +209,10 @@ static void every_class(void **state) {
                 q[3 * b + 1] = s.body[b].y_m + 2e-7 * number(&seed);
                 q[3 * b + 2] = s.body[b].phi_rad + 1e-3 * number(&seed);
             }
-            fw_element_look(e, q, v, p, w);
+            fw_effects_element_place_ports(e, q, v, p, w);
             for (int i = 0; i < 3 && e->ports == 2; i++) /* the plane may move too */
                 if (e->port[1].body == FW_GROUND) w[3 + i] = v[i] * number(&seed);
-            const fw_seen seen = {.load = 1, .p = p, .w = w};
+            const fw_effects_port_state seen = {.load = 1, .p = p, .w = w};
             fw_check_tangent(e, &seen, 5e-9, 1e-4, 1e-7);
             fw_check_power(e, &seen, 1e-7, 1e-9);
             if (kind != FW_AIR_DRAG) fw_check_balance(e, &seen, 1e-9);
@@ -225,11 +228,12 @@ static void squeeze_gap(void **state) {
         stand s;
         stand_new(&s);
         squeeze_of(&s, against);
-        const fw_force_element *e = &s.terms.element[0];
-        const fw_air *a = &s.air[0];
+        const fw_effects_force_element *e = &s.loads.element[0];
+        const fw_device_air *a = &s.air[0];
         const double out = a->direction_rad + s.body[0].phi_rad;
-        const fw_gas gas = fw_gas_of(a);
-        const fw_squeeze film = fw_air_squeeze(&gas, a->length_m, a->depth_m, a->gap_m);
+        const fw_effects_gas gas = fw_effects_gas_of(a);
+        const fw_effects_squeeze film =
+            fw_effects_air_squeeze(&gas, a->length_m, a->depth_m, a->gap_m);
         for (int i = 0; i < 3; i++) {
             double by = 0.5e-6 * i, p[6], w[6], f[6], q[6], v[6] = {0};
             for (int b = 0; b < 2; b++)
@@ -237,16 +241,16 @@ static void squeeze_gap(void **state) {
                       q[3 * b + 2] = s.body[b].phi_rad;
             q[0] += by * cos(out) - 3e-6 * sin(out), q[1] += by * sin(out) + 3e-6 * cos(out);
             v[0] = 0.01 * cos(out) - 0.3 * sin(out), v[1] = 0.01 * sin(out) + 0.3 * cos(out);
-            fw_element_look(e, q, v, p, w);
-            const fw_seen seen = {.load = 1, .p = p, .w = w};
+            fw_effects_element_place_ports(e, q, v, p, w);
+            const fw_effects_port_state seen = {.load = 1, .p = p, .w = w};
             const char *why = NULL;
             e->class_->force(e, &seen, f);
-            double want = fw_squeeze_at(&film, a->gap_m - by, NULL) * 0.01;
+            double want = fw_effects_squeeze_at(&film, a->gap_m - by, NULL) * 0.01;
             assert_relative(f[0], -want * cos(out), 1e-9);
             assert_relative(f[1], -want * sin(out), 1e-9);
             assert_true(e->class_->valid(e, &seen, &why));
             q[0] += 2e-6 * cos(out), q[1] += 2e-6 * sin(out); /* through the wall */
-            fw_element_look(e, q, v, p, w);
+            fw_effects_element_place_ports(e, q, v, p, w);
             if (i > 0) assert_false(e->class_->valid(e, &seen, &why));
             if (i > 0) assert_non_null(strstr(why, "touch"));
         }
@@ -261,7 +265,7 @@ static void film_stops_a_wall(void **state) {
     stand s;
     stand_new(&s);
     squeeze_of(&s, FW_GROUND);
-    fw_squeeze *film = (fw_squeeze *)(uintptr_t)s.terms.element[0].data;
+    fw_effects_squeeze *film = (fw_effects_squeeze *)(uintptr_t)s.loads.element[0].data;
     film->path_m = 0;
     const double out = s.air[0].direction_rad + s.body[0].phi_rad, m = 1e-8, g0 = 2e-6;
     double x = 0, c = film->c0_Nsm2, v0 = c / (2 * m) * (1 / (1e-6 * 1e-6) - 1 / (g0 * g0)), u = v0;
@@ -274,9 +278,9 @@ static void film_stops_a_wall(void **state) {
             double q[6] = {s.body[0].x_m + at * cos(out), s.body[0].y_m + at * sin(out),
                            s.body[0].phi_rad};
             const double v[6] = {speed * cos(out), speed * sin(out), 0};
-            fw_element_look(&s.terms.element[0], q, v, p, w);
-            const fw_seen seen = {.load = 1, .p = p, .w = w};
-            s.terms.element[0].class_->force(&s.terms.element[0], &seen, f);
+            fw_effects_element_place_ports(&s.loads.element[0], q, v, p, w);
+            const fw_effects_port_state seen = {.load = 1, .p = p, .w = w};
+            s.loads.element[0].class_->force(&s.loads.element[0], &seen, f);
             k[i][0] = speed, k[i][1] = (f[0] * cos(out) + f[1] * sin(out)) / m;
         }
         x += dt / 6 * (k[0][0] + 2 * k[1][0] + 2 * k[2][0] + k[3][0]);
@@ -297,12 +301,12 @@ static void bodies_and_areas(void **state) {
     s.air[1].area_m2 = 12e-8; /* twice the size of what is drawn */
     s.scene.nair = 2;
     assert_int_equal(compile(&s), FW_OK);
-    assert_int_equal(s.terms.nelement, 3);
-    assert_true(s.terms.element[0].port[0].body == 0 && s.terms.element[1].port[0].body == 1);
-    assert_true(s.terms.element[1].port[1].body == FW_GROUND && s.terms.element[2].ports == 1);
+    assert_int_equal(s.loads.nelement, 3);
+    assert_true(s.loads.element[0].port[0].body == 0 && s.loads.element[1].port[0].body == 1);
+    assert_true(s.loads.element[1].port[1].body == FW_GROUND && s.loads.element[2].ports == 1);
     for (int i = 0; i < 3; i++)
-        assert_true(s.terms.element[i].dissipates && !s.terms.element[i].works);
-    fw_face f = fw_air_face(&s.m, &s.air[1], 1);
+        assert_true(s.loads.element[i].dissipates && !s.loads.element[i].works);
+    fw_effects_face f = fw_effects_air_face(&s.m, &s.air[1], 1);
     assert_relative(f.perimeter_m, 18e-4, 1e-14);
     assert_relative(f.polar_m4, 16 * 2e-16, 1e-14);
     s.m.shape = NULL; /* nothing is drawn: the film over all bodies has no area */
@@ -311,11 +315,11 @@ static void bodies_and_areas(void **state) {
     s.air[0] = any_air(FW_AIR_SLIDE);
     s.air[0].area_m2 = 1e-8;
     assert_int_equal(compile(&s), FW_OK);
-    f = fw_air_face(&s.m, &s.air[0], 0);
+    f = fw_effects_air_face(&s.m, &s.air[0], 0);
     assert_relative(f.polar_m4, 1e-16 / (2 * pi), 1e-14); /* the disc of this area */
     s.air[0] = any_air(FW_AIR_SQUEEZE);
     s.air[0].body = 0, s.air[0].depth_m = (double)NAN;
-    assert_relative(fw_air_depth(&s.m, &s.air[0]), 15e-6, 1e-15);
+    assert_relative(fw_effects_air_depth(&s.m, &s.air[0]), 15e-6, 1e-15);
     s.m.variant = NULL;
     assert_int_equal(compile(&s), FW_INPUT);
     fw_arena_free(s.arena);

@@ -5,22 +5,22 @@
 
 static const double eps0 = 8.8541878128e-12;
 
-static const fw_comb comb = {.id = "comb",
-                             .kind = FW_ELECTRODES_COMB,
-                             .body_a = FW_GROUND,
-                             .body_b = 0,
-                             .bx_m = 0.1e-3,
-                             .by_m = -0.05e-3,
-                             .direction_rad = 0.7,
-                             .fingers = 20,
-                             .gap_m = 4e-6,
-                             .overlap_m = 60e-6,
-                             .length_m = 140e-6,
-                             .depth_m = (double)NAN,
-                             .voltage_V = 30};
+static const fw_device_comb comb = {.id = "comb",
+                                    .kind = FW_ELECTRODES_COMB,
+                                    .body_a = FW_GROUND,
+                                    .body_b = 0,
+                                    .bx_m = 0.1e-3,
+                                    .by_m = -0.05e-3,
+                                    .direction_rad = 0.7,
+                                    .fingers = 20,
+                                    .gap_m = 4e-6,
+                                    .overlap_m = 60e-6,
+                                    .length_m = 140e-6,
+                                    .depth_m = (double)NAN,
+                                    .voltage_V = 30};
 
-static fw_comb plate_of(void) {
-    fw_comb c = comb;
+static fw_device_comb plate_of(void) {
+    fw_device_comb c = comb;
     c.kind = FW_ELECTRODES_PLATE;
     c.length_m = 200e-6;
     c.gap_m = 5e-6;
@@ -28,24 +28,24 @@ static fw_comb plate_of(void) {
     return c;
 }
 
-static void with_comb(rig *r, const fw_comb *c) {
+static void with_comb(rig *r, const fw_device_comb *c) {
     rig_new(r, 7);
-    r->scene.comb = fw_arena_one(r->arena, fw_comb);
+    r->scene.comb = fw_arena_one(r->arena, fw_device_comb);
     r->scene.comb[0] = *c;
     r->scene.ncomb = 1;
     rig_compile(r);
 }
 
-static fw_seen seen(const double *p, const double *w, double t, double load) {
-    return (fw_seen){.t_s = t, .piece_s = t, .load = load, .p = p, .w = w};
+static fw_effects_port_state seen(const double *p, const double *w, double t, double load) {
+    return (fw_effects_port_state){.t_s = t, .piece_s = t, .load = load, .p = p, .w = w};
 }
 
 /* ports of the rig with the rotor at x, y, tilt against the stator */
 static void place_rotor(const rig *r, double x, double y, double tilt, double *p) {
     double q[3 * RIG_BODIES], w[6];
-    const fw_comb *c = &r->scene.comb[0];
+    const fw_device_comb *c = &r->scene.comb[0];
     rig_pose(r, q);
-    fw_element_look(r->e, q, NULL, p, w);
+    fw_effects_element_place_ports(r->e, q, NULL, p, w);
     double u = cos(c->direction_rad + p[2]), v = sin(c->direction_rad + p[2]);
     p[3] += u * x - v * y;
     p[4] += v * x + u * y;
@@ -71,7 +71,7 @@ static void test_capacitance(void **state) {
     (void)state;
     rig r;
     with_comb(&r, &comb);
-    const fw_comb_element *c = fw_comb_of(r.e);
+    const fw_effects_comb_element *c = fw_effects_comb_of(r.e);
     for (int i = 0; i < 300; i++) {
         double scale = pow(10, -6 * fabs(rig_random(&r)));
         double x = 50e-6 * rig_random(&r), y = 2e-6 * rig_random(&r);
@@ -81,17 +81,17 @@ static void test_capacitance(void **state) {
         if (fmax(fabs(y + tilt * a), fabs(y + tilt * b)) > 0.98 * g) continue;
         double want =
             eps0 * 50e-6 * 20 * (integral(a, b, g - y, -tilt) + integral(a, b, g + y, tilt));
-        assert_relative(fw_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
+        assert_relative(fw_effects_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
     }
     fw_arena_free(r.arena);
-    fw_comb flat = plate_of();
+    fw_device_comb flat = plate_of();
     with_comb(&r, &flat);
-    c = fw_comb_of(r.e);
+    c = fw_effects_comb_of(r.e);
     for (int i = 0; i < 300; i++) {
         double x = 2.5e-6 * rig_random(&r), tilt = 2.4e-2 * rig_random(&r);
         const double place[3] = {x, 1e-6 * rig_random(&r), tilt};
         double want = eps0 * 20e-6 * integral(-100e-6, 100e-6, 5e-6 - x, tilt);
-        assert_relative(fw_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
+        assert_relative(fw_effects_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
     }
     fw_arena_free(r.arena);
 }
@@ -102,13 +102,13 @@ static void test_derivatives(void **state) {
     (void)state;
     rig r;
     with_comb(&r, &comb);
-    const fw_comb_element *c = fw_comb_of(r.e);
+    const fw_effects_comb_element *c = fw_effects_comb_of(r.e);
     static const double tilts[] = {0, 1e-9, 1e-3, 0.0297, 0.03, -0.0463, 0.05};
     const double h[3] = {2e-8, 2e-8, 2e-5}, unit[3] = {1e-6, 1e-6, 1e-3};
     for (int i = 0; i < 7; i++) {
         const double at[3] = {3e-6, 0.3e-6, tilts[i]};
         double slope[3], bend[9], size = 0;
-        double value = fw_comb_capacitance(c, at, slope, bend);
+        double value = fw_effects_comb_capacitance(c, at, slope, bend);
         for (int k = 0; k < 9; k++)
             size = fmax(size, fabs(bend[k] * unit[k / 3] * unit[k % 3]));
         for (int k = 0; k < 3; k++) {
@@ -116,7 +116,7 @@ static void test_derivatives(void **state) {
             for (int j = -3; j <= 3; j++) {
                 double moved[3] = {at[0], at[1], at[2]};
                 moved[k] += j * h[k];
-                v[j + 3] = fw_comb_capacitance(c, moved, sl, NULL);
+                v[j + 3] = fw_effects_comb_capacitance(c, moved, sl, NULL);
                 for (int l = 0; l < 3; l++)
                     s[l][j + 3] = sl[l];
             }
@@ -138,7 +138,7 @@ static void test_closed_forms(void **state) {
     const double w[6] = {0};
     with_comb(&r, &comb);
     place_rotor(&r, 0, 0, 0, p);
-    fw_seen s = seen(p, w, 0, 1);
+    fw_effects_port_state s = seen(p, w, 0, 1);
     r.e->class_->force(r.e, &s, f);
     r.e->class_->tangent(r.e, &s, stiffness, damping);
     double face = 20 * eps0 * 50e-6 * 900, u = cos(0.7), v = sin(0.7), g = 4e-6, l = 60e-6;
@@ -161,7 +161,7 @@ static void test_closed_forms(void **state) {
     assert_relative(-v * f[3] + u * f[4], 0.5 * face * l * (1 / 4e-12 - 1 / 36e-12), 1e-12);
     fw_arena_free(r.arena);
 
-    fw_comb flat = plate_of();
+    fw_device_comb flat = plate_of();
     with_comb(&r, &flat);
     place_rotor(&r, 1e-6, 3e-6, 0, p);
     s = seen(p, w, 0, 0.25); /* half the voltage */
@@ -182,10 +182,12 @@ static void test_closed_forms(void **state) {
    constant or a sine in time */
 static void test_laws(void **state) {
     (void)state;
-    static const fw_law sine = {
-        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 700, .phase_rad = 0.9};
+    static const fw_quantity_law sine = {.kind = &fw_quantity_law_sine,
+                                         .end_s = (double)INFINITY,
+                                         .frequency_Hz = 700,
+                                         .phase_rad = 0.9};
     for (int kind = 0; kind < 8; kind++) {
-        fw_comb c = kind & 1 ? plate_of() : comb;
+        fw_device_comb c = kind & 1 ? plate_of() : comb;
         if (kind & 2) c.body_a = 1;
         if (kind & 4) c.law = &sine;
         rig r;
@@ -205,7 +207,7 @@ static void test_laws(void **state) {
                 p[3] = cos(turn) * x1 - sin(turn) * y1, p[4] = sin(turn) * x1 + cos(turn) * y1;
                 p[2] += turn, p[5] += turn;
             }
-            fw_seen s = seen(p, w, 1e-4 * i, 1 + 0.5 * rig_random(&r));
+            fw_effects_port_state s = seen(p, w, 1e-4 * i, 1 + 0.5 * rig_random(&r));
             if (!r.e->class_->valid(r.e, &s, &why)) continue;
             checked++;
             fw_check_tangent(r.e, &s, 1e-8, 1e-5, 1e-6);
@@ -224,7 +226,7 @@ static void test_valid(void **state) {
     const double w[6] = {0};
     const char *why = NULL;
     with_comb(&r, &comb);
-    fw_seen s = seen(p, w, 0, 1);
+    fw_effects_port_state s = seen(p, w, 0, 1);
     static const struct {
         double x, y, tilt;
         bool fine;
@@ -251,7 +253,7 @@ static void test_valid(void **state) {
     r.e->class_->force(r.e, &s, f);
     assert_true(isnan(f[3]));
     fw_arena_free(r.arena);
-    fw_comb flat = plate_of();
+    fw_device_comb flat = plate_of();
     with_comb(&r, &flat);
     place_rotor(&r, 4.7e-6, 0, 0, p);
     assert_true(r.e->class_->valid(r.e, &s, &why));
@@ -267,13 +269,13 @@ static void test_valid(void **state) {
 static void test_compiled(void **state) {
     (void)state;
     rig r;
-    fw_comb c = comb;
+    fw_device_comb c = comb;
     c.length_m = (double)NAN;
     with_comb(&r, &c);
-    const fw_comb_element *d = fw_comb_of(r.e);
+    const fw_effects_comb_element *d = fw_effects_comb_of(r.e);
     assert_near(d->depth_m, 50e-6, 0);
     assert_near(d->length_m, 120e-6, 1e-20);
-    assert_relative(fw_comb_fringe(d), (1 + log(25 * M_PI)) / (12.5 * M_PI), 1e-13);
+    assert_relative(fw_effects_comb_fringe(d), (1 + log(25 * M_PI)) / (12.5 * M_PI), 1e-13);
     assert_true(r.e->size_N_per_m > 0 && r.e->force_N > 0 && !r.e->works && !r.e->dissipates);
     const fw_effect_entry *entry = NULL;
     for (int i = 0; i < r.ledger.count; i++)
@@ -282,9 +284,9 @@ static void test_compiled(void **state) {
     r.scene.comb[0].voltage_V = 0;
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     assert_int_equal(
-        fw_effects_compile(r.arena, &r.m, &r.scene, &all, 1e-3, &r.diags, &r.ledger, &r.terms),
+        fw_effects_compile(r.arena, &r.m, &r.scene, &all, 1e-3, &r.diags, &r.ledger, &r.loads),
         FW_OK);
-    assert_int_equal(r.terms.nelement, 0);
+    assert_int_equal(r.loads.nelement, 0);
     fw_arena_free(r.arena);
 }
 

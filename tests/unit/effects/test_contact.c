@@ -14,26 +14,26 @@ static double random_(unsigned *seed) { /* in [-1, 1) */
 static void rig_lever(rig *r, double axis, bool first_is_a, bool convex_is_a, double from,
                       double to) {
     rig_new(r, 1, 1);
-    r->body[0] = (fw_mass){"lever", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
-    rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_vec2){1e-4, 2e-4}, axis, first_is_a);
+    r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
+    rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){1e-4, 2e-4}, axis, first_is_a);
     r->pin[0].free_angle_rad = 0.3; /* drawn as it is free */
     r->hinge[0].convex_is_a = convex_is_a;
     r->hinge[0].cover_from_rad = from, r->hinge[0].cover_to_rad = to;
 }
 
-static const fw_force_element *touching(rig *r, fw_contact_use *use) {
+static const fw_effects_force_element *touching(rig *r, fw_device_contact_use *use) {
     r->scene.contact = use, r->scene.ncontact = 1;
     rig_compile(r);
-    assert_int_equal(fw_effect_contact.add(&r->c, &r->terms), FW_OK);
-    const fw_force_element *e = &r->terms.element[r->terms.nelement - 1];
+    assert_int_equal(fw_effect_contact.add(&r->c, &r->loads), FW_OK);
+    const fw_effects_force_element *e = &r->loads.element[r->loads.nelement - 1];
     assert_string_equal(e->class_->effect, "contact");
     assert_int_equal(e->switches, 1);
     assert_int_equal(e->pin, FW_NONE);
     return e;
 }
 
-static double switched(const fw_force_element *e, const double *p, const double *w) {
-    const fw_seen s = {.load = 1, .p = p, .w = w};
+static double switched(const fw_effects_force_element *e, const double *p, const double *w) {
+    const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
     return e->class_->switch_value(e, &s, 0);
 }
 
@@ -47,16 +47,16 @@ static void element_laws(void **state) {
         rig r;
         bool round = i % 5 == 0;
         double from = i % 3 == 0 ? nan_ : 3 * random_(&seed);
-        fw_contact_use use = {.id = "touch",
-                              .joint = round ? FW_NONE : 0,
-                              .side = i % 2 ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
-                              .body_a = FW_GROUND,
-                              .body_b = 0,
-                              .distance_m = 2e-6,
-                              .stiffness_N_per_m = 1e4,
-                              .damping_Ns_per_m = i % 4 ? 0.02 : nan_};
+        fw_device_contact_use use = {.id = "touch",
+                                     .joint = round ? FW_NONE : 0,
+                                     .side = i % 2 ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 0,
+                                     .distance_m = 2e-6,
+                                     .stiffness_N_per_m = 1e4,
+                                     .damping_Ns_per_m = i % 4 ? 0.02 : nan_};
         rig_lever(&r, 3 * random_(&seed), i % 2, i / 2 % 2, from, from + 1 + random_(&seed));
-        const fw_force_element *e = touching(&r, &use);
+        const fw_effects_force_element *e = touching(&r, &use);
         double p[6], w[6], f[6], power[2];
         for (int k = 0; k < 6; k++) {
             p[k] = (k % 3 == 2 ? 0.3 : 2e-6) * random_(&seed);
@@ -66,7 +66,7 @@ static void element_laws(void **state) {
         closed += value > 0;
         for (int flag = 0; flag < 2; flag++) {
             bool on = flag;
-            fw_seen s = {.load = 1, .p = p, .w = w, .on = &on};
+            fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
             fw_check_tangent(e, &s, 2e-10, 1e-5, 2e-6);
             fw_check_power(e, &s, 1e-9, 1e-6);
             fw_check_balance(e, &s, 1e-11);
@@ -97,16 +97,16 @@ static void covered_directions(void **state) {
             for (int turned = 0; turned < 2; turned++)
                 for (int to = 0; to < 360; to += 15) {
                     rig r;
-                    fw_contact_use use = {.joint = 0,
-                                          .distance_m = nan_,
-                                          .stiffness_N_per_m = 1e4,
-                                          .damping_Ns_per_m = nan_};
-                    fw_flexure flexure = {.gap_m = gap};
+                    fw_device_contact_use use = {.joint = 0,
+                                                 .distance_m = nan_,
+                                                 .stiffness_N_per_m = 1e4,
+                                                 .damping_Ns_per_m = nan_};
+                    fw_device_flexure flexure = {.gap_m = gap};
                     const fw_device device = {.flexure = &flexure, .nflexure = 1};
                     rig_lever(&r, 0.7, first_is_a, convex_is_a, 10 * degree, 80 * degree);
                     r.m.device = &device;
                     r.hinge[0].surface_radius_m = 150e-6;
-                    const fw_force_element *e = touching(&r, &use);
+                    const fw_effects_force_element *e = touching(&r, &use);
                     /* body b is at +a where body a is at -a: then the sector begins with b */
                     double turn = turned ? 20 * degree : 0;
                     double from = (10 + (first_is_a ? turn / degree : 0)) * degree;
@@ -139,20 +139,20 @@ static void forces_close_the_gap(void **state) {
     const double closes[2] = {219.7e-6, 437.3e-6};
     for (int across = 0; across < 2; across++) {
         rig r;
-        fw_contact_use use = {
+        fw_device_contact_use use = {
             .joint = 0, .distance_m = 2e-6, .stiffness_N_per_m = 1e6, .damping_Ns_per_m = nan_};
         rig_lever(&r, 0.4, true, false, nan_, nan_);
-        const fw_force_element *e = touching(&r, &use);
+        const fw_effects_force_element *e = touching(&r, &use);
         for (int i = 0; i < 3; i++) {
             const double share[3] = {0.995, 1.005, 3};
             double F = share[i] * closes[across], to = 0.4 + across * M_PI / 2;
             double q[3], p[6], w[6], f[6], load[3] = {F * cos(to), F * sin(to), 0};
             rig_drawn(&r, q);
             rig_equilibrium(&r, load, 20, q);
-            fw_element_look(e, q, NULL, p, w);
+            fw_effects_element_place_ports(e, q, NULL, p, w);
             assert_int_equal(switched(e, p, w) > 0, i > 0);
             bool on = true;
-            const fw_seen s = {.load = 1, .p = p, .w = w, .on = &on};
+            const fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
             e->class_->force(e, &s, f);
             if (i == 2) {
                 assert_relative(hypot(p[3] - p[0], p[4] - p[1]), 2e-6, 1e-3);
@@ -169,18 +169,18 @@ static void moments_close_the_gap(void **state) {
     for (int sense = -1; sense <= 1; sense += 2)
         for (int beyond = 0; beyond < 2; beyond++) {
             rig r;
-            fw_contact_use use = {
+            fw_device_contact_use use = {
                 .joint = 0, .distance_m = 1e-6, .stiffness_N_per_m = 1e4, .damping_Ns_per_m = nan_};
             rig_lever(&r, 0.4, true, false, nan_, nan_);
-            const fw_force_element *e = touching(&r, &use);
-            r.terms.nelement = 1; /* the hinge alone moves it */
+            const fw_effects_force_element *e = touching(&r, &use);
+            r.loads.nelement = 1; /* the hinge alone moves it */
             double angle = (sense > 0 ? 12.53 : 12.27) + (beyond ? 0.02 : -0.02);
             double q[3], p[6], w[6];
             double load[3] = {0, 0,
                               sense * angle * M_PI / 180 * r.hinge[0].law.stiffness_Nm_per_rad};
             rig_drawn(&r, q);
             rig_equilibrium(&r, load, 10, q);
-            fw_element_look(e, q, NULL, p, w);
+            fw_effects_element_place_ports(e, q, NULL, p, w);
             assert_int_equal(switched(e, p, w) > 0, beyond);
             fw_arena_free(r.arena);
         }
@@ -194,15 +194,15 @@ static void bouncing(void **state) {
     for (double zeta = 0; zeta < 0.8; zeta += 0.15) {
         double w0 = sqrt(k / m), a = zeta * w0, c = 2 * m * a, w = sqrt(w0 * w0 - a * a);
         rig r;
-        fw_contact_use use = {.joint = FW_NONE,
-                              .side = FW_CONTACT_OUTSIDE,
-                              .body_a = FW_GROUND,
-                              .body_b = 0,
-                              .distance_m = distance,
-                              .stiffness_N_per_m = k,
-                              .damping_Ns_per_m = c};
+        fw_device_contact_use use = {.joint = FW_NONE,
+                                     .side = FW_CONTACT_OUTSIDE,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 0,
+                                     .distance_m = distance,
+                                     .stiffness_N_per_m = k,
+                                     .damping_Ns_per_m = c};
         rig_lever(&r, 0.4, true, false, nan_, nan_);
-        const fw_force_element *e = touching(&r, &use);
+        const fw_effects_force_element *e = touching(&r, &use);
         double y = distance, speed = -v, t = 0, before = 0, h = 1e-3 / w0, f[6];
         bool on = true;
         for (int step = 0; step < 20000; step++) { /* RK4 until it lets go */
@@ -211,7 +211,7 @@ static void bouncing(void **state) {
                 double part = i == 0 ? 0 : i == 3 ? h : 0.5 * h;
                 double yi = y + (i ? part * ky[i - 1] : 0), vi = speed + (i ? part * kv[i - 1] : 0);
                 const double p[6] = {0, 0, 0, 0, yi, 0}, rate[6] = {0, 0, 0, 0, vi, 0};
-                const fw_seen s = {.load = 1, .p = p, .w = rate, .on = &on};
+                const fw_effects_port_state s = {.load = 1, .p = p, .w = rate, .on = &on};
                 e->class_->force(e, &s, f);
                 ky[i] = vi, kv[i] = f[4] / m;
                 if (i > 0 || step == 0) continue;
@@ -242,18 +242,18 @@ static void line_contact(void **state) {
     double one = (1 - nu * nu) / (M_PI * E), relative = 1 / (1 / R - 1 / (R + gap));
     double b = sqrt(8 * F / h * relative * one);
     double approach = 2 * F / h * one * (2 * log(4 * R / b) - 1);
-    double k = fw_line_contact(E, nu, h, R, gap, F);
+    double k = fw_effects_line_contact(E, nu, h, R, gap, F);
     assert_relative(k, F / approach, 1e-12);
     assert_true(b < 0.05 * R);
-    double more = fw_line_contact(E, nu, h, R, gap, 10 * F) / k;
+    double more = fw_effects_line_contact(E, nu, h, R, gap, 10 * F) / k;
     assert_true(more > 1 && more < 1.35);
 }
 
-static void expect_refusal(rig *r, fw_contact_use *use) {
+static void expect_refusal(rig *r, fw_device_contact_use *use) {
     size_t before = r->diags.errors;
     r->scene.contact = use, r->scene.ncontact = 1;
-    assert_int_equal(fw_terms_new(r->arena, &r->m, &r->scene, &r->terms), FW_OK);
-    assert_int_equal(fw_effect_contact.add(&r->c, &r->terms), FW_INPUT);
+    assert_int_equal(fw_effects_loads_new(r->arena, &r->m, &r->scene, &r->loads), FW_OK);
+    assert_int_equal(fw_effect_contact.add(&r->c, &r->loads), FW_INPUT);
     assert_int_equal(r->diags.errors, before + 1);
     assert_int_equal(r->diags.item[r->diags.count - 1].number, 246);
     assert_int_equal(r->diags.item[r->diags.count - 1].place.line, 9);
@@ -262,11 +262,11 @@ static void expect_refusal(rig *r, fw_contact_use *use) {
 static void what_is_not_known(void **state) {
     (void)state;
     rig r;
-    fw_contact_use use = {.joint = 0,
-                          .distance_m = nan_,
-                          .stiffness_N_per_m = nan_,
-                          .damping_Ns_per_m = nan_,
-                          .place = {"d.xml", 9, 2}};
+    fw_device_contact_use use = {.joint = 0,
+                                 .distance_m = nan_,
+                                 .stiffness_N_per_m = nan_,
+                                 .damping_Ns_per_m = nan_,
+                                 .place = {"d.xml", 9, 2}};
     rig_lever(&r, 0.4, true, false, nan_, nan_);
     expect_refusal(&r, &use); /* no gap */
     use.distance_m = 2e-6;
@@ -282,23 +282,23 @@ static void what_is_not_known(void **state) {
     rig_lever(&r, 0.4, true, false, nan_, nan_);
     r.hinge[0].stated = true;
     r.scene.contact = &use, r.scene.ncontact = 1;
-    assert_int_equal(fw_terms_new(r.arena, &r.m, &r.scene, &r.terms), FW_OK);
-    assert_int_equal(fw_effect_contact.add(&r.c, &r.terms), FW_OK);
-    assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.terms), FW_OK);
-    assert_int_equal(r.terms.nelement, 2);
-    assert_int_equal(r.terms.nreleased, 1);
+    assert_int_equal(fw_effects_loads_new(r.arena, &r.m, &r.scene, &r.loads), FW_OK);
+    assert_int_equal(fw_effect_contact.add(&r.c, &r.loads), FW_OK);
+    assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.loads), FW_OK);
+    assert_int_equal(r.loads.nelement, 2);
+    assert_int_equal(r.loads.nreleased, 1);
     /* and its default stiffness comes from the drawn radius */
     fw_arena_free(r.arena);
     rig_lever(&r, 0.4, true, false, 0, 1);
     use.stiffness_N_per_m = nan_;
     r.hinge[0].surface_radius_m = 150e-6;
     r.variant.material.youngs.value = 147e9, r.variant.material.poisson.value = 0.22;
-    const fw_force_element *e = touching(&r, &use);
-    fw_hinge_at at;
-    fw_hinge_law_at(&r.hinge[0].law, 0, &at);
+    const fw_effects_force_element *e = touching(&r, &use);
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(&r.hinge[0].law, 0, &at);
     assert_relative(e->size_N_per_m,
-                    fw_line_contact(147e9, 0.22, 50e-6, 150e-6, 2e-6,
-                                    2e-6 * fmin(at.kx_N_per_m.value, at.ky_N_per_m.value)),
+                    fw_effects_line_contact(147e9, 0.22, 50e-6, 150e-6, 2e-6,
+                                            2e-6 * fmin(at.kx_N_per_m.value, at.ky_N_per_m.value)),
                     1e-12);
     fw_arena_free(r.arena);
 }
@@ -311,16 +311,16 @@ static void pressed_as_drawn(void **state) {
         rig_lever(&r, 0.4, true, false, nan_, nan_);
         const bool inside = i % 2;
         const double past = (const double[]){-1e-6, 0.9e-6, 20e-6}[i / 2];
-        fw_contact_use use = {.joint = FW_NONE,
-                              .id = "c",
-                              .side = inside ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
-                              .body_a = FW_GROUND,
-                              .body_b = 0,
-                              .ax_m = r.body[0].x_m,
-                              .ay_m = r.body[0].y_m + 300e-6,
-                              .distance_m = 300e-6 + (inside ? -past : past),
-                              .stiffness_N_per_m = 1e4,
-                              .damping_Ns_per_m = nan_};
+        fw_device_contact_use use = {.joint = FW_NONE,
+                                     .id = "c",
+                                     .side = inside ? FW_CONTACT_INSIDE : FW_CONTACT_OUTSIDE,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 0,
+                                     .ax_m = r.body[0].x_m,
+                                     .ay_m = r.body[0].y_m + 300e-6,
+                                     .distance_m = 300e-6 + (inside ? -past : past),
+                                     .stiffness_N_per_m = 1e4,
+                                     .damping_Ns_per_m = nan_};
         r.scene.contact = &use, r.scene.ncontact = 1;
         for (int twice = 0; twice < 2; twice++)
             assert_int_equal(fw_effect_contact.check(&r.c, &r.diags), FW_OK);

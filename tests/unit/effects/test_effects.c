@@ -4,40 +4,40 @@
 
 /* a lever on the ground: inertia about the pin j + m l^2, torsion k */
 typedef struct lever {
-    fw_mass body[1];
-    fw_pin pin[1];
-    fw_spring spring[1];
-    fw_force force[1];
-    fw_torque torque[1];
-    fw_initial initial[1];
+    fw_mechanism_mass body[1];
+    fw_mechanism_pin pin[1];
+    fw_device_spring spring[1];
+    fw_device_force force[1];
+    fw_device_torque torque[1];
+    fw_device_initial initial[1];
     fw_mechanism m;
-    fw_scene scene;
+    fw_device_scene scene;
 } lever;
 
 static void lever_new(lever *s, double k, double c) {
     memset(s, 0, sizeof *s);
-    s->body[0] = (fw_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0};
-    s->pin[0] = (fw_pin){.id = "O",
-                         .body_a = FW_GROUND,
-                         .body_b = 0,
-                         .bx_m = -1e-3,
-                         .stiffness_Nm_per_rad = k,
-                         .damping_Nms_per_rad = c,
-                         .hinge = FW_NONE};
+    s->body[0] = (fw_mechanism_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->pin[0] = (fw_mechanism_pin){.id = "O",
+                                   .body_a = FW_GROUND,
+                                   .body_b = 0,
+                                   .bx_m = -1e-3,
+                                   .stiffness_Nm_per_rad = k,
+                                   .damping_Nms_per_rad = c,
+                                   .hinge = FW_NONE};
     s->m =
         (fw_mechanism){.body = s->body, .pin = s->pin, .spring = s->spring, .nbody = 1, .npin = 1};
-    s->scene = (fw_scene){.name = "s",
-                          .duration_s = 1e-3,
-                          .force = s->force,
-                          .torque = s->torque,
-                          .initial = s->initial};
+    s->scene = (fw_device_scene){.name = "s",
+                                 .duration_s = 1e-3,
+                                 .force = s->force,
+                                 .torque = s->torque,
+                                 .initial = s->initial};
 }
 
 static fw_status compile(fw_arena *arena, const lever *s, fw_effect_mode mode, const char *list,
                          double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
-                         fw_terms *terms) {
+                         fw_effects_loads *loads) {
     const fw_effect_choice choice = {.mode = mode, .list = list};
-    return fw_effects_compile(arena, &s->m, &s->scene, &choice, accuracy, diags, ledger, terms);
+    return fw_effects_compile(arena, &s->m, &s->scene, &choice, accuracy, diags, ledger, loads);
 }
 
 static const fw_effect_entry *entry(const fw_effect_ledger *ledger, const char *id) {
@@ -66,16 +66,16 @@ static void test_absent_effects_cost_nothing(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 0, 0);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &loads),
                      FW_OK);
-    assert_int_equal(terms.ntorsion + terms.nload + terms.nspring + terms.ntimed + terms.nstop +
-                         terms.nslide,
+    assert_int_equal(loads.ntorsion + loads.nload + loads.nspring + loads.ntimed + loads.nstop +
+                         loads.nslide,
                      0);
     assert_true(entry(&ledger, "inertia")->active); /* every motion has it until it is left out */
-    assert_false(terms.quasi_static);
+    assert_false(loads.quasi_static);
     for (int i = 0; i < ledger.count; i++) {
         if (strcmp(ledger.item[i].id, "inertia") == 0) continue;
         assert_false(ledger.item[i].called_for);
@@ -83,7 +83,7 @@ static void test_absent_effects_cost_nothing(void **state) {
         assert_true(ledger.item[i].bound == 0);
     }
     for (int i = 0; i < 3; i++)
-        assert_true(terms.constant[i] == 0 && terms.velocity[i] == 0);
+        assert_true(loads.constant[i] == 0 && loads.velocity[i] == 0);
     fw_arena_free(arena);
 }
 
@@ -94,23 +94,23 @@ static void test_gravity_bound(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 0);
     s.scene.gravity = true;
     s.scene.gy_m_per_s2 = -9.81;
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 2e-9};
     s.scene.ntorque = 1;
     for (double g = 1e-4; g < 1; g *= 10) { /* the weight's moment over the torque */
         s.scene.gy_m_per_s2 = -g * 2e-9 / (2e-8 * 1e-3);
-        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 3e-2, &diags, &ledger, &terms),
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 3e-2, &diags, &ledger, &loads),
                          FW_OK);
         const fw_effect_entry *e = entry(&ledger, "gravity");
         /* the whole motion is that of T - m g l, and 2 of them in a half period */
         assert_true(e->bound >= g / (1 - g));
         assert_true(e->bound < 1.2 * g / (1 - g));
         assert_true(e->called_for && e->active == (e->bound >= 3e-2));
-        assert_true((terms.constant[1] != 0) == e->active);
+        assert_true((loads.constant[1] != 0) == e->active);
         if (!e->active) assert_non_null(strstr(e->reason, "left out: below the accuracy wanted"));
         assert_near(ledger.left_out, e->active ? 0 : e->bound, 1e-15);
     }
@@ -118,7 +118,7 @@ static void test_gravity_bound(void **state) {
     assert_true(isinf(entry(&ledger, "applied-load")->bound));
     /* without a spring there is no linear motion to compare with */
     s.pin[0].stiffness_Nm_per_rad = 0;
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &terms), FW_OK);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1, &diags, &ledger, &loads), FW_OK);
     assert_true(isinf(entry(&ledger, "gravity")->bound));
     assert_non_null(strstr(entry(&ledger, "gravity")->reason, "elastic"));
     fw_arena_free(arena);
@@ -130,14 +130,14 @@ static void test_equilibrium_reasons(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 1e-15);
     s.scene.gravity = true;
     s.scene.gy_m_per_s2 = -9.81;
     for (int i = 0; i < 2; i++) {
         assert_int_equal(compile(arena, &s, i ? FW_EFFECTS_WHOLE : FW_EFFECTS_ALL, NULL, 1, &diags,
-                                 &ledger, &terms),
+                                 &ledger, &loads),
                          FW_OK);
         assert_true(entry(&ledger, "gravity")->active && entry(&ledger, "joint-damping")->active);
         assert_non_null(
@@ -157,20 +157,20 @@ static void test_sum_rule(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 1e-15);
     s.scene.gravity = true;
     s.scene.gy_m_per_s2 = -1e-4 * 9.81;
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 2e-9};
     s.scene.ntorque = 1;
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 0.2, &diags, &ledger, &terms),
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 0.2, &diags, &ledger, &loads),
                      FW_OK);
     double g = entry(&ledger, "gravity")->bound, d = entry(&ledger, "joint-damping")->bound;
     assert_true(g > 0 && d > 0 && g + d < 0.2);
     assert_near(ledger.left_out, g + d, 1e-15);
     double between = fmax(g, d) + 0.5 * fmin(g, d);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, between, &diags, &ledger, &terms),
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, between, &diags, &ledger, &loads),
                      FW_OK);
     const char *small = g < d ? "gravity" : "joint-damping";
     const char *large = g < d ? "joint-damping" : "gravity";
@@ -188,21 +188,21 @@ static void test_stop_bound(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 1e-18);
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9}; /* peak 4e-3 rad */
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 2e-9}; /* peak 4e-3 rad */
     s.scene.ntorque = 1;
     s.pin[0].stop_stiffness_Nm_per_rad = 1e-3;
     s.pin[0].stop_min_rad = (double)NAN;
     for (double at = 1e-3; at < 0.1; at *= 2) {
         s.pin[0].stop_max_rad = at;
-        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-2, &diags, &ledger, &terms),
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-2, &diags, &ledger, &loads),
                          FW_OK);
         bool out = !entry(&ledger, "joint-stop")->active;
         if (at < 4.1e-3) assert_false(out);
         if (at > 8e-3) assert_true(out);
-        assert_int_equal(terms.nstop, !out);
+        assert_int_equal(loads.nstop, !out);
         assert_true(entry(&ledger, "joint-stop")->bound == (out ? 0 : (double)INFINITY));
         assert_int_equal(isinf(entry(&ledger, "joint-damping")->bound), !out);
     }
@@ -216,15 +216,15 @@ static void test_weight_along_a_mast(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 0); /* arm of 1 mm along x: gravity along -x presses on it */
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-9};
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 1e-9};
     s.scene.ntorque = 1;
     s.scene.gravity = true;
     for (double share = 1e-4; share < 3; share *= 4) { /* m g l over k */
         s.scene.gx_m_per_s2 = -share * 1e-6 / (2e-8 * 1e-3);
-        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &loads),
                          FW_OK);
         const fw_effect_entry *g = entry(&ledger, "gravity");
         double change = share < 1 ? share / (1 - share) : (double)INFINITY;
@@ -241,13 +241,13 @@ static void test_damping_bound(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     for (double c = 1e-18; c < 1e-10; c *= 10) {
         lever_new(&s, 1e-6, c);
-        s.torque[0] = (fw_torque){.body = 0, .value_Nm = 2e-9};
+        s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 2e-9};
         s.scene.ntorque = 1;
-        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms),
+        assert_int_equal(compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &loads),
                          FW_OK);
         const fw_effect_entry *d = entry(&ledger, "joint-damping");
         double j = 3e-15 + 2e-8 * 1e-6, zeta = c / (2 * sqrt(j * 1e-6));
@@ -256,7 +256,7 @@ static void test_damping_bound(void **state) {
         assert_true(d->bound >= change);
         assert_true(d->bound <= 100 * change);
         assert_int_equal(d->active, d->bound >= 1e-3);
-        assert_true((terms.torsion[0].damping_Nms_per_rad > 0) == d->active);
+        assert_true((loads.torsion[0].damping_Nms_per_rad > 0) == d->active);
     }
     fw_arena_free(arena);
 }
@@ -266,41 +266,41 @@ static void test_choices(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     lever s;
     lever_new(&s, 1e-6, 1e-12);
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 1e-7};
     s.scene.ntorque = 1;
-    s.initial[0] = (fw_initial){.body = 0, .omega_rad_per_s = 3};
+    s.initial[0] = (fw_device_initial){.body = 0, .omega_rad_per_s = 3};
     s.scene.ninitial = 1;
-    s.force[0] = (fw_force){.body = 0, .x_m = 1e-4, .fx_N = 1, .fy_N = 2};
+    s.force[0] = (fw_device_force){.body = 0, .x_m = 1e-4, .fx_N = 1, .fy_N = 2};
     s.scene.nforce = 1;
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_NONE, NULL, 1e-3, &diags, &ledger, &terms),
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_NONE, NULL, 1e-3, &diags, &ledger, &loads),
                      FW_OK);
     /* what the motion is made of stays: stiffness, loads, starting velocities */
-    assert_int_equal(terms.ntorsion, 1);
-    assert_int_equal(terms.nload, 1);
-    assert_true(terms.torsion[0].stiffness_Nm_per_rad == 1e-6);
-    assert_true(terms.torsion[0].damping_Nms_per_rad == 0);
-    assert_true(terms.velocity[2] == 3);
+    assert_int_equal(loads.ntorsion, 1);
+    assert_int_equal(loads.nload, 1);
+    assert_true(loads.torsion[0].stiffness_Nm_per_rad == 1e-6);
+    assert_true(loads.torsion[0].damping_Nms_per_rad == 0);
+    assert_true(loads.velocity[2] == 3);
     assert_true(entry(&ledger, "applied-load")->active);
     assert_false(entry(&ledger, "joint-damping")->active);
     assert_int_equal(compile(arena, &s, FW_EFFECTS_LIST, "gravity, joint-damping", 1e-3, &diags,
-                             &ledger, &terms),
+                             &ledger, &loads),
                      FW_OK);
-    assert_true(terms.torsion[0].damping_Nms_per_rad == 1e-12);
-    assert_int_equal(terms.nload, 1);
-    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &terms),
+    assert_true(loads.torsion[0].damping_Nms_per_rad == 1e-12);
+    assert_int_equal(loads.nload, 1);
+    assert_int_equal(compile(arena, &s, FW_EFFECTS_ALL, NULL, 1e-3, &diags, &ledger, &loads),
                      FW_OK);
-    assert_int_equal(terms.nload, 1);
+    assert_int_equal(loads.nload, 1);
     assert_true(entry(&ledger, "joint-damping")->cost > 0);
     assert_true(entry(&ledger, "applied-load")->cost > 0);
     assert_true(entry(&ledger, "point-spring")->cost == 0); /* not called for */
-    assert_true(terms.constant[2] == 1e-7);
-    assert_true(terms.torsion[0].damping_Nms_per_rad == 1e-12);
+    assert_true(loads.constant[2] == 1e-7);
+    assert_true(loads.torsion[0].damping_Nms_per_rad == 1e-12);
     /* a mistake names what there is */
     assert_int_equal(
-        compile(arena, &s, FW_EFFECTS_LIST, "gravity,frictoin", 1e-3, &diags, &ledger, &terms),
+        compile(arena, &s, FW_EFFECTS_LIST, "gravity,frictoin", 1e-3, &diags, &ledger, &loads),
         FW_USAGE);
     assert_int_equal(diags.item[0].number, 110);
     assert_non_null(strstr(diags.item[0].message, "frictoin"));
@@ -312,41 +312,41 @@ static void test_choices(void **state) {
 static void test_static_response(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_mass body[2] = {{"a", 1, 1, 1, 0, 0}, {"b", 1, 1, 3, 0, 0}};
-    fw_pin pin[2] = {{.body_a = FW_GROUND, .body_b = 0, .bx_m = -1},
-                     {.body_a = 0, .body_b = 1, .ax_m = 1, .bx_m = -1}};
-    fw_spring spring[1] = {{.body_a = FW_GROUND,
-                            .body_b = 1,
-                            .ax_m = 4,
-                            .ay_m = -2,
-                            .bx_m = 1,
-                            .stiffness_N_per_m = 5,
-                            .length_m = 2}};
+    fw_mechanism_mass body[2] = {{"a", 1, 1, 1, 0, 0}, {"b", 1, 1, 3, 0, 0}};
+    fw_mechanism_pin pin[2] = {{.body_a = FW_GROUND, .body_b = 0, .bx_m = -1},
+                               {.body_a = 0, .body_b = 1, .ax_m = 1, .bx_m = -1}};
+    fw_device_spring spring[1] = {{.body_a = FW_GROUND,
+                                   .body_b = 1,
+                                   .ax_m = 4,
+                                   .ay_m = -2,
+                                   .bx_m = 1,
+                                   .stiffness_N_per_m = 5,
+                                   .length_m = 2}};
     const fw_mechanism m = {.body = body, .pin = pin, .spring = spring, .nbody = 2, .npin = 2};
-    fw_torsion torsion[2] = {{0, FW_GROUND, 0, 10, 0, 0}, {1, 0, 1, 20, 0, 0}};
+    fw_effects_torsion torsion[2] = {{0, FW_GROUND, 0, 10, 0, 0}, {1, 0, 1, 20, 0, 0}};
     const double force[6] = {0, 0, 0, 0, 3, 0}; /* at x = 3 */
     double zero[6] = {0};
-    fw_terms terms = {
+    fw_effects_loads loads = {
         .nbody = 2, .constant = zero, .velocity = zero, .torsion = torsion, .ntorsion = 2};
     double u[6], turn[2];
     bool valid;
-    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    assert_int_equal(fw_effects_static_response(arena, &m, &loads, force, u, turn, &valid), FW_OK);
     assert_true(valid);
     assert_near(turn[0], 3.0 * 3 / 10, 1e-12); /* moment at each hinge over its stiffness */
     assert_near(turn[1], 3.0 * 1 / 20, 1e-12);
     assert_near(u[4], 3 * turn[0] + turn[1], 1e-12);
     /* the spring at the tip carries part of it: virtual work with tip = 4 t0 + 2 t1 */
-    terms.spring = spring;
-    terms.nspring = 1;
-    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    loads.spring = spring;
+    loads.nspring = 1;
+    assert_int_equal(fw_effects_static_response(arena, &m, &loads, force, u, turn, &valid), FW_OK);
     assert_true(valid);
     double tip = 4 * turn[0] + 2 * turn[1];
     assert_near(10 * turn[0], 3.0 * 3 - 5 * tip * 4, 1e-11);
     assert_near(20 * turn[1], 3.0 * 1 - 5 * tip * 2, 1e-11);
     /* no spring at the second hinge: it can move freely, and that is said */
-    terms.nspring = 0;
-    terms.ntorsion = 1;
-    assert_int_equal(fw_static_response(arena, &m, &terms, force, u, turn, &valid), FW_OK);
+    loads.nspring = 0;
+    loads.ntorsion = 1;
+    assert_int_equal(fw_effects_static_response(arena, &m, &loads, force, u, turn, &valid), FW_OK);
     assert_false(valid);
     fw_arena_free(arena);
 }
@@ -357,16 +357,16 @@ static void test_out_of_memory(void **state) {
     lever_new(&s, 1e-6, 1e-12);
     s.scene.gravity = true;
     s.scene.gx_m_per_s2 = 1;
-    s.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-7};
+    s.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 1e-7};
     s.scene.ntorque = 1;
     long count = 1000;
     for (long n = 1; n <= count; n++) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
         fw_effect_ledger ledger;
-        fw_terms terms;
+        fw_effects_loads loads;
         fw_arena_fail_at(n, 0);
-        fw_status status = compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &terms);
+        fw_status status = compile(arena, &s, FW_EFFECTS_AUTO, NULL, 1e-3, &diags, &ledger, &loads);
         long made = fw_arena_count();
         fw_arena_fail_at(0, 0);
         fw_arena_free(arena);

@@ -7,44 +7,44 @@
 static const double NOT = (double)NAN;
 
 typedef struct arm {
-    fw_mass body[1];
-    fw_pin pin[2];
-    fw_tie tie[2];
-    fw_hinge hinge[1];
-    fw_friction_use use[4];
+    fw_mechanism_mass body[1];
+    fw_mechanism_pin pin[2];
+    fw_device_joint joint[2];
+    fw_mechanism_hinge hinge[1];
+    fw_device_friction_use use[4];
     fw_mechanism m;
-    fw_scene scene;
+    fw_device_scene scene;
 } arm;
 
 static void arm_new(arm *s) {
     memset(s, 0, sizeof *s);
-    s->body[0] = (fw_mass){"arm", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->body[0] = (fw_mechanism_mass){"arm", 2e-8, 3e-15, 1e-3, 0, 0};
     for (int i = 0; i < 2; i++)
-        s->pin[i] = (fw_pin){
+        s->pin[i] = (fw_mechanism_pin){
             .id = i ? "B" : "A", .body_a = FW_GROUND, .body_b = 0, .bx_m = -1e-3, .hinge = FW_NONE};
     s->pin[0].hinge = 0;
-    s->hinge[0] = (fw_hinge){.pin = 0, .surface_radius_m = 75e-6};
-    s->tie[0] = (fw_tie){.id = "rail", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND};
-    s->tie[1] = (fw_tie){.id = "rod", .kind = FW_TIE_DISTANCE, .body_a = FW_GROUND};
+    s->hinge[0] = (fw_mechanism_hinge){.pin = 0, .surface_radius_m = 75e-6};
+    s->joint[0] = (fw_device_joint){.id = "rail", .kind = FW_JOINT_PRISMATIC, .body_a = FW_GROUND};
+    s->joint[1] = (fw_device_joint){.id = "rod", .kind = FW_JOINT_DISTANCE, .body_a = FW_GROUND};
     s->m = (fw_mechanism){.body = s->body,
                           .pin = s->pin,
-                          .tie = s->tie,
+                          .joint = s->joint,
                           .hinge = s->hinge,
                           .nbody = 1,
                           .npin = 2,
-                          .ntie = 2,
+                          .njoint = 2,
                           .nhinge = 1};
-    s->scene = (fw_scene){.name = "s", .duration_s = 1e-3, .friction = s->use};
+    s->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3, .friction = s->use};
 }
 
-static fw_friction_use *use(arm *s, int joint, int tie, double mu) {
-    fw_friction_use *u = &s->use[s->scene.nfriction++];
-    *u = (fw_friction_use){.joint = joint,
-                           .tie = tie,
-                           .coefficient = mu,
-                           .static_coefficient = NOT,
-                           .radius_m = NOT,
-                           .place = {"device.xml", 7, 3}};
+static fw_device_friction_use *use(arm *s, int revolute, int joint, double mu) {
+    fw_device_friction_use *u = &s->use[s->scene.nfriction++];
+    *u = (fw_device_friction_use){.revolute = revolute,
+                                  .joint = joint,
+                                  .coefficient = mu,
+                                  .static_coefficient = NOT,
+                                  .radius_m = NOT,
+                                  .place = {"device.xml", 7, 3}};
     return u;
 }
 
@@ -73,20 +73,20 @@ static void test_values(void **state) {
     arm s;
     arm_new(&s);
     use(&s, 0, FW_NONE, 0.3)->preload_N = 1e-3; /* the hinge's own radius, static = kinetic */
-    fw_friction_use *u = use(&s, 1, FW_NONE, 0.2);
+    fw_device_friction_use *u = use(&s, 1, FW_NONE, 0.2);
     u->radius_m = 2e-5, u->static_coefficient = 0.5;
     use(&s, FW_NONE, 0, 0.4)->static_coefficient = 0.1; /* not below kinetic */
-    fw_terms terms;
-    assert_int_equal(fw_terms_new(arena, &s.m, &s.scene, &terms), FW_OK);
+    fw_effects_loads loads;
+    assert_int_equal(fw_effects_loads_new(arena, &s.m, &s.scene, &loads), FW_OK);
     const fw_effect_case c = {.arena = arena, .mechanism = &s.m, .scene = &s.scene};
-    assert_int_equal(fw_effect_friction.add(&c, &terms), FW_OK);
-    assert_int_equal(terms.nfriction, 3);
-    const fw_friction *f = terms.friction;
-    assert_true(f[0].pin == 0 && f[0].tie == FW_NONE && f[0].element == FW_NONE);
+    assert_int_equal(fw_effect_friction.add(&c, &loads), FW_OK);
+    assert_int_equal(loads.nfriction, 3);
+    const fw_effects_friction *f = loads.friction;
+    assert_true(f[0].pin == 0 && f[0].joint == FW_NONE && f[0].element == FW_NONE);
     assert_true(f[0].radius_m == 75e-6 && f[0].static_coefficient == 0.3);
     assert_true(f[0].preload_N == 1e-3 && f[0].kinetic_coefficient == 0.3);
     assert_true(f[1].pin == 1 && f[1].radius_m == 2e-5 && f[1].static_coefficient == 0.5);
-    assert_true(f[2].tie == 0 && f[2].pin == FW_NONE && f[2].static_coefficient == 0.4);
+    assert_true(f[2].joint == 0 && f[2].pin == FW_NONE && f[2].static_coefficient == 0.4);
     assert_string_equal(f[2].id, "rail");
     assert_int_equal(f[2].place.line, 7);
     fw_arena_free(arena);
@@ -101,9 +101,9 @@ static void test_unknown_radius(void **state) {
     arm_new(&s);
     use(&s, 1, FW_NONE, 0.3);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
-    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
+    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &loads),
                      FW_INPUT);
     assert_int_equal(diags.count, 1);
     assert_int_equal(diags.item[0].number, 245);
@@ -112,7 +112,7 @@ static void test_unknown_radius(void **state) {
     fw_arena_free(arena);
 }
 
-static double ten(const fw_force_element *e, const fw_seen *seen) {
+static double ten(const fw_effects_force_element *e, const fw_effects_port_state *seen) {
     (void)e, (void)seen;
     return 10;
 }
@@ -124,18 +124,19 @@ static void test_contact_presses(void **state) {
     arm s;
     arm_new(&s);
     use(&s, 0, FW_NONE, 0.3);
-    fw_terms terms;
-    assert_int_equal(fw_terms_new(arena, &s.m, &s.scene, &terms), FW_OK);
-    const fw_element_class contact = {.effect = "contact", .pressing = ten};
-    const fw_element_class other = {.effect = "air", .pressing = ten};
+    fw_effects_loads loads;
+    assert_int_equal(fw_effects_loads_new(arena, &s.m, &s.scene, &loads), FW_OK);
+    const fw_effects_element_class contact = {.effect = "contact", .pressing = ten};
+    const fw_effects_element_class other = {.effect = "air", .pressing = ten};
     for (int i = 0; i < 3; i++) {
-        fw_force_element *e = fw_terms_add_element(arena, &terms, i == 1 ? &other : &contact, 2);
-        e->port[0] = (fw_port){FW_GROUND, i == 0 ? 1e-3 : 0, 0};
-        e->port[1] = (fw_port){0, -1e-3, 0};
+        fw_effects_force_element *e =
+            fw_effects_loads_add_element(arena, &loads, i == 1 ? &other : &contact, 2);
+        e->port[0] = (fw_effects_port){FW_GROUND, i == 0 ? 1e-3 : 0, 0};
+        e->port[1] = (fw_effects_port){0, -1e-3, 0};
     }
     const fw_effect_case c = {.arena = arena, .mechanism = &s.m, .scene = &s.scene};
-    assert_int_equal(fw_effect_friction.add(&c, &terms), FW_OK);
-    assert_int_equal(terms.friction[0].element, 2);
+    assert_int_equal(fw_effect_friction.add(&c, &loads), FW_OK);
+    assert_int_equal(loads.friction[0].element, 2);
     fw_arena_free(arena);
 }
 
@@ -144,24 +145,24 @@ static void test_contact_presses(void **state) {
    is T/F but for the margin, T = mu r (p + N0)/(1 - mu r g), where N0 and g are joint forces of the
    order of F/l and 1/l */
 static double bound_of(fw_arena *arena, double mu, double radius, double preload, double halves,
-                       const fw_law *law) {
+                       const fw_quantity_law *law) {
     arm s;
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     const double k = 1e-6, F = 1e-10, w = sqrt(k / (3e-15 + 2e-8 * 1e-6));
-    fw_torque torque = {.body = 0, .value_Nm = F, .law = law};
+    fw_device_torque torque = {.body = 0, .value_Nm = F, .law = law};
     arm_new(&s);
-    s.m.npin = 1, s.m.ntie = 0, s.m.nhinge = 0;
+    s.m.npin = 1, s.m.njoint = 0, s.m.nhinge = 0;
     s.pin[0].hinge = FW_NONE;
     s.pin[0].stiffness_Nm_per_rad = k;
     s.scene.torque = &torque;
     s.scene.ntorque = 1;
     s.scene.duration_s = halves * acos(-1.0) / w;
-    fw_friction_use *u = use(&s, 0, FW_NONE, mu);
+    fw_device_friction_use *u = use(&s, 0, FW_NONE, mu);
     u->radius_m = radius, u->preload_N = preload;
     const fw_effect_choice all = {.mode = FW_EFFECTS_AUTO};
-    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms),
+    assert_int_equal(fw_effects_compile(arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &loads),
                      FW_OK);
     for (int i = 0; i < ledger.count; i++)
         if (strcmp(ledger.item[i].id, "friction") == 0) {
@@ -183,7 +184,8 @@ static void test_bound(void **state) {
         /* the peak comes with the first swing; under a load with a law it may come late, and
            friction in step with the motion counts every swing: four */
         assert_near(bound_of(arena, mu, r, preload, 4, NULL), bound / (1 - bound), 1e-2 * share);
-        const fw_law step = {.kind = &fw_quantity_law_step, .end_s = 1}; /* behind the scene */
+        const fw_quantity_law step = {.kind = &fw_quantity_law_step,
+                                      .end_s = 1}; /* behind the scene */
         double late = bound_of(arena, mu, r, preload, 4, &step);
         late /= 1 + late;
         if (share < 0.02) assert_true(late >= 4 * share && late <= 4.1 * share);

@@ -14,31 +14,31 @@ static double random_(unsigned *seed) { /* in [-1, 1) */
 
 static void two_bodies(rig *r, double axis, bool first_is_a) {
     rig_new(r, 2, 1);
-    r->body[0] = (fw_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
-    r->body[1] = (fw_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
-    rig_hinge(r, 0, "H", 0, 1, (fw_vec2){1e-4, 1e-4}, axis, first_is_a);
+    r->body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
+    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
+    rig_hinge(r, 0, "H", 0, 1, (fw_geometry_vec2){1e-4, 1e-4}, axis, first_is_a);
     rig_strip(&r->hinge[0], E);
 }
 
 /* a leaf of the same length, made by the closed forms themselves, its roots included */
-static void real_strip(rig *r, fw_flexure_kind kind, double crystal_rad) {
-    fw_hinge *h = &r->hinge[0];
+static void real_strip(rig *r, fw_device_flexure_kind kind, double crystal_rad) {
+    fw_mechanism_hinge *h = &r->hinge[0];
     h->input.kind = kind;
     h->input.fillet_m = 4e-6;
     if (kind == FW_FLEXURE_LEAF) h->input.angle_rad = h->input.radius_m = 0;
     if (!isnan(crystal_rad))
-        h->input.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, crystal_rad);
+        h->input.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, crystal_rad);
     fw_flexure_closed_form(&h->input, &h->closed_form);
-    fw_hinge_law_of(&h->input, &h->closed_form, &h->law);
+    fw_flexure_hinge_law_of(&h->input, &h->closed_form, &h->law);
     r->pin[0].stiffness_Nm_per_rad = h->closed_form.stiffness_Nm_per_rad;
 }
 
-static const fw_force_element *exact(rig *r) {
+static const fw_effects_force_element *exact(rig *r) {
     rig_compile(r);
-    const fw_force_element *e;
-    fw_element_class const *closed = r->terms.element[0].class_;
-    assert_int_equal(fw_hinges_exact(r->arena, &r->m, &r->terms), FW_OK);
-    e = &r->terms.element[0];
+    const fw_effects_force_element *e;
+    fw_effects_element_class const *closed = r->loads.element[0].class_;
+    assert_int_equal(fw_effects_hinges_exact(r->arena, &r->m, &r->loads), FW_OK);
+    e = &r->loads.element[0];
     assert_ptr_not_equal(e->class_, closed);
     return e;
 }
@@ -58,7 +58,7 @@ static void element_laws(void **state) {
                        i % 8 == 1 ? 0.4 : (double)NAN);
         r.pin[0].free_angle_rad = 0.05;
         r.pin[0].damping_Nms_per_rad = i % 5 == 0 ? 0 : 1e-10;
-        const fw_force_element *e = exact(&r);
+        const fw_effects_force_element *e = exact(&r);
         double p[6], w[6];
         /* along its chord a leaf is stiff: what is random there would buckle it */
         double far = leaf && i % 4 > 0 ? 4e-8 : 4e-6;
@@ -66,7 +66,7 @@ static void element_laws(void **state) {
             p[k] = (k % 3 == 2 ? 0.3 : far) * random_(&seed);
             w[k] = (k % 3 == 2 ? 300 : 1e4 * far) * random_(&seed);
         }
-        fw_seen s = {.load = 1, .p = p, .w = w};
+        fw_effects_port_state s = {.load = 1, .p = p, .w = w};
         const char *why;
         if (!e->class_->valid(e, &s, &why)) {
             fw_arena_free(r.arena);
@@ -88,17 +88,17 @@ static void the_pose_alone(void **state) {
     unsigned seed = 5;
     rig r;
     two_bodies(&r, 1.1, false);
-    const fw_force_element *e = exact(&r);
+    const fw_effects_force_element *e = exact(&r);
     double p[POSES][6], w[6] = {0}, f[POSES][6], again[6], k[36], c[36];
     for (int i = 0; i < POSES; i++) {
         for (int j = 0; j < 6; j++)
             p[i][j] = (j % 3 == 2 ? 0.6 : 6e-6) * random_(&seed);
-        const fw_seen s = {.load = 1, .p = p[i], .w = w};
+        const fw_effects_port_state s = {.load = 1, .p = p[i], .w = w};
         e->class_->force(e, &s, f[i]);
     }
     for (int i = 0; i < 200; i++) {
         int at = (int)(((unsigned)(random_(&seed) * POSES / 2) + POSES / 2) % POSES);
-        const fw_seen s = {.load = 1, .p = p[at], .w = w};
+        const fw_effects_port_state s = {.load = 1, .p = p[at], .w = w};
         if (i % 3 == 0) e->class_->tangent(e, &s, k, c);
         if (i % 5 == 0) (void)e->class_->energy(e, &s);
         e->class_->force(e, &s, again);
@@ -115,12 +115,12 @@ static void hardly_bent(void **state) {
         rig r;
         two_bodies(&r, 1.1, i % 2 == 0);
         if (i % 3) real_strip(&r, i % 3 == 1 ? FW_FLEXURE_LEAF : FW_FLEXURE_CSFH, (double)NAN);
-        const fw_force_element *e = exact(&r);
+        const fw_effects_force_element *e = exact(&r);
         double p[6], w[6] = {0};
         const char *why;
         for (int j = 0; j < 6; j++)
             p[j] = ldexp(random_(&seed), -30 - i % 30) * (j % 3 == 2 ? 1 : 1e-4);
-        const fw_seen s = {.load = 1, .p = p, .w = w};
+        const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
         assert_true(e->class_->valid(e, &s, &why));
         fw_arena_free(r.arena);
     }
@@ -138,10 +138,10 @@ static void at_rest_as_closed(void **state) {
                    i < 3 ? crystal[i] : (double)NAN);
         double k[2][36], c[36], w[6] = {0}, p[6] = {0};
         rig_compile(&r);
-        const fw_seen s = {.load = 1, .p = p, .w = w};
-        r.terms.element[0].class_->tangent(&r.terms.element[0], &s, k[0], c);
-        assert_int_equal(fw_hinges_exact(r.arena, &r.m, &r.terms), FW_OK);
-        r.terms.element[0].class_->tangent(&r.terms.element[0], &s, k[1], c);
+        const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
+        r.loads.element[0].class_->tangent(&r.loads.element[0], &s, k[0], c);
+        assert_int_equal(fw_effects_hinges_exact(r.arena, &r.m, &r.loads), FW_OK);
+        r.loads.element[0].class_->tangent(&r.loads.element[0], &s, k[1], c);
         /* W of the closed form is that of a thick arc, 0.015 um from the beam's, which couples
            force and rotation; a crystal's kx and ky hold shear with one modulus */
         for (int a = 0; a < 36; a++) {
@@ -159,10 +159,10 @@ static void no_equilibrium(void **state) {
     rig r;
     two_bodies(&r, 0, true);
     real_strip(&r, FW_FLEXURE_LEAF, (double)NAN);
-    const fw_force_element *e = exact(&r);
+    const fw_effects_force_element *e = exact(&r);
     double p[6] = {0}, w[6] = {0}, f[6];
     const char *why = NULL;
-    const fw_seen s = {.load = 1, .p = p, .w = w};
+    const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
     assert_true(e->class_->valid(e, &s, &why));
     p[1] = 50e-6; /* the first body towards the second along y, a tenth of its length */
     bool held = e->class_->valid(e, &s, &why);

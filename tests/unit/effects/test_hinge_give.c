@@ -16,7 +16,7 @@ static double mass_of(const rig *r, int i) {
 /* hinges that hold W `factor` times as stiffly, without drift, and damp what is left */
 static void make_pins(rig *r, double factor) {
     for (int i = 0; i < r->m.npin; i++) {
-        fw_hinge_law *law = &r->hinge[i].law;
+        fw_flexure_hinge_law *law = &r->hinge[i].law;
         law->bend_m_per_N /= factor, law->root_m_per_N /= factor;
         law->axial_m_per_N /= factor, law->shear_m_per_N /= factor;
         law->length_m = 1e-15; /* of the drift alone */
@@ -31,12 +31,12 @@ typedef struct motion {
 static void all_forces(const rig *r, const double *q, const double *v, double *force, motion *out) {
     double p[6], w[6], f[6];
     memset(force, 0, 3 * (size_t)r->m.nbody * sizeof *force);
-    for (int i = 0; i < r->terms.nelement; i++) {
-        const fw_force_element *e = &r->terms.element[i];
-        const fw_seen s = {.load = 1, .p = p, .w = w};
-        fw_element_look(e, q, v, p, w);
+    for (int i = 0; i < r->loads.nelement; i++) {
+        const fw_effects_force_element *e = &r->loads.element[i];
+        const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
+        fw_effects_element_place_ports(e, q, v, p, w);
         e->class_->force(e, &s, f);
-        fw_element_push(e, q, f, force);
+        fw_effects_element_add_forces(e, q, f, force);
         out->angle[i] = fmax(out->angle[i], fabs(p[5] - p[2]));
         out->force[i] = fmax(out->force[i], hypot(f[3], f[4]));
         out->give[i] = fmax(out->give[i], hypot(p[3] - p[0], p[4] - p[1]));
@@ -74,8 +74,8 @@ static void trio_new(trio *t, bool six_bar, double mass_factor, double end_s) {
             rig_six_bar(r, false);
         else {
             rig_new(r, 1, 1);
-            r->body[0] = (fw_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
-            rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_vec2){0, 0}, 0.9, true);
+            r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
+            rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.9, true);
         }
         for (int b = 0; b < r->m.nbody; b++)
             r->body[b].mass_kg *= mass_factor, r->body[b].inertia_kg_m2 *= mass_factor;
@@ -92,15 +92,15 @@ static void trio_free(trio *t) {
 
 /* the loads as the scene's, put on at once, and the envelope of that scene */
 static void put_on(rig *r, const double *load) {
-    fw_force *force = fw_arena_array(r->arena, fw_force, RIG_BODIES);
-    fw_torque *torque = fw_arena_array(r->arena, fw_torque, RIG_BODIES);
+    fw_device_force *force = fw_arena_array(r->arena, fw_device_force, RIG_BODIES);
+    fw_device_torque *torque = fw_arena_array(r->arena, fw_device_torque, RIG_BODIES);
     for (int b = 0; b < r->m.nbody; b++) {
-        force[b] = (fw_force){.body = b, .fx_N = load[3 * b], .fy_N = load[3 * b + 1]};
-        torque[b] = (fw_torque){.body = b, .value_Nm = load[3 * b + 2]};
+        force[b] = (fw_device_force){.body = b, .fx_N = load[3 * b], .fy_N = load[3 * b + 1]};
+        torque[b] = (fw_device_torque){.body = b, .value_Nm = load[3 * b + 2]};
     }
     r->scene.force = force, r->scene.nforce = r->m.nbody;
     r->scene.torque = torque, r->scene.ntorque = r->m.nbody;
-    assert_int_equal(fw_envelope_find(r->arena, &r->m, &r->scene, &r->envelope), FW_OK);
+    assert_int_equal(fw_effects_envelope_find(r->arena, &r->m, &r->scene, &r->envelope), FW_OK);
     if (!r->envelope.valid) fail_msg("%s", r->envelope.why_not);
     assert_non_null(r->envelope.pinned);
 }
@@ -111,13 +111,13 @@ static double check(trio *t, const double *load, const motion *with, const motio
     double bound, value, off = fabs(with->peak - without->peak) / fmax(with->peak, without->peak);
     rig *r = &t->real;
     put_on(r, load);
-    const fw_envelope *e = &r->envelope;
+    const fw_effects_envelope *e = &r->envelope;
     assert_true(e->floor <= with->peak && with->peak <= e->most);
     assert_true(e->pinned->floor <= without->peak && without->peak <= e->pinned->most);
     for (int i = 0; i < r->m.npin; i++) {
-        if (!(with->give[i] <= fw_hinge_give_most(&r->c, i)))
+        if (!(with->give[i] <= fw_effects_hinge_give_most(&r->c, i)))
             fail_msg("pin %d gives %g m, bound %g m", i, with->give[i],
-                     fw_hinge_give_most(&r->c, i));
+                     fw_effects_hinge_give_most(&r->c, i));
         if (!(with->force[i] <= e->force[i]))
             fail_msg("pin %d bears %g N, bound %g N", i, with->force[i], e->force[i]);
     }
@@ -125,8 +125,8 @@ static double check(trio *t, const double *load, const motion *with, const motio
     if (!(off <= bound)) fail_msg("off by %g, bound %g", off, bound);
 
     /* a gap that the bound leaves open is not called for, a smaller one is */
-    double give = fw_hinge_give_most(&r->c, 0);
-    fw_contact_use use = {.joint = 0, .distance_m = 1.01 * give, .stiffness_N_per_m = 1};
+    double give = fw_effects_hinge_give_most(&r->c, 0);
+    fw_device_contact_use use = {.joint = 0, .distance_m = 1.01 * give, .stiffness_N_per_m = 1};
     r->scene.contact = &use, r->scene.ncontact = 1;
     assert_int_equal(fw_effect_contact.bound(&r->c, &value, &why), FW_OK);
     assert_near(value, 0, 0);
@@ -168,17 +168,17 @@ static void nothing_promised(void **state) {
     const char *why;
     trio_new(&t, false, 1, 1e-3);
     rig *r = &t.real;
-    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_int_equal(fw_effects_hinge_give_bound(&r->c, &bound, &why), FW_OK);
     assert_true(isinf(bound) && why); /* no envelope */
     put_on(r, load);
-    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_int_equal(fw_effects_hinge_give_bound(&r->c, &bound, &why), FW_OK);
     assert_true(isfinite(bound) && !why);
     r->envelope.pinned->omega[0] *= 20; /* as fast as the pins vibrate */
-    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_int_equal(fw_effects_hinge_give_bound(&r->c, &bound, &why), FW_OK);
     assert_true(isinf(bound) && why);
     r->envelope.pinned->omega[0] /= 20;
     r->envelope.pinned = NULL;
-    assert_int_equal(fw_hinge_give_bound(&r->c, &bound, &why), FW_OK);
+    assert_int_equal(fw_effects_hinge_give_bound(&r->c, &bound, &why), FW_OK);
     assert_true(isinf(bound) && why);
     trio_free(&t);
 }
@@ -187,9 +187,9 @@ static fw_effect_entry give_of(rig *r, double accuracy, const fw_effect_ledger *
                                fw_effect_ledger *ledger) {
     const fw_effect_choice choice = {.like = like};
     fw_diags diags = fw_diags_new(r->arena);
-    fw_terms terms;
+    fw_effects_loads loads;
     assert_int_equal(
-        fw_effects_compile(r->arena, &r->m, &r->scene, &choice, accuracy, &diags, ledger, &terms),
+        fw_effects_compile(r->arena, &r->m, &r->scene, &choice, accuracy, &diags, ledger, &loads),
         FW_OK);
     for (int i = 0; i < ledger->count; i++)
         if (strcmp(ledger->item[i].id, "nonlinear-hinge") == 0) return ledger->item[i];

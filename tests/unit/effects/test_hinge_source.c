@@ -15,21 +15,21 @@ static void as_the_element(void **state) {
     for (int i = 0; i < 400; i++) {
         rig r;
         rig_new(&r, 1, 1);
-        r.body[0] = (fw_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
+        r.body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
         double axis = 3 * random_(&seed);
-        rig_hinge(&r, 0, "H", FW_GROUND, 0, (fw_vec2){0, 0}, axis, i % 2);
+        rig_hinge(&r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, axis, i % 2);
         if (i % 3 == 0) r.hinge[0].law.half_angle_rad = 0; /* a leaf: 1000 times as stiff along */
         rig_compile(&r);
-        fw_hinge_source h;
-        fw_hinge_source_of(&r.hinge[0], &h);
+        fw_effects_hinge_source h;
+        fw_effects_hinge_source_of(&r.hinge[0], &h);
         double fe = 3e-4 * random_(&seed), fn = 3e-4 * random_(&seed), part[FW_HINGE_PARTS];
         double phi_a = 0.3 * random_(&seed), phi_b = 0.3 * random_(&seed), th = phi_b - phi_a;
-        fw_hinge_source_parts(&h, th, 0.5 * (phi_a + phi_b), fe, fn, part);
+        fw_effects_hinge_source_parts(&h, th, 0.5 * (phi_a + phi_b), fe, fn, part);
         double e = part[0] + h.softness_m_per_N[0] * fe, n = part[1] + h.softness_m_per_N[1] * fn;
         double c = cos(axis), s = sin(axis), w[6] = {0}, f[6];
         double p[6] = {0, 0, phi_a, c * e - s * n, s * e + c * n, phi_b};
-        const fw_seen seen = {.load = 1, .p = p, .w = w};
-        const fw_force_element *element = &r.terms.element[0];
+        const fw_effects_port_state seen = {.load = 1, .p = p, .w = w};
+        const fw_effects_force_element *element = &r.loads.element[0];
         element->class_->force(element, &seen, f);
         double K = r.hinge[0].law.stiffness_Nm_per_rad;
         assert_near(f[3], -(c * fe - s * fn), 1e-12);
@@ -44,17 +44,17 @@ static void as_the_element(void **state) {
 static void nothing_else(void **state) {
     (void)state;
     rig r;
-    fw_hinge_source h;
-    fw_hinge_at law;
+    fw_effects_hinge_source h;
+    fw_flexure_hinge_at law;
     double part[FW_HINGE_PARTS];
     rig_new(&r, 1, 1);
-    rig_hinge(&r, 0, "H", FW_GROUND, 0, (fw_vec2){0, 0}, 0.4, true);
-    fw_hinge_source_of(&r.hinge[0], &h);
-    fw_hinge_source_parts(&h, 0, 0, 1e-3, 0, part);
+    rig_hinge(&r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.4, true);
+    fw_effects_hinge_source_of(&r.hinge[0], &h);
+    fw_effects_hinge_source_parts(&h, 0, 0, 1e-3, 0, part);
     assert_near(part[0], 0, 1e-18);
     assert_near(part[1], 0, 1e-18);
-    fw_hinge_source_parts(&h, 0.1, 0, 0, 0, part);
-    fw_hinge_law_at(&r.hinge[0].law, 0.1, &law);
+    fw_effects_hinge_source_parts(&h, 0.1, 0, 0, 0, part);
+    fw_flexure_hinge_law_at(&r.hinge[0].law, 0.1, &law);
     assert_near(part[1], law.drift_m.value, 1e-12 * law.drift_m.value);
     assert_true(part[0] == 0 && part[2] == 0 && part[3] == 0);
     fw_arena_free(r.arena);

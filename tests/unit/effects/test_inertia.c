@@ -12,31 +12,32 @@ static const double pi = 3.14159265358979323846;
 
 typedef struct lever { /* a bar on the ground, torsion spring and damper, torques with laws */
     fw_arena *arena;
-    fw_mass body[1];
-    fw_pin pin[1];
-    fw_torque torque[3];
-    fw_initial initial[1];
+    fw_mechanism_mass body[1];
+    fw_mechanism_pin pin[1];
+    fw_device_torque torque[3];
+    fw_device_initial initial[1];
     fw_mechanism m;
-    fw_scene scene;
-    fw_envelope e;
-    fw_modal modal;
-    fw_terms terms;
+    fw_device_scene scene;
+    fw_effects_envelope e;
+    fw_effects_modal modal;
+    fw_effects_loads loads;
     double omega, floor;
 } lever;
 
 static void lever_new(lever *s, double c) {
     memset(s, 0, sizeof *s);
     s->arena = fw_arena_new(0);
-    s->body[0] = (fw_mass){"lever", mass, own, arm, 0, 0};
-    s->pin[0] = (fw_pin){.id = "O",
-                         .body_a = FW_GROUND,
-                         .body_b = 0,
-                         .bx_m = -arm,
-                         .stiffness_Nm_per_rad = stiffness,
-                         .damping_Nms_per_rad = c,
-                         .hinge = FW_NONE};
+    s->body[0] = (fw_mechanism_mass){"lever", mass, own, arm, 0, 0};
+    s->pin[0] = (fw_mechanism_pin){.id = "O",
+                                   .body_a = FW_GROUND,
+                                   .body_b = 0,
+                                   .bx_m = -arm,
+                                   .stiffness_Nm_per_rad = stiffness,
+                                   .damping_Nms_per_rad = c,
+                                   .hinge = FW_NONE};
     s->m = (fw_mechanism){.body = s->body, .pin = s->pin, .nbody = 1, .npin = 1};
-    s->scene = (fw_scene){.name = "s", .duration_s = 1, .torque = s->torque, .initial = s->initial};
+    s->scene =
+        (fw_device_scene){.name = "s", .duration_s = 1, .torque = s->torque, .initial = s->initial};
     s->omega = sqrt(stiffness / (own + mass * arm * arm));
     s->floor = 1;
 }
@@ -46,20 +47,21 @@ static double bound_of(lever *s, const char **reason) {
     const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL};
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
-    assert_int_equal(fw_terms_new(s->arena, &s->m, &s->scene, &s->terms), FW_OK);
+    assert_int_equal(fw_effects_loads_new(s->arena, &s->m, &s->scene, &s->loads), FW_OK);
     for (size_t i = 0; i < count; i++)
-        if (row[i]->called_for(&c)) assert_int_equal(row[i]->add(&c, &s->terms), FW_OK);
-    assert_int_equal(fw_modal_find(s->arena, &s->m, &s->scene, &s->terms, &s->modal), FW_OK);
-    s->e = (fw_envelope){.valid = !s->modal.why_not,
-                         .why_not = s->modal.why_not,
-                         .n = 3,
-                         .modes = s->modal.modes,
-                         .omega = s->modal.omega,
-                         .shape = s->modal.shape,
-                         .turn = s->modal.turn,
-                         .modal = &s->modal,
-                         .margin = 1,
-                         .floor = s->floor};
+        if (row[i]->called_for(&c)) assert_int_equal(row[i]->add(&c, &s->loads), FW_OK);
+    assert_int_equal(fw_effects_modal_find(s->arena, &s->m, &s->scene, &s->loads, &s->modal),
+                     FW_OK);
+    s->e = (fw_effects_envelope){.valid = !s->modal.why_not,
+                                 .why_not = s->modal.why_not,
+                                 .n = 3,
+                                 .modes = s->modal.modes,
+                                 .omega = s->modal.omega,
+                                 .shape = s->modal.shape,
+                                 .turn = s->modal.turn,
+                                 .modal = &s->modal,
+                                 .margin = 1,
+                                 .floor = s->floor};
     const char *why;
     double value;
     assert_true(fw_effect_inertia.called_for(&c));
@@ -71,7 +73,7 @@ static double torque_at(const lever *s, double t, double piece) {
     double sum = 0, f[3] = {1};
     for (int i = 0; i < s->scene.ntorque; i++) {
         f[0] = 1;
-        if (s->torque[i].law) fw_law_value(s->torque[i].law, t, piece, f);
+        if (s->torque[i].law) fw_quantity_law_value(s->torque[i].law, t, piece, f);
         sum += s->torque[i].value_Nm * f[0];
     }
     return sum;
@@ -100,8 +102,8 @@ static double largest_difference(const lever *s, double steps_per_radian) {
     return worst;
 }
 
-static void set_torque(lever *s, const fw_law *law, double value) {
-    s->torque[s->scene.ntorque++] = (fw_torque){.body = 0, .value_Nm = value, .law = law};
+static void set_torque(lever *s, const fw_quantity_law *law, double value) {
+    s->torque[s->scene.ntorque++] = (fw_device_torque){.body = 0, .value_Nm = value, .law = law};
 }
 
 /* step: T/k; ramp: 2 T/(k rise omega), which is met by ramps of half periods; sine: from the closed
@@ -117,7 +119,8 @@ static void closed_forms(void **state) {
     assert_near(largest_difference(&s, 200), load / stiffness, 1e-6 * load / stiffness);
     for (int k = 1; k < 8;
          k++) { /* odd half periods: the second bend adds to what the first left */
-        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = (2 * k + 1) * pi / w};
+        const fw_quantity_law ramp = {
+            .kind = &fw_quantity_law_ramp, .start_s = 0, .rise_s = (2 * k + 1) * pi / w};
         s.scene.ntorque = 0;
         set_torque(&s, &ramp, load);
         s.scene.duration_s = 2 * ramp.rise_s;
@@ -127,7 +130,8 @@ static void closed_forms(void **state) {
     }
     /* a sine: what it settles to and what rings, however many waves there are */
     for (int n = 1; n < 60; n += 7) {
-        const fw_law sine = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 100};
+        const fw_quantity_law sine = {
+            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 100};
         s.scene.ntorque = 0;
         set_torque(&s, &sine, load);
         s.scene.duration_s = n / 200.0;
@@ -148,8 +152,8 @@ static double any(void) {
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-static fw_law any_law(double period, double *t, double *value) {
-    fw_law law = {.end_s = (double)INFINITY};
+static fw_quantity_law any_law(double period, double *t, double *value) {
+    fw_quantity_law law = {.end_s = (double)INFINITY};
     switch ((int)(4 * any())) {
     case 0:
         law.kind = &fw_quantity_law_step, law.start_s = period * 8 * (any() - 0.3);
@@ -182,7 +186,7 @@ static void honest(void **state) {
     double slack = 0;
     for (int n = 0; n < 400; n++) {
         lever s;
-        fw_law law[3];
+        fw_quantity_law law[3];
         double t[3][8], value[3][8], j = own + mass * arm * arm;
         double ratio = n % 4 ? 2 * any() * any() * any() : 0;
         lever_new(&s, 2 * ratio * sqrt(stiffness * j));
@@ -193,7 +197,7 @@ static void honest(void **state) {
             set_torque(&s, any() < 0.1 ? NULL : &law[i], load * (2 * any() - 1));
         }
         if (n % 5 == 0) {
-            s.initial[0] = (fw_initial){.body = 0, .omega_rad_per_s = 0.1 * s.omega * any()};
+            s.initial[0] = (fw_device_initial){.body = 0, .omega_rad_per_s = 0.1 * s.omega * any()};
             s.initial[0].vy_m_per_s = arm * s.initial[0].omega_rad_per_s;
             s.scene.ninitial = 1;
         }
@@ -211,7 +215,7 @@ static void slow_loads_leave_it_out(void **state) {
     lever s;
     const char *reason;
     lever_new(&s, 0);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
     set_torque(&s, &ramp, load);
     s.floor = load / stiffness;
     s.scene.duration_s = 2;
@@ -233,13 +237,13 @@ static void expressions(void **state) {
     lever s;
     lever_new(&s, 0);
     const char *text = "sin(500 * t/1 s)^2";
-    fw_program *program;
-    fw_expression_error error;
-    const fw_names names = {0};
-    assert_int_equal(fw_program_compile(s.arena, text, strlen(text), &names, (fw_dimension){0},
-                                        &program, &error),
+    fw_quantity_program *program;
+    fw_quantity_expression_error error;
+    const fw_quantity_names names = {0};
+    assert_int_equal(fw_quantity_program_compile(s.arena, text, strlen(text), &names,
+                                                 (fw_quantity_dimension){0}, &program, &error),
                      FW_OK);
-    const fw_law law = {.kind = &fw_quantity_law_expression, .program = program};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_expression, .program = program};
     set_torque(&s, &law, load);
     s.scene.duration_s = 0.1; /* f' = 500 sin(1000 t): 100/pi half waves of 2 * 500 */
     double waves = 100 / pi, whole = floor(waves);
@@ -255,14 +259,14 @@ static void choices(void **state) {
     lever_new(&s, 0);
     fw_diags diags = fw_diags_new(s.arena);
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     set_torque(&s, NULL, load);
     assert_int_equal(
-        fw_effects_compile(s.arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &terms), FW_OK);
-    assert_false(terms.quasi_static);
-    assert_int_equal(fw_effect_inertia.leave_out(NULL, &terms), FW_OK);
-    assert_true(terms.quasi_static);
+        fw_effects_compile(s.arena, &s.m, &s.scene, &all, 1e-3, &diags, &ledger, &loads), FW_OK);
+    assert_false(loads.quasi_static);
+    assert_int_equal(fw_effect_inertia.leave_out(NULL, &loads), FW_OK);
+    assert_true(loads.quasi_static);
     fw_arena_free(s.arena);
 }
 

@@ -4,33 +4,33 @@
 static const double nan_ = (double)NAN;
 
 /* two links; the estimate of the mechanism is in both pins */
-static void rig_chain(rig *r, fw_material_damping *use) {
+static void rig_chain(rig *r, fw_device_material_damping *use) {
     rig_new(r, 2, 2);
-    r->body[0] = (fw_mass){"a", 2e-8, 3e-15, 5e-4, 0, 0};
-    r->body[1] = (fw_mass){"b", 1e-8, 1e-15, 15e-4, 0, 0};
-    rig_hinge(r, 0, "A", FW_GROUND, 0, (fw_vec2){0, 0}, 0.4, true);
-    rig_hinge(r, 1, "B", 0, 1, (fw_vec2){1e-3, 0}, 0.4, true);
+    r->body[0] = (fw_mechanism_mass){"a", 2e-8, 3e-15, 5e-4, 0, 0};
+    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, 15e-4, 0, 0};
+    rig_hinge(r, 0, "A", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.4, true);
+    rig_hinge(r, 1, "B", 0, 1, (fw_geometry_vec2){1e-3, 0}, 0.4, true);
     r->pin[0].damping_Nms_per_rad = r->pin[1].damping_Nms_per_rad = 1e-12;
     r->variant.material.loss.value = 2e-3;
     r->scene.damping = use, r->scene.ndamping = use ? 1 : 0;
 }
 
 static void compile(rig *r) {
-    assert_int_equal(fw_terms_new(r->arena, &r->m, &r->scene, &r->terms), FW_OK);
+    assert_int_equal(fw_effects_loads_new(r->arena, &r->m, &r->scene, &r->loads), FW_OK);
     if (fw_effect_joint_damping.called_for(&r->c))
-        assert_int_equal(fw_effect_joint_damping.add(&r->c, &r->terms), FW_OK);
+        assert_int_equal(fw_effect_joint_damping.add(&r->c, &r->loads), FW_OK);
     if (fw_effect_material_damping.called_for(&r->c))
-        assert_int_equal(fw_effect_material_damping.add(&r->c, &r->terms), FW_OK);
+        assert_int_equal(fw_effect_material_damping.add(&r->c, &r->loads), FW_OK);
 }
 
 static double damper(const rig *r, int pin) {
-    int at = r->terms.torsion_of[pin];
-    return at ? r->terms.torsion[at - 1].damping_Nms_per_rad : 0;
+    int at = r->loads.torsion_of[pin];
+    return at ? r->loads.torsion[at - 1].damping_Nms_per_rad : 0;
 }
 
 static void counts_once(void **state) {
     (void)state;
-    fw_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 800};
+    fw_device_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 800};
     rig r;
     rig_chain(&r, NULL); /* the scene says nothing: the estimate */
     compile(&r);
@@ -61,7 +61,7 @@ static void counts_once(void **state) {
 /* frequency: stated, the lowest mode, or sqrt(k/J) of the hinge; loss: stated or the material's */
 static void where_it_holds(void **state) {
     (void)state;
-    fw_material_damping use = {.loss_factor = nan_, .frequency_Hz = nan_};
+    fw_device_material_damping use = {.loss_factor = nan_, .frequency_Hz = nan_};
     rig r;
     rig_chain(&r, &use);
     compile(&r);
@@ -70,7 +70,7 @@ static void where_it_holds(void **state) {
     assert_relative(damper(&r, 0), 2e-3 * sqrt(k * ja), 1e-12);
     assert_relative(damper(&r, 1), 2e-3 * sqrt(k * jb), 1e-12); /* the smaller of the two */
     double omega = 4321;
-    r.envelope = (fw_envelope){.valid = true, .modes = 1, .omega = &omega};
+    r.envelope = (fw_effects_envelope){.valid = true, .modes = 1, .omega = &omega};
     compile(&r);
     assert_relative(damper(&r, 0), 2e-3 * k / omega, 1e-14);
     assert_relative(damper(&r, 1), 2e-3 * k / omega, 1e-14);
@@ -79,8 +79,8 @@ static void where_it_holds(void **state) {
     rig_chain(&r, &use);
     r.variant.material.loss.unknown = true;
     use.place = (fw_place){"d.xml", 12, 3};
-    assert_int_equal(fw_terms_new(r.arena, &r.m, &r.scene, &r.terms), FW_OK);
-    assert_int_equal(fw_effect_material_damping.add(&r.c, &r.terms), FW_INPUT);
+    assert_int_equal(fw_effects_loads_new(r.arena, &r.m, &r.scene, &r.loads), FW_OK);
+    assert_int_equal(fw_effect_material_damping.add(&r.c, &r.loads), FW_INPUT);
     assert_int_equal(r.diags.item[0].number, 247);
     assert_int_equal(r.diags.item[0].place.line, 12);
     double bound;
@@ -95,11 +95,11 @@ static void where_it_holds(void **state) {
 static void a_swinging_lever(void **state) {
     (void)state;
     for (double eta = 1e-5; eta < 0.2; eta *= 7) {
-        fw_material_damping use = {.loss_factor = eta, .frequency_Hz = nan_};
+        fw_device_material_damping use = {.loss_factor = eta, .frequency_Hz = nan_};
         rig r;
         rig_new(&r, 1, 1);
-        r.body[0] = (fw_mass){"a", 1e-9, 3e-15, 5e-4, 0, 0};
-        rig_hinge(&r, 0, "A", FW_GROUND, 0, (fw_vec2){0, 0}, 0.4, true);
+        r.body[0] = (fw_mechanism_mass){"a", 1e-9, 3e-15, 5e-4, 0, 0};
+        rig_hinge(&r, 0, "A", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.4, true);
         r.scene.damping = &use, r.scene.ndamping = 1;
         compile(&r);
         double k = r.pin[0].stiffness_Nm_per_rad, J = 3e-15 + 1e-9 * 25e-8, c = damper(&r, 0);
@@ -118,18 +118,18 @@ static void a_swinging_lever(void **state) {
 static void what_gives_is_damped_too(void **state) {
     (void)state;
     for (int stated = 0; stated < 2; stated++) {
-        fw_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 800};
+        fw_device_material_damping use = {.loss_factor = 5e-3, .frequency_Hz = 800};
         rig r;
         rig_chain(&r, &use);
         r.hinge[0].damping_stated = stated;
         compile(&r);
-        assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.terms), FW_OK);
-        const fw_force_element *e = &r.terms.element[0];
-        fw_hinge_at at;
-        fw_hinge_law_at(&r.hinge[0].law, 0, &at);
+        assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.loads), FW_OK);
+        const fw_effects_force_element *e = &r.loads.element[0];
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&r.hinge[0].law, 0, &at);
         const double p[6] = {0}, speed = 1e-3, axis = 0.4;
         const double w[6] = {0, 0, 0, speed * cos(axis), speed * sin(axis), 0};
-        const fw_seen s = {.load = 1, .p = p, .w = w};
+        const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
         double f[6], tau = 5e-3 / (2 * M_PI * 800);
         e->class_->force(e, &s, f);
         double wanted = stated ? 0 : -tau * at.kx_N_per_m.value * speed;

@@ -15,10 +15,10 @@ static void element_laws(void **state) {
     for (int i = 0; i < 60; i++) {
         rig r;
         rig_new(&r, 2, 1);
-        r.body[0] = (fw_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
-        r.body[1] = (fw_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
-        rig_hinge(&r, 0, "H", 0, 1, (fw_vec2){1e-4, 1e-4}, 4 * random_(&seed), i % 2 == 0);
-        fw_hinge_law *law = &r.hinge[0].law;
+        r.body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
+        r.body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
+        rig_hinge(&r, 0, "H", 0, 1, (fw_geometry_vec2){1e-4, 1e-4}, 4 * random_(&seed), i % 2 == 0);
+        fw_flexure_hinge_law *law = &r.hinge[0].law;
         if (i % 3 == 0) law->half_angle_rad = 0;
         law->share = 0.96, law->root_m_per_N = 0.03 * law->bend_m_per_N;
         law->axial_m_per_N = 2e-4 * law->bend_m_per_N;
@@ -26,15 +26,15 @@ static void element_laws(void **state) {
         r.pin[0].free_angle_rad = 0.05;
         r.pin[0].damping_Nms_per_rad = i % 4 == 0 ? 0 : 1e-10;
         rig_compile(&r);
-        assert_int_equal(r.terms.nelement, 1);
-        const fw_force_element *e = &r.terms.element[0];
+        assert_int_equal(r.loads.nelement, 1);
+        const fw_effects_force_element *e = &r.loads.element[0];
         assert_int_equal(e->dissipates, i % 4 != 0);
         double p[6], w[6];
         for (int k = 0; k < 6; k++) {
             p[k] = (k % 3 == 2 ? 0.4 : 4e-6) * random_(&seed);
             w[k] = (k % 3 == 2 ? 300 : 4e-2) * random_(&seed);
         }
-        fw_seen s = {.load = 1, .p = p, .w = w};
+        fw_effects_port_state s = {.load = 1, .p = p, .w = w};
         fw_check_tangent(e, &s, 2e-8, 1e-3, 1e-7);
         fw_check_power(e, &s, 1e-7, 1e-7);
         fw_check_balance(e, &s, 1e-11);
@@ -54,24 +54,24 @@ static void released_once(void **state) {
     for (int i = 0; i < 6; i++)
         r.pin[i].damping_Nms_per_rad = 1e-12;
     rig_compile(&r);
-    assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.terms), FW_OK);
-    assert_int_equal(r.terms.nreleased, 4);
-    assert_int_equal(r.terms.nelement, 4);
-    assert_int_equal(r.terms.ntorsion, 6);
+    assert_int_equal(fw_effect_nonlinear_hinge.add(&r.c, &r.loads), FW_OK);
+    assert_int_equal(r.loads.nreleased, 4);
+    assert_int_equal(r.loads.nelement, 4);
+    assert_int_equal(r.loads.ntorsion, 6);
     assert_int_equal(fw_effect_nonlinear_hinge.count(&r.c), 4);
     for (int i = 0; i < 6; i++) {
         bool kept = i == 2 || i == 3;
-        const fw_torsion *t = &r.terms.torsion[r.terms.torsion_of[i] - 1];
-        assert_int_equal(r.terms.released[i], !kept);
+        const fw_effects_torsion *t = &r.loads.torsion[r.loads.torsion_of[i] - 1];
+        assert_int_equal(r.loads.released[i], !kept);
         assert_near(t->stiffness_Nm_per_rad, kept ? r.pin[i].stiffness_Nm_per_rad : 0, 0);
         assert_near(t->damping_Nms_per_rad, 1e-12, 0);
     }
-    for (int i = 0; i < r.terms.nelement; i++)
-        assert_string_equal(r.terms.element[i].id, r.pin[r.terms.element[i].pin].id);
+    for (int i = 0; i < r.loads.nelement; i++)
+        assert_string_equal(r.loads.element[i].id, r.pin[r.loads.element[i].pin].id);
     for (int i = 0; i < 6; i++)
         r.hinge[i].stated = true;
     assert_false(fw_effect_nonlinear_hinge.called_for(&r.c));
-    fw_contact_use touch = {.joint = 2};
+    fw_device_contact_use touch = {.joint = 2};
     r.scene.contact = &touch, r.scene.ncontact = 1;
     assert_true(fw_effect_nonlinear_hinge.called_for(&r.c));
     assert_int_equal(fw_effect_nonlinear_hinge.count(&r.c), 1);

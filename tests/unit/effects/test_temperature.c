@@ -8,14 +8,14 @@
 typedef struct stand {
     fw_arena *arena;
     fw_diags diags;
-    fw_mass body[2];
-    fw_pin pin[2];
+    fw_mechanism_mass body[2];
+    fw_mechanism_pin pin[2];
     fw_mechanism m;
-    fw_variant variant;
-    fw_temperature warm[3];
-    fw_scene scene;
+    fw_mechanism_variant variant;
+    fw_device_temperature warm[3];
+    fw_device_scene scene;
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
 } stand;
 
 /* a lever on a flexure of the ground, and one on it by a spring that is no flexure */
@@ -24,15 +24,15 @@ static void stand_new(stand *s) {
     s->arena = fw_arena_new(0);
     s->diags = fw_diags_new(s->arena);
     for (int i = 0; i < 2; i++) {
-        s->body[i] = (fw_mass){"b", 1, 1, i + 0.5, 0, 0.2 * i};
-        s->pin[i] = (fw_pin){.id = "A",
-                             .body_a = i - 1,
-                             .body_b = i,
-                             .ax_m = i ? 0.5 : 0.25,
-                             .bx_m = -0.5,
-                             .stiffness_Nm_per_rad = 4 + i,
-                             .free_angle_rad = 0.3,
-                             .hinge = i ? FW_NONE : 0};
+        s->body[i] = (fw_mechanism_mass){"b", 1, 1, i + 0.5, 0, 0.2 * i};
+        s->pin[i] = (fw_mechanism_pin){.id = "A",
+                                       .body_a = i - 1,
+                                       .body_b = i,
+                                       .ax_m = i ? 0.5 : 0.25,
+                                       .bx_m = -0.5,
+                                       .stiffness_Nm_per_rad = 4 + i,
+                                       .free_angle_rad = 0.3,
+                                       .hinge = i ? FW_NONE : 0};
     }
     s->m = (fw_mechanism){
         .body = s->body, .pin = s->pin, .nbody = 2, .npin = 2, .variant = &s->variant};
@@ -42,14 +42,15 @@ static void stand_new(stand *s) {
     s->variant.substrate = "slate";
     const double open = (double)NAN;
     for (int i = 0; i < 3; i++)
-        s->warm[i] = (fw_temperature){100, open, open, open, NULL, {0}};
-    s->scene = (fw_scene){.name = "s", .duration_s = 1, .temperature = s->warm, .ntemperature = 1};
+        s->warm[i] = (fw_device_temperature){100, open, open, open, NULL, {0}};
+    s->scene =
+        (fw_device_scene){.name = "s", .duration_s = 1, .temperature = s->warm, .ntemperature = 1};
 }
 
 static void compile(stand *s) {
     const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     fw_status status = fw_effects_compile(s->arena, &s->m, &s->scene, &choice, 1e-3, &s->diags,
-                                          &s->ledger, &s->terms);
+                                          &s->ledger, &s->loads);
     if (status != FW_OK) fail_msg("%s", s->diags.item[0].message);
 }
 
@@ -58,19 +59,19 @@ static void what_is_constant(void **state) {
     stand s;
     stand_new(&s);
     compile(&s); /* of one material: no mismatch, softer */
-    assert_false(s.terms.strained);
-    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * 0.98, 1e-14);
-    assert_relative(s.terms.torsion[1].stiffness_Nm_per_rad, 5, 1e-14);
-    assert_int_equal(s.terms.nelement, 0);
+    assert_false(s.loads.strained);
+    assert_relative(s.loads.torsion[0].stiffness_Nm_per_rad, 4 * 0.98, 1e-14);
+    assert_relative(s.loads.torsion[1].stiffness_Nm_per_rad, 5, 1e-14);
+    assert_int_equal(s.loads.nelement, 0);
     /* the substrate's own; two changes add */
     s.scene.ntemperature = 2;
     s.warm[0].substrate_expansion_per_K = 3e-6;
     s.warm[1].substrate_expansion_per_K = 3e-6, s.warm[1].change_K = -40;
     compile(&s);
-    assert_true(s.terms.strained && !s.terms.stretch.law);
-    assert_near(s.terms.strain[2], -7e-6 * 100 / 1.001 + 7e-6 * 40 / (1 - 4e-4), 1e-15);
-    assert_true(s.terms.strain[0] == 0 && s.terms.strain[1] == 0);
-    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * (1 - 2e-4 * 60), 1e-14);
+    assert_true(s.loads.strained && !s.loads.stretch.law);
+    assert_near(s.loads.strain[2], -7e-6 * 100 / 1.001 + 7e-6 * 40 / (1 - 4e-4), 1e-15);
+    assert_true(s.loads.strain[0] == 0 && s.loads.strain[1] == 0);
+    assert_relative(s.loads.torsion[0].stiffness_Nm_per_rad, 4 * (1 - 2e-4 * 60), 1e-14);
     s.scene.ntemperature = 1, s.warm[0].change_K = 0;
     compile(&s);
     for (int i = 0; i < s.ledger.count; i++)
@@ -96,7 +97,7 @@ static void what_it_stands_on(void **state) {
         if (i & 1) s.warm[0].expansion_per_K = own = 4e-5;
         if (i & 2) s.warm[0].substrate_expansion_per_K = below = -3e-6;
         compile(&s);
-        assert_near(s.terms.strain[2], (1 + 100 * below) / (1 + 100 * own) - 1, 1e-15);
+        assert_near(s.loads.strain[2], (1 + 100 * below) / (1 + 100 * own) - 1, 1e-15);
         assert_true((strstr(reason_of(&s), "substrate: slate") != NULL) == (i < 2));
         fw_arena_free(s.arena);
     }
@@ -106,7 +107,7 @@ static void what_it_stands_on(void **state) {
     s.warm[0].expansion_per_K = 0; /* of the layer only */
     const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(
-        fw_effects_compile(s.arena, &s.m, &s.scene, &choice, 1e-3, &s.diags, &s.ledger, &s.terms),
+        fw_effects_compile(s.arena, &s.m, &s.scene, &choice, 1e-3, &s.diags, &s.ledger, &s.loads),
         FW_INPUT);
     assert_int_equal(s.diags.item[0].number, 253);
     fw_arena_free(s.arena);
@@ -114,8 +115,10 @@ static void what_it_stands_on(void **state) {
 
 static void with_a_law(void **state) {
     (void)state;
-    static const fw_law sine = {
-        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.4};
+    static const fw_quantity_law sine = {.kind = &fw_quantity_law_sine,
+                                         .end_s = (double)INFINITY,
+                                         .frequency_Hz = 3,
+                                         .phase_rad = 0.4};
     stand s;
     stand_new(&s);
     s.scene.ntemperature = 2; /* and 40 K less all the time */
@@ -123,12 +126,12 @@ static void with_a_law(void **state) {
     s.warm[1].expansion_per_K = s.warm[1].substrate_expansion_per_K = 0;
     s.warm[1].change_K = -40;
     compile(&s);
-    assert_false(s.terms.strained);
-    assert_true(s.terms.stretch.law == &sine && s.terms.stretch.centre_m.x == 0.25);
-    assert_relative(s.terms.stretch.strain, 1e-3, 1e-14);
-    assert_relative(s.terms.torsion[0].stiffness_Nm_per_rad, 4 * 1.008, 1e-14);
-    assert_int_equal(s.terms.nelement, 1);
-    const fw_force_element *e = &s.terms.element[0];
+    assert_false(s.loads.strained);
+    assert_true(s.loads.stretch.law == &sine && s.loads.stretch.centre_m.x == 0.25);
+    assert_relative(s.loads.stretch.strain, 1e-3, 1e-14);
+    assert_relative(s.loads.torsion[0].stiffness_Nm_per_rad, 4 * 1.008, 1e-14);
+    assert_int_equal(s.loads.nelement, 1);
+    const fw_effects_force_element *e = &s.loads.element[0];
     assert_true(e->works && !e->dissipates && e->laws == 1 && e->pin == FW_NONE);
     uint64_t seed = 9;
     for (int round = 0; round < 30; round++) {
@@ -139,7 +142,8 @@ static void with_a_law(void **state) {
         }
         memcpy(p, all, sizeof p), memcpy(w, all + 6, sizeof w);
         const double t = 0.02 * round;
-        const fw_seen seen = {.t_s = t, .piece_s = t + 1e-3, .load = 1, .p = p, .w = w};
+        const fw_effects_port_state seen = {
+            .t_s = t, .piece_s = t + 1e-3, .load = 1, .p = p, .w = w};
         e->class_->force(e, &seen, f);
         double k = -0.02 * 4 * sin(6 * 3.14159265358979323846 * t + 0.4);
         assert_near(f[5], -k * (p[5] - p[2] - 0.3), 1e-15);

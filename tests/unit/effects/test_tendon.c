@@ -3,39 +3,41 @@
 #include "drive_rig.h"
 
 /* from the ground over both bodies, back to the ground and to the first body again */
-static const fw_eyelet eyelets[] = {
+static const fw_device_eyelet eyelets[] = {
     {.body = FW_GROUND, .x_m = -2e-3, .y_m = 0.1e-3}, {.body = 0, .x_m = 0.2e-3, .y_m = 0.1e-3},
     {.body = 1, .x_m = -0.1e-3, .y_m = 0.3e-3},       {.body = 1, .x_m = 0.4e-3, .y_m = -0.2e-3},
     {.body = FW_GROUND, .x_m = 1e-3, .y_m = -1e-3},   {.body = 0, .x_m = -0.3e-3, .y_m = 0.2e-3}};
 enum { EYELETS = sizeof eyelets / sizeof eyelets[0] };
 
-static const fw_law sine = {
-    .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 900, .phase_rad = 0.4};
+static const fw_quantity_law sine = {.kind = &fw_quantity_law_sine,
+                                     .end_s = (double)INFINITY,
+                                     .frequency_Hz = 900,
+                                     .phase_rad = 0.4};
 
-static fw_tendon drawn_of(int n, double slack) {
-    return (fw_tendon){.id = "cable",
-                       .eyelet = (fw_eyelet *)eyelets,
-                       .neyelet = n,
-                       .pull_N = (double)NAN,
-                       .draw_m = 0.2e-3,
-                       .stiffness_N_per_m = 3,
-                       .damping_Ns_per_m = 2e-5,
-                       .slack_m = slack};
+static fw_device_tendon drawn_of(int n, double slack) {
+    return (fw_device_tendon){.id = "cable",
+                              .eyelet = (fw_device_eyelet *)eyelets,
+                              .neyelet = n,
+                              .pull_N = (double)NAN,
+                              .draw_m = 0.2e-3,
+                              .stiffness_N_per_m = 3,
+                              .damping_Ns_per_m = 2e-5,
+                              .slack_m = slack};
 }
 
-static fw_tendon pulled_of(int n) {
-    return (fw_tendon){.id = "cable",
-                       .eyelet = (fw_eyelet *)eyelets,
-                       .neyelet = n,
-                       .pull_N = 4e-3,
-                       .draw_m = (double)NAN,
-                       .stiffness_N_per_m = (double)NAN,
-                       .damping_Ns_per_m = (double)NAN};
+static fw_device_tendon pulled_of(int n) {
+    return (fw_device_tendon){.id = "cable",
+                              .eyelet = (fw_device_eyelet *)eyelets,
+                              .neyelet = n,
+                              .pull_N = 4e-3,
+                              .draw_m = (double)NAN,
+                              .stiffness_N_per_m = (double)NAN,
+                              .damping_Ns_per_m = (double)NAN};
 }
 
-static void with_tendon(rig *r, const fw_tendon *t) {
+static void with_tendon(rig *r, const fw_device_tendon *t) {
     rig_new(r, 11);
-    r->scene.tendon = fw_arena_one(r->arena, fw_tendon);
+    r->scene.tendon = fw_arena_one(r->arena, fw_device_tendon);
     r->scene.tendon[0] = *t;
     r->scene.ntendon = 1;
     rig_compile(r);
@@ -47,7 +49,7 @@ static void test_laws(void **state) {
     (void)state;
     for (int n = 2; n <= EYELETS; n++)
         for (int kind = 0; kind < 4; kind++) {
-            fw_tendon t = kind & 1 ? pulled_of(n) : drawn_of(n, 0.1e-3);
+            fw_device_tendon t = kind & 1 ? pulled_of(n) : drawn_of(n, 0.1e-3);
             if (kind & 2) t.law = &sine;
             rig r;
             with_tendon(&r, &t);
@@ -58,12 +60,12 @@ static void test_laws(void **state) {
                 double p[3 * EYELETS], w[3 * EYELETS];
                 bool on = i & 1;
                 rig_state(&r, 0.1e-3, 0.2, p, w);
-                fw_seen s = {.t_s = 3e-5 * i,
-                             .piece_s = 3e-5 * i,
-                             .load = 1 + 0.5 * rig_random(&r),
-                             .p = p,
-                             .w = w,
-                             .on = &on};
+                fw_effects_port_state s = {.t_s = 3e-5 * i,
+                                           .piece_s = 3e-5 * i,
+                                           .load = 1 + 0.5 * rig_random(&r),
+                                           .p = p,
+                                           .w = w,
+                                           .on = &on};
                 over[r.e->class_->switch_value(r.e, &s, 0) > 0]++;
                 fw_check_tangent(r.e, &s, 1e-6, 1e-4, 1e-7);
                 fw_check_power(r.e, &s, 1e-7, 1e-7);
@@ -82,14 +84,14 @@ static void test_laws(void **state) {
 static void test_slope(void **state) {
     (void)state;
     for (int kind = 0; kind < 2; kind++) {
-        fw_tendon t = kind ? pulled_of(EYELETS) : drawn_of(EYELETS, 0);
+        fw_device_tendon t = kind ? pulled_of(EYELETS) : drawn_of(EYELETS, 0);
         t.law = &sine;
         rig r;
         with_tendon(&r, &t);
         double p[3 * EYELETS], w[3 * EYELETS], f[3][3 * EYELETS];
         bool on = true;
         rig_state(&r, 0.1e-3, 0.2, p, w);
-        fw_seen s = {.t_s = 1e-4, .piece_s = 1e-4, .p = p, .w = w, .on = &on};
+        fw_effects_port_state s = {.t_s = 1e-4, .piece_s = 1e-4, .p = p, .w = w, .on = &on};
         r.e->class_->force(r.e, &s, f[0]);
         s.load = 1;
         r.e->class_->force(r.e, &s, f[1]);
@@ -107,18 +109,18 @@ static void test_slope(void **state) {
    on the pulley; the drawn tendon has no force as drawn, k draw + k slack when drawn in */
 static void test_closed_forms(void **state) {
     (void)state;
-    static const fw_eyelet corner[] = {{.body = 2, .x_m = -0.4e-3, .y_m = 0.9e-3}, /* 0, 0 */
-                                       {.body = FW_GROUND, .x_m = 2e-3, .y_m = 0},
-                                       {.body = FW_GROUND, .x_m = 2e-3, .y_m = -1e-3}};
-    fw_tendon t = pulled_of(3);
-    t.eyelet = (fw_eyelet *)corner;
+    static const fw_device_eyelet corner[] = {{.body = 2, .x_m = -0.4e-3, .y_m = 0.9e-3}, /* 0, 0 */
+                                              {.body = FW_GROUND, .x_m = 2e-3, .y_m = 0},
+                                              {.body = FW_GROUND, .x_m = 2e-3, .y_m = -1e-3}};
+    fw_device_tendon t = pulled_of(3);
+    t.eyelet = (fw_device_eyelet *)corner;
     rig r;
     double q[9], p[9], w[9], f[9];
     bool on = true;
     with_tendon(&r, &t);
     rig_pose(&r, q);
-    fw_element_look(r.e, q, NULL, p, w);
-    fw_seen s = {.load = 1, .p = p, .w = w, .on = &on};
+    fw_effects_element_place_ports(r.e, q, NULL, p, w);
+    fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
     r.e->class_->force(r.e, &s, f);
     const double want[9] = {4e-3, 0, 0, -4e-3, -4e-3, 0, 0, 4e-3, 0};
     for (int i = 0; i < 9; i++)
@@ -126,7 +128,7 @@ static void test_closed_forms(void **state) {
     fw_arena_free(r.arena);
 
     t = drawn_of(3, -0.05e-3); /* pretension: 3 N/m (0.2 mm + 0.05 mm) */
-    t.eyelet = (fw_eyelet *)corner;
+    t.eyelet = (fw_device_eyelet *)corner;
     with_tendon(&r, &t);
     s.load = 1;
     r.e->class_->force(r.e, &s, f);
@@ -149,12 +151,12 @@ static void test_closed_forms(void **state) {
    everything stays finite */
 static void test_meeting_eyelets(void **state) {
     (void)state;
-    fw_tendon t = drawn_of(3, -0.1e-3);
+    fw_device_tendon t = drawn_of(3, -0.1e-3);
     rig r;
     with_tendon(&r, &t);
     double p[9] = {1e-3, 2e-3, 0, 1e-3, 2e-3, 0, 2e-3, 2e-3, 0}, w[9] = {0}, f[9], k[81], c[81];
     bool on = true;
-    fw_seen s = {.load = 1, .p = p, .w = w, .on = &on};
+    fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
     r.e->class_->force(r.e, &s, f);
     assert_true(f[0] == 0 && f[1] == 0);
     w[4] = 1e-3;
@@ -180,8 +182,8 @@ static double bob_force(bob *b, double y, double v, double *hold) {
     double q[9], speed[9] = {0}, p[6], w[6], f[6];
     rig_pose(&b->r, q);
     q[7] = y, speed[7] = v;
-    fw_element_look(b->r.e, q, speed, p, w);
-    fw_seen s = {.load = 1, .p = p, .w = w, .on = &b->on};
+    fw_effects_element_place_ports(b->r.e, q, speed, p, w);
+    fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &b->on};
     b->r.e->class_->force(b->r.e, &s, f);
     if (hold) *hold = b->r.e->class_->switch_value(b->r.e, &s, 0);
     return f[4] - b->mass * b->gravity;
@@ -223,10 +225,10 @@ static double bob_advance(bob *b, double h, double *y, double *v) {
    depth is slack + x + sqrt(x^2 + 2 x slack), x = m g/k. Damped: the height regained falls short by
    what the closed form of the damped arc says. */
 static void fall(double damping, double tolerance) {
-    static const fw_eyelet line[] = {{.body = FW_GROUND, .x_m = 0.4e-3, .y_m = 1e-3},
-                                     {.body = 2, .x_m = 0, .y_m = 0}};
-    fw_tendon t = drawn_of(2, 0.3e-3);
-    t.eyelet = (fw_eyelet *)line;
+    static const fw_device_eyelet line[] = {{.body = FW_GROUND, .x_m = 0.4e-3, .y_m = 1e-3},
+                                            {.body = 2, .x_m = 0, .y_m = 0}};
+    fw_device_tendon t = drawn_of(2, 0.3e-3);
+    t.eyelet = (fw_device_eyelet *)line;
     t.draw_m = 0;
     t.damping_Ns_per_m = damping;
     t.stiffness_N_per_m = 0.05;

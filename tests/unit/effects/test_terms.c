@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Effects of general mechanisms: loads with laws, stops, sliding joints, cables; and the static
-   response of mechanisms with ties and drivers. */
+   response of mechanisms with joints and drivers. */
 #include "quantity/law_kind.h"
 #include "effects/effects.h"
 #include "test.h"
@@ -9,18 +9,18 @@ enum { BODIES = 3 };
 typedef struct bench {
     fw_arena *arena;
     fw_diags diags;
-    fw_mass body[BODIES];
-    fw_pin pin[4];
-    fw_tie tie[4];
-    fw_driver driver[2];
-    fw_spring spring[2];
-    fw_force force[2];
-    fw_torque torque[2];
-    fw_initial initial[1];
+    fw_mechanism_mass body[BODIES];
+    fw_mechanism_pin pin[4];
+    fw_device_joint joint[4];
+    fw_device_driver driver[2];
+    fw_device_spring spring[2];
+    fw_device_force force[2];
+    fw_device_torque torque[2];
+    fw_device_initial initial[1];
     fw_mechanism m;
-    fw_scene scene;
+    fw_device_scene scene;
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
 } bench;
 
 static const double none = (double)NAN;
@@ -29,29 +29,29 @@ static void bench_new(bench *b) {
     memset(b, 0, sizeof *b);
     b->arena = fw_arena_new(0);
     b->diags = fw_diags_new(b->arena);
-    b->body[0] = (fw_mass){"a", 2, 0.3, 1.0, 0.5, 0.4};
-    b->body[1] = (fw_mass){"b", 1, 0.2, 3.0, 1.5, -0.3};
-    b->body[2] = (fw_mass){"c", 3, 0.5, -1.0, 2.0, 1.1};
+    b->body[0] = (fw_mechanism_mass){"a", 2, 0.3, 1.0, 0.5, 0.4};
+    b->body[1] = (fw_mechanism_mass){"b", 1, 0.2, 3.0, 1.5, -0.3};
+    b->body[2] = (fw_mechanism_mass){"c", 3, 0.5, -1.0, 2.0, 1.1};
     for (int i = 0; i < 4; i++)
-        b->pin[i] = (fw_pin){
+        b->pin[i] = (fw_mechanism_pin){
             .body_a = FW_GROUND, .hinge = FW_NONE, .stop_min_rad = none, .stop_max_rad = none};
     b->m = (fw_mechanism){.body = b->body,
                           .pin = b->pin,
-                          .tie = b->tie,
+                          .joint = b->joint,
                           .driver = b->driver,
                           .spring = b->spring,
                           .nbody = BODIES};
-    b->scene = (fw_scene){.name = "s",
-                          .duration_s = 1,
-                          .force = b->force,
-                          .torque = b->torque,
-                          .initial = b->initial};
+    b->scene = (fw_device_scene){.name = "s",
+                                 .duration_s = 1,
+                                 .force = b->force,
+                                 .torque = b->torque,
+                                 .initial = b->initial};
 }
 
 static void compile(bench *b) {
     const fw_effect_choice choice = {.mode = FW_EFFECTS_AUTO};
     assert_int_equal(fw_effects_compile(b->arena, &b->m, &b->scene, &choice, 1e-3, &b->diags,
-                                        &b->ledger, &b->terms),
+                                        &b->ledger, &b->loads),
                      FW_OK);
 }
 
@@ -64,27 +64,31 @@ static const fw_effect_entry *entry(const bench *b, const char *id) {
 
 static void loads_with_laws(void **state) {
     (void)state;
-    static const fw_law always = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
-    static const fw_law late = {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
-    static const fw_law cosine = {
-        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 3, .phase_rad = 0.5};
+    static const fw_quantity_law always = {.kind = &fw_quantity_law_step,
+                                           .end_s = (double)INFINITY};
+    static const fw_quantity_law late = {
+        .kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
+    static const fw_quantity_law cosine = {.kind = &fw_quantity_law_sine,
+                                           .end_s = (double)INFINITY,
+                                           .frequency_Hz = 3,
+                                           .phase_rad = 0.5};
     bench b;
     bench_new(&b);
-    b.force[0] = (fw_force){.body = 0, .fx_N = 5, .fy_N = 7, .law = &always};
-    b.force[1] = (fw_force){.body = 1, .x_m = 0.2, .fx_N = 2, .law = &late};
-    b.torque[0] = (fw_torque){.body = 2, .value_Nm = 4, .law = &cosine};
-    b.torque[1] = (fw_torque){.body = 2, .value_Nm = 9};
+    b.force[0] = (fw_device_force){.body = 0, .fx_N = 5, .fy_N = 7, .law = &always};
+    b.force[1] = (fw_device_force){.body = 1, .x_m = 0.2, .fx_N = 2, .law = &late};
+    b.torque[0] = (fw_device_torque){.body = 2, .value_Nm = 4, .law = &cosine};
+    b.torque[1] = (fw_device_torque){.body = 2, .value_Nm = 9};
     b.scene.nforce = b.scene.ntorque = 2;
     compile(&b);
     assert_true(entry(&b, "applied-load")->active);
-    assert_true(b.terms.constant[0] == 5 && b.terms.constant[1] == 7); /* a step from 0 is none */
-    assert_true(b.terms.constant[8] == 9);
-    assert_int_equal(b.terms.nload, 0);
-    assert_int_equal(b.terms.ntimed, 2);
-    assert_true(b.terms.timed[0].law == &late && b.terms.timed[0].x_m == 0.2);
-    assert_true(b.terms.timed[1].torque_Nm == 4 && b.terms.timed[1].fx_N == 0);
+    assert_true(b.loads.constant[0] == 5 && b.loads.constant[1] == 7); /* a step from 0 is none */
+    assert_true(b.loads.constant[8] == 9);
+    assert_int_equal(b.loads.nload, 0);
+    assert_int_equal(b.loads.ntimed, 2);
+    assert_true(b.loads.timed[0].law == &late && b.loads.timed[0].x_m == 0.2);
+    assert_true(b.loads.timed[1].torque_Nm == 4 && b.loads.timed[1].fx_N == 0);
     double force[9];
-    fw_terms_initial_force(&b.m, &b.terms, force);
+    fw_effects_loads_initial_force(&b.m, &b.loads, force);
     assert_true(force[3] == 0 && force[4] == 0 && force[5] == 0); /* not yet */
     assert_near(force[8], 9 + 4 * sin(0.5), 1e-14);
     fw_arena_free(b.arena);
@@ -98,7 +102,7 @@ static void stops(void **state) {
     b.pin[0].body_b = 0;
     compile(&b);
     assert_false(entry(&b, "joint-stop")->called_for);
-    assert_int_equal(b.terms.nstop, 0);
+    assert_int_equal(b.loads.nstop, 0);
     /* body a stands at 0.4: the upper stop at 0.1 + free angle 0.2 is pressed in by 0.1 */
     b.pin[0].free_angle_rad = 0.2;
     b.pin[0].stop_min_rad = -0.5, b.pin[0].stop_max_rad = 0.1;
@@ -109,13 +113,13 @@ static void stops(void **state) {
     compile(&b);
     const fw_effect_entry *e = entry(&b, "joint-stop");
     assert_true(e->called_for && e->active && isinf(e->bound));
-    assert_int_equal(b.terms.nstop, 3);
-    assert_true(b.terms.stop[0].side == -1 && b.terms.stop[0].at_rad == -0.5);
-    assert_true(b.terms.stop[1].side == 1 && b.terms.stop[1].at_rad == 0.1 &&
-                b.terms.stop[1].stiffness_Nm_per_rad == 30 &&
-                b.terms.stop[1].damping_Nms_per_rad == 2 && b.terms.stop[1].free_angle_rad == 0.2);
+    assert_int_equal(b.loads.nstop, 3);
+    assert_true(b.loads.stop[0].side == -1 && b.loads.stop[0].at_rad == -0.5);
+    assert_true(b.loads.stop[1].side == 1 && b.loads.stop[1].at_rad == 0.1 &&
+                b.loads.stop[1].stiffness_Nm_per_rad == 30 &&
+                b.loads.stop[1].damping_Nms_per_rad == 2 && b.loads.stop[1].free_angle_rad == 0.2);
     double force[9];
-    fw_terms_initial_force(&b.m, &b.terms, force);
+    fw_effects_loads_initial_force(&b.m, &b.loads, force);
     assert_near(force[2], -30 * 0.1 - 10 * 0.3, 1e-13);
     assert_near(force[5], 10 * 0.3, 1e-13);
     fw_arena_free(b.arena);
@@ -124,10 +128,10 @@ static void stops(void **state) {
 /* elastic energy of slides and springs at a pose, written down on its own */
 static double energy(const bench *b, const double *q) {
     double v = 0;
-    for (int i = 0; i < b->m.ntie + b->m.nspring; i++) {
-        bool slide = i < b->m.ntie;
-        const fw_tie *t = &b->tie[slide ? i : 0];
-        const fw_spring *s = &b->spring[slide ? 0 : i - b->m.ntie];
+    for (int i = 0; i < b->m.njoint + b->m.nspring; i++) {
+        bool slide = i < b->m.njoint;
+        const fw_device_joint *t = &b->joint[slide ? i : 0];
+        const fw_device_spring *s = &b->spring[slide ? 0 : i - b->m.njoint];
         int body[2] = {slide ? t->body_a : s->body_a, slide ? t->body_b : s->body_b};
         const double local[4] = {slide ? t->ax_m : s->ax_m, slide ? t->ay_m : s->ay_m,
                                  slide ? t->bx_m : s->bx_m, slide ? t->by_m : s->by_m};
@@ -155,47 +159,47 @@ static void slides_and_cables(void **state) {
     (void)state;
     bench b;
     bench_new(&b);
-    b.tie[0] = (fw_tie){.kind = FW_TIE_PRISMATIC,
-                        .body_a = 0,
-                        .body_b = 1,
-                        .ax_m = 0.3,
-                        .ay_m = -0.2,
-                        .bx_m = 0.1,
-                        .by_m = 0.4,
-                        .axis_rad = 0.7,
-                        .stiffness_N_per_m = 11,
-                        .free_length_m = 0.25};
-    b.tie[1] = (fw_tie){.kind = FW_TIE_PRISMATIC,
-                        .body_a = FW_GROUND,
-                        .body_b = 2,
-                        .ax_m = 0.3,
-                        .bx_m = 0.5,
-                        .axis_rad = 2,
-                        .damping_Ns_per_m = 3,
-                        .stiffness_N_per_m = 4};
-    b.spring[0] = (fw_spring){.body_a = 2,
-                              .body_b = 1,
-                              .ax_m = 0.2,
-                              .by_m = 0.3,
-                              .stiffness_N_per_m = 6,
-                              .length_m = 1,
-                              .cable = true};
-    b.spring[1] = (fw_spring){.body_a = FW_GROUND,
-                              .body_b = 0,
-                              .ax_m = 2,
-                              .stiffness_N_per_m = 5,
-                              .length_m = 40,
-                              .cable = true};
-    b.m.ntie = b.m.nspring = 2;
+    b.joint[0] = (fw_device_joint){.kind = FW_JOINT_PRISMATIC,
+                                   .body_a = 0,
+                                   .body_b = 1,
+                                   .ax_m = 0.3,
+                                   .ay_m = -0.2,
+                                   .bx_m = 0.1,
+                                   .by_m = 0.4,
+                                   .axis_rad = 0.7,
+                                   .stiffness_N_per_m = 11,
+                                   .free_length_m = 0.25};
+    b.joint[1] = (fw_device_joint){.kind = FW_JOINT_PRISMATIC,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 2,
+                                   .ax_m = 0.3,
+                                   .bx_m = 0.5,
+                                   .axis_rad = 2,
+                                   .damping_Ns_per_m = 3,
+                                   .stiffness_N_per_m = 4};
+    b.spring[0] = (fw_device_spring){.body_a = 2,
+                                     .body_b = 1,
+                                     .ax_m = 0.2,
+                                     .by_m = 0.3,
+                                     .stiffness_N_per_m = 6,
+                                     .length_m = 1,
+                                     .cable = true};
+    b.spring[1] = (fw_device_spring){.body_a = FW_GROUND,
+                                     .body_b = 0,
+                                     .ax_m = 2,
+                                     .stiffness_N_per_m = 5,
+                                     .length_m = 40,
+                                     .cable = true};
+    b.m.njoint = b.m.nspring = 2;
     compile(&b);
     assert_true(entry(&b, "joint-elasticity")->active && entry(&b, "point-spring")->active);
-    assert_int_equal(b.terms.nslide, 2);
-    assert_true(b.terms.slide[0].tie == 0 && b.terms.slide[0].stiffness_N_per_m == 11);
-    assert_true(b.terms.slide[1].tie == 1 && b.terms.slide[1].damping_Ns_per_m == 3 &&
-                b.terms.slide[1].stiffness_N_per_m == 4);
-    assert_true(b.terms.nspring == 2 && b.terms.spring[0].cable);
+    assert_int_equal(b.loads.nslide, 2);
+    assert_true(b.loads.slide[0].joint == 0 && b.loads.slide[0].stiffness_N_per_m == 11);
+    assert_true(b.loads.slide[1].joint == 1 && b.loads.slide[1].damping_Ns_per_m == 3 &&
+                b.loads.slide[1].stiffness_N_per_m == 4);
+    assert_true(b.loads.nspring == 2 && b.loads.spring[0].cable);
     double force[9], q[9];
-    fw_terms_initial_force(&b.m, &b.terms, force);
+    fw_effects_loads_initial_force(&b.m, &b.loads, force);
     for (int i = 0; i < 9; i++) {
         for (int k = 0; k < BODIES; k++)
             q[3 * k] = b.body[k].x_m, q[3 * k + 1] = b.body[k].y_m,
@@ -215,7 +219,7 @@ static void slides_and_cables(void **state) {
     b.m.nspring = 1;
     double same[9];
     compile(&b);
-    fw_terms_initial_force(&b.m, &b.terms, same);
+    fw_effects_loads_initial_force(&b.m, &b.loads, same);
     assert_memory_equal(force, same, sizeof same);
     fw_arena_free(b.arena);
 }
@@ -226,36 +230,36 @@ static void damping_bound(void **state) {
     (void)state;
     bench b;
     bench_new(&b);
-    b.m.nbody = 2, b.m.ntie = b.m.npin = 1;
-    b.tie[0] = (fw_tie){.kind = FW_TIE_PRISMATIC,
-                        .body_a = FW_GROUND,
-                        .body_b = 0,
-                        .by_m = 0.4,
-                        .damping_Ns_per_m = 1e-3};
-    b.pin[0] = (fw_pin){.body_a = 0,
-                        .body_b = 1,
-                        .ax_m = 0.1,
-                        .bx_m = -0.5,
-                        .free_angle_rad = -0.7,
-                        .stiffness_Nm_per_rad = 10,
-                        .stop_min_rad = none,
-                        .stop_max_rad = none};
-    b.force[0] = (fw_force){.body = 0, .fx_N = 1e-2};
+    b.m.nbody = 2, b.m.njoint = b.m.npin = 1;
+    b.joint[0] = (fw_device_joint){.kind = FW_JOINT_PRISMATIC,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 0,
+                                   .by_m = 0.4,
+                                   .damping_Ns_per_m = 1e-3};
+    b.pin[0] = (fw_mechanism_pin){.body_a = 0,
+                                  .body_b = 1,
+                                  .ax_m = 0.1,
+                                  .bx_m = -0.5,
+                                  .free_angle_rad = -0.7,
+                                  .stiffness_Nm_per_rad = 10,
+                                  .stop_min_rad = none,
+                                  .stop_max_rad = none};
+    b.force[0] = (fw_device_force){.body = 0, .fx_N = 1e-2};
     b.scene.nforce = 1;
     compile(&b);
     const fw_effect_entry *e = entry(&b, "joint-damping");
     assert_true(e->called_for && e->active && isinf(e->bound));
     assert_non_null(strstr(e->reason, "freely"));
-    b.tie[0].stiffness_N_per_m = 100;
-    b.tie[0].free_length_m = b.body[0].x_m - 0.4 * sin(0.4);
+    b.joint[0].stiffness_N_per_m = 100;
+    b.joint[0].free_length_m = b.body[0].x_m - 0.4 * sin(0.4);
     double before = 0;
     for (double c = 1e-8; c < 1e-1; c *= 10) {
-        b.tie[0].damping_Ns_per_m = c;
+        b.joint[0].damping_Ns_per_m = c;
         compile(&b);
         e = entry(&b, "joint-damping");
         assert_true(isfinite(e->bound) && e->bound > 0);
         assert_int_equal(e->active, e->bound >= 1e-3);
-        assert_true((b.terms.slide[0].damping_Ns_per_m > 0) == e->active);
+        assert_true((b.loads.slide[0].damping_Ns_per_m > 0) == e->active);
         if (before > 0) assert_true(e->bound > 9 * before && e->bound < 11 * before);
         before = e->bound;
     }
@@ -267,7 +271,8 @@ static void damping_bound(void **state) {
    reach, a cable. A load that comes late is no reason. */
 static void gravity_is_kept(void **state) {
     (void)state;
-    static const fw_law late = {.kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
+    static const fw_quantity_law late = {
+        .kind = &fw_quantity_law_step, .start_s = 0.5, .end_s = (double)INFINITY};
     for (int i = 0; i < 6; i++) {
         bench b;
         bench_new(&b);
@@ -277,14 +282,15 @@ static void gravity_is_kept(void **state) {
             b.pin[k].free_angle_rad = b.body[k].phi_rad;
         }
         b.scene.gravity = true, b.scene.gy_m_per_s2 = -1e-9;
-        b.torque[0] = (fw_torque){.body = 0, .value_Nm = 1e-2};
+        b.torque[0] = (fw_device_torque){.body = 0, .value_Nm = 1e-2};
         b.scene.ntorque = 1;
         if (i == 1) b.torque[0].law = &late;
-        if (i == 2) b.m.ndriver = 1, b.driver[0] = (fw_driver){.joint = 0, .tie = FW_NONE};
+        if (i == 2)
+            b.m.ndriver = 1, b.driver[0] = (fw_device_driver){.revolute = 0, .joint = FW_NONE};
         if (i == 3 || i == 5)
             b.pin[1].stop_max_rad = i == 3 ? 1e-3 : 1, b.pin[1].stop_stiffness_Nm_per_rad = 1;
         if (i == 4)
-            b.spring[0] = (fw_spring){
+            b.spring[0] = (fw_device_spring){
                 .body_a = 0, .body_b = 1, .stiffness_N_per_m = 1, .length_m = 9, .cable = true};
         if (i == 4) b.m.nspring = 1;
         compile(&b);
@@ -295,11 +301,12 @@ static void gravity_is_kept(void **state) {
     }
 }
 
-/* ---- static response with ties, against solutions by hand ---- */
+/* ---- static response with joints, against solutions by hand ---- */
 
 static void respond(bench *b, const double *force, double *u, double *turn, bool expected) {
     bool valid;
-    assert_int_equal(fw_static_response(b->arena, &b->m, &b->terms, force, u, turn, &valid), FW_OK);
+    assert_int_equal(fw_effects_static_response(b->arena, &b->m, &b->loads, force, u, turn, &valid),
+                     FW_OK);
     assert_int_equal(valid, expected);
 }
 
@@ -310,13 +317,13 @@ static void response_of_a_slider(void **state) {
     double u[9], turn[4];
     b.m.nbody = 1;
     b.body[0].phi_rad = 0;
-    b.tie[0] = (fw_tie){.kind = FW_TIE_PRISMATIC,
-                        .body_a = FW_GROUND,
-                        .body_b = 0,
-                        .axis_rad = 0.6,
-                        .bx_m = 0.3,
-                        .stiffness_N_per_m = 50};
-    b.m.ntie = 1;
+    b.joint[0] = (fw_device_joint){.kind = FW_JOINT_PRISMATIC,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 0,
+                                   .axis_rad = 0.6,
+                                   .bx_m = 0.3,
+                                   .stiffness_N_per_m = 50};
+    b.m.njoint = 1;
     compile(&b);
     const double pull[3] = {3, 4, 7}; /* only the part along the axis moves it */
     respond(&b, pull, u, turn, true);
@@ -325,13 +332,13 @@ static void response_of_a_slider(void **state) {
     assert_near(u[1], along * sin(0.6), 1e-14);
     assert_near(u[2], 0, 1e-14);
     /* driven, it stays; without its spring it is free */
-    b.driver[0] = (fw_driver){.joint = FW_NONE, .tie = 0};
+    b.driver[0] = (fw_device_driver){.revolute = FW_NONE, .joint = 0};
     b.m.ndriver = 1;
     respond(&b, pull, u, turn, true);
     for (int i = 0; i < 3; i++)
         assert_near(u[i], 0, 1e-14);
     b.m.ndriver = 0;
-    b.tie[0].stiffness_N_per_m = 0;
+    b.joint[0].stiffness_N_per_m = 0;
     compile(&b);
     respond(&b, pull, u, turn, false);
     fw_arena_free(b.arena);
@@ -346,16 +353,20 @@ static void response_of_levers_and_a_rod(void **state) {
     bench_new(&b);
     double u[9], turn[4];
     b.m.nbody = 2;
-    b.body[0] = (fw_mass){"a", 1, 1, 0.5 * cos(0.4), 0.5 * sin(0.4), 0.4};
-    b.body[1] = (fw_mass){"b", 1, 1, 3 + 0.5 * cos(-0.3), 0.5 * sin(-0.3), -0.3};
+    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5 * cos(0.4), 0.5 * sin(0.4), 0.4};
+    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 3 + 0.5 * cos(-0.3), 0.5 * sin(-0.3), -0.3};
     for (int i = 0; i < 2; i++) {
         b.pin[i].body_b = i, b.pin[i].ax_m = 3 * i, b.pin[i].bx_m = -0.5;
         b.pin[i].stiffness_Nm_per_rad = i ? 20 : 10;
     }
     b.m.npin = 2;
-    b.tie[0] = (fw_tie){
-        .kind = FW_TIE_DISTANCE, .body_a = 0, .body_b = 1, .ax_m = 0.5, .bx_m = 0.5, .length_m = 3};
-    b.m.ntie = 1;
+    b.joint[0] = (fw_device_joint){.kind = FW_JOINT_DISTANCE,
+                                   .body_a = 0,
+                                   .body_b = 1,
+                                   .ax_m = 0.5,
+                                   .bx_m = 0.5,
+                                   .length_m = 3};
+    b.m.njoint = 1;
     compile(&b);
     const double torque[6] = {0, 0, 5, 0, 0, 0};
     respond(&b, torque, u, turn, true);
@@ -367,12 +378,12 @@ static void response_of_levers_and_a_rod(void **state) {
     assert_near(turn[1], ratio * theta, 1e-13);
     /* the rod's length driven: its row replaces the rod's own, nothing changes */
     double same[9], again[4];
-    b.driver[0] = (fw_driver){.joint = FW_NONE, .tie = 0};
+    b.driver[0] = (fw_device_driver){.revolute = FW_NONE, .joint = 0};
     b.m.ndriver = 1;
     respond(&b, torque, same, again, true);
     assert_near(again[0], turn[0], 1e-15);
     /* a hinge driven: all stand still */
-    b.driver[0] = (fw_driver){.joint = 1, .tie = FW_NONE};
+    b.driver[0] = (fw_device_driver){.revolute = 1, .joint = FW_NONE};
     respond(&b, torque, same, again, true);
     assert_near(again[0], 0, 1e-14);
     assert_near(again[1], 0, 1e-14);
@@ -386,21 +397,21 @@ static void response_of_a_weld(void **state) {
     bench_new(&b);
     double u[9], turn[4];
     b.m.nbody = 2;
-    b.body[0] = (fw_mass){"a", 1, 1, 0.5, 0, 0};
-    b.body[1] = (fw_mass){"b", 1, 1, 1.75, 0, 0.9};
+    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5, 0, 0};
+    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 1.75, 0, 0.9};
     b.pin[0].body_b = 0, b.pin[0].bx_m = -0.5, b.pin[0].stiffness_Nm_per_rad = 40;
     b.m.npin = 1;
-    b.tie[0] = (fw_tie){.kind = FW_TIE_WELD,
-                        .body_a = 0,
-                        .body_b = 1,
-                        .ax_m = 0.5,
-                        .bx_m = -0.75 * cos(0.9),
-                        .by_m = 0.75 * sin(0.9),
-                        .angle_rad = 0.9};
-    b.m.ntie = 1;
+    b.joint[0] = (fw_device_joint){.kind = FW_JOINT_WELD,
+                                   .body_a = 0,
+                                   .body_b = 1,
+                                   .ax_m = 0.5,
+                                   .bx_m = -0.75 * cos(0.9),
+                                   .by_m = 0.75 * sin(0.9),
+                                   .angle_rad = 0.9};
+    b.m.njoint = 1;
     compile(&b);
-    const double push[6] = {0, 0, 0, 0, 8, 0};
-    respond(&b, push, u, turn, true);
+    const double modal_load[6] = {0, 0, 0, 0, 8, 0};
+    respond(&b, modal_load, u, turn, true);
     assert_near(turn[0], 8 * 1.75 / 40, 1e-14);
     assert_near(u[4], 1.75 * turn[0], 1e-14);
     assert_near(u[5], turn[0], 1e-14);

@@ -9,26 +9,27 @@
 static const double degree = M_PI / 180, um = 1e-6;
 
 /* in the frame of a flexure: centre of the arc at the origin, symmetry axis +x */
-static fw_beam arc(fw_beam_piece *piece, double r, double angle, double t, double h, double E,
-                   double nu) {
+static fw_flexure_beam arc(fw_flexure_beam_piece *piece, double r, double angle, double t, double h,
+                           double E, double nu) {
     double a = 0.5 * angle;
-    *piece = (fw_beam_piece){.length_m = 2 * a * r, .curvature_per_m = 1 / r, .width_m = {t, t, t}};
-    return (fw_beam){.piece = piece,
-                     .npiece = 1,
-                     .x_m = r * cos(a),
-                     .y_m = -r * sin(a),
-                     .psi_rad = 0.5 * M_PI - a,
-                     .depth_m = h,
-                     .youngs_Pa = E,
-                     .shear_Pa = E / (2 * (1 + nu))};
+    *piece = (fw_flexure_beam_piece){
+        .length_m = 2 * a * r, .curvature_per_m = 1 / r, .width_m = {t, t, t}};
+    return (fw_flexure_beam){.piece = piece,
+                             .npiece = 1,
+                             .x_m = r * cos(a),
+                             .y_m = -r * sin(a),
+                             .psi_rad = 0.5 * M_PI - a,
+                             .depth_m = h,
+                             .youngs_Pa = E,
+                             .shear_Pa = E / (2 * (1 + nu))};
 }
 
 static void rules_are_exact(void **state) {
     (void)state;
     for (int n = 1; n <= FW_GAUSS_MOST; n++) {
         double x[FW_GAUSS_MOST], w[FW_GAUSS_MOST], a[FW_GAUSS_MOST * FW_GAUSS_MOST];
-        fw_gauss_rule(n, x, w);
-        fw_gauss_integrals(n, x, w, a);
+        fw_flexure_gauss_rule(n, x, w);
+        fw_flexure_gauss_integrals(n, x, w, a);
         for (int p = 0; p < 2 * n; p++) {
             double sum = 0;
             for (int i = 0; i < n; i++)
@@ -56,14 +57,14 @@ static void arcs_match_the_closed_form(void **state) {
     for (size_t i = 0; i < sizeof angles / sizeof *angles; i++)
         for (int stiff = 0; stiff < 2; stiff++) {
             double r = 100 * um, a = 0.5 * degree * angles[i], t = 8 * um, h = 50 * um, E = 169e9;
-            fw_beam_piece piece;
-            fw_beam beam = arc(&piece, r, 2 * a, t, h, E, 0.22);
+            fw_flexure_beam_piece piece;
+            fw_flexure_beam beam = arc(&piece, r, 2 * a, t, h, E, 0.22);
             beam.inextensible = stiff;
             double EI = E * h * t * t * t / 12, EA = E * h * t,
                    kGA = 5.0 / 6 * h * t * beam.shear_Pa;
             double s = sin(a), c = cos(a), on = stiff ? 0 : 1;
-            fw_beam_linear got;
-            fw_beam_compliance(&beam, &got);
+            fw_flexure_beam_linear got;
+            fw_flexure_beam_compliance(&beam, &got);
             assert_near(got.centre_m[0], r * s / a, 1e-13 * r);
             assert_near(got.centre_m[1], 0, 1e-14 * r);
             assert_relative(got.c[0][0], 2 * a * r / EI, 1e-13);
@@ -90,18 +91,18 @@ static void arcs_match_the_closed_form(void **state) {
 static void strips_match_the_closed_form(void **state) {
     (void)state;
     double L = 300 * um, t = 6 * um, h = 40 * um, E = 70e9, nu = 0.33, dL[2] = {3 * um, -1 * um};
-    fw_beam_piece piece = {.length_m = L, .width_m = {t, t, t}};
-    fw_beam beam = {.piece = &piece,
-                    .npiece = 1,
-                    .depth_m = h,
-                    .youngs_Pa = E,
-                    .shear_Pa = E / (2 * (1 + nu)),
-                    .depth_factor = 1.05,
-                    .root_m = {dL[0], dL[1]}};
+    fw_flexure_beam_piece piece = {.length_m = L, .width_m = {t, t, t}};
+    fw_flexure_beam beam = {.piece = &piece,
+                            .npiece = 1,
+                            .depth_m = h,
+                            .youngs_Pa = E,
+                            .shear_Pa = E / (2 * (1 + nu)),
+                            .depth_factor = 1.05,
+                            .root_m = {dL[0], dL[1]}};
     double EI = 1.05 * E * h * t * t * t / 12, A = h * t, whole = L + dL[0] + dL[1];
     double x = (0.5 * L * L + dL[1] * L) / whole;
-    fw_beam_linear got;
-    fw_beam_compliance(&beam, &got);
+    fw_flexure_beam_linear got;
+    fw_flexure_beam_compliance(&beam, &got);
     assert_near(got.centre_m[0], x, 1e-14 * L);
     assert_relative(got.c[0][0], whole / EI, 1e-14);
     assert_relative(got.c[1][1], L / (E * A), 1e-14);
@@ -120,32 +121,33 @@ static void tapers_match_the_closed_form(void **state) {
     (void)state;
     const double w[3] = {10 * um, 5 * um, 200 * um};
     double p = w[0], q = w[1], L = w[2], g = (q - p) / L, h = 20 * um, E = 115e9;
-    fw_beam_piece piece = {.length_m = L, .width_m = {p, 0.5 * (p + q), q}};
+    fw_flexure_beam_piece piece = {.length_m = L, .width_m = {p, 0.5 * (p + q), q}};
     for (int way = 0; way < 2; way++) {
-        fw_beam beam = {.piece = &piece,
-                        .npiece = 1,
-                        .depth_m = h,
-                        .youngs_Pa = E,
-                        .inextensible = true,
-                        .width = way ? narrowing : NULL,
-                        .context = w};
+        fw_flexure_beam beam = {.piece = &piece,
+                                .npiece = 1,
+                                .depth_m = h,
+                                .youngs_Pa = E,
+                                .inextensible = true,
+                                .width = way ? narrowing : NULL,
+                                .context = w};
         /* with t = p + g s: int t^-3, int s t^-3 = (int t^-2 - p int t^-3)/g, and so on */
         double i3 = (1 / (p * p) - 1 / (q * q)) / (2 * g), i2 = (1 / p - 1 / q) / g;
         double i1 = log(q / p) / g, m0 = i3, m1 = (i2 - p * i3) / g;
         double m2 = (i1 - 2 * p * i2 + p * p * i3) / (g * g), f = 12 / (E * h);
-        fw_beam_linear got;
-        fw_beam_compliance(&beam, &got);
+        fw_flexure_beam_linear got;
+        fw_flexure_beam_compliance(&beam, &got);
         assert_relative(got.c[0][0], f * m0, 1e-13);
         assert_relative(got.centre_m[0], m1 / m0, 1e-13);
         assert_relative(got.c[2][2], f * (m2 - m1 * m1 / m0), 1e-12);
         assert_true(got.error < 1e-13);
     }
-    fw_beam_section at;
-    fw_beam_pose start = {0};
+    fw_flexure_beam_section at;
+    fw_flexure_beam_pose start = {0};
     piece.width_m[1] = 6 * um;
-    const fw_beam bow = {.piece = &piece, .npiece = 1, .depth_m = h, .youngs_Pa = E, .shear_Pa = E};
+    const fw_flexure_beam bow = {
+        .piece = &piece, .npiece = 1, .depth_m = h, .youngs_Pa = E, .shear_Pa = E};
     for (int i = 0; i < 3; i++) {
-        fw_beam_at(&bow, 0, &start, 0.5 * i * L, &at);
+        fw_flexure_beam_at(&bow, 0, &start, 0.5 * i * L, &at);
         assert_relative(at.width_m, piece.width_m[i], 1e-15);
     }
 }
@@ -154,18 +156,18 @@ static void tapers_match_the_closed_form(void **state) {
 static void kinks_turn_the_tangent(void **state) {
     (void)state;
     double L = 1, EI = 1;
-    fw_beam_piece piece[2] = {{.length_m = L, .width_m = {1, 1, 1}},
-                              {.length_m = L, .kink_rad = -M_PI / 2, .width_m = {1, 1, 1}}};
-    fw_beam beam = {.piece = piece,
-                    .npiece = 2,
-                    .psi_rad = M_PI / 2,
-                    .depth_m = 1,
-                    .youngs_Pa = 12,
-                    .inextensible = true};
-    fw_beam_linear got;
-    fw_beam_pose pose[3];
-    fw_beam_compliance(&beam, &got);
-    fw_beam_poses(&beam, pose);
+    fw_flexure_beam_piece piece[2] = {{.length_m = L, .width_m = {1, 1, 1}},
+                                      {.length_m = L, .kink_rad = -M_PI / 2, .width_m = {1, 1, 1}}};
+    fw_flexure_beam beam = {.piece = piece,
+                            .npiece = 2,
+                            .psi_rad = M_PI / 2,
+                            .depth_m = 1,
+                            .youngs_Pa = 12,
+                            .inextensible = true};
+    fw_flexure_beam_linear got;
+    fw_flexure_beam_pose pose[3];
+    fw_flexure_beam_compliance(&beam, &got);
+    fw_flexure_beam_poses(&beam, pose);
     assert_near(pose[1].psi_rad, 0, 1e-15);
     assert_near(pose[2].x_m, L, 1e-15);
     assert_near(pose[2].y_m, L, 1e-15);
@@ -191,13 +193,13 @@ static void silicon_along_an_arc(void **state) {
         for (int i = 0; i < 3; i++) {
             double r = 100 * um, t = 8 * um, h = 50 * um, a = 0.5 * angle * degree;
             double al = fe[i][0] * degree, I = h * t * t * t / 12;
-            fw_beam_piece piece;
-            fw_beam beam = arc(&piece, r, 2 * a, t, h, (double)NAN, 0.22);
+            fw_flexure_beam_piece piece;
+            fw_flexure_beam beam = arc(&piece, r, 2 * a, t, h, (double)NAN, 0.22);
             beam.cubic = true;
             beam.a0_per_Pa = a0, beam.a1_per_Pa = a1, beam.orientation_rad = al;
             beam.inextensible = true;
-            fw_beam_linear got;
-            fw_beam_compliance(&beam, &got);
+            fw_flexure_beam_linear got;
+            fw_flexure_beam_compliance(&beam, &got);
             double w0 = 2 * a * a0 + 0.5 * a1 * cos(4 * al) * sin(4 * a);
             double wx = 2 * sin(a) * a0 + a1 * cos(4 * al) * (sin(3 * a) / 3 + sin(5 * a) / 5);
             double wy = -a1 * sin(4 * al) * (sin(3 * a) / 3 - sin(5 * a) / 5);
@@ -213,20 +215,20 @@ static void silicon_along_an_arc(void **state) {
 /* turned and moved: W goes with it, C turns */
 static void frames_are_equal(void **state) {
     (void)state;
-    fw_beam_piece piece[2] = {
+    fw_flexure_beam_piece piece[2] = {
         {.length_m = 0.7, .curvature_per_m = 2, .width_m = {0.05, 0.04, 0.06}},
         {.length_m = 0.4, .curvature_per_m = -1, .kink_rad = 0.3, .width_m = {0.06, 0.05, 0.05}}};
-    fw_beam beam = {.piece = piece,
-                    .npiece = 2,
-                    .depth_m = 0.1,
-                    .youngs_Pa = 1e9,
-                    .shear_Pa = 4e8,
-                    .root_m = {0.01, 0.02}};
-    fw_beam_linear a, b;
-    fw_beam_compliance(&beam, &a);
+    fw_flexure_beam beam = {.piece = piece,
+                            .npiece = 2,
+                            .depth_m = 0.1,
+                            .youngs_Pa = 1e9,
+                            .shear_Pa = 4e8,
+                            .root_m = {0.01, 0.02}};
+    fw_flexure_beam_linear a, b;
+    fw_flexure_beam_compliance(&beam, &a);
     double turn = 1.1, c = cos(turn), s = sin(turn);
     beam.x_m = 2, beam.y_m = -3, beam.psi_rad = turn;
-    fw_beam_compliance(&beam, &b);
+    fw_flexure_beam_compliance(&beam, &b);
     assert_near(b.centre_m[0], 2 + c * a.centre_m[0] - s * a.centre_m[1], 1e-14);
     assert_near(b.centre_m[1], -3 + s * a.centre_m[0] + c * a.centre_m[1], 1e-14);
     double size = a.c[1][1] + a.c[2][2];
@@ -245,15 +247,15 @@ static double notch(const void *context, int piece, double s_m) {
 
 static void errors_are_told(void **state) {
     (void)state;
-    fw_beam_piece piece = {.length_m = 1, .width_m = {0.1, 0.1, 0.1}};
-    fw_beam beam = {.piece = &piece,
-                    .npiece = 1,
-                    .depth_m = 1,
-                    .youngs_Pa = 12,
-                    .inextensible = true,
-                    .width = notch};
-    fw_beam_linear got;
-    fw_beam_compliance(&beam, &got);
+    fw_flexure_beam_piece piece = {.length_m = 1, .width_m = {0.1, 0.1, 0.1}};
+    fw_flexure_beam beam = {.piece = &piece,
+                            .npiece = 1,
+                            .depth_m = 1,
+                            .youngs_Pa = 12,
+                            .inextensible = true,
+                            .width = notch};
+    fw_flexure_beam_linear got;
+    fw_flexure_beam_compliance(&beam, &got);
     enum { N = 1000000 };
     long double sum = 0, first = 0;
     for (int i = 0; i <= N; i++) {
@@ -282,20 +284,20 @@ static void flexures_are_beams(void **state) {
                                      .strength_Pa = 500e6,
                                      .safety_factor = 1};
         fw_flexure_result closed;
-        fw_beam_piece piece;
-        fw_beam beam;
-        fw_beam_linear got;
+        fw_flexure_beam_piece piece;
+        fw_flexure_beam beam;
+        fw_flexure_beam_linear got;
         fw_flexure_closed_form(&in, &closed);
-        fw_beam_of_flexure(&in, &closed, &piece, &beam);
-        fw_beam_compliance(&beam, &got);
+        fw_flexure_beam_of_flexure(&in, &closed, &piece, &beam);
+        fw_flexure_beam_compliance(&beam, &got);
         assert_relative(1 / got.c[0][0], closed.stiffness_Nm_per_rad, 1e-13);
         /* the neutral fibre of the thick arc, r u^2/3, is not in the beam */
         assert_near(got.centre_m[0], closed.centre_m, leaf ? 1e-18 : 0.02 * um);
         assert_near(got.centre_m[1], 0, 1e-16);
-        fw_hinge_law law;
-        fw_hinge_at at;
-        fw_hinge_law_of(&in, &closed, &law);
-        fw_hinge_law_at(&law, 0, &at);
+        fw_flexure_hinge_law law;
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_of(&in, &closed, &law);
+        fw_flexure_hinge_law_at(&law, 0, &at);
         assert_relative(1 / got.c[1][1], at.kx_N_per_m.value, 5e-3);
         assert_relative(1 / got.c[2][2], at.ky_N_per_m.value, 5e-3);
     }

@@ -9,8 +9,8 @@
 
 static const double degree = M_PI / 180, c11 = 165.7e9, c12 = 63.9e9, c44 = 79.6e9;
 
-static fw_crystal silicon(double axis_deg) {
-    return fw_crystal_cubic(c11, c12, c44, axis_deg * degree);
+static fw_flexure_crystal silicon(double axis_deg) {
+    return fw_flexure_crystal_cubic(c11, c12, c44, axis_deg * degree);
 }
 
 /* of r = 100 um; depth 1 nm: plane stress; no roots */
@@ -31,15 +31,15 @@ static fw_flexure_input arc(double angle_deg, double t_um, double axis_deg) {
 
 static void moduli_by_direction(void **state) {
     (void)state;
-    const fw_crystal k = silicon(0);
+    const fw_flexure_crystal k = silicon(0);
     assert_near(k.a0_per_Pa * 1e12, 6.7991, 5e-5);
     assert_near(k.a1_per_Pa * 1e12, 0.88544, 5e-6);
     assert_near(k.s12_per_Pa * 1e12, -2.1387, 5e-5);
-    assert_near(fw_crystal_youngs_Pa(&k, 0) * 1e-9, 130.13, 5e-3);
-    assert_near(fw_crystal_youngs_Pa(&k, 45 * degree) * 1e-9, 169.10, 5e-3);
+    assert_near(fw_flexure_crystal_youngs_Pa(&k, 0) * 1e-9, 130.13, 5e-3);
+    assert_near(fw_flexure_crystal_youngs_Pa(&k, 45 * degree) * 1e-9, 169.10, 5e-3);
     assert_near(1e-9 / k.a0_per_Pa, 147.08, 5e-3);
-    assert_near(-k.s12_per_Pa * fw_crystal_youngs_Pa(&k, 0), 0.278, 5e-4);
-    assert_near(-k.s12_per_Pa * fw_crystal_youngs_Pa(&k, 45 * degree), 0.362, 5e-4);
+    assert_near(-k.s12_per_Pa * fw_flexure_crystal_youngs_Pa(&k, 0), 0.278, 5e-4);
+    assert_near(-k.s12_per_Pa * fw_flexure_crystal_youngs_Pa(&k, 45 * degree), 0.362, 5e-4);
     assert_near(-k.s12_per_Pa / k.a0_per_Pa, 0.3146, 5e-5);
     /* the tensor turned by hand: 1/E = S1111 of the turned compliance, 1/G = 4 S1212 */
     double d = (c11 - c12) * (c11 + 2 * c12), s11 = (c11 + c12) / d, s12 = -c12 / d, s44 = 1 / c44;
@@ -47,11 +47,11 @@ static void moduli_by_direction(void **state) {
         double psi = 0.1 * i, c = cos(psi), s = sin(psi), p = c * c, q = s * s;
         double E = s11 * (p * p + q * q) + (2 * s12 + s44) * p * q;
         double G = 4 * (2 * s11 - 2 * s12) * p * q + s44 * (p - q) * (p - q);
-        assert_relative(fw_crystal_youngs_Pa(&k, psi), 1 / E, 1e-14);
+        assert_relative(fw_flexure_crystal_youngs_Pa(&k, psi), 1 / E, 1e-14);
         assert_relative(k.g0_per_Pa + k.g1_per_Pa * cos(4 * psi), G, 1e-13);
     }
     /* an isotropic body has no direction */
-    const fw_crystal even = fw_crystal_cubic(3, 1, 1, 0.3);
+    const fw_flexure_crystal even = fw_flexure_crystal_cubic(3, 1, 1, 0.3);
     assert_near(even.a1_per_Pa, 0, 1e-16);
     assert_relative(1 / even.a0_per_Pa, 2.5, 1e-15); /* E = G (3 lambda + 2 G)/(lambda + G) */
 }
@@ -60,8 +60,8 @@ static void sums_are_the_integrals(void **state) {
     (void)state;
     for (int n = 0; n < 12; n++) {
         double a = 0.2 + 0.25 * n;
-        fw_arc_sums even, along, across;
-        fw_arc_sums_of(a, sin(a), cos(a), &even, &along, &across);
+        fw_flexure_arc_sums even, along, across;
+        fw_flexure_arc_sums_of(a, sin(a), cos(a), &even, &along, &across);
         double sum[3][6] = {{0}};
         enum { N = 4000 };
         for (int i = 0; i <= N; i++) { /* Simpson */
@@ -72,7 +72,7 @@ static void sums_are_the_integrals(void **state) {
                 for (int k = 0; k < 6; k++)
                     sum[j][k] += h * m[j] * p[k];
         }
-        const fw_arc_sums *of[3] = {&even, &along, &across};
+        const fw_flexure_arc_sums *of[3] = {&even, &along, &across};
         for (int j = 0; j < 3; j++) {
             const double is[6] = {of[j]->w, of[j]->x, of[j]->y, of[j]->xx, of[j]->xy, of[j]->yy};
             for (int k = 0; k < 6; k++)
@@ -181,7 +181,7 @@ static void ends_of_silicon(void **state) {
     }
     /* the moduli behind it, from the stiffnesses: what a strip along [100] loses of 1/E where it is
        held from straining across, and G/E' */
-    const fw_crystal k = silicon(0);
+    const fw_flexure_crystal k = silicon(0);
     double held = 1 / (c11 - c12 * c12 / c11); /* e_z = 0, s_y = 0 */
     assert_relative(k.bow_per_Pa, k.a0_per_Pa + k.a1_per_Pa - held, 1e-12);
     double d = (c11 - c12) * (c11 + 2 * c12);
@@ -194,7 +194,7 @@ static void end_loss_is_the_least_energy(void **state) {
     (void)state;
     for (int i = 0; i < 6; i++) {
         double h = 1 + i, reach = 0.3 + 0.05 * i, f = 1 - 0.1 * i, block = i ? 0.3 * i : 0;
-        const fw_end_loss o = fw_end_loss_of(reach, h, f, 1e3, block);
+        const fw_flexure_end_loss o = fw_end_loss_of(reach, h, f, 1e3, block);
         double l = h * reach * f;
         enum { N = 20000 };
         double step = 30 * l / N, b[N + 1], sub[N + 1], sum = 0;
@@ -214,7 +214,7 @@ static void end_loss_is_the_least_energy(void **state) {
         assert_relative(o.reach_m, first / sum, 3e-3);
     }
     /* short strips: no more than a third of them at either end */
-    const fw_end_loss o = fw_end_loss_of(0.4, 100, 1, 30, 0);
+    const fw_flexure_end_loss o = fw_end_loss_of(0.4, 100, 1, 30, 0);
     assert_relative(o.length_m, 10, 1e-14);
 }
 
@@ -280,7 +280,7 @@ static void agrees_with_the_isotropic_form(void **state) {
     in.depth_m = 1e-18;
     fw_flexure_input same = in;
     double E = 150e9, nu = 0.25, d = E / ((1 + nu) * (1 - 2 * nu));
-    in.crystal = fw_crystal_cubic(d * (1 - nu), d * nu, 0.5 * E / (1 + nu), 0.7);
+    in.crystal = fw_flexure_crystal_cubic(d * (1 - nu), d * nu, 0.5 * E / (1 + nu), 0.7);
     same.crystal.known = false;
     same.youngs_Pa = in.youngs_Pa = E, same.poisson = nu;
     fw_flexure_result o, p;
@@ -297,7 +297,7 @@ static void agrees_with_the_isotropic_form(void **state) {
     in.depth_m = same.depth_m = 50e-6; /* by sums about the middle of each loss */
     fw_flexure_closed_form(&in, &o);
     fw_flexure_closed_form(&same, &p);
-    const fw_depth deep = fw_depth_factors(in.radius_m, in.width_m, in.depth_m, nu);
+    const fw_flexure_depth deep = fw_flexure_depth_factors(in.radius_m, in.width_m, in.depth_m, nu);
     double l = in.depth_m * deep.bow / sqrt(6 * (1 + nu)), q = l / in.radius_m, a = 0.75 * M_PI;
     double loss = nu * nu * deep.bow * l * l / (l + 0.4192 * in.width_m);
     double whole = in.length_m + 2 * p.root_length_m, place = (cos(a) + q * sin(a)) / (1 + q * q);
@@ -312,7 +312,7 @@ static void agrees_with_the_isotropic_form(void **state) {
         in.kind = same.kind = FW_FLEXURE_LEAF;
         in.fillet_m = same.fillet_m = -1;
         same.crystal.known = false;
-        same.youngs_Pa = fw_crystal_youngs_Pa(&in.crystal, (axis + 90) * degree);
+        same.youngs_Pa = fw_flexure_crystal_youngs_Pa(&in.crystal, (axis + 90) * degree);
         fw_flexure_closed_form(&in, &o);
         fw_flexure_closed_form(&same, &p);
         assert_relative(o.stiffness_Nm_per_rad, p.stiffness_Nm_per_rad, 1e-13);
@@ -323,11 +323,11 @@ static void agrees_with_the_isotropic_form(void **state) {
 }
 
 static void at_rest(const fw_flexure_input *in, fw_flexure_result *o, double ratio[2]) {
-    fw_hinge_law law;
-    fw_hinge_at at;
+    fw_flexure_hinge_law law;
+    fw_flexure_hinge_at at;
     fw_flexure_closed_form(in, o);
-    fw_hinge_law_of(in, o, &law);
-    fw_hinge_law_at(&law, 0, &at);
+    fw_flexure_hinge_law_of(in, o, &law);
+    fw_flexure_hinge_law_at(&law, 0, &at);
     ratio[0] = at.kx_N_per_m.value / o->kx_N_per_m;
     ratio[1] = at.ky_N_per_m.value / o->ky_N_per_m;
 }
@@ -421,7 +421,7 @@ static void crystals_beside_plain_sums(void **state) {
         fw_flexure_shape f;
         fw_flexure_closed_form(&in, &o);
         fw_flexure_shape_of(&in, &f);
-        const fw_crystal *k = &in.crystal;
+        const fw_flexure_crystal *k = &in.crystal;
         real a = (real)angle * (real)degree / 2, four = 4 * (real)axis * (real)degree;
         real c4 = cosl(four), s4 = sinl(four), a0 = (real)k->a0_per_Pa, a1 = (real)k->a1_per_Pa;
         real g1 = (real)k->g1_per_Pa, dL = (real)f.root_length_m, root[2];
@@ -430,8 +430,8 @@ static void crystals_beside_plain_sums(void **state) {
             root[end] = dL * a0 + spare * a1 * cosl(four + (end ? 4 : -4) * a);
         const sums S = sums_of(a, a0, a1 * c4, a1 * s4);
         const sums G = sums_of(a, (real)k->g0_per_Pa, g1 * c4, g1 * s4);
-        fw_depth depth =
-            fw_depth_crystal(in.depth_m / sqrt(in.radius_m * in.width_m), k, (double)(2 * a / S.w));
+        fw_flexure_depth depth = fw_flexure_depth_crystal(
+            in.depth_m / sqrt(in.radius_m * in.width_m), k, (double)(2 * a / S.w));
         real r = (real)in.radius_m, s11 = a0 + (real)k->a1_per_Pa, bow = (real)depth.bow;
         real l = (real)in.depth_m * bow * sqrtl(s11 / 3 * (real)c44), q = l / r;
         real s12 = (real)k->s12_per_Pa, one = r / (1 + q * q);

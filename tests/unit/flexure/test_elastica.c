@@ -6,12 +6,12 @@
 
 static const double degree = M_PI / 180, um = 1e-6;
 
-static const fw_elastica_end turn_and_force[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
+static const fw_flexure_elastica_end turn_and_force[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
 
-static void solve(fw_elastica *e, const fw_elastica_end given[3], const double v[3],
-                  double tolerance, fw_elastica_result *out) {
-    const fw_elastica_task task = {{given[0], given[1], given[2]}, {v[0], v[1], v[2]}};
-    fw_elastica_solve(e, &task, tolerance, false, out);
+static void solve(fw_flexure_elastica *e, const fw_flexure_elastica_end given[3], const double v[3],
+                  double tolerance, fw_flexure_elastica_result *out) {
+    const fw_flexure_elastica_task task = {{given[0], given[1], given[2]}, {v[0], v[1], v[2]}};
+    fw_flexure_elastica_solve(e, &task, tolerance, false, out);
 }
 
 /* ---- random beams, of size 1: 1 to 3 pieces, tapers, kinks, roots, crystals ---- */
@@ -24,18 +24,18 @@ static double uniform(double low, double high) {
 
 typedef struct wild {
     fw_arena *arena;
-    fw_beam_piece piece[3];
-    fw_beam beam;
-    fw_elastica *e;
+    fw_flexure_beam_piece piece[3];
+    fw_flexure_beam beam;
+    fw_flexure_elastica *e;
     double soft, length; /* C_theta, and the beam's length */
 } wild;
 
 static void begin(wild *w) {
     w->arena = fw_arena_new(0);
     w->beam.piece = w->piece;
-    assert_int_equal(fw_elastica_new(w->arena, &w->beam, NULL, false, &w->e), FW_OK);
-    w->soft = fw_elastica_linear(w->e)->c[0][0];
-    w->length = fw_elastica_linear(w->e)->length_m;
+    assert_int_equal(fw_flexure_elastica_new(w->arena, &w->beam, NULL, false, &w->e), FW_OK);
+    w->soft = fw_flexure_elastica_linear(w->e)->c[0][0];
+    w->length = fw_flexure_elastica_linear(w->e)->length_m;
 }
 
 static void grow(wild *w) {
@@ -54,7 +54,7 @@ static void grow(wild *w) {
                          .orientation_rad = uniform(0, 1)}};
     double t = uniform(0.02, 0.05);
     for (int i = 0; i < w->beam.npiece; i++)
-        w->piece[i] = (fw_beam_piece){
+        w->piece[i] = (fw_flexure_beam_piece){
             .length_m = uniform(0.3, 1) / w->beam.npiece,
             .curvature_per_m = uniform(-4, 4) * w->beam.npiece,
             .kink_rad = i ? uniform(-1, 1) : 0,
@@ -70,20 +70,21 @@ static void load(const wild *w, double most, double v[3]) { /* rotation and forc
 
 /* ---- tables ---- */
 
-static fw_beam hinge(fw_beam_piece *piece, char which, bool rigid) {
+static fw_flexure_beam hinge(fw_flexure_beam_piece *piece, char which, bool rigid) {
     bool third = which == '3';
     double r = 100 * um, a = 135 * degree, t = third ? 10 * um : 8 * um;
     double E = third ? 115e9 : 169e9, nu = third ? 0.34 : 0.22;
-    *piece = (fw_beam_piece){.length_m = 2 * a * r, .curvature_per_m = 1 / r, .width_m = {t, t, t}};
-    return (fw_beam){.piece = piece,
-                     .npiece = 1,
-                     .x_m = r * cos(a),
-                     .y_m = -r * sin(a),
-                     .psi_rad = 0.5 * M_PI - a,
-                     .depth_m = third ? 9 * um : 50 * um,
-                     .youngs_Pa = E,
-                     .shear_Pa = E / (2 * (1 + nu)),
-                     .inextensible = rigid};
+    *piece = (fw_flexure_beam_piece){
+        .length_m = 2 * a * r, .curvature_per_m = 1 / r, .width_m = {t, t, t}};
+    return (fw_flexure_beam){.piece = piece,
+                             .npiece = 1,
+                             .x_m = r * cos(a),
+                             .y_m = -r * sin(a),
+                             .psi_rad = 0.5 * M_PI - a,
+                             .depth_m = third ? 9 * um : 50 * um,
+                             .youngs_Pa = E,
+                             .shear_Pa = E / (2 * (1 + nu)),
+                             .inextensible = rigid};
 }
 
 typedef struct entry {
@@ -94,13 +95,13 @@ typedef struct entry {
 /* lengths have 471 um behind them, whose rounding is 1e-13 um: that much is allowed beside 1e-9 */
 static void against_entry(const entry *t) {
     const double exact = 1e-9, round = 2e-13;
-    fw_beam_piece piece;
-    fw_beam beam = hinge(&piece, t->which[1], t->theory[0] == 'i');
+    fw_flexure_beam_piece piece;
+    fw_flexure_beam beam = hinge(&piece, t->which[1], t->theory[0] == 'i');
     fw_arena *arena = fw_arena_new(0);
-    fw_elastica *e = NULL;
-    fw_elastica_result at;
-    fw_elastica_state end;
-    assert_int_equal(fw_elastica_new(arena, &beam, NULL, false, &e), FW_OK);
+    fw_flexure_elastica *e = NULL;
+    fw_flexure_elastica_result at;
+    fw_flexure_elastica_state end;
+    assert_int_equal(fw_flexure_elastica_new(arena, &beam, NULL, false, &e), FW_OK);
     const double force[3] = {t->th * degree, t->fx * um, t->fy * um};
     solve(e, turn_and_force, force, 1e-10, &at);
     assert_int_equal(at.code, FW_ELASTICA_OK);
@@ -108,19 +109,19 @@ static void against_entry(const entry *t) {
     assert_relative(at.start_Nm * 1e12, t->root, exact);
     assert_near(at.twist[1] * 1e6, t->x, exact * fabs(t->x) + round);
     assert_near(at.twist[2] * 1e6, t->y, exact * fabs(t->y) + round);
-    fw_elastica_at(e, piece.length_m, &end);
+    fw_flexure_elastica_at(e, piece.length_m, &end);
     assert_relative(end.moment_Nm * 1e12, t->tip, exact);
-    fw_elastica_peak_strain(e, &end);
+    fw_flexure_elastica_peak_strain(e, &end);
     assert_true(fabs(end.moment_Nm) * 1e12 > t->most * (1 - 1e-9));
 
     const double twist[3] = {t->th * degree, t->x * um, t->y * um};
-    fw_elastica_of_twist(e, twist, 1e-8, false, &at);
+    fw_flexure_elastica_of_twist(e, twist, 1e-8, false, &at);
     assert_int_equal(at.code, FW_ELASTICA_OK);
     assert_relative(at.wrench[0] * 1e12, t->M, exact);
     assert_near(at.wrench[1] * 1e6, t->fx, exact * 100);
     assert_near(at.wrench[2] * 1e6, t->fy, exact * 100);
     const double wrench[3] = {t->M * 1e-12, t->fx * um, t->fy * um};
-    fw_elastica_of_wrench(e, wrench, 1e-10, false, &at);
+    fw_flexure_elastica_of_wrench(e, wrench, 1e-10, false, &at);
     assert_int_equal(at.code, FW_ELASTICA_OK);
     assert_relative(at.twist[0], t->th * degree, exact);
     assert_near(at.twist[1] * 1e6, t->x, exact * fabs(t->x) + 10 * round);
@@ -159,16 +160,16 @@ static void arcs_match_the_tables(void **state) {
         double angle, th, fx, fy, x, y, M;
         assert_int_equal(
             sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf", &angle, &th, &fx, &fy, &x, &y, &M), 7);
-        fw_beam_piece piece;
-        fw_beam beam = hinge(&piece, '1', true);
+        fw_flexure_beam_piece piece;
+        fw_flexure_beam beam = hinge(&piece, '1', true);
         double a = 0.5 * angle * degree, r = 100 * um;
         piece.length_m = 2 * a * r;
         beam.x_m = r * cos(a), beam.y_m = -r * sin(a), beam.psi_rad = 0.5 * M_PI - a;
         fw_arena *arena = fw_arena_new(0);
-        fw_elastica *e = NULL;
-        fw_elastica_result at;
+        fw_flexure_elastica *e = NULL;
+        fw_flexure_elastica_result at;
         const double v[3] = {th * degree, fx * um, fy * um};
-        assert_int_equal(fw_elastica_new(arena, &beam, NULL, false, &e), FW_OK);
+        assert_int_equal(fw_flexure_elastica_new(arena, &beam, NULL, false, &e), FW_OK);
         solve(e, turn_and_force, v, 1e-10, &at);
         assert_relative(at.wrench[0] * 1e12, M, 1e-9);
         assert_near(at.twist[1] * 1e6, x, 1e-9 * fabs(x) + 2e-13);
@@ -185,10 +186,10 @@ typedef struct flow {
     double phi, M, x, y;
 } flow;
 
-static flow slope(const wild *w, const fw_beam_pose *start, int piece, double s, const flow *at,
-                  const double f[2]) {
-    fw_beam_section c;
-    fw_beam_at(&w->beam, piece, start, s, &c);
+static flow slope(const wild *w, const fw_flexure_beam_pose *start, int piece, double s,
+                  const flow *at, const double f[2]) {
+    fw_flexure_beam_section c;
+    fw_flexure_beam_at(&w->beam, piece, start, s, &c);
     double psi = c.pose.psi_rad + at->phi, N = f[0] * cos(psi) + f[1] * sin(psi);
     double V = f[1] * cos(psi) - f[0] * sin(psi), e = 1 + N * c.axial_per_N, g = V * c.shear_per_N;
     flow d = {at->M * c.bend_per_Nm2, 0, e * cos(psi) - g * sin(psi), e * sin(psi) + g * cos(psi)};
@@ -201,8 +202,8 @@ static flow moved(const flow *a, double h, const flow *d) {
 }
 
 static flow integrate(const wild *w, flow at, const double f[2], int steps) {
-    fw_beam_pose start[4];
-    fw_beam_poses(&w->beam, start);
+    fw_flexure_beam_pose start[4];
+    fw_flexure_beam_poses(&w->beam, start);
     for (int p = 0; p < w->beam.npiece; p++)
         for (int i = 0; i < steps; i++) {
             double h = w->piece[p].length_m / steps, s = i * h;
@@ -225,18 +226,18 @@ static void another_method_agrees(void **state) {
     for (int n = 0; n < 60; n++) {
         wild w;
         double v[3];
-        fw_elastica_result at;
+        fw_flexure_elastica_result at;
         grow(&w);
         load(&w, 0.5, v);
         solve(w.e, turn_and_force, v, 1e-11, &at);
         assert_int_equal(at.code, FW_ELASTICA_OK);
-        const fw_beam_linear *lin = fw_elastica_linear(w.e);
-        fw_beam_section c[2];
-        fw_beam_pose start[4];
+        const fw_flexure_beam_linear *lin = fw_flexure_elastica_linear(w.e);
+        fw_flexure_beam_section c[2];
+        fw_flexure_beam_pose start[4];
         int last = w.beam.npiece - 1;
-        fw_beam_poses(&w.beam, start);
-        fw_beam_at(&w.beam, 0, &start[0], 0, &c[0]);
-        fw_beam_at(&w.beam, last, &start[last], w.piece[last].length_m, &c[1]);
+        fw_flexure_beam_poses(&w.beam, start);
+        fw_flexure_beam_at(&w.beam, 0, &start[0], 0, &c[0]);
+        fw_flexure_beam_at(&w.beam, last, &start[last], w.piece[last].length_m, &c[1]);
         flow begin = {at.start_Nm * w.beam.root_m[0] * c[0].bend_per_Nm2, at.start_Nm, w.beam.x_m,
                       w.beam.y_m};
         flow end = integrate(&w, begin, &at.wrench[1], 800);
@@ -264,7 +265,7 @@ static void tangents_are_derivatives(void **state) {
     for (int n = 0; n < 40; n++) {
         wild w;
         double v[3];
-        fw_elastica_result at, near[4];
+        fw_flexure_elastica_result at, near[4];
         grow(&w);
         load(&w, 0.5, v);
         solve(w.e, turn_and_force, v, 1e-11, &at);
@@ -277,7 +278,7 @@ static void tangents_are_derivatives(void **state) {
             for (int k = 0; k < 4; k++) {
                 double twist[3] = {at.twist[0], at.twist[1], at.twist[2]};
                 twist[j] += (k - 1.5 + (k > 1 ? 0.5 : -0.5)) * h * scale(&w, j);
-                fw_elastica_of_twist(w.e, twist, 1e-11, true, &near[k]);
+                fw_flexure_elastica_of_twist(w.e, twist, 1e-11, true, &near[k]);
                 assert_true(near[k].code <= FW_ELASTICA_ROUGH);
             }
             for (int i = 0; i < 3; i++) {
@@ -304,17 +305,17 @@ static void energy_is_work(void **state) {
     for (int n = 0; n < 30; n++) {
         wild w;
         double v[3], work = 0;
-        fw_elastica_result end, at;
+        fw_flexure_elastica_result end, at;
         grow(&w);
         load(&w, 0.4, v);
         solve(w.e, turn_and_force, v, 1e-11, &end);
-        double energy = fw_elastica_energy_J(w.e);
+        double energy = fw_flexure_elastica_energy_J(w.e);
         for (int i = 0; i < 80; i++) {
             double node = 0.5 * (1 + (i % 2 ? 1 : -1) * x[i % 10 / 2]), twist[3];
             double part = (i / 10 + node) / 8;
             for (int k = 0; k < 3; k++)
                 twist[k] = part * end.twist[k];
-            fw_elastica_of_twist(w.e, twist, 1e-10, false, &at);
+            fw_flexure_elastica_of_twist(w.e, twist, 1e-10, false, &at);
             assert_true(at.code <= FW_ELASTICA_ROUGH);
             for (int k = 0; k < 3; k++)
                 work += 0.0625 * g[i % 10 / 2] * at.wrench[k] * end.twist[k];
@@ -329,7 +330,7 @@ static void frames_are_equal(void **state) {
     for (int n = 0; n < 30; n++) {
         wild w;
         double v[3], turn = uniform(-3, 3), c = cos(turn), s = sin(turn);
-        fw_elastica_result a, b;
+        fw_flexure_elastica_result a, b;
         grow(&w);
         load(&w, 0.5, v);
         solve(w.e, turn_and_force, v, 1e-10, &a);
@@ -340,7 +341,7 @@ static void frames_are_equal(void **state) {
         other.beam.orientation_rad -= turn;
         other.beam.x_m = uniform(-1, 1);
         begin(&other);
-        fw_elastica_of_twist(other.e, twist, 1e-10, false, &b);
+        fw_flexure_elastica_of_twist(other.e, twist, 1e-10, false, &b);
         assert_near(b.wrench[0] * w.soft, a.wrench[0] * w.soft, 1e-9);
         double unit = w.soft * w.length;
         assert_near(b.wrench[1] * unit, (c * a.wrench[1] - s * a.wrench[2]) * unit, 1e-8);
@@ -356,15 +357,15 @@ static void ends_are_equal(void **state) {
     for (int n = 0; n < 30; n++) {
         wild w;
         double v[3];
-        fw_elastica_result a, b;
+        fw_flexure_elastica_result a, b;
         grow(&w);
         load(&w, 0.5, v);
         solve(w.e, turn_and_force, v, 1e-10, &a);
-        const fw_beam_pose *end = &fw_elastica_linear(w.e)->end;
+        const fw_flexure_beam_pose *end = &fw_flexure_elastica_linear(w.e)->end;
         wild back = w;
         int count = w.beam.npiece;
         for (int i = 0; i < count; i++) {
-            const fw_beam_piece *from = &w.piece[count - 1 - i];
+            const fw_flexure_beam_piece *from = &w.piece[count - 1 - i];
             back.piece[i] = *from;
             back.piece[i].curvature_per_m *= -1;
             back.piece[i].kink_rad = i ? -w.piece[count - i].kink_rad : 0;
@@ -377,7 +378,7 @@ static void ends_are_equal(void **state) {
         begin(&back);
         double th = a.twist[0], c = cos(th), s = sin(th), ux = a.twist[1], uy = a.twist[2];
         const double twist[3] = {-th, -(c * ux + s * uy), -(c * uy - s * ux)};
-        fw_elastica_of_twist(back.e, twist, 1e-10, false, &b);
+        fw_flexure_elastica_of_twist(back.e, twist, 1e-10, false, &b);
         double fx = a.wrench[1], fy = a.wrench[2], unit = w.soft * w.length;
         assert_near(b.wrench[0] * w.soft, -(a.wrench[0] + ux * fy - uy * fx) * w.soft, 1e-8);
         assert_near(b.wrench[1] * unit, -(c * fx + s * fy) * unit, 1e-8);

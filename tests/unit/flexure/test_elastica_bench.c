@@ -10,10 +10,10 @@ static const double degree = M_PI / 180;
 
 typedef struct rig {
     fw_arena *arena;
-    fw_beam_piece piece[2];
-    fw_beam beam;
-    fw_elastica *e;
-    fw_elastica_result at;
+    fw_flexure_beam_piece piece[2];
+    fw_flexure_beam beam;
+    fw_flexure_elastica *e;
+    fw_flexure_elastica_result at;
 } rig;
 
 /* EI = 1 times `stiff`, inextensible unless EA is given; watched at its end */
@@ -21,34 +21,35 @@ static void build(rig *r, int npiece, double x, double y, double psi, double sti
                   bool hinged) {
     /* E h t^3/12 = stiff, E h t = EA */
     double t = EA > 0 ? sqrt(12 * stiff / EA) : 1, E = EA > 0 ? EA / t : 12 * stiff;
-    fw_beam_pose end[3];
-    r->beam = (fw_beam){.piece = r->piece,
-                        .npiece = npiece,
-                        .x_m = x,
-                        .y_m = y,
-                        .psi_rad = psi,
-                        .depth_m = 1,
-                        .youngs_Pa = E,
-                        .shear_Pa = (double)INFINITY,
-                        .inextensible = !(EA > 0)};
+    fw_flexure_beam_pose end[3];
+    r->beam = (fw_flexure_beam){.piece = r->piece,
+                                .npiece = npiece,
+                                .x_m = x,
+                                .y_m = y,
+                                .psi_rad = psi,
+                                .depth_m = 1,
+                                .youngs_Pa = E,
+                                .shear_Pa = (double)INFINITY,
+                                .inextensible = !(EA > 0)};
     for (int i = 0; i < npiece; i++)
         r->piece[i].width_m[0] = r->piece[i].width_m[1] = r->piece[i].width_m[2] = t;
     r->arena = fw_arena_new(0);
-    fw_beam_poses(&r->beam, end);
+    fw_flexure_beam_poses(&r->beam, end);
     const double tip[2] = {end[npiece].x_m, end[npiece].y_m};
-    assert_int_equal(fw_elastica_new(r->arena, &r->beam, tip, hinged, &r->e), FW_OK);
+    assert_int_equal(fw_flexure_elastica_new(r->arena, &r->beam, tip, hinged, &r->e), FW_OK);
 }
 
 static void straight(rig *r) {
-    r->piece[0] = (fw_beam_piece){.length_m = 1};
+    r->piece[0] = (fw_flexure_beam_piece){.length_m = 1};
     build(r, 1, 0, 0, 0, 1, 0, false);
 }
 
-static const fw_elastica_end all[3] = {FW_END_M, FW_END_FX, FW_END_FY};
+static const fw_flexure_elastica_end all[3] = {FW_END_M, FW_END_FX, FW_END_FY};
 
-static void solve(rig *r, const fw_elastica_end given[3], double a, double b, double c, bool warm) {
-    const fw_elastica_task task = {{given[0], given[1], given[2]}, {a, b, c}};
-    fw_elastica_solve(r->e, &task, 1e-11, warm, &r->at);
+static void solve(rig *r, const fw_flexure_elastica_end given[3], double a, double b, double c,
+                  bool warm) {
+    const fw_flexure_elastica_task task = {{given[0], given[1], given[2]}, {a, b, c}};
+    fw_flexure_elastica_solve(r->e, &task, 1e-11, warm, &r->at);
 }
 
 /* ---- rows of the table ---- */
@@ -79,7 +80,7 @@ static bool next_row(FILE *file, row *w) {
 }
 
 static double tip(const rig *r, int k) {
-    const fw_beam_pose *end = &fw_elastica_linear(r->e)->end;
+    const fw_flexure_beam_pose *end = &fw_flexure_elastica_linear(r->e)->end;
     return r->at.twist[k] + (k == 1 ? end->x_m : k == 2 ? end->y_m : 0);
 }
 
@@ -88,7 +89,7 @@ static void force_at(rig *r, double P, double angle) {
 }
 
 static void column(rig *r, double tip_rad) { /* a little to the side, then the slope of the tip */
-    const fw_elastica_end slope[3] = {FW_END_THETA, FW_END_M, FW_END_FY};
+    const fw_flexure_elastica_end slope[3] = {FW_END_THETA, FW_END_M, FW_END_FY};
     straight(r);
     solve(r, all, 0, -1.1 * M_PI * M_PI / 4, 0.02, false);
     assert_int_equal(r->at.code, FW_ELASTICA_OK);
@@ -100,7 +101,7 @@ static void column(rig *r, double tip_rad) { /* a little to the side, then the s
 }
 
 static void arc(rig *r, double angle, double fx, double fy) {
-    r->piece[0] = (fw_beam_piece){.length_m = angle, .curvature_per_m = 1};
+    r->piece[0] = (fw_flexure_beam_piece){.length_m = angle, .curvature_per_m = 1};
     build(r, 1, 0, 0, 0, 1, 0, false);
     solve(r, all, 0, fx, fy, false);
 }
@@ -109,13 +110,13 @@ static void arc(rig *r, double angle, double fx, double fy) {
    frame leans over to the left, its arm on top, and would not stay there under its dead load. It is
    gone to by carrying the tip there. */
 static void right_angle(rig *r, double P) {
-    r->piece[0] = (fw_beam_piece){.length_m = 1};
-    r->piece[1] = (fw_beam_piece){.length_m = 1, .kink_rad = -M_PI / 2};
+    r->piece[0] = (fw_flexure_beam_piece){.length_m = 1};
+    r->piece[1] = (fw_flexure_beam_piece){.length_m = 1, .kink_rad = -M_PI / 2};
     build(r, 2, 0, 0, M_PI / 2, 1, 0, false);
     solve(r, all, 0, 0, -P, false);
     assert_true(r->at.twist[2] < 0 && r->at.stability > 0); /* the tip goes down */
     if (P > 3) {
-        const fw_elastica_end carried[3] = {FW_END_M, FW_END_UX, FW_END_UY};
+        const fw_flexure_elastica_end carried[3] = {FW_END_M, FW_END_UX, FW_END_UY};
         solve(r, carried, 0, -1.7, 0.4, false);
         assert_int_equal(r->at.code, FW_ELASTICA_OK);
         solve(r, all, 0, 0, -P, true);
@@ -123,8 +124,8 @@ static void right_angle(rig *r, double P) {
 }
 
 static void quarter_ring(rig *r, double P) { /* from the side to the load */
-    const fw_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
-    r->piece[0] = (fw_beam_piece){.length_m = M_PI / 2, .curvature_per_m = 1};
+    const fw_flexure_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
+    r->piece[0] = (fw_flexure_beam_piece){.length_m = M_PI / 2, .curvature_per_m = 1};
     build(r, 1, 1, 0, M_PI / 2, 1, 0, false);
     solve(r, given, 0, 0, 0.5 * P, false);
 }
@@ -139,7 +140,7 @@ static void make(rig *r, const row *w) {
     } else if (strncmp(w->name, "column", 6) == 0) {
         column(r, degree * parameter(w, "tip_deg"));
     } else if (strncmp(w->name, "fixed_guided", 12) == 0) {
-        const fw_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_UY};
+        const fw_flexure_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_UY};
         straight(r);
         solve(r, given, 0, 0, parameter(w, "delta_over_L"), false);
     } else if (strncmp(w->name, "arc", 3) == 0) {
@@ -160,9 +161,9 @@ static void make(rig *r, const row *w) {
 static double value_of(rig *r, const row *w) {
     const char *q = w->quantity;
     bool moves = strncmp(w->name, "arc", 3) == 0;
-    fw_elastica_state corner;
+    fw_flexure_elastica_state corner;
     if (strncmp(q, "corner", 6) == 0) {
-        fw_elastica_at(r->e, 1, &corner);
+        fw_flexure_elastica_at(r->e, 1, &corner);
         return q[7] == 'x' ? corner.pose.x_m : q[7] == 'y' ? corner.pose.y_m : corner.rotation_rad;
     }
     if (!strcmp(q, "w_over_L") || !strcmp(q, "load_point_travel_each")) return r->at.twist[2];
@@ -218,7 +219,7 @@ typedef struct pair {
 
 /* the point held v lower: rotation and x by Newton's method from moment and side force */
 static void hold(pair *p, double v) {
-    const fw_elastica_end given[3] = {FW_END_THETA, FW_END_UX, FW_END_UY};
+    const fw_flexure_elastica_end given[3] = {FW_END_THETA, FW_END_UX, FW_END_UY};
     p->at[2] = -v;
     for (int i = 0; i < 30; i++) {
         double f[3] = {0}, k[3][3] = {{0}};
@@ -286,7 +287,7 @@ static void arch(void **state) {
     double a = 107.5 * degree, v = 0;
     pair p = {0};
     for (int h = 0; h < 2; h++)
-        p.half[h].piece[0] = (fw_beam_piece){.length_m = a, .curvature_per_m = h ? 1 : -1};
+        p.half[h].piece[0] = (fw_flexure_beam_piece){.length_m = a, .curvature_per_m = h ? 1 : -1};
     build(&p.half[0], 1, -sin(a), cos(a), a, 1, 0, false);
     build(&p.half[1], 1, sin(a), cos(a), M_PI - a, 1, 0, true);
     for (int i = 0; i < 3; i++) {
@@ -303,9 +304,9 @@ static void arch(void **state) {
 }
 
 static void frame(pair *p, double EA) {
-    p->half[0].piece[0] = (fw_beam_piece){.length_m = 1};
-    p->half[0].piece[1] = (fw_beam_piece){.length_m = 0.2, .kink_rad = -M_PI / 2};
-    p->half[1].piece[0] = (fw_beam_piece){.length_m = 0.8};
+    p->half[0].piece[0] = (fw_flexure_beam_piece){.length_m = 1};
+    p->half[0].piece[1] = (fw_flexure_beam_piece){.length_m = 0.2, .kink_rad = -M_PI / 2};
+    p->half[1].piece[0] = (fw_flexure_beam_piece){.length_m = 0.8};
     build(&p->half[0], 2, 0, 0, M_PI / 2, 1, EA, true);
     build(&p->half[1], 1, 1, 1, M_PI, 1, EA, true);
 }
@@ -329,9 +330,9 @@ static void along(pair *p, const double want[4][4]) {
 /* a straight strip that cannot stretch gives no way before it is bent: it begins with the forces
    of the one that can */
 static void bend_first(pair *stiff, const pair *soft) {
-    const fw_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
+    const fw_flexure_elastica_end given[3] = {FW_END_THETA, FW_END_FX, FW_END_FY};
     for (int h = 0; h < 2; h++) {
-        const fw_elastica_result *at = &soft->half[h].at;
+        const fw_flexure_elastica_result *at = &soft->half[h].at;
         solve(&stiff->half[h], given, at->twist[0], at->wrench[1], at->wrench[2], false);
         assert_int_equal(stiff->half[h].at.code, FW_ELASTICA_OK);
     }

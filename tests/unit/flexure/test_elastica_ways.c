@@ -14,30 +14,30 @@ static double uniform(double low, double high) {
 
 typedef struct rig {
     fw_arena *arena;
-    fw_beam_piece piece[3];
-    fw_beam beam;
-    fw_elastica *e;
+    fw_flexure_beam_piece piece[3];
+    fw_flexure_beam beam;
+    fw_flexure_elastica *e;
     double soft, length;
 } rig;
 
 static void begin(rig *r, const double *point, bool hinged) {
     r->arena = fw_arena_new(0);
     r->beam.piece = r->piece;
-    assert_int_equal(fw_elastica_new(r->arena, &r->beam, point, hinged, &r->e), FW_OK);
-    r->soft = fw_elastica_linear(r->e)->c[0][0];
-    r->length = fw_elastica_linear(r->e)->length_m;
+    assert_int_equal(fw_flexure_elastica_new(r->arena, &r->beam, point, hinged, &r->e), FW_OK);
+    r->soft = fw_flexure_elastica_linear(r->e)->c[0][0];
+    r->length = fw_flexure_elastica_linear(r->e)->length_m;
 }
 
 /* EI = 1, starting at the origin along x */
-static fw_beam thin(int npiece) {
-    return (fw_beam){
+static fw_flexure_beam thin(int npiece) {
+    return (fw_flexure_beam){
         .npiece = npiece, .depth_m = 1, .youngs_Pa = 12, .shear_Pa = 1, .inextensible = true};
 }
 
 static void one(rig *r, double length, double curvature, const double *point, bool hinged) {
     *r = (rig){.beam = thin(1)};
-    r->piece[0] =
-        (fw_beam_piece){.length_m = length, .curvature_per_m = curvature, .width_m = {1, 1, 1}};
+    r->piece[0] = (fw_flexure_beam_piece){
+        .length_m = length, .curvature_per_m = curvature, .width_m = {1, 1, 1}};
     begin(r, point, hinged);
 }
 
@@ -50,7 +50,7 @@ static void wild(rig *r) {
                         .root_m = {uniform(-0.01, 0.02), uniform(-0.01, 0.02)}}};
     double t = uniform(0.02, 0.05);
     for (int i = 0; i < r->beam.npiece; i++)
-        r->piece[i] = (fw_beam_piece){
+        r->piece[i] = (fw_flexure_beam_piece){
             .length_m = uniform(0.3, 1) / r->beam.npiece,
             .curvature_per_m = uniform(-5, 5) * r->beam.npiece,
             .kink_rad = i ? uniform(-1, 1) : 0,
@@ -65,16 +65,17 @@ static void errors_are_told(void **state) {
     int loose = 0, finer = 0;
     for (int n = 0; n < 400; n++) {
         rig r;
-        fw_elastica_result exact, rough;
+        fw_flexure_elastica_result exact, rough;
         wild(&r);
         double load = uniform(0.05, 1);
-        fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY}, {uniform(-1, 1) * load}};
+        fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                         {uniform(-1, 1) * load}};
         for (int i = 1; i < 3; i++)
             task.value[i] = uniform(-4, 4) * load / (r.soft * r.length);
-        fw_elastica_solve(r.e, &task, 1e-13, false, &exact);
+        fw_flexure_elastica_solve(r.e, &task, 1e-13, false, &exact);
         assert_true(exact.code <= FW_ELASTICA_ROUGH);
         for (double tolerance = 1e-11; tolerance < 1e-3; tolerance *= 100) {
-            fw_elastica_solve(r.e, &task, tolerance, false, &rough);
+            fw_flexure_elastica_solve(r.e, &task, tolerance, false, &rough);
             assert_int_equal(rough.code, FW_ELASTICA_OK);
             assert_true(rough.error <= tolerance);
             for (int i = 0; i < 3; i++) {
@@ -97,17 +98,17 @@ static void warm_is_cold(void **state) {
     long passes[2] = {0, 0};
     for (int n = 0; n < 20; n++) {
         rig r;
-        fw_elastica_result at[2];
+        fw_flexure_elastica_result at[2];
         wild(&r);
-        fw_elastica *other = NULL;
-        assert_int_equal(fw_elastica_new(r.arena, &r.beam, NULL, false, &other), FW_OK);
+        fw_flexure_elastica *other = NULL;
+        assert_int_equal(fw_flexure_elastica_new(r.arena, &r.beam, NULL, false, &other), FW_OK);
         double phase = uniform(0, 6);
         for (int i = 0; i < 40; i++) {
             double a = phase + 0.02 * i;
             const double wrench[3] = {0.3 / r.soft * sin(a), cos(a) / (r.soft * r.length),
                                       sin(2 * a) / (r.soft * r.length)};
-            fw_elastica_of_wrench(r.e, wrench, 1e-9, true, &at[0]);
-            fw_elastica_of_wrench(other, wrench, 1e-9, false, &at[1]);
+            fw_flexure_elastica_of_wrench(r.e, wrench, 1e-9, true, &at[0]);
+            fw_flexure_elastica_of_wrench(other, wrench, 1e-9, false, &at[1]);
             for (int w = 0; w < 2; w++) {
                 assert_int_equal(at[w].code, FW_ELASTICA_OK);
                 passes[w] += at[w].passes;
@@ -132,16 +133,16 @@ static void leaves_are_met_at_once(void **state) {
                           .depth_m = 50 * um,
                           .youngs_Pa = 169e9,
                           .shear_Pa = 69e9}};
-        r.piece[0] = (fw_beam_piece){.length_m = L, .width_m = {t, t, t}};
+        r.piece[0] = (fw_flexure_beam_piece){.length_m = L, .width_m = {t, t, t}};
         begin(&r, NULL, false);
-        fw_elastica_result at[2];
+        fw_flexure_elastica_result at[2];
         for (int i = 0; i < 10; i++) {
-            const fw_elastica_task task = {
+            const fw_flexure_elastica_task task = {
                 {FW_END_THETA, FW_END_FX, FW_END_FY},
                 {0.2 * sin(n + 0.2 * i), 3e-4 * cos(n + 0.1 * i), 3e-4 * sin(n + 0.3 * i)}};
-            fw_elastica_solve(r.e, &task, 1e-11, false, &at[0]);
+            fw_flexure_elastica_solve(r.e, &task, 1e-11, false, &at[0]);
             assert_true(at[0].code <= FW_ELASTICA_ROUGH);
-            fw_elastica_of_twist(r.e, at[0].twist, 1e-8, i > 4, &at[1]);
+            fw_flexure_elastica_of_twist(r.e, at[0].twist, 1e-8, i > 4, &at[1]);
             assert_int_equal(at[1].code, FW_ELASTICA_OK);
             assert_int_equal(at[1].steps, 0);
             assert_true(at[1].passes < 40);
@@ -159,14 +160,14 @@ static void leaves_are_met_at_once(void **state) {
 static void limits_are_told(void **state) {
     (void)state;
     rig r;
-    fw_elastica_result at;
-    const fw_elastica_end force[3] = {FW_END_THETA, FW_END_UX, FW_END_FY};
+    fw_flexure_elastica_result at;
+    const fw_flexure_elastica_end force[3] = {FW_END_THETA, FW_END_UX, FW_END_FY};
     one(&r, 1, -0.5, NULL, false); /* 0.245 high: turned over it is 0.49 away */
     double most = 0, least = 0;
     bool past = false;
     for (int i = 1; i <= 1000; i++) {
         const double twist[3] = {0, 0, 0.00047 * i};
-        fw_elastica_of_twist(r.e, twist, 1e-8, i > 1, &at);
+        fw_flexure_elastica_of_twist(r.e, twist, 1e-8, i > 1, &at);
         assert_int_equal(at.code, FW_ELASTICA_OK);
         assert_true(at.stability > 0);
         if (at.wrench[2] < most && i < 500) past = true;
@@ -175,8 +176,9 @@ static void limits_are_told(void **state) {
     }
     assert_true(past && least < 0.5 * most && at.wrench[2] > most); /* it has snapped through */
     for (int i = 0; i < 2; i++) {
-        fw_elastica_task task = {{force[0], force[1], force[2]}, {0, 0, (i ? 1.5 : 0.999) * most}};
-        fw_elastica_solve(r.e, &task, 1e-9, false, &at);
+        fw_flexure_elastica_task task = {{force[0], force[1], force[2]},
+                                         {0, 0, (i ? 1.5 : 0.999) * most}};
+        fw_flexure_elastica_solve(r.e, &task, 1e-9, false, &at);
         assert_int_equal(at.code, i ? FW_ELASTICA_LIMIT : FW_ELASTICA_OK);
         assert_near(at.reached, i ? 1 / 1.5 : 1, 1e-3);
         assert_true(at.stability > 0);
@@ -194,16 +196,16 @@ static void primary_branch(void **state) {
     const double angle = 1.5 * M_PI, tip[2] = {sin(angle), 1 - cos(angle)};
     for (int n = 0; n < 24; n++) {
         rig r;
-        fw_elastica_result at, steps;
+        fw_flexure_elastica_result at, steps;
         one(&r, angle, 1, tip, false);
         double a = n * M_PI / 12, f[2] = {0.5 * cos(a), 0.5 * sin(a)};
         for (int i = 1; i <= 200; i++) {
             const double wrench[3] = {0, f[0] * i / 200, f[1] * i / 200};
-            fw_elastica_of_wrench(r.e, wrench, 1e-9, i > 1, &steps);
+            fw_flexure_elastica_of_wrench(r.e, wrench, 1e-9, i > 1, &steps);
             assert_int_equal(steps.code, FW_ELASTICA_OK);
         }
         const double wrench[3] = {0, f[0], f[1]};
-        fw_elastica_of_wrench(r.e, wrench, 1e-9, false, &at);
+        fw_flexure_elastica_of_wrench(r.e, wrench, 1e-9, false, &at);
         assert_int_equal(at.code, FW_ELASTICA_OK);
         for (int k = 0; k < 3; k++)
             assert_near(at.twist[k], steps.twist[k], 1e-8);
@@ -217,17 +219,18 @@ static void inside_a_wound_arc(void **state) {
     (void)state;
     rig r = {.beam = {.npiece = 1, .depth_m = 50 * um, .youngs_Pa = 169e9, .shear_Pa = 69e9}};
     double R = 100 * um, L = 1.5 * M_PI * R, t = 8 * um;
-    r.piece[0] = (fw_beam_piece){.length_m = L, .curvature_per_m = 1 / R, .width_m = {t, t, t}};
+    r.piece[0] =
+        (fw_flexure_beam_piece){.length_m = L, .curvature_per_m = 1 / R, .width_m = {t, t, t}};
     begin(&r, NULL, false);
     double M = 0.3 / r.soft, EI = L / r.soft, k = 1 / R + M / EI;
     const double wrench[3] = {M, 0, 0};
-    fw_elastica_result at;
-    fw_elastica_of_wrench(r.e, wrench, 1e-10, false, &at);
+    fw_flexure_elastica_result at;
+    fw_flexure_elastica_of_wrench(r.e, wrench, 1e-10, false, &at);
     assert_relative(at.twist[0], 0.3, 1e-14);
     for (int i = 0; i <= 20; i++) {
-        fw_elastica_state in;
+        fw_flexure_elastica_state in;
         double s = L * i / 20;
-        fw_elastica_at(r.e, s, &in);
+        fw_flexure_elastica_at(r.e, s, &in);
         assert_near(in.pose.x_m, sin(k * s) / k, 1e-14 * R);
         assert_near(in.pose.y_m, (1 - cos(k * s)) / k, 1e-14 * R);
         assert_near(in.pose.psi_rad, k * s, 1e-13);
@@ -235,7 +238,7 @@ static void inside_a_wound_arc(void **state) {
         assert_near(in.strain[0], -0.5 * t * M / EI, 1e-16);
         assert_near(in.strain[1], 0.5 * t * M / EI, 1e-16);
     }
-    assert_relative(fw_elastica_energy_J(r.e), 0.5 * M * 0.3, 1e-13);
+    assert_relative(fw_flexure_elastica_energy_J(r.e), 0.5 * M * 0.3, 1e-13);
     fw_arena_free(r.arena);
 }
 
@@ -245,17 +248,18 @@ static void inside_any_beam(void **state) {
     (void)state;
     for (int n = 0; n < 25; n++) {
         rig r;
-        fw_elastica_result at;
-        fw_elastica_state peak, in;
+        fw_flexure_elastica_result at;
+        fw_flexure_elastica_state peak, in;
         wild(&r);
-        const fw_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
-                                       {uniform(-0.4, 0.4), uniform(-1, 1) / (r.soft * r.length),
-                                        uniform(-1, 1) / (r.soft * r.length)}};
-        fw_elastica_solve(r.e, &task, 1e-11, false, &at);
+        const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                               {uniform(-0.4, 0.4),
+                                                uniform(-1, 1) / (r.soft * r.length),
+                                                uniform(-1, 1) / (r.soft * r.length)}};
+        fw_flexure_elastica_solve(r.e, &task, 1e-11, false, &at);
         assert_true(at.code <= FW_ELASTICA_ROUGH);
-        fw_elastica_peak_strain(r.e, &peak);
+        fw_flexure_elastica_peak_strain(r.e, &peak);
         double top = fmax(fabs(peak.strain[0]), fabs(peak.strain[1])), most = 0;
-        const double *w = fw_elastica_linear(r.e)->centre_m;
+        const double *w = fw_flexure_elastica_linear(r.e)->centre_m;
         double ends = 0;
         for (int i = 0; i < 2 * r.beam.npiece + 4000; i++) {
             double s = r.length * i / 4000;
@@ -263,7 +267,7 @@ static void inside_any_beam(void **state) {
                 if (i % 2 == 0) ends += r.piece[(i - 4000) / 2].length_m;
                 s = ends * (1 + (i % 2 ? 1e-12 : -1e-12));
             }
-            fw_elastica_at(r.e, s, &in);
+            fw_flexure_elastica_at(r.e, s, &in);
             most = fmax(most, fmax(fabs(in.strain[0]), fabs(in.strain[1])));
             double x = w[0] + at.twist[1] - in.pose.x_m, y = w[1] + at.twist[2] - in.pose.y_m;
             double M = at.wrench[0] + x * at.wrench[2] - y * at.wrench[1];
@@ -272,7 +276,7 @@ static void inside_any_beam(void **state) {
         assert_true(top >= most * (1 - 1e-9) && top <= most * (1 + 1e-6));
         double there = 0;
         for (int side = -1; side <= 1; side += 2) {
-            fw_elastica_at(r.e, peak.s_m * (1 + side * 1e-12), &in);
+            fw_flexure_elastica_at(r.e, peak.s_m * (1 + side * 1e-12), &in);
             there = fmax(there, fmax(fabs(in.strain[0]), fabs(in.strain[1])));
         }
         assert_relative(there, top, 1e-9);
@@ -283,16 +287,16 @@ static void inside_any_beam(void **state) {
 static void nothing_gives_nothing(void **state) {
     (void)state;
     rig r;
-    fw_elastica_result at;
+    fw_flexure_elastica_result at;
     const double none[3] = {0};
     wild(&r);
     for (int warm = 0; warm < 2; warm++) {
-        fw_elastica_of_twist(r.e, none, 1e-9, warm, &at);
+        fw_flexure_elastica_of_twist(r.e, none, 1e-9, warm, &at);
         assert_int_equal(at.code, FW_ELASTICA_OK);
         for (int i = 0; i < 3; i++) {
             assert_near(at.wrench[i], 0, 0);
             /* the tangent at rest is the inverse of the compliance */
-            const fw_beam_linear *lin = fw_elastica_linear(r.e);
+            const fw_flexure_beam_linear *lin = fw_flexure_elastica_linear(r.e);
             for (int j = 0; j < 3; j++) {
                 double sum = 0, size = 0;
                 for (int k = 0; k < 3; k++) {
@@ -306,11 +310,12 @@ static void nothing_gives_nothing(void **state) {
     fw_arena_free(r.arena);
 }
 
-static fw_elastica_code code_of(fw_elastica *e, fw_elastica_end a, fw_elastica_end b,
-                                fw_elastica_end c, double value) {
-    const fw_elastica_task task = {{a, b, c}, {value, value, value}};
-    fw_elastica_result at;
-    fw_elastica_solve(e, &task, 1e-9, false, &at);
+static fw_flexure_elastica_code code_of(fw_flexure_elastica *e, fw_flexure_elastica_end a,
+                                        fw_flexure_elastica_end b, fw_flexure_elastica_end c,
+                                        double value) {
+    const fw_flexure_elastica_task task = {{a, b, c}, {value, value, value}};
+    fw_flexure_elastica_result at;
+    fw_flexure_elastica_solve(e, &task, 1e-9, false, &at);
     return at.code;
 }
 
@@ -336,12 +341,12 @@ static void what_is_refused(void **state) {
 static void memory_runs_out(void **state) {
     (void)state;
     rig r;
-    fw_elastica *e = NULL;
+    fw_flexure_elastica *e = NULL;
     one(&r, 1, 0.3, NULL, false);
     int failures = 0;
     for (long n = 1; n < 20; n++) {
         fw_arena_fail_at(n, 1);
-        fw_status status = fw_elastica_new(r.arena, &r.beam, NULL, false, &e);
+        fw_status status = fw_flexure_elastica_new(r.arena, &r.beam, NULL, false, &e);
         fw_arena_fail_at(0, 0);
         if (status == FW_OK) break;
         assert_int_equal(status, FW_NOMEM);

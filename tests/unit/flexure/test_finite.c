@@ -7,20 +7,20 @@
 static const double degree = M_PI / 180;
 
 /* a strip without roots, axial and shear compliance: inextensible */
-static fw_hinge_law thin(double r_m, double angle_deg, double EI) {
+static fw_flexure_hinge_law thin(double r_m, double angle_deg, double EI) {
     double a = 0.5 * angle_deg * degree, L = 2 * a * r_m;
-    return (fw_hinge_law){.stiffness_Nm_per_rad = EI / L,
-                          .half_angle_rad = a,
-                          .length_m = L,
-                          .share = 1,
-                          .bend_m_per_N = L * L * L / (8 * EI)};
+    return (fw_flexure_hinge_law){.stiffness_Nm_per_rad = EI / L,
+                                  .half_angle_rad = a,
+                                  .length_m = L,
+                                  .share = 1,
+                                  .bend_m_per_N = L * L * L / (8 * EI)};
 }
 
 /* u of W2 in the first body's frame under a dead force (fx, fy) there, at th; *M the moment */
-static void loaded(const fw_hinge_law *law, double th, double fx, double fy, double u[2],
+static void loaded(const fw_flexure_hinge_law *law, double th, double fx, double fy, double u[2],
                    double *M) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, th, &at);
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, th, &at);
     double c = cos(0.5 * th), s = sin(0.5 * th);
     double fe = c * fx + s * fy, fn = c * fy - s * fx;
     double w = fe / at.kx_N_per_m.value, v = fn / at.ky_N_per_m.value, y = v + at.drift_m.value;
@@ -31,17 +31,17 @@ static void loaded(const fw_hinge_law *law, double th, double fx, double fy, dou
 }
 
 /* everything that a law can have */
-static fw_hinge_law example(double half_angle_rad) {
-    return (fw_hinge_law){.stiffness_Nm_per_rad = 1e-6,
-                          .half_angle_rad = half_angle_rad,
-                          .length_m = 300e-6,
-                          .share = 0.97,
-                          .bend_m_per_N = 0.05,
-                          .root_m_per_N = 1e-3,
-                          .axial_m_per_N = 2e-4,
-                          .shear_m_per_N = 5e-4,
-                          .uneven_x = 0.1,
-                          .uneven_y = -0.05};
+static fw_flexure_hinge_law example(double half_angle_rad) {
+    return (fw_flexure_hinge_law){.stiffness_Nm_per_rad = 1e-6,
+                                  .half_angle_rad = half_angle_rad,
+                                  .length_m = 300e-6,
+                                  .share = 0.97,
+                                  .bend_m_per_N = 0.05,
+                                  .root_m_per_N = 1e-3,
+                                  .axial_m_per_N = 2e-4,
+                                  .shear_m_per_N = 5e-4,
+                                  .uneven_x = 0.1,
+                                  .uneven_y = -0.05};
 }
 
 static FILE *table(const char *name) {
@@ -66,7 +66,7 @@ static void against_the_beam(void **state) {
         assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", &angle, &th, &fx,
                                 &fy, &x, &y, &M, &px, &py, &pM),
                          10);
-        fw_hinge_law law = thin(100e-6, angle, 169e9 * 50e-6 * pow(8e-6, 3) / 12);
+        fw_flexure_hinge_law law = thin(100e-6, angle, 169e9 * 50e-6 * pow(8e-6, 3) / 12);
         loaded(&law, th * degree, fx * 1e-6, fy * 1e-6, u, &moment);
         assert_near(u[0] * 1e6, px, 1e-11 * hypot(px, py) + 1e-12);
         assert_near(u[1] * 1e6, py, 1e-11 * hypot(px, py) + 1e-12);
@@ -97,7 +97,7 @@ static void against_the_reference(void **state) {
         bool soft = strcmp(theory, "inextensible") != 0, h3 = strcmp(which, "H3") == 0;
         double t = h3 ? 10e-6 : 8e-6, h = h3 ? 9e-6 : 50e-6, E = h3 ? 115e9 : 169e9;
         double nu = h3 ? 0.34 : 0.22;
-        fw_hinge_law law = thin(100e-6, 270, E * h * t * t * t / 12);
+        fw_flexure_hinge_law law = thin(100e-6, 270, E * h * t * t * t / 12);
         law.axial_m_per_N = soft ? law.length_m / (2 * E * h * t) : 0;
         law.shear_m_per_N = soft ? law.length_m * 2 * (1 + nu) / (2 * 5.0 / 6.0 * E * h * t) : 0;
         loaded(&law, th * degree, fx * 1e-6, fy * 1e-6, u, &moment);
@@ -124,22 +124,22 @@ static void gaps_close(void **state) {
     const double gap[] = {1e-6, 2e-6, 3e-6, 5e-6};
     for (int i = 0; i < 8; i++)
         for (int g = 0; g < 4; g++) {
-            fw_hinge_law law = thin(100e-6, angle[i], 1e-6);
-            fw_hinge_at at;
-            double th = fw_hinge_drift_reaches(&law, gap[g]);
-            fw_hinge_law_at(&law, th, &at);
+            fw_flexure_hinge_law law = thin(100e-6, angle[i], 1e-6);
+            fw_flexure_hinge_at at;
+            double th = fw_flexure_hinge_drift_reaches(&law, gap[g]);
+            fw_flexure_hinge_law_at(&law, th, &at);
             double other = fabs(at.drift_m.value);
-            fw_hinge_law_at(&law, -th, &at);
+            fw_flexure_hinge_law_at(&law, -th, &at);
             assert_near(fmax(other, fabs(at.drift_m.value)), gap[g], 1e-6 * gap[g]);
             /* the table winds the arc and has one decimal */
-            fw_hinge_law_at(&law, (deg[i][g] - 0.06) * degree, &at);
+            fw_flexure_hinge_law_at(&law, (deg[i][g] - 0.06) * degree, &at);
             assert_true(at.drift_m.value < gap[g]);
-            fw_hinge_law_at(&law, (deg[i][g] + 0.06) * degree, &at);
+            fw_flexure_hinge_law_at(&law, (deg[i][g] + 0.06) * degree, &at);
             assert_true(at.drift_m.value > gap[g]);
             assert_true(th > 0.9 * deg[i][g] * degree && th < (deg[i][g] + 0.06) * degree);
         }
-    fw_hinge_law stiff = thin(100e-6, 270, 1e-6);
-    assert_true(isnan(fw_hinge_drift_reaches(&stiff, 1e-3)));
+    fw_flexure_hinge_law stiff = thin(100e-6, 270, 1e-6);
+    assert_true(isnan(fw_flexure_hinge_drift_reaches(&stiff, 1e-3)));
 }
 
 /* derivatives against differences of order 6, through a = 0 and through where the series end */
@@ -150,23 +150,24 @@ static void derivatives(void **state) {
     const double weight[7] = {-1, 9, -45, 0, 45, -9, 1};
     for (int i = 0; i < 8; i++)
         for (int j = 0; j < 6; j++) {
-            fw_hinge_law law = example(half[i]);
-            fw_hinge_at at, near;
+            fw_flexure_hinge_law law = example(half[i]);
+            fw_flexure_hinge_at at, near;
             const double h = 1e-3;
             double slope[3] = {0}, curve[3] = {0};
-            fw_hinge_law_at(&law, turn[j], &at);
+            fw_flexure_hinge_law_at(&law, turn[j], &at);
             for (int k = -3; k <= 3; k++) {
-                fw_hinge_law_at(&law, turn[j] + k * h, &near);
-                const fw_hinge_jet jet[3] = {near.kx_N_per_m, near.ky_N_per_m, near.drift_m};
+                fw_flexure_hinge_law_at(&law, turn[j] + k * h, &near);
+                const fw_flexure_hinge_jet jet[3] = {near.kx_N_per_m, near.ky_N_per_m,
+                                                     near.drift_m};
                 for (int m = 0; m < 3; m++) {
                     slope[m] += weight[k + 3] * jet[m].value / (60 * h);
                     curve[m] += weight[k + 3] * jet[m].slope / (60 * h);
                 }
             }
-            const fw_hinge_jet jet[3] = {at.kx_N_per_m, at.ky_N_per_m, at.drift_m};
-            const fw_hinge_rest rest = fw_hinge_rest_of(&law);
-            fw_hinge_law_slopes(&law, &rest, turn[j], &near);
-            const fw_hinge_jet first[3] = {near.kx_N_per_m, near.ky_N_per_m, near.drift_m};
+            const fw_flexure_hinge_jet jet[3] = {at.kx_N_per_m, at.ky_N_per_m, at.drift_m};
+            const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
+            fw_flexure_hinge_law_slopes(&law, &rest, turn[j], &near);
+            const fw_flexure_hinge_jet first[3] = {near.kx_N_per_m, near.ky_N_per_m, near.drift_m};
             for (int m = 0; m < 3; m++) {
                 assert_near(first[m].value, jet[m].value, 1e-15 * fabs(jet[m].value));
                 assert_near(first[m].slope, jet[m].slope, 1e-15 * fabs(jet[m].slope));
@@ -177,9 +178,9 @@ static void derivatives(void **state) {
         }
 }
 
-static double energy(const fw_hinge_law *law, const double p[3]) {
-    fw_hinge_at at;
-    fw_hinge_law_at(law, p[0], &at);
+static double energy(const fw_flexure_hinge_law *law, const double p[3]) {
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(law, p[0], &at);
     double c = cos(0.5 * p[0]), s = sin(0.5 * p[0]);
     double w = c * p[1] + s * p[2], v = c * p[2] - s * p[1] - at.drift_m.value;
     return 0.5 * (law->stiffness_Nm_per_rad * p[0] * p[0] + at.kx_N_per_m.value * w * w +
@@ -191,11 +192,11 @@ static void wrench_and_tangent(void **state) {
     (void)state;
     const double weight[7] = {-1, 9, -45, 0, 45, -9, 1}, size[3] = {1, 1e-5, 1e-5};
     for (int i = 0; i < 40; i++) {
-        fw_hinge_law law = example(0.08 * i);
-        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        fw_flexure_hinge_law law = example(0.08 * i);
+        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
         double p[3] = {0.5 * sin(i), 8e-6 * cos(3 * i), 6e-6 * sin(2 * i)};
         double F[3], T[3][3], near[3], unused[3][3];
-        fw_hinge_law_wrench(&law, &rest, p, F, T);
+        fw_flexure_hinge_law_wrench(&law, &rest, p, F, T);
         double scale = law.stiffness_Nm_per_rad;
         for (int k = 0; k < 3; k++) {
             double slope = 0, curve[3] = {0}, h = 1e-3 * size[k];
@@ -203,7 +204,7 @@ static void wrench_and_tangent(void **state) {
                 double q[3] = {p[0], p[1], p[2]};
                 q[k] += n * h;
                 slope += weight[n + 3] * energy(&law, q) / (60 * h);
-                fw_hinge_law_wrench(&law, &rest, q, near, unused);
+                fw_flexure_hinge_law_wrench(&law, &rest, q, near, unused);
                 for (int j = 0; j < 3; j++)
                     curve[j] += weight[n + 3] * near[j] / (60 * h);
             }
@@ -221,13 +222,13 @@ static void wrench_and_tangent(void **state) {
 static void far_turns(void **state) {
     (void)state;
     for (int i = 0; i < 20; i++) {
-        fw_hinge_law law = example(1.2 + 0.05 * i);
-        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        fw_flexure_hinge_law law = example(1.2 + 0.05 * i);
+        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
         for (int side = -1; side <= 1; side += 2) {
-            fw_hinge_at in, out;
+            fw_flexure_hinge_at in, out;
             double th = side * 1.6;
-            fw_hinge_law_slopes(&law, &rest, th - side * 1e-9, &in);
-            fw_hinge_law_slopes(&law, &rest, th + side * 1e-9, &out);
+            fw_flexure_hinge_law_slopes(&law, &rest, th - side * 1e-9, &in);
+            fw_flexure_hinge_law_slopes(&law, &rest, th + side * 1e-9, &out);
             assert_relative(in.kx_N_per_m.value, out.kx_N_per_m.value, 1e-7);
             assert_near(in.drift_m.value + side * 2e-9 * in.drift_m.slope, out.drift_m.value,
                         1e-15 * law.length_m + 1e-17 * law.length_m);
@@ -326,12 +327,13 @@ static void error_goes_with_the_square_of_the_force(void **state) {
             double a = 0.5 * angle[i] * degree, EI = 1e-10, L = 400e-6, last = 0;
             strip b = {.a = a, .L = L, .EI = EI};
             if (a > 0) b.W[0] = L / (2 * a) * sin(a) / a;
-            fw_hinge_law law = {.stiffness_Nm_per_rad = EI / L,
-                                .half_angle_rad = a,
-                                .length_m = L,
-                                .share = 1,
-                                .bend_m_per_N = L * L * L / (8 * EI),
-                                .axial_m_per_N = i == 0 ? 1e-9 : 0}; /* else 0/0 at no turn */
+            fw_flexure_hinge_law law = {.stiffness_Nm_per_rad = EI / L,
+                                        .half_angle_rad = a,
+                                        .length_m = L,
+                                        .share = 1,
+                                        .bend_m_per_N = L * L * L / (8 * EI),
+                                        .axial_m_per_N =
+                                            i == 0 ? 1e-9 : 0}; /* else 0/0 at no turn */
             for (int half = 0; half < 3; half++) {
                 double f = EI / (L * L) * 0.2 / (1 << half), F[2] = {0.77 * f, 0.64 * f}, u[2], M;
                 if (i == 0) F[0] = 0.3 * f;
@@ -354,11 +356,11 @@ static void at_rest(void **state) {
     (void)state;
     double r = 100e-6, a = 135 * degree, s = sin(a), c = cos(a), EI = 3.6e-10, dL = 0.7e-6;
     double L = 2 * a * r, W = (L * r * s / a + 2 * dL * r * c) / (L + 2 * dL);
-    fw_hinge_law law = thin(r, 270, EI);
+    fw_flexure_hinge_law law = thin(r, 270, EI);
     law.share = L / (L + 2 * dL), law.root_m_per_N = dL * L * L / (2 * EI);
     law.axial_m_per_N = 3e-5, law.shear_m_per_N = 7e-5;
-    fw_hinge_at at;
-    fw_hinge_law_at(&law, 0, &at);
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_at(&law, 0, &at);
     double p = 2 * 3e-5 / L * r, v = 2 * 7e-5 / L * r; /* r/EA, r/kGA */
     double x = pow(r, 3) / EI * (a - s * c) + p * (a - s * c) + v * (a + s * c) +
                2 * dL * r * r * s * s / EI;
@@ -372,17 +374,17 @@ static void at_rest(void **state) {
     assert_near(at.drift_m.value, 0, 1e-19);
     assert_near(at.drift_m.slope, 0, 1e-18); /* W is the elastic centre, the roots included */
 
-    fw_hinge_law leaf = {.stiffness_Nm_per_rad = 1e-6,
-                         .length_m = L,
-                         .share = 1,
-                         .bend_m_per_N = L * L * L / (8 * EI),
-                         .axial_m_per_N = L / (2 * 5.0),
-                         .shear_m_per_N = L / (2 * 2.0)};
-    fw_hinge_law_at(&leaf, 0, &at);
+    fw_flexure_hinge_law leaf = {.stiffness_Nm_per_rad = 1e-6,
+                                 .length_m = L,
+                                 .share = 1,
+                                 .bend_m_per_N = L * L * L / (8 * EI),
+                                 .axial_m_per_N = L / (2 * 5.0),
+                                 .shear_m_per_N = L / (2 * 2.0)};
+    fw_flexure_hinge_law_at(&leaf, 0, &at);
     assert_relative(at.kx_N_per_m.value, 1 / (L * L * L / (12 * EI) + L / 2.0), 1e-13);
     assert_relative(at.ky_N_per_m.value, 5.0 / L, 1e-13);
     for (double th = -0.4; th < 0.5; th += 0.2) {
-        fw_hinge_law_at(&leaf, th, &at);
+        fw_flexure_hinge_law_at(&leaf, th, &at);
         double half = 0.5 * th + 1e-300;
         assert_near(at.drift_m.value, L * (sin(half) / half - cos(half)), 1e-15 * L);
     }
@@ -415,14 +417,14 @@ static void against_finite_elements(void **state) {
     };
     for (int i = 0; i < 2; i++) {
         fw_flexure_result out;
-        fw_hinge_law law;
-        fw_hinge_at at;
+        fw_flexure_hinge_law law;
+        fw_flexure_hinge_at at;
         fw_flexure_closed_form(&row[i].in, &out);
-        fw_hinge_law_of(&row[i].in, &out, &law);
-        fw_hinge_law_at(&law, 0, &at);
+        fw_flexure_hinge_law_of(&row[i].in, &out, &law);
+        fw_flexure_hinge_law_at(&law, 0, &at);
         assert_relative(at.kx_N_per_m.value, row[i].kx, 0.01);
         assert_relative(at.ky_N_per_m.value, row[i].ky, 0.014);
-        fw_hinge_law_at(&law, row[i].deg * degree, &at);
+        fw_flexure_hinge_law_at(&law, row[i].deg * degree, &at);
         double seen = row[i].shift - row[i].deg * degree * (row[i].thin_centre - row[i].centre);
         assert_near(at.drift_m.value * 1e6, seen, 0.006);
     }

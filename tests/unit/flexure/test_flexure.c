@@ -78,7 +78,7 @@ static void root_law_matches_finite_elements(void **state) {
     const double fe[][2] = {{.05, .387}, {.0625, .381}, {.1, .358}, {.125, .3445}, {.2, .296},
                             {.25, .265}, {.4, .162},    {.5, .093}, {.8, -.1375},  {1, -.290}};
     for (size_t i = 0; i < sizeof fe / sizeof fe[0]; i++)
-        assert_near(fw_root_length_m(1.0, fe[i][0]), fe[i][1], 0.0055);
+        assert_near(fw_flexure_root_length_m(1.0, fe[i][0]), fe[i][1], 0.0055);
 }
 
 static void concentration_matches_finite_elements(void **state) {
@@ -86,19 +86,20 @@ static void concentration_matches_finite_elements(void **state) {
     const double fe[][2] = {{.05, 2.486}, {.0625, 2.298}, {.1, 1.925}, {.125, 1.801}, {.2, 1.553},
                             {.25, 1.472}, {.4, 1.324},    {.5, 1.275}, {.8, 1.191},   {1, 1.166}};
     for (size_t i = 0; i < sizeof fe / sizeof fe[0]; i++)
-        assert_relative(fw_fillet_concentration(1.0, fe[i][0]), fe[i][1], 0.011);
+        assert_relative(fw_flexure_fillet_concentration(1.0, fe[i][0]), fe[i][1], 0.011);
 }
 
 static void depth_factor_limits_and_reference(void **state) {
     (void)state;
     double nu = 0.22;
-    assert_relative(fw_depth_factors(100, 8, 1e-3, nu).stiffness, 1.0, 1e-9);
-    assert_relative(fw_depth_factors(100, 8, 1e6, nu).stiffness, 1.0 / (1.0 - nu * nu), 1e-5);
-    assert_near(fw_depth_factors(100, 8, 50, nu).inner, 1.0460, 6e-5); /* inner fibre, H1 */
-    assert_near(fw_depth_factors(100, 10, 50, nu).inner, 1.0397, 6e-5);
+    assert_relative(fw_flexure_depth_factors(100, 8, 1e-3, nu).stiffness, 1.0, 1e-9);
+    assert_relative(fw_flexure_depth_factors(100, 8, 1e6, nu).stiffness, 1.0 / (1.0 - nu * nu),
+                    1e-5);
+    assert_near(fw_flexure_depth_factors(100, 8, 50, nu).inner, 1.0460, 6e-5); /* inner fibre, H1 */
+    assert_near(fw_flexure_depth_factors(100, 10, 50, nu).inner, 1.0397, 6e-5);
     double before = 1.0; /* monotone, and continuous where the branches meet */
     for (double h = 0.01; h < 1e5; h *= 1.01) {
-        double now = fw_depth_factors(100, 8, h, nu).stiffness;
+        double now = fw_flexure_depth_factors(100, 8, h, nu).stiffness;
         assert_true(now >= before - 3e-4 && now < before + 2e-3);
         before = now;
     }

@@ -30,7 +30,8 @@ static fw_flexure_input usual_arc(bool crystal) {
                            .strength_Pa = uniform(0.1e9, 2e9),
                            .safety_factor = uniform(1, 3)};
     if (crystal)
-        in.crystal = fw_crystal_cubic(165.7e9 * uniform(0.9, 1.1), 63.9e9, 79.6e9, uniform(-4, 4));
+        in.crystal =
+            fw_flexure_crystal_cubic(165.7e9 * uniform(0.9, 1.1), 63.9e9, 79.6e9, uniform(-4, 4));
     return in;
 }
 
@@ -55,7 +56,7 @@ static fw_flexure_input any_hinge(void) {
         in.width_middle_m = 0.8 * in.width_m;
         break;
     case 5:
-        in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
+        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
         break;
     default:
         break;
@@ -77,7 +78,7 @@ static void four_are_four(four_of *four, bool crystal) {
         memset(out, 0, sizeof out), memset(&one, 0, sizeof one);
         for (int k = 0; k < 4; k++) {
             in[k] = usual_arc(crystal);
-            assert_true(fw_csfh_usual(&in[k]));
+            assert_true(fw_flexure_csfh_usual(&in[k]));
         }
         four((const fw_flexure_input *const[]){in, in + 1, in + 2, in + 3},
              (fw_flexure_result *const[]){out, out + 1, out + 2, out + 3});
@@ -90,15 +91,15 @@ static void four_are_four(four_of *four, bool crystal) {
 
 static void four_at_once(void **state) {
     (void)state;
-    four_are_four(fw_csfh_four, false);
-    four_are_four(fw_csfh_four, true);
+    four_are_four(fw_flexure_csfh_four, false);
+    four_are_four(fw_flexure_csfh_four, true);
 #ifdef __x86_64__
     if (!__builtin_cpu_supports("avx")) {
         print_message("no AVX here: csfh_four_avx.c has not run\n");
         return;
     }
-    four_are_four(fw_csfh_four_avx, false);
-    four_are_four(fw_csfh_four_avx, true);
+    four_are_four(fw_flexure_csfh_four_avx, false);
+    four_are_four(fw_flexure_csfh_four_avx, true);
 #endif
 }
 

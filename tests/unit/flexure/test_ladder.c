@@ -69,10 +69,10 @@ static void ratios_of_thin_arcs(void **state) {
         assert_near(o.ky_N_per_m * r * r / K, row[i][3], row[i][3] < 10 ? 5.1e-4 : 1.05 * digit);
         /* strain without the fillet's concentration and the curved beam's share */
         assert_near(o.strain_per_rad / o.concentration * r / t, row[i][5], 5.1e-5);
-        fw_hinge_law law;
-        fw_hinge_law_of(&in, &o, &law);
-        fw_hinge_at at;
-        fw_hinge_law_at(&law, 0, &at);
+        fw_flexure_hinge_law law;
+        fw_flexure_hinge_law_of(&in, &o, &law);
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&law, 0, &at);
         assert_near(0.5 * at.drift_m.curve / r, row[i][4], 5.1e-5);
         assert_near(0.5 * at.drift_m.curve / law.length_m, per_length[i], 5.1e-5);
         assert_relative(at.kx_N_per_m.value, o.kx_N_per_m, 1e-6);
@@ -81,10 +81,10 @@ static void ratios_of_thin_arcs(void **state) {
     fw_flexure_input leaf = hinge(H4, IDEAL, 50e-6);
     leaf.width_m = 1e-9, leaf.fillet_m = IDEAL;
     fw_flexure_result o = form(&leaf);
-    fw_hinge_law law;
-    fw_hinge_at at;
-    fw_hinge_law_of(&leaf, &o, &law);
-    fw_hinge_law_at(&law, 0, &at);
+    fw_flexure_hinge_law law;
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_of(&leaf, &o, &law);
+    fw_flexure_hinge_law_at(&law, 0, &at);
     assert_relative(o.kx_N_per_m * pow(leaf.length_m, 2) / o.stiffness_Nm_per_rad, 12, 1e-9);
     assert_near(0.5 * at.drift_m.curve / law.length_m, 0.08333, 5e-6);
     assert_near(o.strain_per_rad / o.concentration * leaf.length_m / leaf.width_m, 0.5, 1e-9);
@@ -172,7 +172,7 @@ static void roots_in_every_entry(void **state) {
         fw_flexure_result bare = form(&in);
         in.fillet_m = rho;
         fw_flexure_result o = form(&in);
-        double EI = in.youngs_Pa * h * t * t * t / 12, dL = fw_root_length_m(t, rho);
+        double EI = in.youngs_Pa * h * t * t * t / 12, dL = fw_flexure_root_length_m(t, rho);
         double x = in.radius_m * cos(a), y = in.radius_m * sin(a), W = o.centre_m;
         double shift = W - bare.centre_m, arc = 1 / bare.stiffness_Nm_per_rad, root = 2 * dL / EI;
         assert_relative(o.compliance[0][0], arc + root, 1e-3);
@@ -187,7 +187,7 @@ static void roots_in_every_entry(void **state) {
     fw_flexure_result bare = form(&in);
     in.fillet_m = 2e-6;
     fw_flexure_result o = form(&in);
-    double EI = in.youngs_Pa * 50e-6 * pow(8e-6, 3) / 12, dL = fw_root_length_m(8e-6, 2e-6);
+    double EI = in.youngs_Pa * 50e-6 * pow(8e-6, 3) / 12, dL = fw_flexure_root_length_m(8e-6, 2e-6);
     assert_relative(o.compliance[0][0] - bare.compliance[0][0], 2 * dL / EI, 1e-9);
     assert_relative(o.compliance[1][1] - bare.compliance[1][1],
                     2 * dL / EI * pow(0.5 * in.length_m, 2), 1e-9);
@@ -267,7 +267,7 @@ static void compliance_is_one(void **state) {
         in.width_m = (4 + 8 * v[0]) * 1e-6, in.fillet_m = in.width_m * (0.05 + 0.95 * v[1]);
         in.angle_rad = 0.5 + 5 * v[2], in.length_m = 100e-6 * in.angle_rad;
         in.depth_m = (2 + 60 * v[3]) * 1e-6, in.poisson = 0.45 * v[4];
-        if (i % 2) in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 3 * v[5]);
+        if (i % 2) in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, 3 * v[5]);
         fw_flexure_result o = form(&in);
         const double *c = &o.compliance[0][0];
         for (int k = 0; k < 9; k++)
@@ -278,7 +278,7 @@ static void compliance_is_one(void **state) {
         assert_true(c[0] > 0 && c[4] > 0 && c[4] * c[8] > c[5] * c[5]);
         fw_flexure_input twice = in; /* moduli doubled: half as soft, same centre */
         twice.youngs_Pa *= 2;
-        if (i % 2) twice.crystal = fw_crystal_cubic(331.4e9, 127.8e9, 159.2e9, 3 * v[5]);
+        if (i % 2) twice.crystal = fw_flexure_crystal_cubic(331.4e9, 127.8e9, 159.2e9, 3 * v[5]);
         fw_flexure_result p = form(&twice);
         assert_relative(p.compliance[0][0], 0.5 * c[0], 1e-12);
         assert_relative(p.compliance[1][1], 0.5 * c[4], 1e-12);

@@ -19,18 +19,18 @@ static fw_flexure_input arc(double angle_deg, double t_um, double h_um, double E
                               .safety_factor = 1};
 }
 
-static fw_quantity q(const char *id, double value, fw_value_status status) {
+static fw_quantity q(const char *id, double value, fw_quantity_value_status status) {
     return (fw_quantity){.id = id, .value = value, .status = status, .unit = "", .source = id};
 }
 
-static const fw_limits_asked statically = {.cycles = (double)NAN,
-                                           .failure_probability = (double)NAN};
+static const fw_device_limits_asked statically = {.cycles = (double)NAN,
+                                                  .failure_probability = (double)NAN};
 
-static fw_limits limits(const fw_material *m, const fw_flexure_input *f,
-                        const fw_limits_asked *asked, int nhinge) {
-    fw_limits all;
-    const fw_limit_input in = {m, f, asked, nhinge};
-    fw_limits_of(&in, &all);
+static fw_flexure_limits limits(const fw_device_material *m, const fw_flexure_input *f,
+                                const fw_device_limits_asked *asked, int nhinge) {
+    fw_flexure_limits all;
+    const fw_flexure_limit_input in = {m, f, asked, nhinge};
+    fw_flexure_limits_of(&in, &all);
     return all;
 }
 
@@ -47,22 +47,22 @@ static double inner_angle_deg(fw_flexure_input f, double stress_Pa) {
     fw_flexure_result out;
     fw_flexure_closed_form(&f, &out);
     double t = f.width_m, r = f.radius_m;
-    double inner = fw_fillet_concentration(t, f.fillet_m) * (1 + t / (3 * r)) *
-                   fw_depth_factors(r, t, f.depth_m, f.poisson).inner;
+    double inner = fw_flexure_fillet_concentration(t, f.fillet_m) * (1 + t / (3 * r)) *
+                   fw_flexure_depth_factors(r, t, f.depth_m, f.poisson).inner;
     return angle_deg(f, stress_Pa) * out.concentration / inner;
 }
 
-static fw_material silicon(void) {
-    fw_material m = {.criterion = "fracture", .strength = q("strength", 1e9, FW_TYPICAL)};
+static fw_device_material silicon(void) {
+    fw_device_material m = {.criterion = "fracture", .strength = q("strength", 1e9, FW_TYPICAL)};
     m.limit.weibull_strength = q("weibull-strength", 1.2e9, FW_ASSUMED);
     m.limit.weibull_modulus = q("weibull-modulus", 10, FW_TYPICAL);
     m.limit.weibull_area = q("weibull-area", 1e-8, FW_STATED);
     return m;
 }
 
-static fw_material copper(void) {
-    fw_material m = {.criterion = "yield (0.2 % offset)",
-                     .strength = q("strength", 250e6, FW_TYPICAL)};
+static fw_device_material copper(void) {
+    fw_device_material m = {.criterion = "yield (0.2 % offset)",
+                            .strength = q("strength", 250e6, FW_TYPICAL)};
     m.limit.offset_yield = q("offset-yield", 350e6, FW_TYPICAL);
     m.limit.proportional_factor = q("proportional-factor", 0.65, FW_ASSUMED);
     m.limit.fatigue_strength = q("fatigue-strength", 110e6, FW_TYPICAL);
@@ -74,8 +74,8 @@ static fw_material copper(void) {
 /* silicon at 500 MPa, copper at 250, 250/1.5 and, for 1e7 cycles, 110 MPa, aluminium at 150/1.5 */
 static void elastic_limits_with_everything_included(void **state) {
     (void)state;
-    const fw_material si = silicon(), cu = copper();
-    fw_material own = si;
+    const fw_device_material si = silicon(), cu = copper();
+    fw_device_material own = si;
     own.strength = q("strength", 500e6, FW_STATED);
     own.strength_stated = true;
     /* Poisson's ratio of the reference: of roots along <100> */
@@ -84,24 +84,24 @@ static void elastic_limits_with_everything_included(void **state) {
                                        arc(270, 5, 50, 147.08e9, 0.278)};
     static const double si_deg[] = {16.6, 8.9, 26.4};
     const fw_flexure_input h3 = arc(270, 10, 9, 115e9, 0.34), al = arc(270, 10, 9, 70e9, 0.35);
-    const fw_limit *g;
+    const fw_flexure_limit *g;
     for (int i = 0; i < 3; i++) {
-        const fw_limits stated = limits(&own, &si_arc[i], &statically, 6);
-        g = fw_limits_governing(&stated);
+        const fw_flexure_limits stated = limits(&own, &si_arc[i], &statically, 6);
+        g = fw_flexure_limits_governing(&stated);
         assert_string_equal(g->criterion, "strength");
         double inner = inner_angle_deg(si_arc[i], g->allowable_Pa);
         assert_near(inner, si_deg[i], 0.05);
         assert_relative(angle_deg(si_arc[i], g->allowable_Pa), inner, 0.04);
     }
 
-    const fw_limits plain = limits(&cu, &h3, &statically, 6);
-    g = fw_limits_governing(&plain);
+    const fw_flexure_limits plain = limits(&cu, &h3, &statically, 6);
+    g = fw_flexure_limits_governing(&plain);
     assert_string_equal(g->criterion, "yield");
     assert_near(angle_deg(h3, g->allowable_Pa), 8.9, 0.05);
     assert_near(angle_deg(h3, g->allowable_Pa / 1.5), 5.9, 0.05);
-    fw_limits_asked often = statically;
+    fw_device_limits_asked often = statically;
     often.cycles = 1e7;
-    const fw_limits tired = limits(&cu, &h3, &often, 6);
+    const fw_flexure_limits tired = limits(&cu, &h3, &often, 6);
     assert_near(angle_deg(h3, tired.item[tired.fatigue].allowable_Pa), 3.9, 0.05);
     assert_near(angle_deg(al, 150e6 / 1.5), 5.8, 0.05);
 }
@@ -109,12 +109,12 @@ static void elastic_limits_with_everything_included(void **state) {
 static void a_stated_strength_is_alone(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
-    fw_material m = silicon();
+    fw_device_material m = silicon();
     m.strength_stated = true;
     m.strength.status = FW_STATED;
-    fw_limits_asked asked = statically;
+    fw_device_limits_asked asked = statically;
     asked.failure_probability = 1e-9; /* would be far lower */
-    fw_limits all = limits(&m, &f, &asked, 6);
+    fw_flexure_limits all = limits(&m, &f, &asked, 6);
     assert_int_equal(all.count, 1);
     assert_string_equal(all.item[0].criterion, "strength");
     assert_relative(all.item[0].allowable_Pa, 1e9, 0);
@@ -135,37 +135,37 @@ static void a_stated_strength_is_alone(void **state) {
 static void probability_of_the_device(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
-    const fw_material m = silicon();
-    fw_limits_asked asked = statically;
+    const fw_device_material m = silicon();
+    fw_device_limits_asked asked = statically;
     double before = 1e12;
     for (double p = 1e-2; p > 1e-8; p /= 10) {
         asked.failure_probability = p;
-        const fw_limits all = limits(&m, &f, &asked, 6);
-        const fw_limit *g = fw_limits_governing(&all);
+        const fw_flexure_limits all = limits(&m, &f, &asked, 6);
+        const fw_flexure_limit *g = fw_flexure_limits_governing(&all);
         assert_string_equal(g->criterion, "fracture");
         assert_int_equal(g->status, FW_ASSUMED); /* the weakest of three */
         double each[6];
         for (int i = 0; i < 6; i++)
-            each[i] = fw_weibull_probability(&all.weibull, g->allowable_Pa);
-        assert_relative(fw_series_probability(each, 6), p, 1e-9);
+            each[i] = fw_flexure_weibull_probability(&all.weibull, g->allowable_Pa);
+        assert_relative(fw_flexure_series_probability(each, 6), p, 1e-9);
         assert_true(g->allowable_Pa < before);
         before = g->allowable_Pa;
-        const fw_limits alone = limits(&m, &f, &asked, 1);
-        assert_relative(g->allowable_Pa / fw_limits_governing(&alone)->allowable_Pa,
+        const fw_flexure_limits alone = limits(&m, &f, &asked, 1);
+        assert_relative(g->allowable_Pa / fw_flexure_limits_governing(&alone)->allowable_Pa,
                         pow(1 / 6.0, 0.1), 2e-4);
     }
-    const fw_limits plain = limits(&m, &f, &statically, 6);
-    assert_relative(fw_limits_governing(&plain)->allowable_Pa, 1e9, 0);
+    const fw_flexure_limits plain = limits(&m, &f, &statically, 6);
+    assert_relative(fw_flexure_limits_governing(&plain)->allowable_Pa, 1e9, 0);
     assert_true(plain.weibull.known); /* to say how often it breaks */
 }
 
 static void yield_by_definition(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 10, 9, 115e9, 0.34);
-    fw_material m = copper();
-    fw_limits_asked survive = statically;
+    fw_device_material m = copper();
+    fw_device_limits_asked survive = statically;
     survive.survival = true;
-    fw_limits all = limits(&m, &f, &survive, 6);
+    fw_flexure_limits all = limits(&m, &f, &survive, 6);
     assert_relative(all.item[0].allowable_Pa, 350e6, 0);
     /* an offset value of the device's own is what the proportional limit then follows */
     m.limit.offset_yield = q("offset-yield", 300e6, FW_STATED);
@@ -180,13 +180,13 @@ static void yield_by_definition(void **state) {
     assert_relative(all.item[0].allowable_Pa, 0.65 * 300e6, 1e-15);
     m.limit.proportional_factor.unknown = true;
     all = limits(&m, &f, &statically, 6);
-    assert_null(fw_limits_governing(&all));
+    assert_null(fw_flexure_limits_governing(&all));
 }
 
 /* 116 + 355 t^-0.473 MPa at 0.1, 1 and 3 um, and no further */
 static void film_law(void **state) {
     (void)state;
-    fw_material m = copper();
+    fw_device_material m = copper();
     m.strength = q("strength", 160e6, FW_ASSUMED);
     m.limit.film_yield = q("film-yield", 116e6, FW_TYPICAL);
     m.limit.film_yield_rise = q("film-yield-rise", 355e6, FW_TYPICAL);
@@ -195,7 +195,7 @@ static void film_law(void **state) {
     static const double um[] = {0.1, 1, 3, 3.1}, MPa[] = {1170.94144127, 471, 327.13002522, 0};
     for (int i = 0; i < 4; i++) {
         const fw_flexure_input f = arc(270, 10, um[i], 92e9, 0.34);
-        const fw_limits all = limits(&m, &f, &statically, 6);
+        const fw_flexure_limits all = limits(&m, &f, &statically, 6);
         assert_relative(all.item[0].allowable_Pa, MPa[i] > 0 ? 0.65e6 * MPa[i] : 160e6, 1e-6);
     }
 }
@@ -203,22 +203,23 @@ static void film_law(void **state) {
 static void the_lowest_governs(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 10, 9, 115e9, 0.34);
-    const fw_material m = copper();
+    const fw_device_material m = copper();
     double before = 1e12;
     for (double n = 1; n < 1e12; n *= 10) {
-        fw_limits_asked asked = statically;
+        fw_device_limits_asked asked = statically;
         asked.cycles = n;
-        const fw_limits all = limits(&m, &f, &asked, 6);
+        const fw_flexure_limits all = limits(&m, &f, &asked, 6);
         assert_int_equal(all.count, 2);
-        assert_string_equal(fw_limits_governing(&all)->criterion, "yield"); /* of the static ones */
+        assert_string_equal(fw_flexure_limits_governing(&all)->criterion,
+                            "yield"); /* of the static ones */
         double now = all.item[all.fatigue].allowable_Pa;
         assert_true(now < before);
         before = now;
     }
     /* 110 (n/1e7)^-0.1 = 250 MPa at 1e7 (250/110)^-10 = 2720 */
-    fw_limits_asked asked = statically;
+    fw_device_limits_asked asked = statically;
     asked.cycles = 1e7 * pow(250.0 / 110.0, -10);
-    const fw_limits all = limits(&m, &f, &asked, 6);
+    const fw_flexure_limits all = limits(&m, &f, &asked, 6);
     assert_relative(all.item[all.fatigue].allowable_Pa, all.item[all.governing].allowable_Pa,
                     1e-12);
 }
@@ -227,22 +228,24 @@ static void the_lowest_governs(void **state) {
 static void fracture_and_yield(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
-    fw_material m = silicon();
+    fw_device_material m = silicon();
     m.limit.proportional_factor = q("proportional-factor", 0.5, FW_TYPICAL);
     for (int soft = 0; soft < 2; soft++) {
         m.limit.offset_yield = q("offset-yield", soft ? 1.9e9 : 2.1e9, FW_TYPICAL);
-        const fw_limits all = limits(&m, &f, &statically, 6);
+        const fw_flexure_limits all = limits(&m, &f, &statically, 6);
         assert_int_equal(all.count, 2);
-        assert_string_equal(fw_limits_governing(&all)->criterion, soft ? "yield" : "fracture");
-        assert_relative(fw_limits_governing(&all)->allowable_Pa, soft ? 0.95e9 : 1e9, 1e-14);
+        assert_string_equal(fw_flexure_limits_governing(&all)->criterion,
+                            soft ? "yield" : "fracture");
+        assert_relative(fw_flexure_limits_governing(&all)->allowable_Pa, soft ? 0.95e9 : 1e9,
+                        1e-14);
     }
 }
 
 static void what_is_asked_and_not_known_is_said(void **state) {
     (void)state;
     const fw_flexure_input f = arc(270, 8, 50, 147.08e9, 0.31);
-    fw_material m = silicon();
-    fw_limits_asked asked = statically;
+    fw_device_material m = silicon();
+    fw_device_limits_asked asked = statically;
     asked.cycles = 1e6;
     assert_non_null(limits(&m, &f, &asked, 6).missing);
     asked = statically;

@@ -11,7 +11,7 @@ static double uniform(double low, double high) {
     return low + (high - low) * (double)(seed >> 11) / 9007199254740992.0;
 }
 
-static fw_flexure_input made_of(const fw_strip_piece *piece, int n) {
+static fw_flexure_input made_of(const fw_geometry_strip_piece *piece, int n) {
     return (fw_flexure_input){.kind = FW_FLEXURE_PATH,
                               .piece = piece,
                               .npiece = n,
@@ -30,8 +30,8 @@ static fw_flexure_input arc(double r, double angle, double t) {
     return in;
 }
 
-static fw_strip_piece bent(double r, double angle, double t) {
-    return (fw_strip_piece){r * fabs(angle), copysign(1 / r, angle), {t, t, t}};
+static fw_geometry_strip_piece bent(double r, double angle, double t) {
+    return (fw_geometry_strip_piece){r * fabs(angle), copysign(1 / r, angle), {t, t, t}};
 }
 
 static void same(const fw_flexure_result *p, const fw_flexure_result *q, double tol) {
@@ -59,12 +59,13 @@ static void one_arc_is_a_csfh(void **state) {
         fw_flexure_input want = arc(r, angle, t);
         want.fillet_m = trial % 5 == 0 ? -1 : t * uniform(0.1, 0.9);
         if (trial % 3 == 1)
-            want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
-        if (trial % 6 == 2) want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
+            want.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
+        if (trial % 6 == 2)
+            want.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN);
         fw_flexure_result a, b;
         fw_flexure_closed_form(&want, &a);
-        const fw_strip_piece one = bent(r, angle, t);
-        const fw_strip_piece two[2] = {bent(r, 0.37 * angle, t), bent(r, 0.63 * angle, t)};
+        const fw_geometry_strip_piece one = bent(r, angle, t);
+        const fw_geometry_strip_piece two[2] = {bent(r, 0.37 * angle, t), bent(r, 0.63 * angle, t)};
         for (int n = 1; n <= 2; n++) {
             fw_flexure_input in = want;
             in.kind = FW_FLEXURE_PATH;
@@ -94,10 +95,11 @@ static void one_line_is_a_leaf(void **state) {
         fw_flexure_input want = made_of(NULL, 0);
         want.kind = FW_FLEXURE_LEAF, want.length_m = L, want.width_m = t;
         want.fillet_m = trial % 4 == 0 ? -1 : t * uniform(0.1, 0.9);
-        if (trial % 2) want.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
+        if (trial % 2)
+            want.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
         fw_flexure_result a, b;
         fw_flexure_closed_form(&want, &a);
-        const fw_strip_piece two[2] = {{0.3 * L, 0, {t, t, t}}, {0.7 * L, 0, {t, t, t}}};
+        const fw_geometry_strip_piece two[2] = {{0.3 * L, 0, {t, t, t}}, {0.7 * L, 0, {t, t, t}}};
         fw_flexure_input in = want;
         in.kind = FW_FLEXURE_PATH, in.piece = two, in.npiece = 2;
         fw_flexure_closed_form(&in, &b);
@@ -107,29 +109,29 @@ static void one_line_is_a_leaf(void **state) {
 }
 
 /* a random path that does not cross itself and leaves its two ends apart */
-static int random_path(fw_strip_piece *piece) {
+static int random_path(fw_geometry_strip_piece *piece) {
     for (;;) {
         int n = 1 + (int)uniform(0, 4), i, j;
         double w = uniform(6e-6, 10e-6);
         for (int k = 0; k < n; k++) {
             double r = uniform(50e-6, 150e-6), angle = uniform(-3, 3), end = uniform(6e-6, 10e-6);
             bool line = uniform(0, 1) < 0.4;
-            piece[k] = (fw_strip_piece){line ? uniform(50e-6, 250e-6) : r * fabs(angle),
-                                        line ? 0 : copysign(1 / r, angle),
-                                        {w, 0.5 * (w + end) * uniform(0.8, 1.2), end}};
+            piece[k] = (fw_geometry_strip_piece){line ? uniform(50e-6, 250e-6) : r * fabs(angle),
+                                                 line ? 0 : copysign(1 / r, angle),
+                                                 {w, 0.5 * (w + end) * uniform(0.8, 1.2), end}};
             w = end;
         }
-        const fw_pose end = fw_strip_end(piece, n, (fw_pose){0});
-        double least = HUGE_VAL, length = fw_strip_length(piece, n);
+        const fw_geometry_pose end = fw_geometry_strip_end(piece, n, (fw_geometry_pose){0});
+        double least = HUGE_VAL, length = fw_geometry_strip_length(piece, n);
         for (int k = 0; k < n; k++) {
-            fw_strip_shape f;
+            fw_geometry_strip_shape f;
             double low, high;
-            fw_strip_shape_of(&piece[k], &f);
-            fw_strip_widths(&f, &low, &high);
+            fw_geometry_strip_shape_of(&piece[k], &f);
+            fw_geometry_strip_widths(&f, &low, &high);
             least = fmin(least, isnan(low) ? 0 : low);
         }
         if (least > 3e-6 && length > 150e-6 && hypot(end.x_m, end.y_m) > 60e-6 &&
-            !fw_strip_crosses(piece, n, &i, &j))
+            !fw_geometry_strip_crosses(piece, n, &i, &j))
             return n;
     }
 }
@@ -140,27 +142,29 @@ static int random_path(fw_strip_piece *piece) {
 static void brute_force(void **state) {
     (void)state;
     for (int trial = 0; trial < 12; trial++) {
-        fw_strip_piece piece[5];
+        fw_geometry_strip_piece piece[5];
         int n = random_path(piece);
         for (int i = 0; i < n; i++)
             for (int k = 0; k < 3; k++)
                 piece[i].width_m[k] *= 0.02;
         fw_flexure_input in = made_of(piece, n);
         in.fillet_m = -1, in.depth_m = 1e-9;
-        if (trial % 2) in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
-        const fw_crystal *c = &in.crystal;
+        if (trial % 2)
+            in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, uniform(-3, 3));
+        const fw_flexure_crystal *c = &in.crystal;
         fw_flexure_result out;
         fw_flexure_closed_form(&in, &out);
-        fw_course course;
-        fw_path_of(&in, &course);
+        fw_flexure_course course;
+        fw_flexure_path_of(&in, &course);
         enum { N = 20000 };
         double w = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, h = in.depth_m, thin = 0;
         for (int i = 0; i < n; i++)
             for (int k = 0; k < N; k++) {
-                const fw_strip_piece *p = &course.shape[i].piece;
+                const fw_geometry_strip_piece *p = &course.shape[i].piece;
                 double ds = p->length_m / N, s = (k + 0.5) * ds;
-                const fw_pose at = fw_strip_along(course.start[i], p->curvature_per_m, s);
-                double t = fw_strip_width(&course.shape[i], s), soft = 1 / in.youngs_Pa;
+                const fw_geometry_pose at =
+                    fw_geometry_strip_along(course.start[i], p->curvature_per_m, s);
+                double t = fw_geometry_strip_width(&course.shape[i], s), soft = 1 / in.youngs_Pa;
                 double turned = 4 * at.angle_rad;
                 if (c->known)
                     soft = c->a0_per_Pa +
@@ -171,7 +175,7 @@ static void brute_force(void **state) {
                 xx += v * at.x_m * at.x_m, xy += v * at.x_m * at.y_m, yy += v * at.y_m * at.y_m;
             }
         x /= w, y /= w;
-        double size = fw_strip_length(piece, n), far = w * size * size;
+        double size = fw_geometry_strip_length(piece, n), far = w * size * size;
         assert_near(out.centre_m + out.offset_m[0], x, 1e-5 * size);
         assert_near(out.offset_m[1], y, 1e-5 * size);
         assert_relative(out.compliance[0][0], w, 1e-5);
@@ -188,7 +192,7 @@ static void brute_force(void **state) {
 static void what_holds_of_any(void **state) {
     (void)state;
     for (int trial = 0; trial < 60; trial++) {
-        fw_strip_piece piece[5], back[5];
+        fw_geometry_strip_piece piece[5], back[5];
         int n = random_path(piece);
         fw_flexure_input in = made_of(piece, n);
         fw_flexure_result o, p, q;
@@ -201,14 +205,14 @@ static void what_holds_of_any(void **state) {
                 assert_true(C[i][j] == C[j][i]);
         assert_true(o.strain_per_rad > 0 && isfinite(o.limit_angle_rad) && o.error.outside);
 
-        fw_strip_turned(piece, n, back); /* mirror image: axis kept, y turned round */
+        fw_geometry_strip_turned(piece, n, back); /* mirror image: axis kept, y turned round */
         fw_flexure_input other = in;
         other.piece = back;
         fw_flexure_closed_form(&other, &p);
         for (int i = 0; i < n; i++)
             back[i].curvature_per_m = -back[i].curvature_per_m;
         fw_flexure_closed_form(&other, &q); /* the same strip, walked from its other end */
-        double size = o.error.centre_m + fw_strip_length(piece, n);
+        double size = o.error.centre_m + fw_geometry_strip_length(piece, n);
         bool straight = fabs(o.centre_m) < 1e-6 * size;
         for (int k = 0; k < 2 && !straight; k++) {
             const fw_flexure_result *r = k ? &q : &p;
@@ -242,24 +246,24 @@ static void beam_of_a_path(void **state) {
     (void)state;
     for (int trial = 0; trial < 8; trial++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_strip_piece piece[5];
+        fw_geometry_strip_piece piece[5];
         int n = random_path(piece);
         fw_flexure_input in = made_of(piece, n);
         in.depth_m = 1e-7; /* plane stress: one depth factor */
         fw_flexure_result out;
         fw_flexure_closed_form(&in, &out);
-        fw_beam beam;
-        fw_elastica *e;
-        assert_int_equal(fw_path_beam(arena, &in, &out, &beam), FW_OK);
+        fw_flexure_beam beam;
+        fw_flexure_elastica *e;
+        assert_int_equal(fw_flexure_path_beam(arena, &in, &out, &beam), FW_OK);
         const double W[2] = {out.centre_m + out.offset_m[0], out.offset_m[1]};
-        assert_int_equal(fw_elastica_new(arena, &beam, W, false, &e), FW_OK);
-        double size = fw_strip_length(piece, n), M = 1e-5 * out.stiffness_Nm_per_rad;
+        assert_int_equal(fw_flexure_elastica_new(arena, &beam, W, false, &e), FW_OK);
+        double size = fw_geometry_strip_length(piece, n), M = 1e-5 * out.stiffness_Nm_per_rad;
         double softest = sqrt(out.compliance[1][1] + out.compliance[2][2]);
         for (int load = 0; load < 3; load++) {
             double F = 1e-6 * size / (softest * softest);
             const double wrench[3] = {load == 0 ? M : 0, load == 1 ? F : 0, load == 2 ? F : 0};
-            fw_elastica_result r;
-            fw_elastica_of_wrench(e, wrench, 1e-7, false, &r);
+            fw_flexure_elastica_result r;
+            fw_flexure_elastica_of_wrench(e, wrench, 1e-7, false, &r);
             assert_true(r.code == FW_ELASTICA_OK ||
                         (r.code == FW_ELASTICA_ROUGH && r.error < 1e-5));
             double unit[3] = {1 / sqrt(out.compliance[0][0]), 1 / softest, 1 / softest};
@@ -281,17 +285,17 @@ static void strain_along_the_strip(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     for (int trial = 0; trial < 20; trial++) {
-        fw_strip_piece piece[5];
+        fw_geometry_strip_piece piece[5];
         int n = random_path(piece);
         fw_flexure_input in = made_of(piece, n);
         fw_flexure_result out;
-        fw_path_strain s;
+        fw_flexure_path_strain s;
         fw_flexure_closed_form(&in, &out);
-        assert_int_equal(fw_path_strain_new(arena, &in, &s), FW_OK);
+        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &s), FW_OK);
         const double W[2] = {out.centre_m + out.offset_m[0], out.offset_m[1]};
         double K = out.stiffness_Nm_per_rad, M = 0.1 * K;
         const double pure[3] = {-M, 0, 0};
-        double got = fw_path_strain_at(&s, W, pure);
+        double got = fw_flexure_path_strain_at(&s, W, pure);
         assert_relative(got, 0.1 * out.strain_per_rad, 0.005);
         /* never below what a fine walk along the strip finds, and not far above */
         const double wrench[3] = {M * uniform(-1, 1), uniform(-1, 1) * M / 1e-4,
@@ -306,12 +310,12 @@ static void strain_along_the_strip(void **state) {
                 double per = u < 0.5 ? s.point[i].strain_per_Nm : s.point[i + 1].strain_per_Nm;
                 if (u == 0 || u == 1) fine = fmax(fine, fabs(m) * per);
             }
-        got = fw_path_strain_at(&s, W, wrench);
+        got = fw_flexure_path_strain_at(&s, W, wrench);
         assert_true(got >= fine);
         assert_true(got <= 1.02 * fine);
         /* three times the load, three times the strain; the other way round the same */
         const double more[3] = {-3 * wrench[0], -3 * wrench[1], -3 * wrench[2]};
-        assert_relative(fw_path_strain_at(&s, W, more), 3 * got, 1e-12);
+        assert_relative(fw_flexure_path_strain_at(&s, W, more), 3 * got, 1e-12);
     }
     fw_arena_free(arena);
 }
@@ -342,8 +346,8 @@ static void where_it_is_strained(void **state) {
 
 static void errors_are_stated(void **state) {
     (void)state;
-    const fw_strip_piece one = bent(100e-6, 4, 8e-6);
-    const fw_strip_piece taper = {400e-6, 1 / 100e-6, {8e-6, 11e-6, 14e-6}};
+    const fw_geometry_strip_piece one = bent(100e-6, 4, 8e-6);
+    const fw_geometry_strip_piece taper = {400e-6, 1 / 100e-6, {8e-6, 11e-6, 14e-6}};
     fw_flexure_input in = made_of(&one, 1), other = made_of(&taper, 1);
     fw_flexure_result a, b;
     fw_flexure_closed_form(&in, &a);
@@ -354,7 +358,7 @@ static void errors_are_stated(void **state) {
     assert_true(b.error.centre_m > a.error.centre_m && b.limit_uncertainty >= a.limit_uncertainty);
 
     /* a fillet as wide as the ends is inside of what was compared, however thin the middle */
-    const fw_strip_piece waist = {400e-6, 1 / 100e-6, {8e-6, 7e-6, 8e-6}};
+    const fw_geometry_strip_piece waist = {400e-6, 1 / 100e-6, {8e-6, 7e-6, 8e-6}};
     other = made_of(&waist, 1);
     other.fillet_m = 8e-6;
     fw_flexure_closed_form(&other, &b);

@@ -31,23 +31,23 @@ static void one_arc_has_the_arcs_law(void **state) {
     for (int trial = 0; trial < 12; trial++) {
         double r = uniform(60e-6, 200e-6), angle = uniform(1.2, 5), t = 0.08 * r;
         fw_flexure_input in = arc(r, angle, t), path = in;
-        const fw_strip_piece one = {r * angle, 1 / r, {t, t, t}};
+        const fw_geometry_strip_piece one = {r * angle, 1 / r, {t, t, t}};
         path.kind = FW_FLEXURE_PATH, path.piece = &one, path.npiece = 1;
         fw_flexure_result a, b;
-        fw_hinge_law law, table;
+        fw_flexure_hinge_law law, table;
         fw_flexure_closed_form(&in, &a);
         fw_flexure_closed_form(&path, &b);
-        fw_hinge_law_of(&in, &a, &law);
-        assert_int_equal(fw_path_law(arena, &path, &b, &table), FW_OK);
+        fw_flexure_hinge_law_of(&in, &a, &law);
+        assert_int_equal(fw_flexure_path_law(arena, &path, &b, &table), FW_OK);
         assert_relative(table.half_angle_rad, law.half_angle_rad, 1e-12);
         assert_relative(table.share, law.share, 1e-12);
         for (int i = -6; i <= 6; i++) {
             double th = 0.3 * i;
-            fw_hinge_at p, q;
-            fw_hinge_law_at(&law, th, &p);
-            fw_hinge_law_at(&table, th, &q);
-            const fw_hinge_jet *from[] = {&p.kx_N_per_m, &p.ky_N_per_m, &p.drift_m};
-            const fw_hinge_jet *to[] = {&q.kx_N_per_m, &q.ky_N_per_m, &q.drift_m};
+            fw_flexure_hinge_at p, q;
+            fw_flexure_hinge_law_at(&law, th, &p);
+            fw_flexure_hinge_law_at(&table, th, &q);
+            const fw_flexure_hinge_jet *from[] = {&p.kx_N_per_m, &p.ky_N_per_m, &p.drift_m};
+            const fw_flexure_hinge_jet *to[] = {&q.kx_N_per_m, &q.ky_N_per_m, &q.drift_m};
             for (int k = 0; k < 3; k++) {
                 double size = k < 2 ? from[k]->value : r;
                 assert_near(to[k]->value, from[k]->value, 1e-10 * size);
@@ -55,7 +55,8 @@ static void one_arc_has_the_arcs_law(void **state) {
                 assert_near(to[k]->curve, from[k]->curve, 1e-7 * size);
             }
         }
-        assert_true(fw_hinge_law_holds(&table, 0.1) && !fw_hinge_law_holds(&table, 6.4));
+        assert_true(fw_flexure_hinge_law_holds(&table, 0.1) &&
+                    !fw_flexure_hinge_law_holds(&table, 6.4));
     }
     fw_arena_free(arena);
 }
@@ -64,11 +65,11 @@ static void one_arc_has_the_arcs_law(void **state) {
 static void drift_of_the_exact_beam(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    const fw_strip_piece hook[2] = {{120e-6, 0, {9e-6, 8e-6, 7e-6}},
-                                    {80e-6 * 2, 1 / 80e-6, {7e-6, 7e-6, 8e-6}}};
-    const fw_strip_piece hairpin[3] = {{90e-6, 0, {7e-6, 7e-6, 7e-6}},
-                                       {60e-6 * 3, 1 / 60e-6, {7e-6, 9e-6, 7e-6}},
-                                       {90e-6, 0, {7e-6, 7e-6, 7e-6}}};
+    const fw_geometry_strip_piece hook[2] = {{120e-6, 0, {9e-6, 8e-6, 7e-6}},
+                                             {80e-6 * 2, 1 / 80e-6, {7e-6, 7e-6, 8e-6}}};
+    const fw_geometry_strip_piece hairpin[3] = {{90e-6, 0, {7e-6, 7e-6, 7e-6}},
+                                                {60e-6 * 3, 1 / 60e-6, {7e-6, 9e-6, 7e-6}},
+                                                {90e-6, 0, {7e-6, 7e-6, 7e-6}}};
     for (int which = 0; which < 3; which++) {
         fw_flexure_input in = arc(100e-6, 4, 7e-6);
         in.width_middle_m = 10e-6;
@@ -78,41 +79,42 @@ static void drift_of_the_exact_beam(void **state) {
         }
         in.depth_m = 1e-7;
         fw_flexure_result out;
-        fw_beam beam;
-        fw_elastica *e;
-        const fw_path_way *way;
+        fw_flexure_beam beam;
+        fw_flexure_elastica *e;
+        const fw_flexure_path_way *way;
         fw_flexure_closed_form(&in, &out);
-        assert_int_equal(fw_path_beam(arena, &in, &out, &beam), FW_OK);
+        assert_int_equal(fw_flexure_path_beam(arena, &in, &out, &beam), FW_OK);
         beam.inextensible = true;
-        fw_beam_linear linear;
-        fw_beam_compliance(&beam, &linear);
-        assert_int_equal(fw_elastica_new(arena, &beam, linear.centre_m, false, &e), FW_OK);
-        assert_int_equal(fw_path_way_new(arena, &in, &way), FW_OK);
+        fw_flexure_beam_linear linear;
+        fw_flexure_beam_compliance(&beam, &linear);
+        assert_int_equal(fw_flexure_elastica_new(arena, &beam, linear.centre_m, false, &e), FW_OK);
+        assert_int_equal(fw_flexure_path_way_new(arena, &in, &way), FW_OK);
         for (int i = -4; i <= 4; i++) {
             double th = 0.25 * i, c = cos(0.5 * th), s = sin(0.5 * th);
-            const fw_elastica_task turn = {{FW_END_THETA, FW_END_FX, FW_END_FY}, {th, 0, 0}};
-            fw_elastica_result r;
-            fw_path_pose pose;
-            fw_elastica_solve(e, &turn, 1e-9, false, &r);
+            const fw_flexure_elastica_task turn = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                                   {th, 0, 0}};
+            fw_flexure_elastica_result r;
+            fw_flexure_path_pose pose;
+            fw_flexure_elastica_solve(e, &turn, 1e-9, false, &r);
             assert_true(r.code == FW_ELASTICA_OK || r.error < 1e-6);
-            fw_path_pose_at(way, th, &pose);
+            fw_flexure_path_pose_at(way, th, &pose);
             /* Golovin's factor, (2/15) (t/2r)^2 = 2.6e-4 of the weights, is not in the beam */
             double size = 3e-4 * hypot(pose.drift_m[0], pose.drift_m[1]) + 1e-11;
             assert_near(c * r.twist[1] + s * r.twist[2], pose.drift_m[0], size);
             assert_near(c * r.twist[2] - s * r.twist[1], pose.drift_m[1], size);
             /* softness at a held rotation, by a small force besides */
             double F = 1e-4 / sqrt(pose.c[0][0] * pose.c[1][1]) * 1e-4;
-            const fw_elastica_task push = {{FW_END_THETA, FW_END_FX, FW_END_FY},
-                                           {th, c * F, s * F}};
-            fw_elastica_result more;
-            fw_elastica_solve(e, &push, 1e-10, false, &more);
+            const fw_flexure_elastica_task push = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                                   {th, c * F, s * F}};
+            fw_flexure_elastica_result more;
+            fw_flexure_elastica_solve(e, &push, 1e-10, false, &more);
             double dx = more.twist[1] - r.twist[1], dy = more.twist[2] - r.twist[2];
             assert_near((c * dx + s * dy) / F, pose.c[0][0], 0.02 * pose.c[0][0]);
             assert_near((c * dy - s * dx) / F, pose.c[0][1],
                         0.02 * sqrt(pose.c[0][0] * pose.c[1][1]));
         }
         double drift, coupling;
-        fw_path_left_out(way, 0.5, &drift, &coupling);
+        fw_flexure_path_left_out(way, 0.5, &drift, &coupling);
         if (which == 1)
             assert_true(drift > 1e-8 && coupling > 0.05);
         else {
@@ -130,33 +132,33 @@ static void derivatives_of_the_table(void **state) {
     fw_flexure_input in = arc(100e-6, 4, 7e-6);
     in.width_middle_m = 10e-6;
     fw_flexure_result out;
-    fw_hinge_law law;
+    fw_flexure_hinge_law law;
     fw_flexure_closed_form(&in, &out);
-    assert_int_equal(fw_path_law(arena, &in, &out, &law), FW_OK);
+    assert_int_equal(fw_flexure_path_law(arena, &in, &out, &law), FW_OK);
     for (int i = -5; i <= 5; i++) {
         double th = 0.21 * i, d = 1e-3;
-        fw_hinge_at a, b, c;
-        fw_hinge_law_at(&law, th - d, &a);
-        fw_hinge_law_at(&law, th, &b);
-        fw_hinge_law_at(&law, th + d, &c);
-        const fw_hinge_jet *p[] = {&a.kx_N_per_m, &a.ky_N_per_m, &a.drift_m};
-        const fw_hinge_jet *q[] = {&b.kx_N_per_m, &b.ky_N_per_m, &b.drift_m};
-        const fw_hinge_jet *r[] = {&c.kx_N_per_m, &c.ky_N_per_m, &c.drift_m};
+        fw_flexure_hinge_at a, b, c;
+        fw_flexure_hinge_law_at(&law, th - d, &a);
+        fw_flexure_hinge_law_at(&law, th, &b);
+        fw_flexure_hinge_law_at(&law, th + d, &c);
+        const fw_flexure_hinge_jet *p[] = {&a.kx_N_per_m, &a.ky_N_per_m, &a.drift_m};
+        const fw_flexure_hinge_jet *q[] = {&b.kx_N_per_m, &b.ky_N_per_m, &b.drift_m};
+        const fw_flexure_hinge_jet *r[] = {&c.kx_N_per_m, &c.ky_N_per_m, &c.drift_m};
         for (int k = 0; k < 3; k++) {
             double size = k < 2 ? q[k]->value : 100e-6;
             assert_near(q[k]->slope, (r[k]->value - p[k]->value) / (2 * d), 3e-6 * size);
             assert_near(q[k]->curve, (r[k]->slope - p[k]->slope) / (2 * d), 3e-6 * size);
         }
-        const fw_hinge_rest rest = fw_hinge_rest_of(&law);
+        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
         const double twist[3] = {th, 1e-6, -2e-6};
         double w[3], low[3], high[3], T[3][3], other[3][3];
-        fw_hinge_law_wrench(&law, &rest, twist, w, T);
+        fw_flexure_hinge_law_wrench(&law, &rest, twist, w, T);
         for (int k = 0; k < 3; k++) {
             double step = k ? 1e-10 : 1e-5, from[3], to[3];
             for (int j = 0; j < 3; j++)
                 from[j] = twist[j] - (j == k ? step : 0), to[j] = twist[j] + (j == k ? step : 0);
-            fw_hinge_law_wrench(&law, &rest, from, low, other);
-            fw_hinge_law_wrench(&law, &rest, to, high, other);
+            fw_flexure_hinge_law_wrench(&law, &rest, from, low, other);
+            fw_flexure_hinge_law_wrench(&law, &rest, to, high, other);
             for (int j = 0; j < 3; j++)
                 assert_near(T[j][k], (high[j] - low[j]) / (2 * step),
                             1e-6 * sqrt(fabs(T[j][j] * T[k][k])));

@@ -230,7 +230,7 @@ static void depth_factors(void **state) {
     (void)state;
     for (int i = 0; i < 40000; i++) {
         double nu = uniform(0, 0.49), deep = i % 3 ? spread(1e-4, 90) : spread(5.8, 7.5);
-        const fw_depth d = fw_depth_at(deep, nu);
+        const fw_flexure_depth d = fw_flexure_depth_at(deep, nu);
         if (deep < 1e-2) { /* here even long double cancels: plane stress */
             assert_near(d.stiffness, 1, 1e-9);
             continue;
@@ -242,7 +242,7 @@ static void depth_factors(void **state) {
         agrees(d.outer, p.outer, 3e-15, 0);
     }
     for (double nu = 0; nu < 0.5; nu += 0.1) { /* and beyond: what is left is 2/x */
-        const fw_depth d = fw_depth_at(1e4, nu);
+        const fw_flexure_depth d = fw_flexure_depth_at(1e4, nu);
         double x = 1e4 * sqrt(sqrt(3 * (1 - nu * nu)));
         assert_relative(d.stiffness, (1 - nu * nu * 2 / x) / (1 - nu * nu), 1e-15);
         assert_near(d.inner, 1, 1e-15);
@@ -269,7 +269,7 @@ static void ways_agree(void **state) {
         /* so shallow that the ends of a crystal lose nothing (section_core.h) */
         in.depth_m = 1e-18;
         fw_flexure_closed_form(&in, &b);
-        in.crystal = fw_crystal_cubic(lame + 2 * G, lame, G, 0.3);
+        in.crystal = fw_flexure_crystal_cubic(lame + 2 * G, lame, G, 0.3);
         fw_flexure_closed_form(&in, &c);
         assert_relative(c.stiffness_Nm_per_rad, b.stiffness_Nm_per_rad, 1e-12);
         assert_relative(c.kx_N_per_m, b.kx_N_per_m, 1e-9);

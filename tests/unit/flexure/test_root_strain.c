@@ -50,7 +50,8 @@ static fw_flexure_input input_of(const row *r) {
                            .poisson = r->poisson,
                            .strength_Pa = 500e6,
                            .safety_factor = 1};
-    if (r->silicon) in.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, r->axis * M_PI / 180);
+    if (r->silicon)
+        in.crystal = fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, r->axis * M_PI / 180);
     return in;
 }
 
@@ -150,11 +151,13 @@ static void mirrored(void **state) {
         fw_flexure_input in = input_of(&rows[i]), other = in;
         if (!rows[i].silicon) continue;
         fw_flexure_result a, b;
-        other.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, -rows[i].axis * M_PI / 180);
+        other.crystal =
+            fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, -rows[i].axis * M_PI / 180);
         fw_flexure_closed_form(&in, &a);
         fw_flexure_closed_form(&other, &b);
         assert_relative(a.strain_per_rad, b.strain_per_rad, 1e-12);
-        other.crystal = fw_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN); /* the worst */
+        other.crystal =
+            fw_flexure_crystal_cubic(165.7e9, 63.9e9, 79.6e9, (double)NAN); /* the worst */
         fw_flexure_closed_form(&other, &b);
         /* per moment; nu of the mean modulus instead of its own */
         assert_true(b.strain_per_rad / b.stiffness_Nm_per_rad >

@@ -6,11 +6,12 @@ static const double far[] = {0, 0x1p-10, -0x1p-7};
 
 static void disc(void **state) {
     for (int i = 0; i < 3; i++) {
-        fw_contour c;
+        fw_geometry_contour c;
         double r = 0x1p-14;
-        assert_int_equal(fw_contour_disc(*state, (fw_vec2){far[i], -far[i]}, r, &c), FW_OK);
-        fw_region region = region_of(&c);
-        fw_moments m = fw_region_moments(&region);
+        assert_int_equal(
+            fw_geometry_contour_disc(*state, (fw_geometry_vec2){far[i], -far[i]}, r, &c), FW_OK);
+        fw_geometry_region region = region_of(&c);
+        fw_geometry_moments m = fw_geometry_region_moments(&region);
         assert_relative(m.area_m2, FW_PI * r * r, 1e-12);
         assert_near(m.centroid.x, far[i], 1e-12 * r);
         assert_near(m.centroid.y, -far[i], 1e-12 * r);
@@ -20,11 +21,13 @@ static void disc(void **state) {
 
 static void rectangle(void **state) {
     for (int i = 0; i < 3; i++) {
-        fw_contour c;
+        fw_geometry_contour c;
         double a = 0x1p-12, b = 0x1p-16, x = far[i];
-        assert_int_equal(fw_contour_rectangle(*state, (fw_box){x, x, x + a, x + b}, &c), FW_OK);
-        fw_region region = region_of(&c);
-        fw_moments m = fw_region_moments(&region);
+        assert_int_equal(
+            fw_geometry_contour_rectangle(*state, (fw_geometry_box){x, x, x + a, x + b}, &c),
+            FW_OK);
+        fw_geometry_region region = region_of(&c);
+        fw_geometry_moments m = fw_geometry_region_moments(&region);
         assert_relative(m.area_m2, a * b, 1e-12);
         assert_near(m.centroid.x, x + a / 2, 1e-12 * a);
         assert_near(m.centroid.y, x + b / 2, 1e-12 * a);
@@ -39,11 +42,12 @@ static void ring_sector(void **state) {
         double w = i < 100 ? pow(10, uniform(-3, 0)) : uniform(0.5, 6.2);
         double inner = pow(10, uniform(-5, -4)), outer = inner * uniform(1.5, 3);
         double start = uniform(-4, 4), x = far[i % 3] * 0.125;
-        fw_contour c;
-        fw_vec2 centre = {x, x};
-        assert_int_equal(fw_contour_ring_sector(*state, centre, inner, outer, start, w, &c), FW_OK);
-        fw_region region = region_of(&c);
-        fw_moments m = fw_region_moments(&region);
+        fw_geometry_contour c;
+        fw_geometry_vec2 centre = {x, x};
+        assert_int_equal(
+            fw_geometry_contour_ring_sector(*state, centre, inner, outer, start, w, &c), FW_OK);
+        fw_geometry_region region = region_of(&c);
+        fw_geometry_moments m = fw_geometry_region_moments(&region);
         /* end points are rounded to the spacing of doubles there: that is the error allowed */
         double tolerance =
             1e-12 + 40 * 0x1p-53 * (fabs(x) + outer) / fmin(w * inner, outer - inner);
@@ -61,11 +65,13 @@ static void ring_sector(void **state) {
 }
 
 static void hole_is_subtracted(void **state) {
-    fw_contour part[2], disc_ccw;
-    assert_int_equal(fw_contour_disc(*state, (fw_vec2){0, 0}, 4e-5, &part[0]), FW_OK);
-    assert_int_equal(fw_contour_disc(*state, (fw_vec2){2e-5, 0}, 1e-5, &disc_ccw), FW_OK);
-    assert_int_equal(fw_contour_reverse(*state, &disc_ccw, &part[1]), FW_OK);
-    fw_moments m = fw_region_moments(&(fw_region){part, 2});
+    fw_geometry_contour part[2], disc_ccw;
+    assert_int_equal(fw_geometry_contour_disc(*state, (fw_geometry_vec2){0, 0}, 4e-5, &part[0]),
+                     FW_OK);
+    assert_int_equal(fw_geometry_contour_disc(*state, (fw_geometry_vec2){2e-5, 0}, 1e-5, &disc_ccw),
+                     FW_OK);
+    assert_int_equal(fw_geometry_contour_reverse(*state, &disc_ccw, &part[1]), FW_OK);
+    fw_geometry_moments m = fw_geometry_region_moments(&(fw_geometry_region){part, 2});
     assert_relative(m.area_m2, FW_PI * 15e-10, 1e-13);
     assert_near(m.centroid.x, -2e-5 / 15, 1e-18);
     double about = FW_PI / 2 * (256e-20 - 1e-20) - FW_PI * 1e-10 * 4e-10;
@@ -75,13 +81,13 @@ static void hole_is_subtracted(void **state) {
 /* the same figure flattened ever finer comes to the same integrals */
 static void invariant_under_motion(void **state) {
     for (int i = 0; i < 300; i++) {
-        fw_contour c = random_shape(*state, 1e-4, 0), t;
-        fw_pose pose = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3), uniform(-4, 4)};
-        assert_int_equal(fw_contour_transform(*state, &c, pose, i % 2, &t), FW_OK);
-        fw_region p = region_of(&c), q = region_of(&t);
-        fw_moments m = fw_region_moments(&p), n = fw_region_moments(&q);
-        fw_vec2 g = {m.centroid.x, i % 2 ? -m.centroid.y : m.centroid.y};
-        g = fw_vec_rotate(g, pose.angle_rad);
+        fw_geometry_contour c = random_shape(*state, 1e-4, 0), t;
+        fw_geometry_pose pose = {uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3), uniform(-4, 4)};
+        assert_int_equal(fw_geometry_contour_transform(*state, &c, pose, i % 2, &t), FW_OK);
+        fw_geometry_region p = region_of(&c), q = region_of(&t);
+        fw_geometry_moments m = fw_geometry_region_moments(&p), n = fw_geometry_region_moments(&q);
+        fw_geometry_vec2 g = {m.centroid.x, i % 2 ? -m.centroid.y : m.centroid.y};
+        g = fw_geometry_vec_rotate(g, pose.angle_rad);
         assert_near(n.centroid.x, g.x + pose.x_m, 1e-16);
         assert_near(n.centroid.y, g.y + pose.y_m, 1e-16);
         assert_relative(n.polar_m4, m.polar_m4, 1e-10);
@@ -89,10 +95,11 @@ static void invariant_under_motion(void **state) {
 }
 
 static void box_is_tight(void **state) {
-    fw_contour c;
-    assert_int_equal(
-        fw_contour_ring_sector(*state, (fw_vec2){0, 0}, 1e-5, 3e-5, -0.1, FW_PI + 0.2, &c), FW_OK);
-    fw_box box = fw_contour_box(&c);
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_contour_ring_sector(*state, (fw_geometry_vec2){0, 0}, 1e-5, 3e-5,
+                                                     -0.1, FW_PI + 0.2, &c),
+                     FW_OK);
+    fw_geometry_box box = fw_geometry_contour_box(&c);
     assert_near(box.x0, -3e-5, 1e-19);
     assert_near(box.x1, 3e-5, 1e-19);
     assert_near(box.y1, 3e-5, 1e-19);

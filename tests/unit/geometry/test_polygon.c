@@ -3,12 +3,12 @@
 #include "geometry/polygon.h"
 #include <time.h>
 
-static int64_t cross(fw_point a, fw_point b, fw_point c) {
+static int64_t cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
            ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
 }
 
-static bool on(fw_point a, fw_point b, fw_point c) {
+static bool on(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     int64_t x0 = a.x_dbu, x1 = b.x_dbu, y0 = a.y_dbu, y1 = b.y_dbu, x = c.x_dbu, y = c.y_dbu;
     return cross(a, b, c) == 0 && (x - x0) * (x - x1) <= 0 && (y - y0) * (y - y1) <= 0;
 }
@@ -18,15 +18,15 @@ static int sign(int64_t v) {
 }
 
 /* every pair of edges, by definition */
-static bool simple_by_pairs(const fw_polygon *p) {
+static bool simple_by_pairs(const fw_geometry_polygon *p) {
     int n = p->count;
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++) {
-            fw_point a = p->vertex[i], b = p->vertex[(i + 1) % n];
-            fw_point c = p->vertex[j], d = p->vertex[(j + 1) % n];
+            fw_geometry_point a = p->vertex[i], b = p->vertex[(i + 1) % n];
+            fw_geometry_point c = p->vertex[j], d = p->vertex[(j + 1) % n];
             bool after = j == i + 1, before = i == 0 && j == n - 1;
             if (after || before) {
-                fw_point shared = after ? b : a, p0 = after ? a : b, p1 = after ? d : c;
+                fw_geometry_point shared = after ? b : a, p0 = after ? a : b, p1 = after ? d : c;
                 if (on(shared, p0, p1) || on(shared, p1, p0)) return false;
                 continue;
             }
@@ -38,20 +38,21 @@ static bool simple_by_pairs(const fw_polygon *p) {
     return true;
 }
 
-static bool edges_clash(const fw_polygon *p, int i, int j) {
+static bool edges_clash(const fw_geometry_polygon *p, int i, int j) {
     int n = p->count;
-    fw_point a = p->vertex[i], b = p->vertex[(i + 1) % n];
-    fw_point c = p->vertex[j], d = p->vertex[(j + 1) % n];
+    fw_geometry_point a = p->vertex[i], b = p->vertex[(i + 1) % n];
+    fw_geometry_point c = p->vertex[j], d = p->vertex[(j + 1) % n];
     return on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b) ||
            (sign(cross(a, b, c)) * sign(cross(a, b, d)) < 0 &&
             sign(cross(c, d, a)) * sign(cross(c, d, b)) < 0);
 }
 
 /* the sweep over chains proves a polygon when and only when it is simple */
-static void assert_proved(fw_arena *arena, const fw_polygon *p, const fw_polygon_report *report) {
+static void assert_proved(fw_arena *arena, const fw_geometry_polygon *p,
+                          const fw_geometry_polygon_report *report) {
     bool proved;
     if (report->zero_edges > 0) return; /* not asked then */
-    assert_int_equal(fw_polygon_prove(arena, p, &proved), FW_OK);
+    assert_int_equal(fw_geometry_polygon_prove(arena, p, &proved), FW_OK);
     assert_int_equal(proved, report->simple);
 }
 
@@ -60,13 +61,13 @@ static void agrees_with_all_pairs(void **state) {
     int simple = 0, not_simple = 0;
     for (int i = 0; i < 200000; i++) {
         int n = whole(3, 9), range = i % 2 ? 4 : 12;
-        fw_point v[9];
+        fw_geometry_point v[9];
         for (int k = 0; k < n; k++)
-            v[k] = (fw_point){whole(0, range), whole(0, range)};
-        fw_polygon p = {v, n};
-        fw_polygon_report report;
+            v[k] = (fw_geometry_point){whole(0, range), whole(0, range)};
+        fw_geometry_polygon p = {v, n};
+        fw_geometry_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
-        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
         assert_proved(*state, &p, &report);
         fw_arena_rewind(*state, mark);
         bool want = simple_by_pairs(&p);
@@ -88,16 +89,16 @@ static void agrees_on_larger_polygons(void **state) {
     int simple = 0, not_simple = 0;
     for (int i = 0; i < 1500; i++) {
         enum { N = 120 };
-        fw_point v[N];
+        fw_geometry_point v[N];
         for (int k = 0; k < N; k++) {
             double r = uniform(300, 1000), angle = FW_TURN * k / N;
-            v[k] = (fw_point){(int32_t)(r * cos(angle)), (int32_t)(r * sin(angle))};
+            v[k] = (fw_geometry_point){(int32_t)(r * cos(angle)), (int32_t)(r * sin(angle))};
         }
-        if (i % 2) v[whole(0, N - 1)] = (fw_point){whole(-1000, 1000), whole(-1000, 1000)};
-        fw_polygon p = {v, N};
-        fw_polygon_report report;
+        if (i % 2) v[whole(0, N - 1)] = (fw_geometry_point){whole(-1000, 1000), whole(-1000, 1000)};
+        fw_geometry_polygon p = {v, N};
+        fw_geometry_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
-        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
         assert_proved(*state, &p, &report);
         fw_arena_rewind(*state, mark);
         assert_int_equal(report.simple, simple_by_pairs(&p));
@@ -112,19 +113,19 @@ static void measures_what_is_there(void **state) {
     int spikes = 0, zero = 0, straight = 0;
     for (int i = 0; i < 20000; i++) {
         int n = whole(3, 8);
-        fw_point v[8];
+        fw_geometry_point v[8];
         for (int k = 0; k < n; k++)
-            v[k] = (fw_point){whole(-5, 5), whole(-5, 5)};
-        fw_polygon p = {v, n};
-        fw_polygon_report report;
+            v[k] = (fw_geometry_point){whole(-5, 5), whole(-5, 5)};
+        fw_geometry_polygon p = {v, n};
+        fw_geometry_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
-        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
         fw_arena_rewind(*state, mark);
         double shortest = HUGE_VAL, sharpest[2] = {FW_PI, FW_PI};
         int count[3] = {0};
         bool acute = false;
         for (int k = 0; k < n; k++) {
-            fw_point a = v[k], b = v[(k + 1) % n], c = v[(k + 2) % n];
+            fw_geometry_point a = v[k], b = v[(k + 1) % n], c = v[(k + 2) % n];
             double ux = a.x_dbu - b.x_dbu, uy = a.y_dbu - b.y_dbu;
             double vx = c.x_dbu - b.x_dbu, vy = c.y_dbu - b.y_dbu;
             double turn = ux * vy - uy * vx, dot = ux * vx + uy * vy;
@@ -151,9 +152,10 @@ static void measures_what_is_there(void **state) {
 }
 
 static void measures_edge_and_angle(void **state) {
-    fw_point v[] = {{0, 0}, {1000, 0}, {1000, 3}, {0, 2000}};
-    fw_polygon_report report;
-    assert_int_equal(fw_polygon_check(*state, &(fw_polygon){v, 4}, &report), FW_OK);
+    fw_geometry_point v[] = {{0, 0}, {1000, 0}, {1000, 3}, {0, 2000}};
+    fw_geometry_polygon_report report;
+    assert_int_equal(fw_geometry_polygon_check(*state, &(fw_geometry_polygon){v, 4}, &report),
+                     FW_OK);
     assert_true(report.simple);
     assert_near(report.shortest_edge_m, 3e-9, 1e-22);
     assert_near(report.sharpest_rad, atan2(1000, 1997), 1e-12);
@@ -163,19 +165,19 @@ static void measures_edge_and_angle(void **state) {
    The time is printed, not judged. */
 static void large_polygons_are_certified(void **state) {
     int n = 100000;
-    fw_point *v = calloc((size_t)n, sizeof *v);
+    fw_geometry_point *v = calloc((size_t)n, sizeof *v);
     assert_non_null(v);
     for (int k = 0; k < n; k++)
-        v[k] = (fw_point){k % 2 ? 900000000 : (k == 0 || k == n - 2 ? 0 : 10), 10 * k};
-    v[n - 1] = (fw_point){-5, 10 * n};
-    fw_polygon p = {v, n};
-    fw_polygon_report report;
+        v[k] = (fw_geometry_point){k % 2 ? 900000000 : (k == 0 || k == n - 2 ? 0 : 10), 10 * k};
+    v[n - 1] = (fw_geometry_point){-5, 10 * n};
+    fw_geometry_polygon p = {v, n};
+    fw_geometry_polygon_report report;
     clock_t start = clock();
-    assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+    assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
     print_message("1e5 vertices: %.3f s\n", (double)(clock() - start) / CLOCKS_PER_SEC);
     assert_true(report.simple);
     v[5001].y_dbu -= 25; /* one tooth reaches over its neighbour */
-    assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+    assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
     assert_false(report.simple);
     assert_true(abs(report.bad_i - 5000) < 6 && abs(report.bad_j - 5000) < 6);
     free(v);
@@ -186,14 +188,14 @@ static void flattened_outlines_are_simple(void **state) {
     int checked = 0;
     for (int i = 0; i < 1000; i++) {
         fw_mark mark = fw_arena_mark(*state);
-        fw_contour a = random_shape(*state, 1e-4, 0), b = random_shape(*state, 1e-4, 0);
-        fw_region p = region_of(&a), q = region_of(&b), any;
-        assert_int_equal(fw_region_boolean(*state, &p, &q, FW_UNION, &any), FW_OK);
+        fw_geometry_contour a = random_shape(*state, 1e-4, 0), b = random_shape(*state, 1e-4, 0);
+        fw_geometry_region p = region_of(&a), q = region_of(&b), any;
+        assert_int_equal(fw_geometry_region_boolean(*state, &p, &q, FW_UNION, &any), FW_OK);
         for (int k = 0; k < any.count; k++) {
-            fw_polygon flat;
-            fw_polygon_report report;
-            assert_int_equal(fw_tessellate(*state, &any.contour[k], 5e-9, &flat), FW_OK);
-            assert_int_equal(fw_polygon_check(*state, &flat, &report), FW_OK);
+            fw_geometry_polygon flat;
+            fw_geometry_polygon_report report;
+            assert_int_equal(fw_geometry_tessellate(*state, &any.contour[k], 5e-9, &flat), FW_OK);
+            assert_int_equal(fw_geometry_polygon_check(*state, &flat, &report), FW_OK);
             /* the bound: clear of itself by more than 2 (eps + g / sqrt 2), corners not needles */
             if (report.sharpest_rad > 0.2) {
                 assert_true(report.simple);
@@ -206,13 +208,16 @@ static void flattened_outlines_are_simple(void **state) {
 }
 
 static void errors(void **state) {
-    fw_point v[] = {{0, 0}, {1 << 30, 0}, {0, 5}};
-    fw_polygon_report report;
-    assert_int_equal(fw_polygon_check(*state, &(fw_polygon){v, 3}, &report), FW_LIMIT);
-    assert_int_equal(fw_polygon_check(*state, &(fw_polygon){v, 2}, &report), FW_GEOMETRY);
+    fw_geometry_point v[] = {{0, 0}, {1 << 30, 0}, {0, 5}};
+    fw_geometry_polygon_report report;
+    assert_int_equal(fw_geometry_polygon_check(*state, &(fw_geometry_polygon){v, 3}, &report),
+                     FW_LIMIT);
+    assert_int_equal(fw_geometry_polygon_check(*state, &(fw_geometry_polygon){v, 2}, &report),
+                     FW_GEOMETRY);
     v[1].x_dbu = 7;
     fw_arena_fail_at(1, 1);
-    assert_int_equal(fw_polygon_check(*state, &(fw_polygon){v, 3}, &report), FW_NOMEM);
+    assert_int_equal(fw_geometry_polygon_check(*state, &(fw_geometry_polygon){v, 3}, &report),
+                     FW_NOMEM);
 }
 
 int main(void) {

@@ -1,56 +1,61 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geo.h"
 
-static fw_contour polygon_of(fw_arena *arena, const double *x, const double *y, int n,
-                             const unsigned *flags) {
-    fw_contour c;
-    fw_outline o = fw_outline_start(arena, (fw_vec2){1e-6 * x[0], 1e-6 * y[0]});
+static fw_geometry_contour polygon_of(fw_arena *arena, const double *x, const double *y, int n,
+                                      const unsigned *flags) {
+    fw_geometry_contour c;
+    fw_geometry_outline o =
+        fw_geometry_outline_start(arena, (fw_geometry_vec2){1e-6 * x[0], 1e-6 * y[0]});
     for (int i = 1; i <= n; i++)
-        fw_outline_line(&o, (fw_vec2){1e-6 * x[i % n], 1e-6 * y[i % n]}, flags ? flags[i - 1] : 0);
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){1e-6 * x[i % n], 1e-6 * y[i % n]},
+                                 flags ? flags[i - 1] : 0);
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     return c;
 }
 
-static double worst_turn(const fw_contour *c) {
+static double worst_turn(const fw_geometry_contour *c) {
     double worst = 0;
     for (int i = 0; i < c->count; i++)
-        worst = fmax(worst, fabs(fw_corner_turn(&c->segment[i], &c->segment[(i + 1) % c->count])));
+        worst = fmax(
+            worst, fabs(fw_geometry_corner_turn(&c->segment[i], &c->segment[(i + 1) % c->count])));
     return worst;
 }
 
 static void square_loses_the_closed_form(void **state) {
-    fw_contour box, round;
-    fw_vec2 where;
+    fw_geometry_contour box, round;
+    fw_geometry_vec2 where;
     double a = 4e-5;
-    assert_int_equal(fw_contour_rectangle(*state, (fw_box){1e-4, 0, 1e-4 + a, a}, &box), 0);
+    assert_int_equal(
+        fw_geometry_contour_rectangle(*state, (fw_geometry_box){1e-4, 0, 1e-4 + a, a}, &box), 0);
     for (double r = 1e-6; r < 2.01e-5; r += 1e-6) {
-        assert_int_equal(fw_contour_round(*state, &box, r, 0, &round, &where), FW_OK);
-        assert_true(fw_contour_valid(&round));
+        assert_int_equal(fw_geometry_contour_round(*state, &box, r, 0, &round, &where), FW_OK);
+        assert_true(fw_geometry_contour_valid(&round));
         assert_int_equal(round.count, r < 1.99e-5 ? 8 : 4);
-        assert_relative(fw_contour_area(&round), a * a - (4 - FW_PI) * r * r, 1e-12);
+        assert_relative(fw_geometry_contour_area(&round), a * a - (4 - FW_PI) * r * r, 1e-12);
         assert_true(worst_turn(&round) < 1e-6);
     }
     /* too large: shrinks to half the side; more than four times too large: refused */
-    assert_int_equal(fw_contour_round(*state, &box, 7.9e-5, 0, &round, &where), FW_OK);
-    assert_relative(fw_contour_area(&round), FW_PI * a * a / 4, 1e-12);
-    assert_int_equal(fw_contour_round(*state, &box, 8.1e-5, 0, &round, &where), FW_GEOMETRY);
+    assert_int_equal(fw_geometry_contour_round(*state, &box, 7.9e-5, 0, &round, &where), FW_OK);
+    assert_relative(fw_geometry_contour_area(&round), FW_PI * a * a / 4, 1e-12);
+    assert_int_equal(fw_geometry_contour_round(*state, &box, 8.1e-5, 0, &round, &where),
+                     FW_GEOMETRY);
     assert_true(vec_same(where, box.segment[0].b)); /* the first corner */
 }
 
 static void convex_and_concave_have_their_own_radius(void **state) {
     const double x[] = {0, 50, 50, 20, 20, 0}, y[] = {0, 0, 20, 20, 60, 60};
-    fw_contour ell = polygon_of(*state, x, y, 6, NULL), round;
-    fw_vec2 where;
-    assert_int_equal(fw_contour_round(*state, &ell, 0, 3e-6, &round, &where), FW_OK);
+    fw_geometry_contour ell = polygon_of(*state, x, y, 6, NULL), round;
+    fw_geometry_vec2 where;
+    assert_int_equal(fw_geometry_contour_round(*state, &ell, 0, 3e-6, &round, &where), FW_OK);
     assert_int_equal(round.count, 7);
     double k = 1 - FW_PI / 4;
-    assert_relative(fw_contour_area(&round), 1800e-12 + k * 9e-12, 1e-13);
-    assert_int_equal(fw_contour_round(*state, &ell, 2e-6, 3e-6, &round, &where), FW_OK);
+    assert_relative(fw_geometry_contour_area(&round), 1800e-12 + k * 9e-12, 1e-13);
+    assert_int_equal(fw_geometry_contour_round(*state, &ell, 2e-6, 3e-6, &round, &where), FW_OK);
     assert_int_equal(round.count, 12);
-    assert_relative(fw_contour_area(&round), 1800e-12 + k * (9e-12 - 5 * 4e-12), 1e-13);
-    assert_int_equal(fw_contour_round(*state, &ell, 0, 0, &round, &where), FW_OK);
+    assert_relative(fw_geometry_contour_area(&round), 1800e-12 + k * (9e-12 - 5 * 4e-12), 1e-13);
+    assert_int_equal(fw_geometry_contour_round(*state, &ell, 0, 0, &round, &where), FW_OK);
     for (int i = 0; i < 6; i++)
-        assert_memory_equal(&round.segment[i].a, &ell.segment[i].a, sizeof(fw_vec2));
+        assert_memory_equal(&round.segment[i].a, &ell.segment[i].a, sizeof(fw_geometry_vec2));
 }
 
 /* Two hollow corners share an arc that is about as long as both roundings: whatever its length, it
@@ -60,21 +65,22 @@ static void what_stays_between_two_corners_is_no_sliver(void **state) {
     double least = HUGE_VAL;
     for (int k = 0; k < 400; k++) {
         double sweep = 0.02 + 0.00006 * k, r = 300e-6;
-        fw_vec2 o = {0, 0}, p = {r * sin(sweep), -r * cos(sweep)}, q = {-p.x, p.y};
-        fw_contour c, round;
-        fw_vec2 where, up = {0, 60e-6};
-        fw_outline out = fw_outline_start(*state, (fw_vec2){q.x, q.y + up.y});
-        fw_outline_line(&out, q, 0);
-        fw_outline_arc_to(&out, o, 2 * sweep, p, 0);
-        fw_outline_line(&out, (fw_vec2){p.x, p.y + up.y}, 0);
-        fw_outline_line(&out, (fw_vec2){p.x, p.y + 80e-6}, 0);
-        fw_outline_line(&out, (fw_vec2){q.x, q.y + 80e-6}, 0);
-        assert_int_equal(fw_outline_close(&out, &c), FW_OK);
-        assert_int_equal(fw_contour_round(*state, &c, 10e-6, 0, &round, &where), FW_OK);
-        assert_true(fw_contour_valid(&round));
+        fw_geometry_vec2 o = {0, 0}, p = {r * sin(sweep), -r * cos(sweep)}, q = {-p.x, p.y};
+        fw_geometry_contour c, round;
+        fw_geometry_vec2 where, up = {0, 60e-6};
+        fw_geometry_outline out =
+            fw_geometry_outline_start(*state, (fw_geometry_vec2){q.x, q.y + up.y});
+        fw_geometry_outline_line(&out, q, 0);
+        fw_geometry_outline_arc_to(&out, o, 2 * sweep, p, 0);
+        fw_geometry_outline_line(&out, (fw_geometry_vec2){p.x, p.y + up.y}, 0);
+        fw_geometry_outline_line(&out, (fw_geometry_vec2){p.x, p.y + 80e-6}, 0);
+        fw_geometry_outline_line(&out, (fw_geometry_vec2){q.x, q.y + 80e-6}, 0);
+        assert_int_equal(fw_geometry_outline_close(&out, &c), FW_OK);
+        assert_int_equal(fw_geometry_contour_round(*state, &c, 10e-6, 0, &round, &where), FW_OK);
+        assert_true(fw_geometry_contour_valid(&round));
         assert_true(worst_turn(&round) < 1e-6);
         for (int i = 0; i < round.count; i++)
-            least = fmin(least, fw_segment_length(&round.segment[i]));
+            least = fmin(least, fw_geometry_segment_length(&round.segment[i]));
     }
     assert_true(least > 199e-9);
 }
@@ -89,9 +95,10 @@ static void steps_shorter_than_the_disc_are_passed_over(void **state) {
         /* cut off at `angle` to the right side, from (60, 40 - up) to the top */
         double run = up * tan(angle);
         const double x[] = {0, 60, 60, 60 - run, 0}, y[] = {0, 0, 40 - up, 40, 40};
-        fw_contour cut = polygon_of(*state, x, y, 5, NULL), round;
-        fw_vec2 where;
-        assert_int_equal(fw_contour_round(*state, &cut, r * 1e-6, 0, &round, &where), FW_OK);
+        fw_geometry_contour cut = polygon_of(*state, x, y, 5, NULL), round;
+        fw_geometry_vec2 where;
+        assert_int_equal(fw_geometry_contour_round(*state, &cut, r * 1e-6, 0, &round, &where),
+                         FW_OK);
         double step = hypot(up, run), second = FW_PI / 2 - angle;
         double trims = r * (tan(angle / 2) + tan(second / 2));
         bool passed = trims > step;
@@ -102,25 +109,26 @@ static void steps_shorter_than_the_disc_are_passed_over(void **state) {
         if (!passed) /* the cut, and roundings with other turns: each takes r^2 (tan(t/2) - t/2) */
             want = 2400 - 0.5 * up * run - 0.75 * (4 - FW_PI) * r * r -
                    r * r * (tan(angle / 2) + tan(second / 2) - FW_PI / 4);
-        assert_relative(fw_contour_area(&round), want * 1e-12, 1e-12);
-        fw_contour hole;
-        assert_int_equal(fw_contour_reverse(*state, &cut, &hole), FW_OK);
-        assert_int_equal(fw_contour_round(*state, &hole, 0, r * 1e-6, &round, &where), FW_OK);
-        assert_relative(-fw_contour_area(&round), want * 1e-12, 1e-12);
+        assert_relative(fw_geometry_contour_area(&round), want * 1e-12, 1e-12);
+        fw_geometry_contour hole;
+        assert_int_equal(fw_geometry_contour_reverse(*state, &cut, &hole), FW_OK);
+        assert_int_equal(fw_geometry_contour_round(*state, &hole, 0, r * 1e-6, &round, &where),
+                         FW_OK);
+        assert_relative(-fw_geometry_contour_area(&round), want * 1e-12, 1e-12);
     }
 }
 
 static void corners_beside_joints_stay(void **state) {
     const double x[] = {0, 50, 50, 0}, y[] = {0, 0, 20, 20};
     const unsigned flags[] = {0, FW_SEGMENT_JOINT, 0, 0};
-    fw_contour c = polygon_of(*state, x, y, 4, flags), round;
-    fw_vec2 where;
-    assert_int_equal(fw_contour_round(*state, &c, 4e-6, 4e-6, &round, &where), FW_OK);
+    fw_geometry_contour c = polygon_of(*state, x, y, 4, flags), round;
+    fw_geometry_vec2 where;
+    assert_int_equal(fw_geometry_contour_round(*state, &c, 4e-6, 4e-6, &round, &where), FW_OK);
     assert_int_equal(round.count, 6);
     int joints = 0;
     for (int i = 0; i < round.count; i++)
         if (round.segment[i].flags & FW_SEGMENT_JOINT) {
-            assert_memory_equal(&round.segment[i], &c.segment[1], sizeof(fw_segment));
+            assert_memory_equal(&round.segment[i], &c.segment[1], sizeof(fw_geometry_segment));
             joints++;
         }
     assert_int_equal(joints, 1);
@@ -133,20 +141,22 @@ static void arcs_get_tangent_fillets(void **state) {
     for (int i = 0; i < 2000; i++) {
         fw_mark mark = fw_arena_mark(*state);
         double size = 1e-4;
-        fw_contour a = random_shape(*state, size, 0), b = random_shape(*state, size, 0), round;
-        fw_region p = region_of(&a), q = region_of(&b), any;
-        fw_boolean op = (fw_boolean)whole(0, 2);
-        assert_int_equal(fw_region_boolean(*state, &p, &q, op, &any), FW_OK);
-        fw_vec2 where;
+        fw_geometry_contour a = random_shape(*state, size, 0), b = random_shape(*state, size, 0),
+                            round;
+        fw_geometry_region p = region_of(&a), q = region_of(&b), any;
+        fw_geometry_boolean op = (fw_geometry_boolean)whole(0, 2);
+        assert_int_equal(fw_geometry_region_boolean(*state, &p, &q, op, &any), FW_OK);
+        fw_geometry_vec2 where;
         double r = uniform(2e-7, 2e-6);
         for (int k = 0; k < any.count; k++) {
-            fw_status status = fw_contour_round(*state, &any.contour[k], r, r, &round, &where);
+            fw_status status =
+                fw_geometry_contour_round(*state, &any.contour[k], r, r, &round, &where);
             if (status != FW_OK) {
                 assert_int_equal(status, FW_GEOMETRY);
                 assert_near(region_edge(&any, where), 0, 0);
                 continue;
             }
-            assert_true(fw_contour_valid(&round));
+            assert_true(fw_geometry_contour_valid(&round));
             assert_true(worst_turn(&round) < 2e-6);
             for (int n = 0; n < round.count; n++)
                 if (round.segment[n].kind == FW_ARC)
@@ -162,13 +172,13 @@ static void half_disc_closed_form(void **state) {
     /* line-arc corner of a half disc R: the fillet r has its centre at height r, at distance R - r
        from the centre: the touch on the line is at sqrt(R^2 - 2 R r) */
     double R = 5e-5, r = 4e-6;
-    fw_outline o = fw_outline_start(*state, (fw_vec2){-R, 0});
-    fw_outline_line(&o, (fw_vec2){R, 0}, 0);
-    fw_outline_arc_to(&o, (fw_vec2){0, 0}, FW_PI, (fw_vec2){-R, 0}, 0);
-    fw_contour c, round;
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
-    fw_vec2 where;
-    assert_int_equal(fw_contour_round(*state, &c, r, 0, &round, &where), FW_OK);
+    fw_geometry_outline o = fw_geometry_outline_start(*state, (fw_geometry_vec2){-R, 0});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){R, 0}, 0);
+    fw_geometry_outline_arc_to(&o, (fw_geometry_vec2){0, 0}, FW_PI, (fw_geometry_vec2){-R, 0}, 0);
+    fw_geometry_contour c, round;
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
+    fw_geometry_vec2 where;
+    assert_int_equal(fw_geometry_contour_round(*state, &c, r, 0, &round, &where), FW_OK);
     assert_int_equal(round.count, 4);
     assert_near(round.segment[0].b.x, sqrt(R * R - 2 * R * r), 1e-18);
     assert_near(round.segment[1].centre.y, r, 1e-18);
@@ -176,14 +186,17 @@ static void half_disc_closed_form(void **state) {
 }
 
 static void errors(void **state) {
-    fw_contour box, round;
-    fw_vec2 where;
-    assert_int_equal(fw_contour_rectangle(*state, (fw_box){0, 0, 1e-5, 1e-5}, &box), 0);
-    assert_int_equal(fw_contour_round(*state, &box, (double)NAN, 0, &round, &where), FW_GEOMETRY);
-    assert_int_equal(fw_contour_round(*state, &box, -1, 0, &round, NULL), FW_GEOMETRY);
+    fw_geometry_contour box, round;
+    fw_geometry_vec2 where;
+    assert_int_equal(
+        fw_geometry_contour_rectangle(*state, (fw_geometry_box){0, 0, 1e-5, 1e-5}, &box), 0);
+    assert_int_equal(fw_geometry_contour_round(*state, &box, (double)NAN, 0, &round, &where),
+                     FW_GEOMETRY);
+    assert_int_equal(fw_geometry_contour_round(*state, &box, -1, 0, &round, NULL), FW_GEOMETRY);
     for (long n = 1; n <= 3; n++) {
         fw_arena_fail_at(n, 1);
-        assert_int_equal(fw_contour_round(*state, &box, 1e-6, 0, &round, &where), FW_NOMEM);
+        assert_int_equal(fw_geometry_contour_round(*state, &box, 1e-6, 0, &round, &where),
+                         FW_NOMEM);
         fw_arena_fail_at(0, 0);
     }
 }

@@ -2,13 +2,14 @@
 #include "geo.h"
 #include "geometry/slice.h"
 
-static fw_cut_line line_at(double x, double y, double angle) {
-    return (fw_cut_line){{x, y}, {cos(angle), sin(angle)}};
+static fw_geometry_cut_line line_at(double x, double y, double angle) {
+    return (fw_geometry_cut_line){{x, y}, {cos(angle), sin(angle)}};
 }
 
-static fw_slices sliced(fw_arena *arena, const fw_contour *c, fw_cut_line line) {
-    fw_slices s;
-    assert_int_equal(fw_contour_slice(arena, c, line, &s), FW_OK);
+static fw_geometry_slices sliced(fw_arena *arena, const fw_geometry_contour *c,
+                                 fw_geometry_cut_line line) {
+    fw_geometry_slices s;
+    assert_int_equal(fw_geometry_contour_slice(arena, c, line, &s), FW_OK);
     for (int i = 0; i < s.n; i++) {
         assert_true(s.item[i].from_m < s.item[i].to_m);
         assert_true(i == 0 || s.item[i - 1].to_m < s.item[i].from_m);
@@ -22,10 +23,10 @@ static void chords_of_discs(void **state) {
     for (int i = 0; i < 2000; i++) {
         double r = uniform(1e-6, 1e-3), x = uniform(-1e-2, 1e-2), y = uniform(-1e-2, 1e-2);
         double angle = uniform(0, FW_TURN), h = uniform(-1.5, 1.5) * r;
-        fw_contour c;
-        assert_int_equal(fw_contour_disc(arena, (fw_vec2){x, y}, r, &c), FW_OK);
-        fw_cut_line line = line_at(x - h * sin(angle), y + h * cos(angle), angle);
-        fw_slices s = sliced(arena, &c, line);
+        fw_geometry_contour c;
+        assert_int_equal(fw_geometry_contour_disc(arena, (fw_geometry_vec2){x, y}, r, &c), FW_OK);
+        fw_geometry_cut_line line = line_at(x - h * sin(angle), y + h * cos(angle), angle);
+        fw_geometry_slices s = sliced(arena, &c, line);
         if (fabs(h) >= r) {
             assert_int_equal(s.n, 0);
             continue;
@@ -43,10 +44,11 @@ static void chords_of_discs(void **state) {
 /* through the corners, along the edges, and the reverse outline: the same intervals */
 static void a_square_on_its_corners(void **state) {
     fw_arena *arena = *state;
-    fw_contour c, back;
-    assert_int_equal(fw_contour_rectangle(arena, (fw_box){0, 0, 4e-6, 4e-6}, &c), FW_OK);
-    assert_int_equal(fw_contour_reverse(arena, &c, &back), FW_OK);
-    fw_slices s = sliced(arena, &c, line_at(0, 0, FW_PI / 4));
+    fw_geometry_contour c, back;
+    assert_int_equal(fw_geometry_contour_rectangle(arena, (fw_geometry_box){0, 0, 4e-6, 4e-6}, &c),
+                     FW_OK);
+    assert_int_equal(fw_geometry_contour_reverse(arena, &c, &back), FW_OK);
+    fw_geometry_slices s = sliced(arena, &c, line_at(0, 0, FW_PI / 4));
     assert_int_equal(s.n, 1);
     assert_near(s.item[0].from_m, 0, 1e-20);
     assert_near(s.item[0].to_m, 4e-6 * sqrt(2.0), 1e-20);
@@ -56,12 +58,13 @@ static void a_square_on_its_corners(void **state) {
     /* an edge on the line belongs to one side of it: the line lies a step to its own left */
     s = sliced(arena, &c, line_at(0, 0, 0));
     assert_int_equal(s.n, 1);
-    assert_near(fw_slices_length(s), 4e-6, 1e-20);
+    assert_near(fw_geometry_slices_length(s), 4e-6, 1e-20);
     assert_int_equal(sliced(arena, &c, line_at(0, 4e-6, 0)).n, 0);
     assert_int_equal(sliced(arena, &c, line_at(0, 5e-6, 0)).n, 0);
     /* a touch at a corner is nothing, from either side */
-    assert_near(fw_slices_length(sliced(arena, &c, line_at(0, 0, -FW_PI / 4))), 0, 1e-18);
-    assert_near(fw_slices_length(sliced(arena, &c, line_at(0, 0, 3 * FW_PI / 4))), 0, 1e-18);
+    assert_near(fw_geometry_slices_length(sliced(arena, &c, line_at(0, 0, -FW_PI / 4))), 0, 1e-18);
+    assert_near(fw_geometry_slices_length(sliced(arena, &c, line_at(0, 0, 3 * FW_PI / 4))), 0,
+                1e-18);
 }
 
 /* random lines through random outlines against their polygons, of which no edge is farther than
@@ -70,18 +73,20 @@ static void random_lines_match_polygons(void **state) {
     fw_arena *arena = *state;
     int whole_ones = 0;
     for (int i = 0; i < 3000; i++) {
-        fw_contour c = random_shape(arena, 1e-4, i % 3 == 0 ? 1e-5 : 0);
-        fw_polygon p;
-        if (fw_tessellate(arena, &c, 1.5e-9, &p) != FW_OK) continue;
-        fw_cut_line line = line_at(uniform(-1e-4, 1e-4), uniform(-1e-4, 1e-4), uniform(0, FW_TURN));
-        fw_slices s = sliced(arena, &c, line);
-        fw_outline o =
-            fw_outline_start(arena, (fw_vec2){1e-9 * p.vertex[0].x_dbu, 1e-9 * p.vertex[0].y_dbu});
+        fw_geometry_contour c = random_shape(arena, 1e-4, i % 3 == 0 ? 1e-5 : 0);
+        fw_geometry_polygon p;
+        if (fw_geometry_tessellate(arena, &c, 1.5e-9, &p) != FW_OK) continue;
+        fw_geometry_cut_line line =
+            line_at(uniform(-1e-4, 1e-4), uniform(-1e-4, 1e-4), uniform(0, FW_TURN));
+        fw_geometry_slices s = sliced(arena, &c, line);
+        fw_geometry_outline o = fw_geometry_outline_start(
+            arena, (fw_geometry_vec2){1e-9 * p.vertex[0].x_dbu, 1e-9 * p.vertex[0].y_dbu});
         for (int k = 1; k < p.count; k++)
-            fw_outline_line(&o, (fw_vec2){1e-9 * p.vertex[k].x_dbu, 1e-9 * p.vertex[k].y_dbu}, 0);
-        fw_contour flat;
-        assert_int_equal(fw_outline_close(&o, &flat), FW_OK);
-        fw_slices t = sliced(arena, &flat, line);
+            fw_geometry_outline_line(
+                &o, (fw_geometry_vec2){1e-9 * p.vertex[k].x_dbu, 1e-9 * p.vertex[k].y_dbu}, 0);
+        fw_geometry_contour flat;
+        assert_int_equal(fw_geometry_outline_close(&o, &flat), FW_OK);
+        fw_geometry_slices t = sliced(arena, &flat, line);
         double least = 1.0;
         for (int k = 0; k < s.n; k++)
             least = fmin(least, fmin(s.item[k].from_sine, s.item[k].to_sine));
@@ -100,16 +105,16 @@ static void area_by_slices(void **state) {
     fw_arena *arena = *state;
     enum { LINES = 4000 };
     for (int i = 0; i < 12; i++) {
-        fw_contour c = random_shape(arena, 1e-4, 0);
+        fw_geometry_contour c = random_shape(arena, 1e-4, 0);
         double angle = uniform(0, FW_TURN), reach = 6e-4, sum = 0.0;
         fw_mark mark = fw_arena_mark(arena);
         for (int k = 0; k < LINES; k++) {
             double h = reach * ((k + 0.5) / LINES * 2.0 - 1.0);
-            sum += fw_slices_length(
+            sum += fw_geometry_slices_length(
                 sliced(arena, &c, line_at(-h * sin(angle), h * cos(angle), angle)));
             fw_arena_rewind(arena, mark);
         }
-        double area = fw_contour_area(&c);
+        double area = fw_geometry_contour_area(&c);
         assert_near(sum * 2.0 * reach / LINES, area, 2e-3 * area + 2e-12);
     }
 }
@@ -119,35 +124,38 @@ static void pieces_that_share_an_edge_are_one(void **state) {
     fw_arena *arena = *state;
     for (int i = 0; i < 500; i++) {
         double angle = uniform(0, FW_TURN), x = uniform(-1e-3, 1e-3), y = uniform(-1e-3, 1e-3);
-        fw_vec2 u = {cos(angle), sin(angle)}, v = {-u.y, u.x};
-        fw_vec2 p[4] = {{x, y}, vec_along((fw_vec2){x, y}, 1e-5, v), {0, 0}, {0, 0}};
-        fw_contour side[2];
+        fw_geometry_vec2 u = {cos(angle), sin(angle)}, v = {-u.y, u.x};
+        fw_geometry_vec2 p[4] = {
+            {x, y}, vec_along((fw_geometry_vec2){x, y}, 1e-5, v), {0, 0}, {0, 0}};
+        fw_geometry_contour side[2];
         for (int k = 0; k < 2; k++) { /* one to the left of the edge p0 p1, one to the right */
             double far = k ? 2e-5 : -3e-5;
-            fw_outline o = fw_outline_start(arena, p[k]);
-            fw_outline_line(&o, p[1 - k], 0);
-            fw_outline_line(&o, vec_along(p[1 - k], far, u), 0);
-            fw_outline_line(&o, vec_along(p[k], far, u), 0);
-            assert_int_equal(fw_outline_close(&o, &side[k]), FW_OK);
+            fw_geometry_outline o = fw_geometry_outline_start(arena, p[k]);
+            fw_geometry_outline_line(&o, p[1 - k], 0);
+            fw_geometry_outline_line(&o, vec_along(p[1 - k], far, u), 0);
+            fw_geometry_outline_line(&o, vec_along(p[k], far, u), 0);
+            assert_int_equal(fw_geometry_outline_close(&o, &side[k]), FW_OK);
         }
         double turn = uniform(-1.2, 1.2);
-        fw_vec2 on = vec_along(p[0], uniform(0.3, 0.7) * 1e-5, v);
-        fw_cut_line line = line_at(on.x, on.y, angle + 0.05 * turn);
-        fw_slices a = sliced(arena, &side[0], line), b = sliced(arena, &side[1], line), all, both;
-        assert_int_equal(fw_slices_combine(arena, a, b, FW_SET_OR, &all), FW_OK);
-        assert_int_equal(fw_slices_combine(arena, a, b, FW_SET_AND, &both), FW_OK);
+        fw_geometry_vec2 on = vec_along(p[0], uniform(0.3, 0.7) * 1e-5, v);
+        fw_geometry_cut_line line = line_at(on.x, on.y, angle + 0.05 * turn);
+        fw_geometry_slices a = sliced(arena, &side[0], line), b = sliced(arena, &side[1], line),
+                           all, both;
+        assert_int_equal(fw_geometry_slices_combine(arena, a, b, FW_SET_OR, &all), FW_OK);
+        assert_int_equal(fw_geometry_slices_combine(arena, a, b, FW_SET_AND, &both), FW_OK);
         assert_int_equal(all.n, 1);
         assert_int_equal(both.n, 0);
-        assert_near(fw_slices_length(all), fw_slices_length(a) + fw_slices_length(b), 1e-15);
+        assert_near(fw_geometry_slices_length(all),
+                    fw_geometry_slices_length(a) + fw_geometry_slices_length(b), 1e-15);
     }
 }
 
-static fw_slices random_set(fw_arena *arena) {
-    fw_slices s = {fw_arena_array(arena, fw_slice, 8), whole(0, 8)};
+static fw_geometry_slices random_set(fw_arena *arena) {
+    fw_geometry_slices s = {fw_arena_array(arena, fw_geometry_slice, 8), whole(0, 8)};
     double at = uniform(-1, 0);
     for (int i = 0; i < s.n; i++) {
         double from = at + uniform(0.01, 0.3), to = from + uniform(0.01, 0.3);
-        s.item[i] = (fw_slice){from, to, 1, 1};
+        s.item[i] = (fw_geometry_slice){from, to, 1, 1};
         at = to;
     }
     return s;
@@ -157,19 +165,22 @@ static fw_slices random_set(fw_arena *arena) {
 static void sets(void **state) {
     fw_arena *arena = *state;
     for (int i = 0; i < 500; i++) {
-        fw_slices p = random_set(arena), q = random_set(arena), r[4];
+        fw_geometry_slices p = random_set(arena), q = random_set(arena), r[4];
         for (int rule = 0; rule < 4; rule++)
-            assert_int_equal(fw_slices_combine(arena, p, q, (fw_set_rule)rule, &r[rule]), FW_OK);
+            assert_int_equal(
+                fw_geometry_slices_combine(arena, p, q, (fw_geometry_set_rule)rule, &r[rule]),
+                FW_OK);
         for (int k = 0; k < 40; k++) {
             double s = uniform(-1, 5);
-            bool in = fw_slices_contain(p, s), iq = fw_slices_contain(q, s);
-            assert_int_equal(fw_slices_contain(r[FW_SET_OR], s), in || iq);
-            assert_int_equal(fw_slices_contain(r[FW_SET_AND], s), in && iq);
-            assert_int_equal(fw_slices_contain(r[FW_SET_NOT], s), in && !iq);
-            assert_int_equal(fw_slices_contain(r[FW_SET_XOR], s), in != iq);
+            bool in = fw_geometry_slices_contain(p, s), iq = fw_geometry_slices_contain(q, s);
+            assert_int_equal(fw_geometry_slices_contain(r[FW_SET_OR], s), in || iq);
+            assert_int_equal(fw_geometry_slices_contain(r[FW_SET_AND], s), in && iq);
+            assert_int_equal(fw_geometry_slices_contain(r[FW_SET_NOT], s), in && !iq);
+            assert_int_equal(fw_geometry_slices_contain(r[FW_SET_XOR], s), in != iq);
         }
-        assert_near(fw_slices_length(r[FW_SET_OR]) + fw_slices_length(r[FW_SET_AND]),
-                    fw_slices_length(p) + fw_slices_length(q), 1e-12);
+        assert_near(fw_geometry_slices_length(r[FW_SET_OR]) +
+                        fw_geometry_slices_length(r[FW_SET_AND]),
+                    fw_geometry_slices_length(p) + fw_geometry_slices_length(q), 1e-12);
     }
 }
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
-#include "geometry/svg.h"
+#include "geometry/geometry_svg.h"
 #include <math.h>
 
 /* a half disc, flat side below: 1 mm radius */
-static fw_segment half_disc[2] = {
+static fw_geometry_segment half_disc[2] = {
     {.kind = FW_ARC,
      .a = {1e-3, 0},
      .b = {-1e-3, 0},
@@ -16,7 +16,7 @@ static void expect(const char *want, double most_rad, bool edges) {
     fw_arena *arena = fw_arena_new(0);
     fw_text out = fw_text_new(arena);
     const fw_geometry_sheet sheet = {-1e-3, 1e-3, 1e3, 3, most_rad};
-    const fw_contour contour = {half_disc, 2};
+    const fw_geometry_contour contour = {half_disc, 2};
     if (edges)
         fw_geometry_svg_edges(&out, &sheet, &contour);
     else
@@ -38,13 +38,13 @@ static void edges_leave_joints_out(void **state) {
 
 static void large_arcs_say_so(void **state) {
     (void)state;
-    fw_segment s = half_disc[0];
+    fw_geometry_segment s = half_disc[0];
     s.sweep_rad = -1.5 * 3.14159265358979;
     fw_arena *arena = fw_arena_new(0);
     fw_text out = fw_text_new(arena);
     const fw_geometry_sheet sheet = {0, 0, 1e3, 2, FW_GEOMETRY_ARC_PICTURE};
-    s.b = (fw_vec2){0, 1e-3};
-    fw_geometry_svg_contour(&out, &sheet, &(fw_contour){&s, 1});
+    s.b = (fw_geometry_vec2){0, 1e-3};
+    fw_geometry_svg_contour(&out, &sheet, &(fw_geometry_contour){&s, 1});
     assert_string_equal(out.data, "M1 0A1 1 0 1 1 0 -1Z");
     s.sweep_rad = 2 * 3.14159265358979; /* a full turn has no direction in one piece */
     assert_int_equal(fw_geometry_arc_parts(&s, FW_GEOMETRY_ARC_PICTURE), 2);

@@ -4,9 +4,10 @@
 
 /* Euler: n - 2 triangles, every side once, every diagonal once each way, and areas that add up, all
    positive: then they tile the polygon */
-static void assert_tiles(fw_arena *arena, const fw_polygon *p) {
-    fw_polygon_triangle *t = fw_arena_array(arena, fw_polygon_triangle, (size_t)p->count);
-    assert_int_equal(fw_polygon_triangulate(arena, p, t), FW_OK);
+static void assert_tiles(fw_arena *arena, const fw_geometry_polygon *p) {
+    fw_geometry_polygon_triangle *t =
+        fw_arena_array(arena, fw_geometry_polygon_triangle, (size_t)p->count);
+    assert_int_equal(fw_geometry_polygon_triangulate(arena, p, t), FW_OK);
     int64_t sum = 0;
     int sides = 0, inner = 0, n = p->count;
     for (int i = 0; i < n - 2; i++) {
@@ -29,21 +30,21 @@ static void assert_tiles(fw_arena *arena, const fw_polygon *p) {
     }
     assert_int_equal(sides, n);
     assert_int_equal(inner, 2 * (n - 3));
-    assert_true(sum == fw_polygon_area2(p));
+    assert_true(sum == fw_geometry_polygon_area2(p));
 }
 
 static void small_random_polygons(void **state) {
     int tiled = 0, straight = 0;
     for (int i = 0; i < 60000; i++) {
         int n = whole(3, 10);
-        fw_point v[10];
+        fw_geometry_point v[10];
         for (int k = 0; k < n; k++)
-            v[k] = (fw_point){whole(0, 6), whole(0, 6)};
-        fw_polygon p = {v, n};
-        fw_polygon_report report;
+            v[k] = (fw_geometry_point){whole(0, 6), whole(0, 6)};
+        fw_geometry_polygon p = {v, n};
+        fw_geometry_polygon_report report;
         fw_mark mark = fw_arena_mark(*state);
-        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
-        if (report.simple && fw_polygon_area2(&p) > 0) {
+        assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
+        if (report.simple && fw_geometry_polygon_area2(&p) > 0) {
             assert_tiles(*state, &p);
             tiled++;
             straight += report.straight;
@@ -57,25 +58,30 @@ static void small_random_polygons(void **state) {
 static void flattened_shapes(void **state) {
     for (int i = 0; i < 60; i++) {
         fw_mark mark = fw_arena_mark(*state);
-        fw_contour c = random_shape(*state, 3e-5, 0);
-        fw_polygon p;
-        fw_polygon_report report;
-        assert_int_equal(fw_tessellate(*state, &c, 2e-8, &p), FW_OK);
-        assert_int_equal(fw_polygon_check(*state, &p, &report), FW_OK);
+        fw_geometry_contour c = random_shape(*state, 3e-5, 0);
+        fw_geometry_polygon p;
+        fw_geometry_polygon_report report;
+        assert_int_equal(fw_geometry_tessellate(*state, &c, 2e-8, &p), FW_OK);
+        assert_int_equal(fw_geometry_polygon_check(*state, &p, &report), FW_OK);
         if (report.simple) assert_tiles(*state, &p);
         fw_arena_rewind(*state, mark);
     }
 }
 
 static void what_is_not_simple_is_refused(void **state) {
-    fw_point bow[] = {{0, 0}, {10, 10}, {10, 0}, {0, 10}}, flat[] = {{0, 0}, {5, 0}, {9, 0}};
-    fw_polygon_triangle t[4];
-    assert_int_equal(fw_polygon_triangulate(*state, &(fw_polygon){bow, 4}, t), FW_GEOMETRY);
-    assert_int_equal(fw_polygon_triangulate(*state, &(fw_polygon){flat, 3}, t), FW_GEOMETRY);
-    assert_int_equal(fw_polygon_triangulate(*state, &(fw_polygon){flat, 2}, t), FW_GEOMETRY);
+    fw_geometry_point bow[] = {{0, 0}, {10, 10}, {10, 0}, {0, 10}},
+                      flat[] = {{0, 0}, {5, 0}, {9, 0}};
+    fw_geometry_polygon_triangle t[4];
+    assert_int_equal(fw_geometry_polygon_triangulate(*state, &(fw_geometry_polygon){bow, 4}, t),
+                     FW_GEOMETRY);
+    assert_int_equal(fw_geometry_polygon_triangulate(*state, &(fw_geometry_polygon){flat, 3}, t),
+                     FW_GEOMETRY);
+    assert_int_equal(fw_geometry_polygon_triangulate(*state, &(fw_geometry_polygon){flat, 2}, t),
+                     FW_GEOMETRY);
     for (int n = 1; n <= 4; n++) {
         fw_arena_fail_at(n, 0);
-        assert_int_equal(fw_polygon_triangulate(*state, &(fw_polygon){bow, 4}, t), FW_NOMEM);
+        assert_int_equal(fw_geometry_polygon_triangulate(*state, &(fw_geometry_polygon){bow, 4}, t),
+                         FW_NOMEM);
         fw_arena_fail_at(0, 0);
     }
 }

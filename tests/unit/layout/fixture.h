@@ -10,57 +10,57 @@
 
 typedef struct fixture {
     fw_device device;
-    fw_body body[10];
-    fw_joint joint[10];
-    fw_flexure flexure[10];
+    fw_device_body body[10];
+    fw_device_revolute revolute[10];
+    fw_device_flexure flexure[10];
 } fixture;
 
-static inline fw_body fixture_body(const char *id, double width_m) {
-    return (fw_body){.id = id,
-                     .mass_kg = NONE,
-                     .inertia_kg_m2 = NONE,
-                     .x_m = NONE,
-                     .y_m = NONE,
-                     .width_m = width_m,
-                     .plate_width_m = NONE,
-                     .plate_height_m = NONE,
-                     .plate_x_m = NONE,
-                     .plate_y_m = NONE};
+static inline fw_device_body fixture_body(const char *id, double width_m) {
+    return (fw_device_body){.id = id,
+                            .mass_kg = NONE,
+                            .inertia_kg_m2 = NONE,
+                            .x_m = NONE,
+                            .y_m = NONE,
+                            .width_m = width_m,
+                            .plate_width_m = NONE,
+                            .plate_height_m = NONE,
+                            .plate_x_m = NONE,
+                            .plate_y_m = NONE};
 }
 
 static inline void fixture_hinge(fixture *f, int i, const char *id, int a, int b, double x_m,
                                  double y_m, double length_m, double width_m, double angle_rad) {
-    f->flexure[i] = (fw_flexure){.id = id,
-                                 .kind = FW_FLEXURE_CSFH,
-                                 .length_m = length_m,
-                                 .angle_rad = angle_rad,
-                                 .radius_m = length_m / angle_rad,
-                                 .width_m = width_m,
-                                 .gap_m = 8e-6,
-                                 .fillet_m = NONE};
-    f->joint[i] = (fw_joint){.id = id,
-                             .body_a = a,
-                             .body_b = b,
-                             .x_m = x_m,
-                             .y_m = y_m,
-                             .ax_m = NONE,
-                             .ay_m = NONE,
-                             .bx_m = NONE,
-                             .by_m = NONE,
-                             .stiffness_Nm_per_rad = NONE,
-                             .damping_Nms_per_rad = NONE,
-                             .flexure = i,
-                             .axis_rad = NONE};
+    f->flexure[i] = (fw_device_flexure){.id = id,
+                                        .kind = FW_FLEXURE_CSFH,
+                                        .length_m = length_m,
+                                        .angle_rad = angle_rad,
+                                        .radius_m = length_m / angle_rad,
+                                        .width_m = width_m,
+                                        .gap_m = 8e-6,
+                                        .fillet_m = NONE};
+    f->revolute[i] = (fw_device_revolute){.id = id,
+                                          .body_a = a,
+                                          .body_b = b,
+                                          .x_m = x_m,
+                                          .y_m = y_m,
+                                          .ax_m = NONE,
+                                          .ay_m = NONE,
+                                          .bx_m = NONE,
+                                          .by_m = NONE,
+                                          .stiffness_Nm_per_rad = NONE,
+                                          .damping_Nms_per_rad = NONE,
+                                          .flexure = i,
+                                          .axis_rad = NONE};
 }
 
 static inline void fixture_finish(fixture *f, const char *name, int nbody, int njoint) {
     f->device = (fw_device){.file = "test.xml",
                             .name = name,
                             .body = f->body,
-                            .joint = f->joint,
+                            .revolute = f->revolute,
                             .flexure = f->flexure,
                             .nbody = nbody,
-                            .njoint = njoint,
+                            .nrevolute = njoint,
                             .nflexure = njoint,
                             .thickness_m = 50e-6,
                             .safety_factor = 1.5,
@@ -97,7 +97,7 @@ static inline void fixture_six_bar(fixture *f) {
 /* all flexures to another arc length (factor) and subtended angle */
 static inline void fixture_flexures(fixture *f, double factor, double angle_deg) {
     for (int i = 0; i < f->device.nflexure; i++) {
-        fw_flexure *x = &f->flexure[i];
+        fw_device_flexure *x = &f->flexure[i];
         x->length_m *= factor;
         x->angle_rad = angle_deg * M_PI / 180.0;
         x->radius_m = x->length_m / x->angle_rad;

@@ -28,22 +28,22 @@ static drawn draw_well(const fixture *f) {
     return d;
 }
 
-static bool is_device(const fw_piece *p) {
+static bool is_device(const fw_layout_piece *p) {
     return p->role == FW_ROLE_STRUCTURE || p->role == FW_ROLE_FLEXURE || p->role == FW_ROLE_FRAME ||
            p->role == FW_ROLE_TETHER;
 }
 
-static bool same(fw_vec2 p, fw_vec2 q) {
+static bool same(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x == q.x && p.y == q.y;
 }
 
 /* pieces that share the JOINT edge k of piece i, reversed, bit for bit */
 static int partners(const fw_layout *l, int i, int k, int *who) {
-    const fw_segment *e = &l->piece[i].contour.segment[k];
+    const fw_geometry_segment *e = &l->piece[i].contour.segment[k];
     int n = 0;
     for (int j = 0; j < l->npiece; j++)
         for (int m = 0; j != i && m < l->piece[j].contour.count; m++) {
-            const fw_segment *g = &l->piece[j].contour.segment[m];
+            const fw_geometry_segment *g = &l->piece[j].contour.segment[m];
             if ((g->flags & FW_SEGMENT_JOINT) && same(e->a, g->b) && same(e->b, g->a)) {
                 *who = j;
                 n++;
@@ -60,8 +60,8 @@ static void check_pieces(const fw_layout *l) {
     for (int i = 0; i < l->npiece; i++)
         group[i] = i;
     for (int i = 0; i < l->npiece; i++) {
-        const fw_contour *c = &l->piece[i].contour;
-        assert_true(fw_contour_area(c) > 0.0);
+        const fw_geometry_contour *c = &l->piece[i].contour;
+        assert_true(fw_geometry_contour_area(c) > 0.0);
         for (int k = 0; k < c->count; k++) {
             assert_true(same(c->segment[k].b, c->segment[(k + 1) % c->count].a));
             if (!is_device(&l->piece[i]) || !(c->segment[k].flags & FW_SEGMENT_JOINT)) continue;
@@ -91,23 +91,23 @@ static bool share_a_joint(const fw_layout *l, int i, int j) {
 static void check_disjoint(const fw_layout *l) {
     for (int i = 0; i < l->npiece; i++)
         for (int j = 0; j < l->npiece; j++) {
-            const fw_piece *p = &l->piece[i], *q = &l->piece[j];
+            const fw_layout_piece *p = &l->piece[i], *q = &l->piece[j];
             if (i == j || !is_device(p) || !is_device(q)) continue;
             bool joined = share_a_joint(l, i, j);
             if (!joined && i < j &&
-                !(fw_contour_distance(&p->contour, &q->contour, NULL, NULL) > 1e-6))
+                !(fw_geometry_contour_distance(&p->contour, &q->contour, NULL, NULL) > 1e-6))
                 fail_msg("%s and %s touch", p->label, q->label);
             for (int k = 0; k < p->contour.count; k++) {
-                const fw_segment *e = &p->contour.segment[k];
-                fw_vec2 middle = fw_v(0.5 * (e->a.x + e->b.x), 0.5 * (e->a.y + e->b.y));
+                const fw_geometry_segment *e = &p->contour.segment[k];
+                fw_geometry_vec2 middle = fw_v(0.5 * (e->a.x + e->b.x), 0.5 * (e->a.y + e->b.y));
                 if (e->kind == FW_LINE && !(e->flags & FW_SEGMENT_JOINT) &&
-                    fw_contour_contains(&q->contour, middle))
+                    fw_geometry_contour_contains(&q->contour, middle))
                     fail_msg("%s lies inside %s", p->label, q->label);
             }
         }
 }
 
-static const fw_piece *find(const fw_layout *l, fw_role role, int body, int joint) {
+static const fw_layout_piece *find(const fw_layout *l, fw_layout_role role, int body, int joint) {
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].role == role && l->piece[i].joint == joint &&
             (joint != FW_NONE || l->piece[i].body == body))
@@ -135,10 +135,11 @@ static void the_reference_is_one_connected_device(void **state) {
 }
 
 /* total angle of the arcs of a contour about w with the given radius (m) */
-static double sector(const fw_contour *c, fw_vec2 w, double radius, double *worst) {
+static double sector(const fw_geometry_contour *c, fw_geometry_vec2 w, double radius,
+                     double *worst) {
     double sum = 0.0;
     for (int i = 0; i < c->count; i++) {
-        const fw_segment *e = &c->segment[i];
+        const fw_geometry_segment *e = &c->segment[i];
         if (e->kind != FW_ARC || !same(e->centre, w) || fabs(e->radius - radius) > 1e-9) continue;
         *worst = fmax(*worst, fabs(e->radius - radius));
         sum += fabs(e->sweep_rad);
@@ -152,8 +153,8 @@ static void hinge_is_exact(void **state) {
     fixture_six_bar(&f);
     drawn d = draw_well(&f);
     for (int j = 0; j < 6; j++) {
-        const fw_hinge_layout *h = &d.layout->hinge[j];
-        const fw_flexure *x = &f.flexure[j];
+        const fw_layout_hinge_layout *h = &d.layout->hinge[j];
+        const fw_device_flexure *x = &f.flexure[j];
         fw_flexure_input in = {.kind = x->kind,
                                .length_m = x->length_m,
                                .angle_rad = x->angle_rad,
@@ -167,16 +168,16 @@ static void hinge_is_exact(void **state) {
                                .safety_factor = 1.5};
         fw_flexure_result out;
         fw_flexure_closed_form(&in, &out);
-        fw_vec2 w = fw_add(h->arc_centre, out.centre_m, fw_polar(h->axis_rad));
-        assert_near(w.x, f.joint[j].x_m, 1e-15);
-        assert_near(w.y, f.joint[j].y_m, 1e-15);
+        fw_geometry_vec2 w = fw_add(h->arc_centre, out.centre_m, fw_polar(h->axis_rad));
+        assert_near(w.x, f.revolute[j].x_m, 1e-15);
+        assert_near(w.y, f.revolute[j].y_m, 1e-15);
         assert_near(h->fillet_m, x->width_m, 0.0);
 
-        const fw_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
+        const fw_geometry_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
         int arcs = 0;
         assert_int_equal(c->count, 4);
         for (int i = 0; i < 4; i++) {
-            const fw_segment *e = &c->segment[i];
+            const fw_geometry_segment *e = &c->segment[i];
             assert_int_equal(e->kind == FW_LINE, e->flags == FW_SEGMENT_JOINT);
             if (e->kind == FW_LINE) {
                 assert_near(fw_norm(fw_sub(e->a, e->b)), x->width_m, 1e-16);
@@ -209,13 +210,14 @@ static void root_fillets_are_tangent(void **state) {
     fixture_six_bar(&f);
     drawn d = draw_well(&f);
     for (int j = 0; j < 6; j++) {
-        const fw_hinge_layout *h = &d.layout->hinge[j];
+        const fw_layout_hinge_layout *h = &d.layout->hinge[j];
         int found = 0;
         for (int s = 0; s < 2; s++) {
             int body = s ? h->upper : h->lower;
-            const fw_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, body, FW_NONE)->contour;
+            const fw_geometry_contour *c =
+                &find(d.layout, FW_ROLE_STRUCTURE, body, FW_NONE)->contour;
             for (int i = 0; i < c->count; i++) {
-                const fw_segment *e = &c->segment[i];
+                const fw_geometry_segment *e = &c->segment[i];
                 double away = fw_norm(fw_sub(e->centre, h->arc_centre));
                 double t = f.flexure[j].width_m, r = f.flexure[j].radius_m;
                 bool outer = fabs(away - (r + 0.5 * t + h->fillet_m)) < 1e-15;
@@ -239,15 +241,15 @@ static void areas_agree_with_counted_points(void **state) {
     f.device.die.tethers = false; /* stubs count in the piece, not in the body */
     drawn d = draw_well(&f);
     for (int b = 0; b < 5; b++) {
-        const fw_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour;
-        const fw_body_layout *m = &d.layout->body[b];
-        fw_box box = fw_contour_box(c);
+        const fw_geometry_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour;
+        const fw_layout_body_layout *m = &d.layout->body[b];
+        fw_geometry_box box = fw_geometry_contour_box(c);
         double w = box.x1 - box.x0, h = box.y1 - box.y0, n = 0, sx = 0, sy = 0, s2 = 0, x, y;
         const int total = 150000;
         for (int i = 0; i < total; i++) {
             x = box.x0 + w * fmod(0.5 + i / g, 1.0);
             y = box.y0 + h * fmod(0.5 + i / (g * g), 1.0);
-            if (!fw_contour_contains(c, fw_v(x, y))) continue;
+            if (!fw_geometry_contour_contains(c, fw_v(x, y))) continue;
             n++;
             sx += x;
             sy += y;
@@ -259,12 +261,12 @@ static void areas_agree_with_counted_points(void **state) {
         assert_near(m->centroid.x, sx / n, 2e-6);
         assert_near(m->centroid.y, sy / n, 2e-6);
         assert_relative(m->polar_m4, s2 * cell, 5e-3);
-        assert_relative(m->perimeter_m, fw_contour_perimeter(c), 1e-15);
+        assert_relative(m->perimeter_m, fw_geometry_contour_perimeter(c), 1e-15);
     }
     fw_arena_free(d.arena);
 }
 
-static int joints(const fw_contour *c) {
+static int joints(const fw_geometry_contour *c) {
     int n = 0;
     for (int i = 0; i < c->count; i++)
         n += (c->segment[i].flags & FW_SEGMENT_JOINT) != 0;
@@ -281,13 +283,13 @@ static void tethers_change_no_body(void **state) {
     for (int i = 0; i < 5; i++) {
         assert_near(a.layout->body[i].area_m2, b.layout->body[i].area_m2, 0.0);
         assert_near(a.layout->body[i].polar_m4, b.layout->body[i].polar_m4, 0.0);
-        const fw_contour *p = &find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
-        const fw_contour *q = &find(b.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
-        double extra = fw_contour_area(p) - fw_contour_area(q);
-        assert_near(fw_contour_area(q), b.layout->body[i].area_m2, 1e-20);
+        const fw_geometry_contour *p = &find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
+        const fw_geometry_contour *q = &find(b.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
+        double extra = fw_geometry_contour_area(p) - fw_geometry_contour_area(q);
+        assert_near(fw_geometry_contour_area(q), b.layout->body[i].area_m2, 1e-20);
         bool platform = i == 2; /* the links hang on their hinges */
         assert_true(platform ? extra > 100e-12 : extra == 0.0);
-        assert_true(extra < 0.003 * fw_contour_area(q));
+        assert_true(extra < 0.003 * fw_geometry_contour_area(q));
         assert_true(joints(p) == joints(q) + (platform ? 2 : 0));
     }
     assert_near(a.layout->narrowest_gap_m, b.layout->narrowest_gap_m, 0.0);
@@ -299,14 +301,14 @@ static void tethers_change_no_body(void **state) {
 
 /* one cut with one moving body, exactly a neck wide, one with the frame, exactly a finger wide */
 static void check_tether(const fw_layout *l, int i, const fixture *f) {
-    const fw_piece *t = &l->piece[i];
+    const fw_layout_piece *t = &l->piece[i];
     int bodies = 0, frames = 0, sides = 0;
     for (int k = 0; k < t->contour.count; k++) {
-        const fw_segment *e = &t->contour.segment[k];
+        const fw_geometry_segment *e = &t->contour.segment[k];
         if (!(e->flags & FW_SEGMENT_JOINT)) continue;
         int who = -1;
         assert_int_equal(partners(l, i, k, &who), 1);
-        const fw_piece *p = &l->piece[who];
+        const fw_layout_piece *p = &l->piece[who];
         double width = fw_norm(fw_sub(e->a, e->b));
         assert_true(e->a.x == e->b.x || e->a.y == e->b.y);
         if (p->role == FW_ROLE_FRAME) {
@@ -320,7 +322,7 @@ static void check_tether(const fw_layout *l, int i, const fixture *f) {
         assert_near(width, 8e-6, 1e-15);
         bodies++;
         for (int s = 0; s < p->contour.count; s++) { /* straight and square on both sides */
-            const fw_segment *g = &p->contour.segment[s];
+            const fw_geometry_segment *g = &p->contour.segment[s];
             if (!same(g->b, e->b) && !same(g->a, e->a)) continue;
             if (g->flags & FW_SEGMENT_JOINT) continue;
             sides++;
@@ -333,7 +335,7 @@ static void check_tether(const fw_layout *l, int i, const fixture *f) {
     assert_int_equal(sides, 2);
     assert_int_equal(frames, 1);
     /* nothing narrower than the neck */
-    assert_near(fw_contour_clearance(&t->contour, true, NULL, NULL), 8e-6, 1e-12);
+    assert_near(fw_geometry_contour_clearance(&t->contour, true, NULL, NULL), 8e-6, 1e-12);
 }
 
 /* gallery device, general four-bar, turned plate; as drawn and under both signs of bias */
@@ -351,8 +353,8 @@ static void tethers_break_at_the_body(void **state) {
         drawn d = draw_well(&f);
         int n = 0;
         for (int i = 0; i < d.layout->npiece; i++) {
-            const fw_piece *p = &d.layout->piece[i];
-            fw_contour grown;
+            const fw_layout_piece *p = &d.layout->piece[i];
+            fw_geometry_contour grown;
             if (p->role == FW_ROLE_TETHER) {
                 n++;
                 assert_int_equal(p->body, FW_GROUND);
@@ -360,11 +362,11 @@ static void tethers_break_at_the_body(void **state) {
             }
             if (!is_device(p)) continue;
             for (int sign = -1; sign <= 1; sign += 2) {
-                assert_int_equal(
-                    fw_contour_offset(d.arena, &p->contour, sign * 1.1e-6, &grown, NULL, NULL),
-                    FW_OK);
+                assert_int_equal(fw_geometry_contour_offset(d.arena, &p->contour, sign * 1.1e-6,
+                                                            &grown, NULL, NULL),
+                                 FW_OK);
                 if (p->role == FW_ROLE_TETHER)
-                    assert_near(fw_contour_clearance(&grown, true, NULL, NULL),
+                    assert_near(fw_geometry_contour_clearance(&grown, true, NULL, NULL),
                                 8e-6 + sign * 2.2e-6, 1e-12);
             }
         }
@@ -381,17 +383,20 @@ static void free_rotation_is_free(void **state) {
     f.device.die.tethers = false;
     drawn d = draw_well(&f);
     for (int j = 0; j < 6; j++) {
-        const fw_hinge_layout *h = &d.layout->hinge[j];
-        const fw_contour *p = &find(d.layout, FW_ROLE_STRUCTURE, h->lower, FW_NONE)->contour;
-        const fw_contour *q = &find(d.layout, FW_ROLE_STRUCTURE, h->upper, FW_NONE)->contour;
+        const fw_layout_hinge_layout *h = &d.layout->hinge[j];
+        const fw_geometry_contour *p =
+            &find(d.layout, FW_ROLE_STRUCTURE, h->lower, FW_NONE)->contour;
+        const fw_geometry_contour *q =
+            &find(d.layout, FW_ROLE_STRUCTURE, h->upper, FW_NONE)->contour;
         for (int step = -10; step <= 10; step++) {
             double turn = 0.097 * step * h->free_rad;
-            fw_vec2 w = h->centre;
-            fw_pose pose = {w.x - (cos(turn) * w.x - sin(turn) * w.y),
-                            w.y - (sin(turn) * w.x + cos(turn) * w.y), turn};
-            fw_contour turned;
-            assert_int_equal(fw_contour_transform(d.arena, q, pose, false, &turned), FW_OK);
-            if (!(fw_contour_distance(p, &turned, NULL, NULL) > 0.5e-6))
+            fw_geometry_vec2 w = h->centre;
+            fw_geometry_pose pose = {w.x - (cos(turn) * w.x - sin(turn) * w.y),
+                                     w.y - (sin(turn) * w.x + cos(turn) * w.y), turn};
+            fw_geometry_contour turned;
+            assert_int_equal(fw_geometry_contour_transform(d.arena, q, pose, false, &turned),
+                             FW_OK);
+            if (!(fw_geometry_contour_distance(p, &turned, NULL, NULL) > 0.5e-6))
                 fail_msg("hinge %d touches at %.3f rad", j, turn);
         }
     }
@@ -401,12 +406,12 @@ static void free_rotation_is_free(void **state) {
 static void free_rotation_of_two_sectors(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_contour p, q;
-    fw_vec2 w = {1e-3, -2e-3};
-    assert_int_equal(fw_contour_ring_sector(arena, w, 50e-6, 90e-6, 0.0, 1.0, &p), FW_OK);
-    assert_int_equal(fw_contour_ring_sector(arena, w, 70e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
+    fw_geometry_contour p, q;
+    fw_geometry_vec2 w = {1e-3, -2e-3};
+    assert_int_equal(fw_geometry_contour_ring_sector(arena, w, 50e-6, 90e-6, 0.0, 1.0, &p), FW_OK);
+    assert_int_equal(fw_geometry_contour_ring_sector(arena, w, 70e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
     assert_near(fw_layout_free_rotation(w, &p, &q, 200e-6), 0.4, 1e-9);
-    assert_int_equal(fw_contour_ring_sector(arena, w, 95e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
+    assert_int_equal(fw_geometry_contour_ring_sector(arena, w, 95e-6, 120e-6, 1.4, 2.0, &q), FW_OK);
     assert_near(fw_layout_free_rotation(w, &p, &q, 200e-6), M_PI, 0.0);
     fw_arena_free(arena);
 }
@@ -416,29 +421,30 @@ static void symmetric_device_gives_symmetric_layout(void **state) {
     fixture f;
     fixture_six_bar(&f);
     for (int i = 0; i < 3; i++) { /* D E F from C B A, mirrored at x = 1.5 mm */
-        f.joint[5 - i].x_m = 3e-3 - f.joint[i].x_m;
-        f.joint[5 - i].y_m = f.joint[i].y_m;
+        f.revolute[5 - i].x_m = 3e-3 - f.revolute[i].x_m;
+        f.revolute[5 - i].y_m = f.revolute[i].y_m;
         f.flexure[5 - i].length_m = f.flexure[i].length_m;
         f.flexure[5 - i].width_m = f.flexure[i].width_m;
         f.flexure[5 - i].radius_m = f.flexure[i].radius_m;
     }
     drawn d = draw_well(&f);
     for (int i = 0; i < 3; i++) {
-        const fw_hinge_layout *p = &d.layout->hinge[i], *q = &d.layout->hinge[5 - i];
+        const fw_layout_hinge_layout *p = &d.layout->hinge[i], *q = &d.layout->hinge[5 - i];
         assert_near(p->keep_out_m, q->keep_out_m, 1e-15);
         assert_near(p->free_rad, q->free_rad, 1e-6);
         assert_near(p->arc_centre.x + q->arc_centre.x, 3e-3, 1e-12);
         assert_near(p->arc_centre.y, q->arc_centre.y, 1e-12);
     }
     for (int b = 0; b < 3; b++) {
-        const fw_body_layout *p = &d.layout->body[b], *q = &d.layout->body[4 - b];
+        const fw_layout_body_layout *p = &d.layout->body[b], *q = &d.layout->body[4 - b];
         assert_relative(p->area_m2, q->area_m2, 1e-9);
         assert_relative(p->polar_m4, q->polar_m4, 1e-9);
         assert_near(p->centroid.x + q->centroid.x, 3e-3, 1e-12);
         assert_near(p->centroid.y, q->centroid.y, 1e-12);
         assert_relative(
-            fw_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour),
-            fw_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, 4 - b, FW_NONE)->contour), 1e-9);
+            fw_geometry_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour),
+            fw_geometry_contour_area(&find(d.layout, FW_ROLE_STRUCTURE, 4 - b, FW_NONE)->contour),
+            1e-9);
     }
     fw_arena_free(d.arena);
 }
@@ -462,7 +468,7 @@ static void variants_are_drawn_or_refused(void **state) {
                     check_pieces(d.layout);
                     check_disjoint(d.layout);
                     assert_true(d.layout->narrowest_gap_m >= 8e-6 * (1.0 - 1e-9));
-                    for (int j = 0; j < f.device.njoint; j++)
+                    for (int j = 0; j < f.device.nrevolute; j++)
                         assert_true(d.layout->hinge[j].free_rad > 0.1);
                 } else {
                     assert_int_equal(d.status, FW_GEOMETRY);
@@ -501,7 +507,7 @@ static void a_fillet_that_does_not_fit(void **state) {
     fw_arena_free(d.arena);
     f.flexure[1].fillet_m = 100e-6;
     f.flexure[1].fillet_place = (fw_place){"test.xml", 12, 3};
-    f.joint[2].flexure = 1; /* two hinges with one flexure */
+    f.revolute[2].flexure = 1; /* two hinges with one flexure */
     expect_refused(&f, 129, 12, "a fillet of 100 um does not fit");
     double radius = 250e-6 / f.flexure[1].angle_rad, inner = radius - 0.5 * 8.5e-6;
     f.flexure[1].fillet_m = 0.3 * inner;
@@ -512,15 +518,16 @@ static void a_fillet_that_does_not_fit(void **state) {
 
 /* twice the farthest corner of a bar from the line between its hinges, beyond their discs */
 static double width_across(const drawn *d, const fixture *f, int body) {
-    const fw_joint *p = &f->joint[body], *q = p + 1;
+    const fw_device_revolute *p = &f->revolute[body], *q = p + 1;
     double length = hypot(q->x_m - p->x_m, q->y_m - p->y_m), most = 0.0;
-    double from = d->layout->hinge[body].keep_out_m, to = length - d->layout->hinge[body + 1].keep_out_m;
-    fw_vec2 u = {(q->x_m - p->x_m) / length, (q->y_m - p->y_m) / length};
+    double from = d->layout->hinge[body].keep_out_m,
+           to = length - d->layout->hinge[body + 1].keep_out_m;
+    fw_geometry_vec2 u = {(q->x_m - p->x_m) / length, (q->y_m - p->y_m) / length};
     for (int i = 0; i < d->layout->npiece; i++) {
-        const fw_piece *piece = &d->layout->piece[i];
+        const fw_layout_piece *piece = &d->layout->piece[i];
         if (piece->role != FW_ROLE_STRUCTURE || piece->body != body) continue;
         for (int k = 0; k < piece->contour.count; k++) {
-            fw_vec2 a = piece->contour.segment[k].a;
+            fw_geometry_vec2 a = piece->contour.segment[k].a;
             double x = (a.x - p->x_m) * u.x + (a.y - p->y_m) * u.y;
             double y = (a.y - p->y_m) * u.x - (a.x - p->x_m) * u.y;
             if (x > from && x < to) most = fmax(most, 2.0 * fabs(y));
@@ -598,7 +605,7 @@ static void other_mechanisms_are_drawn(void **state) {
         drawn d = draw_well(&f);
         check_pieces(d.layout);
         check_disjoint(d.layout);
-        for (int j = 0; j < f.device.njoint; j++)
+        for (int j = 0; j < f.device.nrevolute; j++)
             assert_true(d.layout->hinge[j].free_rad > 0.4);
         int bases = 0;
         for (int k = 0; k < d.layout->npiece; k++)
@@ -622,13 +629,13 @@ static void leaf_is_exact(void **state) {
     check_pieces(d.layout);
     check_disjoint(d.layout);
     for (int j = 0; j < 6; j++) {
-        const fw_hinge_layout *h = &d.layout->hinge[j];
-        const fw_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
-        fw_region region = {(fw_contour *)c, 1};
-        fw_moments m = fw_region_moments(&region);
+        const fw_layout_hinge_layout *h = &d.layout->hinge[j];
+        const fw_geometry_contour *c = &find(d.layout, FW_ROLE_FLEXURE, 0, j)->contour;
+        fw_geometry_region region = {(fw_geometry_contour *)c, 1};
+        fw_geometry_moments m = fw_geometry_region_moments(&region);
         double length = f.flexure[j].length_m - 2.0 * h->fillet_m;
-        assert_near(m.centroid.x, f.joint[j].x_m, 1e-15);
-        assert_near(m.centroid.y, f.joint[j].y_m, 1e-15);
+        assert_near(m.centroid.x, f.revolute[j].x_m, 1e-15);
+        assert_near(m.centroid.y, f.revolute[j].y_m, 1e-15);
         assert_relative(m.area_m2, length * f.flexure[j].width_m, 1e-12);
     }
     fw_arena_free(d.arena);
@@ -655,8 +662,8 @@ static void tight_devices_are_refused(void **state) {
     fw_arena_free(d.arena);
 
     fixture_six_bar(&f);
-    f.joint[2].x_m = 1.4e-3;
-    f.joint[3].x_m = 1.6e-3;
+    f.revolute[2].x_m = 1.4e-3;
+    f.revolute[3].x_m = 1.6e-3;
     d = draw(&f);
     assert_int_equal(d.status, FW_GEOMETRY);
     assert_true(said(&d, 125, "hinges C and D", "um apart"));
@@ -670,7 +677,8 @@ static void tight_devices_are_refused(void **state) {
     fw_arena_free(d.arena);
 
     fixture_four_bar(&f);
-    f.joint[0].axis_rad = 130.0 * M_PI / 180.0; /* the crank leaves where the surfaces should be */
+    f.revolute[0].axis_rad =
+        130.0 * M_PI / 180.0; /* the crank leaves where the surfaces should be */
     d = draw(&f);
     assert_int_equal(d.status, FW_GEOMETRY);
     assert_true(said(&d, 122, "hinge P", "conjugate"));
@@ -682,7 +690,7 @@ static void bulge_may_be_turned(void **state) {
     fixture f;
     for (int step = 0; step < 12; step++) {
         fixture_six_bar(&f);
-        f.joint[1].axis_rad = step * M_PI / 6.0;
+        f.revolute[1].axis_rad = step * M_PI / 6.0;
         drawn d = draw(&f);
         assert_true(d.status == FW_OK || d.diags.errors > 0);
         if (d.status == FW_OK) {
@@ -719,7 +727,7 @@ static void without_shapes_nothing_is_drawn(void **state) {
     assert_non_null(strstr(d.layout->why_not, "DE"));
     fw_arena_free(d.arena);
     fixture_six_bar(&f);
-    f.joint[4].flexure = FW_NONE;
+    f.revolute[4].flexure = FW_NONE;
     d = draw(&f);
     assert_int_equal(d.status, FW_OK);
     assert_false(d.layout->drawn);
@@ -730,21 +738,21 @@ static void without_shapes_nothing_is_drawn(void **state) {
 
 /* joints that are no flexures are left out of the drawing, and that is said; drivers need no shape
  */
-static void ties_are_not_drawn(void **state) {
+static void joints_are_not_drawn(void **state) {
     (void)state;
     fixture f;
     fixture_six_bar(&f);
-    fw_tie tie = {.id = "rod",
-                  .kind = FW_TIE_DISTANCE,
-                  .body_a = 2,
-                  .body_b = FW_GROUND,
-                  .place = {"d.xml", 5, 3}};
-    fw_driver driver = {.joint = 0, .tie = FW_NONE};
+    fw_device_joint joint = {.id = "rod",
+                             .kind = FW_JOINT_DISTANCE,
+                             .body_a = 2,
+                             .body_b = FW_GROUND,
+                             .place = {"d.xml", 5, 3}};
+    fw_device_driver driver = {.revolute = 0, .joint = FW_NONE};
     drawn plain = draw_well(&f);
     f.device.driver = &driver, f.device.ndriver = 1;
     drawn driven = draw_well(&f);
     assert_int_equal(driven.diags.count, plain.diags.count);
-    f.device.tie = &tie, f.device.ntie = 1;
+    f.device.joint = &joint, f.device.njoint = 1;
     drawn d = draw_well(&f);
     assert_int_equal(d.diags.count, plain.diags.count + 1);
     assert_true(said(&d, 130, "distance", "rod"));
@@ -774,7 +782,8 @@ static void same_input_same_outlines(void **state) {
     drawn a = draw_well(&f), b = draw_well(&f);
     assert_int_equal(a.layout->npiece, b.layout->npiece);
     for (int i = 0; i < a.layout->npiece; i++) {
-        const fw_contour *p = &a.layout->piece[i].contour, *q = &b.layout->piece[i].contour;
+        const fw_geometry_contour *p = &a.layout->piece[i].contour,
+                                  *q = &b.layout->piece[i].contour;
         assert_int_equal(p->count, q->count);
         for (int k = 0; k < p->count; k++) {
             assert_true(same(p->segment[k].a, q->segment[k].a));
@@ -829,7 +838,7 @@ int main(void) {
         cmocka_unit_test(bulge_may_be_turned),
         cmocka_unit_test(gap_may_be_small_or_absent),
         cmocka_unit_test(without_shapes_nothing_is_drawn),
-        cmocka_unit_test(ties_are_not_drawn),
+        cmocka_unit_test(joints_are_not_drawn),
         cmocka_unit_test(large_mechanisms_are_not_drawn),
         cmocka_unit_test(same_input_same_outlines),
         cmocka_unit_test(out_of_memory_is_reported),

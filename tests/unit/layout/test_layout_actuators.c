@@ -16,17 +16,17 @@ static const double inset =
     (10 - 3 * M_PI) / (12 - 3 * M_PI);    /* its centroid, of r, from either edge */
 static const double notch = 1 - M_PI / 4; /* of r^2: what rounding takes from a square corner */
 
-static fw_comb_plan any_comb(fw_comb *c) {
-    *c = (fw_comb){.id = "c",
-                   .kind = FW_ELECTRODES_COMB,
-                   .body_a = FW_GROUND,
-                   .fingers = 1 + (int)lot(0, 30),
-                   .gap_m = lot(3e-6, 15e-6),
-                   .overlap_m = lot(15e-6, 60e-6),
-                   .width_m = lot(7.6e-6, 20e-6)};
+static fw_layout_comb_plan any_comb(fw_device_comb *c) {
+    *c = (fw_device_comb){.id = "c",
+                          .kind = FW_ELECTRODES_COMB,
+                          .body_a = FW_GROUND,
+                          .fingers = 1 + (int)lot(0, 30),
+                          .gap_m = lot(3e-6, 15e-6),
+                          .overlap_m = lot(15e-6, 60e-6),
+                          .width_m = lot(7.6e-6, 20e-6)};
     c->length_m = c->overlap_m + lot(20e-6, 80e-6);
     double turn = lot(-M_PI, M_PI);
-    return (fw_comb_plan){
+    return (fw_layout_comb_plan){
         .comb = c,
         .width_m = c->width_m,
         .length_m = c->length_m,
@@ -34,7 +34,7 @@ static fw_comb_plan any_comb(fw_comb *c) {
 }
 
 /* n fingers w by l, the bar behind them, less the corners of the tips */
-static double area_of(const fw_comb_plan *p, int n) {
+static double area_of(const fw_layout_comb_plan *p, int n) {
     double w = p->width_m, span = 2 * (n - 1) * (w + p->comb->gap_m) + w;
     return n * w * p->length_m + back * span - 2 * n * notch * tip * tip;
 }
@@ -43,30 +43,31 @@ static void electrodes_have_the_areas_of_their_fingers(void **unused) {
     (void)unused;
     for (int k = 0; k < 50; k++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_comb c;
-        fw_comb_plan p = any_comb(&c);
-        fw_contour rotor, stator;
-        assert_int_equal(fw_comb_rotor(arena, &p, &rotor), FW_OK);
-        assert_int_equal(fw_comb_stator(arena, &p, &stator), FW_OK);
-        assert_relative(fw_contour_area(&rotor), area_of(&p, c.fingers), 1e-11);
-        assert_relative(fw_contour_area(&stator), area_of(&p, c.fingers + 1), 1e-11);
+        fw_device_comb c;
+        fw_layout_comb_plan p = any_comb(&c);
+        fw_geometry_contour rotor, stator;
+        assert_int_equal(fw_layout_comb_rotor(arena, &p, &rotor), FW_OK);
+        assert_int_equal(fw_layout_comb_stator(arena, &p, &stator), FW_OK);
+        assert_relative(fw_geometry_contour_area(&rotor), area_of(&p, c.fingers), 1e-11);
+        assert_relative(fw_geometry_contour_area(&stator), area_of(&p, c.fingers + 1), 1e-11);
         fw_arena_free(arena);
     }
 }
 
 /* point of a drive's own frame */
-static fw_vec2 at(const fw_comb_plan *p, double x, double y) {
-    return fw_local_point(&p->local, fw_v(x, y));
+static fw_geometry_vec2 at(const fw_layout_comb_plan *p, double x, double y) {
+    return fw_layout_local_point(&p->local, fw_v(x, y));
 }
 
 /* the wall next after y0 on the line x of the drive: where an outline is entered or left */
-static double next_wall(const fw_comb_plan *p, const fw_contour *c, double x, double y0, bool in) {
+static double next_wall(const fw_layout_comb_plan *p, const fw_geometry_contour *c, double x,
+                        double y0, bool in) {
     double y = y0, step = 0.2e-6;
-    while (fw_contour_contains(c, at(p, x, y + step)) != in)
+    while (fw_geometry_contour_contains(c, at(p, x, y + step)) != in)
         y += step;
     for (int i = 0; i < 60; i++) {
         step *= 0.5;
-        if (fw_contour_contains(c, at(p, x, y + step)) != in) y += step;
+        if (fw_geometry_contour_contains(c, at(p, x, y + step)) != in) y += step;
     }
     return y;
 }
@@ -77,15 +78,16 @@ static void walls_face_each_other_at_the_gap(void **unused) {
     (void)unused;
     for (int k = 0; k < 20; k++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_comb c;
-        fw_comb_plan p = any_comb(&c);
-        fw_contour rotor, stator;
-        assert_int_equal(fw_comb_rotor(arena, &p, &rotor), FW_OK);
-        assert_int_equal(fw_comb_stator(arena, &p, &stator), FW_OK);
+        fw_device_comb c;
+        fw_layout_comb_plan p = any_comb(&c);
+        fw_geometry_contour rotor, stator;
+        assert_int_equal(fw_layout_comb_rotor(arena, &p, &rotor), FW_OK);
+        assert_int_equal(fw_layout_comb_stator(arena, &p, &stator), FW_OK);
         double x = lot(-0.5, 0.5) * (c.overlap_m - 2 * tip) * 0.99;
         double y = -(c.fingers + 1) * (p.width_m + c.gap_m);
         for (int i = 0; i < 2 * c.fingers; i++) { /* stator, rotor, stator, ... */
-            const fw_contour *one = i % 2 ? &rotor : &stator, *other = i % 2 ? &stator : &rotor;
+            const fw_geometry_contour *one = i % 2 ? &rotor : &stator,
+                                      *other = i % 2 ? &stator : &rotor;
             double from = next_wall(&p, one, x, y, true),
                    out = next_wall(&p, one, x, from + 1e-7, false);
             double to = next_wall(&p, other, x, out, true);
@@ -95,11 +97,14 @@ static void walls_face_each_other_at_the_gap(void **unused) {
         }
         /* the tips are half an overlap to either side of the point of the drive */
         double middle = c.fingers % 2 ? 0.0 : p.width_m + c.gap_m; /* of a finger of the rotor */
-        assert_true(fw_contour_contains(&rotor, at(&p, 0.5 * c.overlap_m - 1e-9, middle)));
-        assert_false(fw_contour_contains(&rotor, at(&p, 0.5 * c.overlap_m + 1e-9, middle)));
+        assert_true(fw_geometry_contour_contains(&rotor, at(&p, 0.5 * c.overlap_m - 1e-9, middle)));
+        assert_false(
+            fw_geometry_contour_contains(&rotor, at(&p, 0.5 * c.overlap_m + 1e-9, middle)));
         middle += p.width_m + c.gap_m;
-        assert_true(fw_contour_contains(&stator, at(&p, -0.5 * c.overlap_m + 1e-9, middle)));
-        assert_false(fw_contour_contains(&stator, at(&p, -0.5 * c.overlap_m - 1e-9, middle)));
+        assert_true(
+            fw_geometry_contour_contains(&stator, at(&p, -0.5 * c.overlap_m + 1e-9, middle)));
+        assert_false(
+            fw_geometry_contour_contains(&stator, at(&p, -0.5 * c.overlap_m - 1e-9, middle)));
         fw_arena_free(arena);
     }
 }
@@ -109,16 +114,16 @@ static void gaps_follow_the_rotor(void **unused) {
     (void)unused;
     for (int k = 0; k < 50; k++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_comb c;
-        fw_comb_plan p = any_comb(&c), moved = p;
-        fw_contour rotor, stator;
-        assert_int_equal(fw_comb_stator(arena, &p, &stator), FW_OK);
+        fw_device_comb c;
+        fw_layout_comb_plan p = any_comb(&c), moved = p;
+        fw_geometry_contour rotor, stator;
+        assert_int_equal(fw_layout_comb_stator(arena, &p, &stator), FW_OK);
         double x = lot(-0.3, 0.3) * c.overlap_m, y = lot(-0.9, 0.9) * c.gap_m;
         moved.local.origin = at(&p, x, y);
-        assert_int_equal(fw_comb_rotor(arena, &moved, &rotor), FW_OK);
+        assert_int_equal(fw_layout_comb_rotor(arena, &moved, &rotor), FW_OK);
         double ends = c.length_m - c.overlap_m - x; /* tips to roots */
-        assert_near(fw_contour_distance(&rotor, &stator, NULL, NULL), fmin(c.gap_m - fabs(y), ends),
-                    1e-15);
+        assert_near(fw_geometry_contour_distance(&rotor, &stator, NULL, NULL),
+                    fmin(c.gap_m - fabs(y), ends), 1e-15);
         fw_arena_free(arena);
     }
 }
@@ -127,17 +132,18 @@ static void plates_face_each_other_at_the_gap(void **unused) {
     (void)unused;
     for (int k = 0; k < 20; k++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_comb c;
-        fw_comb_plan p = any_comb(&c);
-        fw_contour rotor, stator;
+        fw_device_comb c;
+        fw_layout_comb_plan p = any_comb(&c);
+        fw_geometry_contour rotor, stator;
         c.kind = FW_ELECTRODES_PLATE;
-        assert_int_equal(fw_comb_rotor(arena, &p, &rotor), FW_OK);
-        assert_int_equal(fw_comb_stator(arena, &p, &stator), FW_OK);
-        assert_near(fw_contour_distance(&rotor, &stator, NULL, NULL), c.gap_m, 1e-15);
-        assert_relative(fw_contour_area(&rotor), back * p.length_m, 1e-12);
-        assert_relative(fw_contour_area(&stator), back * (p.length_m + 2 * c.gap_m + 20e-6), 1e-12);
-        assert_true(fw_contour_contains(&rotor, at(&p, -1e-9, 0)));
-        assert_false(fw_contour_contains(&rotor, at(&p, 1e-9, 0)));
+        assert_int_equal(fw_layout_comb_rotor(arena, &p, &rotor), FW_OK);
+        assert_int_equal(fw_layout_comb_stator(arena, &p, &stator), FW_OK);
+        assert_near(fw_geometry_contour_distance(&rotor, &stator, NULL, NULL), c.gap_m, 1e-15);
+        assert_relative(fw_geometry_contour_area(&rotor), back * p.length_m, 1e-12);
+        assert_relative(fw_geometry_contour_area(&stator),
+                        back * (p.length_m + 2 * c.gap_m + 20e-6), 1e-12);
+        assert_true(fw_geometry_contour_contains(&rotor, at(&p, -1e-9, 0)));
+        assert_false(fw_geometry_contour_contains(&rotor, at(&p, 1e-9, 0)));
         fw_arena_free(arena);
     }
 }
@@ -168,13 +174,13 @@ static int said(const drawn *d, int number, const char *words) {
     return n;
 }
 
-static const fw_piece *labelled(const fw_layout *l, const char *label) {
+static const fw_layout_piece *labelled(const fw_layout *l, const char *label) {
     for (int i = 0; i < l->npiece; i++)
         if (strcmp(l->piece[i].label, label) == 0) return &l->piece[i];
     return NULL;
 }
 
-static const fw_piece *body_piece(const fw_layout *l, int body) {
+static const fw_layout_piece *body_piece(const fw_layout *l, int body) {
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].role == FW_ROLE_STRUCTURE && l->piece[i].body == body) return &l->piece[i];
     return NULL;
@@ -182,26 +188,26 @@ static const fw_piece *body_piece(const fw_layout *l, int body) {
 
 /* the paddle, its pose stated at the middle of its plate: five fingers on the short edge away from
    the hinge */
-static fw_scene scene;
-static fw_comb comb;
+static fw_device_scene scene;
+static fw_device_comb comb;
 static void paddle_with_comb(fixture *f, double along_m, double across_m) {
     fixture_paddle(f);
     f->device.die.tethers = false; /* whose stubs are no part of a body's moments */
     f->body[0].x_m = 0.5e-3;
     f->body[0].y_m = 0.3e-3;
     double c = cos(M_PI / 6), s = sin(M_PI / 6);
-    comb = (fw_comb){.id = "push",
-                     .kind = FW_ELECTRODES_COMB,
-                     .body_a = FW_GROUND,
-                     .bx_m = c * along_m - s * across_m,
-                     .by_m = s * along_m + c * across_m,
-                     .direction_rad = M_PI / 6,
-                     .fingers = 5,
-                     .gap_m = 9e-6,
-                     .overlap_m = 40e-6,
-                     .length_m = 100e-6,
-                     .width_m = 10e-6};
-    scene = (fw_scene){.name = "s", .comb = &comb, .ncomb = 1};
+    comb = (fw_device_comb){.id = "push",
+                            .kind = FW_ELECTRODES_COMB,
+                            .body_a = FW_GROUND,
+                            .bx_m = c * along_m - s * across_m,
+                            .by_m = s * along_m + c * across_m,
+                            .direction_rad = M_PI / 6,
+                            .fingers = 5,
+                            .gap_m = 9e-6,
+                            .overlap_m = 40e-6,
+                            .length_m = 100e-6,
+                            .width_m = 10e-6};
+    scene = (fw_device_scene){.name = "s", .comb = &comb, .ncomb = 1};
     f->device.scene = &scene;
     f->device.nscene = 1;
 }
@@ -215,32 +221,32 @@ static void a_comb_is_on_its_body(void **unused) {
     f.device.nscene = 1;
     drawn with = draw(&f.device);
     assert_int_equal(said(&with, 131, ""), 0);
-    const fw_piece *stator = labelled(with.layout, "stator of comb drive push"),
-                   *rotor = body_piece(with.layout, 0);
+    const fw_layout_piece *stator = labelled(with.layout, "stator of comb drive push"),
+                          *rotor = body_piece(with.layout, 0);
     assert_non_null(stator);
     assert_int_equal(stator->body, FW_ISLAND);
-    assert_near(fw_contour_distance(&stator->contour, &rotor->contour, NULL, NULL), comb.gap_m,
-                1e-13);
+    assert_near(fw_geometry_contour_distance(&stator->contour, &rotor->contour, NULL, NULL),
+                comb.gap_m, 1e-13);
 
     /* area: fingers, less their tips, plus the hollow corners at their roots; the bar is inside the
        plate. Inertia: rectangles about the common centre; the corners as points. */
-    const fw_body_layout *a = &without.layout->body[0], *b = &with.layout->body[0];
+    const fw_layout_body_layout *a = &without.layout->body[0], *b = &with.layout->body[0];
     double w = comb.width_m, l = comb.length_m, pitch = 2 * (w + comb.gap_m);
     double more = 5 * w * l + 10 * notch * (corner * corner - tip * tip);
     assert_near(b->area_m2 - a->area_m2, more, 1e-17);
-    fw_local plate = {fw_v(0.5e-3, 0.3e-3), cos(M_PI / 6), sin(M_PI / 6), false};
+    fw_layout_local plate = {fw_v(0.5e-3, 0.3e-3), cos(M_PI / 6), sin(M_PI / 6), false};
     double area = a->area_m2, mx = area * a->centroid.x, my = area * a->centroid.y;
     double about = a->polar_m4 + area * fw_dot(a->centroid, a->centroid); /* the origin */
     for (int i = 0; i < 5; i++) {
         double y = (i - 2) * pitch;
-        fw_vec2 m = fw_local_point(&plate, fw_v(0.45e-3, y));
+        fw_geometry_vec2 m = fw_layout_local_point(&plate, fw_v(0.45e-3, y));
         area += w * l, mx += w * l * m.x, my += w * l * m.y;
         about += w * l * ((w * w + l * l) / 12 + fw_dot(m, m));
         for (int end = 0; end < 4; end++) { /* two tips, two roots */
             double r = end < 2 ? tip : corner, da = (end < 2 ? -notch : notch) * r * r;
             double side =
                 (end % 2 ? 1 : -1) * (end < 2 ? 0.5 * w - inset * tip : 0.5 * w + inset * corner);
-            fw_vec2 q = fw_local_point(
+            fw_geometry_vec2 q = fw_layout_local_point(
                 &plate, fw_v(end < 2 ? 0.5e-3 - inset * tip : 0.4e-3 + inset * corner, y + side));
             area += da, mx += da * q.x, my += da * q.y, about += da * fw_dot(q, q);
         }
@@ -254,18 +260,19 @@ static void a_comb_is_on_its_body(void **unused) {
        area of 150 um and the letters on it */
     int letters = 0;
     for (int i = 0; i < with.layout->npiece; i++) {
-        const fw_piece *p = &with.layout->piece[i];
+        const fw_layout_piece *p = &with.layout->piece[i];
         if (p->body == FW_ISLAND && p->role == FW_ROLE_TEXT) {
             letters++;
-            assert_true(fw_contour_contains(&stator->contour, p->contour.segment[0].a));
+            assert_true(fw_geometry_contour_contains(&stator->contour, p->contour.segment[0].a));
         } else if (p->role == FW_ROLE_FRAME || p->role == FW_ROLE_TETHER ||
                    (p->role == FW_ROLE_STRUCTURE && p->body == FW_GROUND)) {
-            assert_true(fw_contour_distance(&p->contour, &stator->contour, NULL, NULL) > 19.9e-6);
+            assert_true(fw_geometry_contour_distance(&p->contour, &stator->contour, NULL, NULL) >
+                        19.9e-6);
         }
     }
     assert_true(letters >= 4);
-    fw_comb_plan plan = {.comb = &comb, .width_m = w, .length_m = l};
-    assert_true(fw_contour_area(&stator->contour) > area_of(&plan, 6) + 150e-6 * 150e-6);
+    fw_layout_comb_plan plan = {.comb = &comb, .width_m = w, .length_m = l};
+    assert_true(fw_geometry_contour_area(&stator->contour) > area_of(&plan, 6) + 150e-6 * 150e-6);
     fw_arena_free(without.arena);
     fw_arena_free(with.arena);
 }
@@ -325,21 +332,22 @@ static void a_small_die_has_no_stator(void **unused) {
 
 /* ---- eyelets ---- */
 
-static fw_tendon tendon;
-static fw_eyelet eyelet[4];
+static fw_device_tendon tendon;
+static fw_device_eyelet eyelet[4];
 static void paddle_with_tendon(fixture *f) {
     fixture_paddle(f);
     f->device.die.tethers = false; /* whose stubs are no part of a body's moments */
-    eyelet[0] = (fw_eyelet){.body = 0, .x_m = 0.36e-3, .y_m = 0.36e-3};
-    eyelet[1] = (fw_eyelet){.body = FW_GROUND, .x_m = 0.7e-3, .y_m = 1.3e-3};
-    eyelet[2] = (fw_eyelet){.body = FW_GROUND, .x_m = 0.7e-3, .y_m = 9e-3};
-    tendon = (fw_tendon){.id = "t", .eyelet = eyelet, .neyelet = 1, .pull_N = 1e-3, .draw_m = NONE};
-    scene = (fw_scene){.name = "s", .tendon = &tendon, .ntendon = 1};
+    eyelet[0] = (fw_device_eyelet){.body = 0, .x_m = 0.36e-3, .y_m = 0.36e-3};
+    eyelet[1] = (fw_device_eyelet){.body = FW_GROUND, .x_m = 0.7e-3, .y_m = 1.3e-3};
+    eyelet[2] = (fw_device_eyelet){.body = FW_GROUND, .x_m = 0.7e-3, .y_m = 9e-3};
+    tendon = (fw_device_tendon){
+        .id = "t", .eyelet = eyelet, .neyelet = 1, .pull_N = 1e-3, .draw_m = NONE};
+    scene = (fw_device_scene){.name = "s", .tendon = &tendon, .ntendon = 1};
     f->device.scene = &scene;
     f->device.nscene = 1;
 }
 
-static const fw_segment *hole_of(const fw_contour *c, double radius_m) {
+static const fw_geometry_segment *hole_of(const fw_geometry_contour *c, double radius_m) {
     for (int i = 0; i < c->count; i++)
         if (c->segment[i].kind == FW_ARC && c->segment[i].sweep_rad < 0 &&
             fabs(c->segment[i].radius - radius_m) < 1e-12)
@@ -355,34 +363,38 @@ static void a_ring_is_where_the_cable_pulls(void **unused) {
     paddle_with_tendon(&f);
     for (int k = 0; k < 12; k++) {
         double r = lot(8.5e-6, 60e-6), ring = lot(15e-6, 60e-6), a = lot(0.55, 1.2);
-        eyelet[0] = (fw_eyelet){.body = 0,
-                                .x_m = 0.4e-3 * cos(a),
-                                .y_m = 0.4e-3 * sin(a),
-                                .hole_m = 2 * r,
-                                .ring_m = ring};
+        eyelet[0] = (fw_device_eyelet){.body = 0,
+                                       .x_m = 0.4e-3 * cos(a),
+                                       .y_m = 0.4e-3 * sin(a),
+                                       .hole_m = 2 * r,
+                                       .ring_m = ring};
         f.device.nscene = 0;
         drawn without = draw(&f.device);
         f.device.nscene = 1;
         drawn d = draw(&f.device);
         assert_int_equal(said(&d, 131, ""), 0);
-        const fw_piece *body = body_piece(d.layout, 0),
-                       *cap = labelled(d.layout, "ring of tendon t");
+        const fw_layout_piece *body = body_piece(d.layout, 0),
+                              *cap = labelled(d.layout, "ring of tendon t");
         assert_non_null(cap);
-        const fw_segment *hole = hole_of(&body->contour, r), *rest = hole_of(&cap->contour, r);
+        const fw_geometry_segment *hole = hole_of(&body->contour, r),
+                                  *rest = hole_of(&cap->contour, r);
         assert_non_null(hole);
         assert_non_null(rest);
         assert_near(fabs(hole->sweep_rad) + fabs(rest->sweep_rad), 2 * M_PI, 1e-9);
-        fw_vec2 c = d.layout->body[0].centroid;
+        fw_geometry_vec2 c = d.layout->body[0].centroid;
         assert_near(hole->centre.x, c.x + eyelet[0].x_m, 2e-12);
         assert_near(hole->centre.y, c.y + eyelet[0].y_m, 2e-12);
         shift = fmax(shift, fw_norm(fw_sub(c, without.layout->body[0].centroid)));
         assert_relative(d.layout->body[0].area_m2,
-                        fw_contour_area(&body->contour) + fw_contour_area(&cap->contour), 1e-12);
+                        fw_geometry_contour_area(&body->contour) +
+                            fw_geometry_contour_area(&cap->contour),
+                        1e-12);
         /* a circle of the ring's width about the hole is material all round */
         for (int i = 0; i < 360; i++) {
-            fw_vec2 p = fw_add(hole->centre, r + 0.99 * ring, fw_polar(i * M_PI / 180 + 1e-4));
-            assert_true(fw_contour_contains(&body->contour, p) ||
-                        fw_contour_contains(&cap->contour, p));
+            fw_geometry_vec2 p =
+                fw_add(hole->centre, r + 0.99 * ring, fw_polar(i * M_PI / 180 + 1e-4));
+            assert_true(fw_geometry_contour_contains(&body->contour, p) ||
+                        fw_geometry_contour_contains(&cap->contour, p));
         }
         fw_arena_free(without.arena);
         fw_arena_free(d.arena);
@@ -397,14 +409,16 @@ static void a_bias_keeps_the_ring_closed(void **unused) {
     paddle_with_tendon(&f);
     for (int k = 0; k < 20; k++) {
         double a = lot(0.55, 1.2), bias = lot(-1.5e-6, 1.5e-6);
-        eyelet[0] = (fw_eyelet){.body = 0, .x_m = 0.4e-3 * cos(a), .y_m = 0.4e-3 * sin(a)};
+        eyelet[0] = (fw_device_eyelet){.body = 0, .x_m = 0.4e-3 * cos(a), .y_m = 0.4e-3 * sin(a)};
         drawn d = draw(&f.device);
-        const fw_piece *body = body_piece(d.layout, 0),
-                       *cap = labelled(d.layout, "ring of tendon t");
-        fw_contour big, small;
+        const fw_layout_piece *body = body_piece(d.layout, 0),
+                              *cap = labelled(d.layout, "ring of tendon t");
+        fw_geometry_contour big, small;
         int i, j, met = 0;
-        assert_int_equal(fw_contour_offset(d.arena, &body->contour, bias, &big, &i, &j), FW_OK);
-        assert_int_equal(fw_contour_offset(d.arena, &cap->contour, bias, &small, &i, &j), FW_OK);
+        assert_int_equal(fw_geometry_contour_offset(d.arena, &body->contour, bias, &big, &i, &j),
+                         FW_OK);
+        assert_int_equal(fw_geometry_contour_offset(d.arena, &cap->contour, bias, &small, &i, &j),
+                         FW_OK);
         assert_non_null(hole_of(&big, 40e-6 - bias));
         assert_non_null(hole_of(&small, 40e-6 - bias));
         for (i = 0; i < small.count; i++)
@@ -427,13 +441,13 @@ static void eyelets_on_the_ground_are_in_the_frame(void **unused) {
     assert_int_equal(said(&one, 131, ""), 0);
     fw_arena_free(one.arena);
     tendon.neyelet = 3;
-    eyelet[1] = (fw_eyelet){.body = FW_GROUND, .x_m = middle, .y_m = top + 125e-6};
+    eyelet[1] = (fw_device_eyelet){.body = FW_GROUND, .x_m = middle, .y_m = top + 125e-6};
     drawn d = draw(&f.device);
     int caps = 0, holes = 0;
     for (int i = 0; i < d.layout->npiece; i++) {
-        const fw_piece *p = &d.layout->piece[i];
+        const fw_layout_piece *p = &d.layout->piece[i];
         if (p->role != FW_ROLE_FRAME) continue;
-        const fw_segment *hole = hole_of(&p->contour, 40e-6);
+        const fw_geometry_segment *hole = hole_of(&p->contour, 40e-6);
         if (!hole) continue;
         assert_near(hole->centre.x, middle, 1e-15);
         assert_near(hole->centre.y, top + 125e-6, 1e-15);
@@ -448,7 +462,7 @@ static void eyelets_on_the_ground_are_in_the_frame(void **unused) {
     fw_arena_free(d.arena);
     /* in the midst of the hinge */
     tendon.neyelet = 2;
-    eyelet[1] = (fw_eyelet){.body = FW_GROUND, .x_m = 20e-6, .y_m = 20e-6};
+    eyelet[1] = (fw_device_eyelet){.body = FW_GROUND, .x_m = 20e-6, .y_m = 20e-6};
     d = draw(&f.device);
     assert_int_equal(said(&d, 131, "ring would cross or nearly touch platform paddle at ("), 1);
     fw_arena_free(d.arena);

@@ -30,7 +30,7 @@ static double coupler_area(const fw_layout *l) {
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].role == FW_ROLE_STRUCTURE && l->piece[i].body == 0) {
             outlines++;
-            area = fw_contour_area(&l->piece[i].contour);
+            area = fw_geometry_contour_area(&l->piece[i].contour);
         }
     assert_int_equal(outlines, 1);
     return area;

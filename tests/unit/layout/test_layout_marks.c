@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include "test.h"
 
 typedef struct sheet {
     fw_arena *arena;
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int n, capacity;
 } sheet;
 
-static const fw_box die = {-0.8e-3, -0.5e-3, 4.8e-3, 4.5e-3};
-static const fw_box window = {-0.55e-3, -0.25e-3, 4.55e-3, 4.25e-3};
+static const fw_geometry_box die = {-0.8e-3, -0.5e-3, 4.8e-3, 4.5e-3};
+static const fw_geometry_box window = {-0.55e-3, -0.25e-3, 4.55e-3, 4.25e-3};
 
-static fw_device device(fw_parameter *parameter, int n) {
+static fw_device device(fw_device_parameter *parameter, int n) {
     return (fw_device){.name = "six-bar",
                        .parameter = parameter,
                        .nparameter = n,
@@ -19,15 +19,16 @@ static fw_device device(fw_parameter *parameter, int n) {
                        .die = {.lane_m = (double)NAN, .title = "REFERENCE SIX-BAR"}};
 }
 
-static fw_status annotate(sheet *s, const fw_device *d, fw_box inner, fw_box outer) {
+static fw_status annotate(sheet *s, const fw_device *d, fw_geometry_box inner,
+                          fw_geometry_box outer) {
     *s = (sheet){.arena = fw_arena_new(0)};
     return fw_layout_annotate(s->arena, d, inner, outer, NULL, &s->piece, &s->n, &s->capacity);
 }
 
-static double area_of(const sheet *s, fw_role role) {
+static double area_of(const sheet *s, fw_layout_role role) {
     double sum = 0;
     for (int i = 0; i < s->n; i++)
-        if (s->piece[i].role == role) sum += fw_contour_area(&s->piece[i].contour);
+        if (s->piece[i].role == role) sum += fw_geometry_contour_area(&s->piece[i].contour);
     return sum;
 }
 
@@ -38,7 +39,7 @@ static int count_of(const sheet *s, const char *label) {
     return n;
 }
 
-static fw_parameter two[] = {
+static fw_device_parameter two[] = {
     {.name = "arc", .value = 240 * 3.14159265358979323846 / 180, .unit = "deg"},
     {.name = "link", .value = 120e-6, .unit = "um"},
 };
@@ -59,7 +60,7 @@ static void everything_is_there(void **state) {
     for (int i = 0; i < s.n; i++) {
         assert_int_equal(s.piece[i].body, FW_NONE - 1);
         assert_int_equal(s.piece[i].joint, FW_NONE);
-        assert_true(fw_contour_area(&s.piece[i].contour) > 0);
+        assert_true(fw_geometry_contour_area(&s.piece[i].contour) > 0);
     }
     fw_arena_free(s.arena);
 }
@@ -73,14 +74,15 @@ static void nothing_overlaps(void **state) {
     const double lane = 100e-6, least = 5e-6 - 1e-15;
     for (int i = 0; i < s.n; i++) {
         if (s.piece[i].role == FW_ROLE_DICING) continue;
-        fw_box b = fw_contour_box(&s.piece[i].contour);
+        fw_geometry_box b = fw_geometry_contour_box(&s.piece[i].contour);
         assert_true(b.x0 >= die.x0 + lane + least && b.x1 <= die.x1 - lane - least);
         assert_true(b.y0 >= die.y0 + lane + least && b.y1 <= die.y1 - lane - least);
         assert_true(b.x1 <= window.x0 - least || b.x0 >= window.x1 + least ||
                     b.y1 <= window.y0 - least || b.y0 >= window.y1 + least);
         for (int j = 0; j < i; j++) {
-            fw_vec2 p, q;
-            double gap = fw_contour_distance(&s.piece[i].contour, &s.piece[j].contour, &p, &q);
+            fw_geometry_vec2 p, q;
+            double gap =
+                fw_geometry_contour_distance(&s.piece[i].contour, &s.piece[j].contour, &p, &q);
             if (s.piece[j].role != FW_ROLE_DICING && gap < least)
                 fail_msg("%s and %s are %g m apart", s.piece[i].label, s.piece[j].label, gap);
         }
@@ -88,7 +90,7 @@ static void nothing_overlaps(void **state) {
     fw_arena_free(s.arena);
 }
 
-static bool same(fw_vec2 p, fw_vec2 q) {
+static bool same(fw_geometry_vec2 p, fw_geometry_vec2 q) {
     return p.x == q.x && p.y == q.y;
 }
 
@@ -100,12 +102,12 @@ static void lane_joints_have_partners(void **state) {
     int joints = 0, partners = 0;
     for (int i = 0; i < s.n; i++)
         for (int a = 0; a < s.piece[i].contour.count; a++) {
-            const fw_segment *p = &s.piece[i].contour.segment[a];
+            const fw_geometry_segment *p = &s.piece[i].contour.segment[a];
             if (!(p->flags & FW_SEGMENT_JOINT)) continue;
             joints++;
             for (int j = 0; j < s.n; j++)
                 for (int b = 0; j != i && b < s.piece[j].contour.count; b++) {
-                    const fw_segment *q = &s.piece[j].contour.segment[b];
+                    const fw_geometry_segment *q = &s.piece[j].contour.segment[b];
                     partners += q->flags & FW_SEGMENT_JOINT && same(p->a, q->b) && same(p->b, q->a);
                 }
         }
@@ -116,9 +118,9 @@ static void lane_joints_have_partners(void **state) {
 
 static void long_text_is_cut(void **state) {
     (void)state;
-    fw_parameter many[60];
+    fw_device_parameter many[60];
     for (int i = 0; i < 60; i++)
-        many[i] = (fw_parameter){.name = "a-rather-long-name", .value = 1e-6, .unit = "um"};
+        many[i] = (fw_device_parameter){.name = "a-rather-long-name", .value = 1e-6, .unit = "um"};
     sheet s;
     fw_device d = device(many, 60);
     char title[400];
@@ -127,7 +129,7 @@ static void long_text_is_cut(void **state) {
     d.die.title = title;
     assert_int_equal(annotate(&s, &d, window, die), FW_OK);
     for (int i = 0; i < s.n; i++) {
-        fw_box b = fw_contour_box(&s.piece[i].contour);
+        fw_geometry_box b = fw_geometry_contour_box(&s.piece[i].contour);
         if (s.piece[i].role == FW_ROLE_TEXT)
             assert_true(b.x0 >= window.x0 - 1e-15 && b.x1 <= window.x1 + 1e-15);
     }
@@ -139,9 +141,9 @@ static void long_text_is_cut(void **state) {
 /* the drawing is the same for all flows: neither their thickness nor their order shows on it */
 static void flows_leave_no_mark(void **state) {
     (void)state;
-    fw_flow_use flow[] = {{.ref = "al-masked-rie", .thickness_m = (double)NAN},
-                          {.ref = "copper-on-porous-silicon", .thickness_m = 9e-6}};
-    fw_flow_use swapped[] = {flow[1], flow[0]};
+    fw_device_flow_use flow[] = {{.ref = "al-masked-rie", .thickness_m = (double)NAN},
+                                 {.ref = "copper-on-porous-silicon", .thickness_m = 9e-6}};
+    fw_device_flow_use swapped[] = {flow[1], flow[0]};
     sheet s[3];
     fw_device d = device(two, 2);
     assert_int_equal(annotate(&s[0], &d, window, die), FW_OK);
@@ -151,7 +153,7 @@ static void flows_leave_no_mark(void **state) {
         assert_int_equal(annotate(&s[k], &d, window, die), FW_OK);
         assert_int_equal(s[k].n, s[0].n);
         for (int i = 0; i < s[0].n; i++) {
-            const fw_contour *a = &s[0].piece[i].contour, *b = &s[k].piece[i].contour;
+            const fw_geometry_contour *a = &s[0].piece[i].contour, *b = &s[k].piece[i].contour;
             assert_int_equal(a->count, b->count);
             for (int j = 0; j < a->count; j++)
                 assert_true(a->segment[j].a.x == b->segment[j].a.x &&
@@ -170,7 +172,7 @@ static void narrow_bars(void **state) {
     (void)state;
     sheet s;
     fw_device d = device(two, 2);
-    fw_box tight = {die.x0 + 120e-6, die.y0 + 120e-6, die.x1 - 120e-6, die.y1 - 120e-6};
+    fw_geometry_box tight = {die.x0 + 120e-6, die.y0 + 120e-6, die.x1 - 120e-6, die.y1 - 120e-6};
     assert_int_equal(annotate(&s, &d, tight, die), FW_OK); /* 40 % of 120 um is lane */
     assert_int_equal(count_of(&s, "alignment cross"), 0);
     assert_int_equal(count_of(&s, "dicing lane"), 4);
@@ -181,7 +183,7 @@ static void narrow_bars(void **state) {
     d.die.lane_m = (double)NAN;
     assert_int_equal(annotate(&s, &d, die, window), FW_GEOMETRY);
     fw_arena_free(s.arena);
-    assert_int_equal(annotate(&s, &d, (fw_box){(double)NAN, 0, 1, 1}, die), FW_GEOMETRY);
+    assert_int_equal(annotate(&s, &d, (fw_geometry_box){(double)NAN, 0, 1, 1}, die), FW_GEOMETRY);
     fw_arena_free(s.arena);
 }
 

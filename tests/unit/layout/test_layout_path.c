@@ -28,10 +28,10 @@ static drawn draw_well(const fixture *f) {
     return d;
 }
 
-static void make_path(fw_flexure *f, const fw_strip_piece *piece, int n) {
+static void make_path(fw_device_flexure *f, const fw_geometry_strip_piece *piece, int n) {
     f->kind = FW_FLEXURE_PATH;
     f->piece = piece, f->npiece = n;
-    f->length_m = fw_strip_length(piece, n);
+    f->length_m = fw_geometry_strip_length(piece, n);
     f->angle_rad = f->radius_m = 0;
     f->width_m = HUGE_VAL;
     for (int i = 0; i < n; i++)
@@ -39,11 +39,11 @@ static void make_path(fw_flexure *f, const fw_strip_piece *piece, int n) {
             f->width_m = fmin(f->width_m, piece[i].width_m[k]);
 }
 
-static const fw_strip_piece hook[2] = {{120e-6, 0, {9e-6, 8e-6, 7e-6}},
-                                       {80e-6 * 1.6, 1 / 80e-6, {7e-6, 8.2e-6, 9e-6}}};
-static const fw_strip_piece hairpin[3] = {{50e-6, 0, {7e-6, 7e-6, 7e-6}},
-                                          {70e-6 * M_PI, 1 / 70e-6, {7e-6, 9e-6, 7e-6}},
-                                          {50e-6, 0, {7e-6, 7e-6, 7e-6}}};
+static const fw_geometry_strip_piece hook[2] = {{120e-6, 0, {9e-6, 8e-6, 7e-6}},
+                                                {80e-6 * 1.6, 1 / 80e-6, {7e-6, 8.2e-6, 9e-6}}};
+static const fw_geometry_strip_piece hairpin[3] = {{50e-6, 0, {7e-6, 7e-6, 7e-6}},
+                                                   {70e-6 * M_PI, 1 / 70e-6, {7e-6, 9e-6, 7e-6}},
+                                                   {50e-6, 0, {7e-6, 7e-6, 7e-6}}};
 
 /* P csfh thick in the middle, Q hairpin, R hook, S leaf thin in the middle */
 static void four_kinds(fixture *f) {
@@ -51,12 +51,12 @@ static void four_kinds(fixture *f) {
     f->flexure[0].width_middle_m = 11e-6;
     make_path(&f->flexure[1], hairpin, 3);
     make_path(&f->flexure[2], hook, 2);
-    fw_flexure *leaf = &f->flexure[3];
+    fw_device_flexure *leaf = &f->flexure[3];
     leaf->kind = FW_FLEXURE_LEAF, leaf->length_m = 250e-6, leaf->gap_m = 0;
     leaf->width_m = 12e-6, leaf->width_middle_m = 7e-6;
 }
 
-static const fw_piece *flexure_of(const fw_layout *l, int joint) {
+static const fw_layout_piece *flexure_of(const fw_layout *l, int joint) {
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].role == FW_ROLE_FLEXURE && l->piece[i].joint == joint) return &l->piece[i];
     fail_msg("no flexure of joint %d", joint);
@@ -73,23 +73,23 @@ static void pieces_share_their_cuts(void **state) {
     drawn d = draw_well(&f);
     const fw_layout *l = d.layout;
     for (int b = 0; b < 3; b++) {
-        fw_contour *c = fw_arena_array(d.arena, fw_contour, (size_t)l->npiece);
+        fw_geometry_contour *c = fw_arena_array(d.arena, fw_geometry_contour, (size_t)l->npiece);
         for (int i = 0; i < l->npiece; i++)
             if (l->piece[i].role == FW_ROLE_FLEXURE || l->piece[i].role == FW_ROLE_STRUCTURE)
-                assert_int_equal(
-                    fw_contour_offset(d.arena, &l->piece[i].contour, bias[b], &c[i], NULL, NULL),
-                    FW_OK);
+                assert_int_equal(fw_geometry_contour_offset(d.arena, &l->piece[i].contour, bias[b],
+                                                            &c[i], NULL, NULL),
+                                 FW_OK);
         for (int j = 0; j < 4; j++) {
             int cuts = 0, shared = 0;
             for (int i = 0; i < l->npiece; i++) {
                 if (&l->piece[i] != flexure_of(l, j)) continue;
                 for (int k = 0; k < c[i].count; k++) {
-                    const fw_segment *e = &c[i].segment[k];
+                    const fw_geometry_segment *e = &c[i].segment[k];
                     if (!(e->flags & FW_SEGMENT_JOINT)) continue;
                     cuts++;
                     for (int o = 0; o < l->npiece; o++)
                         for (int m = 0; o != i && m < c[o].count; m++) {
-                            const fw_segment *g = &c[o].segment[m];
+                            const fw_geometry_segment *g = &c[o].segment[m];
                             shared += (g->flags & FW_SEGMENT_JOINT) && e->a.x == g->b.x &&
                                       e->a.y == g->b.y && e->b.x == g->a.x && e->b.y == g->a.y;
                         }
@@ -110,32 +110,32 @@ static void area_and_centre(void **state) {
     four_kinds(&f);
     drawn d = draw_well(&f);
     for (int j = 0; j < 4; j++) {
-        const fw_hinge_layout *h = &d.layout->hinge[j];
+        const fw_layout_hinge_layout *h = &d.layout->hinge[j];
         fw_flexure_input in = fw_flexure_input_of(&f.flexure[j], h->fillet_m);
         fw_flexure_shape shape;
         fw_flexure_shape_of(&in, &shape);
-        fw_vec2 w = fw_add(h->arc_centre, shape.centre_m, fw_polar(h->axis_rad));
-        assert_near(w.x, f.joint[j].x_m, 1e-15);
-        assert_near(w.y, f.joint[j].y_m, 1e-15);
-        fw_hinge_shape root[2];
-        assert_true(fw_hinge_shape_path(&f.flexure[j], h->fillet_m, root));
-        fw_course c;
-        fw_path_of(&in, &c);
+        fw_geometry_vec2 w = fw_add(h->arc_centre, shape.centre_m, fw_polar(h->axis_rad));
+        assert_near(w.x, f.revolute[j].x_m, 1e-15);
+        assert_near(w.y, f.revolute[j].y_m, 1e-15);
+        fw_layout_hinge_shape root[2];
+        assert_true(fw_layout_hinge_shape_path(&f.flexure[j], h->fillet_m, root));
+        fw_flexure_course c;
+        fw_flexure_path_of(&in, &c);
         double whole = 0, sum = 0, before = 0;
         for (int i = 0; i < c.n; i++)
             whole += c.shape[i].piece.length_m;
         enum { N = 4000 };
         for (int i = 0; i < c.n; before += c.shape[i++].piece.length_m) {
-            const fw_strip_piece *p = &c.shape[i].piece;
+            const fw_geometry_strip_piece *p = &c.shape[i].piece;
             double from = fmax(0, root[0].cut_m - before);
             double to = fmin(p->length_m, whole - root[1].cut_m - before);
             for (int k = 0; k < N; k++) {
                 double s = from + (to - from) * (k + 0.5) / N;
-                sum += (to - from) / N * fw_strip_width(&c.shape[i], s) *
-                       (1 - p->curvature_per_m * fw_strip_aside(&c.shape[i], s));
+                sum += (to - from) / N * fw_geometry_strip_width(&c.shape[i], s) *
+                       (1 - p->curvature_per_m * fw_geometry_strip_aside(&c.shape[i], s));
             }
         }
-        assert_relative(fw_contour_area(&flexure_of(d.layout, j)->contour), sum, 1e-7);
+        assert_relative(fw_geometry_contour_area(&flexure_of(d.layout, j)->contour), sum, 1e-7);
     }
     assert_true(d.layout->hinge[1].facing_rad > 0.35 && d.layout->hinge[2].facing_rad > 0.35);
     fw_arena_free(d.arena);
@@ -145,7 +145,7 @@ static double whole_area(const fw_layout *l) {
     double sum = 0;
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].role == FW_ROLE_FLEXURE || l->piece[i].role == FW_ROLE_STRUCTURE)
-            sum += fw_contour_area(&l->piece[i].contour);
+            sum += fw_geometry_contour_area(&l->piece[i].contour);
     return sum;
 }
 
@@ -157,18 +157,20 @@ static void one_arc_is_drawn_as_a_csfh(void **state) {
     fixture_four_bar(&plain);
     fixture_four_bar(&path);
     double r = plain.flexure[0].radius_m, L = plain.flexure[0].length_m, t = 8e-6;
-    const fw_strip_piece one[1] = {{L, 1 / r, {t, t, t}}};
-    const fw_strip_piece two[2] = {{0.4 * L, 1 / r, {t, t, t}}, {0.6 * L, 1 / r, {t, t, t}}};
+    const fw_geometry_strip_piece one[1] = {{L, 1 / r, {t, t, t}}};
+    const fw_geometry_strip_piece two[2] = {{0.4 * L, 1 / r, {t, t, t}},
+                                            {0.6 * L, 1 / r, {t, t, t}}};
     for (int j = 0; j < 4; j++)
         make_path(&path.flexure[j], j % 2 ? two : one, j % 2 ? 2 : 1);
     drawn a = draw_well(&plain), b = draw_well(&path);
     assert_relative(whole_area(b.layout), whole_area(a.layout), 1e-9);
     for (int j = 0; j < 4; j++) {
-        const fw_hinge_layout *p = &a.layout->hinge[j], *q = &b.layout->hinge[j];
+        const fw_layout_hinge_layout *p = &a.layout->hinge[j], *q = &b.layout->hinge[j];
         assert_near(q->keep_out_m, p->keep_out_m, 1e-6);
         assert_near(q->fillet_m, p->fillet_m, 1e-12);
-        assert_near(fw_contour_area(&flexure_of(b.layout, j)->contour),
-                    fw_contour_area(&flexure_of(a.layout, j)->contour) - 2 * 1e-6 * t, 1e-15);
+        assert_near(fw_geometry_contour_area(&flexure_of(b.layout, j)->contour),
+                    fw_geometry_contour_area(&flexure_of(a.layout, j)->contour) - 2 * 1e-6 * t,
+                    1e-15);
     }
     fw_arena_free(a.arena);
     fw_arena_free(b.arena);
@@ -180,7 +182,8 @@ static void what_cannot_be_drawn_is_refused(void **state) {
     fixture f;
     fixture_four_bar(&f);
     const double r = 50e-6, t = 7e-6;
-    const fw_strip_piece wave[2] = {{r * M_PI, 1 / r, {t, t, t}}, {r * M_PI, -1 / r, {t, t, t}}};
+    const fw_geometry_strip_piece wave[2] = {{r * M_PI, 1 / r, {t, t, t}},
+                                             {r * M_PI, -1 / r, {t, t, t}}};
     make_path(&f.flexure[1], wave, 2);
     drawn d = draw(&f);
     assert_int_equal(d.status, FW_GEOMETRY);

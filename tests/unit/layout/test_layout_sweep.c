@@ -16,16 +16,16 @@ static void set_links(fixture *f, double width_m) {
 }
 
 static void mirror(fixture *f) {
-    for (int i = 0; i < f->device.njoint; i++)
-        f->joint[i].x_m = -f->joint[i].x_m;
+    for (int i = 0; i < f->device.nrevolute; i++)
+        f->revolute[i].x_m = -f->revolute[i].x_m;
     for (int i = 0; i < f->device.nbody; i++)
         f->body[i].plate_x_m = -f->body[i].plate_x_m;
 }
 
 /* least width, space and hollow radius that a mask rule of 4 um and a bias of 1.1 um leave */
-static const char *unsound(const fw_contour *c) {
-    if (fw_contour_clearance(c, true, NULL, NULL) < 4.1e-6) return "width";
-    if (fw_contour_clearance(c, false, NULL, NULL) < 6.3e-6) return "space";
+static const char *unsound(const fw_geometry_contour *c) {
+    if (fw_geometry_contour_clearance(c, true, NULL, NULL) < 4.1e-6) return "width";
+    if (fw_geometry_contour_clearance(c, false, NULL, NULL) < 6.3e-6) return "space";
     for (int i = 0; i < c->count; i++)
         if (c->segment[i].kind == FW_ARC && c->segment[i].sweep_rad < 0.0 &&
             c->segment[i].radius < 1.5e-6)
@@ -96,10 +96,10 @@ static void anything_else_draws_or_names_its_conflict(void **state) {
         double factor = uniform(&random, 0.3, 1.5), gap = uniform(&random, 7e-6, 10e-6);
         fixture_flexures(&f, factor, uniform(&random, 140, 260));
         set_links(&f, uniform(&random, 110e-6, 200e-6));
-        for (int j = 0; j < f.device.njoint; j++) {
+        for (int j = 0; j < f.device.nrevolute; j++) {
             f.flexure[j].gap_m = gap;
-            f.joint[j].x_m += uniform(&random, -100e-6, 100e-6);
-            f.joint[j].y_m += uniform(&random, -100e-6, 100e-6);
+            f.revolute[j].x_m += uniform(&random, -100e-6, 100e-6);
+            f.revolute[j].y_m += uniform(&random, -100e-6, 100e-6);
         }
         if (i % 2) mirror(&f);
         draw_one(&f, false, "draw", i, &t);

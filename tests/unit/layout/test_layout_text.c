@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include "test.h"
 
 static const char all[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.,-+=/_():%#*";
 
 typedef struct lettering {
     fw_arena *arena;
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int n, capacity;
 } lettering;
 
-static lettering write_text(const char *string, fw_vec2 at, double height, double stroke) {
+static lettering write_text(const char *string, fw_geometry_vec2 at, double height, double stroke) {
     lettering t = {.arena = fw_arena_new(0)};
     assert_int_equal(fw_layout_text(t.arena, string, at, height, stroke, FW_ROLE_TEXT, "text",
                                     &t.piece, &t.n, &t.capacity),
@@ -20,7 +20,8 @@ static lettering write_text(const char *string, fw_vec2 at, double height, doubl
 
 static bool drawn(const lettering *t, double x, double y) {
     for (int i = 0; i < t->n; i++)
-        if (fw_contour_contains(&t->piece[i].contour, (fw_vec2){x, y})) return true;
+        if (fw_geometry_contour_contains(&t->piece[i].contour, (fw_geometry_vec2){x, y}))
+            return true;
     return false;
 }
 
@@ -40,7 +41,7 @@ static void no_hole_and_no_corner_contact(void **state) {
     for (size_t k = 0; k < strlen(all); k++) {
         const char letter[2] = {all[k], 0};
         const double s = 8e-6;
-        lettering t = write_text(letter, (fw_vec2){0, 0}, 9 * s, s);
+        lettering t = write_text(letter, (fw_geometry_vec2){0, 0}, 9 * s, s);
         int cell[H][W] = {{0}}, count = 0;
         for (int y = 0; y < 9; y++)
             for (int x = 0; x < 7; x++) {
@@ -59,7 +60,7 @@ static void no_hole_and_no_corner_contact(void **state) {
                 if (cell[y][x] == 0) fail_msg("letter %c has a hole", all[k]);
         double area = 0;
         for (int i = 0; i < t.n; i++)
-            area += fw_contour_area(&t.piece[i].contour);
+            area += fw_geometry_contour_area(&t.piece[i].contour);
         assert_relative(area, count * s * s, 1e-12);
         fw_arena_free(t.arena);
     }
@@ -72,20 +73,21 @@ static void widths_and_spaces(void **state) {
     static const double height[] = {72e-6, 90e-6, 120.5e-6};
     const double s = 8e-6, slack = 1e-15;
     for (int h = 0; h < 3; h++) {
-        lettering t = write_text("R=1.5 um/%#*;QW(8)N", (fw_vec2){1.2345e-3, -2e-3}, height[h], s);
+        lettering t =
+            write_text("R=1.5 um/%#*;QW(8)N", (fw_geometry_vec2){1.2345e-3, -2e-3}, height[h], s);
         for (int i = 0; i < t.n; i++) {
-            const fw_contour *c = &t.piece[i].contour;
-            double inside = fw_contour_clearance(c, true, NULL, NULL);
-            double outside = fw_contour_clearance(c, false, NULL, NULL);
+            const fw_geometry_contour *c = &t.piece[i].contour;
+            double inside = fw_geometry_contour_clearance(c, true, NULL, NULL);
+            double outside = fw_geometry_contour_clearance(c, false, NULL, NULL);
             if (inside < s - slack || outside < s - slack)
                 fail_msg("piece %d: width %g, space %g", i, inside, outside);
             for (int j = 0; j < i; j++) {
-                fw_vec2 p, q;
-                double d = fw_contour_distance(c, &t.piece[j].contour, &p, &q);
+                fw_geometry_vec2 p, q;
+                double d = fw_geometry_contour_distance(c, &t.piece[j].contour, &p, &q);
                 if (d < s - slack) fail_msg("pieces %d and %d: %g apart", i, j, d);
             }
             for (int k = 0; k < c->count; k++) { /* on the grid, along the axes */
-                const fw_segment *e = &c->segment[k];
+                const fw_geometry_segment *e = &c->segment[k];
                 assert_true(e->kind == FW_LINE && ((e->a.x == e->b.x) != (e->a.y == e->b.y)));
                 assert_near(e->a.x * 1e9, nearbyint(e->a.x * 1e9), 1e-6);
                 assert_near(e->a.y * 1e9, nearbyint(e->a.y * 1e9), 1e-6);
@@ -101,8 +103,8 @@ static void every_letter_differs(void **state) {
         for (size_t m = 0; m < k; m++) {
             const char a[2] = {all[k], 0}, b[2] = {all[m], 0};
             const double s = 1e-6;
-            lettering t = write_text(a, (fw_vec2){0, 0}, 9 * s, s);
-            lettering u = write_text(b, (fw_vec2){0, 0}, 9 * s, s);
+            lettering t = write_text(a, (fw_geometry_vec2){0, 0}, 9 * s, s);
+            lettering u = write_text(b, (fw_geometry_vec2){0, 0}, 9 * s, s);
             int differ = 0;
             for (int y = 0; y < 9; y++)
                 for (int x = 0; x < 7; x++)
@@ -125,8 +127,8 @@ static void width_of_a_line(void **state) {
     assert_near(fw_layout_text_width("H", 100e-6, s), 7 * 11.111e-6, 1e-15);
     /* one foreign character of two bytes counts once, as '*' */
     assert_near(fw_layout_text_width("\xc2\xb5", 9 * s, s), 5 * s, 1e-18);
-    lettering t = write_text("HI", (fw_vec2){0, 0}, 9 * s, s);
-    fw_box last = fw_contour_box(&t.piece[t.n - 1].contour);
+    lettering t = write_text("HI", (fw_geometry_vec2){0, 0}, 9 * s, s);
+    fw_geometry_box last = fw_geometry_contour_box(&t.piece[t.n - 1].contour);
     assert_near(last.x1, 12 * s, 1e-15);
     assert_near(last.y1, 9 * s, 1e-15);
     fw_arena_free(t.arena);
@@ -150,7 +152,7 @@ static void figures_by_their_features(void **state) {
     const double s = 8e-6;
     for (size_t k = 0; k < sizeof seen / sizeof seen[0]; k++) {
         const char letter[2] = {seen[k].letter, 0};
-        lettering t = write_text(letter, (fw_vec2){0, 0}, 9 * s, s);
+        lettering t = write_text(letter, (fw_geometry_vec2){0, 0}, 9 * s, s);
         for (int y = 0; y < 9; y++)
             for (int x = 0; x < 7; x++) {
                 char wanted = seen[k].rows[8 * (8 - y) + x];
@@ -165,7 +167,7 @@ static void figures_by_their_features(void **state) {
 static void refusals(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_piece *piece = NULL;
+    fw_layout_piece *piece = NULL;
     int n = 0, capacity = 0;
     const struct {
         double x, height, stroke;
@@ -173,7 +175,7 @@ static void refusals(void **state) {
         {0, 8.9e-6, 1e-6},         {0, 9e-6, 0},    {0, (double)NAN, 1e-6}, {0, 9e-6, (double)NAN},
         {(double)NAN, 9e-6, 1e-6}, {2, 9e-6, 1e-6}, {0, HUGE_VAL, 1e-6},    {0, 9e-6, -1e-6}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
-        assert_int_equal(fw_layout_text(arena, "A", (fw_vec2){bad[i].x, 0}, bad[i].height,
+        assert_int_equal(fw_layout_text(arena, "A", (fw_geometry_vec2){bad[i].x, 0}, bad[i].height,
                                         bad[i].stroke, FW_ROLE_TEXT, "", &piece, &n, &capacity),
                          FW_GEOMETRY);
     assert_int_equal(n, 0);
@@ -186,11 +188,11 @@ static void short_memory(void **state) {
     int failures = 0;
     for (long at = 1; status != FW_OK && at < 1000; at++) {
         fw_arena *arena = fw_arena_new(0);
-        fw_piece *piece = NULL;
+        fw_layout_piece *piece = NULL;
         int n = 0, capacity = 0;
         fw_arena_fail_at(at, 1);
-        status = fw_layout_text(arena, "A-B", (fw_vec2){0, 0}, 9e-6, 1e-6, FW_ROLE_TEXT, "", &piece,
-                                &n, &capacity);
+        status = fw_layout_text(arena, "A-B", (fw_geometry_vec2){0, 0}, 9e-6, 1e-6, FW_ROLE_TEXT,
+                                "", &piece, &n, &capacity);
         fw_arena_fail_at(0, 0);
         assert_true(status == FW_OK || status == FW_NOMEM);
         failures += status == FW_NOMEM;

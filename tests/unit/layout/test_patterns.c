@@ -8,15 +8,15 @@
 
 typedef struct drawn {
     fw_arena *arena;
-    fw_pattern row;
-    fw_coupon c;
+    fw_layout_pattern row;
+    fw_layout_coupon c;
 } drawn;
 
 static drawn *start(const char *kind) {
     fw_arena *arena = fw_arena_new(0);
     drawn *d = fw_arena_one(arena, drawn);
     d->arena = arena;
-    d->row.kind = fw_pattern_kind_named(kind);
+    d->row.kind = fw_layout_pattern_kind_named(kind);
     assert_non_null(d->row.kind);
     d->row.id = d->row.title = kind;
     for (int i = 0; i < d->row.kind->nparameter; i++)
@@ -40,13 +40,13 @@ static void sizes(drawn *d, const double *um, int n) {
 }
 
 static void draw(drawn *d) {
-    assert_int_equal(fw_pattern_draw(d->arena, &d->row, 4 * UM, 4 * UM, 0, &d->c), FW_OK);
+    assert_int_equal(fw_layout_pattern_draw(d->arena, &d->row, 4 * UM, 4 * UM, 0, &d->c), FW_OK);
 }
 
-static double area_of(const drawn *d, fw_role role) {
+static double area_of(const drawn *d, fw_layout_role role) {
     double sum = 0;
     for (int i = 0; i < d->c.npiece; i++)
-        if (d->c.piece[i].role == role) sum += fw_contour_area(&d->c.piece[i].contour);
+        if (d->c.piece[i].role == role) sum += fw_geometry_contour_area(&d->c.piece[i].contour);
     return sum;
 }
 
@@ -72,8 +72,8 @@ static const double usual_sizes[] = {20, 30, 60, 100};
 
 static void every_kind(void **state) {
     (void)state;
-    const fw_pattern_kind *kind;
-    for (size_t k = 0; (kind = fw_pattern_kind_at(k)); k++) {
+    const fw_layout_pattern_kind *kind;
+    for (size_t k = 0; (kind = fw_layout_pattern_kind_at(k)); k++) {
         if (kind->fills || kind->in_window) continue;
         drawn *d = start(kind->name);
         if (kind->sizes) sizes(d, usual_sizes, 4);
@@ -81,11 +81,11 @@ static void every_kind(void **state) {
         double area = 0, wide = 0, high = 0;
         int feet = 0;
         for (int i = 0; i < d->c.npiece; i++) {
-            const fw_contour *p = &d->c.piece[i].contour;
-            fw_box b = fw_contour_box(p);
+            const fw_geometry_contour *p = &d->c.piece[i].contour;
+            fw_geometry_box b = fw_geometry_contour_box(p);
             assert_true(b.x0 >= 0 && b.y0 >= 0);
             wide = fmax(wide, b.x1), high = fmax(high, b.y1);
-            area += fw_contour_area(p);
+            area += fw_geometry_contour_area(p);
             bool stands = false;
             for (int s = 0; s < p->count; s++) {
                 assert_true(grid(p->segment[s].a.x) && grid(p->segment[s].a.y));
@@ -126,10 +126,11 @@ static void refusals(void **state) {
         drawn *d = start(bad[i].kind);
         if (d->row.kind->sizes) sizes(d, usual_sizes, 4);
         set(d, bad[i].parameter, bad[i].value);
-        assert_int_equal(fw_pattern_draw(d->arena, &d->row, 4 * UM, 4 * UM, 0, &d->c), FW_GEOMETRY);
+        assert_int_equal(fw_layout_pattern_draw(d->arena, &d->row, 4 * UM, 4 * UM, 0, &d->c),
+                         FW_GEOMETRY);
         fw_arena_free(d->arena);
     }
-    assert_null(fw_pattern_kind_named("ladder"));
+    assert_null(fw_layout_pattern_kind_named("ladder"));
 }
 
 /* ---- sizes ---- */
@@ -149,10 +150,11 @@ static void ladder_has_the_stated_widths(void **state) {
         assert_int_equal(d->c.npiece, n);
         double area = 0, length = d->row.value[4];
         for (int i = 0; i < n; i++) {
-            fw_box b = fw_contour_box(&d->c.piece[i].contour);
+            fw_geometry_box b = fw_geometry_contour_box(&d->c.piece[i].contour);
             assert_near(b.x1 - b.x0, from + i * step, 1e-15);
             if (i > 0)
-                assert_near(b.x0 - fw_contour_box(&d->c.piece[i - 1].contour).x1, 20 * UM, 1e-15);
+                assert_near(b.x0 - fw_geometry_contour_box(&d->c.piece[i - 1].contour).x1, 20 * UM,
+                            1e-15);
             assert_near(d->c.feature[i].drawn_m, from + i * step, 1e-15);
             area += length * (from + i * step);
         }
@@ -169,8 +171,8 @@ static void slots_have_the_stated_widths(void **state) {
     draw(d);
     assert_int_equal(d->c.npiece, 6);
     for (int i = 0; i < 5; i++) {
-        double gap = fw_contour_box(&d->c.piece[i + 1].contour).x0 -
-                     fw_contour_box(&d->c.piece[i].contour).x1;
+        double gap = fw_geometry_contour_box(&d->c.piece[i + 1].contour).x0 -
+                     fw_geometry_contour_box(&d->c.piece[i].contour).x1;
         assert_near(gap, w[i] * UM, 1e-15);
         assert_near(d->c.feature[i].drawn_m, w[i] * UM, 1e-15);
     }
@@ -192,9 +194,10 @@ static void pads_and_thief(void **state) {
     assert_relative(figure(d, "ring area"), outer - inner, 1e-12);
     assert_relative(area_of(d, FW_ROLE_STRUCTURE) * 1e12, outer - inner + pad, 1e-12);
     /* least distance of pad and ring is the stated one */
-    fw_vec2 p, q;
-    assert_near(fw_contour_distance(&d->c.piece[0].contour, &d->c.piece[1].contour, &p, &q),
-                40 * UM, 1e-15);
+    fw_geometry_vec2 p, q;
+    assert_near(
+        fw_geometry_contour_distance(&d->c.piece[0].contour, &d->c.piece[1].contour, &p, &q),
+        40 * UM, 1e-15);
     fw_arena_free(d->arena);
 }
 
@@ -216,10 +219,10 @@ static void crosses(void **state) {
 }
 
 /* vertical edges of one shape at height y, from the left */
-static int edges_at(const fw_contour *c, double y, double *x, int most) {
+static int edges_at(const fw_geometry_contour *c, double y, double *x, int most) {
     int n = 0;
     for (int i = 0; i < c->count; i++) {
-        fw_vec2 a = c->segment[i].a, b = c->segment[i].b;
+        fw_geometry_vec2 a = c->segment[i].a, b = c->segment[i].b;
         if (a.x != b.x || !(fmin(a.y, b.y) < y && y < fmax(a.y, b.y))) continue;
         int k = n++;
         assert_true(n <= most);
@@ -236,7 +239,7 @@ static void vernier_steps(void **state) {
     drawn *d = start("vernier");
     draw(d);
     assert_int_equal(d->c.npiece, 4);
-    const fw_contour *first = &d->c.piece[0].contour, *second = &d->c.piece[1].contour;
+    const fw_geometry_contour *first = &d->c.piece[0].contour, *second = &d->c.piece[1].contour;
     assert_int_equal(d->c.piece[1].role, FW_ROLE_BACK);
     double x[40], z[40], y = d->c.feature[0].from.y;
     assert_int_equal(edges_at(first, y - 10 * UM, x, 40), 34);
@@ -258,14 +261,15 @@ static void lines_and_nests(void **state) {
     assert_int_equal(d->c.npiece, 14);
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < 6; i++) {
-            fw_box b = fw_contour_box(&d->c.piece[7 * k + i].contour);
+            fw_geometry_box b = fw_geometry_contour_box(&d->c.piece[7 * k + i].contour);
             assert_near(b.x1 - b.x0, w[k] * UM, 1e-15);
             if (i > 0 && i < 5)
-                assert_near(b.x0 - fw_contour_box(&d->c.piece[7 * k + i - 1].contour).x1, w[k] * UM,
-                            1e-15);
+                assert_near(b.x0 - fw_geometry_contour_box(&d->c.piece[7 * k + i - 1].contour).x1,
+                            w[k] * UM, 1e-15);
         }
         double level = 6 * w[k] * 100 + 30 * (40 + 9 * w[k] + 40 + w[k]);
-        assert_relative(fw_contour_area(&d->c.piece[7 * k + 6].contour) * 1e12, level, 1e-12);
+        assert_relative(fw_geometry_contour_area(&d->c.piece[7 * k + 6].contour) * 1e12, level,
+                        1e-12);
     }
     fw_arena_free(d->arena);
     d = start("resolution");
@@ -273,10 +277,10 @@ static void lines_and_nests(void **state) {
     draw(d);
     assert_int_equal(d->c.npiece, 8);
     for (int i = 0; i < 8; i++) {
-        const fw_contour *c = &d->c.piece[i].contour;
-        assert_near(fw_contour_clearance(c, true, NULL, NULL), w[i / 4] * UM, 1e-15);
+        const fw_geometry_contour *c = &d->c.piece[i].contour;
+        assert_near(fw_geometry_contour_clearance(c, true, NULL, NULL), w[i / 4] * UM, 1e-15);
         if (i % 4)
-            assert_near(fw_contour_distance(c, &d->c.piece[i - 1].contour, NULL, NULL),
+            assert_near(fw_geometry_contour_distance(c, &d->c.piece[i - 1].contour, NULL, NULL),
                         w[i / 4] * UM, 1e-15);
     }
     fw_arena_free(d->arena);
@@ -320,12 +324,12 @@ static void plates_with_holes(void **state) {
         int joints = 0, paired = 0;
         for (int i = 0; i < d->c.npiece; i++)
             for (int s = 0; s < d->c.piece[i].contour.count; s++) {
-                const fw_segment *u = &d->c.piece[i].contour.segment[s];
+                const fw_geometry_segment *u = &d->c.piece[i].contour.segment[s];
                 if (!(u->flags & FW_SEGMENT_JOINT)) continue;
                 joints++;
                 for (int j = 0; j < d->c.npiece; j++)
                     for (int t = 0; t < d->c.piece[j].contour.count; t++) {
-                        const fw_segment *v = &d->c.piece[j].contour.segment[t];
+                        const fw_geometry_segment *v = &d->c.piece[j].contour.segment[t];
                         paired += v->flags & FW_SEGMENT_JOINT && u->a.x == v->b.x &&
                                   u->a.y == v->b.y && u->b.x == v->a.x && u->b.y == v->a.y;
                     }
@@ -334,10 +338,11 @@ static void plates_with_holes(void **state) {
         assert_int_equal(paired, joints - 1);
         /* and the strips take a bias: each hole shrinks, each joint fits */
         for (int i = 0; i < d->c.npiece; i++) {
-            fw_contour grown;
+            fw_geometry_contour grown;
             int a, b;
-            assert_int_equal(
-                fw_contour_offset(d->arena, &d->c.piece[i].contour, 1 * UM, &grown, &a, &b), FW_OK);
+            assert_int_equal(fw_geometry_contour_offset(d->arena, &d->c.piece[i].contour, 1 * UM,
+                                                        &grown, &a, &b),
+                             FW_OK);
         }
         fw_arena_free(d->arena);
     }
@@ -349,12 +354,12 @@ static void fill_density(void **state) {
     for (int i = 0; i < 100; i++) {
         double s = 10 + 90 * random01(&seed), n = 0.5 * s * random01(&seed) + 1,
                want = 0.1 + 0.7 * random01(&seed);
-        double g = fw_fill_gap_m(s, n, want);
+        double g = fw_layout_fill_gap_m(s, n, want);
         assert_true(g > 0);
         assert_relative((s * s + n * g) / ((s + g) * (s + g)), want, 1e-12);
     }
-    assert_near(fw_fill_gap_m(40, 10, 0.5), 20, 1e-12);
-    assert_true(isnan(fw_fill_gap_m(40, 10, 1.0)));
+    assert_near(fw_layout_fill_gap_m(40, 10, 0.5), 20, 1e-12);
+    assert_true(isnan(fw_layout_fill_gap_m(40, 10, 1.0)));
 }
 
 /* ---- the pointer: a plane frame of beams by direct stiffness, with the strain as a load ---- */
@@ -443,7 +448,7 @@ static void pointer_turns_as_a_frame_of_beams_does(void **state) {
     static const double c[][3] = {
         {250e-6, 24e-6, 8e-6}, {400e-6, 30e-6, 6e-6}, {150e-6, 40e-6, 12e-6}};
     for (int i = 0; i < 3; i++) {
-        double closed = fw_pointer_turn_per_strain(c[i][0], c[i][1], c[i][2]);
+        double closed = fw_layout_pointer_turn_per_strain(c[i][0], c[i][1], c[i][2]);
         /* a pointer a million times as stiff: what is left falls with its stiffness.
            Counter-clockwise: the tip above goes to the left where the film pulls */
         assert_relative(frame_turn(c[i][0], c[i][1], c[i][2], 1e6), closed, 1e-6);
@@ -452,8 +457,8 @@ static void pointer_turns_as_a_frame_of_beams_does(void **state) {
     }
     drawn *d = start("stress-pointer");
     draw(d);
-    assert_relative(figure(d, "turn per strain"), fw_pointer_turn_per_strain(250e-6, 24e-6, 8e-6),
-                    1e-12);
+    assert_relative(figure(d, "turn per strain"),
+                    fw_layout_pointer_turn_per_strain(250e-6, 24e-6, 8e-6), 1e-12);
     assert_relative(figure(d, "amplification"), figure(d, "turn per strain") * 220e-6, 1e-12);
     assert_relative(figure(d, "strain per step"), 0.5e-6 / figure(d, "amplification"), 1e-12);
     fw_arena_free(d->arena);

@@ -28,14 +28,15 @@ static drawn *draw(double pitch_um, double hole_um) {
     return d;
 }
 
-static fw_region pieces_of(const drawn *d, int body) {
-    fw_region r = {fw_arena_array(d->arena, fw_contour, (size_t)d->layout->npiece), 0};
+static fw_geometry_region pieces_of(const drawn *d, int body) {
+    fw_geometry_region r = {
+        fw_arena_array(d->arena, fw_geometry_contour, (size_t)d->layout->npiece), 0};
     for (int i = 0; i < d->layout->npiece; i++)
         if (d->layout->piece[i].body == body && d->layout->piece[i].role == FW_ROLE_STRUCTURE)
             r.contour[r.count++] = d->layout->piece[i].contour;
     for (int i = 1; i < r.count; i++) /* the body itself first */
-        if (fw_contour_area(&r.contour[i]) > fw_contour_area(&r.contour[0])) {
-            fw_contour t = r.contour[0];
+        if (fw_geometry_contour_area(&r.contour[i]) > fw_geometry_contour_area(&r.contour[0])) {
+            fw_geometry_contour t = r.contour[0];
             r.contour[0] = r.contour[i];
             r.contour[i] = t;
         }
@@ -49,9 +50,9 @@ static void moments_follow(void **state) {
     drawn *plain = draw(0, 0), *holes = draw(40, 12);
     int bodies = 0;
     for (int b = 0; b < 5; b++) {
-        fw_region r = pieces_of(holes, b);
-        fw_moments m = fw_region_moments(&r);
-        const fw_body_layout *l = &holes->layout->body[b], *p = &plain->layout->body[b];
+        fw_geometry_region r = pieces_of(holes, b);
+        fw_geometry_moments m = fw_geometry_region_moments(&r);
+        const fw_layout_body_layout *l = &holes->layout->body[b], *p = &plain->layout->body[b];
         assert_relative(l->area_m2, m.area_m2, 1e-11);
         assert_near(l->centroid.x, m.centroid.x, 1e-14);
         assert_near(l->centroid.y, m.centroid.y, 1e-14);
@@ -73,23 +74,23 @@ static void holes_keep_away(void **state) {
     drawn *plain = draw(0, 0), *d = draw(40, 12);
     int holes = 0;
     for (int b = 0; b < 5; b++) {
-        fw_region before = pieces_of(plain, b), after = pieces_of(d, b);
+        fw_geometry_region before = pieces_of(plain, b), after = pieces_of(d, b);
         for (int i = 1; i < after.count; i++) { /* caps: the end inside is an arc of a hole */
-            const fw_contour *cap = &after.contour[i];
-            fw_vec2 middle = cap->segment[2].centre;
+            const fw_geometry_contour *cap = &after.contour[i];
+            fw_geometry_vec2 middle = cap->segment[2].centre;
             double t, least = HUGE_VAL;
-            fw_vec2 at;
+            fw_geometry_vec2 at;
             for (int k = 0; k < before.contour[0].count; k++) {
-                const fw_segment *e = &before.contour[0].segment[k];
+                const fw_geometry_segment *e = &before.contour[0].segment[k];
                 double x = e->b.x - e->a.x, y = e->b.y - e->a.y, l = x * x + y * y;
                 if (e->kind != FW_LINE || l == 0) continue;
                 t = fmin(1, fmax(0, ((middle.x - e->a.x) * x + (middle.y - e->a.y) * y) / l));
-                at = (fw_vec2){e->a.x + t * x, e->a.y + t * y};
+                at = (fw_geometry_vec2){e->a.x + t * x, e->a.y + t * y};
                 least = fmin(least, hypot(at.x - middle.x, at.y - middle.y));
             }
             assert_true(least >= 20 * UM - 1e-9);
             for (int j = 0; j < 6; j++) {
-                fw_vec2 w = d->layout->hinge[j].centre;
+                fw_geometry_vec2 w = d->layout->hinge[j].centre;
                 assert_true(hypot(middle.x - w.x, middle.y - w.y) > d->layout->hinge[j].keep_out_m);
             }
             holes++;
@@ -109,26 +110,27 @@ static void cuts_fit(void **state) {
     static const double bias[] = {0, 1.1e-6, -1.1e-6};
     for (int k = 0; k < 3; k++)
         for (int b = 0; b < 5; b++) {
-            fw_region r = pieces_of(d, b);
+            fw_geometry_region r = pieces_of(d, b);
             double area = 0, cut = 0;
             for (int i = 0; i < r.count; i++) {
-                fw_contour out = r.contour[i];
+                fw_geometry_contour out = r.contour[i];
                 int p, q;
                 if (bias[k] != 0)
                     assert_int_equal(
-                        fw_contour_offset(d->arena, &r.contour[i], bias[k], &out, &p, &q), FW_OK);
-                area += fw_contour_area(&out);
+                        fw_geometry_contour_offset(d->arena, &r.contour[i], bias[k], &out, &p, &q),
+                        FW_OK);
+                area += fw_geometry_contour_area(&out);
                 cut += i > 0;
                 r.contour[i] = out;
             }
             int joints = 0, paired = 0;
             for (int i = 1; i < r.count; i++)
                 for (int s = 0; s < r.contour[i].count; s++) {
-                    const fw_segment *u = &r.contour[i].segment[s];
+                    const fw_geometry_segment *u = &r.contour[i].segment[s];
                     if (!(u->flags & FW_SEGMENT_JOINT)) continue;
                     joints++;
                     for (int t = 0; t < r.contour[0].count; t++) {
-                        const fw_segment *v = &r.contour[0].segment[t];
+                        const fw_geometry_segment *v = &r.contour[0].segment[t];
                         paired += v->flags & FW_SEGMENT_JOINT &&
                                   hypot(u->a.x - v->b.x, u->a.y - v->b.y) < 1e-12 &&
                                   hypot(u->b.x - v->a.x, u->b.y - v->a.y) < 1e-12;
@@ -146,7 +148,7 @@ static void narrow_bodies_have_none(void **state) {
     (void)state;
     drawn *plain = draw(0, 0), *d = draw(120, 12); /* reach 79 um, bars 120 um wide */
     for (int b = 0; b < 5; b++) {
-        fw_region p = pieces_of(plain, b), q = pieces_of(d, b);
+        fw_geometry_region p = pieces_of(plain, b), q = pieces_of(d, b);
         if (b == 2) {
             assert_true(q.count > p.count); /* the platform is wide */
             continue;

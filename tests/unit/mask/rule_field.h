@@ -14,7 +14,7 @@ typedef struct field {
     fw_mask_layer layer[LAYERS];
     fw_mask_rule rule[RULES];
     uint64_t seed;
-    fw_pose pose; /* of the part being drawn */
+    fw_geometry_pose pose; /* of the part being drawn */
     bool mirror;
     const char *label;
 } field;
@@ -25,8 +25,8 @@ static inline double between(field *f, double low, double high) {
 
 /* ---- the rules: a layer for each role, named by it ---- */
 
-static inline void add_rule(field *f, const fw_rule_row *kind, fw_role layer, fw_role other,
-                            unsigned of, double least) {
+static inline void add_rule(field *f, const fw_mask_rule_kind_row *kind, fw_layout_role layer,
+                            fw_layout_role other, unsigned of, double least) {
     f->rule[f->s->table.nrule++] = (fw_mask_rule){.kind = kind,
                                                   .layer = (int)layer,
                                                   .other = other == layer ? -1 : (int)other,
@@ -59,56 +59,60 @@ static inline field *field_new(uint64_t seed) {
                                .layer = f->layer,
                                .nlayer = LAYERS,
                                .rule = f->rule};
-    const fw_role st = FW_ROLE_STRUCTURE, te = FW_ROLE_TETHER, di = FW_ROLE_DICING;
-    add_rule(f, &fw_kind_width, st, st, 0, 4 * UM);
-    add_rule(f, &fw_kind_space, st, st, 0, 4 * UM);
-    add_rule(f, &fw_kind_notch, st, st, 0, 5 * UM);
-    add_rule(f, &fw_kind_feature, FW_ROLE_FLEXURE, FW_ROLE_FLEXURE, 0, FEATURE_M);
-    add_rule(f, &fw_kind_area, FW_ROLE_FRAME, FW_ROLE_FRAME, FW_OF_ISLAND | FW_OF_HOLE,
+    const fw_layout_role st = FW_ROLE_STRUCTURE, te = FW_ROLE_TETHER, di = FW_ROLE_DICING;
+    add_rule(f, &fw_mask_kind_width, st, st, 0, 4 * UM);
+    add_rule(f, &fw_mask_kind_space, st, st, 0, 4 * UM);
+    add_rule(f, &fw_mask_kind_notch, st, st, 0, 5 * UM);
+    add_rule(f, &fw_mask_kind_feature, FW_ROLE_FLEXURE, FW_ROLE_FLEXURE, 0, FEATURE_M);
+    add_rule(f, &fw_mask_kind_area, FW_ROLE_FRAME, FW_ROLE_FRAME, FW_OF_ISLAND | FW_OF_HOLE,
              400 * UM * UM);
-    add_rule(f, &fw_kind_enclosure, FW_ROLE_TEXT, FW_ROLE_FRAME, 0, 6 * UM);
-    add_rule(f, &fw_kind_separation, FW_ROLE_MARK, FW_ROLE_FRAME, 0, 7 * UM);
-    add_rule(f, &fw_kind_angle, te, te, FW_OF_OUTLINE, 60 * DEG);
-    add_rule(f, &fw_kind_edge, te, te, FW_OF_OUTLINE, 1 * UM);
-    add_rule(f, &fw_kind_angle, di, di, FW_OF_POLYGON, 60 * DEG);
-    add_rule(f, &fw_kind_edge, di, di, FW_OF_POLYGON, 0.3 * UM);
+    add_rule(f, &fw_mask_kind_enclosure, FW_ROLE_TEXT, FW_ROLE_FRAME, 0, 6 * UM);
+    add_rule(f, &fw_mask_kind_separation, FW_ROLE_MARK, FW_ROLE_FRAME, 0, 7 * UM);
+    add_rule(f, &fw_mask_kind_angle, te, te, FW_OF_OUTLINE, 60 * DEG);
+    add_rule(f, &fw_mask_kind_edge, te, te, FW_OF_OUTLINE, 1 * UM);
+    add_rule(f, &fw_mask_kind_angle, di, di, FW_OF_POLYGON, 60 * DEG);
+    add_rule(f, &fw_mask_kind_edge, di, di, FW_OF_POLYGON, 0.3 * UM);
     return f;
 }
 
 /* ---- drawing, in um in the part's own frame ---- */
 
-static inline fw_vec2 world(const field *f, double x, double y) {
-    fw_vec2 p = {x * UM, f->mirror ? -y * UM : y * UM};
+static inline fw_geometry_vec2 world(const field *f, double x, double y) {
+    fw_geometry_vec2 p = {x * UM, f->mirror ? -y * UM : y * UM};
     double c = cos(f->pose.angle_rad), s = sin(f->pose.angle_rad);
-    return (fw_vec2){f->pose.x_m + c * p.x - s * p.y, f->pose.y_m + s * p.x + c * p.y};
+    return (fw_geometry_vec2){f->pose.x_m + c * p.x - s * p.y, f->pose.y_m + s * p.x + c * p.y};
 }
 
-static inline void draw(field *f, fw_role role, fw_contour c) {
-    fw_contour moved;
-    assert_int_equal(fw_contour_transform(f->s->arena, &c, f->pose, f->mirror, &moved), FW_OK);
+static inline void draw(field *f, fw_layout_role role, fw_geometry_contour c) {
+    fw_geometry_contour moved;
+    assert_int_equal(fw_geometry_contour_transform(f->s->arena, &c, f->pose, f->mirror, &moved),
+                     FW_OK);
     scene_add(f->s, role, f->label, moved);
 }
 
-static inline void draw_polygon(field *f, fw_role role, const double (*p)[2], int n) {
+static inline void draw_polygon(field *f, fw_layout_role role, const double (*p)[2], int n) {
     draw(f, role, polygon(f->s->arena, p, n));
 }
 
-static inline void draw_box(field *f, fw_role role, double x0, double y0, double x1, double y1) {
+static inline void draw_box(field *f, fw_layout_role role, double x0, double y0, double x1,
+                            double y1) {
     const double p[4][2] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     draw_polygon(f, role, p, 4);
 }
 
-static inline void draw_disc(field *f, fw_role role, double x, double y, double r) {
-    fw_contour c;
-    assert_int_equal(fw_contour_disc(f->s->arena, (fw_vec2){x * UM, y * UM}, r * UM, &c), FW_OK);
+static inline void draw_disc(field *f, fw_layout_role role, double x, double y, double r) {
+    fw_geometry_contour c;
+    assert_int_equal(
+        fw_geometry_contour_disc(f->s->arena, (fw_geometry_vec2){x * UM, y * UM}, r * UM, &c),
+        FW_OK);
     draw(f, role, c);
 }
 
-static inline void draw_ring(field *f, fw_role role, double inner, double outer, double from,
+static inline void draw_ring(field *f, fw_layout_role role, double inner, double outer, double from,
                              double sweep) {
-    fw_contour c;
-    assert_int_equal(fw_contour_ring_sector(f->s->arena, (fw_vec2){0, 0}, inner * UM, outer * UM,
-                                            from, sweep, &c),
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_contour_ring_sector(f->s->arena, (fw_geometry_vec2){0, 0},
+                                                     inner * UM, outer * UM, from, sweep, &c),
                      FW_OK);
     draw(f, role, c);
 }
@@ -135,7 +139,7 @@ static inline void print_findings(const fw_mask *mask) {
 }
 
 static inline fw_mask_rule window_rule(void) {
-    return (fw_mask_rule){.kind = &fw_kind_density,
+    return (fw_mask_rule){.kind = &fw_mask_kind_density,
                           .layer = FW_ROLE_DICING,
                           .other = -1,
                           .least = 0.2,

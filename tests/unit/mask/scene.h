@@ -11,7 +11,7 @@
 typedef struct scene {
     fw_arena *arena;
     fw_diags diags;
-    fw_piece piece[512];
+    fw_layout_piece piece[512];
     fw_layout layout;
     fw_mask_layer layer[3];
     fw_mask_table table;
@@ -64,16 +64,18 @@ static inline void scene_free(scene *s) {
     fw_arena_free(s->arena);
 }
 
-static inline void scene_add(scene *s, fw_role role, const char *label, fw_contour contour) {
-    s->piece[s->layout.npiece++] = (fw_piece){role, FW_NONE - 1, FW_NONE, label, contour};
+static inline void scene_add(scene *s, fw_layout_role role, const char *label,
+                             fw_geometry_contour contour) {
+    s->piece[s->layout.npiece++] = (fw_layout_piece){role, FW_NONE - 1, FW_NONE, label, contour};
 }
 
-static inline fw_contour polygon(fw_arena *arena, const double (*p)[2], int n) {
-    fw_outline o = fw_outline_start(arena, (fw_vec2){p[0][0] * UM, p[0][1] * UM});
+static inline fw_geometry_contour polygon(fw_arena *arena, const double (*p)[2], int n) {
+    fw_geometry_outline o =
+        fw_geometry_outline_start(arena, (fw_geometry_vec2){p[0][0] * UM, p[0][1] * UM});
     for (int i = 1; i < n; i++)
-        fw_outline_line(&o, (fw_vec2){p[i][0] * UM, p[i][1] * UM}, 0);
-    fw_contour c = {0};
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){p[i][0] * UM, p[i][1] * UM}, 0);
+    fw_geometry_contour c = {0};
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     return c;
 }
 
@@ -87,24 +89,25 @@ static inline void scene_box(scene *s, const char *label, double x0, double y0, 
    the ends of the ring are joints */
 static inline void scene_arch(scene *s, double radius, double width, double leg) {
     double ri = (radius - 0.5 * width) * UM, ro = (radius + 0.5 * width) * UM;
-    fw_vec2 o = {0, 0}, corner[4] = {{ri, 0}, {ro, 0}, {-ro, 0}, {-ri, 0}};
-    fw_outline a = fw_outline_start(s->arena, corner[0]);
-    fw_outline_line(&a, corner[1], FW_SEGMENT_JOINT);
-    fw_outline_arc_to(&a, o, PI, corner[2], 0);
-    fw_outline_line(&a, corner[3], FW_SEGMENT_JOINT);
-    fw_outline_arc_to(&a, o, -PI, corner[0], 0);
-    fw_contour ring;
-    assert_int_equal(fw_outline_close(&a, &ring), FW_OK);
+    fw_geometry_vec2 o = {0, 0}, corner[4] = {{ri, 0}, {ro, 0}, {-ro, 0}, {-ri, 0}};
+    fw_geometry_outline a = fw_geometry_outline_start(s->arena, corner[0]);
+    fw_geometry_outline_line(&a, corner[1], FW_SEGMENT_JOINT);
+    fw_geometry_outline_arc_to(&a, o, PI, corner[2], 0);
+    fw_geometry_outline_line(&a, corner[3], FW_SEGMENT_JOINT);
+    fw_geometry_outline_arc_to(&a, o, -PI, corner[0], 0);
+    fw_geometry_contour ring;
+    assert_int_equal(fw_geometry_outline_close(&a, &ring), FW_OK);
     scene_add(s, FW_ROLE_FLEXURE, "arch", ring);
     for (int side = 0; side < 2; side++) {
-        fw_vec2 left = corner[2 * side], right = corner[2 * side + 1];
-        fw_outline b = fw_outline_start(s->arena, (fw_vec2){left.x, -leg * UM});
-        fw_outline_line(&b, (fw_vec2){right.x, -leg * UM}, 0);
-        fw_outline_line(&b, right, 0);
-        fw_outline_line(&b, left, FW_SEGMENT_JOINT);
-        fw_outline_line(&b, (fw_vec2){left.x, -leg * UM}, 0);
-        fw_contour stub;
-        assert_int_equal(fw_outline_close(&b, &stub), FW_OK);
+        fw_geometry_vec2 left = corner[2 * side], right = corner[2 * side + 1];
+        fw_geometry_outline b =
+            fw_geometry_outline_start(s->arena, (fw_geometry_vec2){left.x, -leg * UM});
+        fw_geometry_outline_line(&b, (fw_geometry_vec2){right.x, -leg * UM}, 0);
+        fw_geometry_outline_line(&b, right, 0);
+        fw_geometry_outline_line(&b, left, FW_SEGMENT_JOINT);
+        fw_geometry_outline_line(&b, (fw_geometry_vec2){left.x, -leg * UM}, 0);
+        fw_geometry_contour stub;
+        assert_int_equal(fw_geometry_outline_close(&b, &stub), FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, side ? "left leg" : "right leg", stub);
     }
 }

@@ -27,7 +27,7 @@ static die *read_table(const char *flow) {
 }
 
 static fw_status build(die *d, double width_um, double height_um, double bias_um) {
-    fw_coupon_options options = {
+    fw_mask_coupon_options options = {
         .die = {123 * UM, -77 * UM, (123 + width_um) * UM, (-77 + height_um) * UM},
         .frame_m = (double)NAN,
         .lane_m = (double)NAN,
@@ -47,10 +47,10 @@ static void dies_of_both_flows(void **state) {
                 fail_msg("%s, %g um: %s", flows[f], size[s][0],
                          d->diags.count ? d->diags.item[0].message : "no message");
             const fw_mask *m = d->coupons->mask;
-            const fw_content *c = d->coupons->content;
+            const fw_layout_content *c = d->coupons->content;
             int elsewhere = 0; /* fill, and what goes on the device's own die */
             for (int i = 0; i < d->table.npattern; i++) {
-                const fw_pattern_kind *kind = d->table.pattern[i].kind;
+                const fw_layout_pattern_kind *kind = d->table.pattern[i].kind;
                 elsewhere += kind->fills || kind->on_frame || kind->in_window;
             }
             assert_int_equal(c->ncoupon, d->table.npattern - elsewhere);
@@ -64,15 +64,15 @@ static void dies_of_both_flows(void **state) {
                 assert_true(m->measure[k].space_m >= 4 * UM - 1e-12);
             }
             /* placed patterns lie in the window and apart from each other */
-            const fw_box w = c->layout->window;
+            const fw_geometry_box w = c->layout->window;
             for (int i = 0; i < c->ncoupon; i++) {
-                const fw_coupon *a = &c->coupon[i];
+                const fw_layout_coupon *a = &c->coupon[i];
                 if (!a->placed) continue;
                 assert_true(a->at.x >= w.x0 + 59.9 * UM &&
                             a->at.x + a->width_m <= w.x1 - 59.9 * UM);
                 assert_true(a->at.y >= w.y0 && a->at.y + a->height_m <= w.y1 - 59.9 * UM);
                 for (int j = 0; j < i; j++) {
-                    const fw_coupon *b = &c->coupon[j];
+                    const fw_layout_coupon *b = &c->coupon[j];
                     if (!b->placed) continue;
                     assert_true(a->at.x >= b->at.x + b->width_m + 59.9 * UM ||
                                 b->at.x >= a->at.x + a->width_m + 59.9 * UM ||
@@ -94,7 +94,7 @@ static void nothing_falls_out(void **state) {
         bool *reached = fw_arena_array(d->arena, bool, (size_t)m->nshape);
         int left = 0;
         for (int i = 0; i < m->nshape; i++) {
-            fw_role role = m->shape[i].piece->role;
+            fw_layout_role role = m->shape[i].piece->role;
             bool material = role == FW_ROLE_STRUCTURE || role == FW_ROLE_FRAME;
             reached[i] = !material || strcmp(m->shape[i].piece->label, "frame, left upright") == 0;
             left += !reached[i];
@@ -103,11 +103,11 @@ static void nothing_falls_out(void **state) {
         for (bool again = true; again;) {
             again = false;
             for (int i = 0; i < m->nshape; i++) {
-                fw_role role = m->shape[i].piece->role;
+                fw_layout_role role = m->shape[i].piece->role;
                 if (!reached[i] || (role != FW_ROLE_STRUCTURE && role != FW_ROLE_FRAME)) continue;
                 for (int j = 0; j < m->nshape; j++) {
                     if (reached[j]) continue;
-                    const fw_contour *p = &m->shape[i].contour, *q = &m->shape[j].contour;
+                    const fw_geometry_contour *p = &m->shape[i].contour, *q = &m->shape[j].contour;
                     for (int a = 0; a < p->count && !reached[j]; a++)
                         for (int b = 0; b < q->count && (p->segment[a].flags & FW_SEGMENT_JOINT);
                              b++)
@@ -144,7 +144,8 @@ static void bias_where_it_is_asked_for(void **state) {
         for (; j < b->nshape; j++)
             if (strcmp(b->shape[j].piece->label, label) == 0 && k-- == 0) break;
         assert_true(j < b->nshape);
-        fw_box p = fw_contour_box(&a->shape[i].contour), q = fw_contour_box(&b->shape[j].contour);
+        fw_geometry_box p = fw_geometry_contour_box(&a->shape[i].contour),
+                        q = fw_geometry_contour_box(&b->shape[j].contour);
         if (strcmp(label, "cantilever") == 0 || strcmp(label, "stress pointer") == 0) {
             grown++;
             assert_near(q.x0 - p.x0, 0.75 * UM, 1e-15);
@@ -168,14 +169,14 @@ static void fill_is_as_dense_as_stated(void **state) {
     (void)state;
     die *d = read_table(flows[0]);
     assert_int_equal(build(d, 5600, 5000, 0), FW_OK);
-    const fw_content *c = d->coupons->content;
+    const fw_layout_content *c = d->coupons->content;
     assert_relative(c->fill_density, 0.5, 1e-3); /* the gap is on the grid */
     double area = 0, cells = 0;
     for (int i = 0; i < c->layout->npiece; i++) {
-        const fw_piece *p = &c->layout->piece[i];
+        const fw_layout_piece *p = &c->layout->piece[i];
         if (strcmp(p->label, "fill") != 0) continue;
-        fw_box box = fw_contour_box(&p->contour);
-        area += fw_contour_area(&p->contour);
+        fw_geometry_box box = fw_geometry_contour_box(&p->contour);
+        area += fw_geometry_contour_area(&p->contour);
         cells += (box.y1 - box.y0) * 120 * UM; /* squares of 80 um, 40 um apart */
     }
     assert_relative(area, 0.5 * cells, 1e-9);
@@ -193,13 +194,13 @@ static void lettering_lies_in_the_material(void **state) {
     for (int i = 0; i < l->npiece; i++) {
         bool own = strcmp(l->piece[i].label, "lettering of a test pattern") == 0;
         if (!own && l->piece[i].role != FW_ROLE_MARK) continue;
-        fw_vec2 at = l->piece[i].contour.segment[0].a;
+        fw_geometry_vec2 at = l->piece[i].contour.segment[0].a;
         bool inside = false;
         for (int j = 0; j < l->npiece && !inside; j++)
             inside = (l->piece[j].role == FW_ROLE_FRAME || l->piece[j].role == FW_ROLE_STRUCTURE) &&
-                     fw_contour_contains(&l->piece[j].contour, at) &&
-                     fw_contour_distance(&l->piece[j].contour, &l->piece[i].contour, NULL, NULL) >
-                         4 * UM;
+                     fw_geometry_contour_contains(&l->piece[j].contour, at) &&
+                     fw_geometry_contour_distance(&l->piece[j].contour, &l->piece[i].contour, NULL,
+                                                  NULL) > 4 * UM;
         if (!inside)
             fail_msg("%s at (%g, %g) um is not in the material", l->piece[i].label, at.x * 1e6,
                      at.y * 1e6);
@@ -241,7 +242,7 @@ static void what_has_no_room(void **state) {
     fw_arena_free(d->arena);
     d = read_table(flows[0]);
     assert_int_equal(build(d, 1500, 1500, 0), FW_OK);
-    const fw_content *c = d->coupons->content;
+    const fw_layout_content *c = d->coupons->content;
     assert_true(c->nplaced < c->ncoupon);
     for (size_t i = 0; i < d->diags.count; i++)
         assert_true(d->diags.item[i].number == 186 && d->diags.item[i].severity == FW_WARNING);
@@ -275,7 +276,8 @@ static void rows_that_are_wrong(void **state) {
         {"<pattern kind=\"undercut-ladder\" step=\"0.5004 um\"/>", "multiple of 1 nm"},
         {"<pattern kind=\"arde-slots\"/>", "needs sizes=\"...\": widths of the slots"},
         {"<pattern kind=\"arde-slots\" sizes=\"4 um, 5\"/>", "sizes: "},
-        {"<pattern kind=\"arde-slots\" sizes=\"4 um, 0.1 um\"/>", "at least 1 um and at most 5000 um"},
+        {"<pattern kind=\"arde-slots\" sizes=\"4 um, 0.1 um\"/>",
+         "at least 1 um and at most 5000 um"},
         {"<pattern kind=\"contact-pad\" sizes=\"4 um\"/>", "has no attribute 'sizes'"},
         {"<pattern kind=\"contact-pad\" bias=\"maybe\"/>", "is not one of: yes, no"},
         {"<pattern kind=\"contact-pad\" title=\"\xc2\xb5m\"/>", "plain ASCII"},
@@ -319,22 +321,22 @@ static void own_rule_holds(void **state) {
 /* ---- on the frame of the device's die ---- */
 
 typedef struct framed {
-    fw_piece piece[3];
+    fw_layout_piece piece[3];
     fw_layout layout;
 } framed;
 
 /* two uprights `bar_um` wide beside a window of 3 mm, lane 100 um */
 static void frame_of(fw_arena *arena, double bar_um, framed *f) {
     *f = (framed){.layout = {.drawn = true, .piece = f->piece, .npiece = 2}};
-    f->layout.window = (fw_box){0, 0, 3000 * UM, 3000 * UM};
+    f->layout.window = (fw_geometry_box){0, 0, 3000 * UM, 3000 * UM};
     double rim = (bar_um + 100) * UM;
-    f->layout.die = (fw_box){-rim, -rim, 3000 * UM + rim, 3000 * UM + rim};
+    f->layout.die = (fw_geometry_box){-rim, -rim, 3000 * UM + rim, 3000 * UM + rim};
     for (int k = 0; k < 2; k++) {
         double x0 = k ? 3000 : -bar_um, x1 = k ? 3000 + bar_um : 0;
         const double p[4][2] = {
             {x0, -bar_um}, {x1, -bar_um}, {x1, 3000 + bar_um}, {x0, 3000 + bar_um}};
-        f->piece[k] = (fw_piece){FW_ROLE_FRAME, FW_GROUND, FW_NONE, k ? "right" : "left",
-                                 polygon(arena, p, 4)};
+        f->piece[k] = (fw_layout_piece){FW_ROLE_FRAME, FW_GROUND, FW_NONE, k ? "right" : "left",
+                                        polygon(arena, p, 4)};
     }
 }
 
@@ -348,15 +350,15 @@ static void marks_on_the_frame(void **state) {
     assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
     assert_int_equal(left_out, 0);
     assert_int_equal(out->npiece, 2 + 2 * 2 + 4);
-    fw_vec2 cross[2];
+    fw_geometry_vec2 cross[2];
     int n = 0;
     for (int i = 2; i < out->npiece; i++) {
-        fw_box b = fw_contour_box(&out->piece[i].contour);
+        fw_geometry_box b = fw_geometry_contour_box(&out->piece[i].contour);
         bool left = b.x0 >= (-250 + 12) * UM && b.x1 <= -12 * UM;
         bool right = b.x0 >= 3012 * UM && b.x1 <= 3238 * UM;
         assert_true(left || right);
         if (strcmp(out->piece[i].label, "back side cross") == 0)
-            cross[n++] = (fw_vec2){0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)};
+            cross[n++] = (fw_geometry_vec2){0.5 * (b.x0 + b.x1), 0.5 * (b.y0 + b.y1)};
     }
     assert_int_equal(n, 2); /* level, and symmetric about the die's middle */
     assert_near(cross[0].y, cross[1].y, 1e-15);
@@ -364,14 +366,15 @@ static void marks_on_the_frame(void **state) {
     double top = cross[0].y;
     /* lettering where the first mark would be: it goes below */
     const double at[4][2] = {{-150, 2950}, {-100, 2950}, {-100, 2995}, {-150, 2995}};
-    f.piece[2] = (fw_piece){FW_ROLE_TEXT, FW_NONE - 1, FW_NONE, "title", polygon(d->arena, at, 4)};
+    f.piece[2] =
+        (fw_layout_piece){FW_ROLE_TEXT, FW_NONE - 1, FW_NONE, "title", polygon(d->arena, at, 4)};
     f.layout.npiece = 3;
     assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
     for (int i = 3; i < out->npiece; i++) {
-        fw_box b = fw_contour_box(&out->piece[i].contour);
+        fw_geometry_box b = fw_geometry_contour_box(&out->piece[i].contour);
         assert_true(b.x0 > 0 || b.y1 <= 2910 * UM + 1e-12);
     }
-    assert_true(fw_contour_box(&out->piece[4].contour).y1 < top);
+    assert_true(fw_geometry_contour_box(&out->piece[4].contour).y1 < top);
     /* a frame too narrow has none, and is handed back as it is */
     frame_of(d->arena, 100, &f);
     assert_int_equal(fw_mask_frame_marks(d->arena, &d->table, &f.layout, &out, &left_out), FW_OK);
@@ -396,15 +399,16 @@ static void die_ids(void **state) {
                {"", 250, 0}};
     for (size_t k = 0; k < sizeof ids / sizeof ids[0]; k++) {
         framed f;
-        fw_piece *piece = NULL;
+        fw_layout_piece *piece = NULL;
         int n = 0, room = 0;
         frame_of(arena, ids[k].bar_um, &f);
-        assert_int_equal(fw_content_die_id(arena, &f.layout, ids[k].id, &piece, &n, &room), FW_OK);
-        fw_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        assert_int_equal(fw_layout_content_die_id(arena, &f.layout, ids[k].id, &piece, &n, &room),
+                         FW_OK);
+        fw_geometry_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
         for (int i = 0; i < n; i++) {
-            fw_box b = fw_contour_box(&piece[i].contour);
-            all = (fw_box){fmin(all.x0, b.x0), fmin(all.y0, b.y0), fmax(all.x1, b.x1),
-                           fmax(all.y1, b.y1)};
+            fw_geometry_box b = fw_geometry_contour_box(&piece[i].contour);
+            all = (fw_geometry_box){fmin(all.x0, b.x0), fmin(all.y0, b.y0), fmax(all.x1, b.x1),
+                                    fmax(all.y1, b.y1)};
             assert_int_equal(piece[i].role, FW_ROLE_TEXT);
         }
         if (ids[k].high_um == 0) {

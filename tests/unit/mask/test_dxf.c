@@ -90,7 +90,7 @@ static double area(const line *p) {
 
 /* the arc from two points and a bulge, at its ends and in its middle, is on the circle that was
    drawn: to 2 pm, with coordinates of 1 pm */
-static void assert_arc(const line *p, int i, const fw_segment *s) {
+static void assert_arc(const line *p, int i, const fw_geometry_segment *s) {
     int j = (i + 1) % p->n;
     double dx = p->x[j] - p->x[i], dy = p->y[j] - p->y[i], b = p->bulge[i];
     double x[3] = {p->x[i], p->x[j], 0.5 * (p->x[i] + p->x[j]) + 0.5 * b * dy};
@@ -101,10 +101,10 @@ static void assert_arc(const line *p, int i, const fw_segment *s) {
                     2e-6);
 }
 
-static void assert_same(const line *p, const fw_contour *c) {
+static void assert_same(const line *p, const fw_geometry_contour *c) {
     int at = 0;
     for (int k = 0; k < c->count; k++) {
-        const fw_segment *s = &c->segment[k];
+        const fw_geometry_segment *s = &c->segment[k];
         double left = s->kind == FW_ARC ? fabs(s->sweep_rad) : 1;
         assert_near(p->x[at], s->a.x * 1e6, 0.6e-6);
         assert_near(p->y[at], s->a.y * 1e6, 0.6e-6);
@@ -137,12 +137,13 @@ static void arcs_come_back(void **state) {
         scene *s = scene_new(0, 0);
         double inner = (10 + 100 * random01(&seed)) * UM, width = (4 + 30 * random01(&seed)) * UM;
         double sweep = 0.3 + 5.6 * random01(&seed), radius = (5 + 50 * random01(&seed)) * UM;
-        fw_vec2 o = {1e-3 * random01(&seed), -1e-3 * random01(&seed)};
-        fw_contour ring, disc;
-        assert_int_equal(fw_contour_ring_sector(s->arena, o, inner, inner + width,
-                                                6 * random01(&seed), sweep, &ring),
+        fw_geometry_vec2 o = {1e-3 * random01(&seed), -1e-3 * random01(&seed)};
+        fw_geometry_contour ring, disc;
+        assert_int_equal(fw_geometry_contour_ring_sector(s->arena, o, inner, inner + width,
+                                                         6 * random01(&seed), sweep, &ring),
                          FW_OK);
-        assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){2e-3, 0}, radius, &disc), FW_OK);
+        assert_int_equal(
+            fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){2e-3, 0}, radius, &disc), FW_OK);
         scene_add(s, FW_ROLE_FLEXURE, "ring", ring);
         scene_add(s, FW_ROLE_TEXT, "disc", disc);
         s->options.bias_m = (random01(&seed) - 0.5) * UM;
@@ -152,13 +153,13 @@ static void arcs_come_back(void **state) {
         read_drawing(d, &out);
         assert_int_equal(d->npoly, mask->nshape);
         for (int k = 0; k < d->npoly; k++) {
-            const fw_contour *c = &mask->shape[k].contour;
+            const fw_geometry_contour *c = &mask->shape[k].contour;
             assert_int_equal(d->poly[k].closed, 1);
             assert_true(d->poly[k].n >= 3);
             assert_string_equal(d->poly[k].layer, mask->shape[k].layer ? "TEXT" : "DEVICE");
             assert_same(&d->poly[k], c);
-            assert_near(area(&d->poly[k]), fw_contour_area(c) * 1e12,
-                        fw_contour_perimeter(c) * 1e6 * 2e-6);
+            assert_near(area(&d->poly[k]), fw_geometry_contour_area(c) * 1e12,
+                        fw_geometry_contour_perimeter(c) * 1e6 * 2e-6);
         }
         assert_near(d->extent[0], mask->box.x0 * 1e6, 1e-6);
         assert_near(d->extent[3], mask->box.y1 * 1e6, 1e-6);
@@ -211,8 +212,8 @@ static void short_memory(void **state) {
     scene_free(s);
 }
 
-static const fw_element *child(const fw_element *e, const char *name) {
-    for (const fw_element *c = e->first_child; c; c = c->next)
+static const fw_xml_element *child(const fw_xml_element *e, const char *name) {
+    for (const fw_xml_element *c = e->first_child; c; c = c->next)
         if (strcmp(c->name, name) == 0) return c;
     fail_msg("<%s> has no <%s>", e->name, name);
     return NULL;
@@ -227,13 +228,13 @@ static void technology(void **state) {
     s->options.rejected = true;
     fw_text out = fw_text_new(s->arena);
     assert_int_equal(fw_mask_write_lyt(built(s), &out), FW_OK);
-    fw_element *root = NULL;
+    fw_xml_element *root = NULL;
     assert_int_equal(fw_xml_read(s->arena, "t", out.data, out.length, &s->diags, &root), FW_OK);
     assert_string_equal(root->name, "technology");
     assert_string_equal(child(root, "name")->text, "flexwright-test-flow");
     assert_string_equal(child(root, "layer-properties_file")->text, "test-flow.lyp");
     assert_string_equal(child(root, "description")->text, "REJECTED: right-reading chrome down");
-    const fw_element *dxf = child(child(root, "reader-options"), "dxf");
+    const fw_xml_element *dxf = child(child(root, "reader-options"), "dxf");
     assert_string_equal(child(dxf, "layer-map")->text,
                         "layer_map('REJECTED_DEVICE : 1/0';'REJECTED_TEXT : 2/0')");
     assert_string_equal(child(dxf, "circle-accuracy")->text, "0.002");

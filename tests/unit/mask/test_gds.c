@@ -176,10 +176,10 @@ static void random_sectors_through_the_file(void **state) {
         for (int k = 0; k < 5; k++) {
             double inner = (10 + 100 * random01(&seed)) * UM;
             double width = (4 + 30 * random01(&seed)) * UM, sweep = 0.5 + 5 * random01(&seed);
-            fw_contour c;
-            fw_vec2 o = {k * 400 * UM, random01(&seed) * 1e-3};
-            assert_int_equal(fw_contour_ring_sector(s->arena, o, inner, inner + width,
-                                                    6 * random01(&seed), sweep, &c),
+            fw_geometry_contour c;
+            fw_geometry_vec2 o = {k * 400 * UM, random01(&seed) * 1e-3};
+            assert_int_equal(fw_geometry_contour_ring_sector(s->arena, o, inner, inner + width,
+                                                             6 * random01(&seed), sweep, &c),
                              FW_OK);
             scene_add(s, FW_ROLE_FLEXURE, "ring", c);
             area += 0.5 * sweep * width * (2 * inner + width);

@@ -44,11 +44,12 @@ static void joints_share_grid_points(void **state) {
     (void)state;
     scene *s = scene_new(0, 0);
     scene_arch(s, 50, 8, 20);
-    fw_pose pose = {0.123456789e-3, -0.987654321e-3, 0.7};
+    fw_geometry_pose pose = {0.123456789e-3, -0.987654321e-3, 0.7};
     for (int i = 0; i < s->layout.npiece; i++) {
-        fw_contour moved;
-        assert_int_equal(fw_contour_transform(s->arena, &s->piece[i].contour, pose, false, &moved),
-                         FW_OK);
+        fw_geometry_contour moved;
+        assert_int_equal(
+            fw_geometry_contour_transform(s->arena, &s->piece[i].contour, pose, false, &moved),
+            FW_OK);
         s->piece[i].contour = moved;
     }
     s->options.bias_m = 0.777 * UM;
@@ -58,8 +59,9 @@ static void joints_share_grid_points(void **state) {
         for (int j = 0; j < i; j++)
             for (int a = 0; a < mask->shape[i].polygon.count; a++)
                 for (int b = 0; b < mask->shape[j].polygon.count; b++)
-                    shared += memcmp(&mask->shape[i].polygon.vertex[a],
-                                     &mask->shape[j].polygon.vertex[b], sizeof(fw_point)) == 0;
+                    shared +=
+                        memcmp(&mask->shape[i].polygon.vertex[a], &mask->shape[j].polygon.vertex[b],
+                               sizeof(fw_geometry_point)) == 0;
     assert_int_equal(shared, 4);
     scene_free(s);
 }
@@ -105,10 +107,10 @@ static void random_ring_sectors(void **state) {
         scene *s = scene_new(0, 0);
         double inner = (5 + 200 * random01(&seed)) * UM, width = (4 + 40 * random01(&seed)) * UM;
         double sweep = 0.2 + 5.5 * random01(&seed);
-        fw_vec2 o = {5e-3 * random01(&seed), 5e-3 * random01(&seed)};
-        fw_contour c;
-        assert_int_equal(fw_contour_ring_sector(s->arena, o, inner, inner + width,
-                                                7 * random01(&seed), sweep, &c),
+        fw_geometry_vec2 o = {5e-3 * random01(&seed), 5e-3 * random01(&seed)};
+        fw_geometry_contour c;
+        assert_int_equal(fw_geometry_contour_ring_sector(s->arena, o, inner, inner + width,
+                                                         7 * random01(&seed), sweep, &c),
                          FW_OK);
         scene_add(s, FW_ROLE_FLEXURE, "ring", c);
         s->options.tolerance_m = (1.42 + 20 * random01(&seed)) * 1e-9;
@@ -130,11 +132,12 @@ static void turned_corners_are_told(void **state) {
     int told = 0;
     for (int i = 0; i < 20; i++) {
         scene *s = scene_new(4 * UM, 4 * UM);
-        fw_contour c, moved;
-        assert_int_equal(fw_contour_rectangle(s->arena, (fw_box){0, 0, 100 * UM, 20 * UM}, &c),
-                         FW_OK);
-        fw_pose pose = {0, 0, 0.1 * i};
-        assert_int_equal(fw_contour_transform(s->arena, &c, pose, false, &moved), FW_OK);
+        fw_geometry_contour c, moved;
+        assert_int_equal(
+            fw_geometry_contour_rectangle(s->arena, (fw_geometry_box){0, 0, 100 * UM, 20 * UM}, &c),
+            FW_OK);
+        fw_geometry_pose pose = {0, 0, 0.1 * i};
+        assert_int_equal(fw_geometry_contour_transform(s->arena, &c, pose, false, &moved), FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "bar", moved);
         const fw_mask *mask = built(s);
         assert_int_equal(s->diags.errors, 0);
@@ -193,8 +196,8 @@ static void limits(void **state) {
 static void more_vertices_than_a_boundary_takes(void **state) {
     (void)state;
     scene *s = scene_new(0, 0);
-    fw_contour c;
-    assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){0, 0}, 0.02, &c), FW_OK);
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 0.02, &c), FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "wafer", c);
     scene_box(s, "box", 30000, 0, 30010, 10);
     s->options.tolerance_m = 1.5e-9;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Necks, ways of flattening, and what the certificate sums up, on built masks. */
 #include "geometry/segment.h"
-#include "mask/flatten.h"
+#include "mask/mask_flatten.h"
 #include "scene.h"
 #include <stdlib.h>
 
@@ -14,37 +14,40 @@ static const fw_mask *built(scene *s) {
 }
 
 /* two blocks with a circular notch on either side between them, neck t at x = 0 */
-static fw_contour notched(fw_arena *arena, fw_vec2 o, double r, double neck, double angle) {
+static fw_geometry_contour notched(fw_arena *arena, fw_geometry_vec2 o, double r, double neck,
+                                   double angle) {
     double high = 0.5 * neck + r, end = 1.5 * r;
-    fw_pose pose = {o.x, o.y, angle};
-    fw_outline l = fw_outline_start(arena, (fw_vec2){-end, -high});
-    fw_outline_line(&l, (fw_vec2){-r, -high}, 0);
-    fw_outline_arc_to(&l, (fw_vec2){0, -high}, -FW_PI, (fw_vec2){r, -high}, 0);
-    fw_outline_line(&l, (fw_vec2){end, -high}, 0);
-    fw_outline_line(&l, (fw_vec2){end, high}, 0);
-    fw_outline_line(&l, (fw_vec2){r, high}, 0);
-    fw_outline_arc_to(&l, (fw_vec2){0, high}, -FW_PI, (fw_vec2){-r, high}, 0);
-    fw_outline_line(&l, (fw_vec2){-end, high}, 0);
-    fw_contour c, out = {0};
-    assert_int_equal(fw_outline_close(&l, &c), FW_OK);
-    assert_int_equal(fw_contour_transform(arena, &c, pose, false, &out), FW_OK);
+    fw_geometry_pose pose = {o.x, o.y, angle};
+    fw_geometry_outline l = fw_geometry_outline_start(arena, (fw_geometry_vec2){-end, -high});
+    fw_geometry_outline_line(&l, (fw_geometry_vec2){-r, -high}, 0);
+    fw_geometry_outline_arc_to(&l, (fw_geometry_vec2){0, -high}, -FW_PI,
+                               (fw_geometry_vec2){r, -high}, 0);
+    fw_geometry_outline_line(&l, (fw_geometry_vec2){end, -high}, 0);
+    fw_geometry_outline_line(&l, (fw_geometry_vec2){end, high}, 0);
+    fw_geometry_outline_line(&l, (fw_geometry_vec2){r, high}, 0);
+    fw_geometry_outline_arc_to(&l, (fw_geometry_vec2){0, high}, -FW_PI,
+                               (fw_geometry_vec2){-r, high}, 0);
+    fw_geometry_outline_line(&l, (fw_geometry_vec2){-end, high}, 0);
+    fw_geometry_contour c, out = {0};
+    assert_int_equal(fw_geometry_outline_close(&l, &c), FW_OK);
+    assert_int_equal(fw_geometry_contour_transform(arena, &c, pose, false, &out), FW_OK);
     return out;
 }
 
 /* least width of the polygon: every vertex to every edge of the other side */
-static double polygon_width(const fw_polygon *p, fw_vec2 at, double within) {
+static double polygon_width(const fw_geometry_polygon *p, fw_geometry_vec2 at, double within) {
     double least = HUGE_VAL;
     for (int i = 0; i < p->count; i++) {
-        fw_vec2 v = {1e-9 * p->vertex[i].x_dbu, 1e-9 * p->vertex[i].y_dbu};
+        fw_geometry_vec2 v = {1e-9 * p->vertex[i].x_dbu, 1e-9 * p->vertex[i].y_dbu};
         if (vec_distance(v, at) > within) continue;
         for (int k = 0; k < p->count; k++) {
             int gap = abs(k - i);
             if (gap < 20 || gap > p->count - 20) continue; /* the same side */
-            fw_point a = p->vertex[k], b = p->vertex[(k + 1) % p->count];
-            fw_segment s = {.kind = FW_LINE,
-                            .a = {1e-9 * a.x_dbu, 1e-9 * a.y_dbu},
-                            .b = {1e-9 * b.x_dbu, 1e-9 * b.y_dbu}};
-            least = fmin(least, fw_segment_nearest(&s, v, NULL, NULL));
+            fw_geometry_point a = p->vertex[k], b = p->vertex[(k + 1) % p->count];
+            fw_geometry_segment s = {.kind = FW_LINE,
+                                     .a = {1e-9 * a.x_dbu, 1e-9 * a.y_dbu},
+                                     .b = {1e-9 * b.x_dbu, 1e-9 * b.y_dbu}};
+            least = fmin(least, fw_geometry_segment_nearest(&s, v, NULL, NULL));
         }
     }
     return least;
@@ -61,7 +64,8 @@ static void necks_are_exact_to_the_grid(void **state) {
         double t = 1e-9 * (2000 + 2 * (int)(4000 * random01(&seed)));
         double r = 1e-9 * (30000 + (int)(70000 * random01(&seed)));
         double angle = straight ? 0 : 6 * random01(&seed);
-        fw_vec2 o = {1e-9 * (int)(1e6 * random01(&seed)), 1e-9 * (int)(1e6 * random01(&seed))};
+        fw_geometry_vec2 o = {1e-9 * (int)(1e6 * random01(&seed)),
+                              1e-9 * (int)(1e6 * random01(&seed))};
         scene_add(s, FW_ROLE_FLEXURE, "notch", notched(s->arena, o, r, t, angle));
         s->options.flattening = i % 4 < 2 ? FW_FLATTEN_INSIDE : FW_FLATTEN_EQUAL_AREA;
         s->options.tolerance_m = 20e-9;
@@ -72,7 +76,7 @@ static void necks_are_exact_to_the_grid(void **state) {
         double x = 1e-9 * ((double)neck->vertex[0].x_dbu - neck->vertex[1].x_dbu);
         double y = 1e-9 * ((double)neck->vertex[0].y_dbu - neck->vertex[1].y_dbu);
         assert_near(hypot(x, y), t, straight ? 1e-15 : 1.4143e-9);
-        fw_vec2 middle = vec_scale(0.5, vec_add(neck->at[0], neck->at[1]));
+        fw_geometry_vec2 middle = vec_scale(0.5, vec_add(neck->at[0], neck->at[1]));
         if (s->options.flattening == FW_FLATTEN_INSIDE)
             assert_near(polygon_width(&mask->shape[0].polygon, middle, 3e-6 + t), t,
                         straight ? 1e-12 : 1.4143e-9);
@@ -103,10 +107,11 @@ static void areas_are_kept_where_wanted(void **state) {
     int vertices[2];
     for (int k = 0; k < 2; k++) {
         scene *s = scene_new(0, 0);
-        fw_contour disc;
-        assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){0, 0}, 300 * UM, &disc), FW_OK);
+        fw_geometry_contour disc;
+        assert_int_equal(
+            fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 300 * UM, &disc), FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "disc", disc);
-        s->options.flattening = (fw_flattening)k;
+        s->options.flattening = (fw_geometry_flattening)k;
         s->options.tolerance_m = 50e-9;
         const fw_mask *mask = built(s);
         const fw_mask_measure *m = &mask->measure[0];
@@ -122,7 +127,7 @@ static void areas_are_kept_where_wanted(void **state) {
 
 static void ways_have_names(void **state) {
     (void)state;
-    fw_flattening kind;
+    fw_geometry_flattening kind;
     assert_true(fw_mask_flattening_named(NULL, &kind) && kind == FW_FLATTEN_INSIDE);
     assert_true(fw_mask_flattening_named("equal-area", &kind) && kind == FW_FLATTEN_EQUAL_AREA);
     assert_string_equal(fw_mask_flattening_name(kind), "equal-area");

@@ -47,11 +47,11 @@ static void exactly_the_rule_turned_does_not(void **state) {
     (void)state;
     for (int more = 0; more < 2; more++) {
         scene *s = scene_new(4 * UM, 4 * UM);
-        fw_contour c;
+        fw_geometry_contour c;
         double width = 4 * UM + (more ? 1.5e-9 : 0);
-        assert_int_equal(
-            fw_contour_bar(s->arena, (fw_vec2){0, 0}, (fw_vec2){90 * UM, 33 * UM}, width, &c),
-            FW_OK);
+        assert_int_equal(fw_geometry_contour_bar(s->arena, (fw_geometry_vec2){0, 0},
+                                                 (fw_geometry_vec2){90 * UM, 33 * UM}, width, &c),
+                         FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "turned bar", c);
         if (more) {
             assert_near(built(s)->measure[0].width_m, width, 1e-17);
@@ -127,11 +127,11 @@ static void acute_corners(void **state) {
 static void conjugate_gap(void **state) {
     (void)state;
     scene *s = scene_new(4 * UM, 4 * UM);
-    fw_vec2 o = {123.4 * UM, -77.7 * UM};
-    fw_contour disc, shell;
-    assert_int_equal(fw_contour_disc(s->arena, o, 40 * UM, &disc), FW_OK);
-    assert_int_equal(fw_contour_ring_sector(s->arena, o, 46.5 * UM, 70 * UM, 0.3, 2.0, &shell),
-                     FW_OK);
+    fw_geometry_vec2 o = {123.4 * UM, -77.7 * UM};
+    fw_geometry_contour disc, shell;
+    assert_int_equal(fw_geometry_contour_disc(s->arena, o, 40 * UM, &disc), FW_OK);
+    assert_int_equal(
+        fw_geometry_contour_ring_sector(s->arena, o, 46.5 * UM, 70 * UM, 0.3, 2.0, &shell), FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "cam", disc);
     scene_add(s, FW_ROLE_STRUCTURE, "shell", shell);
     const fw_mask *mask = built(s);
@@ -145,11 +145,12 @@ static void arcs_pay_for_flattening(void **state) {
     (void)state;
     for (int more = 0; more < 2; more++) {
         scene *s = scene_new(0, 4 * UM);
-        fw_contour disc, shell;
+        fw_geometry_contour disc, shell;
         double gap = 4 * UM + (more ? 11.5e-9 : 11.3e-9); /* 2 (5 nm + 0.7071 nm) = 11.414 nm */
-        assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){0, 0}, 40 * UM, &disc), FW_OK);
-        assert_int_equal(fw_contour_ring_sector(s->arena, (fw_vec2){0, 0}, 40 * UM + gap, 70 * UM,
-                                                0.3, 2.0, &shell),
+        assert_int_equal(
+            fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 40 * UM, &disc), FW_OK);
+        assert_int_equal(fw_geometry_contour_ring_sector(s->arena, (fw_geometry_vec2){0, 0},
+                                                         40 * UM + gap, 70 * UM, 0.3, 2.0, &shell),
                          FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "cam", disc);
         scene_add(s, FW_ROLE_STRUCTURE, "shell", shell);
@@ -166,13 +167,15 @@ static void arcs_pay_for_flattening(void **state) {
 static void small_disc(void **state) {
     (void)state;
     scene *s = scene_new(4 * UM, 0);
-    fw_contour disc;
-    assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){0, 0}, 2.5 * UM, &disc), FW_OK);
+    fw_geometry_contour disc;
+    assert_int_equal(fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 2.5 * UM, &disc),
+                     FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "disc", disc);
     refused(s, 144);
     scene_free(s);
     s = scene_new(4 * UM, 0);
-    assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){0, 0}, 3 * UM, &disc), FW_OK);
+    assert_int_equal(fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 3 * UM, &disc),
+                     FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "disc", disc);
     built(s);
     scene_free(s);
@@ -241,16 +244,18 @@ static void motion_changes_nothing(void **state) {
         scene *s = scene_new(4 * UM, 4 * UM);
         scene_arch(s, 50, 8, 20);
         scene_box(s, "block", -20, -20, 20, 30);
-        fw_pose pose = {random01(&seed) * 1e-3, random01(&seed) * 1e-3, 6.3 * random01(&seed)};
-        fw_contour moved;
-        assert_int_equal(fw_contour_transform(s->arena, &s->piece[3].contour, pose, false, &moved),
-                         FW_OK);
+        fw_geometry_pose pose = {random01(&seed) * 1e-3, random01(&seed) * 1e-3,
+                                 6.3 * random01(&seed)};
+        fw_geometry_contour moved;
+        assert_int_equal(
+            fw_geometry_contour_transform(s->arena, &s->piece[3].contour, pose, false, &moved),
+            FW_OK);
         s->piece[3].contour = moved;
         /* the arch alone in its place, the block moved with an inverse check on the corner */
         double gap = HUGE_VAL;
         for (int i = 0; i < 3; i++) {
-            fw_vec2 p, q;
-            gap = fmin(gap, fw_contour_distance(&s->piece[i].contour, &moved, &p, &q));
+            fw_geometry_vec2 p, q;
+            gap = fmin(gap, fw_geometry_contour_distance(&s->piece[i].contour, &moved, &p, &q));
         }
         const fw_mask *mask = NULL;
         fw_status status = scene_build(s, &mask);

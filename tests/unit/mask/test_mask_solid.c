@@ -144,10 +144,10 @@ static void pieces_become_one_solid(void **state) {
 static void cut_outlines_stay_one(void **state) {
     (void)state;
     scene *s = scene_new(0, 0);
-    fw_contour ring;
-    assert_int_equal(
-        fw_contour_ring_sector(s->arena, (fw_vec2){1e-4, -3e-4}, 200 * UM, 240 * UM, 1, 5, &ring),
-        FW_OK);
+    fw_geometry_contour ring;
+    assert_int_equal(fw_geometry_contour_ring_sector(s->arena, (fw_geometry_vec2){1e-4, -3e-4},
+                                                     200 * UM, 240 * UM, 1, 5, &ring),
+                     FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "ring", ring);
     s->options.thickness_m = 10 * UM;
     s->options.vertex_limit = 60;

@@ -3,7 +3,7 @@
 #include "mask/mask.h"
 #include "test.h"
 
-static const fw_mask_layer *layer_of(const fw_mask_table *t, fw_role role) {
+static const fw_mask_layer *layer_of(const fw_mask_table *t, fw_layout_role role) {
     for (int k = 0; k < t->nlayer; k++)
         if (t->layer[k].roles & 1u << role) return &t->layer[k];
     return NULL;

@@ -12,16 +12,16 @@ static const fw_mask *built(scene *s) {
     return mask;
 }
 
-static fw_element *parsed(scene *s, const fw_text *text) {
-    fw_element *root = NULL;
+static fw_xml_element *parsed(scene *s, const fw_text *text) {
+    fw_xml_element *root = NULL;
     fw_status status = fw_xml_read(s->arena, "out", text->data, text->length, &s->diags, &root);
     if (status != FW_OK || !root)
         fail_msg("%s", s->diags.count ? s->diags.item[0].message : "not XML");
     return root;
 }
 
-static const char *attribute(const fw_element *e, const char *name) {
-    const fw_attribute *a = fw_xml_attribute(e, name);
+static const char *attribute(const fw_xml_element *e, const char *name) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, name);
     if (!a) fail_msg("<%s> has no %s", e->name, name);
     return a->value;
 }
@@ -70,32 +70,33 @@ static void svg_has_exact_arcs(void **state) {
         scene *s = scene_new(0, 0);
         double inner = (10 + 100 * random01(&seed)) * UM, width = (4 + 30 * random01(&seed)) * UM;
         double sweep = 0.3 + 5.6 * random01(&seed), radius = (5 + 50 * random01(&seed)) * UM;
-        fw_contour ring, disc;
-        fw_vec2 o = {1e-3 * random01(&seed), -1e-3 * random01(&seed)};
-        assert_int_equal(fw_contour_ring_sector(s->arena, o, inner, inner + width,
-                                                6 * random01(&seed), sweep, &ring),
+        fw_geometry_contour ring, disc;
+        fw_geometry_vec2 o = {1e-3 * random01(&seed), -1e-3 * random01(&seed)};
+        assert_int_equal(fw_geometry_contour_ring_sector(s->arena, o, inner, inner + width,
+                                                         6 * random01(&seed), sweep, &ring),
                          FW_OK);
-        assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){2e-3, 0}, radius, &disc), FW_OK);
+        assert_int_equal(
+            fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){2e-3, 0}, radius, &disc), FW_OK);
         scene_add(s, FW_ROLE_FLEXURE, "ring <A&B>", ring);
         scene_add(s, FW_ROLE_STRUCTURE, "disc", disc);
         fw_text out = fw_text_new(s->arena);
         assert_int_equal(fw_mask_write_svg(built(s), &out), FW_OK);
-        fw_element *root = parsed(s, &out), *group = root->first_child;
+        fw_xml_element *root = parsed(s, &out), *group = root->first_child;
         while (group && strcmp(group->name, "g") != 0)
             group = group->next;
         assert_non_null(group);
         assert_string_equal(attribute(group, "id"), "device");
-        const fw_element *path = group->first_child->next;
+        const fw_xml_element *path = group->first_child->next;
         double arcs = 0;
         double want = 0.5 * sweep * width * (2 * inner + width) * 1e12;
         assert_string_equal(path->first_child->text, "ring <A&B>");
         /* coordinates are rounded to 1 pm */
-        double rounding = 1e-6 * fw_contour_perimeter(&ring) * 1e6;
+        double rounding = 1e-6 * fw_geometry_contour_perimeter(&ring) * 1e6;
         assert_near(path_area(attribute(path, "d"), &arcs), want, rounding);
         assert_true(arcs >= 2);
         arcs = 0;
         want = PI * radius * radius * 1e12;
-        rounding = 1e-6 * fw_contour_perimeter(&disc) * 1e6;
+        rounding = 1e-6 * fw_geometry_contour_perimeter(&disc) * 1e6;
         assert_near(path_area(attribute(path->next, "d"), &arcs), want, rounding);
         assert_true(arcs >= 3); /* a whole circle in one arc draws nothing */
         scene_free(s);
@@ -110,7 +111,7 @@ static void svg_places(void **state) {
     fw_text out = fw_text_new(s->arena);
     assert_int_equal(fw_mask_write_svg(built(s), &out), FW_OK);
     assert_non_null(strstr(out.data, "<path d=\"M150 180L160.000001 180L160.000001 150L150 150"));
-    fw_element *root = parsed(s, &out);
+    fw_xml_element *root = parsed(s, &out);
     assert_string_equal(attribute(root, "viewBox"), "0 0 310.000001 480");
     assert_string_equal(attribute(root, "width"), "0.310000001mm");
     assert_string_equal(attribute(root, "height"), "0.48mm");
@@ -125,14 +126,14 @@ static void lyp_names_every_layer(void **state) {
     s->options.rejected = true;
     fw_text out = fw_text_new(s->arena);
     assert_int_equal(fw_mask_write_lyp(built(s), &out), FW_OK);
-    fw_element *root = parsed(s, &out);
+    fw_xml_element *root = parsed(s, &out);
     assert_string_equal(root->name, "layer-properties");
     static const char *const source[] = {"1/0@1", "2/0@1", "63/0@1"};
     int n = 0;
-    for (const fw_element *e = root->first_child; e; e = e->next) {
+    for (const fw_xml_element *e = root->first_child; e; e = e->next) {
         if (strcmp(e->name, "properties") != 0) continue;
         bool named = false, placed = false;
-        for (const fw_element *c = e->first_child; c; c = c->next) {
+        for (const fw_xml_element *c = e->first_child; c; c = c->next) {
             named = named || (strcmp(c->name, "name") == 0 && strstr(c->text, "REJECTED "));
             placed = placed || (strcmp(c->name, "source") == 0 && strcmp(c->text, source[n]) == 0);
         }
@@ -179,7 +180,7 @@ static void certificate_is_json(void **state) {
     assert_int_equal(json_array_size(shapes), 3);
     assert_string_equal(json_string_value(json_object_get(arch, "piece")), "arch");
     assert_true(json_integer_value(json_object_get(arch, "area2_nm2")) ==
-                fw_polygon_area2(&mask->shape[0].polygon));
+                fw_geometry_polygon_area2(&mask->shape[0].polygon));
     json_t *necks = json_object_get(root, "necks"), *neck = json_array_get(necks, 0);
     assert_int_equal(json_array_size(necks), 1);
     assert_near(json_number_value(json_object_get(neck, "width_um")), 9, 1e-9);

@@ -24,9 +24,9 @@ static hand *hand_new(int nlayer) {
 }
 
 static void hand_add(hand *h, int layer, int n, const int32_t (*v)[2], int32_t x, int32_t y) {
-    fw_point *p = fw_arena_array(h->s->arena, fw_point, (size_t)n);
+    fw_geometry_point *p = fw_arena_array(h->s->arena, fw_geometry_point, (size_t)n);
     for (int i = 0; i < n; i++)
-        p[i] = (fw_point){v[i][0] + x, v[i][1] + y};
+        p[i] = (fw_geometry_point){v[i][0] + x, v[i][1] + y};
     h->shape[h->mask.nshape++] = (fw_mask_shape){.layer = layer, .polygon = {p, n}};
 }
 
@@ -36,7 +36,7 @@ static fw_text written(const fw_mask *mask, fw_arena *arena) {
     return out;
 }
 
-static bool same(const oas_polygon *p, const fw_polygon *q) {
+static bool same(const oas_polygon *p, const fw_geometry_polygon *q) {
     if (p->n != q->count) return false;
     for (int i = 0; i < p->n; i++)
         if (p->x[i] != q->vertex[i].x_dbu || p->y[i] != q->vertex[i].y_dbu) return false;

@@ -34,11 +34,11 @@ static const char *text(json_t *json, const char *key) {
     return json_is_string(value) ? json_string_value(value) : "(none)";
 }
 
-static fw_vec2 point(json_t *json, const char *key) {
+static fw_geometry_vec2 point(json_t *json, const char *key) {
     json_t *value = json_object_get(json, key);
     assert_int_equal(json_array_size(value), 2);
-    return (fw_vec2){json_number_value(json_array_get(value, 0)) * UM,
-                     json_number_value(json_array_get(value, 1)) * UM};
+    return (fw_geometry_vec2){json_number_value(json_array_get(value, 0)) * UM,
+                              json_number_value(json_array_get(value, 1)) * UM};
 }
 
 static void plates(void **state) {
@@ -70,7 +70,7 @@ static void plates(void **state) {
         int first;
         const char *wrong = "";
         s->table.plate = row[i].plate;
-        assert_int_equal(fw_plate_layers(&s->table, on, &first, &wrong), !row[i].wrong);
+        assert_int_equal(fw_mask_plate_layers(&s->table, on, &first, &wrong), !row[i].wrong);
         if (row[i].wrong)
             assert_string_equal(wrong, row[i].wrong);
         else
@@ -104,24 +104,26 @@ static void plate_of_a_table(void **state) {
 
 /* ends on the boundary of the layer's union, their distance, and which side is between them */
 static void assert_site(const fw_mask *mask, json_t *site) {
-    fw_vec2 p = point(site, "from_um"), q = point(site, "to_um"), m = point(site, "centre_um");
+    fw_geometry_vec2 p = point(site, "from_um"), q = point(site, "to_um"),
+                     m = point(site, "centre_um");
     bool space = strcmp(text(site, "kind"), "space") == 0, inside = false;
     double rounding = 2e-4 * UM, to_p = 1, to_q = 1;
     assert_near(hypot(p.x - q.x, p.y - q.y), number(site, "cd_um") * UM, rounding);
     assert_near(m.x, 0.5 * (p.x + q.x), rounding);
     assert_near(m.y, 0.5 * (p.y + q.y), rounding);
     for (int i = 0; i < mask->nshape; i++) {
-        const fw_contour *c = &mask->shape[i].contour;
+        const fw_geometry_contour *c = &mask->shape[i].contour;
         char gds[32];
         snprintf(gds, sizeof gds, "%d/0", mask->table->layer[mask->shape[i].layer].layer);
         if (strcmp(gds, text(site, "gds")) != 0) continue;
         for (int k = -1; k <= 1; k += 2) /* the middle may lie on a joint between two pieces */
-            inside = inside || fw_contour_contains(c, (fw_vec2){m.x + k * 1e-10, m.y + k * 2e-10});
+            inside = inside || fw_geometry_contour_contains(
+                                   c, (fw_geometry_vec2){m.x + k * 1e-10, m.y + k * 2e-10});
         for (int k = 0; k < c->count; k++) {
             double t;
-            fw_vec2 at;
-            to_p = fmin(to_p, fw_segment_nearest(&c->segment[k], p, &t, &at));
-            to_q = fmin(to_q, fw_segment_nearest(&c->segment[k], q, &t, &at));
+            fw_geometry_vec2 at;
+            to_p = fmin(to_p, fw_geometry_segment_nearest(&c->segment[k], p, &t, &at));
+            to_q = fmin(to_q, fw_geometry_segment_nearest(&c->segment[k], q, &t, &at));
         }
     }
     assert_true(inside != space);
@@ -164,7 +166,7 @@ static void says_what_is_drawn(void **state) {
         assert_site(mask, site);
         if (strcmp(text(site, "what"), "arch") != 0) continue;
         flexures++; /* in the middle of the arc, on its mean radius; both edges moved by the bias */
-        fw_vec2 m = point(site, "centre_um");
+        fw_geometry_vec2 m = point(site, "centre_um");
         assert_near(number(site, "cd_um"), 10, 1e-6);
         assert_near(m.x, 0, 1e-9);
         assert_near(m.y, 50 * UM, 1e-9);

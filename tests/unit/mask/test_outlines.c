@@ -17,27 +17,31 @@ static const fw_mask *built(scene *s, double bias_m) {
 
 static scene *some_shapes(void) {
     scene *s = scene_new(0, 0);
-    fw_contour c;
-    assert_int_equal(fw_contour_disc(s->arena, (fw_vec2){200 * UM, 0}, 40 * UM, &c), FW_OK);
-    scene_add(s, FW_ROLE_STRUCTURE, "disc", c);
-    assert_int_equal(fw_contour_rectangle(s->arena, (fw_box){0, 0, 90 * UM, 8 * UM}, &c), FW_OK);
-    scene_add(s, FW_ROLE_FLEXURE, "bar", c);
+    fw_geometry_contour c;
     assert_int_equal(
-        fw_contour_ring_sector(s->arena, (fw_vec2){0, 300 * UM}, 60 * UM, 75 * UM, 0.3, 4.0, &c),
+        fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){200 * UM, 0}, 40 * UM, &c), FW_OK);
+    scene_add(s, FW_ROLE_STRUCTURE, "disc", c);
+    assert_int_equal(
+        fw_geometry_contour_rectangle(s->arena, (fw_geometry_box){0, 0, 90 * UM, 8 * UM}, &c),
         FW_OK);
-    fw_contour round;
-    fw_vec2 where;
-    assert_int_equal(fw_contour_round(s->arena, &c, 4 * UM, 4 * UM, &round, &where), FW_OK);
+    scene_add(s, FW_ROLE_FLEXURE, "bar", c);
+    assert_int_equal(fw_geometry_contour_ring_sector(s->arena, (fw_geometry_vec2){0, 300 * UM},
+                                                     60 * UM, 75 * UM, 0.3, 4.0, &c),
+                     FW_OK);
+    fw_geometry_contour round;
+    fw_geometry_vec2 where;
+    assert_int_equal(fw_geometry_contour_round(s->arena, &c, 4 * UM, 4 * UM, &round, &where),
+                     FW_OK);
     scene_add(s, FW_ROLE_FLEXURE, "ring", round);
     const double ell[][2] = {{-300, 0}, {-200, 0}, {-200, 30}, {-260, 30}, {-260, 90}, {-300, 90}};
     scene_add(s, FW_ROLE_STRUCTURE, "ell", polygon(s->arena, ell, 6));
     return s;
 }
 
-static void same_contour(const fw_contour *p, const fw_contour *q) {
+static void same_contour(const fw_geometry_contour *p, const fw_geometry_contour *q) {
     assert_int_equal(p->count, q->count);
     for (int i = 0; i < p->count; i++) {
-        const fw_segment *a = &p->segment[i], *b = &q->segment[i];
+        const fw_geometry_segment *a = &p->segment[i], *b = &q->segment[i];
         assert_int_equal(a->kind, b->kind);
         assert_near(hypot(a->a.x - b->a.x, a->a.y - b->a.y), 0, 1e-12);
         assert_near(hypot(a->b.x - b->b.x, a->b.y - b->b.y), 0, 1e-12);
@@ -81,10 +85,10 @@ static void faces_stand_where_they_are_said_to(void **state) {
     for (int w = 0; w < 4; w++)
         for (int i = 0; i < 2; i++) {
             const fw_mask_outline *p = &o.outline[i];
-            const fw_contour *c[] = {&p->top, &p->bottom, &p->least, &p->most};
+            const fw_geometry_contour *c[] = {&p->top, &p->bottom, &p->least, &p->most};
             double e = edge[w], r = 40 * UM + e;
             double want = i == 0 ? PI * r * r : (90 * UM + 2 * e) * (8 * UM + 2 * e);
-            assert_relative(fw_contour_area(c[w]), want, 1e-11);
+            assert_relative(fw_geometry_contour_area(c[w]), want, 1e-11);
         }
     scene_free(s);
 }
@@ -137,7 +141,7 @@ static void the_picture(void **state) {
         if (w == 1) assert_non_null(strstr(out.data, "made 6.8 to 8.2 um at the top"));
         if (w == 2) assert_non_null(strstr(out.data, "made 7 at the top, 9 um below"));
         if (w) assert_non_null(strstr(out.data, "printed &lt;edge&gt; 0 to 0.1 um</text>"));
-        fw_element *root = NULL;
+        fw_xml_element *root = NULL;
         assert_int_equal(fw_xml_read(s->arena, "x.svg", out.data, out.length, &s->diags, &root),
                          FW_OK);
         scene_free(s);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/cut.h"
+#include "mask/mask_cut.h"
 #include "scene.h"
 #include <stdlib.h>
 
 typedef struct edge {
-    fw_point a, b;
+    fw_geometry_point a, b;
 } edge;
 
 static int by_ends(const void *left, const void *right) {
@@ -14,24 +14,24 @@ static int by_ends(const void *left, const void *right) {
 /* Parts within the limit, simple, counter-clockwise; areas add up exactly; every edge of the
    polygon is an edge of one part, and every other edge of a part is there once in either direction:
    so the parts cover the polygon without gap or overlap. */
-static void assert_partition(fw_arena *arena, const fw_polygon *p, int most, const fw_polygon *part,
-                             int npart) {
+static void assert_partition(fw_arena *arena, const fw_geometry_polygon *p, int most,
+                             const fw_geometry_polygon *part, int npart) {
     int64_t area = 0;
     int total = 0, n = 0;
     for (int k = 0; k < npart; k++)
         total += part[k].count;
     edge *list = fw_arena_array(arena, edge, (size_t)(total + p->count));
     for (int k = 0; k < npart; k++) {
-        fw_polygon_report report;
+        fw_geometry_polygon_report report;
         assert_true(part[k].count >= 3 && part[k].count <= most);
-        assert_int_equal(fw_polygon_check(arena, &part[k], &report), FW_OK);
+        assert_int_equal(fw_geometry_polygon_check(arena, &part[k], &report), FW_OK);
         assert_true(report.simple);
-        assert_true(fw_polygon_area2(&part[k]) > 0);
-        area += fw_polygon_area2(&part[k]);
+        assert_true(fw_geometry_polygon_area2(&part[k]) > 0);
+        area += fw_geometry_polygon_area2(&part[k]);
         for (int i = 0; i < part[k].count; i++)
             list[n++] = (edge){part[k].vertex[i], part[k].vertex[(i + 1) % part[k].count]};
     }
-    assert_true(area == fw_polygon_area2(p));
+    assert_true(area == fw_geometry_polygon_area2(p));
     for (int i = 0; i < p->count; i++) /* the outline backwards: then all edges go both ways */
         list[n++] = (edge){p->vertex[(i + 1) % p->count], p->vertex[i]};
     qsort(list, (size_t)n, sizeof *list, by_ends);
@@ -44,11 +44,11 @@ static void assert_partition(fw_arena *arena, const fw_polygon *p, int most, con
 }
 
 /* least distance of a vertex from an edge that is not its own, nm */
-static double clearance_dbu(const fw_polygon *p) {
+static double clearance_dbu(const fw_geometry_polygon *p) {
     double least = HUGE_VAL;
     for (int i = 0; i < p->count; i++)
         for (int j = 0; j < p->count; j++) {
-            fw_point v = p->vertex[i], a = p->vertex[j], b = p->vertex[(j + 1) % p->count];
+            fw_geometry_point v = p->vertex[i], a = p->vertex[j], b = p->vertex[(j + 1) % p->count];
             if (j == i || (j + 1) % p->count == i) continue;
             double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
             double u = (double)v.x_dbu - a.x_dbu, w = (double)v.y_dbu - a.y_dbu;
@@ -61,11 +61,12 @@ static double clearance_dbu(const fw_polygon *p) {
 
 /* the parts cover the polygon, and what is said of the cuts is what all pairs of vertices and edges
    say. Returns it. */
-static double cut_and_check(fw_arena *arena, const fw_polygon *p, int most, int npart_most) {
-    fw_polygon *part;
+static double cut_and_check(fw_arena *arena, const fw_geometry_polygon *p, int most,
+                            int npart_most) {
+    fw_geometry_polygon *part;
     int npart;
     double said, least = HUGE_VAL;
-    assert_int_equal(fw_polygon_cut(arena, p, most, &part, &npart, &said), FW_OK);
+    assert_int_equal(fw_mask_polygon_cut(arena, p, most, &part, &npart, &said), FW_OK);
     assert_partition(arena, p, most, part, npart);
     if (npart > npart_most) fail_msg("%d parts of %d vertices", npart, p->count);
     for (int k = 0; k < npart; k++)
@@ -75,28 +76,28 @@ static double cut_and_check(fw_arena *arena, const fw_polygon *p, int most, int 
     return least;
 }
 
-static double shortest_dbu(const fw_polygon *p) {
+static double shortest_dbu(const fw_geometry_polygon *p) {
     double least = HUGE_VAL;
     for (int i = 0; i < p->count; i++) {
-        fw_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
+        fw_geometry_point a = p->vertex[i], b = p->vertex[(i + 1) % p->count];
         least = fmin(least, hypot((double)b.x_dbu - a.x_dbu, (double)b.y_dbu - a.y_dbu));
     }
     return least;
 }
 
-static fw_polygon flat(fw_arena *arena, const fw_contour *c, double tolerance_m) {
-    fw_polygon p;
-    assert_int_equal(fw_tessellate(arena, c, tolerance_m, &p), FW_OK);
+static fw_geometry_polygon flat(fw_arena *arena, const fw_geometry_contour *c, double tolerance_m) {
+    fw_geometry_polygon p;
+    assert_int_equal(fw_geometry_tessellate(arena, c, tolerance_m, &p), FW_OK);
     return p;
 }
 
 static void small_ones_stay(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_point v[4] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
-    fw_polygon p = {v, 4}, *part;
+    fw_geometry_point v[4] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+    fw_geometry_polygon p = {v, 4}, *part;
     int npart;
-    assert_int_equal(fw_polygon_cut(arena, &p, 8, &part, &npart, NULL), FW_OK);
+    assert_int_equal(fw_mask_polygon_cut(arena, &p, 8, &part, &npart, NULL), FW_OK);
     assert_int_equal(npart, 1);
     assert_ptr_equal(part->vertex, v);
     fw_arena_free(arena);
@@ -106,13 +107,15 @@ static void discs_and_rings(void **state) {
     (void)state;
     static const int limit[3] = {199, 4094, 8190};
     fw_arena *arena = fw_arena_new(0);
-    fw_contour c;
+    fw_geometry_contour c;
     for (int k = 0; k < 3; k++) {
-        assert_int_equal(fw_contour_disc(arena, (fw_vec2){1e-3, 0}, 20e-3, &c), FW_OK);
-        fw_polygon p = flat(arena, &c, 2e-9);
+        assert_int_equal(fw_geometry_contour_disc(arena, (fw_geometry_vec2){1e-3, 0}, 20e-3, &c),
+                         FW_OK);
+        fw_geometry_polygon p = flat(arena, &c, 2e-9);
         assert_true(p.count > 6900);
         cut_and_check(arena, &p, limit[k], 4 * p.count / limit[k] + 1);
-        assert_int_equal(fw_contour_ring_sector(arena, (fw_vec2){0, 0}, 195e-6, 205e-6, 1, 6, &c),
+        assert_int_equal(fw_geometry_contour_ring_sector(arena, (fw_geometry_vec2){0, 0}, 195e-6,
+                                                         205e-6, 1, 6, &c),
                          FW_OK);
         p = flat(arena, &c, 1.5e-9);
         cut_and_check(arena, &p, limit[k], 4 * p.count / limit[k] + 1);
@@ -124,14 +127,15 @@ static void discs_and_rings(void **state) {
 static void necks_are_preferred(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_contour c;
-    assert_int_equal(fw_contour_ring_sector(arena, (fw_vec2){0, 0}, 195e-6, 205e-6, 0, 6, &c),
-                     FW_OK);
-    fw_polygon p = flat(arena, &c, 1.5e-9), *part;
+    fw_geometry_contour c;
+    assert_int_equal(
+        fw_geometry_contour_ring_sector(arena, (fw_geometry_vec2){0, 0}, 195e-6, 205e-6, 0, 6, &c),
+        FW_OK);
+    fw_geometry_polygon p = flat(arena, &c, 1.5e-9), *part;
     int npart;
-    assert_int_equal(fw_polygon_cut(arena, &p, p.count - 1, &part, &npart, NULL), FW_OK);
+    assert_int_equal(fw_mask_polygon_cut(arena, &p, p.count - 1, &part, &npart, NULL), FW_OK);
     assert_int_equal(npart, 2);
-    fw_point a = part[0].vertex[0], b = part[0].vertex[part[0].count - 1];
+    fw_geometry_point a = part[0].vertex[0], b = part[0].vertex[part[0].count - 1];
     assert_near(hypot(a.x_dbu - b.x_dbu, a.y_dbu - b.y_dbu), 10000, 60);
     fw_arena_free(arena);
 }
@@ -143,14 +147,15 @@ static void random_outlines(void **state) {
     for (int run = 0; run < 60; run++) {
         fw_arena *arena = fw_arena_new(0);
         int n = 20 + (int)(700 * random01(&seed)), size = run % 3 ? 100000 : 3000;
-        fw_point *v = fw_arena_array(arena, fw_point, (size_t)n);
+        fw_geometry_point *v = fw_arena_array(arena, fw_geometry_point, (size_t)n);
         for (int i = 0; i < n; i++) {
             double r = size * (0.1 + random01(&seed)), angle = 2 * PI * i / n;
-            v[i] = (fw_point){(int32_t)lround(r * cos(angle)), (int32_t)lround(r * sin(angle))};
+            v[i] = (fw_geometry_point){(int32_t)lround(r * cos(angle)),
+                                       (int32_t)lround(r * sin(angle))};
         }
-        fw_polygon p = {v, n};
-        fw_polygon_report report;
-        assert_int_equal(fw_polygon_check(arena, &p, &report), FW_OK);
+        fw_geometry_polygon p = {v, n};
+        fw_geometry_polygon_report report;
+        assert_int_equal(fw_geometry_polygon_check(arena, &p, &report), FW_OK);
         if (report.simple) cut_and_check(arena, &p, 8 + (int)(60 * random01(&seed)), n);
         fw_arena_free(arena);
     }
@@ -161,17 +166,17 @@ static void combs(void **state) {
     (void)state;
     enum { TEETH = 120 };
     fw_arena *arena = fw_arena_new(0);
-    fw_point v[4 * TEETH];
+    fw_geometry_point v[4 * TEETH];
     int n = 0;
     for (int i = 0; i < TEETH; i++) { /* teeth down, from left to right */
-        v[n++] = (fw_point){20 * i, 0};
-        v[n++] = (fw_point){20 * i + 10, 0};
-        v[n++] = (fw_point){20 * i + 10, 500};
-        v[n++] = (fw_point){20 * i + 20, 500};
+        v[n++] = (fw_geometry_point){20 * i, 0};
+        v[n++] = (fw_geometry_point){20 * i + 10, 0};
+        v[n++] = (fw_geometry_point){20 * i + 10, 500};
+        v[n++] = (fw_geometry_point){20 * i + 20, 500};
     }
-    v[n - 2] = (fw_point){20 * TEETH - 10, 600};
-    v[n - 1] = (fw_point){0, 600};
-    fw_polygon p = {v, n};
+    v[n - 2] = (fw_geometry_point){20 * TEETH - 10, 600};
+    v[n - 1] = (fw_geometry_point){0, 600};
+    fw_geometry_polygon p = {v, n};
     for (int most = 8; most < 200; most += 37)
         cut_and_check(arena, &p, most, n);
     fw_arena_free(arena);
@@ -189,29 +194,30 @@ static void fingers_leave_no_slivers(void **state) {
         double pitch = (33 + 4 * random01(&seed)) * UM, wide = 11.48 * UM;
         double height = (fingers + 2) * pitch, turn = run % 2 ? 2 * PI * random01(&seed) : 0;
         double tolerance_m = (run % 2 ? 1.42 : 3) * 1e-9;
-        fw_vec2 corner[4 * 16 + 4];
+        fw_geometry_vec2 corner[4 * 16 + 4];
         int n = 0;
-        corner[n++] = (fw_vec2){0, 0};
-        corner[n++] = (fw_vec2){200 * UM, 0};
+        corner[n++] = (fw_geometry_vec2){0, 0};
+        corner[n++] = (fw_geometry_vec2){200 * UM, 0};
         for (int k = 0; k < fingers; k++)
             for (int i = 0; i < 4; i++)
-                corner[n++] = (fw_vec2){(i == 1 || i == 2 ? 296 : 200) * UM,
-                                        (k + 1) * pitch + (i > 1 ? wide : 0)};
-        corner[n++] = (fw_vec2){200 * UM, height};
-        corner[n++] = (fw_vec2){0, height};
-        fw_outline o = {0};
+                corner[n++] = (fw_geometry_vec2){(i == 1 || i == 2 ? 296 : 200) * UM,
+                                                 (k + 1) * pitch + (i > 1 ? wide : 0)};
+        corner[n++] = (fw_geometry_vec2){200 * UM, height};
+        corner[n++] = (fw_geometry_vec2){0, height};
+        fw_geometry_outline o = {0};
         for (int i = 0; i < n; i++) {
-            fw_vec2 at = {corner[i].x * cos(turn) - corner[i].y * sin(turn),
-                          corner[i].x * sin(turn) + corner[i].y * cos(turn)};
+            fw_geometry_vec2 at = {corner[i].x * cos(turn) - corner[i].y * sin(turn),
+                                   corner[i].x * sin(turn) + corner[i].y * cos(turn)};
             if (i == 0)
-                o = fw_outline_start(arena, at);
+                o = fw_geometry_outline_start(arena, at);
             else
-                fw_outline_line(&o, at, 0);
+                fw_geometry_outline_line(&o, at, 0);
         }
-        fw_contour sharp, c;
-        assert_int_equal(fw_outline_close(&o, &sharp), FW_OK);
-        assert_int_equal(fw_contour_round(arena, &sharp, 3.1 * UM, 6.9 * UM, &c, NULL), FW_OK);
-        fw_polygon p = flat(arena, &c, tolerance_m);
+        fw_geometry_contour sharp, c;
+        assert_int_equal(fw_geometry_outline_close(&o, &sharp), FW_OK);
+        assert_int_equal(fw_geometry_contour_round(arena, &sharp, 3.1 * UM, 6.9 * UM, &c, NULL),
+                         FW_OK);
+        fw_geometry_polygon p = flat(arena, &c, tolerance_m);
         double least = cut_and_check(arena, &p, 199, 2 * p.count / 199 + 4);
         if (least < FW_CUT_SHARE * shortest_dbu(&p) * (1 - 1e-9))
             fail_msg("run %d, %d fingers: %g nm where %g are the shortest edge", run, fingers,
@@ -229,21 +235,21 @@ static void rounded_plates(void **state) {
     for (int run = 0; run < 24; run++) {
         fw_arena *arena = fw_arena_new(0);
         int n = 5 + (int)(12 * random01(&seed));
-        fw_outline o = {0};
+        fw_geometry_outline o = {0};
         for (int i = 0; i < n; i++) {
             double r = (i % 2 ? 150 : 60) * (1 + 2 * random01(&seed)) * UM;
             double angle = 2 * PI * (i + 0.4 * random01(&seed)) / n;
-            fw_vec2 at = {r * cos(angle), r * sin(angle)};
+            fw_geometry_vec2 at = {r * cos(angle), r * sin(angle)};
             if (i == 0)
-                o = fw_outline_start(arena, at);
+                o = fw_geometry_outline_start(arena, at);
             else
-                fw_outline_line(&o, at, 0);
+                fw_geometry_outline_line(&o, at, 0);
         }
-        fw_contour sharp, c;
-        assert_int_equal(fw_outline_close(&o, &sharp), FW_OK);
+        fw_geometry_contour sharp, c;
+        assert_int_equal(fw_geometry_outline_close(&o, &sharp), FW_OK);
         double radius_m = (3 + 9 * random01(&seed)) * UM;
-        if (fw_contour_round(arena, &sharp, radius_m, radius_m, &c, NULL) == FW_OK) {
-            fw_polygon p = flat(arena, &c, 1.42e-9);
+        if (fw_geometry_contour_round(arena, &sharp, radius_m, radius_m, &c, NULL) == FW_OK) {
+            fw_geometry_polygon p = flat(arena, &c, 1.42e-9);
             int most = p.count > 120 ? 60 + (int)(60 * random01(&seed)) : p.count;
             double least = cut_and_check(arena, &p, most, 3 * p.count / most + 4);
             double wanted = fmin(FW_CUT_SHARE * shortest_dbu(&p), clearance_dbu(&p));
@@ -274,7 +280,7 @@ static void limits_of_a_mask(void **state) {
             assert_int_equal(shape->npart > 1, k == 1 && shape->polygon.count > 199);
             for (int j = 0; j < shape->npart; j++) {
                 assert_true(shape->part[j].count <= mask->vertex_limit);
-                area[k] += (double)fw_polygon_area2(&shape->part[j]);
+                area[k] += (double)fw_geometry_polygon_area2(&shape->part[j]);
             }
         }
         scene_free(s);

@@ -8,23 +8,23 @@
 static void nothing_between_layers(void **state) {
     (void)state;
     const struct {
-        fw_role role;
+        fw_layout_role role;
         double x0, y0, x1, y1;
-        const fw_rule_row *kind; /* NULL: fine */
+        const fw_mask_rule_kind_row *kind; /* NULL: fine */
     } box[] = {
         {FW_ROLE_TEXT, 10, 10, 30, 30, NULL},
-        {FW_ROLE_TEXT, 200, 10, 230, 30, &fw_kind_enclosure},
-        {FW_ROLE_TEXT, 80, 10, 130, 30, &fw_kind_enclosure},
-        {FW_ROLE_TEXT, 100, 10, 130, 30, &fw_kind_enclosure},
-        {FW_ROLE_TEXT, -10, -10, 130, 130, &fw_kind_enclosure},
+        {FW_ROLE_TEXT, 200, 10, 230, 30, &fw_mask_kind_enclosure},
+        {FW_ROLE_TEXT, 80, 10, 130, 30, &fw_mask_kind_enclosure},
+        {FW_ROLE_TEXT, 100, 10, 130, 30, &fw_mask_kind_enclosure},
+        {FW_ROLE_TEXT, -10, -10, 130, 130, &fw_mask_kind_enclosure},
         {FW_ROLE_MARK, 200, 10, 230, 30, NULL},
-        {FW_ROLE_MARK, 20, 10, 30, 30, &fw_kind_separation},
-        {FW_ROLE_MARK, -20, -10, 130, 130, &fw_kind_separation},
-        {FW_ROLE_MARK, 80, 10, 130, 30, &fw_kind_separation},
+        {FW_ROLE_MARK, 20, 10, 30, 30, &fw_mask_kind_separation},
+        {FW_ROLE_MARK, -20, -10, 130, 130, &fw_mask_kind_separation},
+        {FW_ROLE_MARK, 80, 10, 130, 30, &fw_mask_kind_separation},
     };
     for (size_t i = 0; i < sizeof box / sizeof box[0]; i++) {
         field *f = field_new(i);
-        f->pose = (fw_pose){3 * UM, 4 * UM, 0.1 * (double)i};
+        f->pose = (fw_geometry_pose){3 * UM, 4 * UM, 0.1 * (double)i};
         f->label = "around";
         draw_box(f, FW_ROLE_FRAME, 0, 0, 100, 100);
         f->label = "box";
@@ -212,7 +212,7 @@ static void findings_are_written(void **state) {
         const fw_mask_shape *s = &marked->shape[mask->nshape + i];
         assert_int_equal(marked->table->layer[s->layer].layer, 60);
         assert_int_equal(marked->table->layer[s->layer].datatype, g->rule->kind->marker);
-        fw_box box = fw_contour_box(&s->contour);
+        fw_geometry_box box = fw_geometry_contour_box(&s->contour);
         for (int k = 0; k < 2; k++)
             assert_true(box.x0 <= g->at[k].x && g->at[k].x <= box.x1 && box.y0 <= g->at[k].y &&
                         g->at[k].y <= box.y1);

@@ -7,12 +7,12 @@
 #include "rule_field.h"
 
 typedef struct known { /* what breaks a rule */
-    const fw_rule_row *kind;
-    fw_role role;      /* its layer */
-    double value;      /* SI */
-    fw_vec2 at;        /* middle of the worst chord, */
-    double within_m;   /* to this; 0: 1 pm */
-    const char *label; /* of one of the pieces */
+    const fw_mask_rule_kind_row *kind;
+    fw_layout_role role; /* its layer */
+    double value;        /* SI */
+    fw_geometry_vec2 at; /* middle of the worst chord, */
+    double within_m;     /* to this; 0: 1 pm */
+    const char *label;   /* of one of the pieces */
 } known;
 
 /* ---- the parts: each has one dimension, `size` in um, um2 or degrees, that may be below the
@@ -21,55 +21,57 @@ typedef struct known { /* what breaks a rule */
 static void bar(field *f, double size, known *k) {
     double w = size, l = round(between(f, 20, 120));
     draw_box(f, FW_ROLE_STRUCTURE, 0, 0, l, w);
-    *k = (known){&fw_kind_width, FW_ROLE_STRUCTURE, w * UM, world(f, l / 2, w / 2), l / 2 * UM, 0};
+    *k = (known){&fw_mask_kind_width,    FW_ROLE_STRUCTURE, w * UM,
+                 world(f, l / 2, w / 2), l / 2 * UM,        0};
 }
 
 static void bend(field *f, double size, known *k) {
     double w = size, r = between(f, 40, 80), sweep = between(f, 0.6, 2.8);
     draw_ring(f, FW_ROLE_STRUCTURE, r, r + w, -sweep / 2, sweep);
-    *k = (known){&fw_kind_width, FW_ROLE_STRUCTURE, w * UM, world(f, r, 0), (r + w) * UM, 0};
+    *k = (known){&fw_mask_kind_width, FW_ROLE_STRUCTURE, w * UM, world(f, r, 0), (r + w) * UM, 0};
 }
 
 /* across a disc: normals enclose 90 degrees and more over R sqrt 2 and more */
 static void disc(field *f, double size, known *k) {
     double across = size;
     draw_disc(f, FW_ROLE_STRUCTURE, 3, 4, across / sqrt(2));
-    *k = (known){&fw_kind_width, FW_ROLE_STRUCTURE, across * UM, world(f, 3, 4), across * UM, 0};
+    *k = (known){&fw_mask_kind_width, FW_ROLE_STRUCTURE, across * UM,
+                 world(f, 3, 4),      across * UM,       0};
 }
 
 static void parallel(field *f, double size, known *k) {
     double g = size, l = round(between(f, 20, 80)), shift = round(between(f, -15, 15));
     draw_box(f, FW_ROLE_STRUCTURE, 0, -10, l, 0);
     draw_box(f, FW_ROLE_STRUCTURE, shift, g, shift + l, g + 12);
-    *k = (known){&fw_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, l / 2, g / 2), l * UM, 0};
+    *k = (known){&fw_mask_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, l / 2, g / 2), l * UM, 0};
 }
 
 static void corners(field *f, double size, known *k) {
     double g = size, a = between(f, 0.2, 1.3), x = g * cos(a), y = g * sin(a);
     draw_box(f, FW_ROLE_STRUCTURE, -30, -20, 0, 0);
     draw_box(f, FW_ROLE_STRUCTURE, x, y, x + 25, y + 40);
-    *k = (known){&fw_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, x / 2, y / 2), 0, 0};
+    *k = (known){&fw_mask_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, x / 2, y / 2), 0, 0};
 }
 
 static void discs(field *f, double size, known *k) {
     double g = size, r = between(f, 10, 40), q = between(f, 10, 40);
     draw_disc(f, FW_ROLE_STRUCTURE, -r, 0, r);
     draw_disc(f, FW_ROLE_STRUCTURE, g + q, 0, q);
-    *k = (known){&fw_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, g / 2, 0), 0, 0};
+    *k = (known){&fw_mask_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, g / 2, 0), 0, 0};
 }
 
 static void disc_on_bar(field *f, double size, known *k) {
     double g = size, r = between(f, 10, 40);
     draw_disc(f, FW_ROLE_STRUCTURE, 0, g + r, r);
     draw_box(f, FW_ROLE_STRUCTURE, -50, -10, 60, 0);
-    *k = (known){&fw_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, 0, g / 2), 0, 0};
+    *k = (known){&fw_mask_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, 0, g / 2), 0, 0};
 }
 
 static void conjugate(field *f, double size, known *k) {
     double g = size, r = between(f, 30, 50), sweep = between(f, 0.6, 2.8);
     draw_disc(f, FW_ROLE_STRUCTURE, 0, 0, r);
     draw_ring(f, FW_ROLE_STRUCTURE, r + g, r + g + 10, -sweep / 2, sweep);
-    *k = (known){&fw_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, r, 0), (r + g) * UM, 0};
+    *k = (known){&fw_mask_kind_space, FW_ROLE_STRUCTURE, g * UM, world(f, r, 0), (r + g) * UM, 0};
 }
 
 static void fork(field *f, double size, known *k) {
@@ -77,60 +79,65 @@ static void fork(field *f, double size, known *k) {
     const double p[8][2] = {{-g, 0},  {30, 0},      {30, 12 + d},     {20, 12 + d},
                             {20, 12}, {20 - g, 12}, {20 - g, 12 + d}, {-g, 12 + d}};
     draw_polygon(f, FW_ROLE_STRUCTURE, p, 8);
-    *k = (known){
-        &fw_kind_notch, FW_ROLE_STRUCTURE, g * UM, world(f, 20 - g / 2, 12 + d / 2), d * UM, 0};
+    *k = (known){&fw_mask_kind_notch,
+                 FW_ROLE_STRUCTURE,
+                 g * UM,
+                 world(f, 20 - g / 2, 12 + d / 2),
+                 d * UM,
+                 0};
 }
 
 /* a ring that is open by a mouth: from corner to corner */
 static void mouth(field *f, double size, known *k) {
     double g = size, r = between(f, 25, 45), half = asin(g / (2 * r));
     draw_ring(f, FW_ROLE_STRUCTURE, r, r + 15, half, 2 * (PI - half));
-    *k = (known){&fw_kind_notch, FW_ROLE_STRUCTURE, g * UM, world(f, r * cos(half), 0), 0, 0};
+    *k = (known){&fw_mask_kind_notch, FW_ROLE_STRUCTURE, g * UM, world(f, r * cos(half), 0), 0, 0};
 }
 
 static void thin_line(field *f, double size, known *k) {
     double w = size, l = round(between(f, 20, 120));
     draw_box(f, FW_ROLE_FLEXURE, 0, 0, l, w);
-    *k = (known){&fw_kind_feature, FW_ROLE_FLEXURE, w * UM, world(f, l / 2, w / 2), l / 2 * UM, 0};
+    *k = (known){&fw_mask_kind_feature,  FW_ROLE_FLEXURE, w * UM,
+                 world(f, l / 2, w / 2), l / 2 * UM,      0};
 }
 
 static void thin_gap(field *f, double size, known *k) {
     double g = size, r = between(f, 10, 40);
     draw_disc(f, FW_ROLE_FLEXURE, 0, g + r, r);
     draw_box(f, FW_ROLE_FLEXURE, -50, -10, 60, 0);
-    *k = (known){&fw_kind_feature, FW_ROLE_FLEXURE, g * UM, world(f, 0, g / 2), 0, 0};
+    *k = (known){&fw_mask_kind_feature, FW_ROLE_FLEXURE, g * UM, world(f, 0, g / 2), 0, 0};
 }
 
 static void island(field *f, double size, known *k) {
     double area = size, r = sqrt(area / PI);
     draw_disc(f, FW_ROLE_FRAME, 2, 1, r);
-    *k = (known){&fw_kind_area, FW_ROLE_FRAME, area * UM * UM, world(f, 2, 1), 0, 0};
+    *k = (known){&fw_mask_kind_area, FW_ROLE_FRAME, area * UM * UM, world(f, 2, 1), 0, 0};
 }
 
 /* a ring of two joined halves around a hole */
 static void hole(field *f, double size, known *k) {
     double area = size, ri = sqrt(area / PI), ro = ri + 15;
-    fw_vec2 o = {0, 0}, e[4] = {{ri * UM, 0}, {ro * UM, 0}, {-ro * UM, 0}, {-ri * UM, 0}};
+    fw_geometry_vec2 o = {0, 0}, e[4] = {{ri * UM, 0}, {ro * UM, 0}, {-ro * UM, 0}, {-ri * UM, 0}};
     for (int lower = 0; lower < 2; lower++) {
-        const fw_vec2 p[4] = {e[lower ? 3 : 0], e[lower ? 2 : 1], e[lower ? 1 : 2],
-                              e[lower ? 0 : 3]};
-        fw_outline a = fw_outline_start(f->s->arena, p[0]);
-        fw_outline_line(&a, p[1], FW_SEGMENT_JOINT);
-        fw_outline_arc_to(&a, o, PI, p[2], 0);
-        fw_outline_line(&a, p[3], FW_SEGMENT_JOINT);
-        fw_outline_arc_to(&a, o, -PI, p[0], 0);
-        fw_contour half;
-        assert_int_equal(fw_outline_close(&a, &half), FW_OK);
+        const fw_geometry_vec2 p[4] = {e[lower ? 3 : 0], e[lower ? 2 : 1], e[lower ? 1 : 2],
+                                       e[lower ? 0 : 3]};
+        fw_geometry_outline a = fw_geometry_outline_start(f->s->arena, p[0]);
+        fw_geometry_outline_line(&a, p[1], FW_SEGMENT_JOINT);
+        fw_geometry_outline_arc_to(&a, o, PI, p[2], 0);
+        fw_geometry_outline_line(&a, p[3], FW_SEGMENT_JOINT);
+        fw_geometry_outline_arc_to(&a, o, -PI, p[0], 0);
+        fw_geometry_contour half;
+        assert_int_equal(fw_geometry_outline_close(&a, &half), FW_OK);
         draw(f, FW_ROLE_FRAME, half);
     }
-    *k = (known){&fw_kind_area, FW_ROLE_FRAME, area * UM * UM, world(f, 0, 0), 0, 0};
+    *k = (known){&fw_mask_kind_area, FW_ROLE_FRAME, area * UM * UM, world(f, 0, 0), 0, 0};
 }
 
 static void letter(field *f, double size, known *k) {
     double e = size, h = round(between(f, 10, 30));
     draw_box(f, FW_ROLE_FRAME, -60, 0, 60, 100);
     draw_box(f, FW_ROLE_TEXT, -20, e, 30, e + h);
-    *k = (known){&fw_kind_enclosure, FW_ROLE_TEXT, e * UM, world(f, 5, e / 2), 26 * UM, 0};
+    *k = (known){&fw_mask_kind_enclosure, FW_ROLE_TEXT, e * UM, world(f, 5, e / 2), 26 * UM, 0};
 }
 
 /* a disc in a disc, off its middle */
@@ -138,28 +145,28 @@ static void dot(field *f, double size, known *k) {
     double e = size, r = between(f, 5, 15), all = between(f, 50, 80);
     draw_disc(f, FW_ROLE_FRAME, 0, 0, all);
     draw_disc(f, FW_ROLE_TEXT, all - e - r, 0, r);
-    *k = (known){&fw_kind_enclosure, FW_ROLE_TEXT, e * UM, world(f, all - e / 2, 0), 0, 0};
+    *k = (known){&fw_mask_kind_enclosure, FW_ROLE_TEXT, e * UM, world(f, all - e / 2, 0), 0, 0};
 }
 
 static void mark_beside(field *f, double size, known *k) {
     double g = size, r = between(f, 5, 30);
     draw_box(f, FW_ROLE_FRAME, -50, -40, 60, 0);
     draw_disc(f, FW_ROLE_MARK, 0, g + r, r);
-    *k = (known){&fw_kind_separation, FW_ROLE_MARK, g * UM, world(f, 0, g / 2), 0, 0};
+    *k = (known){&fw_mask_kind_separation, FW_ROLE_MARK, g * UM, world(f, 0, g / 2), 0, 0};
 }
 
 static void mark_at_corner(field *f, double size, known *k) {
     double g = size, a = between(f, 0.2, 1.3), x = g * cos(a), y = g * sin(a);
     draw_box(f, FW_ROLE_FRAME, -50, -40, 0, 0);
     draw_box(f, FW_ROLE_MARK, x, y, x + 5, y + 9);
-    *k = (known){&fw_kind_separation, FW_ROLE_MARK, g * UM, world(f, x / 2, y / 2), 0, 0};
+    *k = (known){&fw_mask_kind_separation, FW_ROLE_MARK, g * UM, world(f, x / 2, y / 2), 0, 0};
 }
 
 static void gable(field *f, double size, known *k) {
     double angle = fmin(size, 168) * DEG, half = 20, rise = half / tan(angle / 2);
     const double p[5][2] = {{-half, 0}, {half, 0}, {half, 30}, {0, 30 + rise}, {-half, 30}};
     draw_polygon(f, FW_ROLE_TETHER, p, 5);
-    *k = (known){&fw_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, 30 + rise), 0, 0};
+    *k = (known){&fw_mask_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, 30 + rise), 0, 0};
 }
 
 static void valley(field *f, double size, known *k) {
@@ -167,47 +174,47 @@ static void valley(field *f, double size, known *k) {
     const double p[7][2] = {{-40, -60}, {40, -60},  {40, 0}, {half, 0},
                             {0, -deep}, {-half, 0}, {-40, 0}};
     draw_polygon(f, FW_ROLE_TETHER, p, 7);
-    *k = (known){&fw_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, -deep), 0, 0};
+    *k = (known){&fw_mask_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, -deep), 0, 0};
 }
 
 /* a slice of a disc: square where the arc begins and ends */
 static void slice(field *f, double size, known *k) {
     double angle = fmin(size, 168) * DEG, r = between(f, 20, 50) * UM;
-    fw_outline o = fw_outline_start(f->s->arena, (fw_vec2){0, 0});
-    fw_outline_line(&o, (fw_vec2){r, 0}, 0);
-    fw_outline_arc(&o, (fw_vec2){0, 0}, angle, 0);
-    fw_contour c;
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    fw_geometry_outline o = fw_geometry_outline_start(f->s->arena, (fw_geometry_vec2){0, 0});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){r, 0}, 0);
+    fw_geometry_outline_arc(&o, (fw_geometry_vec2){0, 0}, angle, 0);
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     draw(f, FW_ROLE_TETHER, c);
-    *k = (known){&fw_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, 0), 0, 0};
+    *k = (known){&fw_mask_kind_angle, FW_ROLE_TETHER, angle, world(f, 0, 0), 0, 0};
 }
 
 static void step(field *f, double size, known *k) {
     double e = size;
     const double p[6][2] = {{0, 0}, {50, 0}, {50, 30}, {25, 30}, {25, 30 - e}, {0, 30 - e}};
     draw_polygon(f, FW_ROLE_TETHER, p, 6);
-    *k = (known){&fw_kind_edge, FW_ROLE_TETHER, e * UM, world(f, 25, 30 - e / 2), 0, 0};
+    *k = (known){&fw_mask_kind_edge, FW_ROLE_TETHER, e * UM, world(f, 25, 30 - e / 2), 0, 0};
 }
 
 /* one corner rounded by an arc of that length */
 static void rounded(field *f, double size, known *k) {
     double e = size, r = e / (PI / 2), m = r * (1 - sqrt(0.5));
-    fw_outline o = fw_outline_start(f->s->arena, (fw_vec2){0, 0});
-    fw_outline_line(&o, (fw_vec2){40 * UM, 0}, 0);
-    fw_outline_line(&o, (fw_vec2){40 * UM, (30 - r) * UM}, 0);
-    fw_outline_arc_to(&o, (fw_vec2){(40 - r) * UM, (30 - r) * UM}, PI / 2,
-                      (fw_vec2){(40 - r) * UM, 30 * UM}, 0);
-    fw_outline_line(&o, (fw_vec2){0, 30 * UM}, 0);
-    fw_contour c;
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+    fw_geometry_outline o = fw_geometry_outline_start(f->s->arena, (fw_geometry_vec2){0, 0});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){40 * UM, 0}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){40 * UM, (30 - r) * UM}, 0);
+    fw_geometry_outline_arc_to(&o, (fw_geometry_vec2){(40 - r) * UM, (30 - r) * UM}, PI / 2,
+                               (fw_geometry_vec2){(40 - r) * UM, 30 * UM}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){0, 30 * UM}, 0);
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     draw(f, FW_ROLE_TETHER, c);
-    *k = (known){&fw_kind_edge, FW_ROLE_TETHER, e * UM, world(f, 40 - m, 30 - m), r * UM, 0};
+    *k = (known){&fw_mask_kind_edge, FW_ROLE_TETHER, e * UM, world(f, 40 - m, 30 - m), r * UM, 0};
 }
 
 /* what is written: vertices on the grid, by quarter turns only */
 static void to_grid(field *f) {
-    f->pose = (fw_pose){round(f->pose.x_m / UM) * UM, round(f->pose.y_m / UM) * UM,
-                        0.5 * PI * (int)between(f, 0, 4)};
+    f->pose = (fw_geometry_pose){round(f->pose.x_m / UM) * UM, round(f->pose.y_m / UM) * UM,
+                                 0.5 * PI * (int)between(f, 0, 4)};
 }
 
 static void written_gable(field *f, double size, known *k) {
@@ -217,7 +224,7 @@ static void written_gable(field *f, double size, known *k) {
     to_grid(f);
     draw_polygon(f, FW_ROLE_DICING, p, 5);
     *k = (known){
-        &fw_kind_angle, FW_ROLE_DICING, 2 * atan2(half, rise), world(f, 0, 30 + rise), 0, 0};
+        &fw_mask_kind_angle, FW_ROLE_DICING, 2 * atan2(half, rise), world(f, 0, 30 + rise), 0, 0};
 }
 
 static void written_step(field *f, double size, known *k) {
@@ -225,7 +232,7 @@ static void written_step(field *f, double size, known *k) {
     const double p[6][2] = {{0, 0}, {50, 0}, {50, 30}, {25, 30}, {25, 30 - e}, {0, 30 - e}};
     to_grid(f);
     draw_polygon(f, FW_ROLE_DICING, p, 6);
-    *k = (known){&fw_kind_edge, FW_ROLE_DICING, e * UM, world(f, 25, 30 - e / 2), 1e-9, 0};
+    *k = (known){&fw_mask_kind_edge, FW_ROLE_DICING, e * UM, world(f, 25, 30 - e / 2), 1e-9, 0};
 }
 
 typedef struct part {
@@ -274,8 +281,9 @@ static double clean_size(field *f, const part *p) {
 static known draw_field(field *f, int bad, double ratio) {
     known k = {0}, broken = {0};
     for (int i = 0; i < PARTS; i++) {
-        f->pose = (fw_pose){(600 * (i % ROW) + between(f, -60, 60)) * UM,
-                            (600 * (i / ROW) + between(f, -60, 60)) * UM, between(f, -PI, PI)};
+        f->pose =
+            (fw_geometry_pose){(600 * (i % ROW) + between(f, -60, 60)) * UM,
+                               (600 * (i / ROW) + between(f, -60, 60)) * UM, between(f, -PI, PI)};
         f->mirror = random01(&f->seed) < 0.5;
         f->label = fw_arena_printf(f->s->arena, "part %d", i);
         double clean = clean_size(f, &parts[i]);
@@ -285,8 +293,8 @@ static known draw_field(field *f, int bad, double ratio) {
     return broken;
 }
 
-static bool is_chord(const fw_rule_row *kind) {
-    return kind->unit == FW_UNIT_LENGTH && kind != &fw_kind_edge;
+static bool is_chord(const fw_mask_rule_kind_row *kind) {
+    return kind->unit == FW_UNIT_LENGTH && kind != &fw_mask_kind_edge;
 }
 
 static void is_the_known(const fw_mask_finding *g, const known *k, int trial) {
@@ -295,7 +303,7 @@ static void is_the_known(const fw_mask_finding *g, const known *k, int trial) {
                  g->rule->layer, k->kind->name, (int)k->role);
     if (!(fabs(g->value - k->value) <= 1e-9 * k->value))
         fail_msg("field %d, %s: value %.12g, not %.12g", trial, k->kind->name, g->value, k->value);
-    fw_vec2 middle = vec_scale(0.5, vec_add(g->at[0], g->at[1]));
+    fw_geometry_vec2 middle = vec_scale(0.5, vec_add(g->at[0], g->at[1]));
     double off = vec_distance(middle, k->at);
     if (!(off <= k->within_m + 1e-12))
         fail_msg("field %d, %s: %g um from its place", trial, k->kind->name, off / UM);
@@ -311,7 +319,7 @@ static void is_the_known(const fw_mask_finding *g, const known *k, int trial) {
 static known draw_windows(field *f, int bad, double ratio) {
     f->rule[0] = window_rule();
     f->s->table.nrule = 1;
-    f->pose = (fw_pose){between(f, -1000, 1000) * UM, between(f, -1000, 1000) * UM, 0};
+    f->pose = (fw_geometry_pose){between(f, -1000, 1000) * UM, between(f, -1000, 1000) * UM, 0};
     f->label = "disc";
     draw_box(f, FW_ROLE_FRAME, 0, 0, 100 * WINDOWS, 100 * WINDOWS);
     known broken = {0};
@@ -322,8 +330,8 @@ static known draw_windows(field *f, int bad, double ratio) {
         double r = 100 * sqrt(share / PI);
         draw_disc(f, FW_ROLE_DICING, x + 50, y + 50, r);
         if (i == bad)
-            broken =
-                (known){&fw_kind_density, FW_ROLE_DICING, share, world(f, x + 50, y + 50), 0, 0};
+            broken = (known){
+                &fw_mask_kind_density, FW_ROLE_DICING, share, world(f, x + 50, y + 50), 0, 0};
     }
     return broken;
 }
@@ -345,7 +353,7 @@ static void seeded(void **state) {
             fail_msg("field %d: %d findings of one %s", trial, mask->nfinding, k.kind->name);
         }
         const fw_mask_finding *g = &mask->finding[0];
-        if (k.kind == &fw_kind_density) {
+        if (k.kind == &fw_mask_kind_density) {
             assert_near(g->value, k.value, 1e-9 * k.value);
             assert_near(vec_distance(vec_scale(0.5, vec_add(g->at[0], g->at[1])), k.at), 0, 1e-12);
         } else {
@@ -419,7 +427,7 @@ static void one_step_over_the_limit(void **state) {
             known k;
             double by = at[i].limit < 10 ? 1e-3 : 1e-4 * at[i].limit;
             f->label = "part";
-            f->pose = (fw_pose){17 * UM, -40 * UM, at[i].turned ? 0.3 : 0};
+            f->pose = (fw_geometry_pose){17 * UM, -40 * UM, at[i].turned ? 0.3 : 0};
             at[i].draw(f, at[i].limit + at[i].slack + (more ? by : -by), &k);
             const fw_mask *mask = examine(f->s);
             if (mask->nfinding != !more)

@@ -4,44 +4,46 @@
 #include "mask/rules_search.h"
 #include "scene.h"
 
-static void bar(scene *s, uint64_t *seed, fw_vec2 at) {
+static void bar(scene *s, uint64_t *seed, fw_geometry_vec2 at) {
     double angle = random01(seed) < 0.5 ? 0 : 6 * random01(seed);
     double l = (3 + 40 * random01(seed)) * UM, w = (2 + 12 * random01(seed)) * UM;
-    fw_vec2 u = {cos(angle) * l, sin(angle) * l};
-    fw_contour c;
-    assert_int_equal(fw_contour_bar(s->arena, at, vec_add(at, u), w, &c), FW_OK);
+    fw_geometry_vec2 u = {cos(angle) * l, sin(angle) * l};
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_contour_bar(s->arena, at, vec_add(at, u), w, &c), FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "bar", c);
 }
 
-static void disc(scene *s, uint64_t *seed, fw_vec2 at) {
-    fw_contour c;
-    assert_int_equal(fw_contour_disc(s->arena, at, (1 + 12 * random01(seed)) * UM, &c), FW_OK);
+static void disc(scene *s, uint64_t *seed, fw_geometry_vec2 at) {
+    fw_geometry_contour c;
+    assert_int_equal(fw_geometry_contour_disc(s->arena, at, (1 + 12 * random01(seed)) * UM, &c),
+                     FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "disc", c);
 }
 
 /* two concentric arcs with flat or round ends */
-static void bend(scene *s, uint64_t *seed, fw_vec2 c) {
+static void bend(scene *s, uint64_t *seed, fw_geometry_vec2 c) {
     double r = (6 + 30 * random01(seed)) * UM, w = (2 + 6 * random01(seed)) * UM;
     double from = 6 * random01(seed), sweep = 0.3 + 5.4 * random01(seed);
-    fw_contour out;
+    fw_geometry_contour out;
     if (random01(seed) < 0.5) {
-        assert_int_equal(fw_contour_ring_sector(s->arena, c, r, r + w, from, sweep, &out), FW_OK);
+        assert_int_equal(fw_geometry_contour_ring_sector(s->arena, c, r, r + w, from, sweep, &out),
+                         FW_OK);
     } else {
-        fw_vec2 ends[2] = {
+        fw_geometry_vec2 ends[2] = {
             {c.x + (r + w / 2) * cos(from), c.y + (r + w / 2) * sin(from)},
             {c.x + (r + w / 2) * cos(from + sweep), c.y + (r + w / 2) * sin(from + sweep)}};
-        fw_vec2 at = {c.x + (r + w) * cos(from), c.y + (r + w) * sin(from)};
-        fw_outline o = fw_outline_start(s->arena, at);
-        fw_outline_arc(&o, c, sweep, 0);
-        fw_outline_arc(&o, ends[1], FW_PI, 0);
-        fw_outline_arc(&o, c, -sweep, 0);
-        fw_outline_arc_to(&o, ends[0], FW_PI, at, 0);
-        assert_int_equal(fw_outline_close(&o, &out), FW_OK);
+        fw_geometry_vec2 at = {c.x + (r + w) * cos(from), c.y + (r + w) * sin(from)};
+        fw_geometry_outline o = fw_geometry_outline_start(s->arena, at);
+        fw_geometry_outline_arc(&o, c, sweep, 0);
+        fw_geometry_outline_arc(&o, ends[1], FW_PI, 0);
+        fw_geometry_outline_arc(&o, c, -sweep, 0);
+        fw_geometry_outline_arc_to(&o, ends[0], FW_PI, at, 0);
+        assert_int_equal(fw_geometry_outline_close(&o, &out), FW_OK);
     }
     scene_add(s, FW_ROLE_STRUCTURE, "bend", out);
 }
 
-static void wedge(scene *s, uint64_t *seed, fw_vec2 at) {
+static void wedge(scene *s, uint64_t *seed, fw_geometry_vec2 at) {
     double p[3][2];
     for (int i = 0; i < 3; i++) {
         double angle = 2 * PI * (i + 0.6 * random01(seed)) / 3;
@@ -52,34 +54,36 @@ static void wedge(scene *s, uint64_t *seed, fw_vec2 at) {
 }
 
 static scene *random_layer(uint64_t seed) {
-    static void (*const kind[])(scene *, uint64_t *, fw_vec2) = {bar, disc, bend, wedge, bend};
+    static void (*const kind[])(scene *, uint64_t *, fw_geometry_vec2) = {bar, disc, bend, wedge,
+                                                                          bend};
     scene *s = scene_new(4 * UM, 4 * UM);
     double side = (random01(&seed) < 0.3 ? 1500 : 60 + 400 * random01(&seed)) * UM;
     int n = 2 + (int)(14 * random01(&seed));
     for (int i = 0; i < n; i++) {
-        fw_vec2 at = {side * random01(&seed), side * random01(&seed)};
+        fw_geometry_vec2 at = {side * random01(&seed), side * random01(&seed)};
         kind[(int)(5 * random01(&seed))](s, &seed, at);
     }
     return s;
 }
 
 typedef struct answer {
-    fw_rule_search in;
+    fw_mask_rule_search in;
     fw_mask_measure measure;
-    fw_finding *found; /* (nfound) places of every kind */
+    fw_mask_rule_finding *found; /* (nfound) places of every kind */
     int nfound;
 } answer;
 
-static void add_places(answer *a, fw_rule_kind kind) {
+static void add_places(answer *a, fw_mask_rule_kind kind) {
     fw_arena *arena = a->in.arena;
-    fw_finding *list = fw_arena_array(arena, fw_finding, (size_t)a->in.nfound), *place;
+    fw_mask_rule_finding *list = fw_arena_array(arena, fw_mask_rule_finding, (size_t)a->in.nfound),
+                         *place;
     int n = 0, count;
     for (int i = 0; i < a->in.nfound; i++)
         if (a->in.found[i].kind == kind) list[n++] = a->in.found[i];
     if (kind == FW_RULE_OVERLAP) { /* where they meet: all */
         place = list, count = n;
     } else {
-        assert_int_equal(fw_rule_places(arena, list, n, 4 * UM, &place, &count), FW_OK);
+        assert_int_equal(fw_mask_rule_places(arena, list, n, 4 * UM, &place, &count), FW_OK);
     }
     a->found = fw_arena_grow(arena, a->found, (size_t)a->nfound, (size_t)(a->nfound + count),
                              sizeof *place);
@@ -93,16 +97,16 @@ static void ask(scene *s, bool everything, answer *a) {
     for (int i = 0; i < n; i++)
         shape[i] = (fw_mask_shape){.piece = &s->piece[i], .contour = s->piece[i].contour};
     *a = (answer){.measure = {.width_m = HUGE_VAL, .space_m = HUGE_VAL}};
-    a->in = (fw_rule_search){.arena = s->arena,
-                             .limit_m = {4 * UM, 4 * UM},
-                             .shape = shape,
-                             .measure = &a->measure,
-                             .everything = everything};
-    assert_int_equal(fw_rule_edges(&a->in, n, 5e-9), FW_OK);
-    fw_rule_look(&a->in);
+    a->in = (fw_mask_rule_search){.arena = s->arena,
+                                  .limit_m = {4 * UM, 4 * UM},
+                                  .shape = shape,
+                                  .measure = &a->measure,
+                                  .everything = everything};
+    assert_int_equal(fw_mask_rule_edges(&a->in, n, 5e-9), FW_OK);
+    fw_mask_rule_search_run(&a->in);
     assert_false(a->in.no_memory);
     for (int kind = 0; kind < 3; kind++)
-        add_places(a, (fw_rule_kind)kind);
+        add_places(a, (fw_mask_rule_kind)kind);
 }
 
 static double looked_at(double least) {
@@ -120,7 +124,7 @@ static void nothing_is_passed_over(void **state) {
         if (few.nfound != all.nfound)
             fail_msg("layer %d: %d findings, %d of all pairs", (int)seed, few.nfound, all.nfound);
         for (int i = 0; i < few.nfound; i++) {
-            const fw_finding *f = &few.found[i], *g = &all.found[i];
+            const fw_mask_rule_finding *f = &few.found[i], *g = &all.found[i];
             kinds[f->kind]++;
             assert_int_equal(f->kind, g->kind);
             assert_int_equal(f->shape[0], g->shape[0]);
@@ -158,16 +162,17 @@ static void a_rounded_corner_is_no_width(void **state) {
     for (int i = 0; i < 50; i++) {
         scene *s = scene_new(4 * UM, 4 * UM);
         double angle = 0.13 * i, lean = i % 2 ? 0 : 0.18;
-        fw_vec2 u = {cos(angle), sin(angle)}, v = {-sin(angle + lean), cos(angle + lean)};
+        fw_geometry_vec2 u = {cos(angle), sin(angle)}, v = {-sin(angle + lean), cos(angle + lean)};
         double p[4][2];
         for (int k = 0; k < 4; k++) {
             double a = k == 1 || k == 2 ? 40 : 0, b = k >= 2 ? 30 : 0;
             p[k][0] = a * u.x + b * v.x;
             p[k][1] = a * u.y + b * v.y;
         }
-        fw_contour sharp = polygon(s->arena, (const double(*)[2])p, 4), round;
-        fw_vec2 where;
-        assert_int_equal(fw_contour_round(s->arena, &sharp, 2.4 * UM, 0, &round, &where), FW_OK);
+        fw_geometry_contour sharp = polygon(s->arena, (const double(*)[2])p, 4), round;
+        fw_geometry_vec2 where;
+        assert_int_equal(fw_geometry_contour_round(s->arena, &sharp, 2.4 * UM, 0, &round, &where),
+                         FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "rounded", round);
         answer few, all;
         ask(s, false, &few);
@@ -184,17 +189,18 @@ static void parts_are_the_arc(void **state) {
     uint64_t seed = 3;
     for (int i = 0; i < 200; i++) {
         scene *s = scene_new(4 * UM, 4 * UM);
-        bend(s, &seed, (fw_vec2){1e-3 * random01(&seed), -1e-3 * random01(&seed)});
+        bend(s, &seed, (fw_geometry_vec2){1e-3 * random01(&seed), -1e-3 * random01(&seed)});
         answer a;
         ask(s, false, &a);
         for (int k = 0; k < a.in.nedge; k++) {
-            fw_rule_edge *e = &a.in.edge[k];
-            assert_true(fw_rule_parts(&a.in, e));
+            fw_mask_rule_edge *e = &a.in.edge[k];
+            assert_true(fw_mask_rule_parts(&a.in, e));
             assert_true(vec_same(e->part[0].a, e->s.a) &&
                         vec_same(e->part[e->nparts - 1].b, e->s.b));
             for (int m = 0; e->s.kind == FW_ARC && m < e->nparts; m++) {
-                const fw_segment *p = &e->part[m];
-                fw_vec2 turned = fw_vec_rotate(vec_sub(p->a, p->centre), p->sweep_rad);
+                const fw_geometry_segment *p = &e->part[m];
+                fw_geometry_vec2 turned =
+                    fw_geometry_vec_rotate(vec_sub(p->a, p->centre), p->sweep_rad);
                 assert_near(vec_distance(turned, vec_sub(p->b, p->centre)), 0, 1e-17);
                 assert_true(fabs(p->sweep_rad) <= FW_PI / 24 + 1e-15);
                 assert_true(m == 0 || vec_same(p->a, e->part[m - 1].b));

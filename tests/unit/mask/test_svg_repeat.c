@@ -5,15 +5,16 @@
 #include <stdlib.h>
 
 /* an L with a round end: five lines and an arc */
-static fw_contour hook(fw_arena *arena, double x, double y, double tall) {
-    fw_outline o = fw_outline_start(arena, (fw_vec2){x, y});
-    fw_outline_line(&o, (fw_vec2){x + 40 * UM, y}, 0);
-    fw_outline_line(&o, (fw_vec2){x + 40 * UM, y + 12 * UM}, 0);
-    fw_outline_line(&o, (fw_vec2){x + 12 * UM, y + 12 * UM}, 0);
-    fw_outline_line(&o, (fw_vec2){x + 12 * UM, y + tall}, 0);
-    fw_outline_arc_to(&o, (fw_vec2){x + 6 * UM, y + tall}, FW_PI, (fw_vec2){x, y + tall}, 0);
-    fw_contour c = {0};
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+static fw_geometry_contour hook(fw_arena *arena, double x, double y, double tall) {
+    fw_geometry_outline o = fw_geometry_outline_start(arena, (fw_geometry_vec2){x, y});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x + 40 * UM, y}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x + 40 * UM, y + 12 * UM}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x + 12 * UM, y + 12 * UM}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x + 12 * UM, y + tall}, 0);
+    fw_geometry_outline_arc_to(&o, (fw_geometry_vec2){x + 6 * UM, y + tall}, FW_PI,
+                               (fw_geometry_vec2){x, y + tall}, 0);
+    fw_geometry_contour c = {0};
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     return c;
 }
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 typedef struct problem {
-    fw_ode ode;
+    fw_maths_ode ode;
     void (*exact)(double t, double *y);
 } problem;
 
@@ -71,29 +71,29 @@ static inline bool pendulum_project(void *context, double t, double *y, double *
 static const double all_atol[8] = {1, 1, 1, 1, 1, 1, 1, 1};
 
 /* atol = rtol for every component; atol is 8 numbers that outlive the stepper */
-static inline fw_stepper *new_stepper(fw_arena *arena, const fw_stepper_row *row, const fw_ode *ode,
-                                      double rtol) {
-    fw_stepper *s = NULL;
+static inline fw_maths_stepper *new_stepper(fw_arena *arena, const fw_maths_stepper_row *row,
+                                            const fw_maths_ode *ode, double rtol) {
+    fw_maths_stepper *s = NULL;
     double *atol = fw_arena_array(arena, double, 8);
     assert_non_null(atol);
     for (int i = 0; i < 8; i++)
         atol[i] = rtol * all_atol[i];
-    assert_int_equal(fw_stepper_new(arena, row, ode, rtol, atol, &s), FW_OK);
+    assert_int_equal(fw_maths_stepper_new(arena, row, ode, rtol, atol, &s), FW_OK);
     return s;
 }
 
-static inline fw_ode_result run_to_end(fw_stepper *s) {
-    fw_ode_result result = FW_ODE_STEP;
+static inline fw_maths_ode_result run_to_end(fw_maths_stepper *s) {
+    fw_maths_ode_result result = FW_ODE_STEP;
     for (long i = 0; i < 2000000 && s->t < s->t_end && result == FW_ODE_STEP; i++)
-        result = fw_stepper_step(s);
+        result = fw_maths_stepper_step(s);
     return result;
 }
 
 /* rows that can do this problem */
 #define FOR_EACH_ROW(row, problem)                                                                 \
-    for (size_t count_ = 0, i_ = 0, pass_ = (fw_stepper_table(&count_), 0); i_ < count_;           \
+    for (size_t count_ = 0, i_ = 0, pass_ = (fw_maths_stepper_table(&count_), 0); i_ < count_;     \
          i_++, pass_ = 0)                                                                          \
-        for (const fw_stepper_row *row = fw_stepper_table(&count_)[i_];                            \
+        for (const fw_maths_stepper_row *row = fw_maths_stepper_table(&count_)[i_];                \
              pass_ == 0 && !(row->second_order && (problem).ode.positions == 0); pass_ = 1)
 
 #endif

@@ -11,7 +11,7 @@ static double unit(void) {
 
 typedef struct pair { /* a quantity in exact numbers and as a centred form */
     long double x;
-    fw_centred c;
+    fw_maths_centred c;
 } pair;
 
 /* one random function of three coordinates: the same steps for a point and for the box */
@@ -22,7 +22,7 @@ static void evaluate(uint64_t start, const double middle[3], const double half[3
         out[i] = (pair){at[i], fw_centred_axis(middle[i], half[i])};
     for (int i = 3; i < 24; i++) {
         pair a = out[(int)(unit() * i)], b = out[(int)(unit() * i)];
-        fw_centred s, c;
+        fw_maths_centred s, c;
         switch ((int)(unit() * 8)) {
         case 0:
             out[i] = (pair){a.x + b.x, fw_centred_add(a.c, b.c)};
@@ -73,7 +73,7 @@ static void values_stay_within_radii(void **state) {
         pair v[24];
         evaluate(i, middle, half, at, v);
         for (int k = 0; k < 24; k++) {
-            fw_centred c = v[k].c;
+            fw_maths_centred c = v[k].c;
             if (!(c.r < 1e100 && fabs(c.m) < 1e100)) continue;
             finite++;
             long double share = (long double)s, m = (long double)c.m;
@@ -82,7 +82,7 @@ static void values_stay_within_radii(void **state) {
             if (!(fabsl(v[k].x - m) <= allowed + own))
                 fail_msg("function %d step %d: %.20Lg, m %.17g e %.3g r %.3g s %.3g", (int)i, k,
                          v[k].x, c.m, c.e, c.r, s);
-            fw_interval range = fw_centred_range(c);
+            fw_maths_interval range = fw_centred_range(c);
             assert_true(range.lo <= c.m - c.r && range.hi >= c.m + c.r);
         }
     }
@@ -94,13 +94,13 @@ static void radii_follow_the_box(void **state) {
     (void)state;
     for (int k = 1; k < 6; k++) {
         double h = pow(10, -k);
-        fw_centred s, c;
+        fw_maths_centred s, c;
         fw_centred_turn(fw_centred_axis(0.7, h), &s, &c);
-        fw_centred q = fw_centred_mul(s, fw_centred_inverse(c)); /* tan, slope 1 + tan^2 */
+        fw_maths_centred q = fw_centred_mul(s, fw_centred_inverse(c)); /* tan, slope 1 + tan^2 */
         assert_near(q.r / h, 1 + tan(0.7) * tan(0.7), 0.2 + 5 * h);
         assert_true(q.e < 1e-15);
     }
-    fw_centred zero = fw_centred_inverse(fw_centred_axis(0.5, 0.5));
+    fw_maths_centred zero = fw_centred_inverse(fw_centred_axis(0.5, 0.5));
     assert_true(isinf(zero.r));
     assert_true(isinf(fw_centred_sqrt(fw_centred_axis(0.1, 0.2)).r));
 }
@@ -110,7 +110,8 @@ static void direction_encloses(void **state) {
     seed = 3;
     for (int i = 0; i < 100000; i++) {
         double x = 2 * unit() - 1, y = 2 * unit() - 1, e = pow(10, -16 + 15 * unit());
-        fw_interval a = fw_centred_direction((fw_centred){y, e, e}, (fw_centred){x, e, e});
+        fw_maths_interval a =
+            fw_centred_direction((fw_maths_centred){y, e, e}, (fw_maths_centred){x, e, e});
         long double r = (long double)e, dx = (long double)(2 * unit() - 1) * r,
                     dy = (long double)(2 * unit() - 1) * r;
         long double exact = atan2l((long double)y + dy, (long double)x + dx);

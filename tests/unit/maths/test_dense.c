@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/dense.h"
+#include "maths/maths_dense.h"
 #include "test.h"
 
 static double random_number(uint64_t *seed) {
@@ -26,7 +26,7 @@ static void test_saddle(void **state) {
         for (int i = 0; i < ALL; i++)
             for (int j = 0; j < ALL; j++)
                 b[i] += a[i * ALL + j] * x[j];
-        assert_int_equal(fw_dense_solve_symmetric(arena, ALL, a, b, got, &consistent), FW_OK);
+        assert_int_equal(fw_maths_dense_solve_symmetric(arena, ALL, a, b, got, &consistent), FW_OK);
         assert_true(consistent);
         for (int i = 0; i < ALL; i++)
             assert_near(got[i], x[i], 1e-11);
@@ -41,15 +41,15 @@ static void test_singular(void **state) {
     const double a[4] = {1, 2, 2, 4}, yes[2] = {5, 10}, no[2] = {5, 0};
     double x[2];
     bool consistent;
-    assert_int_equal(fw_dense_solve_symmetric(arena, 2, a, yes, x, &consistent), FW_OK);
+    assert_int_equal(fw_maths_dense_solve_symmetric(arena, 2, a, yes, x, &consistent), FW_OK);
     assert_true(consistent);
     assert_near(x[0], 1, 1e-12);
     assert_near(x[1], 2, 1e-12);
-    assert_int_equal(fw_dense_solve_symmetric(arena, 2, a, no, x, &consistent), FW_OK);
+    assert_int_equal(fw_maths_dense_solve_symmetric(arena, 2, a, no, x, &consistent), FW_OK);
     assert_false(consistent);
     for (long n = 1; n <= 7; n++) { /* LU takes three, least squares four */
         fw_arena_fail_at(n, 0);
-        fw_status status = fw_dense_solve_symmetric(arena, 2, a, yes, x, &consistent);
+        fw_status status = fw_maths_dense_solve_symmetric(arena, 2, a, yes, x, &consistent);
         assert_int_equal(status, FW_NOMEM);
     }
     fw_arena_fail_at(0, 0);

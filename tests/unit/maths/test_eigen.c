@@ -20,7 +20,7 @@ static void general_pairs_satisfy_their_equation(void **state) {
         for (int i = 0; i < N * N; i++)
             a[i] = next(&seed);
         memcpy(copy, a, sizeof a);
-        assert_int_equal(fw_eigen_general(arena, N, a, re, im, x), FW_OK);
+        assert_int_equal(fw_maths_eigen_general(arena, N, a, re, im, x), FW_OK);
         for (int k = 0; k < N; k++) {
             bool pair = im[k] > 0;
             const double zero[N] = {0};
@@ -50,7 +50,7 @@ static void roots_of_unity(void **state) {
     double a[N * N] = {0}, re[N], im[N], x[N * N], pi = acos(-1.0), sum = 0;
     for (int i = 0; i < N; i++)
         a[i * N + (i + 1) % N] = 1;
-    assert_int_equal(fw_eigen_general(arena, N, a, re, im, x), FW_OK);
+    assert_int_equal(fw_maths_eigen_general(arena, N, a, re, im, x), FW_OK);
     for (int k = 0; k < N; k++) {
         double turn = N * atan2(im[k], re[k]) / (2 * pi);
         assert_near(hypot(re[k], im[k]), 1, 1e-14);
@@ -65,10 +65,10 @@ static void refusals(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     double a[4] = {1, (double)NAN, 0, 1}, b[4] = {2, 1, 1, 3}, s[2], l[2], r[4];
-    assert_int_equal(fw_eigen_general(arena, 2, a, s, l, r), FW_SOLVER);
-    assert_int_equal(fw_eigen_general(arena, 0, a, s, l, r), FW_OK);
+    assert_int_equal(fw_maths_eigen_general(arena, 2, a, s, l, r), FW_SOLVER);
+    assert_int_equal(fw_maths_eigen_general(arena, 0, a, s, l, r), FW_OK);
     fw_arena_fail_at(1, 1);
-    fw_status status = fw_eigen_general(arena, 2, b, s, l, r);
+    fw_status status = fw_maths_eigen_general(arena, 2, b, s, l, r);
     fw_arena_fail_at(0, 0);
     assert_int_equal(status, FW_NOMEM);
     fw_arena_free(arena);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/interval.h"
+#include "maths/maths_interval.h"
 #include "test.h"
 
 static uint64_t seed;
@@ -15,18 +15,18 @@ static double any(double decades) {
     return unit() < 0.5 ? -x : x;
 }
 
-static fw_interval between(double a, double b) {
-    return (fw_interval){fmin(a, b), fmax(a, b)};
+static fw_maths_interval between(double a, double b) {
+    return (fw_maths_interval){fmin(a, b), fmax(a, b)};
 }
 
-static fw_interval any_interval(double decades) {
+static fw_maths_interval any_interval(double decades) {
     double kind = unit(), a = any(decades);
     if (kind < 0.2) return fw_interval_point(a);
     if (kind < 0.6) return between(a, a * (1.0 + 1e-3 * unit()));
     return between(a, any(decades));
 }
 
-static double within(fw_interval a) {
+static double within(fw_maths_interval a) {
     double kind = unit();
     if (kind < 0.2) return a.lo;
     if (kind < 0.4) return a.hi;
@@ -35,7 +35,7 @@ static double within(fw_interval a) {
 
 #define assert_holds(set, exact)                                                                   \
     do {                                                                                           \
-        fw_interval s_ = (set);                                                                    \
+        fw_maths_interval s_ = (set);                                                              \
         long double x_ = (exact);                                                                  \
         if (!((long double)s_.lo <= x_ && x_ <= (long double)s_.hi))                               \
             fail_msg("%s: %.21Lg not in [%.17g, %.17g]", #set, x_, s_.lo, s_.hi);                  \
@@ -47,18 +47,18 @@ static void operations_enclose(void **state) {
     (void)state;
     seed = 7;
     for (int i = 0; i < 300000; i++) {
-        fw_interval a = any_interval(12), b = any_interval(12);
+        fw_maths_interval a = any_interval(12), b = any_interval(12);
         double x = within(a), y = within(b);
         long double u = (long double)x, v = (long double)y;
         assert_holds(fw_interval_add(a, b), u + v);
         assert_holds(fw_interval_sub(a, b), u - v);
-        assert_holds(fw_interval_mul(a, b), u * v);
-        assert_holds(fw_interval_div(a, b), u / v);
-        assert_holds(fw_interval_sqr(a), u * u);
+        assert_holds(fw_maths_interval_mul(a, b), u * v);
+        assert_holds(fw_maths_interval_div(a, b), u / v);
+        assert_holds(fw_maths_interval_sqr(a), u * u);
         assert_holds(fw_interval_negated(a), -u);
         assert_holds(fw_interval_hull(a, b), u);
-        if (x >= 0) assert_holds(fw_interval_sqrt(a), sqrtl(u));
-        fw_interval p = fw_interval_mul(fw_interval_point(x), fw_interval_point(y));
+        if (x >= 0) assert_holds(fw_maths_interval_sqrt(a), sqrtl(u));
+        fw_maths_interval p = fw_maths_interval_mul(fw_interval_point(x), fw_interval_point(y));
         assert_true(p.hi - p.lo <= 5e-16 * fabs(p.lo));
     }
 }
@@ -67,16 +67,16 @@ static void functions_enclose(void **state) {
     (void)state;
     seed = 11;
     for (int i = 0; i < 300000; i++) {
-        fw_interval a = any_interval(4), b = any_interval(4);
+        fw_maths_interval a = any_interval(4), b = any_interval(4);
         double x = within(a), y = within(b);
-        assert_holds(fw_interval_sin(a), sinl((long double)x));
-        assert_holds(fw_interval_cos(a), cosl((long double)x));
-        assert_holds(fw_interval_atan2(a, b), atan2l((long double)x, (long double)y));
-        fw_interval c = between(1 - 2 * unit(), 1 - 2 * unit());
-        assert_holds(fw_interval_acos(c), acosl((long double)within(c)));
+        assert_holds(fw_maths_interval_sin(a), sinl((long double)x));
+        assert_holds(fw_maths_interval_cos(a), cosl((long double)x));
+        assert_holds(fw_maths_interval_atan2(a, b), atan2l((long double)x, (long double)y));
+        fw_maths_interval c = between(1 - 2 * unit(), 1 - 2 * unit());
+        assert_holds(fw_maths_interval_acos(c), acosl((long double)within(c)));
     }
-    assert_true(isnan(fw_interval_acos((fw_interval){1.5, 2.0}).lo));
-    assert_true(isnan(fw_interval_sqrt((fw_interval){-2.0, -1.0}).hi));
+    assert_true(isnan(fw_maths_interval_acos((fw_maths_interval){1.5, 2.0}).lo));
+    assert_true(isnan(fw_maths_interval_sqrt((fw_maths_interval){-2.0, -1.0}).hi));
 }
 
 /* no wider than the exact range by more than rounding: the extremes of sin are found, others not */
@@ -86,7 +86,7 @@ static void functions_are_tight(void **state) {
     double turn = 2 * acos(-1.0);
     for (int i = 0; i < 20000; i++) {
         double a = 20 * (unit() - 0.5), w = 7 * unit();
-        fw_interval s = fw_interval_sin((fw_interval){a, a + w});
+        fw_maths_interval s = fw_maths_interval_sin((fw_maths_interval){a, a + w});
         double lo = 1, hi = -1;
         for (int k = 0; k <= 2000; k++) {
             double v = sin(a + w * k / 2000);
@@ -95,7 +95,8 @@ static void functions_are_tight(void **state) {
         assert_true(s.lo <= lo + 1e-14 && s.hi >= hi - 1e-14); /* samples round too */
         assert_near(s.lo, lo, 1e-5);
         assert_near(s.hi, hi, 1e-5);
-        fw_interval c = fw_interval_cos((fw_interval){a - turn / 4, a + w - turn / 4});
+        fw_maths_interval c =
+            fw_maths_interval_cos((fw_maths_interval){a - turn / 4, a + w - turn / 4});
         assert_near(c.lo, s.lo, 1e-13);
         assert_near(c.hi, s.hi, 1e-13);
     }
@@ -117,11 +118,12 @@ static void directed_steps(void **state) {
 /* by an interval that holds zero: anything; what is proved from such bounds is nothing */
 static void nothing_is_proved_by_infinities(void **state) {
     (void)state;
-    fw_interval zero = {-1.0, 1.0}, one = {1.0, 2.0};
-    fw_interval all = fw_interval_div(one, zero), more = fw_interval_mul(all, zero);
+    fw_maths_interval zero = {-1.0, 1.0}, one = {1.0, 2.0};
+    fw_maths_interval all = fw_maths_interval_div(one, zero),
+                      more = fw_maths_interval_mul(all, zero);
     assert_true(all.lo == -(double)INFINITY && all.hi == (double)INFINITY);
     assert_true(more.lo == -(double)INFINITY && more.hi == (double)INFINITY);
-    fw_interval angle = fw_interval_atan2(zero, zero);
+    fw_maths_interval angle = fw_maths_interval_atan2(zero, zero);
     assert_true(angle.lo < -3.14159 && angle.hi > 3.14159);
 }
 

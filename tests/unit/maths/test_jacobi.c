@@ -21,7 +21,7 @@ static void random_matrices(void **state) {
             for (int k = 0; k <= i; k++)
                 a[i * n + k] = a[k * n + i] = scale[i] * scale[k] * any();
         memcpy(used, a, sizeof a);
-        assert_true(fw_jacobi(n, used, value, v));
+        assert_true(fw_maths_jacobi(n, used, value, v));
         double size = 0;
         for (int i = 0; i < n; i++)
             size = fmax(size, fabs(value[i]));
@@ -46,7 +46,7 @@ static void graded(void **state) {
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++)
             a[3 * i + k] = d[i] * d[k] * (i == k ? 1 : 0.5);
-    assert_true(fw_jacobi(3, a, value, v));
+    assert_true(fw_maths_jacobi(3, a, value, v));
     double det = 0.5 * 1e-36; /* det H = 1/2 */
     assert_near(value[0] * value[1] * value[2] / det, 1, 1e-13);
 }
@@ -54,9 +54,9 @@ static void graded(void **state) {
 static void not_finite(void **state) {
     (void)state;
     double a[4] = {1, (double)NAN, (double)NAN, 1}, v[4], value[2];
-    assert_false(fw_jacobi(2, a, value, v));
+    assert_false(fw_maths_jacobi(2, a, value, v));
     double one[1] = {-3}, w[1], x[1];
-    assert_true(fw_jacobi(1, one, x, w) && x[0] == -3 && w[0] == 1);
+    assert_true(fw_maths_jacobi(1, one, x, w) && x[0] == -3 && w[0] == 1);
 }
 
 int main(void) {

@@ -22,8 +22,8 @@ static void test_residuals(void **state) {
         if (n > 1) a[0] = f[0] = b[0] = g[0] = 0;
         for (int i = 0; i < n; i++)
             x[i] = r[i] = noise(&seed), y[i] = s[i] = noise(&seed);
-        assert_true(fw_lu_factor(n, f, pivot));
-        fw_lu_solve(n, f, pivot, x);
+        assert_true(fw_maths_lu_factor(n, f, pivot));
+        fw_maths_lu_solve(n, f, pivot, x);
         for (int i = 0; i < n; i++) {
             double sum = -r[i], size = 0;
             for (int j = 0; j < n; j++) {
@@ -36,8 +36,8 @@ static void test_residuals(void **state) {
             f[i] = a[i];
         for (int i = 0; i < n; i++)
             x[i] = r[i];
-        assert_true(fw_lu_factor_complex(n, f, g, pivot));
-        fw_lu_solve_complex(n, f, g, pivot, x, y);
+        assert_true(fw_maths_lu_factor_complex(n, f, g, pivot));
+        fw_maths_lu_solve_complex(n, f, g, pivot, x, y);
         for (int i = 0; i < n; i++) {
             double re = -r[i], im = -s[i], size = 0;
             for (int j = 0; j < n; j++) {
@@ -55,11 +55,11 @@ static void test_refusals(void **state) {
     int pivot[2];
     double singular[4] = {1, 2, 2, 4}, im[4] = {0}, nan[4] = {1, (double)NAN, 2, 3};
     double infinite[4] = {(double)INFINITY, 1, 1, 1};
-    assert_false(fw_lu_factor(2, singular, pivot));
+    assert_false(fw_maths_lu_factor(2, singular, pivot));
     double again[4] = {1, 2, 2, 4};
-    assert_false(fw_lu_factor_complex(2, again, im, pivot));
-    assert_false(fw_lu_factor(2, nan, pivot));
-    assert_false(fw_lu_factor(2, infinite, pivot));
+    assert_false(fw_maths_lu_factor_complex(2, again, im, pivot));
+    assert_false(fw_maths_lu_factor(2, nan, pivot));
+    assert_false(fw_maths_lu_factor(2, infinite, pivot));
 }
 
 int main(void) {

@@ -4,17 +4,17 @@
 
 /* largest error of the controlled components at t = 6 (and of the quadrature), and the steps it
    took; h > 0: in steps of this size, with tolerances that refuse none */
-static double error_at_end(const fw_stepper_row *row, const problem *p, double rtol, double h,
+static double error_at_end(const fw_maths_stepper_row *row, const problem *p, double rtol, double h,
                            double *steps, double *quadrature) {
     fw_arena *arena = fw_arena_new(0);
-    fw_stepper *s = new_stepper(arena, row, &p->ode, rtol);
+    fw_maths_stepper *s = new_stepper(arena, row, &p->ode, rtol);
     double y[8], worst = 0;
     s->h_fixed = h;
     p->exact(0, y);
-    fw_stepper_start(s, 0, y, 6);
+    fw_maths_stepper_start(s, 0, y, 6);
     while (s->t < s->t_end) {
         if (h > 0) s->h_next = h;
-        assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+        assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
     }
     assert_true(s->t == 6);
     p->exact(6, y);
@@ -22,7 +22,7 @@ static double error_at_end(const fw_stepper_row *row, const problem *p, double r
         worst = fmax(worst, fabs(s->y[c] - y[c]));
     *quadrature = fabs(s->y[p->ode.controlled] - y[p->ode.controlled]);
     *steps = (double)s->steps;
-    fw_stepper_free(s);
+    fw_maths_stepper_free(s);
     fw_arena_free(arena);
     return worst;
 }
@@ -67,26 +67,26 @@ static void test_second_order_problem(void **state) {
 
 /* one step from exact values: the error inside falls with h^(q + 1). Tolerances that do not refuse
    the step, and for implicit ones do not spoil Newton. */
-static void one_step(const fw_stepper_row *row, const problem *p, double h, double *worst) {
+static void one_step(const fw_maths_stepper_row *row, const problem *p, double h, double *worst) {
     fw_arena *arena = fw_arena_new(0);
     double y[8], want[8];
-    fw_stepper *s = new_stepper(arena, row, &p->ode, row->implicit ? 1e-2 : 1);
+    fw_maths_stepper *s = new_stepper(arena, row, &p->ode, row->implicit ? 1e-2 : 1);
     s->h_fixed = s->h_max = h;
     memset(worst, 0, 8 * sizeof *worst);
     for (double t = 0; t < 3; t += 0.37) {
         p->exact(t, y);
-        fw_stepper_start(s, t, y, t + h);
+        fw_maths_stepper_start(s, t, y, t + h);
         s->h_next = h;
-        assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+        assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
         assert_near(s->h, h, 1e-12);
         for (double theta = 0.1; theta < 1; theta += 0.1) {
-            fw_stepper_dense(s, theta, y);
+            fw_maths_stepper_dense(s, theta, y);
             p->exact(t + theta * h, want);
             for (int c = 0; c < p->ode.n; c++)
                 worst[c] = fmax(worst[c], fabs(y[c] - want[c]));
         }
     }
-    fw_stepper_free(s);
+    fw_maths_stepper_free(s);
     fw_arena_free(arena);
 }
 
@@ -123,15 +123,15 @@ static void test_dense_follows_the_tolerance(void **state) {
         double before = 0;
         for (double rtol = 1e-5; rtol > 1e-10; rtol /= 100) {
             fw_arena *arena = fw_arena_new(0);
-            fw_stepper *s = new_stepper(arena, row, &second_order.ode, rtol);
+            fw_maths_stepper *s = new_stepper(arena, row, &second_order.ode, rtol);
             double y[8], want[8], ends = 0, inside = 0;
             second_exact(0, y);
-            fw_stepper_start(s, 0, y, 10);
+            fw_maths_stepper_start(s, 0, y, 10);
             while (s->t < s->t_end) {
-                assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+                assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
                 for (int i = 1; i <= 10; i++) {
                     double theta = i / 10.0;
-                    fw_stepper_dense(s, theta, y);
+                    fw_maths_stepper_dense(s, theta, y);
                     second_exact(s->t_old + theta * s->h, want);
                     for (int c = 0; c < 2; c++)
                         if (i == 10)
@@ -144,7 +144,7 @@ static void test_dense_follows_the_tolerance(void **state) {
                 fail_msg("%s at %g: %g inside, %g at the ends", row->name, rtol, inside, ends);
             if (before > 0) assert_true(inside < before);
             before = inside;
-            fw_stepper_free(s);
+            fw_maths_stepper_free(s);
             fw_arena_free(arena);
         }
     }

@@ -128,11 +128,11 @@ static void test_kernels(void **state) {
     (void)state;
     unsigned seed = 1;
     size_t variants;
-    const fw_rk_kernels *kernel = fw_rk_kernels_table(&variants);
+    const fw_maths_rk_kernels *kernel = fw_maths_rk_kernels_table(&variants);
     const double *list[STAGES];
     double a[STAGES], e[2 * STAGES], sum[3][2];
     assert_true(variants >= 1 && variants <= 3 && kernel[0].usable());
-    assert_true(fw_rk_kernels_best()->usable());
+    assert_true(fw_maths_rk_kernels_best()->usable());
     for (int trial = 0; trial < 300; trial++) {
         int n = 8 * (1 + trial % (LONG / 8)), count = 1 + trial % STAGES;
         for (int c = 0; c < n; c++) {
@@ -178,7 +178,7 @@ static void test_kernels(void **state) {
 static void test_kernels_stop_nothing(void **state) {
     (void)state;
     size_t variants;
-    const fw_rk_kernels *kernel = fw_rk_kernels_table(&variants);
+    const fw_maths_rk_kernels *kernel = fw_maths_rk_kernels_table(&variants);
     const double *list[1] = {k[0]};
     const double e[2] = {1, 0};
     double s[2];

@@ -14,12 +14,12 @@ static void van_der_pol(void *context, double t, const double *y, double *f) {
    VDPOL, 16 digits */
 static void test_van_der_pol(void **state) {
     (void)state;
-    const fw_ode ode = {.rhs = van_der_pol, .n = 2, .controlled = 2};
+    const fw_maths_ode ode = {.rhs = van_der_pol, .n = 2, .controlled = 2};
     const double start[2] = {2, 0}, want[2] = {0.1706167732170483e1, -0.8928097010247975};
     for (double rtol = 1e-4; rtol > 1e-11; rtol /= 10) {
         fw_arena *arena = fw_arena_new(0);
-        fw_stepper *s = new_stepper(arena, &fw_radau5_row, &ode, rtol);
-        fw_stepper_start(s, 0, start, 2);
+        fw_maths_stepper *s = new_stepper(arena, &fw_maths_radau5_row, &ode, rtol);
+        fw_maths_stepper_start(s, 0, start, 2);
         assert_int_equal(run_to_end(s), FW_ODE_STEP);
         assert_relative(s->y[0], want[0], rtol);
         assert_relative(s->y[1], want[1], rtol);
@@ -33,10 +33,10 @@ static void test_van_der_pol(void **state) {
 static void test_van_der_pol_costs(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    const fw_ode ode = {.rhs = van_der_pol, .n = 2, .controlled = 2};
+    const fw_maths_ode ode = {.rhs = van_der_pol, .n = 2, .controlled = 2};
     const double start[2] = {2, -0.6};
-    fw_stepper *s = new_stepper(arena, &fw_radau5_row, &ode, 1e-4);
-    fw_stepper_start(s, 0, start, 2);
+    fw_maths_stepper *s = new_stepper(arena, &fw_maths_radau5_row, &ode, 1e-4);
+    fw_maths_stepper_start(s, 0, start, 2);
     assert_int_equal(run_to_end(s), FW_ODE_STEP);
     assert_near((double)s->steps, 241, 24);
     assert_near((double)s->jacobians, 160, 16);
@@ -67,14 +67,15 @@ static void test_robertson(void **state) {
     for (int given = 0; given < 2; given++)
         for (double rtol = 1e-6; rtol > 1e-11; rtol /= 100) {
             fw_arena *arena = fw_arena_new(0);
-            const fw_ode ode = {.rhs = robertson,
-                                .n = 3,
-                                .controlled = 3,
-                                .jacobian = given ? robertson_jacobian : NULL};
+            const fw_maths_ode ode = {.rhs = robertson,
+                                      .n = 3,
+                                      .controlled = 3,
+                                      .jacobian = given ? robertson_jacobian : NULL};
             const double atol[3] = {1e-6 * rtol, 1e-10 * rtol, 1e-6 * rtol};
-            fw_stepper *s;
-            assert_int_equal(fw_stepper_new(arena, &fw_radau5_row, &ode, rtol, atol, &s), FW_OK);
-            fw_stepper_start(s, 0, start, 1e11);
+            fw_maths_stepper *s;
+            assert_int_equal(
+                fw_maths_stepper_new(arena, &fw_maths_radau5_row, &ode, rtol, atol, &s), FW_OK);
+            fw_maths_stepper_start(s, 0, start, 1e11);
             assert_int_equal(run_to_end(s), FW_ODE_STEP);
             for (int c = 0; c < 3; c++)
                 assert_relative(s->y[c], want[c], 10 * rtol);
@@ -96,18 +97,18 @@ static void led(void *context, double t, const double *y, double *f) {
 }
 static void test_a_fast_one_at_rest(void **state) {
     (void)state;
-    const fw_ode ode = {.rhs = led, .n = 4, .controlled = 4, .positions = 2};
+    const fw_maths_ode ode = {.rhs = led, .n = 4, .controlled = 4, .positions = 2};
     const double path = 1 / (1 - 1 / (fast * fast)), start[4] = {1, path, 0, 0};
     FOR_EACH_ROW(row, second_order) {
         fw_arena *arena = fw_arena_new(0);
         double rtol = row->order < 4 ? 1e-5 : 1e-6, y[4];
-        fw_stepper *s = new_stepper(arena, row, &ode, rtol);
+        fw_maths_stepper *s = new_stepper(arena, row, &ode, rtol);
         s->h_fixed = 1e-3;
-        fw_stepper_start(s, 0, start, 10);
-        fw_ode_result result = FW_ODE_STEP;
+        fw_maths_stepper_start(s, 0, start, 10);
+        fw_maths_ode_result result = FW_ODE_STEP;
         while (s->t < s->t_end && s->steps < 3000 && result == FW_ODE_STEP)
-            result = fw_stepper_step(s);
-        bool stiff = row == &fw_radau5_row || row == &fw_generalised_alpha_row;
+            result = fw_maths_stepper_step(s);
+        bool stiff = row == &fw_maths_radau5_row || row == &fw_maths_generalised_alpha_row;
         if (stiff && !(s->t == 10 && result == FW_ODE_STEP))
             fail_msg("%s: only %g in %ld steps", row->name, s->t, s->steps);
         if (!row->implicit) assert_true(s->t < 1); /* explicit ones need millions of steps */
@@ -116,12 +117,12 @@ static void test_a_fast_one_at_rest(void **state) {
             assert_near(s->y[0], cos(10), allowed);
             assert_near(s->y[1], cos(10), allowed);
             /* the dense output does not multiply the fast one's error with its stiffness */
-            fw_stepper_dense(s, 0.5, y);
+            fw_maths_stepper_dense(s, 0.5, y);
             double t = s->t_old + 0.5 * s->h;
             assert_near(y[1], cos(t), 3 * allowed);
             assert_near(y[3], -sin(t), 10 * allowed);
         }
-        fw_stepper_free(s);
+        fw_maths_stepper_free(s);
         fw_arena_free(arena);
     }
 }
@@ -129,14 +130,14 @@ static void test_a_fast_one_at_rest(void **state) {
 /* radau5 on the pendulum (index 1, projected): the error at the end is proportional to rtol */
 static void test_tolerance_proportionality(void **state) {
     (void)state;
-    const fw_ode ode = {
+    const fw_maths_ode ode = {
         .rhs = pendulum_rhs, .project = pendulum_project, .n = 4, .controlled = 4, .positions = 2};
     const double start[4] = {-1, 0, 0, 0};
     double first = 0;
     for (double rtol = 1e-4; rtol > 0.9e-11; rtol /= 10) {
         fw_arena *arena = fw_arena_new(0);
-        fw_stepper *s = new_stepper(arena, &fw_radau5_row, &ode, rtol);
-        fw_stepper_start(s, 0, start, 10);
+        fw_maths_stepper *s = new_stepper(arena, &fw_maths_radau5_row, &ode, rtol);
+        fw_maths_stepper_start(s, 0, start, 10);
         assert_int_equal(run_to_end(s), FW_ODE_STEP);
         double ratio =
             hypot(s->y[0] + 0.2750874625761168600544, s->y[1] + 0.9614192050991250642651) / rtol;
@@ -151,16 +152,17 @@ static void test_tolerance_proportionality(void **state) {
    by a factor 2 all the time */
 static double alpha_error(double rho, double h, bool changing) {
     fw_arena *arena = fw_arena_new(0);
-    fw_stepper *s = new_stepper(arena, &fw_generalised_alpha_row, &second_order.ode, 1e-2);
+    fw_maths_stepper *s =
+        new_stepper(arena, &fw_maths_generalised_alpha_row, &second_order.ode, 1e-2);
     for (int c = 0; c < 4; c++)
         ((double *)(uintptr_t)s->atol)[c] = 10; /* refuses nothing */
     double y[8], worst = 0;
     s->spectral_radius = rho;
     second_exact(0, y);
-    fw_stepper_start(s, 0, y, 6);
+    fw_maths_stepper_start(s, 0, y, 6);
     for (long i = 0; s->t < s->t_end; i++) {
         s->h_next = changing && i % 2 ? h / 2 : h;
-        assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+        assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
     }
     second_exact(6, y);
     for (int c = 0; c < 4; c++)
@@ -186,26 +188,26 @@ static void test_generalised_alpha_estimate(void **state) {
     (void)state;
     for (double h = 0.02; h > 0.004; h /= 2) {
         fw_arena *arena = fw_arena_new(0);
-        fw_stepper *s =
-            new_stepper(arena, &fw_generalised_alpha_row, &second_order.ode,
+        fw_maths_stepper *s =
+            new_stepper(arena, &fw_maths_generalised_alpha_row, &second_order.ode,
                         0.5 * h * h * h); /* err far from 1: the factor is not cut off */
         double y[8], before[8];
         second_exact(0.3, y);
-        fw_stepper_start(s, 0.3, y, 5);
+        fw_maths_stepper_start(s, 0.3, y, 5);
         s->h_max = h;
         for (int i = 0; i < 4; i++) {
             second_exact(s->t, y);
             for (int c = 0; c < 4; c++)
                 before[c] = s->y[c] - y[c];
             s->h_next = h;
-            assert_int_equal(fw_stepper_step(s), FW_ODE_STEP);
+            assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
             assert_near(s->h, h, 1e-12);
         }
         double seen = pow(0.9 * s->h / s->h_next, 3), growth[8] = {0};
         second_exact(s->t, y);
         for (int c = 0; c < 4; c++)
             growth[c] = s->y[c] - y[c] - before[c];
-        double ratio = seen / fw_ode_norm(s, growth, s->y_old, s->y);
+        double ratio = seen / fw_maths_ode_norm(s, growth, s->y_old, s->y);
         if (!(s->h_next != s->h && ratio > 0.9 && ratio < 1.1))
             fail_msg("estimate / error is %g at h = %g", ratio, h);
         fw_arena_free(arena);

@@ -2,7 +2,7 @@
 #include "maths/rainflow.h"
 #include "test.h"
 
-static double counted(const fw_cycle *c, size_t n, double range) {
+static double counted(const fw_maths_cycle *c, size_t n, double range) {
     double sum = 0;
     for (size_t i = 0; i < n; i++)
         if (fabs(c[i].range - range) < 1e-12) sum += c[i].count;
@@ -15,8 +15,8 @@ static const double example[] = {-2, 1, -3, 5, -1, 3, -4, 4, -2};
 static void astm_example(void **state) {
     (void)state;
     double work[9];
-    fw_cycle c[9];
-    size_t n = fw_rainflow(example, 9, work, c);
+    fw_maths_cycle c[9];
+    size_t n = fw_maths_rainflow(example, 9, work, c);
     static const double range[] = {3, 4, 6, 8, 9}, count[] = {0.5, 1.5, 0.5, 1.0, 0.5};
     double all = 0, expected = 0;
     for (int i = 0; i < 5; i++) {
@@ -37,8 +37,8 @@ static void astm_example(void **state) {
 static void astm_example_repeating(void **state) {
     (void)state;
     double work[19];
-    fw_cycle c[10];
-    size_t n = fw_rainflow_repeating(example, 9, work, c);
+    fw_maths_cycle c[10];
+    size_t n = fw_maths_rainflow_repeating(example, 9, work, c);
     assert_int_equal(n, 4);
     static const double range[] = {3, 4, 7, 9}, mean[] = {-0.5, 1, 0.5, 0.5};
     for (int i = 0; i < 4; i++) {
@@ -60,7 +60,7 @@ static void identities_on_random_histories(void **state) {
     uint64_t seed = 3;
     for (int round = 0; round < 200; round++) {
         double turn[61], other[61], work[200], most = -9, least = 9, way = 0, sum = 0, widest = 0;
-        fw_cycle c[62], d[62];
+        fw_maths_cycle c[62], d[62];
         size_t n = 4 + (size_t)(uniform(&seed) * 28) * 2;
         for (size_t i = 0; i < n; i++) {
             turn[i] = (i % 2 ? 1 : -1) * (0.01 + uniform(&seed));
@@ -71,9 +71,9 @@ static void identities_on_random_histories(void **state) {
             way += fabs(turn[(i + 1) % n] - turn[i]);
             other[i] = turn[(i + 7) % n];
         }
-        size_t count = fw_rainflow_repeating(turn, n, work, c);
+        size_t count = fw_maths_rainflow_repeating(turn, n, work, c);
         assert_int_equal(count, n / 2);
-        assert_int_equal(fw_rainflow_repeating(other, n, work, d), count);
+        assert_int_equal(fw_maths_rainflow_repeating(other, n, work, d), count);
         double again = 0;
         for (size_t i = 0; i < count; i++) {
             assert_near(c[i].count, 1, 0);
@@ -90,14 +90,14 @@ static void identities_on_random_histories(void **state) {
 static void what_does_not_turn_has_no_cycles(void **state) {
     (void)state;
     double work[16];
-    fw_cycle c[8];
+    fw_maths_cycle c[8];
     static const double flat[] = {2, 2, 2}, pulse[] = {0, 3}, slope[] = {0, 1, 2, 5};
-    assert_int_equal(fw_rainflow_repeating(flat, 3, work, c), 0);
-    assert_int_equal(fw_rainflow_repeating(flat, 1, work, c), 0);
-    assert_int_equal(fw_rainflow_repeating(pulse, 2, work, c), 1);
+    assert_int_equal(fw_maths_rainflow_repeating(flat, 3, work, c), 0);
+    assert_int_equal(fw_maths_rainflow_repeating(flat, 1, work, c), 0);
+    assert_int_equal(fw_maths_rainflow_repeating(pulse, 2, work, c), 1);
     assert_near(c[0].range, 3, 0);
     assert_near(c[0].mean, 1.5, 0);
-    assert_int_equal(fw_rainflow_repeating(slope, 4, work, c), 1); /* up, and back at once */
+    assert_int_equal(fw_maths_rainflow_repeating(slope, 4, work, c), 1); /* up, and back at once */
     assert_near(c[0].range, 5, 0);
 }
 
@@ -105,12 +105,12 @@ static void what_does_not_turn_has_no_cycles(void **state) {
 static void turning_points_of_a_sine(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_turning p = {.gate = 0.01};
+    fw_maths_turning p = {.gate = 0.01};
     uint64_t seed = 5;
     double pi = acos(-1.0);
     for (double t = 0; t < 10 * 2 * pi; t += 0.05 + 0.1 * uniform(&seed))
-        fw_turning_add(&p, arena, t, (1 + 0.02 * t) * sin(t) + 0.002 * sin(71 * t));
-    fw_turning_end(&p, arena);
+        fw_maths_turning_add(&p, arena, t, (1 + 0.02 * t) * sin(t) + 0.002 * sin(71 * t));
+    fw_maths_turning_end(&p, arena);
     assert_false(p.failed);
     assert_int_equal(p.count, 1 + 20 + 1); /* the start, twenty extremes, the end */
     for (size_t i = 1; i <= 20; i++) {
@@ -126,11 +126,11 @@ static void tops_between_samples(void **state) {
     fw_arena *arena = fw_arena_new(0);
     double wrong[2];
     for (int fine = 0; fine < 2; fine++) {
-        fw_turning p = {.gate = 1e-3};
+        fw_maths_turning p = {.gate = 1e-3};
         double step = fine ? 0.1 : 0.2;
         wrong[fine] = 0;
         for (int i = 0; i * step < 40; i++)
-            fw_turning_add(&p, arena, i * step, sin(i * step));
+            fw_maths_turning_add(&p, arena, i * step, sin(i * step));
         for (size_t i = 1; i < p.count; i++)
             wrong[fine] = fmax(wrong[fine], fabs(fabs(p.value[i]) - 1));
     }
@@ -143,13 +143,13 @@ static void tops_between_samples(void **state) {
 static void a_jump_is_a_turn(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_turning p = {.gate = 1e-3};
+    fw_maths_turning p = {.gate = 1e-3};
     static const double s[] = {0, 1, 2, -1, 0, 1};
     for (int i = 0; i < 6; i++) {
-        if (i == 3) fw_turning_jump(&p);
-        fw_turning_add(&p, arena, i < 3 ? i : i - 1, s[i]);
+        if (i == 3) fw_maths_turning_jump(&p);
+        fw_maths_turning_add(&p, arena, i < 3 ? i : i - 1, s[i]);
     }
-    fw_turning_end(&p, arena);
+    fw_maths_turning_end(&p, arena);
     assert_int_equal(p.count, 4);
     static const double turn[] = {0, 2, -1, 1};
     for (int i = 0; i < 4; i++)

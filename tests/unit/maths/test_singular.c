@@ -19,8 +19,8 @@ static void test_product(void **state) {
                 a[i] = noise((unsigned)i);
             for (int k = 0; deficient && m > 1 && k < n; k++)
                 a[(m - 1) * n + k] = 2 * a[k];
-            fw_singular s;
-            assert_int_equal(fw_singular_new(arena, m, n, a, &s), FW_OK);
+            fw_maths_singular s;
+            assert_int_equal(fw_maths_singular_new(arena, m, n, a, &s), FW_OK);
             for (int i = 0; i < m; i++)
                 for (int k = 0; k < n; k++) {
                     double sum = 0;
@@ -45,11 +45,11 @@ static void test_product(void **state) {
 static void test_edges(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_singular s;
-    assert_int_equal(fw_singular_new(arena, 0, 3, NULL, &s), FW_OK);
+    fw_maths_singular s;
+    assert_int_equal(fw_maths_singular_new(arena, 0, 3, NULL, &s), FW_OK);
     assert_near(s.v[0] + s.v[4] + s.v[8], 3, 0);
     double bad[2] = {1, (double)NAN};
-    assert_int_equal(fw_singular_new(arena, 1, 2, bad, &s), FW_SOLVER);
+    assert_int_equal(fw_maths_singular_new(arena, 1, 2, bad, &s), FW_SOLVER);
     fw_arena_free(arena);
 }
 

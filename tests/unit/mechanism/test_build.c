@@ -10,15 +10,15 @@ static fw_quantity known(double value) {
 }
 
 typedef struct desk { /* a lever with a csfh hinge to the ground and a second body behind it */
-    fw_body body[2];
-    fw_joint joint[2];
-    fw_flexure flexure[1];
-    fw_spring spring[1];
+    fw_device_body body[2];
+    fw_device_revolute revolute[2];
+    fw_device_flexure flexure[1];
+    fw_device_spring spring[1];
     fw_device device;
-    fw_hinge_layout hinge[2];
-    fw_body_layout shape[2];
+    fw_layout_hinge_layout hinge[2];
+    fw_layout_body_layout shape[2];
     fw_layout layout;
-    fw_variant variant;
+    fw_mechanism_variant variant;
     fw_arena *arena;
     fw_diags diags;
 } desk;
@@ -28,69 +28,69 @@ static void desk_new(desk *d) {
     d->arena = fw_arena_new(0);
     assert_non_null(d->arena);
     d->diags = fw_diags_new(d->arena);
-    d->body[0] =
-        (fw_body){.id = "AB", .mass_kg = unset, .inertia_kg_m2 = unset, .x_m = unset, .y_m = unset};
-    d->body[1] = (fw_body){.id = "BC",
-                           .mass_kg = 2e-8,
-                           .inertia_kg_m2 = 3e-15,
-                           .x_m = 3e-3,
-                           .y_m = 1e-3,
-                           .phi_rad = 0.5};
-    d->joint[0] = (fw_joint){.id = "A",
-                             .body_a = FW_GROUND,
-                             .body_b = 0,
-                             .x_m = 0,
-                             .y_m = 0,
-                             .ax_m = unset,
-                             .ay_m = unset,
-                             .bx_m = unset,
-                             .by_m = unset,
-                             .stiffness_Nm_per_rad = unset,
-                             .damping_Nms_per_rad = unset,
-                             .flexure = 0,
-                             .place = {"d.xml", 7, 3}};
-    d->joint[1] = d->joint[0];
-    d->joint[1].id = "B";
-    d->joint[1].body_a = 0, d->joint[1].body_b = 1;
-    d->joint[1].x_m = 2e-3, d->joint[1].y_m = 1e-3;
-    d->joint[1].flexure = FW_NONE;
-    d->flexure[0] = (fw_flexure){.id = "A",
-                                 .kind = FW_FLEXURE_CSFH,
-                                 .length_m = 300e-6,
-                                 .angle_rad = 4.1887902047863905,
-                                 .radius_m = 300e-6 / 4.18879020478639,
-                                 .width_m = 9e-6,
-                                 .gap_m = 8e-6,
-                                 .fillet_m = unset};
-    d->spring[0] = (fw_spring){.id = "s",
-                               .body_a = FW_GROUND,
-                               .body_b = 1,
-                               .stiffness_N_per_m = 4,
-                               .damping_Ns_per_m = 5,
-                               .length_m = 1e-3};
+    d->body[0] = (fw_device_body){
+        .id = "AB", .mass_kg = unset, .inertia_kg_m2 = unset, .x_m = unset, .y_m = unset};
+    d->body[1] = (fw_device_body){.id = "BC",
+                                  .mass_kg = 2e-8,
+                                  .inertia_kg_m2 = 3e-15,
+                                  .x_m = 3e-3,
+                                  .y_m = 1e-3,
+                                  .phi_rad = 0.5};
+    d->revolute[0] = (fw_device_revolute){.id = "A",
+                                          .body_a = FW_GROUND,
+                                          .body_b = 0,
+                                          .x_m = 0,
+                                          .y_m = 0,
+                                          .ax_m = unset,
+                                          .ay_m = unset,
+                                          .bx_m = unset,
+                                          .by_m = unset,
+                                          .stiffness_Nm_per_rad = unset,
+                                          .damping_Nms_per_rad = unset,
+                                          .flexure = 0,
+                                          .place = {"d.xml", 7, 3}};
+    d->revolute[1] = d->revolute[0];
+    d->revolute[1].id = "B";
+    d->revolute[1].body_a = 0, d->revolute[1].body_b = 1;
+    d->revolute[1].x_m = 2e-3, d->revolute[1].y_m = 1e-3;
+    d->revolute[1].flexure = FW_NONE;
+    d->flexure[0] = (fw_device_flexure){.id = "A",
+                                        .kind = FW_FLEXURE_CSFH,
+                                        .length_m = 300e-6,
+                                        .angle_rad = 4.1887902047863905,
+                                        .radius_m = 300e-6 / 4.18879020478639,
+                                        .width_m = 9e-6,
+                                        .gap_m = 8e-6,
+                                        .fillet_m = unset};
+    d->spring[0] = (fw_device_spring){.id = "s",
+                                      .body_a = FW_GROUND,
+                                      .body_b = 1,
+                                      .stiffness_N_per_m = 4,
+                                      .damping_Ns_per_m = 5,
+                                      .length_m = 1e-3};
     d->device = (fw_device){.file = "d.xml",
                             .body = d->body,
-                            .joint = d->joint,
+                            .revolute = d->revolute,
                             .flexure = d->flexure,
                             .spring = d->spring,
                             .nbody = 2,
-                            .njoint = 2,
+                            .nrevolute = 2,
                             .nflexure = 1,
                             .nspring = 1,
                             .safety_factor = 1.5};
-    d->shape[0] = (fw_body_layout){2e-7, 1e-3, {1e-3, 0.5e-3}, 4e-14};
-    d->hinge[0] = (fw_hinge_layout){.drawn = true, .fillet_m = 6e-6};
+    d->shape[0] = (fw_layout_body_layout){2e-7, 1e-3, {1e-3, 0.5e-3}, 4e-14};
+    d->hinge[0] = (fw_layout_hinge_layout){.drawn = true, .fillet_m = 6e-6};
     d->layout = (fw_layout){.drawn = true, .hinge = d->hinge, .body = d->shape};
-    d->variant = (fw_variant){.thickness_m = 50e-6,
-                              .explicit_mass_scale = 1,
-                              .explicit_stiffness_scale = 1,
-                              .explicit_damping_scale = 1};
-    d->variant.material = (fw_material){.id = "silicon",
-                                        .youngs = known(169e9),
-                                        .poisson = known(0.06),
-                                        .density = known(2330),
-                                        .strength = known(2.5e9),
-                                        .loss = known(1e-3)};
+    d->variant = (fw_mechanism_variant){.thickness_m = 50e-6,
+                                        .explicit_mass_scale = 1,
+                                        .explicit_stiffness_scale = 1,
+                                        .explicit_damping_scale = 1};
+    d->variant.material = (fw_device_material){.id = "silicon",
+                                               .youngs = known(169e9),
+                                               .poisson = known(0.06),
+                                               .density = known(2330),
+                                               .strength = known(2.5e9),
+                                               .loss = known(1e-3)};
 }
 
 static fw_status build(desk *d, const fw_mechanism **m) {
@@ -106,12 +106,12 @@ static void test_crystal(void **state) {
     desk_new(&d);
     d.hinge[0].axis_rad = 0.7;
     d.body[0].phi_rad = 0.4;
-    d.joint[0].x_m = 1e-4, d.joint[0].y_m = -2e-4;
+    d.revolute[0].x_m = 1e-4, d.revolute[0].y_m = -2e-4;
     d.variant.orientation_rad = 0.2;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_false(m->hinge[0].input.crystal.known);
     assert_near(m->hinge[0].off_a_m.x, 0, 0);
-    assert_near(fw_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
+    assert_near(fw_mechanism_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
     double E = m->hinge[0].closed_form.youngs_Pa;
     assert_near(E, 169e9, 0);
 
@@ -119,7 +119,7 @@ static void test_crystal(void **state) {
     d.variant.material.c12 = known(63.9e9);
     d.variant.material.c44 = known(79.6e9);
     assert_int_equal(build(&d, &m), FW_OK);
-    const fw_hinge *h = &m->hinge[0];
+    const fw_mechanism_hinge *h = &m->hinge[0];
     assert_true(h->input.crystal.known && h->input.crystal.aligned);
     assert_near(h->input.crystal.cos4, cos(4 * 0.5), 1e-15);
     assert_near(h->input.crystal.sin4, sin(4 * 0.5), 1e-15);
@@ -129,22 +129,24 @@ static void test_crystal(void **state) {
     double x = 1e-4 + cos(0.7) * off[0] - sin(0.7) * off[1];
     double y = -2e-4 + sin(0.7) * off[0] + cos(0.7) * off[1];
     for (int side = 0; side < 2; side++) {
-        fw_vec2 w = fw_pin_place(m, &m->pin[0], side);
+        fw_geometry_vec2 w = fw_mechanism_pin_place(m, &m->pin[0], side);
         assert_near(w.x, x, 1e-18);
         assert_near(w.y, y, 1e-18);
     }
     /* drawn points, where the surfaces are: the pin less its offset, in each body's frame */
-    const fw_pin *p = &m->pin[0];
-    fw_vec2 a = fw_local_place(m, p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y);
-    fw_vec2 b = fw_local_place(m, p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y);
+    const fw_mechanism_pin *p = &m->pin[0];
+    fw_geometry_vec2 a =
+        fw_mechanism_local_place(m, p->body_a, p->ax_m - h->off_a_m.x, p->ay_m - h->off_a_m.y);
+    fw_geometry_vec2 b =
+        fw_mechanism_local_place(m, p->body_b, p->bx_m - h->off_b_m.x, p->by_m - h->off_b_m.y);
     assert_near(hypot(a.x - 1e-4, a.y + 2e-4) + hypot(b.x - 1e-4, b.y + 2e-4), 0, 1e-18);
 
     d.layout.drawn = false; /* nothing says where the hinge points: the mean, and no offset */
-    d.joint[0].axis_rad = unset;
+    d.revolute[0].axis_rad = unset;
     d.body[0].mass_kg = 1e-8, d.body[0].inertia_kg_m2 = 1e-15, d.body[0].x_m = d.body[0].y_m = 0;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_false(m->hinge[0].input.crystal.aligned);
-    assert_near(fw_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
+    assert_near(fw_mechanism_pin_place(m, &m->pin[0], 0).x, 1e-4, 0);
     fw_arena_free(d.arena);
 }
 
@@ -173,18 +175,18 @@ static void test_points(void **state) {
     const fw_mechanism *m;
     desk_new(&d);
     assert_int_equal(build(&d, &m), FW_OK);
-    const fw_pin *b = &m->pin[1];
+    const fw_mechanism_pin *b = &m->pin[1];
     assert_near(b->ax_m, 1e-3, 1e-18);
     assert_near(b->ay_m, 0.5e-3, 1e-18);
     double c = cos(0.5), s = sin(0.5);
     assert_near(3e-3 + c * b->bx_m - s * b->by_m, 2e-3, 1e-17);
     assert_near(1e-3 + s * b->bx_m + c * b->by_m, 1e-3, 1e-17);
     /* the other way about: b's local point gives the world and a's */
-    d.joint[1].x_m = d.joint[1].y_m = unset;
-    d.joint[1].bx_m = b->bx_m, d.joint[1].by_m = b->by_m;
+    d.revolute[1].x_m = d.revolute[1].y_m = unset;
+    d.revolute[1].bx_m = b->bx_m, d.revolute[1].by_m = b->by_m;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_near(m->pin[1].ax_m, 1e-3, 1e-17);
-    d.joint[1].bx_m = unset;
+    d.revolute[1].bx_m = unset;
     assert_int_equal(build(&d, &m), FW_INPUT);
     assert_int_equal(d.diags.item[0].number, 84);
     fw_arena_free(d.arena);
@@ -210,8 +212,8 @@ static void test_stiffness_and_damping(void **state) {
     /* the drawn fillet is used, and the closed form stays when the stiffness is explicit */
     const double limit = m->hinge[0].closed_form.limit_angle_rad;
     d.hinge[0].fillet_m = 2e-6;
-    d.joint[0].stiffness_Nm_per_rad = 1.03 * own / 2;
-    d.joint[0].damping_Nms_per_rad = 7e-12;
+    d.revolute[0].stiffness_Nm_per_rad = 1.03 * own / 2;
+    d.revolute[0].damping_Nms_per_rad = 7e-12;
     d.variant.explicit_stiffness_scale = 2;
     d.variant.explicit_damping_scale = 3;
     assert_int_equal(build(&d, &m), FW_OK);
@@ -221,7 +223,7 @@ static void test_stiffness_and_damping(void **state) {
     assert_true(m->hinge[0].closed_form.limit_angle_rad < limit); /* sharper fillet */
     assert_int_equal(d.diags.count, 0);
     /* more than 10 % apart: one warning, not one per flow */
-    d.joint[0].stiffness_Nm_per_rad = own;
+    d.revolute[0].stiffness_Nm_per_rad = own;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_int_equal(build(&d, &m), FW_OK);
     assert_int_equal(d.diags.count, 1);
@@ -240,7 +242,7 @@ static void test_without_a_layout(void **state) {
                      FW_INPUT);
     assert_null(m);
     assert_int_equal(d.diags.item[0].number, 82);
-    d.body[0] = (fw_body){.id = "AB", .mass_kg = 1e-8, .inertia_kg_m2 = 1e-15, .x_m = 1e-3};
+    d.body[0] = (fw_device_body){.id = "AB", .mass_kg = 1e-8, .inertia_kg_m2 = 1e-15, .x_m = 1e-3};
     assert_int_equal(fw_mechanism_build(d.arena, &d.device, NULL, &d.variant, &d.diags, &m), FW_OK);
     assert_near(m->body[0].x_m, 1e-3, 0);
     fw_arena_free(d.arena);
@@ -268,13 +270,13 @@ static void test_mistakes(void **state) {
             d.body[1].phi_rad = (double)INFINITY;
             break;
         case 4:
-            d.joint[1].body_b = 0;
+            d.revolute[1].body_b = 0;
             break;
         case 5:
-            d.joint[1].body_b = 5;
+            d.revolute[1].body_b = 5;
             break;
         case 6:
-            d.joint[1].stiffness_Nm_per_rad = -1;
+            d.revolute[1].stiffness_Nm_per_rad = -1;
             break;
         case 7:
             d.spring[0].body_b = FW_GROUND;
@@ -299,79 +301,82 @@ static void test_mistakes(void **state) {
 }
 
 /* bodies at (1, 0.5) mm and (3, 1) mm, the second turned by 0.5 rad */
-typedef struct ties {
-    fw_tie tie[3];
-    fw_driver driver[2];
-} ties;
+typedef struct joints {
+    fw_device_joint joint[3];
+    fw_device_driver driver[2];
+} joints;
 
-static fw_law law_of(fw_arena *arena, const char *text, fw_dimension wanted) {
-    fw_expression_error error;
-    fw_program *program;
-    if (fw_program_compile(arena, text, strlen(text), NULL, wanted, &program, &error) != FW_OK)
+static fw_quantity_law law_of(fw_arena *arena, const char *text, fw_quantity_dimension wanted) {
+    fw_quantity_expression_error error;
+    fw_quantity_program *program;
+    if (fw_quantity_program_compile(arena, text, strlen(text), NULL, wanted, &program, &error) !=
+        FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = &fw_quantity_law_expression, .program = program};
+    return (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = program};
 }
 
-static void ties_new(desk *d, ties *t) {
+static void joints_new(desk *d, joints *t) {
     desk_new(d);
     memset(t, 0, sizeof *t);
-    t->tie[0] = (fw_tie){.id = "p",
-                         .kind = FW_TIE_PRISMATIC,
-                         .body_a = 0,
-                         .body_b = 1,
-                         .bx_m = 1e-3,
-                         .axis_rad = 0.3,
-                         .angle_rad = unset,
-                         .length_m = unset,
-                         .stiffness_N_per_m = 2,
-                         .damping_Ns_per_m = unset,
-                         .free_length_m = 1e-4,
-                         .place = {"d.xml", 9, 1}};
-    t->tie[1] = t->tie[0];
-    t->tie[1].id = "d", t->tie[1].kind = FW_TIE_DISTANCE, t->tie[1].body_a = FW_GROUND;
-    t->tie[1].place.line = 10;
-    t->tie[2] = t->tie[0];
-    t->tie[2].id = "w", t->tie[2].kind = FW_TIE_WELD, t->tie[2].place.line = 11;
-    t->driver[0] = (fw_driver){.id = "A",
-                               .joint = 0,
-                               .tie = FW_NONE,
-                               .law = law_of(d->arena, "3 rad/s * t", (fw_dimension){.rad = 1}),
-                               .place = {"d.xml", 12, 1}};
-    t->driver[1] = (fw_driver){.id = "d",
-                               .joint = FW_NONE,
-                               .tie = 1,
-                               .law = law_of(d->arena, "1 mm + 2 mm/s*t", (fw_dimension){.m = 1}),
-                               .place = {"d.xml", 13, 1}};
-    d->device.tie = t->tie, d->device.ntie = 3;
+    t->joint[0] = (fw_device_joint){.id = "p",
+                                    .kind = FW_JOINT_PRISMATIC,
+                                    .body_a = 0,
+                                    .body_b = 1,
+                                    .bx_m = 1e-3,
+                                    .axis_rad = 0.3,
+                                    .angle_rad = unset,
+                                    .length_m = unset,
+                                    .stiffness_N_per_m = 2,
+                                    .damping_Ns_per_m = unset,
+                                    .free_length_m = 1e-4,
+                                    .place = {"d.xml", 9, 1}};
+    t->joint[1] = t->joint[0];
+    t->joint[1].id = "d", t->joint[1].kind = FW_JOINT_DISTANCE, t->joint[1].body_a = FW_GROUND;
+    t->joint[1].place.line = 10;
+    t->joint[2] = t->joint[0];
+    t->joint[2].id = "w", t->joint[2].kind = FW_JOINT_WELD, t->joint[2].place.line = 11;
+    t->driver[0] = (fw_device_driver){
+        .id = "A",
+        .revolute = 0,
+        .joint = FW_NONE,
+        .law = law_of(d->arena, "3 rad/s * t", (fw_quantity_dimension){.rad = 1}),
+        .place = {"d.xml", 12, 1}};
+    t->driver[1] = (fw_device_driver){
+        .id = "d",
+        .revolute = FW_NONE,
+        .joint = 1,
+        .law = law_of(d->arena, "1 mm + 2 mm/s*t", (fw_quantity_dimension){.m = 1}),
+        .place = {"d.xml", 13, 1}};
+    d->device.joint = t->joint, d->device.njoint = 3;
     d->device.driver = t->driver, d->device.ndriver = 2;
 }
 
-static void test_ties(void **state) {
+static void test_joints(void **state) {
     (void)state;
     desk d;
-    ties t;
+    joints t;
     const fw_mechanism *m;
-    ties_new(&d, &t);
+    joints_new(&d, &t);
     d.variant.explicit_stiffness_scale = 3, d.variant.explicit_damping_scale = 5;
-    t.tie[0].damping_Ns_per_m = 7;
+    t.joint[0].damping_Ns_per_m = 7;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_int_equal(d.diags.count, 0);
-    assert_int_equal(m->ntie, 3);
+    assert_int_equal(m->njoint, 3);
     assert_int_equal(m->ndriver, 2);
-    assert_near(m->tie[0].angle_rad, 0.5, 0); /* as drawn */
-    assert_near(m->tie[0].stiffness_N_per_m, 6, 0);
-    assert_near(m->tie[0].damping_Ns_per_m, 35, 0);
-    assert_near(m->tie[0].free_length_m, 1e-4, 0);
-    assert_near(m->tie[1].length_m, hypot(3e-3 + 1e-3 * cos(0.5), 1e-3 + 1e-3 * sin(0.5)), 1e-18);
-    assert_near(m->tie[1].stiffness_N_per_m, 0, 0); /* a rod has none */
-    assert_near(m->tie[2].angle_rad, 0.5, 0);
-    fw_vec2 p = fw_local_place(m, 1, 1e-3, 0);
+    assert_near(m->joint[0].angle_rad, 0.5, 0); /* as drawn */
+    assert_near(m->joint[0].stiffness_N_per_m, 6, 0);
+    assert_near(m->joint[0].damping_Ns_per_m, 35, 0);
+    assert_near(m->joint[0].free_length_m, 1e-4, 0);
+    assert_near(m->joint[1].length_m, hypot(3e-3 + 1e-3 * cos(0.5), 1e-3 + 1e-3 * sin(0.5)), 1e-18);
+    assert_near(m->joint[1].stiffness_N_per_m, 0, 0); /* a rod has none */
+    assert_near(m->joint[2].angle_rad, 0.5, 0);
+    fw_geometry_vec2 p = fw_mechanism_local_place(m, 1, 1e-3, 0);
     assert_near(p.x, 3e-3 + 1e-3 * cos(0.5), 1e-18);
     /* what the file gives stays */
-    t.tie[0].angle_rad = 0.25, t.tie[1].length_m = 4e-3;
+    t.joint[0].angle_rad = 0.25, t.joint[1].length_m = 4e-3;
     assert_int_equal(build(&d, &m), FW_OK);
-    assert_near(m->tie[0].angle_rad, 0.25, 0);
-    assert_near(m->tie[1].length_m, 4e-3, 0);
+    assert_near(m->joint[0].angle_rad, 0.25, 0);
+    assert_near(m->joint[1].length_m, 4e-3, 0);
     fw_arena_free(d.arena);
 }
 
@@ -380,10 +385,10 @@ static void test_stops(void **state) {
     desk d;
     const fw_mechanism *m;
     desk_new(&d);
-    d.joint[0].stop_min_rad = -0.1, d.joint[0].stop_max_rad = unset;
-    d.joint[0].stop_stiffness_Nm_per_rad = 2e-3, d.joint[0].stop_damping_Nms_per_rad = 3e-6;
-    d.joint[1].stop_min_rad = d.joint[1].stop_max_rad = unset;
-    d.joint[1].stop_stiffness_Nm_per_rad = d.joint[1].stop_damping_Nms_per_rad = unset;
+    d.revolute[0].stop_min_rad = -0.1, d.revolute[0].stop_max_rad = unset;
+    d.revolute[0].stop_stiffness_Nm_per_rad = 2e-3, d.revolute[0].stop_damping_Nms_per_rad = 3e-6;
+    d.revolute[1].stop_min_rad = d.revolute[1].stop_max_rad = unset;
+    d.revolute[1].stop_stiffness_Nm_per_rad = d.revolute[1].stop_damping_Nms_per_rad = unset;
     d.variant.explicit_stiffness_scale = 3, d.variant.explicit_damping_scale = 5;
     assert_int_equal(build(&d, &m), FW_OK);
     assert_near(m->pin[0].stop_min_rad, -0.1, 0);
@@ -395,41 +400,42 @@ static void test_stops(void **state) {
     fw_arena_free(d.arena);
 }
 
-static void test_mistakes_of_ties(void **state) {
+static void test_mistakes_of_joints(void **state) {
     (void)state;
     static const int number[] = {90, 90, 90, 90, 92, 92, 92, 92, 92};
     for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
         desk d;
-        ties t;
+        joints t;
         const fw_mechanism *m = NULL;
-        ties_new(&d, &t);
+        joints_new(&d, &t);
         switch (i) {
         case 0:
-            t.tie[0].body_b = 0;
+            t.joint[0].body_b = 0;
             break;
         case 1:
-            t.tie[1].length_m = 0;
+            t.joint[1].length_m = 0;
             break;
         case 2: /* as drawn, and drawn on one point */
-            t.tie[1].ax_m = 3e-3, t.tie[1].ay_m = 1e-3, t.tie[1].bx_m = 0;
+            t.joint[1].ax_m = 3e-3, t.joint[1].ay_m = 1e-3, t.joint[1].bx_m = 0;
             break;
         case 3:
-            t.tie[2].bx_m = (double)INFINITY;
+            t.joint[2].bx_m = (double)INFINITY;
             break;
         case 4:
-            t.driver[0].joint = 7;
+            t.driver[0].revolute = 7;
             break;
         case 5: /* a weld */
-            t.driver[1].tie = 2;
+            t.driver[1].joint = 2;
             break;
         case 6: /* both */
-            t.driver[0].tie = 1;
+            t.driver[0].joint = 1;
             break;
         case 7:
-            t.driver[0].law = law_of(d.arena, "1 rad*ln(t/(1 s))", (fw_dimension){.rad = 1});
+            t.driver[0].law =
+                law_of(d.arena, "1 rad*ln(t/(1 s))", (fw_quantity_dimension){.rad = 1});
             break;
         default:
-            t.driver[1].law = law_of(d.arena, "2 mm/s*t", (fw_dimension){.m = 1});
+            t.driver[1].law = law_of(d.arena, "2 mm/s*t", (fw_quantity_dimension){.m = 1});
             break;
         }
         assert_int_equal(build(&d, &m), FW_INPUT);
@@ -485,9 +491,9 @@ int main(void) {
         cmocka_unit_test(test_stiffness_and_damping),
         cmocka_unit_test(test_without_a_layout),
         cmocka_unit_test(test_mistakes),
-        cmocka_unit_test(test_ties),
+        cmocka_unit_test(test_joints),
         cmocka_unit_test(test_stops),
-        cmocka_unit_test(test_mistakes_of_ties),
+        cmocka_unit_test(test_mistakes_of_joints),
         cmocka_unit_test(test_spring_without_direction),
         cmocka_unit_test(test_out_of_memory),
     };

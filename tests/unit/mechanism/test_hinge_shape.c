@@ -11,26 +11,26 @@ static void mirror(fixture *f) {
         f->body[i].plate_x_m *= -1;
         f->body[i].plate_angle_rad *= -1;
     }
-    for (int i = 0; i < f->device.njoint; i++)
-        f->joint[i].x_m *= -1;
+    for (int i = 0; i < f->device.nrevolute; i++)
+        f->revolute[i].x_m *= -1;
 }
 
-static bool solid(const fw_layout *l, int body, fw_vec2 p) {
+static bool solid(const fw_layout *l, int body, fw_geometry_vec2 p) {
     for (int i = 0; i < l->npiece; i++)
         if (l->piece[i].body == body && l->piece[i].role == FW_ROLE_STRUCTURE &&
-            fw_contour_contains(&l->piece[i].contour, p))
+            fw_geometry_contour_contains(&l->piece[i].contour, p))
             return true;
     return false;
 }
 
-static fw_vec2 from(fw_vec2 p, double r, double angle) {
-    return (fw_vec2){p.x + r * cos(angle), p.y + r * sin(angle)};
+static fw_geometry_vec2 from(fw_geometry_vec2 p, double r, double angle) {
+    return (fw_geometry_vec2){p.x + r * cos(angle), p.y + r * sin(angle)};
 }
 
-static void check_hinge(const fw_mechanism *m, const fw_layout *l, const fw_hinge *h) {
-    const fw_pin *pin = &m->pin[h->pin];
-    const fw_flexure *f = &m->device->flexure[h->flexure];
-    fw_vec2 w = fw_pin_place(m, pin, 0), o = l->hinge[h->pin].arc_centre;
+static void check_hinge(const fw_mechanism *m, const fw_layout *l, const fw_mechanism_hinge *h) {
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    const fw_device_flexure *f = &m->device->flexure[h->flexure];
+    fw_geometry_vec2 w = fw_mechanism_pin_place(m, pin, 0), o = l->hinge[h->pin].arc_centre;
     double a = 0.5 * f->angle_rad, reach = hypot(w.x - o.x, w.y - o.y);
     assert_near(w.x, o.x + reach * cos(h->axis_rad), 1e-12);
     assert_near(w.y, o.y + reach * sin(h->axis_rad), 1e-12);
@@ -38,7 +38,8 @@ static void check_hinge(const fw_mechanism *m, const fw_layout *l, const fw_hing
     int second = h->first_is_a ? pin->body_b : pin->body_a;
     for (int side = -1; side <= 1; side += 2) { /* a width behind the middle of the root */
         double at = h->axis_rad + side * a;
-        fw_vec2 root = from(from(o, f->radius_m, at), 1.2 * f->width_m, at + side * M_PI / 2);
+        fw_geometry_vec2 root =
+            from(from(o, f->radius_m, at), 1.2 * f->width_m, at + side * M_PI / 2);
         assert_true(solid(l, side < 0 ? first : second, root));
         assert_false(solid(l, side < 0 ? second : first, root));
     }
@@ -56,8 +57,10 @@ static void check_hinge(const fw_mechanism *m, const fw_layout *l, const fw_hing
         assert_false(solid(l, concave, from(w, rc + 0.5 * gap, to)));
     }
     /* the second body's surface begins where they begin, the first one's ends where they end */
-    fw_vec2 before = from(w, convex == second ? rc - 1e-6 : rc + gap + 1e-6, begin - 2e-6 / rc);
-    fw_vec2 after = from(w, convex == first ? rc - 1e-6 : rc + gap + 1e-6, end + 2e-6 / rc);
+    fw_geometry_vec2 before =
+        from(w, convex == second ? rc - 1e-6 : rc + gap + 1e-6, begin - 2e-6 / rc);
+    fw_geometry_vec2 after =
+        from(w, convex == first ? rc - 1e-6 : rc + gap + 1e-6, end + 2e-6 / rc);
     assert_false(solid(l, second, before));
     assert_false(solid(l, first, after));
 }
@@ -67,18 +70,18 @@ static void check_device(const fixture *f) {
     fw_diags diags = fw_diags_new(arena);
     const fw_layout *l;
     const fw_mechanism *m;
-    fw_variant v = {.thickness_m = 50e-6,
-                    .explicit_mass_scale = 1,
-                    .explicit_stiffness_scale = 1,
-                    .explicit_damping_scale = 1};
-    v.material = (fw_material){.id = "silicon",
-                               .youngs = {.value = 147e9},
-                               .poisson = {.value = 0.22},
-                               .density = {.value = 2330},
-                               .strength = {.value = 1e9}};
+    fw_mechanism_variant v = {.thickness_m = 50e-6,
+                              .explicit_mass_scale = 1,
+                              .explicit_stiffness_scale = 1,
+                              .explicit_damping_scale = 1};
+    v.material = (fw_device_material){.id = "silicon",
+                                      .youngs = {.value = 147e9},
+                                      .poisson = {.value = 0.22},
+                                      .density = {.value = 2330},
+                                      .strength = {.value = 1e9}};
     assert_int_equal(fw_layout_build(arena, &f->device, &diags, &l), FW_OK);
     assert_int_equal(fw_mechanism_build(arena, &f->device, l, &v, &diags, &m), FW_OK);
-    assert_int_equal(m->nhinge, f->device.njoint);
+    assert_int_equal(m->nhinge, f->device.nrevolute);
     for (int i = 0; i < m->nhinge; i++) {
         check_hinge(m, l, &m->hinge[i]);
         assert_false(m->hinge[i].stated || m->hinge[i].damping_stated);
@@ -108,10 +111,10 @@ static void named_the_other_way(void **state) {
     (void)state;
     fixture f;
     fixture_four_bar(&f);
-    for (int i = 0; i < f.device.njoint; i++) {
-        int a = f.joint[i].body_a;
-        f.joint[i].body_a = f.joint[i].body_b;
-        f.joint[i].body_b = a;
+    for (int i = 0; i < f.device.nrevolute; i++) {
+        int a = f.revolute[i].body_a;
+        f.revolute[i].body_a = f.revolute[i].body_b;
+        f.revolute[i].body_b = a;
     }
     check_device(&f);
 }

@@ -11,34 +11,34 @@ static double number(uint64_t *seed) { /* in [-1, 1) */
 }
 
 typedef struct toy {
-    fw_mass body[BODIES];
-    fw_pin pin[PINS];
-    fw_tie tie[1];
-    fw_spring spring[1];
+    fw_mechanism_mass body[BODIES];
+    fw_mechanism_pin pin[PINS];
+    fw_device_joint joint[1];
+    fw_device_spring spring[1];
     fw_mechanism m;
 } toy;
 
 static void toy_new(toy *t, uint64_t seed) {
-    *t = (toy){.m = {.nbody = BODIES, .npin = PINS, .ntie = 1, .nspring = 1}};
-    t->m.body = t->body, t->m.pin = t->pin, t->m.tie = t->tie, t->m.spring = t->spring;
+    *t = (toy){.m = {.nbody = BODIES, .npin = PINS, .njoint = 1, .nspring = 1}};
+    t->m.body = t->body, t->m.pin = t->pin, t->m.joint = t->joint, t->m.spring = t->spring;
     for (int i = 0; i < BODIES; i++)
-        t->body[i] = (fw_mass){"b", 1, 1, number(&seed), number(&seed), number(&seed)};
+        t->body[i] = (fw_mechanism_mass){"b", 1, 1, number(&seed), number(&seed), number(&seed)};
     for (int i = 0; i < PINS; i++)
-        t->pin[i] = (fw_pin){.body_a = i - 1,
-                             .body_b = i < BODIES ? i : FW_GROUND,
-                             .ax_m = number(&seed),
-                             .ay_m = number(&seed),
-                             .bx_m = number(&seed),
-                             .by_m = number(&seed),
-                             .free_angle_rad = number(&seed),
-                             .stiffness_Nm_per_rad = 3};
-    t->tie[0] = (fw_tie){.kind = FW_TIE_DISTANCE,
-                         .body_a = 2,
-                         .body_b = FW_GROUND,
-                         .ax_m = number(&seed),
-                         .by_m = number(&seed),
-                         .length_m = 2};
-    t->spring[0] = (fw_spring){
+        t->pin[i] = (fw_mechanism_pin){.body_a = i - 1,
+                                       .body_b = i < BODIES ? i : FW_GROUND,
+                                       .ax_m = number(&seed),
+                                       .ay_m = number(&seed),
+                                       .bx_m = number(&seed),
+                                       .by_m = number(&seed),
+                                       .free_angle_rad = number(&seed),
+                                       .stiffness_Nm_per_rad = 3};
+    t->joint[0] = (fw_device_joint){.kind = FW_JOINT_DISTANCE,
+                                    .body_a = 2,
+                                    .body_b = FW_GROUND,
+                                    .ax_m = number(&seed),
+                                    .by_m = number(&seed),
+                                    .length_m = 2};
+    t->spring[0] = (fw_device_spring){
         .body_a = FW_GROUND, .body_b = 1, .ax_m = number(&seed), .by_m = 0.5, .length_m = 0.7};
 }
 
@@ -54,7 +54,7 @@ static void no_strain_is_identity(void **state) {
         kept = t;
         assert_int_equal(fw_mechanism_strained(arena, &t.m, none, &s), FW_OK);
         assert_memory_equal(s->pin, t.pin, sizeof t.pin);
-        assert_memory_equal(s->tie, t.tie, sizeof t.tie);
+        assert_memory_equal(s->joint, t.joint, sizeof t.joint);
         assert_memory_equal(s->spring, t.spring, sizeof t.spring);
         const double some[BODIES + 1] = {0.1, -0.2, 0.3, 0.4};
         assert_int_equal(fw_mechanism_strained(arena, &t.m, some, &s), FW_OK);
@@ -76,26 +76,27 @@ static void distances_grow(void **state) {
         toy_new(&t, seed);
         assert_int_equal(fw_mechanism_strained(arena, &t.m, all, &s), FW_OK);
         for (int i = 0; i < BODIES; i++) { /* pin i on its body b, pin i + 1 on its body a */
-            const fw_pin *p = &t.pin[i], *q = &t.pin[i + 1], *ps = &s->pin[i], *qs = &s->pin[i + 1];
+            const fw_mechanism_pin *p = &t.pin[i], *q = &t.pin[i + 1], *ps = &s->pin[i],
+                                   *qs = &s->pin[i + 1];
             assert_relative(hypot(qs->ax_m - ps->bx_m, qs->ay_m - ps->by_m),
                             (1 + e) * hypot(q->ax_m - p->bx_m, q->ay_m - p->by_m), 1e-14);
         }
         const double before[3][2] = {{t.pin[0].ax_m, t.pin[0].ay_m},
                                      {t.pin[3].bx_m, t.pin[3].by_m},
-                                     {t.tie[0].bx_m, t.tie[0].by_m}};
+                                     {t.joint[0].bx_m, t.joint[0].by_m}};
         const double after[3][2] = {{s->pin[0].ax_m, s->pin[0].ay_m},
                                     {s->pin[3].bx_m, s->pin[3].by_m},
-                                    {s->tie[0].bx_m, s->tie[0].by_m}};
+                                    {s->joint[0].bx_m, s->joint[0].by_m}};
         for (int i = 0; i < 3; i++)
             for (int k = 0; k < 2; k++)
                 assert_near(after[i][k] - after[(i + 1) % 3][k],
                             (1 + e) * (before[i][k] - before[(i + 1) % 3][k]), 1e-14);
-        fw_vec2 c = fw_ground_centre(&t.m), d = fw_ground_centre(s);
+        fw_geometry_vec2 c = fw_mechanism_ground_centre(&t.m), d = fw_mechanism_ground_centre(s);
         assert_near(c.x, (before[0][0] + before[1][0] + before[2][0] + t.spring[0].ax_m) / 4,
                     1e-15);
         assert_near(d.x, c.x, 1e-15);
         assert_near(d.y, c.y, 1e-15);
-        assert_true(s->tie[0].length_m == 2 && s->spring[0].length_m == 0.7);
+        assert_true(s->joint[0].length_m == 2 && s->spring[0].length_m == 0.7);
         assert_true(s->pin[2].free_angle_rad == t.pin[2].free_angle_rad);
         assert_true(s->pin[2].stiffness_Nm_per_rad == 3);
     }

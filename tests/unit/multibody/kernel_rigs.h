@@ -5,12 +5,12 @@
 #include "multibody/kernel.h"
 #include "dynamics/models.h"
 
-static inline fw_model *rig_model(fw_arena *arena, const rig *r) {
+static inline fw_multibody_model *rig_model(fw_arena *arena, const rig *r) {
     fw_diags diags = fw_diags_new(arena);
     const fw_effect_choice choice = {0};
     fw_effect_ledger ledger;
-    fw_terms *terms = fw_arena_one(arena, fw_terms);
-    fw_model *m = NULL;
+    fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
+    fw_multibody_model *m = NULL;
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
     for (int b = 0; b < r->m.nbody; b++) {
         q[3 * b] = r->m.body[b].x_m;
@@ -18,14 +18,16 @@ static inline fw_model *rig_model(fw_arena *arena, const rig *r) {
         q[3 * b + 2] = r->m.body[b].phi_rad;
     }
     assert_int_equal(
-        fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, terms), FW_OK);
-    assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s, NULL, &diags, &m),
-                     FW_OK);
+        fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, loads), FW_OK);
+    assert_int_equal(
+        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, NULL, &diags, &m),
+        FW_OK);
     return m;
 }
 
 /* any state: the equations hold whether the joints are closed or not */
-static inline double *rig_state(fw_arena *arena, const fw_model *m, double size, uint64_t seed) {
+static inline double *rig_state(fw_arena *arena, const fw_multibody_model *m, double size,
+                                uint64_t seed) {
     double *y = fw_arena_array(arena, double, (size_t)m->ny);
     for (int i = 0; i < m->ny; i++)
         y[i] = size * (rig_random(&seed) - 0.5);
@@ -33,10 +35,10 @@ static inline double *rig_state(fw_arena *arena, const fw_model *m, double size,
 }
 
 /* f of the general code, whatever kernel the model has */
-static inline void rig_general(fw_model *m, const double *y, double *f) {
-    struct fw_kernel *kernel = m->kernel;
+static inline void rig_general(fw_multibody_model *m, const double *y, double *f) {
+    struct fw_multibody_kernel *kernel = m->kernel;
     m->kernel = NULL;
-    fw_model_rhs(m, 0, y, f);
+    fw_multibody_model_rhs(m, 0, y, f);
     m->kernel = kernel;
 }
 

@@ -8,9 +8,9 @@
 /* bodies, joints and forces of every kind at random; nothing needs to fit together */
 typedef struct zoo {
     rig r;
-    fw_terms terms;
-    fw_law *law;
-    fw_model *m;
+    fw_effects_loads loads;
+    fw_quantity_law *law;
+    fw_multibody_model *m;
     double *q;
     uint64_t seed;
     bool stretches; /* the ground follows the law */
@@ -31,89 +31,95 @@ static void two_bodies(zoo *z, int n, int *a, int *b) {
     while (*b == *a);
 }
 
-static void add_ties(fw_arena *arena, zoo *z, int n) {
+static void add_joints(fw_arena *arena, zoo *z, int n) {
     fw_mechanism *m = &z->r.m;
-    m->tie = fw_arena_array(arena, fw_tie, 6);
-    m->driver = fw_arena_array(arena, fw_driver, 3);
+    m->joint = fw_arena_array(arena, fw_device_joint, 6);
+    m->driver = fw_arena_array(arena, fw_device_driver, 3);
     for (int i = 0; i < 6; i++) {
-        fw_tie *t = &m->tie[m->ntie++];
-        *t = (fw_tie){.id = "tie",
-                      .kind = (fw_tie_kind)(i % 3),
-                      .ax_m = about(z, 1e-3),
-                      .ay_m = about(z, 1e-3),
-                      .bx_m = about(z, 1e-3),
-                      .by_m = about(z, 1e-3),
-                      .axis_rad = about(z, 3),
-                      .angle_rad = about(z, 1),
-                      .length_m = 1e-3,
-                      .free_length_m = about(z, 1e-3)};
+        fw_device_joint *t = &m->joint[m->njoint++];
+        *t = (fw_device_joint){.id = "tie",
+                               .kind = (fw_device_joint_kind)(i % 3),
+                               .ax_m = about(z, 1e-3),
+                               .ay_m = about(z, 1e-3),
+                               .bx_m = about(z, 1e-3),
+                               .by_m = about(z, 1e-3),
+                               .axis_rad = about(z, 3),
+                               .angle_rad = about(z, 1),
+                               .length_m = 1e-3,
+                               .free_length_m = about(z, 1e-3)};
         two_bodies(z, n, &t->body_a, &t->body_b);
     }
-    z->law[0] = (fw_law){.kind = &fw_quantity_law_sine, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
-    m->driver[0] = (fw_driver){.id = "turns", .joint = 0, .tie = FW_NONE, .law = z->law[0]};
-    m->driver[1] = (fw_driver){.id = "slides", .joint = FW_NONE, .tie = 0, .law = z->law[0]};
-    m->driver[2] = (fw_driver){.id = "stretches", .joint = FW_NONE, .tie = 1, .law = z->law[0]};
+    z->law[0] = (fw_quantity_law){
+        .kind = &fw_quantity_law_sine, .frequency_Hz = 700, .phase_rad = 0.4, .end_s = 1};
+    m->driver[0] =
+        (fw_device_driver){.id = "turns", .revolute = 0, .joint = FW_NONE, .law = z->law[0]};
+    m->driver[1] =
+        (fw_device_driver){.id = "slides", .revolute = FW_NONE, .joint = 0, .law = z->law[0]};
+    m->driver[2] =
+        (fw_device_driver){.id = "stretches", .revolute = FW_NONE, .joint = 1, .law = z->law[0]};
     m->ndriver = 3;
 }
 
 static void add_terms(fw_arena *arena, zoo *z, int n) {
     fw_mechanism *m = &z->r.m;
-    fw_terms *t = &z->terms;
+    fw_effects_loads *t = &z->loads;
     t->nbody = n;
     t->constant = fw_arena_array(arena, double, 3 * (size_t)n);
     t->velocity = fw_arena_array(arena, double, 3 * (size_t)n);
     for (int i = 0; i < 3 * n; i++)
         t->constant[i] = about(z, i % 3 == 2 ? 1e-7 : 1e-4);
-    t->torsion = fw_arena_array(arena, fw_torsion, 2);
-    t->stop = fw_arena_array(arena, fw_stop, 2);
-    t->load = fw_arena_array(arena, fw_point_load, 2);
-    t->timed = fw_arena_array(arena, fw_timed_load, 2);
-    t->spring = fw_arena_array(arena, fw_spring, 4);
-    t->slide = fw_arena_array(arena, fw_slide, 1);
+    t->torsion = fw_arena_array(arena, fw_effects_torsion, 2);
+    t->stop = fw_arena_array(arena, fw_effects_stop, 2);
+    t->load = fw_arena_array(arena, fw_effects_point_load, 2);
+    t->timed = fw_arena_array(arena, fw_effects_timed_load, 2);
+    t->spring = fw_arena_array(arena, fw_device_spring, 4);
+    t->slide = fw_arena_array(arena, fw_effects_slide, 1);
     t->ntorsion = t->nstop = t->nload = t->ntimed = 2;
     t->nspring = 4, t->nslide = 1;
     for (int i = 0; i < 2; i++) {
-        const fw_pin *p = &m->pin[i];
-        t->torsion[i] = (fw_torsion){i, p->body_a, p->body_b, 1e-6, 2e-10, 0.1};
-        t->stop[i] = (fw_stop){i, p->body_a, p->body_b, i ? 1 : -1, i ? -9 : 9, 0.1, 3e-6, 1e-10};
-        t->load[i] = (fw_point_load){some_body(z, n, false), about(z, 1e-3), about(z, 1e-3),
-                                     about(z, 1e-4), about(z, 1e-4)};
-        t->timed[i] =
-            (fw_timed_load){some_body(z, n, false), about(z, 1e-3), about(z, 1e-3), about(z, 1e-4),
-                            about(z, 1e-4),         about(z, 1e-7), &z->law[0]};
+        const fw_mechanism_pin *p = &m->pin[i];
+        t->torsion[i] = (fw_effects_torsion){i, p->body_a, p->body_b, 1e-6, 2e-10, 0.1};
+        t->stop[i] =
+            (fw_effects_stop){i, p->body_a, p->body_b, i ? 1 : -1, i ? -9 : 9, 0.1, 3e-6, 1e-10};
+        t->load[i] = (fw_effects_point_load){some_body(z, n, false), about(z, 1e-3), about(z, 1e-3),
+                                             about(z, 1e-4), about(z, 1e-4)};
+        t->timed[i] = (fw_effects_timed_load){
+            some_body(z, n, false), about(z, 1e-3), about(z, 1e-3), about(z, 1e-4),
+            about(z, 1e-4),         about(z, 1e-7), &z->law[0]};
     }
     for (int i = 0; i < 4; i++) {
-        fw_spring *s = &t->spring[i];
-        *s = (fw_spring){.ax_m = about(z, 1e-3),
-                         .ay_m = about(z, 1e-3),
-                         .bx_m = about(z, 1e-3),
-                         .by_m = about(z, 1e-3),
-                         .stiffness_N_per_m = 1,
-                         .damping_Ns_per_m = 1e-4,
-                         .length_m = 1e-4,
-                         .cable = i > 1};
+        fw_device_spring *s = &t->spring[i];
+        *s = (fw_device_spring){.ax_m = about(z, 1e-3),
+                                .ay_m = about(z, 1e-3),
+                                .bx_m = about(z, 1e-3),
+                                .by_m = about(z, 1e-3),
+                                .stiffness_N_per_m = 1,
+                                .damping_Ns_per_m = 1e-4,
+                                .length_m = 1e-4,
+                                .cable = i > 1};
         two_bodies(z, n, &s->body_a, &s->body_b);
     }
-    t->slide[0] = (fw_slide){0, 2, 1e-4};
-    if (z->stretches) t->stretch = (fw_stretch){0.3, {about(z, 1e-3), about(z, 1e-3)}, &z->law[0]};
+    t->slide[0] = (fw_effects_slide){0, 2, 1e-4};
+    if (z->stretches)
+        t->stretch = (fw_effects_stretch){0.3, {about(z, 1e-3), about(z, 1e-3)}, &z->law[0]};
 }
 
 static zoo zoo_new(fw_arena *arena, uint64_t seed, bool stretches) {
     enum { N = 5 };
     zoo z = {.seed = seed, .stretches = stretches};
     z.r = rig_new(arena, N, 3, 0);
-    z.law = fw_arena_array(arena, fw_law, 1);
+    z.law = fw_arena_array(arena, fw_quantity_law, 1);
     for (int i = 0; i < N; i++)
         rig_body(&z.r, "body", 1e-8 * (1 + rig_random(&z.seed)), 1e-14 * (1 + rig_random(&z.seed)),
                  about(&z, 2e-3), about(&z, 2e-3), about(&z, 3));
     for (int i = 0; i < 3; i++) {
         int a, b;
         two_bodies(&z, N, &a, &b);
-        fw_pin *p = rig_pin_local(&z.r, "pin", a, about(&z, 1e-3), about(&z, 1e-3), b,
-                                  about(&z, 1e-3), about(&z, 1e-3));
+        fw_mechanism_pin *p = rig_pin_local(&z.r, "pin", a, about(&z, 1e-3), about(&z, 1e-3), b,
+                                            about(&z, 1e-3), about(&z, 1e-3));
         p->free_angle_rad = about(&z, 1);
     }
-    add_ties(arena, &z, N);
+    add_joints(arena, &z, N);
     add_terms(arena, &z, N);
     z.q = fw_arena_array(arena, double, 3 * N);
     for (int b = 0; b < N; b++) {
@@ -121,7 +127,8 @@ static zoo zoo_new(fw_arena *arena, uint64_t seed, bool stretches) {
         z.q[3 * b + 1] = z.r.m.body[b].y_m;
         z.q[3 * b + 2] = z.r.m.body[b].phi_rad;
     }
-    assert_int_equal(fw_model_new(arena, &z.r.m, &z.terms, z.q, 1e-2, NULL, NULL, &z.m), FW_OK);
+    assert_int_equal(fw_multibody_model_new(arena, &z.r.m, &z.loads, z.q, 1e-2, NULL, NULL, &z.m),
+                     FW_OK);
     z.m->piece = 1e-3;
     return z;
 }
@@ -139,7 +146,7 @@ static void test_constraint_derivatives(void **state) {
     for (uint64_t seed = 1; seed <= 80; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, seed > 40);
-        fw_model *m = z.m;
+        fw_multibody_model *m = z.m;
         assert_true(m->nblock == 3 + 6 + 2 + 2 && !m->plain && m->driven);
         int n = 2 * m->nblock;
         double y[MOST], psi[5][MOST], rate[MOST], drift[MOST], gamma[MOST], u[MOST];
@@ -150,13 +157,13 @@ static void test_constraint_derivatives(void **state) {
             double s = (k - 2) * step;
             for (int i = 0; i < m->nq; i++)
                 u[i] = y[i] + s * v[i];
-            fw_model_residual(m, t + s, u, psi[k]);
+            fw_multibody_model_residual(m, t + s, u, psi[k]);
         }
-        fw_model_at(m, t);
-        fw_model_pose(m, y);
-        fw_model_jacobian(m, v, rate);
-        fw_model_drift(m, t, drift);
-        fw_model_gamma(m, t, v, gamma);
+        fw_multibody_model_at(m, t);
+        fw_multibody_model_pose(m, y);
+        fw_multibody_model_jacobian(m, v, rate);
+        fw_multibody_model_drift(m, t, drift);
+        fw_multibody_model_gamma(m, t, v, gamma);
         for (int i = 0; i < n; i++) {
             double first = (8 * (psi[3][i] - psi[1][i]) - (psi[4][i] - psi[0][i])) / (12 * step);
             double second =
@@ -169,23 +176,24 @@ static void test_constraint_derivatives(void **state) {
     }
 }
 
-/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_model_transpose and by the dense G */
+/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_multibody_model_transpose and by the
+   dense G */
 static void test_products(void **state) {
     (void)state;
     for (uint64_t seed = 1; seed <= 20; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, false);
-        fw_model *m = z.m;
+        fw_multibody_model *m = z.m;
         int n = 2 * m->nblock;
         double y[MOST], l[MOST], a[MOST] = {0}, f[MOST] = {0}, rows[MOST], g[MOST * MOST];
         state_of(&z, y, 0.7);
-        fw_model_pose(m, y);
+        fw_multibody_model_pose(m, y);
         for (int i = 0; i < m->rows; i++)
             rows[i] = about(&z, 1);
-        fw_model_unpack(m, rows, l);
-        fw_model_transpose(m, l, f);
-        fw_model_apply(m, l, a);
-        fw_model_dense_jacobian(m, g);
+        fw_multibody_model_unpack(m, rows, l);
+        fw_multibody_model_transpose(m, l, f);
+        fw_multibody_model_apply(m, l, a);
+        fw_multibody_model_dense_jacobian(m, g);
         for (int c = 0; c < m->nq; c++) {
             double sum = 0;
             for (int i = 0; i < m->rows; i++)
@@ -196,23 +204,23 @@ static void test_products(void **state) {
         }
         /* (S + eps D) x = b solved by the blocks, checked by products */
         double b[MOST], x[MOST], back[MOST];
-        fw_chain_assemble(m);
-        assert_true(fw_chain_factor(&m->chain, 1e-3));
+        fw_multibody_chain_assemble(m);
+        assert_true(fw_multibody_chain_factor(&m->chain, 1e-3));
         memcpy(x, l, sizeof x);
         memcpy(b, l, sizeof b);
-        fw_chain_solve(&m->chain, x);
+        fw_multibody_chain_solve(&m->chain, x);
         memset(a, 0, sizeof a);
-        fw_model_apply(m, x, a);
-        fw_model_jacobian(m, a, back);
+        fw_multibody_model_apply(m, x, a);
+        fw_multibody_model_jacobian(m, a, back);
         for (int i = 0; i < n; i++)
             assert_near(-back[i] + 1e-3 * m->chain.isotropic[i] * x[i], b[i], 1e-9);
         fw_arena_free(arena);
     }
 }
 
-static double potential(fw_model *m, const double *y) {
-    fw_model_pose(m, y);
-    fw_energy e = fw_model_energy(m, 0, y);
+static double potential(fw_multibody_model *m, const double *y) {
+    fw_multibody_model_pose(m, y);
+    fw_multibody_energy e = fw_multibody_model_energy(m, 0, y);
     return e.elastic - e.work;
 }
 
@@ -223,22 +231,22 @@ static void test_forces(void **state) {
     for (uint64_t seed = 1; seed <= 40; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, false);
-        fw_model *m = z.m;
+        fw_multibody_model *m = z.m;
         double y[MOST], work = 0, booked[2];
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_model_set_switches(m, 0, y);
-        assert_int_equal(fw_model_switches(m), 4);
-        fw_model_pose(m, y);
-        fw_model_forces(m, 1e-3 / m->scale.time_s, y);
+        fw_multibody_model_set_switches(m, 0, y);
+        assert_int_equal(fw_multibody_model_switches(m), 4);
+        fw_multibody_model_pose(m, y);
+        fw_multibody_model_forces(m, 1e-3 / m->scale.time_s, y);
         double with[MOST];
         memcpy(with, m->accel, sizeof(double) * (size_t)m->nq);
-        fw_model_power(m, 1e-3 / m->scale.time_s, y, booked);
+        fw_multibody_model_power(m, 1e-3 / m->scale.time_s, y, booked);
         int timed = m->ntimed;
         m->ntimed = 0; /* now what is conservative, at rest */
         double rest[MOST] = {0};
         memcpy(rest, y, sizeof(double) * (size_t)m->nq);
-        fw_model_forces(m, 0, rest);
+        fw_multibody_model_forces(m, 0, rest);
         for (int i = 0; i < m->nq; i++) {
             const double h = 2e-4; /* a short spring bends its potential strongly */
             double p[4];
@@ -266,22 +274,22 @@ static void test_moving_ground(void **state) {
     for (uint64_t seed = 1; seed <= 60; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, true);
-        fw_model *m = z.m;
+        fw_multibody_model *m = z.m;
         double y[MOST], u[MOST] = {0}, value[5], booked[2], work = 0;
         const double t = 1e-3 / m->scale.time_s, step = 1e-4;
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_model_at(m, t);
-        fw_model_set_switches(m, 0, y);
-        fw_model_pose(m, y);
-        fw_model_forces(m, t, y);
-        fw_model_power(m, t, y, booked);
+        fw_multibody_model_at(m, t);
+        fw_multibody_model_set_switches(m, 0, y);
+        fw_multibody_model_pose(m, y);
+        fw_multibody_model_forces(m, t, y);
+        fw_multibody_model_power(m, t, y, booked);
         for (int i = 0; i < m->nq; i++)
             work += (i % 3 == 2 ? m->inertia : m->mass)[i / 3] * m->accel[i] * y[m->nq + i];
         for (int k = 0; k < 5; k++) {
             for (int i = 0; i < m->nq; i++)
                 u[i] = y[i] + (k - 2) * step * y[m->nq + i];
-            fw_model_at(m, t + (k - 2) * step);
+            fw_multibody_model_at(m, t + (k - 2) * step);
             value[k] = potential(m, u);
         }
         double rate = (8 * (value[3] - value[1]) - (value[4] - value[0])) / (12 * step);

@@ -18,7 +18,7 @@ typedef struct now {
     double ux, uy, l, rate;
 } now;
 
-static now now_of(const fw_force_element *e, const fw_seen *s) {
+static now now_of(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const double *p = s->p, *w = s->w;
     int b = 3 * (e->ports - 1);
     now n = {p[b] - p[0], p[b + 1] - p[1], 0, 0};
@@ -28,7 +28,8 @@ static now now_of(const fw_force_element *e, const fw_seen *s) {
     return n;
 }
 
-static void all_force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void all_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                      double *f) {
     const all *d = e->data;
     now n = now_of(e, s);
     int b = 3 * (e->ports - 1);
@@ -41,29 +42,30 @@ static void all_force(const fw_force_element *e, const fw_seen *s, double *f) {
     f[5] -= d->kr * (s->p[5] - s->p[2]);
 }
 
-static double all_energy(const fw_force_element *e, const fw_seen *s) {
+static double all_energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const all *d = e->data;
     double g = now_of(e, s).l - d->length, turn = s->p[5] - s->p[2];
     return (s->on[0] ? 0.5 * d->k * g * g : 0) + 0.5 * d->kr * turn * turn;
 }
 
-static void all_power(const fw_force_element *e, const fw_seen *s, double power[2]) {
+static void all_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                      double power[2]) {
     const all *d = e->data;
     double rate = now_of(e, s).rate;
     power[0] = s->on[0] ? d->c * rate * rate : 0;
     power[1] = -s->load * d->pull * s->t_s * rate;
 }
 
-static double all_switch(const fw_force_element *e, const fw_seen *s, int i) {
+static double all_switch(const fw_effects_force_element *e, const fw_effects_port_state *s, int i) {
     const all *d = e->data;
     return i == 0 ? now_of(e, s).l - d->length : s->t_s - 1;
 }
 
-static const fw_element_class all_class = {.effect = "all",
-                                           .force = all_force,
-                                           .energy = all_energy,
-                                           .power = all_power,
-                                           .switch_value = all_switch};
+static const fw_effects_element_class all_class = {.effect = "all",
+                                                   .force = all_force,
+                                                   .energy = all_energy,
+                                                   .power = all_power,
+                                                   .switch_value = all_switch};
 
 /* ---- plants ---- */
 
@@ -71,9 +73,9 @@ enum { BODIES = 4, ELEMENTS = 3 };
 
 typedef struct plant {
     rig r;
-    fw_terms terms;
+    fw_effects_loads loads;
     all data[ELEMENTS];
-    fw_model *m;
+    fw_multibody_model *m;
 } plant;
 
 static double grid(uint64_t *seed) { /* multiples of 2^-20, so that a shift is exact */
@@ -92,22 +94,23 @@ static void plant_new(fw_arena *arena, uint64_t seed, double far, bool released,
         rig_pin_local(&p->r, "pin", i - 1, ax, grid(&seed), i, grid(&seed), grid(&seed));
     }
     p->r.scene.duration_s = 4;
-    assert_int_equal(fw_terms_new(arena, &p->r.m, &p->r.scene, &p->terms), FW_OK);
-    fw_terms *t = &p->terms;
-    t->spring[t->nspring++] = (fw_spring){.body_a = FW_GROUND,
-                                          .body_b = 2,
-                                          .ax_m = far,
-                                          .ay_m = 2,
-                                          .stiffness_N_per_m = 1,
-                                          .length_m = 1,
-                                          .cable = true};
+    assert_int_equal(fw_effects_loads_new(arena, &p->r.m, &p->r.scene, &p->loads), FW_OK);
+    fw_effects_loads *t = &p->loads;
+    t->spring[t->nspring++] = (fw_device_spring){.body_a = FW_GROUND,
+                                                 .body_b = 2,
+                                                 .ax_m = far,
+                                                 .ay_m = 2,
+                                                 .stiffness_N_per_m = 1,
+                                                 .length_m = 1,
+                                                 .cable = true};
     for (int i = 0; i < ELEMENTS; i++) {
         p->data[i] = (all){1 + rig_random(&seed), rig_random(&seed), rig_random(&seed),
                            rig_random(&seed), 0.2 + rig_random(&seed)};
-        fw_force_element *e = fw_terms_add_element(arena, t, &all_class, 2 + (i == 1));
+        fw_effects_force_element *e =
+            fw_effects_loads_add_element(arena, t, &all_class, 2 + (i == 1));
         for (int k = 0; k < e->ports; k++)
-            e->port[k] = (fw_port){(i + k) % BODIES, grid(&seed), grid(&seed)};
-        if (i == 2) e->port[0] = (fw_port){FW_GROUND, grid(&seed) + far, grid(&seed)};
+            e->port[k] = (fw_effects_port){(i + k) % BODIES, grid(&seed), grid(&seed)};
+        if (i == 2) e->port[0] = (fw_effects_port){FW_GROUND, grid(&seed) + far, grid(&seed)};
         e->switches = i == 0 ? 2 : 1;
         e->dissipates = e->works = true;
         e->size_N_per_m = p->data[i].k;
@@ -116,11 +119,11 @@ static void plant_new(fw_arena *arena, uint64_t seed, double far, bool released,
     if (released) t->released[2] = true, t->nreleased = 1, t->element[1].pin = 2;
     double q[3 * BODIES];
     for (int b = 0; b < BODIES; b++) {
-        const fw_mass *at = &p->r.m.body[b];
+        const fw_mechanism_mass *at = &p->r.m.body[b];
         q[3 * b] = at->x_m, q[3 * b + 1] = at->y_m, q[3 * b + 2] = at->phi_rad;
     }
     fw_diags diags = fw_diags_new(arena);
-    assert_int_equal(fw_model_new(arena, &p->r.m, t, q, 4, NULL, &diags, &p->m), FW_OK);
+    assert_int_equal(fw_multibody_model_new(arena, &p->r.m, t, q, 4, NULL, &diags, &p->m), FW_OK);
     p->m->piece = 2;
 }
 
@@ -139,15 +142,15 @@ static void powers_fit(void **state) {
         uint64_t pick = 31 * seed;
         plant p;
         plant_new(arena, seed, 0, seed % 2, &p);
-        fw_model *m = p.m;
+        fw_multibody_model *m = p.m;
         int n = m->nq;
         double y[64] = {0}, z[64] = {0}, t = 1.5 / m->scale.time_s, h = 1e-3, given = 0, rate = 0;
         double power[2], size = 0;
         state_any(&pick, y, 2 * n);
-        fw_model_set_switches(m, t, y);
-        fw_model_pose(m, y);
-        fw_model_forces(m, t, y);
-        fw_model_power(m, t, y, power);
+        fw_multibody_model_set_switches(m, t, y);
+        fw_multibody_model_pose(m, y);
+        fw_multibody_model_forces(m, t, y);
+        fw_multibody_model_power(m, t, y, power);
         for (int i = 0; i < n; i++) {
             double part =
                 y[n + i] * m->accel[i] * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]);
@@ -156,8 +159,8 @@ static void powers_fit(void **state) {
         for (int k = 0; k < 7; k++) {
             for (int i = 0; i < n; i++)
                 z[i] = y[i] + (k - 3) * h * y[n + i];
-            fw_model_pose(m, z);
-            rate += weight[k] / (60 * h) * fw_model_energy(m, t, z).elastic;
+            fw_multibody_model_pose(m, z);
+            rate += weight[k] / (60 * h) * fw_multibody_model_energy(m, t, z).elastic;
         }
         assert_near(given, -rate - power[0] + power[1], 1e-9 * (1 + size));
         fw_arena_free(arena);
@@ -176,11 +179,11 @@ static void far_away_costs_nothing(void **state) {
         double y[64] = {0}, a[64];
         int n = near.m->nq;
         state_any(&pick, y, 2 * n);
-        fw_model *both[2] = {near.m, far.m};
+        fw_multibody_model *both[2] = {near.m, far.m};
         for (int i = 0; i < 2; i++) {
-            fw_model_set_switches(both[i], 1, y);
-            fw_model_pose(both[i], y);
-            fw_model_forces(both[i], 1, y);
+            fw_multibody_model_set_switches(both[i], 1, y);
+            fw_multibody_model_pose(both[i], y);
+            fw_multibody_model_forces(both[i], 1, y);
             if (i == 0) memcpy(a, near.m->accel, (size_t)n * sizeof *a);
         }
         for (int i = 0; i < n; i++)
@@ -197,24 +200,24 @@ static void switches_are_counted_through(void **state) {
         fw_arena *arena = fw_arena_new(0);
         plant p;
         plant_new(arena, seed, 0, false, &p);
-        fw_model *m = p.m;
+        fw_multibody_model *m = p.m;
         uint64_t pick = 5 * seed;
         double y[64] = {0}, value[5], t = 2 * rig_random(&pick) / m->scale.time_s;
         state_any(&pick, y, 2 * m->nq);
-        assert_int_equal(fw_model_switches(m), 5);
-        fw_model_set_switches(m, t, y);
-        fw_model_switch_values(m, t, y, value);
+        assert_int_equal(fw_multibody_model_switches(m), 5);
+        fw_multibody_model_set_switches(m, t, y);
+        fw_multibody_model_switch_values(m, t, y, value);
         for (int i = 0; i < 5; i++) {
-            assert_near(value[i], fw_model_switch_value(m, t, i, y), 0);
-            assert_int_equal(fw_model_switch_on(m, i), value[i] > 0);
+            assert_near(value[i], fw_multibody_model_switch_value(m, t, i, y), 0);
+            assert_int_equal(fw_multibody_model_switch_on(m, i), value[i] > 0);
             on += value[i] > 0;
         }
         assert_int_equal(m->element[0].on[0], value[1] > 0);
         assert_int_equal(m->element[0].on[1], t * m->scale.time_s > 1);
         assert_int_equal(m->element[2].on[0], value[4] > 0);
-        double before = fw_model_energy(m, t, y).elastic;
-        fw_model_flip(m, t, 4, y);
-        double after = fw_model_energy(m, t, y).elastic;
+        double before = fw_multibody_model_energy(m, t, y).elastic;
+        fw_multibody_model_flip(m, t, 4, y);
+        double after = fw_multibody_model_energy(m, t, y).elastic;
         assert_int_equal(m->element[2].on[0], !(value[4] > 0));
         assert_near(y[m->dissipated], before - after, 1e-13 * (1 + before));
         assert_true(value[4] > 0 ? before > after : before < after);
@@ -234,18 +237,19 @@ static void released_pins_are_no_blocks(void **state) {
     assert_int_equal(with.m->nblock, 3);
     assert_int_equal(with.m->rows, 6);
     assert_int_equal(with.m->pin_block[2], FW_NONE);
-    assert_false(fw_core_plain(with.m));
+    assert_false(fw_multibody_core_plain(with.m));
     double y[64] = {0}, f[64], reaction[8];
     uint64_t pick = 3;
     state_any(&pick, y, 2 * with.m->nq);
-    fw_model_set_switches(with.m, 1, y);
-    fw_model_rhs(with.m, 1, y, f);
-    fw_pin_forces(with.m, reaction);
+    fw_multibody_model_set_switches(with.m, 1, y);
+    fw_multibody_model_rhs(with.m, 1, y, f);
+    fw_multibody_pin_forces(with.m, reaction);
     for (int k = 0; k < 2; k++) {
         assert_near(reaction[4 + k], with.m->element[1].f[6 + k], 0);
         assert_true(reaction[4 + k] != 0);
         int block = with.m->pin_block[3];
-        assert_near(reaction[6 + k], fw_newton(with.m) * with.m->lambda[2 * block + k], 0);
+        assert_near(reaction[6 + k], fw_multibody_newton(with.m) * with.m->lambda[2 * block + k],
+                    0);
     }
     fw_arena_free(arena);
 }
@@ -255,8 +259,8 @@ static void minimal_places_loose_bodies(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_six_bar(arena, false);
-    fw_terms t;
-    assert_int_equal(fw_terms_new(arena, &r.m, &r.scene, &t), FW_OK);
+    fw_effects_loads t;
+    assert_int_equal(fw_effects_loads_new(arena, &r.m, &r.scene, &t), FW_OK);
     double q[15];
     for (int b = 0; b < 5; b++)
         q[3 * b] = r.m.body[b].x_m, q[3 * b + 1] = r.m.body[b].y_m, q[3 * b + 2] = 0;
@@ -273,11 +277,12 @@ static void minimal_places_loose_bodies(void **state) {
         for (int i = 0; i < 3 && cases[c].pins[i] >= 0; i++)
             t.released[cases[c].pins[i]] = true;
         fw_diags diags = fw_diags_new(arena);
-        fw_model *m;
-        assert_int_equal(fw_model_new(arena, &r.m, &t, q, 1, &fw_method_minimal, &diags, &m),
-                         FW_OK);
+        fw_multibody_model *m;
+        assert_int_equal(
+            fw_multibody_model_new(arena, &r.m, &t, q, 1, &fw_multibody_method_minimal, &diags, &m),
+            FW_OK);
         fw_text text = fw_text_new(arena);
-        assert_int_equal(fw_method_minimal.report(m, &r.m, &text), FW_OK);
+        assert_int_equal(fw_multibody_method_minimal.report(m, &r.m, &text), FW_OK);
         if (!strstr(text.data, cases[c].report)) fail_msg("%s", text.data);
     }
     fw_arena_free(arena);

@@ -7,21 +7,21 @@
 
 static const double NOT = (double)NAN;
 
-static fw_model *model_of(fw_arena *arena, const rig *r, const char *method) {
+static fw_multibody_model *model_of(fw_arena *arena, const rig *r, const char *method) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
-    fw_terms *terms = fw_arena_one(arena, fw_terms);
+    fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
     for (int b = 0; b < r->m.nbody; b++) {
-        const fw_mass *p = &r->m.body[b];
+        const fw_mechanism_mass *p = &r->m.body[b];
         q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
     }
-    fw_model *m = NULL;
+    fw_multibody_model *m = NULL;
     assert_int_equal(
-        fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, terms), FW_OK);
-    assert_int_equal(fw_model_new(arena, &r->m, terms, q, r->scene.duration_s,
-                                  fw_method_find(method), &diags, &m),
+        fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, loads), FW_OK);
+    assert_int_equal(fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s,
+                                            fw_multibody_method_find(method), &diags, &m),
                      FW_OK);
     m->piece = r->scene.duration_s / 2;
     return m;
@@ -37,42 +37,42 @@ static rig any(fw_arena *arena, uint64_t seed) {
         r.scene.torque[i].value_Nm *= strength;
     for (int i = 0; i < r.m.npin; i++)
         r.m.pin[i].stiffness_Nm_per_rad *= strength;
-    r.scene.friction = fw_arena_array(arena, fw_friction_use, 16);
+    r.scene.friction = fw_arena_array(arena, fw_device_friction_use, 16);
     for (int i = 0; i < r.m.npin; i++) {
         if (rig_random(&seed) < 0.2) continue;
         double mu = 0.1 + 0.3 * rig_random(&seed);
         r.scene.friction[r.scene.nfriction++] =
-            (fw_friction_use){.joint = i,
-                              .tie = FW_NONE,
-                              .coefficient = mu,
-                              .static_coefficient = rig_random(&seed) < 0.5 ? NOT : 1.5 * mu,
-                              .radius_m = 3e-4 * rig_random(&seed),
-                              .preload_N = 3e-3 * rig_random(&seed)};
+            (fw_device_friction_use){.revolute = i,
+                                     .joint = FW_NONE,
+                                     .coefficient = mu,
+                                     .static_coefficient = rig_random(&seed) < 0.5 ? NOT : 1.5 * mu,
+                                     .radius_m = 3e-4 * rig_random(&seed),
+                                     .preload_N = 3e-3 * rig_random(&seed)};
         if (rig_random(&seed) < 0.3) r.scene.friction[r.scene.nfriction - 1].preload_N = 0;
     }
     if (rig_random(&seed) < 0.5) {
         int host = r.m.nbody - 1;
-        fw_mass *more = fw_arena_array(arena, fw_mass, (size_t)r.m.nbody + 1);
+        fw_mechanism_mass *more = fw_arena_array(arena, fw_mechanism_mass, (size_t)r.m.nbody + 1);
         memcpy(more, r.m.body, (size_t)r.m.nbody * sizeof *more);
         r.m.body = more;
         double c = cos(r.m.body[host].phi_rad + 0.4), s = sin(r.m.body[host].phi_rad + 0.4);
         rig_body(&r, "block", 5e-9, 3e-16, r.m.body[host].x_m + 2e-4 * c,
                  r.m.body[host].y_m + 2e-4 * s, 0.1);
-        r.m.tie = fw_arena_array(arena, fw_tie, 1);
-        r.m.tie[r.m.ntie++] = (fw_tie){.id = "rail",
-                                       .kind = FW_TIE_PRISMATIC,
-                                       .body_a = host,
-                                       .body_b = host + 1,
-                                       .axis_rad = 0.4,
-                                       .angle_rad = 0.1 - r.m.body[host].phi_rad};
-        r.scene.friction[r.scene.nfriction++] = (fw_friction_use){
-            .joint = FW_NONE, .tie = 0, .coefficient = 0.2, .static_coefficient = 0.3};
+        r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+        r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "rail",
+                                                    .kind = FW_JOINT_PRISMATIC,
+                                                    .body_a = host,
+                                                    .body_b = host + 1,
+                                                    .axis_rad = 0.4,
+                                                    .angle_rad = 0.1 - r.m.body[host].phi_rad};
+        r.scene.friction[r.scene.nfriction++] = (fw_device_friction_use){
+            .revolute = FW_NONE, .joint = 0, .coefficient = 0.2, .static_coefficient = 0.3};
     }
     return r;
 }
 
 /* relative acceleration of an entry by differences of its rate along y + h f, order 4 */
-static double relative(fw_model *m, int i, const double *y, const double *f) {
+static double relative(fw_multibody_model *m, int i, const double *y, const double *f) {
     double rate[4], z[128];
     const double at[4] = {-2, -1, 1, 2}, h = 1e-4;
     for (int k = 0; k < 4; k++) {
@@ -81,29 +81,29 @@ static double relative(fw_model *m, int i, const double *y, const double *f) {
             z[c] = y[c] + t * y[m->nq + c] + t * t / 2 * f[m->nq + c];
             z[m->nq + c] = y[m->nq + c] + t * f[m->nq + c];
         }
-        fw_model_pose(m, z);
-        fw_friction_rows(m, z);
-        fw_friction_rates(m, z + m->nq);
+        fw_multibody_model_pose(m, z);
+        fw_multibody_friction_rows(m, z);
+        fw_multibody_friction_rates(m, z + m->nq);
         rate[k] = m->friction->rate[i];
     }
     return (8 * (rate[2] - rate[1]) - (rate[3] - rate[0])) / (12 * h);
 }
 
-static double pressing(const fw_model *m, int i) {
-    const fw_model_friction *f = &m->friction->item[i];
+static double pressing(const fw_multibody_model *m, int i) {
+    const fw_multibody_model_friction *f = &m->friction->item[i];
     const double *l = m->lambda + 2 * f->block;
     return f->preload + (f->slides ? fabs(l[1]) : hypot(l[0], l[1]));
 }
 
 /* M a + G^T lambda = Q + sum h T, by virtual power with random w: no way through the rows */
-static void check_motion(fw_model *m, const double *y, const double *f, uint64_t *seed) {
+static void check_motion(fw_multibody_model *m, const double *y, const double *f, uint64_t *seed) {
     double force[64] = {0}, w[64], left = 0, size = 0, torque[16];
-    const struct fw_frictions *s = m->friction;
+    const struct fw_multibody_frictions *s = m->friction;
     for (int i = 0; i < s->n; i++)
         torque[i] = s->torque[i];
-    fw_model_pose(m, y);
-    fw_model_forces(m, 0, y);
-    fw_model_transpose(m, m->lambda, force);
+    fw_multibody_model_pose(m, y);
+    fw_multibody_model_forces(m, 0, y);
+    fw_multibody_model_transpose(m, m->lambda, force);
     for (int c = 0; c < m->nq; c++) {
         double mass = c % 3 == 2 ? m->inertia[c / 3] : m->mass[c / 3];
         w[c] = rig_random(seed) - 0.5;
@@ -111,23 +111,23 @@ static void check_motion(fw_model *m, const double *y, const double *f, uint64_t
         left += part[0] + part[1];
         size += fabs(part[0]) + fabs(part[1]);
     }
-    fw_friction_rows(m, y);
-    fw_friction_rates(m, w);
+    fw_multibody_friction_rows(m, y);
+    fw_multibody_friction_rates(m, w);
     for (int i = 0; i < s->n; i++)
         left -= torque[i] * s->rate[i];
     assert_near(left, 0, 1e-11 * (1 + size));
 }
 
-static void check_laws(fw_model *m, const double *y, const double *f, int count[3]) {
-    struct fw_frictions *s = m->friction;
+static void check_laws(fw_multibody_model *m, const double *y, const double *f, int count[3]) {
+    struct fw_multibody_frictions *s = m->friction;
     double rate[16];
-    fw_model_pose(m, y);
-    fw_friction_rows(m, y);
-    fw_friction_rates(m, y + m->nq);
+    fw_multibody_model_pose(m, y);
+    fw_multibody_friction_rows(m, y);
+    fw_multibody_friction_rates(m, y + m->nq);
     for (int i = 0; i < s->n; i++)
         rate[i] = s->rate[i];
     for (int i = 0; i < s->n; i++) {
-        const fw_model_friction *item = &s->item[i];
+        const fw_multibody_model_friction *item = &s->item[i];
         double n = pressing(m, i), t = s->torque[i];
         assert_near(n, item->press, 1e-11 * (1 + n));
         if (!s->rests[i]) {
@@ -138,7 +138,7 @@ static void check_laws(fw_model *m, const double *y, const double *f, int count[
         }
         assert_near(rate[i], 0, 1e-12);
         double a = relative(m, i, y, f);
-        fw_model_pose(m, y);
+        fw_multibody_model_pose(m, y);
         assert_true(fabs(t) <= item->rest * n * (1 + 1e-11) + 1e-14);
         if (fabs(a) < 1e-7 * (1 + s->size[i])) {
             count[1]++;
@@ -153,8 +153,8 @@ static void check_laws(fw_model *m, const double *y, const double *f, int count[
    slips, rho_rc the force of r for unit T_c while the others hold. Is there one? By powers of the
    map from several patterns of signs; the forces from accelerations of the method, not from the
    small system: T of those that hold by least squares over their relative accelerations. */
-static bool may_jam(fw_model *m) {
-    struct fw_frictions *s = m->friction;
+static bool may_jam(fw_multibody_model *m) {
+    struct fw_multibody_frictions *s = m->friction;
     double reach[32][32][2], x[32], next[32];
     int who[32] = {0}, count = 0, stuck[32] = {0}, held = 0;
     for (int i = 0; i < s->n; i++)
@@ -162,12 +162,12 @@ static bool may_jam(fw_model *m) {
             who[count++] = i;
         else
             stuck[held++] = i;
-    if (!fw_friction_hold(s, held, stuck)) return false;
+    if (!fw_multibody_friction_hold(s, held, stuck)) return false;
     for (int c = 0; c < count; c++) {
         double right[32], back[32];
         for (int e = 0; e < held; e++)
             right[e] = s->gain[stuck[e] * s->n + who[c]];
-        fw_friction_holding(s, held, stuck, right, back);
+        fw_multibody_friction_holding(s, held, stuck, right, back);
         for (int r = 0; r < count; r++)
             for (int k = 0; k < 2; k++) {
                 const double *turn = s->turn + 2 * who[r] * s->n + k;
@@ -183,7 +183,7 @@ static bool may_jam(fw_model *m) {
         for (int k = 0; k < 60; k++) {
             double size = 0, least = (double)INFINITY;
             for (int r = 0; r < count; r++) {
-                const fw_model_friction *f = &s->item[who[r]];
+                const fw_multibody_model_friction *f = &s->item[who[r]];
                 double rho[2] = {0, 0};
                 for (int c = 0; c < count; c++)
                     rho[0] += reach[r][c][0] * x[c], rho[1] += reach[r][c][1] * x[c];
@@ -207,37 +207,37 @@ static void laws_hold(void **state) {
     for (int c = 0; c < 600; c++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = any(arena, 1000 + (uint64_t)c);
-        fw_model *m = model_of(arena, &r, c % 2 ? "chain" : "svd");
+        fw_multibody_model *m = model_of(arena, &r, c % 2 ? "chain" : "svd");
         if (!m->friction) {
             fw_arena_free(arena);
             continue;
         }
         double y[128] = {0}, f[128];
-        struct fw_frictions *s = m->friction;
+        struct fw_multibody_frictions *s = m->friction;
         for (int i = 0; i < m->nq && c % 3; i++)
             y[m->nq + i] = 0.5 * (rig_random(&seed) - 0.5);
-        fw_model_pose(m, y);
+        fw_multibody_model_pose(m, y);
         assert_true(m->method->factor(m));
-        assert_true(fw_model_project_velocity(m, 0, y + m->nq));
-        fw_friction_begin(m);
-        fw_friction_watch(m, y); /* these velocities have been */
-        if (c % 3 == 1) {        /* bring about half of them to rest */
+        assert_true(fw_multibody_model_project_velocity(m, 0, y + m->nq));
+        fw_multibody_friction_begin(m);
+        fw_multibody_friction_track(m, y); /* these velocities have been */
+        if (c % 3 == 1) {                  /* bring about half of them to rest */
             for (int i = 0; i < s->n; i++)
                 s->item[i].slip = rig_random(&seed) < 0.5, s->item[i].held = NOT;
-            fw_friction_settle(m, y);
+            fw_multibody_friction_settle(m, y);
         }
-        if (!fw_friction_decide(m, 0, y)) {
+        if (!fw_multibody_friction_decide(m, 0, y)) {
             assert_true(may_jam(m));
             refused++;
             fw_arena_free(arena);
             continue;
         }
-        fw_model_rhs(m, 0, y, f);
+        fw_multibody_model_rhs(m, 0, y, f);
         assert_false(m->broken);
-        double power = fw_friction_power(m);
+        double power = fw_multibody_friction_power(m);
         assert_true(power >= -1e-12);
         check_laws(m, y, f, count);
-        fw_model_rhs(m, 0, y, f);
+        fw_multibody_model_rhs(m, 0, y, f);
         check_motion(m, y, f, &seed);
         fw_arena_free(arena);
     }
@@ -266,20 +266,20 @@ static rig many(fw_arena *arena, int n, uint64_t seed) {
     }
     for (int loops = (int)(4 * rig_random(&seed)); loops > 0; loops--) {
         int i = (int)(n * rig_random(&seed));
-        const fw_mass *b = &r.m.body[i];
+        const fw_mechanism_mass *b = &r.m.body[i];
         rig_pin(&r, "loop", i, FW_GROUND, b->x_m, b->y_m, 0, 0);
     }
     double least = rig_random(&seed) < 0.5 ? 1 : 0.3; /* one size for all, or very different ones */
-    r.scene.friction = fw_arena_array(arena, fw_friction_use, (size_t)r.m.npin);
+    r.scene.friction = fw_arena_array(arena, fw_device_friction_use, (size_t)r.m.npin);
     for (int i = 0; i < r.m.npin; i++) {
         double mu = 0.1 + 0.2 * rig_random(&seed);
-        r.scene.friction[r.scene.nfriction++] =
-            (fw_friction_use){.joint = i,
-                              .tie = FW_NONE,
-                              .coefficient = mu,
-                              .static_coefficient = rig_random(&seed) < 0.5 ? NOT : 1.5 * mu,
-                              .radius_m = 1e-4 * (least + (1 - least) * rig_random(&seed)),
-                              .preload_N = rig_random(&seed) < 0.3 ? 0 : 2e-3 * rig_random(&seed)};
+        r.scene.friction[r.scene.nfriction++] = (fw_device_friction_use){
+            .revolute = i,
+            .joint = FW_NONE,
+            .coefficient = mu,
+            .static_coefficient = rig_random(&seed) < 0.5 ? NOT : 1.5 * mu,
+            .radius_m = 1e-4 * (least + (1 - least) * rig_random(&seed)),
+            .preload_N = rig_random(&seed) < 0.3 ? 0 : 2e-3 * rig_random(&seed)};
     }
     r.scene.duration_s = 1e-2;
     return r;
@@ -287,14 +287,14 @@ static rig many(fw_arena *arena, int n, uint64_t seed) {
 
 /* rate 0: |T| <= mu_s N r and no acceleration, or T = mu_k N r against it; else T against the rate.
    Largest mismatch, relative */
-static double mismatch(fw_model *m, const double *y, int *holds, int *lets_go) {
-    struct fw_frictions *s = m->friction;
+static double mismatch(fw_multibody_model *m, const double *y, int *holds, int *lets_go) {
+    struct fw_multibody_frictions *s = m->friction;
     double worst = 0, f[512], torque[64];
-    fw_model_rhs(m, 0, y, f);
+    fw_multibody_model_rhs(m, 0, y, f);
     assert_false(m->broken);
     memcpy(torque, s->torque, (size_t)s->n * sizeof *torque);
     for (int i = 0; i < s->n; i++) {
-        const fw_model_friction *item = &s->item[i];
+        const fw_multibody_model_friction *item = &s->item[i];
         double n = pressing(m, i), t = torque[i], size = s->size[i] + fabs(s->accel[i]), a;
         a = (item->b < m->nbody ? f[m->nq + 3 * item->b + 2] : 0) -
             (item->a < m->nbody ? f[m->nq + 3 * item->a + 2] : 0);
@@ -326,23 +326,23 @@ static void many_joints(void **state) {
     for (int c = 0; c < 2000; c++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = many(arena, 3 + c % 26, 40000 + 17 * (uint64_t)c);
-        fw_model *m = model_of(arena, &r, "chain");
+        fw_multibody_model *m = model_of(arena, &r, "chain");
         double y[512] = {0};
-        struct fw_frictions *s = m->friction;
+        struct fw_multibody_frictions *s = m->friction;
         for (int i = 0; i < m->nq && c % 2; i++)
             y[m->nq + i] = 0.1 * (rig_random(&seed) - 0.5);
-        fw_model_pose(m, y);
+        fw_multibody_model_pose(m, y);
         assert_true(m->method->factor(m));
-        assert_true(fw_model_project_velocity(m, 0, y + m->nq));
-        fw_friction_begin(m);
-        fw_friction_watch(m, y);
+        assert_true(fw_multibody_model_project_velocity(m, 0, y + m->nq));
+        fw_multibody_friction_begin(m);
+        fw_multibody_friction_track(m, y);
         if (c % 2) { /* most of them at rest */
             for (int i = 0; i < s->n; i++)
                 s->item[i].slip = rig_random(&seed) < 0.3, s->item[i].held = NOT;
-            fw_friction_settle(m, y);
+            fw_multibody_friction_settle(m, y);
         }
         int before[2] = {holds, lets_go};
-        if (!fw_friction_decide(m, 0, y)) {
+        if (!fw_multibody_friction_decide(m, 0, y)) {
             assert_true(may_jam(m));
             refused++;
         } else {
@@ -361,15 +361,16 @@ static void many_joints(void **state) {
 }
 
 /* a contact presses: it sees its points as the model has them, and its switches as they are held */
-static void without_force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void without_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          double *f) {
     (void)s;
     memset(f, 0, 3 * (size_t)e->ports * sizeof *f);
 }
-static double by_place(const fw_force_element *e, const fw_seen *s) {
+static double by_place(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     (void)e;
     return s->on[0] && !s->on[1] ? 2 + s->p[3] - s->p[0] + 10 * (s->p[4] - s->p[1]) + s->w[4] : -1;
 }
-static double by_side(const fw_force_element *e, const fw_seen *s, int i) {
+static double by_side(const fw_effects_force_element *e, const fw_effects_port_state *s, int i) {
     (void)e, (void)s;
     return i ? -1 : 1;
 }
@@ -378,30 +379,30 @@ static void contact_presses(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    const fw_element_class contact = {
+    const fw_effects_element_class contact = {
         .effect = "contact", .force = without_force, .switch_value = by_side, .pressing = by_place};
     rig r = rig_new(arena, 1, 1, 0);
     rig_body(&r, "rotor", 2, 0.5, 3, 4, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 3, 4, 0, 0);
     r.scene.duration_s = 3;
-    fw_terms terms;
-    assert_int_equal(fw_terms_new(arena, &r.m, &r.scene, &terms), FW_OK);
-    fw_force_element *e = fw_terms_add_element(arena, &terms, &contact, 2);
+    fw_effects_loads loads;
+    assert_int_equal(fw_effects_loads_new(arena, &r.m, &r.scene, &loads), FW_OK);
+    fw_effects_force_element *e = fw_effects_loads_add_element(arena, &loads, &contact, 2);
     e->switches = 2;
-    e->port[0] = (fw_port){FW_GROUND, 0.5, 0};
-    e->port[1] = (fw_port){0, 0.25, 0};
-    fw_friction *f = fw_terms_add_friction(arena, &terms);
+    e->port[0] = (fw_effects_port){FW_GROUND, 0.5, 0};
+    e->port[1] = (fw_effects_port){0, 0.25, 0};
+    fw_effects_friction *f = fw_effects_loads_add_friction(arena, &loads);
     f->pin = 0, f->element = 0, f->kinetic_coefficient = f->static_coefficient = 0.3;
     f->radius_m = 0.1, f->preload_N = 1;
     const double q[3] = {3, 4, 0}, omega = 1.5;
-    fw_model *m = NULL;
-    assert_int_equal(fw_model_new(arena, &r.m, &terms, q, 3, NULL, &diags, &m), FW_OK);
+    fw_multibody_model *m = NULL;
+    assert_int_equal(fw_multibody_model_new(arena, &r.m, &loads, q, 3, NULL, &diags, &m), FW_OK);
     double y[8] = {0}, out[8];
     y[5] = omega * m->scale.time_s;
-    fw_model_set_switches(m, 0, y);
-    fw_friction_begin(m);
-    assert_true(fw_friction_decide(m, 0, y));
-    fw_model_rhs(m, 0, y, out);
+    fw_multibody_model_set_switches(m, 0, y);
+    fw_multibody_friction_begin(m);
+    assert_true(fw_multibody_friction_decide(m, 0, y));
+    fw_multibody_model_rhs(m, 0, y, out);
     /* x + 10 y from port a to port b, upward speed of b */
     double n = 1 + 2 + 3.25 - 0.5 + 40 + 0.25 * omega;
     assert_near(out[5] / m->scale.time_s / m->scale.time_s, -0.3 * 0.1 * n / 0.5, 1e-12);

@@ -16,7 +16,7 @@ static double worst_sincos(int n, const double *x) {
     static double s[4096], c[4096];
     double worst = 0;
     for (int i = 0; i < n; i++) {
-        fw_kernel_sincos(x[i], &s[i], &c[i]);
+        fw_multibody_kernel_sincos(x[i], &s[i], &c[i]);
         worst = fmax(worst, ulps(s[i], sinl((long double)x[i])));
         worst = fmax(worst, ulps(c[i], cosl((long double)x[i])));
     }
@@ -52,7 +52,7 @@ static void test_sincos_everywhere(void **state) {
     const double x[7] = {0, -0.0, 1e5 + 1, -3e8, (double)NAN, (double)INFINITY, 0.5};
     for (int i = 0; i < 7; i++) {
         double s, c;
-        fw_kernel_sincos(x[i], &s, &c);
+        fw_multibody_kernel_sincos(x[i], &s, &c);
         assert_true(s == sin(x[i]) || isnan(sin(x[i])) == isnan(s));
         if (isfinite(x[i])) assert_near(s, sin(x[i]), 1e-16);
         if (isfinite(x[i])) assert_near(c, cos(x[i]), 1.2e-16);
@@ -61,33 +61,33 @@ static void test_sincos_everywhere(void **state) {
 
 /* ---- right-hand side ---- */
 
-static fw_kernel *kernel_of(fw_arena *arena, const fw_model *m) {
-    fw_kernel *k = NULL;
-    assert_int_equal(fw_kernel_new(arena, m, &k), FW_OK);
+static fw_multibody_kernel *kernel_of(fw_arena *arena, const fw_multibody_model *m) {
+    fw_multibody_kernel *k = NULL;
+    assert_int_equal(fw_multibody_kernel_new(arena, m, &k), FW_OK);
     return k;
 }
 
 /* M a + G^T lambda = Q and G a = -gamma, put into the model's own operators */
-static void check_equations(fw_arena *arena, fw_model *m, const double *y, const double *a,
-                            const double *lambda) {
+static void check_equations(fw_arena *arena, fw_multibody_model *m, const double *y,
+                            const double *a, const double *lambda) {
     double *rows = fw_arena_array(arena, double, 2 * (size_t)m->nblock);
     double *gamma = fw_arena_array(arena, double, 2 * (size_t)m->nblock);
-    fw_model_pose(m, y);
-    fw_model_jacobian(m, a, rows);
-    fw_model_gamma(m, 0, y + m->nq, gamma);
+    fw_multibody_model_pose(m, y);
+    fw_multibody_model_jacobian(m, a, rows);
+    fw_multibody_model_gamma(m, 0, y + m->nq, gamma);
     double most = fmax(rig_largest(a, m->nq), rig_largest(gamma, 2 * m->nblock)) * m->size;
     for (int i = 0; i < 2 * m->nblock; i++)
         assert_near(rows[i], -gamma[i], 1e-12 * most);
-    fw_model_forces(m, 0, y);
+    fw_multibody_model_forces(m, 0, y);
     most = fmax(rig_largest(m->accel, m->nq), rig_largest(a, m->nq));
     most = fmax(most, rig_largest(lambda, 2 * m->nblock) * rig_largest(m->minv, m->nbody));
-    fw_model_apply(m, lambda, m->accel);
+    fw_multibody_model_apply(m, lambda, m->accel);
     for (int i = 0; i < m->nq; i++)
         assert_near(m->accel[i], a[i], 1e-12 * most);
 }
 
 /* by the blocks (0), or in the form of closed loops where the model is one (1) */
-static void prefer(fw_kernel *k, bool loop) {
+static void prefer(fw_multibody_kernel *k, bool loop) {
     static struct loop *own;
     if (k->core.loop) own = k->core.loop;
     if (k->core.plan.loop) k->core.loop = loop ? own : NULL;
@@ -95,8 +95,8 @@ static void prefer(fw_kernel *k, bool loop) {
 
 /* both forms, as far as the model has them, against the general code and in the equations */
 static void compare(fw_arena *arena, const rig *r, double size, uint64_t seed, double tolerance) {
-    fw_model *m = rig_model(arena, r);
-    fw_kernel *k = kernel_of(arena, m);
+    fw_multibody_model *m = rig_model(arena, r);
+    fw_multibody_kernel *k = kernel_of(arena, m);
     assert_non_null(k);
     double *y = rig_state(arena, m, size, seed);
     double *f = fw_arena_array(arena, double, (size_t)m->ny), *g;
@@ -104,12 +104,12 @@ static void compare(fw_arena *arena, const rig *r, double size, uint64_t seed, d
     rig_general(m, y, f);
     for (int loop = 0; loop < 2; loop++) {
         prefer(k, loop);
-        fw_kernel_rhs(k, y, g);
+        fw_multibody_kernel_rhs(k, y, g);
         double most = rig_largest(f, m->ny);
         for (int i = 0; i < m->ny; i++)
             assert_near(g[i], f[i], tolerance * most);
         assert_memory_equal(g, y + m->nq, sizeof(double) * (size_t)m->nq);
-        check_equations(arena, m, y, g + m->nq, fw_kernel_lambda(k));
+        check_equations(arena, m, y, g + m->nq, fw_multibody_kernel_lambda(k));
     }
 }
 
@@ -122,7 +122,7 @@ static void test_against_general(void **state) {
                 : seed == 1 ? rig_pendulum(arena)
                 : seed < 8  ? rig_windows(arena, (int)seed)
                             : rig_any(arena, seed);
-        fw_kernel *k = kernel_of(arena, rig_model(arena, &r));
+        fw_multibody_kernel *k = kernel_of(arena, rig_model(arena, &r));
         loops += k->core.loop != NULL;
         compare(arena, &r, 0.6, seed, 1e-10);
         fw_arena_free(arena);
@@ -152,7 +152,7 @@ static void test_chains_and_loops(void **state) {
                 fw_arena_free(arena);
                 continue;
             }
-            fw_model *m = rig_model(arena, &r);
+            fw_multibody_model *m = rig_model(arena, &r);
             assert_int_equal(kernel_of(arena, m)->core.loop != NULL, closed && n >= 3 && n <= 6);
             compare(arena, &r, 0.3, (uint64_t)(10 * n + kind), 1e-10);
             fw_arena_free(arena);
@@ -167,15 +167,15 @@ static void test_both_solves(void **state) {
         rig r = seed == 0   ? rig_six_bar(arena, false)
                 : seed == 1 ? rig_windows(arena, 5)
                             : rig_any(arena, seed);
-        fw_model *m = rig_model(arena, &r);
-        fw_kernel *k = kernel_of(arena, m);
+        fw_multibody_model *m = rig_model(arena, &r);
+        fw_multibody_kernel *k = kernel_of(arena, m);
         double *y = rig_state(arena, m, 0.4, seed), *f[2];
         for (int loop = 0; loop < 2; loop++) {
             prefer(k, loop);
             for (int care = 0; care < 2; care++) {
                 f[care] = fw_arena_array(arena, double, (size_t)m->ny);
                 k->core.healthy = care ? (double)INFINITY : 1e-9;
-                fw_kernel_rhs(k, y, f[care]);
+                fw_multibody_kernel_rhs(k, y, f[care]);
             }
             for (int i = 0; i < m->ny; i++)
                 assert_near(f[1][i], f[0][i], 1e-9 * rig_largest(f[0], m->ny));
@@ -186,7 +186,7 @@ static void test_both_solves(void **state) {
 
 /* windows at the angle `flat` from the position where all bars lie on one line; accelerations are
    those of one pendulum: phi'' = -kappa g cos phi with the bars parallel and the speeds equal */
-static void windows_state(const fw_model *m, int n, double flat, double *y) {
+static void windows_state(const fw_multibody_model *m, int n, double flat, double *y) {
     double phi = -1.57079632679489661923 + flat; /* from upright */
     for (int b = 0; b <= 2 * n; b++) {
         double l = m->scale.length_m, rate = -0.7, t = m->scale.time_s;
@@ -209,13 +209,13 @@ static void test_singular_positions(void **state) {
         for (size_t i = 0; i < sizeof flat / sizeof *flat; i++) {
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_windows(arena, n);
-            fw_model *m = rig_model(arena, &r);
-            fw_kernel *k = kernel_of(arena, m);
+            fw_multibody_model *m = rig_model(arena, &r);
+            fw_multibody_kernel *k = kernel_of(arena, m);
             double *y = fw_arena_array(arena, double, (size_t)m->ny);
             double *f = fw_arena_array(arena, double, (size_t)m->ny);
             double *g = fw_arena_array(arena, double, (size_t)m->ny);
             windows_state(m, n, flat[i], y);
-            fw_kernel_rhs(k, y, f);
+            fw_multibody_kernel_rhs(k, y, f);
             rig_general(m, y, g);
             /* crank angle from the x axis: phi + 90 degrees = flat */
             double kappa = ((n + 1) / 2.0 + n) / ((n + 1) / 3.0 + n);
@@ -236,19 +236,19 @@ static void test_redundant(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig once = rig_six_bar(arena, false), twice = rig_six_bar(arena, true);
-    fw_model *m[2] = {rig_model(arena, &once), rig_model(arena, &twice)};
+    fw_multibody_model *m[2] = {rig_model(arena, &once), rig_model(arena, &twice)};
     double f[2][31], y[2][31];
     for (int k = 0; k < 2; k++) {
-        fw_kernel *kernel = kernel_of(arena, m[k]);
+        fw_multibody_kernel *kernel = kernel_of(arena, m[k]);
         double l = m[k]->scale.length_m / 1e-3, t = m[k]->scale.time_s / 1e-3;
         memset(y[k], 0, sizeof y[k]);
         for (int i = 0; i < 15; i++)
             y[k][i] = 0.01 * sin(i) / (i % 3 == 2 ? 1 : l);
         for (int i = 0; i < 15; i++)
             y[k][15 + i] = 0.1 * cos(i) * t / (i % 3 == 2 ? 1 : l);
-        fw_kernel_rhs(kernel, y[k], f[k]);
-        assert_true(fw_kernel_project(kernel, y[k], f[k]));
-        assert_true(fw_kernel_norms_of(kernel).position < 1e-14);
+        fw_multibody_kernel_rhs(kernel, y[k], f[k]);
+        assert_true(fw_multibody_kernel_project(kernel, y[k], f[k]));
+        assert_true(fw_multibody_kernel_norms_of(kernel).position < 1e-14);
         for (int i = 0; i < 15; i++) { /* mm, ms */
             y[k][i] *= i % 3 == 2 ? 1 : l;
             f[k][15 + i] *= (i % 3 == 2 ? 1 : l) / (t * t);
@@ -269,12 +269,12 @@ static void test_bits(void **state) {
         {-0x1.acc2fedaeba7ep-1, -0x1.411df48ca7d82p+1, 0x1.c2fe09d03c72fp-1, 0x1.91d66cbd5ca1ap-7}};
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_six_bar(arena, false);
-    fw_model *m = rig_model(arena, &r);
-    fw_kernel *k = kernel_of(arena, m);
+    fw_multibody_model *m = rig_model(arena, &r);
+    fw_multibody_kernel *k = kernel_of(arena, m);
     double *y = rig_state(arena, m, 3, 12), f[31];
     for (int loop = 0; loop < 2; loop++) {
         prefer(k, loop);
-        fw_kernel_rhs(k, y, f);
+        fw_multibody_kernel_rhs(k, y, f);
         const double got[4] = {f[m->nq], f[m->nq + 5], f[m->nq + 10], f[2 * m->nq]};
         for (int i = 0; i < 4; i++)
             if (got[i] != want[loop][i])
@@ -292,8 +292,8 @@ static void test_projection(void **state) {
         rig r = seed == 0   ? rig_six_bar(arena, false)
                 : seed == 1 ? rig_windows(arena, 4)
                             : rig_any(arena, seed);
-        fw_model *m = rig_model(arena, &r);
-        fw_kernel *k = kernel_of(arena, m), *own = m->kernel;
+        fw_multibody_model *m = rig_model(arena, &r);
+        fw_multibody_kernel *k = kernel_of(arena, m), *own = m->kernel;
         double *start = rig_state(arena, m, 1e-4, seed), *y[2], *f[2];
         for (int i = 0; i < 2; i++) {
             y[i] = fw_arena_array(arena, double, (size_t)m->ny);
@@ -301,20 +301,21 @@ static void test_projection(void **state) {
             memcpy(y[i], start, sizeof(double) * (size_t)m->ny);
         }
         m->kernel = NULL;
-        fw_model_rhs(m, 0, y[0], f[0]);
-        assert_true(fw_model_project(m, 0, y[0], f[0]));
+        fw_multibody_model_rhs(m, 0, y[0], f[0]);
+        assert_true(fw_multibody_model_project(m, 0, y[0], f[0]));
         m->kernel = own;
         for (int loop = 0; loop < 2; loop++) {
             prefer(k, loop);
             memcpy(y[1], start, sizeof(double) * (size_t)m->ny);
-            fw_kernel_rhs(k, y[1], f[1]);
-            assert_true(fw_kernel_project(k, y[1], f[1]));
-            assert_true(fw_kernel_norms_of(k).position <= 4 * DBL_EPSILON * m->size);
+            fw_multibody_kernel_rhs(k, y[1], f[1]);
+            assert_true(fw_multibody_kernel_project(k, y[1], f[1]));
+            assert_true(fw_multibody_kernel_norms_of(k).position <= 4 * DBL_EPSILON * m->size);
             for (int i = 0; i < m->ny; i++) {
                 assert_near(y[1][i], y[0][i], 1e-13);
                 assert_near(f[1][i], f[0][i], 1e-9 * rig_largest(f[0], m->ny));
             }
-            assert_true(fw_model_residual(m, 0, y[1], m->right) <= 8 * DBL_EPSILON * m->size);
+            assert_true(fw_multibody_model_residual(m, 0, y[1], m->right) <=
+                        8 * DBL_EPSILON * m->size);
         }
         fw_arena_free(arena);
     }
@@ -327,22 +328,22 @@ static void test_not_a_number(void **state) {
         rig r = kind == 0   ? rig_six_bar(arena, false)
                 : kind == 1 ? rig_six_bar(arena, true)
                             : rig_windows(arena, 3);
-        fw_model *m = rig_model(arena, &r);
-        fw_kernel *k = kernel_of(arena, m);
+        fw_multibody_model *m = rig_model(arena, &r);
+        fw_multibody_kernel *k = kernel_of(arena, m);
         double *y = rig_state(arena, m, 0.1, 3), *f, *g;
         f = fw_arena_array(arena, double, (size_t)m->ny);
         g = fw_arena_array(arena, double, (size_t)m->ny);
-        fw_kernel_rhs(k, y, f);
+        fw_multibody_kernel_rhs(k, y, f);
         double angle = y[5];
         y[5] = (double)NAN;
-        fw_kernel_rhs(k, y, g);
+        fw_multibody_kernel_rhs(k, y, g);
         assert_true(isnan(g[m->nq + 5]));
-        assert_false(fw_kernel_project(k, y, g));
+        assert_false(fw_multibody_kernel_project(k, y, g));
         y[5] = (double)INFINITY;
-        fw_kernel_rhs(k, y, g);
+        fw_multibody_kernel_rhs(k, y, g);
         assert_true(!isfinite(g[m->nq + 5]));
         y[5] = angle; /* nothing of it is left */
-        fw_kernel_rhs(k, y, g);
+        fw_multibody_kernel_rhs(k, y, g);
         assert_memory_equal(f, g, sizeof(double) * (size_t)m->ny);
     }
     fw_arena_free(arena);
@@ -362,18 +363,18 @@ static void test_memory(void **state) {
     for (int kind = 0; kind < 2; kind++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = kind ? rig_windows(arena, 3) : rig_six_bar(arena, false);
-        fw_model *m = rig_model(arena, &r);
-        fw_kernel *k;
+        fw_multibody_model *m = rig_model(arena, &r);
+        fw_multibody_kernel *k;
         double *y = rig_state(arena, m, 0.1, 3), *f = rig_state(arena, m, 0, 3);
         fw_arena_fail_at(0, 0);
-        assert_int_equal(fw_kernel_new(arena, m, &k), FW_OK);
+        assert_int_equal(fw_multibody_kernel_new(arena, m, &k), FW_OK);
         long count = fw_arena_count();
-        fw_kernel_rhs(k, y, f);
-        fw_kernel_project(k, y, f);
+        fw_multibody_kernel_rhs(k, y, f);
+        fw_multibody_kernel_project(k, y, f);
         assert_int_equal(fw_arena_count(), count); /* none after the start */
         for (long n = 1; n <= count; n++) {
             fw_arena_fail_at(n, 0);
-            fw_status status = fw_kernel_new(arena, m, &k);
+            fw_status status = fw_multibody_kernel_new(arena, m, &k);
             fw_arena_fail_at(0, 0);
             if (status == FW_OK) break; /* the count runs over the models before */
             assert_int_equal(status, FW_NOMEM);

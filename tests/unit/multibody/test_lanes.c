@@ -17,7 +17,7 @@ static rig vary(fw_arena *arena, int kind, int design) {
         r.m.body[b].inertia_kg_m2 *= 0.7 + rig_random(&seed);
     }
     for (int i = 0; i < r.m.npin; i++) {
-        fw_pin *p = &r.m.pin[i];
+        fw_mechanism_pin *p = &r.m.pin[i];
         p->stiffness_Nm_per_rad *= 0.5 + rig_random(&seed);
         p->damping_Nms_per_rad *= 0.5 + rig_random(&seed);
     }
@@ -28,8 +28,8 @@ static rig vary(fw_arena *arena, int kind, int design) {
 
 typedef struct batch {
     fw_arena *arena;
-    const fw_model *model[MOST];
-    fw_kernel *kernel[MOST];
+    const fw_multibody_model *model[MOST];
+    fw_multibody_kernel *kernel[MOST];
     double *y[MOST];
     int count, ny;
 } batch;
@@ -38,24 +38,24 @@ static batch begin(int kind, int count) {
     batch b = {.arena = fw_arena_new(0), .count = count};
     for (int d = 0; d < count; d++) {
         rig r = vary(b.arena, kind, d);
-        fw_model *m = rig_model(b.arena, &r);
+        fw_multibody_model *m = rig_model(b.arena, &r);
         b.model[d] = m;
-        assert_int_equal(fw_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
+        assert_int_equal(fw_multibody_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
         b.y[d] = rig_state(b.arena, m, 0.3, (uint64_t)d);
         b.ny = m->ny;
     }
     return b;
 }
 
-static fw_lanes *lanes_of(batch *b, const char *set, double **y, double **f) {
-    fw_lanes *l;
-    assert_int_equal(fw_lanes_new(b->arena, b->model, b->count, set, &l), FW_OK);
+static fw_multibody_lanes *lanes_of(batch *b, const char *set, double **y, double **f) {
+    fw_multibody_lanes *l;
+    assert_int_equal(fw_multibody_lanes_new(b->arena, b->model, b->count, set, &l), FW_OK);
     assert_non_null(l);
-    assert_string_equal(fw_lanes_set_name(l), set);
-    *y = fw_arena_array(b->arena, double, fw_lanes_size(l));
-    *f = fw_arena_array(b->arena, double, fw_lanes_size(l));
+    assert_string_equal(fw_multibody_lanes_set_name(l), set);
+    *y = fw_arena_array(b->arena, double, fw_multibody_lanes_size(l));
+    *f = fw_arena_array(b->arena, double, fw_multibody_lanes_size(l));
     for (int d = 0; d < b->count; d++)
-        fw_lanes_put(l, d, b->y[d], *y);
+        fw_multibody_lanes_put(l, d, b->y[d], *y);
     return l;
 }
 
@@ -69,19 +69,19 @@ static void test_each_lane(void **state) {
     (void)state;
     for (int kind = 0; kind < 4; kind++)
         for (int count = 1; count <= MOST; count += 3)
-            for (int s = 0; fw_lanes_set(s); s++) {
+            for (int s = 0; fw_multibody_lanes_set(s); s++) {
                 batch b = begin(kind, count);
                 double *y, *f, got[64], want[64], lambda[64];
-                fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-                fw_lanes_rhs(l, y, f);
+                fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+                fw_multibody_lanes_rhs(l, y, f);
                 for (int d = 0; d < count; d++) {
-                    fw_lanes_get(l, d, f, got);
-                    fw_kernel_rhs(b.kernel[d], b.y[d], want);
+                    fw_multibody_lanes_get(l, d, f, got);
+                    fw_multibody_kernel_rhs(b.kernel[d], b.y[d], want);
                     expect(got, want, b.ny, 1e-13);
-                    fw_lanes_lambda(l, d, lambda);
+                    fw_multibody_lanes_lambda(l, d, lambda);
                     if (kind != 3) /* shares between the two hinges D are round-off */
-                        expect(lambda, fw_kernel_lambda(b.kernel[d]), 2 * b.model[d]->nblock,
-                               1e-13);
+                        expect(lambda, fw_multibody_kernel_lambda(b.kernel[d]),
+                               2 * b.model[d]->nblock, 1e-13);
                 }
                 fw_arena_free(b.arena);
             }
@@ -137,7 +137,7 @@ static void eliminate(int n, long double A[UNKNOWNS][UNKNOWNS + 1]) {
 }
 
 /* one pin into M a + G^T lambda = Q, G a = -G' v */
-static void add_pin(const fw_model *m, const double *y, int pin, int row, int n,
+static void add_pin(const fw_multibody_model *m, const double *y, int pin, int row, int n,
                     long double A[UNKNOWNS][UNKNOWNS + 1]) {
     for (int side = 0; side < 2; side++) {
         int b = m->body[2 * pin + side];
@@ -157,7 +157,7 @@ static void add_pin(const fw_model *m, const double *y, int pin, int row, int n,
 }
 
 /* accelerations (3 bodies) and joint forces (2 pins) from the equations themselves */
-static void reference(const fw_model *m, const double *y, double *a, double *lambda) {
+static void reference(const fw_multibody_model *m, const double *y, double *a, double *lambda) {
     static long double A[UNKNOWNS][UNKNOWNS + 1];
     const int n = m->nq + 2 * m->nblock;
     memset(A, 0, sizeof A);
@@ -166,7 +166,7 @@ static void reference(const fw_model *m, const double *y, double *a, double *lam
         A[i][n] = A[i][i] * (long double)m->constant[i];
     }
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_model_torsion *t = &m->torsion[i];
+        const fw_multibody_model_torsion *t = &m->torsion[i];
         const double *v = y + m->nq;
         long double turn = -(long double)t->angle0, rate = 0;
         if (t->a < m->nbody)
@@ -187,7 +187,7 @@ static void reference(const fw_model *m, const double *y, double *a, double *lam
 }
 
 /* the largest acceleration, or what the largest joint force gives to the lightest body */
-static double scale_of(const fw_model *m, const double *a, const double *lambda) {
+static double scale_of(const fw_multibody_model *m, const double *a, const double *lambda) {
     double light = fmax(rig_largest(m->minv, m->nbody), rig_largest(m->jinv, m->nbody));
     return fmax(rig_largest(a, m->nq), rig_largest(lambda, 2 * m->nblock) * light);
 }
@@ -202,30 +202,30 @@ static void test_loops(void **state) {
     static const double force_tolerance[3] = {3e-13, 2e-12, 2e-10};
     for (int n = 3; n <= 8; n++)
         for (int decades = 0; decades <= 4; decades += 2)
-            for (int s = 0; fw_lanes_set(s); s++) {
+            for (int s = 0; fw_multibody_lanes_set(s); s++) {
                 batch b = {.arena = fw_arena_new(0), .count = MOST};
                 for (int d = 0; d < MOST; d++) {
                     rig r = closed_loop(b.arena, n, decades, (uint64_t)d);
-                    fw_model *m = rig_model(b.arena, &r);
+                    fw_multibody_model *m = rig_model(b.arena, &r);
                     b.model[d] = m, b.ny = m->ny;
-                    assert_int_equal(fw_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
+                    assert_int_equal(fw_multibody_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
                     assert_int_equal(b.kernel[d]->core.loop != NULL, n <= FW_LOOP_MOST);
                     b.y[d] = rig_state(b.arena, m, 1, (uint64_t)(100 * n + d));
                 }
                 double *y, *f, got[64], want[64], lambda[64], forces[64];
-                fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-                fw_lanes_rhs(l, y, f);
+                fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+                fw_multibody_lanes_rhs(l, y, f);
                 for (int d = 0; d < MOST; d++) {
                     const int nq = b.model[d]->nq;
                     reference(b.model[d], b.y[d], want, forces);
-                    fw_lanes_get(l, d, f, got);
-                    fw_lanes_lambda(l, d, lambda);
+                    fw_multibody_lanes_get(l, d, f, got);
+                    fw_multibody_lanes_lambda(l, d, lambda);
                     double most = scale_of(b.model[d], want, forces);
                     for (int i = 0; i < nq; i++)
                         assert_near(got[nq + i], want[i], tolerance[n > 6][decades / 2] * most);
                     expect(lambda, forces, 2 * b.model[d]->nblock, force_tolerance[decades / 2]);
                     assert_memory_equal(got, b.y[d] + nq, sizeof(double) * (size_t)nq);
-                    fw_kernel_rhs(b.kernel[d], b.y[d], want);
+                    fw_multibody_kernel_rhs(b.kernel[d], b.y[d], want);
                     if (b.ny > 2 * nq) assert_near(got[2 * nq], want[2 * nq], 1e-14 * want[2 * nq]);
                 }
                 fw_arena_free(b.arena);
@@ -239,24 +239,24 @@ static void test_loops_near_singular(void **state) {
     (void)state;
     static const double flat[MOST] = {0.3,  0.1,  3e-2, 2e-2,  1e-2,  5e-3,  2e-3, 1e-3, 3e-4, 1e-4,
                                       1e-6, 1e-9, -0.1, -1e-2, -3e-3, -1e-5, 0.2,  1,    -0.5};
-    for (int s = 0; fw_lanes_set(s); s++) {
+    for (int s = 0; fw_multibody_lanes_set(s); s++) {
         batch b = {.arena = fw_arena_new(0), .count = MOST};
         rig r = rig_windows(b.arena, 1);
-        fw_model *m = rig_model(b.arena, &r);
+        fw_multibody_model *m = rig_model(b.arena, &r);
         for (int d = 0; d < MOST; d++) {
             b.model[d] = m, b.ny = m->ny;
             b.y[d] = rig_state(b.arena, m, 0.1, (uint64_t)d);
             for (int i = 0; i < 3; i++)
                 b.y[d][3 * i + 2] = i < 2 ? -1.57079632679489661923 + flat[d] : 0;
         }
-        fw_kernel *k;
-        assert_int_equal(fw_kernel_new(b.arena, m, &k), FW_OK);
+        fw_multibody_kernel *k;
+        assert_int_equal(fw_multibody_kernel_new(b.arena, m, &k), FW_OK);
         double *y, *f, got[64], want[64];
-        fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-        fw_lanes_rhs(l, y, f);
+        fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+        fw_multibody_lanes_rhs(l, y, f);
         for (int d = 0; d < MOST; d++) {
-            fw_kernel_rhs(k, b.y[d], want);
-            fw_lanes_get(l, d, f, got);
+            fw_multibody_kernel_rhs(k, b.y[d], want);
+            fw_multibody_lanes_get(l, d, f, got);
             expect(got, want, b.ny, fmin(1e-7, 1e-13 / (flat[d] * flat[d])));
         }
         fw_arena_free(b.arena);
@@ -266,23 +266,23 @@ static void test_loops_near_singular(void **state) {
 static void test_projection(void **state) {
     (void)state;
     for (int kind = 0; kind < 4; kind++)
-        for (int s = 0; fw_lanes_set(s); s++) {
+        for (int s = 0; fw_multibody_lanes_set(s); s++) {
             batch b = begin(kind, 11);
             double *y, *f, got[64], want[64], alone[64];
             for (int d = 0; d < 11; d++)
                 for (int i = 0; i < b.ny; i++)
                     b.y[d][i] *= 1e-5;
-            fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-            fw_lanes_rhs(l, y, f);
-            assert_true(fw_lanes_project(l, y, f));
+            fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+            fw_multibody_lanes_rhs(l, y, f);
+            assert_true(fw_multibody_lanes_project(l, y, f));
             for (int d = 0; d < 11; d++) {
                 memcpy(alone, b.y[d], sizeof(double) * (size_t)b.ny);
-                fw_kernel_rhs(b.kernel[d], alone, want);
-                assert_true(fw_kernel_project(b.kernel[d], alone, want));
-                fw_lanes_get(l, d, y, got);
+                fw_multibody_kernel_rhs(b.kernel[d], alone, want);
+                assert_true(fw_multibody_kernel_project(b.kernel[d], alone, want));
+                fw_multibody_lanes_get(l, d, y, got);
                 for (int i = 0; i < b.ny; i++)
                     assert_near(got[i], alone[i], 1e-14);
-                fw_lanes_get(l, d, f, got);
+                fw_multibody_lanes_get(l, d, f, got);
                 for (int i = 0; i < b.ny; i++) /* of order one in scaled units */
                     assert_near(got[i], want[i], 1e-12);
             }
@@ -295,29 +295,29 @@ static void test_projection(void **state) {
 static void test_lanes_are_alone(void **state) {
     (void)state;
     for (int kind = 0; kind < 3; kind += 2)
-        for (int s = 0; fw_lanes_set(s); s++) {
+        for (int s = 0; fw_multibody_lanes_set(s); s++) {
             batch b = begin(kind, 8);
             double *y, *f, *g, got[64], want[64];
-            fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-            g = fw_arena_array(b.arena, double, fw_lanes_size(l));
-            fw_lanes_rhs(l, y, f);
+            fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+            g = fw_arena_array(b.arena, double, fw_multibody_lanes_size(l));
+            fw_multibody_lanes_rhs(l, y, f);
             double flat[64] = {0};
             if (kind == 2) /* all bars on a line */
                 for (int i = 0; i <= 3; i++)
                     flat[3 * i + 2] = -1.57079632679489661923;
-            fw_lanes_put(l, 2, flat, y);
+            fw_multibody_lanes_put(l, 2, flat, y);
             memcpy(want, b.y[4], sizeof(double) * (size_t)b.ny);
             want[2] = (double)NAN;
-            fw_lanes_put(l, 4, want, y);
+            fw_multibody_lanes_put(l, 4, want, y);
             memcpy(want, b.y[5], sizeof(double) * (size_t)b.ny);
             want[5] += 6.283185307179586e6;
-            fw_lanes_put(l, 5, want, y);
-            fw_lanes_rhs(l, y, g);
+            fw_multibody_lanes_put(l, 5, want, y);
+            fw_multibody_lanes_rhs(l, y, g);
             for (int d = 0; d < 8; d++) {
-                fw_lanes_get(l, d, f, want);
-                fw_lanes_get(l, d, g, got);
+                fw_multibody_lanes_get(l, d, f, want);
+                fw_multibody_lanes_get(l, d, g, got);
                 if (d == 2) {
-                    fw_kernel_rhs(b.kernel[d], flat, want);
+                    fw_multibody_kernel_rhs(b.kernel[d], flat, want);
                     expect(got, want, b.ny, 1e-10);
                 } else if (d == 4) {
                     assert_true(isnan(got[b.model[d]->nq + 2]));
@@ -334,38 +334,39 @@ static void test_lanes_are_alone(void **state) {
 /* the lockstep run against each design alone, at their own durations */
 static void test_integrate(void **state) {
     (void)state;
-    for (int s = 0; fw_lanes_set(s); s++) {
+    for (int s = 0; fw_multibody_lanes_set(s); s++) {
         batch b = begin(0, 5);
         double *y, *f, duration[5], atol[40], got[40];
-        fw_lanes *l = lanes_of(&b, fw_lanes_set(s), &y, &f);
-        fw_lanes_run run;
+        fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(s), &y, &f);
+        fw_multibody_lanes_run run;
         for (int i = 0; i < b.ny; i++)
             atol[i] = 1e-11;
         for (int d = 0; d < 5; d++) {
             duration[d] = (1 + 0.5 * d) * 1e-3 / b.model[d]->scale.time_s;
             memset(b.y[d], 0, sizeof(double) * (size_t)b.ny);
-            fw_lanes_put(l, d, b.y[d], y);
+            fw_multibody_lanes_put(l, d, b.y[d], y);
         }
-        assert_int_equal(fw_lanes_integrate(b.arena, l, duration, 1e-11, atol, y, &run), FW_OK);
+        assert_int_equal(fw_multibody_lanes_integrate(b.arena, l, duration, 1e-11, atol, y, &run),
+                         FW_OK);
         assert_true(run.steps > 10 && run.rhs > 11 * run.steps);
         for (int d = 0; d < 5; d++) {
-            fw_model *m = (fw_model *)(uintptr_t)b.model[d];
-            const fw_ode ode = {.context = m,
-                                .rhs = fw_model_rhs,
-                                .project = fw_model_project,
-                                .n = m->ny,
-                                .controlled = 2 * m->nq};
-            fw_stepper *alone;
-            assert_int_equal(
-                fw_stepper_new(b.arena, fw_stepper_find("dop853"), &ode, 1e-11, atol, &alone),
-                FW_OK);
-            fw_stepper_start(alone, 0, b.y[d], duration[d]);
+            fw_multibody_model *m = (fw_multibody_model *)(uintptr_t)b.model[d];
+            const fw_maths_ode ode = {.context = m,
+                                      .rhs = fw_multibody_model_rhs,
+                                      .project = fw_multibody_model_project,
+                                      .n = m->ny,
+                                      .controlled = 2 * m->nq};
+            fw_maths_stepper *alone;
+            assert_int_equal(fw_maths_stepper_new(b.arena, fw_maths_stepper_find("dop853"), &ode,
+                                                  1e-11, atol, &alone),
+                             FW_OK);
+            fw_maths_stepper_start(alone, 0, b.y[d], duration[d]);
             while (alone->t < alone->t_end)
-                assert_int_equal(fw_stepper_step(alone), FW_ODE_STEP);
-            fw_lanes_get(l, d, y, got);
+                assert_int_equal(fw_maths_stepper_step(alone), FW_ODE_STEP);
+            fw_multibody_lanes_get(l, d, y, got);
             for (int i = 0; i < b.ny; i++)
                 assert_near(got[i], alone->y[i], 1e-9);
-            fw_stepper_free(alone);
+            fw_maths_stepper_free(alone);
         }
         fw_arena_free(b.arena);
     }
@@ -374,14 +375,14 @@ static void test_integrate(void **state) {
 static void test_refused(void **state) {
     (void)state;
     batch b = begin(0, 3), other = begin(2, 1);
-    fw_lanes *l;
-    assert_int_equal(fw_lanes_new(b.arena, b.model, 3, "abacus", &l), FW_USAGE);
-    assert_int_equal(fw_lanes_new(b.arena, b.model, 0, NULL, &l), FW_USAGE);
+    fw_multibody_lanes *l;
+    assert_int_equal(fw_multibody_lanes_new(b.arena, b.model, 3, "abacus", &l), FW_USAGE);
+    assert_int_equal(fw_multibody_lanes_new(b.arena, b.model, 0, NULL, &l), FW_USAGE);
     b.model[2] = other.model[0];
-    assert_int_equal(fw_lanes_new(b.arena, b.model, 3, NULL, &l), FW_OK);
+    assert_int_equal(fw_multibody_lanes_new(b.arena, b.model, 3, NULL, &l), FW_OK);
     assert_null(l);
-    assert_non_null(fw_lanes_set(0)); /* portable at least, on any processor */
-    assert_null(fw_lanes_set(9));
+    assert_non_null(fw_multibody_lanes_set(0)); /* portable at least, on any processor */
+    assert_null(fw_multibody_lanes_set(9));
     fw_arena_free(b.arena);
     fw_arena_free(other.arena);
 }
@@ -393,19 +394,19 @@ static void test_memory(void **state) {
         fw_status status = FW_NOMEM;
         int n = 1;
         for (; n < 200 && status != FW_OK; n++) {
-            fw_lanes *l;
+            fw_multibody_lanes *l;
             fw_arena_fail_at(n, 0);
-            status = fw_lanes_new(b.arena, b.model, 9, NULL, &l);
+            status = fw_multibody_lanes_new(b.arena, b.model, 9, NULL, &l);
             fw_arena_fail_at(0, 0);
             assert_true(status == FW_OK ? l != NULL : status == FW_NOMEM && l == NULL);
         }
         assert_true(n > 5 && n < 200);
         double *y, *f;
-        fw_lanes *l = lanes_of(&b, fw_lanes_set(0), &y, &f);
+        fw_multibody_lanes *l = lanes_of(&b, fw_multibody_lanes_set(0), &y, &f);
         fw_arena_fail_at(0, 0);
         long count = fw_arena_count();
-        fw_lanes_rhs(l, y, f);
-        fw_lanes_project(l, y, f);
+        fw_multibody_lanes_rhs(l, y, f);
+        fw_multibody_lanes_project(l, y, f);
         assert_int_equal(fw_arena_count(), count);
         fw_arena_free(b.arena);
     }

@@ -8,7 +8,7 @@
 
 typedef struct made {
     fw_status status;
-    fw_model *m;
+    fw_multibody_model *m;
     const char *message;
 } made;
 
@@ -22,7 +22,8 @@ static made model_of(fw_arena *arena, const rig *r) {
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
     made out = {0};
-    out.status = fw_model_new(arena, &r->m, NULL, q, 1, &fw_method_minimal, diags, &out.m);
+    out.status = fw_multibody_model_new(arena, &r->m, NULL, q, 1, &fw_multibody_method_minimal,
+                                        diags, &out.m);
     out.message = diags->count ? diags->item[0].message : "";
     return out;
 }
@@ -31,7 +32,7 @@ static void expect(fw_arena *arena, const rig *r, const char *report) {
     made k = model_of(arena, r);
     if (k.status != FW_OK) fail_msg("%s", k.message);
     fw_text text = fw_text_new(arena);
-    assert_int_equal(fw_method_minimal.report(k.m, &r->m, &text), FW_OK);
+    assert_int_equal(fw_multibody_method_minimal.report(k.m, &r->m, &text), FW_OK);
     assert_string_equal(text.data, report);
 }
 
@@ -55,7 +56,7 @@ static void plans_are_found(void **state) {
     for (int b = 0; b < 7; b++)
         back.m.body[b] = squeezer.m.body[6 - b];
     for (int i = 0; i < back.m.npin; i++) {
-        fw_pin *p = &back.m.pin[i];
+        fw_mechanism_pin *p = &back.m.pin[i];
         if (p->body_a != FW_GROUND) p->body_a = 6 - p->body_a;
         if (p->body_b != FW_GROUND) p->body_b = 6 - p->body_b;
     }
@@ -95,13 +96,14 @@ static void what_does_not_fit_is_named(void **state) {
     expect(arena, &legs,
            "independent coordinates: lower.phi, upper.phi, platform.phi; 2 dyads closed");
     refused(arena, &truss, "body ");
-    fw_tie rail = {.id = "rail", .kind = FW_TIE_PRISMATIC, .body_a = FW_GROUND, .body_b = 1};
+    fw_device_joint rail = {
+        .id = "rail", .kind = FW_JOINT_PRISMATIC, .body_a = FW_GROUND, .body_b = 1};
     rig_body(&slider, "arm", 1, 1, 1, 0, 0);
     rig_body(&slider, "cart", 1, 1, 3, 0, 0);
     rig_pin(&slider, "O", FW_GROUND, 0, 0, 0, 0, 0);
     refused(arena, &slider, "body cart"); /* hangs on nothing */
-    slider.m.tie = &rail;
-    slider.m.ntie = 1;
+    slider.m.joint = &rail;
+    slider.m.njoint = 1;
     refused(arena, &slider, "joint rail");
     fw_arena_free(arena);
 }
@@ -120,33 +122,34 @@ static void equations_are_solved(void **state) {
         if (c % 2) { /* the first pin of the ground driven; a flag welded to a body */
             r.m.body = fw_arena_grow(arena, r.m.body, (size_t)r.m.nbody, (size_t)r.m.nbody + 1,
                                      sizeof *r.m.body);
-            const fw_mass *last = &r.m.body[r.m.nbody - 1];
+            const fw_mechanism_mass *last = &r.m.body[r.m.nbody - 1];
             double at = last->x_m + 1e-4, up = last->y_m;
             rig_body(&r, "flag", 1e-8, 1e-15, at, up, 0);
-            r.m.tie = fw_arena_array(arena, fw_tie, 1);
-            r.m.tie[r.m.ntie++] = (fw_tie){.id = "seam",
-                                           .kind = FW_TIE_WELD,
-                                           .body_a = r.m.nbody - 1,
-                                           .body_b = r.m.nbody - 2,
-                                           .ax_m = -1e-4,
-                                           .angle_rad = last->phi_rad};
-            r.m.driver = fw_arena_array(arena, fw_driver, 1);
+            r.m.joint = fw_arena_array(arena, fw_device_joint, 1);
+            r.m.joint[r.m.njoint++] = (fw_device_joint){.id = "seam",
+                                                        .kind = FW_JOINT_WELD,
+                                                        .body_a = r.m.nbody - 1,
+                                                        .body_b = r.m.nbody - 2,
+                                                        .ax_m = -1e-4,
+                                                        .angle_rad = last->phi_rad};
+            r.m.driver = fw_arena_array(arena, fw_device_driver, 1);
             int pin = 0;
             while (r.m.pin[pin].body_a != FW_GROUND && r.m.pin[pin].body_b != FW_GROUND)
                 pin++;
-            r.m.driver[r.m.ndriver++] = (fw_driver){
+            r.m.driver[r.m.ndriver++] = (fw_device_driver){
                 .id = "motor",
-                .joint = pin,
-                .tie = FW_NONE,
-                .law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 2}};
-            fw_pin *driven = &r.m.pin[pin]; /* the law starts at the pose that is there */
+                .revolute = pin,
+                .joint = FW_NONE,
+                .law = {
+                    .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = g, .ntable = 2}};
+            fw_mechanism_pin *driven = &r.m.pin[pin]; /* the law starts at the pose that is there */
             double a = driven->body_a == FW_GROUND ? 0 : r.m.body[driven->body_a].phi_rad;
             double b = driven->body_b == FW_GROUND ? 0 : r.m.body[driven->body_b].phi_rad;
             driven->free_angle_rad = b - a;
         }
         made k = model_of(arena, &r);
         if (k.status != FW_OK) fail_msg("case %d: %s", c, k.message);
-        fw_model *m = k.m;
+        fw_multibody_model *m = k.m;
         double u[64], a0[64], a[64], gamma[64], lambda[64], force[67] = {0}, rows[64];
         for (int j = 0; j < m->nq; j++) {
             u[j] = 0.1 * (rig_random(&seed) - 0.5) * (j % 3 == 2 ? 1 : 0.1);
@@ -157,10 +160,10 @@ static void equations_are_solved(void **state) {
                 gamma[2 * i + e] =
                     e == 0 || m->block[i].rows == FW_ROWS_PIN ? rig_random(&seed) - 0.5 : 0;
         assert_true(m->method->close(m, 0.01, u));
-        assert_true(fw_model_residual(m, 0.01, u, rows) <= 1e-14 * (1 + m->size));
+        assert_true(fw_multibody_model_residual(m, 0.01, u, rows) <= 1e-14 * (1 + m->size));
         assert_true(m->method->factor(m));
         m->method->accelerate(m, gamma, a, lambda);
-        fw_model_jacobian(m, a, rows);
+        fw_multibody_model_jacobian(m, a, rows);
         double largest = 0, pull = 0;
         for (int j = 0; j < m->nq; j++)
             largest = fmax(largest, fabs(a[j]));
@@ -168,13 +171,13 @@ static void equations_are_solved(void **state) {
             assert_near(rows[i], -gamma[i], 1e-13 * (1 + largest));
             pull = fmax(pull, fabs(lambda[i]));
         }
-        fw_model_transpose(m, lambda, force);
+        fw_multibody_model_transpose(m, lambda, force);
         for (int j = 0; j < m->nq; j++) {
             double mass = 1 / (j % 3 == 2 ? m->jinv[j / 3] : m->minv[j / 3]);
             assert_near(force[j], mass * (a0[j] - a[j]), 1e-12 * (1 + pull + mass * largest));
         }
         m->method->correct(m, gamma, a);
-        fw_model_jacobian(m, a, rows);
+        fw_multibody_model_jacobian(m, a, rows);
         for (int i = 0; i < 2 * m->nblock; i++)
             assert_near(rows[i], -gamma[i], 1e-12);
         fw_arena_free(arena);

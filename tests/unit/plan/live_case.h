@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Requests to fw_live_*, and their answers as JSON. */
+/* Requests to fw_plan_live_*, and their answers as JSON. */
 #ifndef FW_TEST_LIVE_CASE_H
 #define FW_TEST_LIVE_CASE_H
 #include "plan/live.h"
@@ -8,9 +8,9 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-static inline fw_live *live_new(void) {
-    fw_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR};
-    fw_live *live = fw_live_new(&settings);
+static inline fw_plan_live *live_new(void) {
+    fw_plan_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR};
+    fw_plan_live *live = fw_plan_live_new(&settings);
     assert_non_null(live);
     return live;
 }
@@ -48,11 +48,12 @@ static inline char *request_of(const char *file, const char *more) {
     return dump;
 }
 
-typedef fw_live_answer (*live_function)(fw_live *live, const char *request, size_t n);
+typedef fw_plan_live_answer (*live_function)(fw_plan_live *live, const char *request, size_t n);
 
 /* the answer, which must be JSON; the caller releases it */
-static inline json_t *ask(fw_live *live, live_function f, const char *request, fw_status wanted) {
-    fw_live_answer a = f(live, request, strlen(request));
+static inline json_t *ask(fw_plan_live *live, live_function f, const char *request,
+                          fw_status wanted) {
+    fw_plan_live_answer a = f(live, request, strlen(request));
     json_error_t error;
     assert_non_null(a.text);
     assert_int_equal(strlen(a.text), a.length);
@@ -62,7 +63,8 @@ static inline json_t *ask(fw_live *live, live_function f, const char *request, f
     return root;
 }
 
-static inline json_t *ask_file(fw_live *live, live_function f, const char *file, const char *more) {
+static inline json_t *ask_file(fw_plan_live *live, live_function f, const char *file,
+                               const char *more) {
     char *request = request_of(file, more);
     json_t *root = ask(live, f, request, FW_OK);
     free(request);

@@ -33,7 +33,7 @@ static const char *text_of(fw_arena *arena, const char *parameters, bool wider, 
     return text;
 }
 
-static fw_plan *judged(const char *text, const fw_set *set, bool advice) {
+static fw_plan *judged(const char *text, const fw_device_set *set, bool advice) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.verdict.with_advice = advice;
@@ -47,15 +47,15 @@ static fw_plan *judged(const char *text, const fw_set *set, bool advice) {
     return plan;
 }
 
-static fw_decision decision(const char *text, const char *name, const char *value) {
-    const fw_set set = {name, value};
+static fw_verdict_decision decision(const char *text, const char *name, const char *value) {
+    const fw_device_set set = {name, value};
     fw_plan *plan = judged(text, &set, false);
-    fw_decision is = plan->verdict.decision;
+    fw_verdict_decision is = plan->verdict.decision;
     fw_plan_free(plan);
     return is;
 }
 
-static const fw_parameter_advice *of(const fw_plan *plan, const char *name) {
+static const fw_verdict_parameter_advice *of(const fw_plan *plan, const char *name) {
     for (int i = 0; i < plan->verdict.nparameter; i++)
         if (strcmp(plan->verdict.parameter[i].name, name) == 0) return &plan->verdict.parameter[i];
     fail_msg("nothing is said of %s", name);
@@ -63,7 +63,7 @@ static const fw_parameter_advice *of(const fw_plan *plan, const char *name) {
 }
 
 /* what is said accepts; with 2 % less of the change nothing does, but for the last digit */
-static void check_smallest(const char *text, const fw_parameter_advice *p, const char *unit,
+static void check_smallest(const char *text, const fw_verdict_parameter_advice *p, const char *unit,
                            double factor) {
     char value[80];
     if (p->found != FW_PARAMETER_ACCEPTS) fail_msg("%s", p->text);
@@ -102,8 +102,8 @@ static void of_random_arms(void **state) {
         const char *value = fw_arena_printf(arena, "t*many/%.2f", share);
         const char *text = text_of(arena, parameters, true, "", value);
         fw_plan *plan = judged(text, NULL, true);
-        const fw_hinge_verdict *h = &plan->verdict.hinge[0];
-        const fw_parameter_advice *t = of(plan, "t"), *s = of(plan, "many");
+        const fw_verdict_hinge_verdict *h = &plan->verdict.hinge[0];
+        const fw_verdict_parameter_advice *t = of(plan, "t"), *s = of(plan, "many");
         assert_int_equal(plan->verdict.decision, FW_REJECT);
         assert_int_equal(plan->verdict.nparameter, 4);
         check_smallest(text, t, " uN m", 1e-6);
@@ -131,7 +131,7 @@ static void not_monotonous(void **state) {
             arena, "<parameter name=\"a\" value=\"%g\" min=\"0\" max=\"6\"/>", row[i].now);
         const char *text = text_of(arena, parameters, false, "", "0.3 uN m*(a - 1)*(a - 3)");
         fw_plan *plan = judged(text, NULL, true);
-        const fw_parameter_advice *a = of(plan, "a");
+        const fw_verdict_parameter_advice *a = of(plan, "a");
         assert_int_equal(plan->verdict.decision, FW_REJECT);
         check_smallest(text, a, "", 1);
         if (!(a->to > row[i].low && a->to < row[i].high)) fail_msg("%s", a->text);
@@ -176,9 +176,9 @@ static void begins_at_what_is_set(void **state) {
     assert_int_equal(plan->verdict.decision, FW_ACCEPT);
     assert_int_equal(plan->verdict.nparameter, 0);
     fw_plan_free(plan);
-    const fw_set set = {"t", "300 uN*1 mm"};
+    const fw_device_set set = {"t", "300 uN*1 mm"};
     plan = judged(text, &set, true);
-    const fw_parameter_advice *t = of(plan, "t");
+    const fw_verdict_parameter_advice *t = of(plan, "t");
     assert_near(t->from, 3e-7, 1e-18);
     assert_near(t->low, 0.75e-7, 1e-18);
     assert_near(t->high, 4e-6, 1e-18);
@@ -189,7 +189,7 @@ static void begins_at_what_is_set(void **state) {
 }
 
 /* with what a flow makes of it: thickness too, whose range moves with it */
-static void as_made(void **state) {
+static void as_fabricated(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const char *text =
@@ -225,7 +225,7 @@ static void counts(void **state) {
         "x=\"0.3 mm\" direction=\"90 deg\" fingers=\"n\" gap=\"3 um\" overlap=\"60 um\" "
         "voltage=\"60 V\"/></scene></device>");
     fw_plan *plan = judged(text, NULL, true);
-    const fw_parameter_advice *n = of(plan, "n");
+    const fw_verdict_parameter_advice *n = of(plan, "n");
     assert_int_not_equal(plan->verdict.decision, FW_ACCEPT);
     if (n->found != FW_PARAMETER_ACCEPTS) fail_msg("%s", n->text);
     assert_near(n->to, nearbyint(n->to), 0);
@@ -241,7 +241,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_random_arms), cmocka_unit_test(not_monotonous),
         cmocka_unit_test(none_is_found),  cmocka_unit_test(begins_at_what_is_set),
-        cmocka_unit_test(as_made),        cmocka_unit_test(counts),
+        cmocka_unit_test(as_fabricated),  cmocka_unit_test(counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

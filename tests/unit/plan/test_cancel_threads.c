@@ -100,7 +100,8 @@ static void run_both(worker pair[2], double after_s) {
 
 static void one_is_cancelled_and_the_other_is_not(void **state) {
     (void)state;
-    enum { MOMENTS = 8 };
+    const char *asked = getenv("FW_CANCEL_MOMENTS");
+    const int moments = asked ? atoi(asked) : 8;
     fw_design *first = fresh(cancelled_file), *second = fresh(other_file);
     assert_non_null(first);
     assert_non_null(second);
@@ -113,11 +114,11 @@ static void one_is_cancelled_and_the_other_is_not(void **state) {
     fw_design_free(first);
     fw_design_free(second);
     int cancelled = 0;
-    for (int k = -1; k < MOMENTS; k++) {
+    for (int k = -1; k < moments; k++) {
         worker pair[2] = {{.design = fresh(cancelled_file)}, {.design = fresh(other_file)}};
         assert_non_null(pair[0].design);
         assert_non_null(pair[1].design);
-        run_both(pair, k * lasts_s / MOMENTS);
+        run_both(pair, k * lasts_s / moments);
         assert_true(same(&pair[1].out, &want));
         if (pair[0].out.status == FW_STATUS_CANCELLED) {
             cancelled++;

@@ -23,7 +23,7 @@ static fw_plan *loaded(const char *name) {
 
 /* as if the laboratory had measured it */
 static void measure(fw_plan *plan, double A) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(plan->flow[0].flow, "rie.A");
+    fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(plan->flow[0].flow, "rie.A");
     assert_non_null(q);
     q->unknown = false;
     q->value = A;
@@ -31,10 +31,11 @@ static void measure(fw_plan *plan, double A) {
     q->status = FW_MEASURED;
 }
 
-static void same_contour(const fw_contour *p, const fw_contour *q, const char *label) {
+static void same_contour(const fw_geometry_contour *p, const fw_geometry_contour *q,
+                         const char *label) {
     if (p->count != q->count) fail_msg("%s: %d and %d segments", label, p->count, q->count);
     for (int i = 0; i < p->count; i++) {
-        const fw_segment *a = &p->segment[i], *b = &q->segment[i];
+        const fw_geometry_segment *a = &p->segment[i], *b = &q->segment[i];
         double off = hypot(a->a.x - b->a.x, a->a.y - b->a.y);
         if (!(off <= 1e-12)) fail_msg("%s: corner %d off by %g m", label, i, off);
         if (a->kind == FW_ARC) assert_near(a->radius, b->radius, 1e-12);
@@ -54,8 +55,8 @@ static void check_identity(fw_plan *plan) {
                      o.outline[i].shape->piece->label);
 }
 
-static const fw_made_input *anisotropy(const fw_plan *plan) {
-    const fw_variant_verdict *v = &plan->verdict.variant[0];
+static const fw_verdict_fabrication_input *anisotropy(const fw_plan *plan) {
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
     for (int i = 0; i < v->ninput; i++)
         if (strcmp(v->input[i].name, "anisotropy") == 0) return &v->input[i];
     fail_msg("no anisotropy among the inputs");
@@ -64,9 +65,9 @@ static const fw_made_input *anisotropy(const fw_plan *plan) {
 
 static void check_agreement(fw_plan *plan) {
     const fw_plan_flow *pf = &plan->flow[0];
-    const fw_fixed_point *p = &pf->flow->edges;
-    const fw_edge e = p->cls[p->field].edge;
-    const fw_made_input *in = anisotropy(plan);
+    const fw_process_fixed_point *p = &pf->flow->edges;
+    const fw_process_edge e = p->cls[p->field].edge;
+    const fw_verdict_fabrication_input *in = anisotropy(plan);
     /* mask */
     assert_true(p->solved && pf->mask);
     assert_near(pf->mask->bias_m, p->bias_m, 0);
@@ -82,7 +83,7 @@ static void check_agreement(fw_plan *plan) {
     for (int i = 0; i < pf->flow->nstep; i++)
         if (&pf->flow->step[i] == p->cut[0].step)
             assert_relative(pf->flow->step[i].time.nominal_s *
-                                fw_flow_quantity(pf->flow, "rie.R")->value,
+                                fw_process_flow_quantity(pf->flow, "rie.R")->value,
                             p->cut[0].planned_m, 1e-13);
 }
 

@@ -40,8 +40,8 @@ static void counted_once(void **state) {
     for (int i = 0; i < 2; i++) {
         fw_plan *some = loaded(i ? quick : slow, FW_EFFECTS_AUTO, 1e-2);
         fw_plan *all = loaded(i ? quick : slow, FW_EFFECTS_ALL, 1e-5);
-        const fw_motion *a = some->verdict.variant[0].motion[0];
-        const fw_motion *b = all->verdict.variant[0].motion[0];
+        const fw_dynamics_motion *a = some->verdict.variant[0].motion[0];
+        const fw_dynamics_motion *b = all->verdict.variant[0].motion[0];
         double out = a->ledger.left_out, peak = fabs(a->peak[0].angle_rad);
         assert_int_equal(strcmp(a->method, "quasi-static") == 0, i == 0);
         assert_true(out > 0 && out < 1e-2 && b->ledger.left_out == 0);

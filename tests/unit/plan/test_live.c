@@ -4,7 +4,7 @@
 #include "live_case.h"
 #include <flexwright.h>
 
-static fw_live *live;
+static fw_plan_live *live;
 
 static int begin(void **state) {
     (void)state;
@@ -14,12 +14,12 @@ static int begin(void **state) {
 
 static int end(void **state) {
     (void)state;
-    fw_live_free(live);
+    fw_plan_live_free(live);
     return 0;
 }
 
 static json_t *preview(const char *file, const char *more) {
-    return ask_file(live, fw_live_preview, file, more);
+    return ask_file(live, fw_plan_live_preview, file, more);
 }
 
 static const json_t *at(const json_t *object, const char *key) {
@@ -293,12 +293,12 @@ static void parameters_have_unit_bounds_and_place(void **state) {
 static void set_and_edit_agree(void **state) {
     (void)state;
     json_t *by_set = preview(SIX_BAR, "\"set\":{\"arc\":\"250 deg\"}");
-    json_t *edited = ask_file(live, fw_live_edit, SIX_BAR,
+    json_t *edited = ask_file(live, fw_plan_live_edit, SIX_BAR,
                               "\"changes\":[{\"path\":\"arc\",\"value\":\"250 deg\"}]");
     assert_string_equal(text_at(edited, "status"), "ok");
     json_t *request = json_pack("{s:s}", "text", text_at(edited, "text"));
     char *dump = json_dumps(request, 0);
-    json_t *by_text = ask(live, fw_live_preview, dump, FW_OK);
+    json_t *by_text = ask(live, fw_plan_live_preview, dump, FW_OK);
     assert_true(json_equal(at(by_set, "verdict"), at(by_text, "verdict")));
     assert_true(json_equal(at(at(by_set, "motion"), "q"), at(at(by_text, "motion"), "q")));
     free(dump);
@@ -310,7 +310,7 @@ static void set_and_edit_agree(void **state) {
 static json_t *look(const char *xml, fw_status status) {
     json_t *request = json_pack("{s:s}", "text", xml);
     char *dump = json_dumps(request, 0);
-    json_t *p = ask(live, fw_live_preview, dump, status);
+    json_t *p = ask(live, fw_plan_live_preview, dump, status);
     free(dump);
     json_decref(request);
     return p;
@@ -364,7 +364,7 @@ static void what_can_be_done_is_done(void **state) {
 static void edits_that_fail_say_so(void **state) {
     (void)state;
     json_t *e =
-        ask_file(live, fw_live_edit, SIX_BAR,
+        ask_file(live, fw_plan_live_edit, SIX_BAR,
                  "\"changes\":[{\"path\":\"arc\",\"value\":\"1\"},{\"path\":\"bow\",\"value\":"
                  "\"1\"}]");
     assert_string_equal(text_at(e, "status"), "invalid");
@@ -384,7 +384,7 @@ static const json_t *named(const json_t *list, const char *name) {
 
 static void the_table_has_everything(void **state) {
     (void)state;
-    fw_live_answer a = fw_live_table(live);
+    fw_plan_live_answer a = fw_plan_live_table(live);
     assert_int_equal(a.status, FW_OK);
     json_t *t = json_loads(a.text, JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(t);
@@ -427,7 +427,7 @@ static void documents_of_the_library(void **state) {
     fw_design *design = fw_design_new(&o);
     const char *text;
     assert_int_equal(fw_design_document(design, FW_DOCUMENT_TABLE_JSON, &text, NULL), FW_STATUS_OK);
-    fw_live_answer a = fw_live_table(live);
+    fw_plan_live_answer a = fw_plan_live_table(live);
     assert_string_equal(text, a.text);
     assert_int_equal(fw_design_document(design, FW_DOCUMENT_PREVIEW_JSON, &text, NULL),
                      FW_STATUS_USAGE);

@@ -7,7 +7,7 @@
 #define TENDONS "docs/gallery/four-tendons/device.xml"
 #define COMBS   "tests/data/effects/comb.xml"
 
-static fw_live *live;
+static fw_plan_live *live;
 
 static int begin(void **state) {
     (void)state;
@@ -17,7 +17,7 @@ static int begin(void **state) {
 
 static int end(void **state) {
     (void)state;
-    fw_live_free(live);
+    fw_plan_live_free(live);
     return 0;
 }
 
@@ -38,7 +38,7 @@ static json_t *changed(const char *file, const char *from, const char *to) {
     json_object_set_new(root, "text", json_string(text));
     json_object_set_new(root, "options", json_pack("{s:f}", "accuracy", 0.1));
     char *request = json_dumps(root, 0);
-    json_t *p = ask(live, fw_live_preview, request, FW_OK);
+    json_t *p = ask(live, fw_plan_live_preview, request, FW_OK);
     free(request);
     json_decref(root);
     free(text);
@@ -47,8 +47,8 @@ static json_t *changed(const char *file, const char *from, const char *to) {
 
 static void factors_are_those_of_the_laws(void **state) {
     (void)state;
-    json_t *p =
-        ask_file(live, fw_live_preview, TENDONS, "\"options\":{\"samples\":101,\"accuracy\":0.1}");
+    json_t *p = ask_file(live, fw_plan_live_preview, TENDONS,
+                         "\"options\":{\"samples\":101,\"accuracy\":0.1}");
     const json_t *motion = at(p, "motion"), *all = at(motion, "load_factor");
     assert_int_equal(json_array_size(all), json_array_size(at(p, "loads")));
     for (size_t k = 0; k < 4; k++) {
@@ -92,7 +92,7 @@ static double path_of(const json_t *q, const json_t *eyelets) {
    cables is k = 262 N/m, c = 2e-4 N s/m, 1 um of tension as drawn; T3 is drawn in by 12 um */
 static void tensions_are_those_of_the_motion(void **state) {
     (void)state;
-    json_t *p = ask_file(live, fw_live_preview, TENDONS, "\"options\":{\"accuracy\":0.1}");
+    json_t *p = ask_file(live, fw_plan_live_preview, TENDONS, "\"options\":{\"accuracy\":0.1}");
     const json_t *motion = at(p, "motion"), *q = at(motion, "q"), *loads = at(p, "loads");
     for (size_t k = 0; k < 4; k++) {
         const json_t *eyelets = at(json_array_get(loads, k), "eyelets");
@@ -118,7 +118,7 @@ static void tensions_are_those_of_the_motion(void **state) {
 
 static void the_picture_holds_what_is_attached(void **state) {
     (void)state;
-    json_t *near = ask_file(live, fw_live_preview, TENDONS, "\"options\":{\"accuracy\":0.1}");
+    json_t *near = ask_file(live, fw_plan_live_preview, TENDONS, "\"options\":{\"accuracy\":0.1}");
     const double eyelet[4] = {-1050, -720, 4050, 3400}; /* the outermost, in um */
     for (int k = 0; k < 4; k++)
         assert_near(item(at(near, "scene_box_um"), k), eyelet[k], 1e-9);
@@ -132,7 +132,8 @@ static void the_picture_holds_what_is_attached(void **state) {
         assert_near(item(at(far, "scene_box_um"), k), eyelet[k], 1e-9);
     json_decref(near);
     json_decref(far);
-    json_t *spring = ask_file(live, fw_live_preview, "docs/gallery/leaf-four-bar/device.xml", NULL);
+    json_t *spring =
+        ask_file(live, fw_plan_live_preview, "docs/gallery/leaf-four-bar/device.xml", NULL);
     const json_t *s = json_array_get(at(spring, "springs"), 0);
     assert_near(item(at(spring, "box_um"), 3), item(at(s, "on_b_um"), 1), 1e-9);
     assert_near(real_at(s, "length_um"), 1000, 1e-9);
@@ -141,13 +142,13 @@ static void the_picture_holds_what_is_attached(void **state) {
 
 static void electrodes_say_what_they_are(void **state) {
     (void)state;
-    json_t *stage = ask_file(live, fw_live_preview, "docs/gallery/comb-stage/device.xml",
+    json_t *stage = ask_file(live, fw_plan_live_preview, "docs/gallery/comb-stage/device.xml",
                              "\"options\":{\"accuracy\":0.1}");
     assert_int_equal(json_array_size(at(stage, "loads")), 2);
     for (size_t i = 0; i < 2; i++)
         assert_true(json_is_true(at(json_array_get(at(stage, "loads"), i), "drawn")));
     json_decref(stage);
-    json_t *p = ask_file(live, fw_live_preview, COMBS,
+    json_t *p = ask_file(live, fw_plan_live_preview, COMBS,
                          "\"options\":{\"scene\":\"oscillate\",\"accuracy\":0.1}");
     const json_t *comb = json_array_get(at(p, "loads"), 0);
     assert_true(json_is_false(at(comb, "drawn")));
@@ -160,7 +161,7 @@ static void electrodes_say_what_they_are(void **state) {
     for (int i = 0; i < 401; i++)
         assert_near(item(sine, i), sin(2 * acos(-1.0) * 300 * 20e-3 * i / 400), 2e-5);
     json_decref(p);
-    p = ask_file(live, fw_live_preview, COMBS,
+    p = ask_file(live, fw_plan_live_preview, COMBS,
                  "\"options\":{\"scene\":\"pull-back\",\"accuracy\":0.1}");
     comb = json_array_get(at(p, "loads"), 0);
     assert_string_equal(text_at(comb, "electrodes"), "plate");

@@ -41,7 +41,7 @@ static size_t mutate(char *s, size_t n) {
     }
 }
 
-static void is_an_answer(fw_live_answer a) {
+static void is_an_answer(fw_plan_live_answer a) {
     json_t *root = json_loadb(a.text, a.length, JSON_REJECT_DUPLICATES, NULL);
     if (!root) fail_msg("no JSON: %.400s", a.text);
     bool error = json_object_get(root, "error") != NULL;
@@ -51,7 +51,7 @@ static void is_an_answer(fw_live_answer a) {
 }
 
 static void mutated_requests(const char *request, live_function f, int count) {
-    fw_live *live = live_new();
+    fw_plan_live *live = live_new();
     char *s = malloc(ROOM + 1);
     size_t whole = strlen(request);
     assert_true(s && whole < ROOM);
@@ -72,7 +72,7 @@ static void mutated_requests(const char *request, live_function f, int count) {
     assert_true(json_equal(before, after));
     json_decref(before), json_decref(after);
     free(s);
-    fw_live_free(live);
+    fw_plan_live_free(live);
 }
 
 #define SMALL "tests/data/effect-costs/free.xml"
@@ -81,7 +81,7 @@ static void previews(void **state) {
     (void)state;
     char *r =
         request_of(SMALL, "\"set\":{},\"options\":{\"samples\":5,\"scene\":null,\"rtol\":1e-6}");
-    mutated_requests(r, fw_live_preview, 300);
+    mutated_requests(r, fw_plan_live_preview, 300);
     free(r);
 }
 
@@ -89,7 +89,7 @@ static void poses(void **state) {
     (void)state;
     char *r =
         request_of(SMALL, "\"platform\":{\"x_m\":1e-4,\"y_m\":0,\"phi_rad\":0.1},\"q\":[1,2,3]");
-    mutated_requests(r, fw_live_pose, 300);
+    mutated_requests(r, fw_plan_live_pose, 300);
     free(r);
 }
 
@@ -99,7 +99,7 @@ static void edits(void **state) {
         SIX_BAR, "\"changes\":[{\"path\":\"scene[step-load]/force[1]/@fx\",\"value\":\"1 N\"},"
                  "{\"add\":\"flexure[A]\",\"element\":\"line\",\"attributes\":{\"length\":\"1 "
                  "um\"}},{\"remove\":\"workspace[1]\"},{\"path\":\"die/@title\",\"value\":null}]");
-    mutated_requests(r, fw_live_edit, 300);
+    mutated_requests(r, fw_plan_live_edit, 300);
     free(r);
 }
 
@@ -107,17 +107,17 @@ static void edits(void **state) {
 static void deep_and_large(void **state) {
     (void)state;
     enum { MANY = 200000 };
-    fw_live *live = live_new();
+    fw_plan_live *live = live_new();
     char *s = malloc(MANY + 1);
     assert_non_null(s);
     memset(s, '[', MANY);
-    is_an_answer(fw_live_preview(live, s, MANY));
+    is_an_answer(fw_plan_live_preview(live, s, MANY));
     memset(s, ' ', MANY);
-    is_an_answer(fw_live_edit(live, s, MANY));
-    is_an_answer(fw_live_pose(live, s, (size_t)1 << 40)); /* not one byte of it is looked at */
-    is_an_answer(fw_live_preview(live, NULL, 0));
+    is_an_answer(fw_plan_live_edit(live, s, MANY));
+    is_an_answer(fw_plan_live_pose(live, s, (size_t)1 << 40)); /* not one byte of it is looked at */
+    is_an_answer(fw_plan_live_preview(live, NULL, 0));
     free(s);
-    fw_live_free(live);
+    fw_plan_live_free(live);
 }
 
 /* a limit on memory is an error object, and the next request is answered */
@@ -125,15 +125,15 @@ static void memory_that_is_short(void **state) {
     (void)state;
     char *r = request_of(SIX_BAR, NULL);
     for (size_t cap = 1 << 16; cap < (size_t)1 << 26; cap *= 2) {
-        fw_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR, .memory_cap = cap};
-        fw_live *live = fw_live_new(&settings);
+        fw_plan_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR, .memory_cap = cap};
+        fw_plan_live *live = fw_plan_live_new(&settings);
         assert_non_null(live);
-        is_an_answer(fw_live_preview(live, r, strlen(r)));
-        is_an_answer(fw_live_table(live));
-        fw_live_free(live);
+        is_an_answer(fw_plan_live_preview(live, r, strlen(r)));
+        is_an_answer(fw_plan_live_table(live));
+        fw_plan_live_free(live);
     }
     free(r);
-    fw_live_free(NULL);
+    fw_plan_live_free(NULL);
 }
 
 /* whichever allocation fails, alone or with all behind it: an error object or a whole answer */
@@ -143,27 +143,29 @@ static void any_allocation_may_fail(void **state) {
         "\"options\":{\"samples\":3}", "\"platform\":{\"x_m\":1e-5}",
         ("\"changes\":[{\"path\":\"device/"
          "@name\",\"value\":\"x\"},{\"add\":\"\",\"element\":\"flow\"}]")};
-    static const live_function function[] = {fw_live_preview, fw_live_pose, fw_live_edit};
+    static const live_function function[] = {fw_plan_live_preview, fw_plan_live_pose,
+                                             fw_plan_live_edit};
     for (int k = 0; k < 3; k++) {
         char *r = request_of(SMALL, more[k]);
         long before = fw_arena_count();
-        fw_live *live = live_new();
+        fw_plan_live *live = live_new();
         is_an_answer(function[k](live, r, strlen(r)));
         long all = fw_arena_count() - before, failed = 0;
-        fw_live_free(live);
+        fw_plan_live_free(live);
         assert_true(all > 20);
         for (long n = 1; n <= all; n += 1 + all / 60)
             for (int ever_after = 0; ever_after < 2; ever_after++) {
                 fw_arena_fail_at(n, ever_after);
-                live = fw_live_new(&(fw_live_settings){.data_directory = FW_TEST_SOURCE_DIR});
+                live = fw_plan_live_new(
+                    &(fw_plan_live_settings){.data_directory = FW_TEST_SOURCE_DIR});
                 if (live) {
-                    fw_live_answer a = function[k](live, r, strlen(r));
+                    fw_plan_live_answer a = function[k](live, r, strlen(r));
                     is_an_answer(a);
                     failed += a.status == FW_NOMEM;
                 }
                 fw_arena_fail_at(0, 0);
                 if (live) is_an_answer(function[k](live, r, strlen(r)));
-                fw_live_free(live);
+                fw_plan_live_free(live);
             }
         assert_true(failed > 20);
         free(r);
@@ -180,7 +182,7 @@ typedef struct wrong {
     const char *request, *says;
 } wrong;
 
-static void refused(fw_live *live, live_function f, const wrong *row, size_t n) {
+static void refused(fw_plan_live *live, live_function f, const wrong *row, size_t n) {
     for (size_t i = 0; i < n; i++) {
         json_t *e = ask(live, f, row[i].request, FW_USAGE), *o = json_object_get(e, "error");
         assert_string_equal(text_at(o, "code"), "FW-D289");
@@ -192,7 +194,7 @@ static void refused(fw_live *live, live_function f, const wrong *row, size_t n) 
 
 static void wrong_requests_are_said(void **state) {
     (void)state;
-    fw_live *live = live_new();
+    fw_plan_live *live = live_new();
     static const wrong preview[] = {{"", "no JSON object"},
                                     {"[", "no JSON object"},
                                     {"[]", "no JSON object"},
@@ -230,13 +232,13 @@ static void wrong_requests_are_said(void **state) {
                                  {DRAG "3}", "\"platform\""},
                                  {DRAG "{\"x_m\":\"1\"}}", "\"x_m\""},
                                  {DRAG "{\"x_m\":1e300}}", "too far"}};
-    refused(live, fw_live_preview, preview, sizeof preview / sizeof preview[0]);
-    refused(live, fw_live_edit, edit, sizeof edit / sizeof edit[0]);
-    refused(live, fw_live_pose, pose, sizeof pose / sizeof pose[0]);
-    json_t *invalid = ask(live, fw_live_pose, DRAG "{}}", FW_OK);
+    refused(live, fw_plan_live_preview, preview, sizeof preview / sizeof preview[0]);
+    refused(live, fw_plan_live_edit, edit, sizeof edit / sizeof edit[0]);
+    refused(live, fw_plan_live_pose, pose, sizeof pose / sizeof pose[0]);
+    json_t *invalid = ask(live, fw_plan_live_pose, DRAG "{}}", FW_OK);
     assert_string_equal(text_at(invalid, "status"), "invalid");
     json_decref(invalid);
-    fw_live_free(live);
+    fw_plan_live_free(live);
 }
 
 int main(void) {

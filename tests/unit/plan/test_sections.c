@@ -2,7 +2,7 @@
 /* The cut of whole devices: what the section measures is what mask and certificate say. */
 #include "mask/outlines.h"
 #include "plan/plan.h"
-#include "recipe/profile.h"
+#include "recipe/recipe_profile.h"
 #include "test.h"
 
 static fw_plan *loaded(const char *name, const char *flow, const char *cut) {
@@ -26,7 +26,7 @@ static fw_status fabricated(fw_plan *plan) {
 }
 
 static void measure(fw_plan *plan, const char *id, double value) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(plan->flow[0].flow, id);
+    fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(plan->flow[0].flow, id);
     assert_non_null(q);
     q->unknown = false;
     q->value = value;
@@ -34,8 +34,8 @@ static void measure(fw_plan *plan, const char *id, double value) {
     q->status = FW_MEASURED;
 }
 
-static const fw_section_opening *narrowest(const fw_section_plan *p) {
-    const fw_section_opening *best = NULL;
+static const fw_recipe_section_opening *narrowest(const fw_recipe_section_plan *p) {
+    const fw_recipe_section_opening *best = NULL;
     for (int i = 0; i < p->nopening; i++)
         if (!best || p->opening[i].drawn_m < best->drawn_m) best = &p->opening[i];
     assert_non_null(best);
@@ -49,10 +49,10 @@ static double fabricated_space(fw_plan *plan) {
     assert_int_equal(fw_mask_outlines_of(plan->arena, plan->flow[0].mask, &o), FW_OK);
     for (int i = 0; i < o.n; i++)
         for (int k = 0; k < i; k++) {
-            const fw_contour *p = &o.outline[i].top, *q = &o.outline[k].top;
+            const fw_geometry_contour *p = &o.outline[i].top, *q = &o.outline[k].top;
             if (p->count == 0 || q->count == 0) continue;
-            fw_vec2 a, b;
-            double d = fw_contour_distance(p, q, &a, &b);
+            fw_geometry_vec2 a, b;
+            double d = fw_geometry_contour_distance(p, q, &a, &b);
             if (d > 1e-9) least = fmin(least, d); /* pieces that hang together touch */
         }
     return least;
@@ -64,12 +64,12 @@ static void check_gap(const char *name, const char *flow, bool known) {
     assert_int_equal(fabricated(plan), FW_OK);
     const fw_plan_flow *pf = &plan->flow[0];
     if (!pf->mask || !pf->cut) fail_msg("%s: %s", name, pf->mask_error);
-    fw_slicer slicer;
-    fw_section_plan p;
-    assert_int_equal(fw_slicer_start(plan->arena, pf->mask, pf->cut, &slicer), FW_OK);
-    assert_int_equal(fw_section_plan_of(&slicer, pf->flow, &p), FW_OK);
-    const fw_section_opening *gap = narrowest(&p);
-    const fw_edge_class *c = &pf->flow->edges.cls[0];
+    fw_recipe_slicer slicer;
+    fw_recipe_section_plan p;
+    assert_int_equal(fw_recipe_slicer_start(plan->arena, pf->mask, pf->cut, &slicer), FW_OK);
+    assert_int_equal(fw_recipe_section_plan_of(&slicer, pf->flow, &p), FW_OK);
+    const fw_recipe_section_opening *gap = narrowest(&p);
+    const fw_process_edge_class *c = &pf->flow->edges.cls[0];
     /* the gap as drawn, as the mask's rules measure it, as fabricated */
     assert_near(gap->drawn_m, c->drawn_m, 1e-11);
     assert_near(gap->mask_m, pf->mask->measure[0].space_m, 1e-11);

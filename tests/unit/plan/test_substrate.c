@@ -64,7 +64,7 @@ static void of_the_flow(void **state) {
         fw_plan *plan = loaded(row[i].flow, row[i].temperature);
         const fw_statics *s;
         const fw_mechanism *m;
-        const fw_scene *scene;
+        const fw_device_scene *scene;
         if (fw_plan_statics(plan, &s, &m, &scene) != FW_OK)
             fail_msg("%s", plan->diags.item[0].message);
         double strain = (1 + 100 * row[i].substrate_per_K) / (1 + 100 * row[i].layer_per_K) - 1;

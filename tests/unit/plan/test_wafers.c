@@ -7,7 +7,7 @@
 
 #define WAFER "tests/data/wafer/leaf-wafer.xml"
 
-static fw_plan *planned(const fw_set *set, int nset, bool force, int dies) {
+static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.set = set;
@@ -47,7 +47,7 @@ static const fw_diag *said(const fw_plan *plan, int number) {
 static bool same_polygons(const fw_mask *a, const fw_mask *b) {
     if (a->nshape != b->nshape) return false;
     for (int i = 0; i < a->nshape; i++) {
-        const fw_polygon *p = &a->shape[i].polygon, *q = &b->shape[i].polygon;
+        const fw_geometry_polygon *p = &a->shape[i].polygon, *q = &b->shape[i].polygon;
         if (p->count != q->count || a->shape[i].layer != b->shape[i].layer) return false;
         for (int k = 0; k < p->count; k++)
             if (p->vertex[k].x_dbu != q->vertex[k].x_dbu ||
@@ -66,12 +66,12 @@ static void steps_are_what_set_makes(void **state) {
     static const char *const value[] = {NULL, "7 um", NULL, "15 um"};
     for (int v = 0; v < 4; v++) {
         if (!value[v]) continue;
-        fw_set set = {"width", value[v]};
+        fw_device_set set = {"width", value[v]};
         fw_plan *alone = planned(&set, 1, false, 1);
         assert_null(alone->flow[0].wafer);
         assert_true(same_polygons(alone->flow[0].mask, w->variant[v].mask));
         assert_string_equal(w->variant[v].decision,
-                            fw_decision_text(alone->verdict.variant[0].decision));
+                            fw_verdict_decision_text(alone->verdict.variant[0].decision));
         double most = 0;
         for (int k = 0; k < alone->verdict.variant[0].nhinge; k++)
             most = fmax(most, alone->verdict.variant[0].hinge[k].utilisation);
@@ -104,7 +104,7 @@ static void rejected_steps(void **state) {
 /* a value that the description does not allow is no reason to stop */
 static void refused_steps(void **state) {
     (void)state;
-    fw_set set = {"sweep/@from", "2 um"};
+    fw_device_set set = {"sweep/@from", "2 um"};
     fw_plan *plan = planned(&set, 1, false, 0);
     const fw_wafer *w = plan->flow[0].wafer;
     assert_null(w->variant[0].mask);
@@ -118,7 +118,7 @@ static void refused_steps(void **state) {
     fw_plan_free(plan);
 }
 
-static const fw_quantity *quantity(const fw_flow *flow, const char *id) {
+static const fw_quantity *quantity(const fw_process_flow *flow, const char *id) {
     for (int i = 0; i < flow->nquantity; i++)
         if (flow->quantity[i]->id && strcmp(flow->quantity[i]->id, id) == 0)
             return flow->quantity[i];

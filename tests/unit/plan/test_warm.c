@@ -40,7 +40,7 @@ static const char full[] = "fx=\"30 uN\" fy=\"-20 uN\"",
 static const fw_statics *rest_of(fw_plan *plan) {
     const fw_statics *s;
     const fw_mechanism *m;
-    const fw_scene *scene;
+    const fw_device_scene *scene;
     if (fw_plan_statics(plan, &s, &m, &scene) != FW_OK) fail_msg("%s", plan->diags.item[0].message);
     return s;
 }
@@ -66,10 +66,10 @@ static void equilibrium(void **state) {
 static void frequencies(void **state) {
     (void)state;
     fw_plan *plan[2] = {loaded(full, "", 2), loaded(full, warm, 2)};
-    const fw_modes *modes[2];
+    const fw_statics_modes *modes[2];
     for (int i = 0; i < 2; i++) {
         const fw_mechanism *m;
-        const fw_scene *scene;
+        const fw_device_scene *scene;
         assert_int_equal(fw_plan_modes(plan[i], &modes[i], &m, &scene), FW_OK);
         assert_int_equal(modes[i]->count, 3);
     }
@@ -79,10 +79,10 @@ static void frequencies(void **state) {
     fw_plan_free(plan[0]), fw_plan_free(plan[1]);
 }
 
-static const fw_motion *motion_of(fw_plan *plan) {
-    const fw_motion *motion;
+static const fw_dynamics_motion *motion_of(fw_plan *plan) {
+    const fw_dynamics_motion *motion;
     const fw_mechanism *m;
-    const fw_scene *scene;
+    const fw_device_scene *scene;
     if (fw_plan_simulate(plan, &motion, &m, &scene) != FW_OK)
         fail_msg("%s", plan->diags.item[0].message);
     return motion;
@@ -94,7 +94,8 @@ static void motions(void **state) {
     (void)state;
     fw_plan *plan[3] = {loaded(full, "", 1), loaded(six_tenths, warm, 1 / sqrt(0.6)),
                         loaded(full, ramped, 4)};
-    const fw_motion *a = motion_of(plan[0]), *b = motion_of(plan[1]), *c = motion_of(plan[2]);
+    const fw_dynamics_motion *a = motion_of(plan[0]), *b = motion_of(plan[1]),
+                             *c = motion_of(plan[2]);
     assert_relative(b->peak[0].angle_rad, a->peak[0].angle_rad, 1e-7);
     assert_true(c->stats.energy_error < 1e-7);
     assert_true(fabs(c->peak[0].angle_rad) > 1.1 * fabs(a->peak[0].angle_rad));

@@ -32,19 +32,20 @@ static inline const char *replaced(fw_arena *arena, const char *text, const char
     return out;
 }
 
-static inline fw_flow *read_pack(fw_arena *arena, const char *name, const char *from,
-                                 const char *to, fw_diags *diags) {
+static inline fw_process_flow *read_pack(fw_arena *arena, const char *name, const char *from,
+                                         const char *to, fw_diags *diags) {
     size_t nb = 0, n = 0;
-    fw_flow *flow = NULL;
+    fw_process_flow *flow = NULL;
     const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, name, &n);
     text = replaced(arena, text, from, to, &n);
-    fw_status status = fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, diags, &flow);
+    fw_status status =
+        fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, diags, &flow);
     assert_true((status == FW_OK) == (flow != NULL));
     assert_true(status == FW_OK || status == FW_INPUT);
     return flow;
 }
 
-static inline fw_step *step_of(fw_flow *flow, const char *id) {
+static inline fw_process_step *step_of(fw_process_flow *flow, const char *id) {
     for (int i = 0; i < flow->nstep; i++)
         if (strcmp(flow->step[i].id, id) == 0) return &flow->step[i];
     fail_msg("no step %s", id);
@@ -52,8 +53,9 @@ static inline fw_step *step_of(fw_flow *flow, const char *id) {
 }
 
 /* as a laboratory would state it */
-static inline void measured(fw_flow *flow, const char *id, double value, double uncertainty) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(flow, id);
+static inline void measured(fw_process_flow *flow, const char *id, double value,
+                            double uncertainty) {
+    fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(flow, id);
     assert_non_null(q);
     q->unknown = false;
     q->value = value;
@@ -62,12 +64,12 @@ static inline void measured(fw_flow *flow, const char *id, double value, double 
 }
 
 /* a 3 mm device on a 5.6 by 5 mm die, 30 times */
-static const fw_mask_facts plain_facts = {.structure_area_m2 = 5e-6,
-                                          .die_area_m2 = 28e-6,
-                                          .perimeter_m = 0.08,
-                                          .narrowest_slot_m = 10e-6,
-                                          .narrowest_line_m = 10e-6,
-                                          .deepest_hinge_width_m = 10e-6,
-                                          .dies = 30};
+static const fw_process_mask_facts plain_facts = {.structure_area_m2 = 5e-6,
+                                                  .die_area_m2 = 28e-6,
+                                                  .perimeter_m = 0.08,
+                                                  .narrowest_slot_m = 10e-6,
+                                                  .narrowest_line_m = 10e-6,
+                                                  .deepest_hinge_width_m = 10e-6,
+                                                  .dies = 30};
 
 #endif

@@ -4,12 +4,12 @@
    is found is written as a pack, and the pack changes times and bias. */
 #include "packs.h"
 #include "process/calibrate.h"
-#include "process/law.h"
+#include "process/process_law.h"
 #include <stdlib.h>
 
 static fw_arena *arena;
 static fw_diags diags;
-static fw_flow *copper, *silicon;
+static fw_process_flow *copper, *silicon;
 
 static int setup(void **state) {
     (void)state;
@@ -40,17 +40,17 @@ static double between(double low, double high) {
 
 /* ---- rows ---- */
 
-static fw_measurement rows[20];
+static fw_process_measurement rows[20];
 static int nrow;
 
-static void put(const char *coupon, const char *feature, double drawn_um, fw_dimension d,
-                double value, double u, fw_dimension at_d, double at, double u_at) {
-    rows[nrow++] =
-        (fw_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d, at_d, {0}};
+static void put(const char *coupon, const char *feature, double drawn_um, fw_quantity_dimension d,
+                double value, double u, fw_quantity_dimension at_d, double at, double u_at) {
+    rows[nrow++] = (fw_process_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d,
+                                            at_d,   {0}};
 }
 
-#define LENGTH (fw_dimension) FW_DIM_LENGTH
-#define TIME   (fw_dimension) FW_DIM_TIME
+#define LENGTH (fw_quantity_dimension) FW_DIM_LENGTH
+#define TIME   (fw_quantity_dimension) FW_DIM_TIME
 
 typedef struct truth { /* of one case */
     const char *id;
@@ -61,7 +61,7 @@ static double slot_depth(double w, double t, double R, double S) { /* bisection 
     double low = 0.0, high = R * t;
     for (int i = 0; i < 80; i++) {
         double d = 0.5 * (low + high);
-        if ((d + S * fw_arde_integral(w, d, false)) / R < t)
+        if ((d + S * fw_process_arde_integral(w, d, false)) / R < t)
             low = d;
         else
             high = d;
@@ -127,8 +127,8 @@ static void mass(truth *t) {
     double eta = between(0.93, 0.99);
     for (int i = 0; i < 4; i++) {
         double Q = 200.0 + 60.0 * i, m = eta * 63.546e-3 * Q / (2.0 * 96485.33212), u = 0.2e-6;
-        put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, m + u * gauss(), u,
-            (fw_dimension)FW_DIM_CHARGE, Q + 1.0 * gauss(), 1.0);
+        put("plating-mass", "", 0, (fw_quantity_dimension)FW_DIM_MASS, m + u * gauss(), u,
+            (fw_quantity_dimension)FW_DIM_CHARGE, Q + 1.0 * gauss(), 1.0);
     }
     t[0] = (truth){"cu.eta", eta};
 }
@@ -141,7 +141,7 @@ static void pads(truth *t) {
         double d = eta * 63.546e-3 * q / (2.0 * 96485.33212 * 8960.0), u = 0.08e-6;
         d *= width[i] <= 30 ? f : 1.0;
         put("plating-pads", "", width[i], LENGTH, d + u * gauss(), u,
-            (fw_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0), measured_q, u_q);
+            (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0), measured_q, u_q);
     }
     t[0] = (truth){"cu.eta", eta};
     t[1] = (truth){"made.cu", 9e-6 * f};
@@ -151,14 +151,14 @@ static void spin(truth *t) {
     double a = between(0.4, 0.7), d0 = between(1.2, 8) * 1e-6, rpm = 2.0 * acos(-1.0) / 60.0;
     for (int i = 0; i < 5; i++) {
         double w = (2000.0 + 800.0 * i) * rpm, d = d0 * pow(4000.0 * rpm / w, a), u = 0.01 * d;
-        put("spin", "", 0, LENGTH, d + u * gauss(), u, (fw_dimension)FW_DIM_ROTATION,
+        put("spin", "", 0, LENGTH, d + u * gauss(), u, (fw_quantity_dimension)FW_DIM_ROTATION,
             w + 20.0 * rpm * gauss(), 20.0 * rpm);
     }
     t[0] = (truth){"resist.d0", d0};
     t[1] = (truth){"resist.a", a};
 }
 
-static const fw_calibrated *found(const fw_calibration *c, const char *id) {
+static const fw_process_calibrated *found(const fw_process_calibration *c, const char *id) {
     for (int i = 0; i < c->count; i++)
         if (strcmp(c->item[i].id, id) == 0) return &c->item[i];
     fail_msg("nothing for %s", id);
@@ -179,16 +179,16 @@ static void coverage(void **state) {
         double sum[2] = {0, 0};
         for (int i = 0; i < cases; i++) {
             truth t[2] = {{0}};
-            fw_calibration c;
+            fw_process_calibration c;
             fw_mark mark = fw_arena_mark(arena);
             fw_diags said = fw_diags_new(arena);
             nrow = 0;
             kind[k].make(t);
-            fw_status status =
-                fw_calibrate(arena, kind[k].silicon ? silicon : copper, rows, nrow, &said, &c);
+            fw_status status = fw_process_calibrate(arena, kind[k].silicon ? silicon : copper, rows,
+                                                    nrow, &said, &c);
             refused += status != FW_OK;
             for (int j = 0; status == FW_OK && j < kind[k].n; j++) {
-                const fw_calibrated *got = found(&c, t[j].id);
+                const fw_process_calibrated *got = found(&c, t[j].id);
                 double off = (got->value - t[j].value) / got->uncertainty;
                 inside[j] += fabs(off) <= 2.0;
                 sum[j] += off;
@@ -208,14 +208,14 @@ static void coverage(void **state) {
 /* the example of docs/theory/process.md: 45.0 um in 10 um, 48.5 um in 100 um after 90 min */
 static void two_slots(void **state) {
     (void)state;
-    fw_calibration c;
+    fw_process_calibration c;
     nrow = 0;
     put("arde-slots", "", 10, LENGTH, 45.0e-6, 0.1e-6, TIME, 5400.0, 0.0);
     put("arde-slots", "", 100, LENGTH, 48.5e-6, 0.1e-6, TIME, 5400.0, 0.0);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
     /* there J was taken at 50 um; here at the depths measured, which the law asks for */
-    double J1 = fw_arde_integral(10e-6, 45e-6, false),
-           J2 = fw_arde_integral(100e-6, 48.5e-6, false);
+    double J1 = fw_process_arde_integral(10e-6, 45e-6, false),
+           J2 = fw_process_arde_integral(100e-6, 48.5e-6, false);
     double S = 3.5e-6 / (J1 - J2);
     assert_relative(found(&c, "rie.S")->value, S, 1e-9);
     assert_relative(found(&c, "rie.R")->value, (45e-6 + S * J1) / 5400.0, 1e-9);
@@ -225,18 +225,18 @@ static void two_slots(void **state) {
 /* gone and standing lines: 7.0 gone, 7.5 stands; 1.1 um lost in the aluminium */
 static void survivors(void **state) {
     (void)state;
-    fw_calibration c;
+    fw_process_calibration c;
     nrow = 0;
     put("undercut-ladder", "gone", 6.5, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
     put("undercut-ladder", "gone", 7.0, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
     put("undercut-ladder", "stands", 7.5, LENGTH, 0, 1, LENGTH, 50e-6, 0.0);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
     double u = 0.5 * 7.25e-6 - 1.1e-6;
     assert_relative(found(&c, "rie.A")->value, 1.0 - u / 50e-6, 1e-9);
     assert_relative(found(&c, "rie.A")->uncertainty, hypot(0.25e-6 / sqrt(12.0), 0.11e-6) / 50e-6,
                     1e-9);
     rows[2].drawn_m = 6.9e-6;
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
 }
 
 static int last_number(const fw_diags *d) {
@@ -245,39 +245,39 @@ static int last_number(const fw_diags *d) {
 
 static void contradictions(void **state) {
     (void)state;
-    fw_calibration c;
+    fw_process_calibration c;
     truth t[2];
     nrow = 0;
     spin(t);
     rows[2].value *= 1.2; /* twenty standard uncertainties */
-    assert_int_equal(fw_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(fw_process_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
     assert_int_equal(last_number(&diags), 212);
     nrow = 0;
     for (int i = 0; i < 2; i++) /* two coupons, two rates */
         put("etch-rate", "rie.R", 0, LENGTH, 50e-6, 0.5e-6, TIME, 5400.0, 1.0);
     put("arde-slots", "", 10, LENGTH, 30e-6, 0.1e-6, TIME, 5400.0, 0.0);
     put("arde-slots", "", 100, LENGTH, 35e-6, 0.1e-6, TIME, 5400.0, 0.0);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
     assert_int_equal(last_number(&diags), 212);
     nrow = 0; /* narrow slots deeper */
     put("arde-slots", "", 10, LENGTH, 45e-6, 0.1e-6, TIME, 5400.0, 0.0);
     put("arde-slots", "", 100, LENGTH, 40e-6, 0.1e-6, TIME, 5400.0, 0.0);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
     assert_int_equal(last_number(&diags), 211);
     nrow = 0; /* more copper than charge */
-    put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, 1e-3, 1e-6, (fw_dimension)FW_DIM_CHARGE,
-        250, 1);
-    assert_int_equal(fw_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
+    put("plating-mass", "", 0, (fw_quantity_dimension)FW_DIM_MASS, 1e-3, 1e-6,
+        (fw_quantity_dimension)FW_DIM_CHARGE, 250, 1);
+    assert_int_equal(fw_process_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
     nrow = 0; /* a coupon that the flow has no number for */
-    put("plating-mass", "", 0, (fw_dimension)FW_DIM_MASS, 1e-4, 1e-6, (fw_dimension)FW_DIM_CHARGE,
-        500, 1);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    put("plating-mass", "", 0, (fw_quantity_dimension)FW_DIM_MASS, 1e-4, 1e-6,
+        (fw_quantity_dimension)FW_DIM_CHARGE, 500, 1);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
     /* two rates that agree become one */
     nrow = 0;
     put("etch-rate", "rie.R", 0, LENGTH, 50.5e-6, 0.5e-6, TIME, 5400.0, 0.0);
     put("arde-slots", "", 10, LENGTH, 45e-6, 0.1e-6, TIME, 5400.0, 0.0);
     put("arde-slots", "", 100, LENGTH, 48.5e-6, 0.1e-6, TIME, 5400.0, 0.0);
-    assert_int_equal(fw_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_OK);
     assert_int_equal(c.count, 2);
     assert_int_equal(found(&c, "rie.R")->rows, 3);
     assert_int_equal(found(&c, "rie.R")->freedom, 1);
@@ -297,25 +297,27 @@ static const char good[] = "\xef\xbb\xbf# lot 7, wafer 3\r\n"
 
 static void round_trip(void **state) {
     (void)state;
-    fw_measurement *row;
-    fw_calibration c;
+    fw_process_measurement *row;
+    fw_process_calibration c;
     int n;
     fw_text pack = fw_text_new(arena), text = fw_text_new(arena);
     assert_int_equal(
-        fw_measurements_read(arena, "lot7.csv", good, sizeof good - 1, &diags, &row, &n), FW_OK);
+        fw_process_measurements_read(arena, "lot7.csv", good, sizeof good - 1, &diags, &row, &n),
+        FW_OK);
     assert_int_equal(n, 7);
     assert_relative(row[0].at, 5400.0, 1e-14);
-    assert_int_equal(fw_calibrate(arena, silicon, row, n, &diags, &c), FW_OK);
-    assert_int_equal(fw_calibration_pack(silicon, &c, "lot7.csv", "0123456789abcdef", &pack),
-                     FW_OK);
-    assert_int_equal(fw_calibration_text(silicon, &c, &text), FW_OK);
+    assert_int_equal(fw_process_calibrate(arena, silicon, row, n, &diags, &c), FW_OK);
+    assert_int_equal(
+        fw_process_calibration_pack(silicon, &c, "lot7.csv", "0123456789abcdef", &pack), FW_OK);
+    assert_int_equal(fw_process_calibration_text(silicon, &c, &text), FW_OK);
     assert_non_null(strstr(text.data, "was unknown"));
-    fw_flow *before = read_pack(arena, SILICON, NULL, NULL, &diags);
-    fw_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
-    assert_int_equal(fw_lab_apply(arena, "lab.xml", pack.data, pack.length, after, &diags), FW_OK);
+    fw_process_flow *before = read_pack(arena, SILICON, NULL, NULL, &diags);
+    fw_process_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", pack.data, pack.length, after, &diags),
+                     FW_OK);
     assert_int_equal(after->noverride, c.count);
     for (int i = 0; i < c.count; i++) {
-        const fw_quantity *q = fw_flow_quantity(after, c.item[i].id);
+        const fw_quantity *q = fw_process_flow_quantity(after, c.item[i].id);
         assert_false(q->unknown);
         assert_int_equal(q->status, FW_MEASURED);
         assert_near(q->value, c.item[i].value, 1e-8 * fabs(c.item[i].value) + 1e-15);
@@ -323,16 +325,17 @@ static void round_trip(void **state) {
         assert_non_null(strstr(q->source, "lot7.csv"));
     }
     /* times and bias follow: S14 at the measured rate, the mask adds the undercut of the plasma */
-    assert_int_equal(fw_flow_compute(arena, before, &plain_facts, &diags), FW_OK);
-    assert_int_equal(fw_flow_compute(arena, after, &plain_facts, &diags), FW_OK);
-    double R = fw_flow_quantity(after, "pan.R")->value;
+    assert_int_equal(fw_process_flow_compute(arena, before, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, after, &plain_facts, &diags), FW_OK);
+    double R = fw_process_flow_quantity(after, "pan.R")->value;
     assert_relative(step_of(after, "S14")->time.nominal_s, 1e-6 / R, 1e-9);
     assert_near(step_of(before, "S14")->time.nominal_s, 1000.0, 1e-9);
-    double A = fw_flow_quantity(after, "rie.A")->value;
+    double A = fw_process_flow_quantity(after, "rie.A")->value;
     assert_true(A < 0.99 && after->bias_m > before->bias_m + (1.0 - A) * 25e-6);
     /* a pack for another flow changes nothing */
-    fw_flow *other = read_pack(arena, COPPER, NULL, NULL, &diags);
-    assert_int_equal(fw_lab_apply(arena, "lab.xml", pack.data, pack.length, other, &diags), FW_OK);
+    fw_process_flow *other = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", pack.data, pack.length, other, &diags),
+                     FW_OK);
     assert_int_equal(other->noverride, 0);
 }
 
@@ -356,13 +359,13 @@ static void wrong_tables(void **state) {
         "coupon,feature,measured,u,unit,at,u_at,at_unit\netch-rate,no.R,1,0.1,um,90,1,min\n",
         "coupon,feature,drawn_um,measured,u,unit\ncd-lines,dot,10,9,0.1,um\n"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        fw_measurement *row;
-        fw_calibration c;
+        fw_process_measurement *row;
+        fw_process_calibration c;
         int n;
         fw_diags said = fw_diags_new(arena);
         fw_status status =
-            fw_measurements_read(arena, "t.csv", bad[i], strlen(bad[i]), &said, &row, &n);
-        if (status == FW_OK) status = fw_calibrate(arena, silicon, row, n, &said, &c);
+            fw_process_measurements_read(arena, "t.csv", bad[i], strlen(bad[i]), &said, &row, &n);
+        if (status == FW_OK) status = fw_process_calibrate(arena, silicon, row, n, &said, &c);
         assert_int_equal(status, FW_INPUT);
         assert_int_equal(last_number(&said), 211);
     }
@@ -387,14 +390,15 @@ static void wrong_packs(void **state) {
         {"<q id=\"rie.A\" value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"t\"/>", 46}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         fw_diags said = fw_diags_new(arena);
-        fw_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
         const char *xml = fw_arena_printf(
             arena,
             "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" title=\"x\" "
             "flow=\"al-masked-rie\"><source id=\"s\" kind=\"measured\">x</source>%s</process>",
             bad[i].inside);
         said = fw_diags_new(arena);
-        assert_int_equal(fw_lab_apply(arena, "l.xml", xml, strlen(xml), f, &said), FW_INPUT);
+        assert_int_equal(fw_process_lab_apply(arena, "l.xml", xml, strlen(xml), f, &said),
+                         FW_INPUT);
         assert_int_equal(last_number(&said), bad[i].number);
         assert_int_equal(f->noverride, 0);
     }
@@ -405,9 +409,10 @@ static void wrong_packs(void **state) {
     const char *const foreign[] = {device, space};
     for (int i = 0; i < 2; i++) {
         fw_diags said = fw_diags_new(arena);
-        fw_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
-        assert_int_equal(fw_lab_apply(arena, "l.xml", foreign[i], strlen(foreign[i]), f, &said),
-                         FW_INPUT);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
+        assert_int_equal(
+            fw_process_lab_apply(arena, "l.xml", foreign[i], strlen(foreign[i]), f, &said),
+            FW_INPUT);
         assert_int_equal(said.errors, 1);
         assert_int_equal(last_number(&said), 178);
     }

@@ -1,24 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Corners of the packs as inputs of the verdict. */
 #include "pack_fixture.h"
-#include "process/made.h"
+#include "process/process_fabrication.h"
 #include "process/undercut.h"
 
-static fw_variant variant_of(double thickness_m, double youngs_u) {
-    return (fw_variant){.material.youngs = {.value = 150e9, .uncertainty = youngs_u, .unit = "GPa"},
-                        .thickness_m = thickness_m};
+static fw_mechanism_variant variant_of(double thickness_m, double youngs_u) {
+    return (fw_mechanism_variant){
+        .material.youngs = {.value = 150e9, .uncertainty = youngs_u, .unit = "GPa"},
+        .thickness_m = thickness_m};
 }
 
-static const fw_made_input *inputs(const char *pack, const char *from, const char *to,
-                                   const fw_variant *v, int *n) {
-    const fw_made_input *list;
-    fw_flow *flow = read_pack(arena, pack, from, to, &diags);
+static const fw_verdict_fabrication_input *
+inputs(const char *pack, const char *from, const char *to, const fw_mechanism_variant *v, int *n) {
+    const fw_verdict_fabrication_input *list;
+    fw_process_flow *flow = read_pack(arena, pack, from, to, &diags);
     assert_non_null(flow);
-    assert_int_equal(fw_flow_made(arena, flow, NULL, v, &list, n), FW_OK);
+    assert_int_equal(fw_process_flow_fabricated(arena, flow, NULL, v, &list, n), FW_OK);
     return list;
 }
 
-static int named(const fw_made_input *list, int n, const char *name) {
+static int named(const fw_verdict_fabrication_input *list, int n, const char *name) {
     for (int i = 0; i < n; i++)
         if (strcmp(list[i].name, name) == 0) return i;
     fail_msg("no input %s", name);
@@ -30,27 +31,27 @@ static void the_silicon_flow_leaves_the_trapezoid_of_its_etch(void **state) {
     (void)state;
     for (int thick = 0; thick < 2; thick++) {
         double h = thick ? 30e-6 : 50e-6, width = 10e-6;
-        fw_variant v = variant_of(h, 1.5e9);
+        fw_mechanism_variant v = variant_of(h, 1.5e9);
         int n;
-        const fw_made_input *list = inputs(SILICON, NULL, NULL, &v, &n);
+        const fw_verdict_fabrication_input *list = inputs(SILICON, NULL, NULL, &v, &n);
         assert_int_equal(n, 5);
         int a = named(list, n, "anisotropy");
         assert_string_equal(list[a].unknown, "rie.A"); /* said to be assumed */
         assert_int_equal(list[a].q.status, FW_ASSUMED);
-        double x[FW_MADE_INPUTS], top, bottom;
+        double x[FW_FABRICATION_INPUTS], top, bottom;
         for (int i = 0; i < n; i++)
             x[i] = list[i].nominal;
         x[a] = list[a].low;
-        fw_made made = fw_made_at(list, n, x);
-        fw_undercut_widths(width, x[a], h, 1.1 * h, &top, &bottom);
-        assert_near(width + 2 * made.edge_m, 0.5 * (top + bottom), 1e-12);
-        assert_near(2 * made.flare_m, bottom - top, 1e-12);
+        fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(list, n, x);
+        fw_process_undercut_widths(width, x[a], h, 1.1 * h, &top, &bottom);
+        assert_near(width + 2 * fabricated.edge_m, 0.5 * (top + bottom), 1e-12);
+        assert_near(2 * fabricated.flare_m, bottom - top, 1e-12);
         x[a] = 1; /* a straight wall is as drawn */
-        made = fw_made_at(list, n, x);
-        assert_near(made.edge_m, 0, 1e-15);
-        assert_near(made.flare_m, 0, 1e-15);
-        assert_near(made.thickness_ratio, 1, 1e-12);
-        assert_near(made.youngs_ratio, 1, 1e-12);
+        fabricated = fw_verdict_fabrication_at(list, n, x);
+        assert_near(fabricated.edge_m, 0, 1e-15);
+        assert_near(fabricated.flare_m, 0, 1e-15);
+        assert_near(fabricated.thickness_ratio, 1, 1e-12);
+        assert_near(fabricated.youngs_ratio, 1, 1e-12);
         int t = named(list, n, "thickness"), e = named(list, n, "Young's modulus");
         assert_near(list[t].high, 1.02 * h, 1e-12); /* two standard uncertainties of 1 % */
         assert_near(list[e].low, 147e9, 1);
@@ -63,40 +64,41 @@ static void the_silicon_flow_leaves_the_trapezoid_of_its_etch(void **state) {
 /* a measured A is compensated by the mask: mid-depth edges are even at its value, walls are not */
 static void a_known_anisotropy_is_compensated(void **state) {
     (void)state;
-    fw_variant v = variant_of(50e-6, 0);
+    fw_mechanism_variant v = variant_of(50e-6, 0);
     int n;
-    const fw_made_input *list = inputs(SILICON, "id=\"rie.A\" unknown=\"true\"",
-                                       "id=\"rie.A\" value=\"0.97\" u=\"0.004\"", &v, &n);
+    const fw_verdict_fabrication_input *list =
+        inputs(SILICON, "id=\"rie.A\" unknown=\"true\"", "id=\"rie.A\" value=\"0.97\" u=\"0.004\"",
+               &v, &n);
     assert_int_equal(n, 4); /* the modulus has no uncertainty */
     int a = named(list, n, "anisotropy");
     assert_null(list[a].unknown);
     assert_near(list[a].low, 0.962, 1e-12);
-    double x[FW_MADE_INPUTS];
+    double x[FW_FABRICATION_INPUTS];
     for (int i = 0; i < n; i++)
         x[i] = list[i].nominal;
-    fw_made made = fw_made_at(list, n, x);
-    assert_near(made.edge_m, 0, 1e-15);
-    assert_near(made.flare_m, 0.03 * 50e-6, 1e-12);
+    fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(list, n, x);
+    assert_near(fabricated.edge_m, 0, 1e-15);
+    assert_near(fabricated.flare_m, 0.03 * 50e-6, 1e-12);
     x[a] = 0.962;
-    made = fw_made_at(list, n, x);
-    assert_near(made.edge_m, -0.008 * 30e-6, 1e-12); /* (E - D/2) = 55 - 25 um */
+    fabricated = fw_verdict_fabrication_at(list, n, x);
+    assert_near(fabricated.edge_m, -0.008 * 30e-6, 1e-12); /* (E - D/2) = 55 - 25 um */
 }
 
 static void the_copper_flow(void **state) {
     (void)state;
-    fw_variant v = variant_of(9e-6, 15e9);
+    fw_mechanism_variant v = variant_of(9e-6, 15e9);
     int n;
-    const fw_made_input *list = inputs(COPPER, NULL, NULL, &v, &n);
+    const fw_verdict_fabrication_input *list = inputs(COPPER, NULL, NULL, &v, &n);
     assert_int_equal(n, 4);
     int t = named(list, n, "thickness"), w = named(list, n, "slope of the walls");
     assert_near(list[t].low, 8.1e-6, 1e-15);
-    double x[FW_MADE_INPUTS];
+    double x[FW_FABRICATION_INPUTS];
     for (int i = 0; i < n; i++)
         x[i] = list[i].nominal;
     x[w] = list[w].high, x[t] = list[t].low;
-    fw_made made = fw_made_at(list, n, x);
-    assert_near(made.flare_m, 9e-6 * acos(-1.0) / 180, 1e-12);
-    assert_near(made.thickness_ratio, 0.9, 1e-12);
+    fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(list, n, x);
+    assert_near(fabricated.flare_m, 9e-6 * acos(-1.0) / 180, 1e-12);
+    assert_near(fabricated.thickness_ratio, 0.9, 1e-12);
 }
 
 static void mistakes_have_a_place(void **state) {

@@ -8,45 +8,46 @@
 
 #define SOI "soi-deep-rie"
 static const char *const packs[] = {COPPER, SILICON, SOI};
-static const fw_mask_gap gaps[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
+static const fw_process_mask_gap gaps[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
 
-static fw_flow *computed(fw_flow *f) {
-    fw_mask_facts facts = plain_facts;
+static fw_process_flow *computed(fw_process_flow *f) {
+    fw_process_mask_facts facts = plain_facts;
     facts.gap = gaps;
     facts.ngap = 1;
     facts.narrowest_slot_m = 8e-6;
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
     return f;
 }
 
-static fw_flow *pack(const char *name) {
+static fw_process_flow *pack(const char *name) {
     return read_pack(arena, name, NULL, NULL, &diags);
 }
 
-static fw_films films_after(const fw_flow *f, const char *id) {
-    fw_films films;
+static fw_process_films films_after(const fw_process_flow *f, const char *id) {
+    fw_process_films films;
     for (int i = 0; i < f->nstep; i++)
         if (strcmp(f->step[i].id, id) == 0) {
-            assert_int_equal(fw_flow_films(arena, f, i, &films), FW_OK);
+            assert_int_equal(fw_process_flow_films(arena, f, i, &films), FW_OK);
             return films;
         }
     fail_msg("no step %s", id);
-    return (fw_films){0};
+    return (fw_process_films){0};
 }
 
-static const fw_film *film_of(const fw_films *films, const char *material, int column) {
-    const fw_film *found = NULL;
+static const fw_process_film *film_of(const fw_process_films *films, const char *material,
+                                      int column) {
+    const fw_process_film *found = NULL;
     for (int i = 0; i < films->n; i++)
         if (strcmp(films->film[i].material, material) == 0 && films->film[i].in[column])
             found = &films->film[i];
     return found;
 }
 
-static bool is_floor(const fw_film *f) {
+static bool is_floor(const fw_process_film *f) {
     return f->cut && !f->in[FW_STACK_STRUCTURE];
 }
 
-static bool stack_has(const fw_stack *s, const char *material, int column) {
+static bool stack_has(const fw_process_stack *s, const char *material, int column) {
     for (int i = 0; i < s->n[column]; i++)
         if (strcmp(s->cell[column][i].material, material) == 0) return true;
     return false;
@@ -58,12 +59,12 @@ static bool stack_has(const fw_stack *s, const char *material, int column) {
 static void same_materials_as_the_lint(void **state) {
     (void)state;
     for (int p = 0; p < 3; p++) {
-        fw_flow *f = computed(pack(packs[p]));
+        fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
-            fw_films films;
-            fw_stack stack;
-            assert_int_equal(fw_flow_films(arena, f, i, &films), FW_OK);
-            assert_int_equal(fw_flow_stack(arena, f, i, &stack, NULL), FW_OK);
+            fw_process_films films;
+            fw_process_stack stack;
+            assert_int_equal(fw_process_flow_films(arena, f, i, &films), FW_OK);
+            assert_int_equal(fw_process_flow_stack(arena, f, i, &stack, NULL), FW_OK);
             for (int column = 0; column < 2; column++) {
                 for (int k = 0; k < films.n; k++)
                     if (films.film[k].in[column] && !is_floor(&films.film[k]) &&
@@ -84,14 +85,14 @@ static void same_materials_as_the_lint(void **state) {
 static void films_lie_on_each_other(void **state) {
     (void)state;
     for (int p = 0; p < 3; p++) {
-        fw_flow *f = computed(pack(packs[p]));
+        fw_process_flow *f = computed(pack(packs[p]));
         for (int i = 0; i < f->nstep; i++) {
-            fw_films films;
-            assert_int_equal(fw_flow_films(arena, f, i, &films), FW_OK);
+            fw_process_films films;
+            assert_int_equal(fw_process_flow_films(arena, f, i, &films), FW_OK);
             for (int column = 0; column < 2; column++) {
                 double top = -1.0;
                 for (int k = 0; k < films.n; k++) {
-                    const fw_film *c = &films.film[k];
+                    const fw_process_film *c = &films.film[k];
                     if (!c->in[column] || is_floor(c)) continue;
                     assert_true(c->bottom_m >= top - 1e-15 && c->top_m > c->bottom_m);
                     top = c->top_m;
@@ -106,11 +107,11 @@ static void films_lie_on_each_other(void **state) {
 /* plating puts its thickness on the seed, between walls of resist */
 static void copper(void **state) {
     (void)state;
-    fw_flow *f = computed(pack(COPPER));
-    fw_films films = films_after(f, "C22");
-    const fw_film *cu = film_of(&films, "copper-plated", FW_STACK_STRUCTURE);
-    const fw_film *resist = film_of(&films, "resist", FW_STACK_FIELD);
-    const fw_film *seed = film_of(&films, "copper-seed", FW_STACK_STRUCTURE);
+    fw_process_flow *f = computed(pack(COPPER));
+    fw_process_films films = films_after(f, "C22");
+    const fw_process_film *cu = film_of(&films, "copper-plated", FW_STACK_STRUCTURE);
+    const fw_process_film *resist = film_of(&films, "resist", FW_STACK_FIELD);
+    const fw_process_film *seed = film_of(&films, "copper-seed", FW_STACK_STRUCTURE);
     assert_non_null(cu);
     assert_false(cu->in[FW_STACK_FIELD]);
     assert_false(resist->in[FW_STACK_STRUCTURE]);
@@ -138,13 +139,13 @@ static void copper(void **state) {
 /* walls of resist that lean: the copper has the slope that the corners of the flow have */
 static void walls_that_lean(void **state) {
     (void)state;
-    fw_flow *f = pack(COPPER);
+    fw_process_flow *f = pack(COPPER);
     measured(f, "made.wall", 0.02, 0);
     computed(f);
-    const fw_fixed_point *p = &f->edges;
+    const fw_process_fixed_point *p = &f->edges;
     assert_true(fabs(p->flare_m) > 1e-8);
-    fw_films films = films_after(f, "C28");
-    const fw_film *cu = film_of(&films, "copper-plated", FW_STACK_STRUCTURE);
+    fw_process_films films = films_after(f, "C28");
+    const fw_process_film *cu = film_of(&films, "copper-plated", FW_STACK_STRUCTURE);
     assert_near(cu->foot_m, p->cls[p->field].edge.bottom_m, 1e-15);
     assert_near(cu->head_m, p->cls[p->field].edge.top_m, 1e-15);
 }
@@ -154,18 +155,18 @@ static void silicon_walls(void **state) {
     (void)state;
     static const double A[] = {0.95, 0.98, 0.995, 1.0};
     for (int i = 0; i < 4; i++) {
-        fw_flow *f = pack(SILICON);
+        fw_process_flow *f = pack(SILICON);
         measured(f, "rie.A", A[i], 0);
         measured(f, "rie.S", 0.02 * i, 0);
         computed(f);
-        const fw_fixed_point *p = &f->edges;
+        const fw_process_fixed_point *p = &f->edges;
         assert_true(p->solved);
-        const fw_edge e = p->cls[p->field].edge;
-        fw_films films = films_after(f, "S14");
+        const fw_process_edge e = p->cls[p->field].edge;
+        fw_process_films films = films_after(f, "S14");
         assert_near(film_of(&films, "aluminium", 0)->foot_m, p->etch_m, 1e-15);
         assert_near(film_of(&films, "resist", 0)->foot_m, p->bias_m - p->printed_m, 1e-15);
         films = films_after(f, "S23");
-        const fw_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
+        const fw_process_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
         assert_near(si->head_m, e.top_m, 1e-15);
         assert_near(si->foot_m, e.bottom_m, 1e-15);
         assert_ptr_equal(si->cut, &p->cut[0]);
@@ -173,9 +174,9 @@ static void silicon_walls(void **state) {
         assert_null(film_of(&films, "carrier", 0));
     }
     /* nobody knows A: straight walls, and a sentence */
-    fw_flow *f = computed(pack(SILICON));
-    fw_films films = films_after(f, "S18");
-    const fw_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
+    fw_process_flow *f = computed(pack(SILICON));
+    fw_process_films films = films_after(f, "S18");
+    const fw_process_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
     assert_near(si->head_m, si->foot_m, 0);
     bool said = false;
     for (int i = 0; i < films.nnote; i++)
@@ -183,43 +184,43 @@ static void silicon_walls(void **state) {
     assert_true(said);
     /* what the plasma takes of the mask: d (1 + overrun)/S */
     double al = film_of(&films, "aluminium", 0)->thickness_m;
-    fw_films before = films_after(f, "S17");
+    fw_process_films before = films_after(f, "S17");
     assert_near(film_of(&before, "aluminium", 0)->thickness_m - al, 50e-6 * 1.1 / 100.0, 1e-15);
 }
 
 /* z + lag(w, z) = E, or the whole depth where the whole time suffices */
 static void depth_by_width(void **state) {
     (void)state;
-    fw_flow *f = computed(pack(SILICON)); /* S = 0.1 is assumed: planned without it */
-    const fw_cut *cut = &f->edges.cut[0];
+    fw_process_flow *f = computed(pack(SILICON)); /* S = 0.1 is assumed: planned without it */
+    const fw_process_cut *cut = &f->edges.cut[0];
     double before = 0.0;
     for (double w = 1e-6; w < 200e-6; w *= 1.3) {
-        double z = fw_cut_depth(cut, w);
+        double z = fw_process_cut_depth(cut, w);
         assert_true(z >= before && z <= cut->depth_m);
         before = z;
         if (z < cut->depth_m)
-            assert_near(z + fw_cut_lag(cut, w, z), cut->etched_m, 1e-15);
+            assert_near(z + fw_process_cut_lag(cut, w, z), cut->etched_m, 1e-15);
         else
-            assert_true(cut->depth_m + fw_cut_lag(cut, w, cut->depth_m) <= cut->etched_m);
+            assert_true(cut->depth_m + fw_process_cut_lag(cut, w, cut->depth_m) <= cut->etched_m);
     }
     assert_near(before, cut->depth_m, 0);
-    assert_true(fw_cut_depth(cut, 2e-6) < 0.95 * cut->depth_m);
+    assert_true(fw_process_cut_depth(cut, 2e-6) < 0.95 * cut->depth_m);
     /* process.md, 2.7: 90 min without overrun, S = 0.1: 38.5921 um in 2 um, 45.8113 um in 10 um */
-    fw_cut plain = *cut;
+    fw_process_cut plain = *cut;
     plain.etched_m = 50e-6;
-    assert_near(fw_cut_depth(&plain, 2e-6), 38.5921e-6, 1e-10);
-    assert_near(fw_cut_depth(&plain, 10e-6), 45.8113e-6, 1e-10);
-    assert_near(fw_cut_depth(&plain, (double)INFINITY), 50e-6, 1e-19);
+    assert_near(fw_process_cut_depth(&plain, 2e-6), 38.5921e-6, 1e-10);
+    assert_near(fw_process_cut_depth(&plain, 10e-6), 45.8113e-6, 1e-10);
+    assert_near(fw_process_cut_depth(&plain, (double)INFINITY), 50e-6, 1e-19);
 }
 
 /* the third flow, of which no line of code knows */
 static void soi(void **state) {
     (void)state;
-    fw_flow *f = computed(pack(SOI));
-    const fw_fixed_point *p = &f->edges;
-    fw_films films = films_after(f, "D13");
-    const fw_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
-    const fw_film *box = film_of(&films, "buried-oxide", FW_STACK_STRUCTURE);
+    fw_process_flow *f = computed(pack(SOI));
+    const fw_process_fixed_point *p = &f->edges;
+    fw_process_films films = films_after(f, "D13");
+    const fw_process_film *si = film_of(&films, "silicon-100", FW_STACK_STRUCTURE);
+    const fw_process_film *box = film_of(&films, "buried-oxide", FW_STACK_STRUCTURE);
     assert_near(si->head_m, p->cls[p->field].edge.top_m, 1e-15);
     assert_near(si->foot_m, p->cls[p->field].edge.bottom_m, 1e-15);
     assert_near(box->top_m - box->bottom_m, 2e-6, 1e-18);
@@ -232,27 +233,28 @@ static void soi(void **state) {
 /* a pack may remove a part of a film, from either side, and etch the structure beside the field */
 static void partial_and_back(void **state) {
     (void)state;
-    fw_flow *f = computed(pack(SOI));
-    fw_step *s = step_of(f, "D13");
+    fw_process_flow *f = computed(pack(SOI));
+    fw_process_step *s = step_of(f, "D13");
     fw_quantity ten = {.id = "ten", .value = 10e-6}, three = {.id = "three", .value = 3e-6};
-    fw_change c[] = {{.kind = "remove",
-                      .material = "silicon-100",
-                      .thickness = &ten,
-                      .where = "structure",
-                      .from = ""},
-                     {.kind = "add",
-                      .material = "aluminium",
-                      .thickness = &three,
-                      .where = "all",
-                      .from = "",
-                      .back = true}};
-    fw_films before = films_after(f, "D13"), after;
+    fw_process_change c[] = {{.kind = "remove",
+                              .material = "silicon-100",
+                              .thickness = &ten,
+                              .where = "structure",
+                              .from = ""},
+                             {.kind = "add",
+                              .material = "aluminium",
+                              .thickness = &three,
+                              .where = "all",
+                              .from = "",
+                              .back = true}};
+    fw_process_films before = films_after(f, "D13"), after;
     double top = film_of(&before, "silicon-100", 0)->top_m;
     double low = film_of(&before, "silicon-substrate", 0)->bottom_m;
     s->change = c;
     s->nchange = 2;
     after = films_after(f, "D13");
-    const fw_film *si = film_of(&after, "silicon-100", 0), *al = film_of(&after, "aluminium", 1);
+    const fw_process_film *si = film_of(&after, "silicon-100", 0),
+                          *al = film_of(&after, "aluminium", 1);
     assert_near(si->top_m, top - 10e-6, 1e-18);
     assert_near(si->thickness_m, 40e-6, 1e-18);
     assert_near(al->top_m, low, 0);

@@ -41,7 +41,7 @@ static void ratio(void **state) {
     for (int round = 0; round < 500; round++) {
         double R = 0.2 + 3.0 * uniform();
         data d = random_data(R);
-        fw_fit f = fw_fit_ratio(d.y, d.sy, d.x, d.sx, N);
+        fw_process_fit f = fw_process_fit_ratio(d.y, d.sy, d.x, d.sx, N);
         double best = ratio_chi(&d, f.value[0]), u = f.uncertainty[0];
         assert_relative(f.chi_square, best, 1e-12);
         assert_int_equal(f.freedom, N - 1);
@@ -57,11 +57,11 @@ static void ratio(void **state) {
 static void mean(void **state) {
     (void)state;
     const double y[] = {3.0, 5.0}, s[] = {1.0, 2.0};
-    fw_fit f = fw_fit_mean(y, s, 2);
+    fw_process_fit f = fw_process_fit_mean(y, s, 2);
     assert_relative(f.value[0], (3.0 + 5.0 / 4.0) / 1.25, 1e-15);
     assert_relative(f.uncertainty[0], sqrt(1.0 / 1.25), 1e-15);
     assert_relative(f.chi_square, 4.0 / 5.0, 1e-14); /* (difference)^2/(s1^2 + s2^2) */
-    f = fw_fit_mean(y, s, 1);
+    f = fw_process_fit_mean(y, s, 1);
     assert_near(f.value[0], 3.0, 0);
     assert_int_equal(f.freedom, 0);
 }
@@ -82,7 +82,7 @@ static void plane(void **state) {
             p[i] = uniform(), q[i] = uniform() * 3.0, s[i] = 0.1 + uniform();
             y[i] = a * p[i] + b * q[i] + s[i] * (uniform() - 0.5);
         }
-        fw_fit f = fw_fit_plane(y, s, p, q, N);
+        fw_process_fit f = fw_process_fit_plane(y, s, p, q, N);
         double best = plane_chi(y, s, p, q, f.value[0], f.value[1]);
         assert_near(f.chi_square, best, 1e-9 * (1.0 + best));
         /* chi^2 - best = (d^T C^-1 d), with C from the uncertainties and the correlation */
@@ -91,12 +91,12 @@ static void plane(void **state) {
         double rise = (n0 * n0 + n1 * n1 - 2.0 * r * n0 * n1) / (1.0 - r * r);
         assert_near(plane_chi(y, s, p, q, f.value[0] + d0, f.value[1] + d1) - best, rise,
                     1e-7 * (1.0 + rise));
-        f = fw_fit_plane(y, s, p, q, 2); /* through both points */
+        f = fw_process_fit_plane(y, s, p, q, 2); /* through both points */
         assert_near(f.value[0] * p[0] + f.value[1] * q[0], y[0], 1e-8);
         assert_near(f.value[0] * p[1] + f.value[1] * q[1], y[1], 1e-8);
     }
     const double same[] = {1, 1, 1};
-    assert_true(isnan(fw_fit_plane(same, same, same, same, 3).value[0]));
+    assert_true(isnan(fw_process_fit_plane(same, same, same, same, 3).value[0]));
 }
 
 /* Abramowitz and Stegun, table 26.8, and the integral of the density */
@@ -109,15 +109,17 @@ static void chi_square(void **state) {
                 {10, 18.3070, 0.05}, {15, 24.9958, 0.05}, {30, 43.7729, 0.05}, {1, 10.8276, 0.001},
                 {2, 13.8155, 0.001}, {9, 27.8772, 0.001}, {10, 29.5883, 0.001}};
     for (size_t i = 0; i < sizeof list / sizeof list[0]; i++)
-        assert_near(fw_chi_square_above(list[i].x, list[i].n), list[i].p, 2e-6);
-    assert_near(fw_chi_square_above(5.0, 0), 1.0, 0);
+        assert_near(fw_process_chi_square_above(list[i].x, list[i].n), list[i].p, 2e-6);
+    assert_near(fw_process_chi_square_above(5.0, 0), 1.0, 0);
     for (int n = 1; n < 12; n++) { /* the derivative is the density */
         double x = 4.0, h = 1e-4;
         double density =
             pow(x, 0.5 * n - 1.0) * exp(-0.5 * x) / (pow(2.0, 0.5 * n) * tgamma(0.5 * n));
-        assert_near((fw_chi_square_above(x - h, n) - fw_chi_square_above(x + h, n)) / (2.0 * h),
-                    density, 1e-8);
-        assert_near(fw_chi_square_above(0.0, n), 1.0, 1e-15);
+        assert_near(
+            (fw_process_chi_square_above(x - h, n) - fw_process_chi_square_above(x + h, n)) /
+                (2.0 * h),
+            density, 1e-8);
+        assert_near(fw_process_chi_square_above(0.0, n), 1.0, 1e-15);
     }
 }
 

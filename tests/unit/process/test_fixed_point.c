@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bias, time and gap: reference values, plain iteration, the fold, what reads the result. */
 #include "pack_fixture.h"
-#include "process/law.h"
-#include "process/made.h"
+#include "process/process_law.h"
+#include "process/process_fabrication.h"
 #include "process/undercut.h"
 
-static fw_flow *flow_of(const char *name) {
-    fw_flow *f = read_pack(arena, name, NULL, NULL, &diags);
+static fw_process_flow *flow_of(const char *name) {
+    fw_process_flow *f = read_pack(arena, name, NULL, NULL, &diags);
     assert_non_null(f);
     /* a laboratory that measured its lag: what is only assumed is not planned with */
-    fw_quantity *lag = (fw_quantity *)fw_flow_quantity(f, "rie.S");
+    fw_quantity *lag = (fw_quantity *)fw_process_flow_quantity(f, "rie.S");
     if (lag) lag->status = FW_MEASURED;
     return f;
 }
 
 /* as if the pack said so */
-static void set(fw_flow *f, const char *id, double value) {
-    fw_quantity *q = (fw_quantity *)fw_flow_quantity(f, id);
+static void set(fw_process_flow *f, const char *id, double value) {
+    fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(f, id);
     assert_non_null(q);
     q->unknown = isnan(value);
     q->value = q->unknown ? 0.0 : value;
@@ -24,14 +24,15 @@ static void set(fw_flow *f, const char *id, double value) {
     q->interval = false;
 }
 
-static fw_change *cutting(fw_flow *f) {
+static fw_process_change *cutting(fw_process_flow *f) {
     return &step_of(f, "S18")->change[0];
 }
 
-static const fw_fixed_point *solved(fw_flow *f, const fw_mask_facts *facts) {
-    fw_fixed_point *p = fw_arena_one(arena, fw_fixed_point);
+static const fw_process_fixed_point *solved(fw_process_flow *f,
+                                            const fw_process_mask_facts *facts) {
+    fw_process_fixed_point *p = fw_arena_one(arena, fw_process_fixed_point);
     assert_non_null(p);
-    assert_int_equal(fw_fixed_point_solve(arena, f, facts, 0.0, p), FW_OK);
+    assert_int_equal(fw_process_fixed_point_solve(arena, f, facts, 0.0, p), FW_OK);
     return p;
 }
 
@@ -41,7 +42,7 @@ static bool told(int number) {
     return false;
 }
 
-static bool reason(const fw_flow *f, const char *text) {
+static bool reason(const fw_process_flow *f, const char *text) {
     for (int i = 0; i < f->nreason; i++)
         if (strstr(f->reason[i], text)) return true;
     return false;
@@ -53,12 +54,12 @@ static bool reason(const fw_flow *f, const char *text) {
    gap of 10 um is 2.3 um on the mask */
 static void the_two_biases_of_the_silicon_flow(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
+    fw_process_flow *f = flow_of(SILICON);
     assert_near(10e-6 - 2 * solved(f, &plain_facts)->wet_m, 7.8e-6, 1e-18);
     set(f, "rie.A", 0.95);
     set(f, "rie.S", 0.0);
     cutting(f)->compensate = FW_FACE_TOP;
-    const fw_fixed_point *p = solved(f, &plain_facts);
+    const fw_process_fixed_point *p = solved(f, &plain_facts);
     assert_true(p->solved);
     assert_near(p->etch_m, 2.75e-6, 1e-17);
     assert_near(p->cls[0].plate_m, 2.3e-6, 1e-17);
@@ -73,16 +74,16 @@ static void the_two_biases_of_the_silicon_flow(void **state) {
 /* 10 um: 45.8 um deep after 90 min, 98.85 min; 2 um: 38.6 um, 122.7 min */
 static void narrow_slots_of_the_source(void **state) {
     (void)state;
-    fw_mask_gap gap[] = {{FW_GAP_HINGE, "gap of hinge A", 10e-6},
-                         {FW_GAP_COMB, "gap of comb drive c", 2e-6},
-                         {FW_GAP_COMB, "the same width", 10e-6}};
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_gap gap[] = {{FW_GAP_HINGE, "gap of hinge A", 10e-6},
+                                 {FW_GAP_COMB, "gap of comb drive c", 2e-6},
+                                 {FW_GAP_COMB, "the same width", 10e-6}};
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = 2e-6;
     facts.gap = gap;
     facts.ngap = 3;
-    fw_flow *f = flow_of(SILICON);
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
-    const fw_fixed_point *p = &f->edges;
+    fw_process_flow *f = flow_of(SILICON);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    const fw_process_fixed_point *p = &f->edges;
     assert_int_equal(p->ncls, 3);
     assert_string_equal(p->cls[0].name, "gap of comb drive c");
     assert_relative(p->cls[0].through_s / 60, 122.744, 1e-5);
@@ -102,17 +103,17 @@ static void needed_anisotropy(void **state) {
     (void)state;
     static const double want[] = {0.9930, 0.9942};
     for (int i = 0; i < 2; i++) {
-        fw_flow *f = flow_of(SILICON);
+        fw_process_flow *f = flow_of(SILICON);
         set(f, "rie.S", 0.0);
         step_of(f, "S18")->overrun = 0.1 * i;
         set(f, "rie.A", want[i]);
         cutting(f)->compensate = FW_FACE_MIDDLE;
-        const fw_fixed_point *p = solved(f, &plain_facts);
+        const fw_process_fixed_point *p = solved(f, &plain_facts);
         double A[] = {want[i]}, w = 10e-6;
-        fw_edge e = fw_fixed_point_edge(p, p->cls[p->field].opening_m, A);
+        fw_process_edge e = fw_process_fixed_point_edge(p, p->cls[p->field].opening_m, A);
         /* with a mask that adds nothing */
         double top = w + 2 * (e.top_m - p->etch_m), bottom = w + 2 * (e.bottom_m - p->etch_m);
-        assert_near(fw_undercut_stiffness(top, bottom, w), 0.9, 1e-3);
+        assert_near(fw_process_undercut_stiffness(top, bottom, w), 0.9, 1e-3);
     }
 }
 
@@ -125,12 +126,13 @@ static double random01(uint64_t *seed) {
 
 typedef struct random_case {
     double D, A, S, over, gap, field;
-    fw_face face;
+    fw_process_face face;
     bool linear;
 } random_case;
 
 static double lag_of(const random_case *r, double w) {
-    return r->linear ? r->S * r->D * r->D / (2 * w) : r->S * fw_arde_integral(w, r->D, false);
+    return r->linear ? r->S * r->D * r->D / (2 * w)
+                     : r->S * fw_process_arde_integral(w, r->D, false);
 }
 
 static double F_of(const random_case *r, double m) {
@@ -152,9 +154,9 @@ static bool plain_iteration(const random_case *r, double *m) {
     return true;
 }
 
-static fw_flow *flow_with(const random_case *r) {
-    fw_flow *f = flow_of(SILICON);
-    fw_step *s = step_of(f, "S18");
+static fw_process_flow *flow_with(const random_case *r) {
+    fw_process_flow *f = flow_of(SILICON);
+    fw_process_step *s = step_of(f, "S18");
     set(f, "si.d", r->D);
     set(f, "rie.A", r->A);
     set(f, "rie.S", r->S);
@@ -168,8 +170,8 @@ static fw_flow *flow_with(const random_case *r) {
     return f;
 }
 
-static fw_mask_facts facts_with(const random_case *r) {
-    fw_mask_facts facts = plain_facts;
+static fw_process_mask_facts facts_with(const random_case *r) {
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = r->gap;
     facts.perimeter_m = 2 * (facts.die_area_m2 - facts.structure_area_m2) / r->field;
     return facts;
@@ -185,13 +187,13 @@ static void newton_finds_what_plain_iteration_finds(void **state) {
                          .S = random01(&seed),
                          .over = 0.4 * random01(&seed),
                          .gap = (1 + 19 * random01(&seed)) * 1e-6,
-                         .face = (fw_face)(3 * random01(&seed)),
+                         .face = (fw_process_face)(3 * random01(&seed)),
                          .linear = random01(&seed) < 0.3};
         r.field = r.gap * (1 + 50 * random01(&seed));
-        fw_mask_facts facts = facts_with(&r);
+        fw_process_mask_facts facts = facts_with(&r);
         double m;
         bool there = plain_iteration(&r, &m);
-        const fw_fixed_point *p = solved(flow_with(&r), &facts);
+        const fw_process_fixed_point *p = solved(flow_with(&r), &facts);
         assert_int_equal(p->solved, there);
         with += there, without += !there;
         if (!there) continue;
@@ -199,7 +201,7 @@ static void newton_finds_what_plain_iteration_finds(void **state) {
         assert_near(p->etch_m, m, 1e-12 * m + 1e-15 * m / (1 - p->slope));
         assert_true(p->slope < 1 && p->iterations < 40);
         /* the edges beside the field end up where they are drawn, by the compensated face */
-        fw_edge e = p->cls[p->field].edge;
+        fw_process_edge e = p->cls[p->field].edge;
         double off = r.face == FW_FACE_TOP      ? e.top_m
                      : r.face == FW_FACE_BOTTOM ? e.bottom_m
                                                 : e.middle_m;
@@ -213,10 +215,10 @@ static void newton_finds_what_plain_iteration_finds(void **state) {
 static void the_fold_is_where_it_is_said_to_be(void **state) {
     (void)state;
     random_case r = {.D = 50e-6, .A = 0.95, .S = 0.2, .over = 0.1, .gap = 3e-6, .field = 400e-6};
-    fw_mask_facts facts = facts_with(&r);
-    fw_flow *f = flow_with(&r);
+    fw_process_mask_facts facts = facts_with(&r);
+    fw_process_flow *f = flow_with(&r);
     set(f, "al.d", 0.0);
-    const fw_fixed_point *p = solved(f, &facts);
+    const fw_process_fixed_point *p = solved(f, &facts);
     assert_false(p->solved);
     double least = p->least_gap_m, m;
     assert_true(least > r.gap && least < 20e-6);
@@ -224,7 +226,7 @@ static void the_fold_is_where_it_is_said_to_be(void **state) {
         r.gap = least * (i ? 1 + 1e-6 : 1 - 1e-6);
         facts.narrowest_slot_m = r.gap;
         assert_int_equal(plain_iteration(&r, &m), i == 1);
-        const fw_fixed_point *q = solved(f, &facts);
+        const fw_process_fixed_point *q = solved(f, &facts);
         assert_int_equal(q->solved, i == 1);
         if (i) assert_true(q->slope > 0.99);
     }
@@ -242,8 +244,8 @@ static void the_fold_is_where_it_is_said_to_be(void **state) {
 
 static void unknown_stays_unknown(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
-    const fw_fixed_point *p = solved(f, &plain_facts);
+    fw_process_flow *f = flow_of(SILICON);
+    const fw_process_fixed_point *p = solved(f, &plain_facts);
     assert_true(p->solved && p->open);
     assert_relative(p->bias_m, 1.1e-6, 1e-14);
     assert_near(p->cls[0].edge.top_m, 0, 0); /* the known part alone */
@@ -264,7 +266,7 @@ static void unknown_stays_unknown(void **state) {
     f = flow_of(SILICON);
     set(f, "rie.A", 0.97);
     set(f, "rie.S", (double)NAN);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_true(f->edges.open && isnan(f->edges.cut[0].etched_m));
     assert_relative(f->bias_m, 1.1e-6, 1e-14);
     assert_false(step_of(f, "S18")->time.computable);
@@ -272,16 +274,16 @@ static void unknown_stays_unknown(void **state) {
     /* nor does a thickness of aluminium that is not known */
     f = flow_of(SILICON);
     set(f, "al.d", (double)NAN);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_true(f->edges.wet_open);
     assert_near(f->bias_m, 0, 0);
 }
 
 static void what_is_known_of_printing_is_taken_back(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
+    fw_process_flow *f = flow_of(SILICON);
     set(f, "litho.edge", 0.2e-6);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_relative(f->bias_m, 0.9e-6, 1e-12);
     assert_non_null(strstr(f->bias_note, "0.2 um outside"));
 }
@@ -289,8 +291,8 @@ static void what_is_known_of_printing_is_taken_back(void **state) {
 /* copper: printed edges within 0.5 um, walls within a degree of upright over 9 um */
 static void copper_copies_its_mould(void **state) {
     (void)state;
-    fw_flow *f = flow_of(COPPER);
-    const fw_fixed_point *p = solved(f, &plain_facts);
+    fw_process_flow *f = flow_of(COPPER);
+    const fw_process_fixed_point *p = solved(f, &plain_facts);
     double wall = 9e-6 * acos(-1.0) / 180;
     assert_true(p->solved && p->ncut == 0 && !p->open);
     assert_near(p->bias_m, 0, 0);
@@ -309,46 +311,48 @@ typedef struct seen { /* by the three who read it */
     double bias_m, nominal_s, stop_s, flare_m, edge_slope;
 } seen;
 
-static const fw_made_input *anisotropy_of(fw_flow *f, fw_made *made) {
-    fw_variant v = {.material.youngs = {.value = 150e9}, .thickness_m = f->thickness->value};
-    const fw_made_input *list;
+static const fw_verdict_fabrication_input *anisotropy_of(fw_process_flow *f,
+                                                         fw_verdict_fabrication *fabricated) {
+    fw_mechanism_variant v = {.material.youngs = {.value = 150e9},
+                              .thickness_m = f->thickness->value};
+    const fw_verdict_fabrication_input *list;
     int n;
-    assert_int_equal(fw_flow_made(arena, f, &plain_facts, &v, &list, &n), FW_OK);
-    double x[FW_MADE_INPUTS];
-    const fw_made_input *found = NULL;
+    assert_int_equal(fw_process_flow_fabricated(arena, f, &plain_facts, &v, &list, &n), FW_OK);
+    double x[FW_FABRICATION_INPUTS];
+    const fw_verdict_fabrication_input *found = NULL;
     for (int i = 0; i < n; i++) {
         x[i] = list[i].nominal;
         if (strcmp(list[i].name, "anisotropy") == 0) found = &list[i];
     }
-    *made = fw_made_at(list, n, x);
+    *fabricated = fw_verdict_fabrication_at(list, n, x);
     assert_non_null(found);
     return found;
 }
 
-static seen look(fw_flow *f) {
-    fw_made made;
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
-    const fw_made_input *in = anisotropy_of(f, &made);
-    const fw_step *s = step_of(f, "S18");
-    const fw_fixed_point *p = &f->edges;
-    const fw_edge e = p->cls[p->field].edge;
+static seen look(fw_process_flow *f) {
+    fw_verdict_fabrication fabricated;
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    const fw_verdict_fabrication_input *in = anisotropy_of(f, &fabricated);
+    const fw_process_step *s = step_of(f, "S18");
+    const fw_process_fixed_point *p = &f->edges;
+    const fw_process_edge e = p->cls[p->field].edge;
     /* they agree: time, bias and corner are one computation */
-    double R = fw_flow_quantity(f, "rie.R")->value;
+    double R = fw_process_flow_quantity(f, "rie.R")->value;
     assert_relative(R * s->time.nominal_s, p->cut[0].planned_m, 1e-13);
     assert_relative(R * s->time.nominal_s * (1 + s->overrun), p->cut[0].etched_m, 1e-13);
     assert_near(f->bias_m, p->wet_m + p->etch_m + p->printed_m + p->worn_m, 0);
-    assert_near(made.edge_m, e.middle_m, 1e-18);
-    assert_near(made.flare_m, e.bottom_m - e.top_m, 1e-18);
-    assert_near(made.edge_m, 0, 1e-17);
-    assert_relative(fw_flow_quantity(f, FW_MASK_OPENING)->value,
+    assert_near(fabricated.edge_m, e.middle_m, 1e-18);
+    assert_near(fabricated.flare_m, e.bottom_m - e.top_m, 1e-18);
+    assert_near(fabricated.edge_m, 0, 1e-17);
+    assert_relative(fw_process_flow_quantity(f, FW_MASK_OPENING)->value,
                     plain_facts.narrowest_slot_m - 2 * p->etch_m, 1e-13);
-    return (seen){f->bias_m, s->time.nominal_s, s->time.stop_s, made.flare_m, in->edge_m};
+    return (seen){f->bias_m, s->time.nominal_s, s->time.stop_s, fabricated.flare_m, in->edge_m};
 }
 
-static fw_flow *with_known_anisotropy(void) {
-    fw_flow *f = flow_of(SILICON);
+static fw_process_flow *with_known_anisotropy(void) {
+    fw_process_flow *f = flow_of(SILICON);
     set(f, "rie.A", 0.97);
-    ((fw_quantity *)fw_flow_quantity(f, "rie.A"))->uncertainty = 0.004;
+    ((fw_quantity *)fw_process_flow_quantity(f, "rie.A"))->uncertainty = 0.004;
     return f;
 }
 
@@ -358,10 +362,10 @@ static bool moved(double a, double b) {
 
 static void perturb_one_and_look(void **state) {
     (void)state;
-    fw_flow *f = with_known_anisotropy();
+    fw_process_flow *f = with_known_anisotropy();
     seen base = look(f), now;
     set(f, "rie.A", 0.96); /* mask, time and wall */
-    ((fw_quantity *)fw_flow_quantity(f, "rie.A"))->uncertainty = 0.004;
+    ((fw_quantity *)fw_process_flow_quantity(f, "rie.A"))->uncertainty = 0.004;
     now = look(f);
     assert_true(moved(base.bias_m, now.bias_m) && moved(base.nominal_s, now.nominal_s));
     assert_true(moved(base.flare_m, now.flare_m) && moved(base.edge_slope, now.edge_slope));
@@ -386,7 +390,7 @@ static void perturb_one_and_look(void **state) {
     assert_relative(f->edges.cls[0].plate_m, 10e-6 - 2 * now.bias_m, 1e-12);
     /* the rate of the etch: its time alone, as depths do not know it */
     f = with_known_anisotropy();
-    set(f, "rie.R", 2 * fw_flow_quantity(f, "rie.R")->value);
+    set(f, "rie.R", 2 * fw_process_flow_quantity(f, "rie.R")->value);
     now = look(f);
     assert_relative(now.nominal_s, 0.5 * base.nominal_s, 1e-13);
     assert_near(now.bias_m, base.bias_m, 0);
@@ -395,7 +399,7 @@ static void perturb_one_and_look(void **state) {
 /* the run sheet's widths of the narrowest flexure are the drawn one and twice either edge */
 static void widths_that_are_said(void **state) {
     (void)state;
-    fw_flow *f = with_known_anisotropy();
+    fw_process_flow *f = with_known_anisotropy();
     const char *at = NULL, *words = "the narrowest flexure is ";
     look(f);
     for (int i = 0; i < f->nreason && !at; i++)
@@ -406,7 +410,7 @@ static void widths_that_are_said(void **state) {
                             "%lf um wide at the top and %lf um at the bottom: its stiffness is %lf",
                             &top, &bottom, &ratio),
                      3);
-    const fw_edge e = f->edges.cls[f->edges.field].edge;
+    const fw_process_edge e = f->edges.cls[f->edges.field].edge;
     assert_near(top, w + 2e6 * e.top_m, 6e-3);
     assert_near(bottom, w + 2e6 * e.bottom_m, 6e-3);
     assert_true(fabs(top - bottom) > 0.5);
@@ -419,11 +423,11 @@ static void widths_that_are_said(void **state) {
 
 static void no_solution_names_the_gap_and_a_change(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
-    fw_mask_facts facts = plain_facts;
+    fw_process_flow *f = flow_of(SILICON);
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = 3e-6;
     set(f, "rie.A", 0.93);
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
     assert_false(f->edges.solved);
     assert_int_equal(f->manufacturable, 0);
     assert_true(told(181));
@@ -434,11 +438,11 @@ static void no_solution_names_the_gap_and_a_change(void **state) {
 
 static void lithography_cannot_open_what_is_left(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
-    fw_mask_facts facts = plain_facts;
+    fw_process_flow *f = flow_of(SILICON);
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = 5.2e-6;
     set(f, "rie.A", 0.97);
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
     assert_true(f->edges.solved && f->edges.cls[0].plate_m > 0);
     assert_true(told(182) && !told(181));
     assert_int_equal(f->manufacturable, 0);
@@ -462,12 +466,14 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
             &n);
         text = replaced(arena, text, "<arg name=\"probability\" q=\"rie.S\"/></time>",
                         "<arg name=\"probability\" q=\"rie.S\"/></derive>", &n);
-        fw_flow *f = NULL;
+        fw_process_flow *f = NULL;
         diags = fw_diags_new(arena);
-        assert_int_equal(fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f),
-                         FW_OK);
-        ((fw_quantity *)fw_flow_quantity(f, "rie.S"))->status = measured ? FW_MEASURED : FW_ASSUMED;
-        assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        assert_int_equal(
+            fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f),
+            FW_OK);
+        ((fw_quantity *)fw_process_flow_quantity(f, "rie.S"))->status =
+            measured ? FW_MEASURED : FW_ASSUMED;
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
         assert_true(told(183));
         assert_true(f->edges.cls[0].over_etch < 0 && !f->edges.cut[0].follows);
         assert_relative(f->edges.cut[0].etched_m, 52.5e-6, 1e-12);
@@ -477,7 +483,7 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
         /* the time does not need the lag, nor does what it undercuts; only slots are open */
         set(f, "rie.S", (double)NAN);
         set(f, "rie.A", 0.98);
-        const fw_fixed_point *p = solved(f, &plain_facts);
+        const fw_process_fixed_point *p = solved(f, &plain_facts);
         assert_true(p->solved && !p->open);
         assert_relative(p->etch_m, 0.02 * (52.5e-6 + 2.5e-6) / 2, 1e-12);
         assert_true(isnan(p->cls[0].over_etch));
@@ -488,10 +494,10 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
  */
 static void a_guessed_lag_is_not_planned_with(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
-    ((fw_quantity *)fw_flow_quantity(f, "rie.S"))->status = FW_ASSUMED;
+    fw_process_flow *f = flow_of(SILICON);
+    ((fw_quantity *)fw_process_flow_quantity(f, "rie.S"))->status = FW_ASSUMED;
     set(f, "rie.A", 0.95);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_relative(step_of(f, "S18")->time.nominal_s, 5400.0, 1e-12);
     assert_false(f->edges.cut[0].own || f->edges.cut[0].follows);
     assert_relative(f->edges.cut[0].etched_m, 55e-6, 1e-12);
@@ -503,12 +509,12 @@ static void a_guessed_lag_is_not_planned_with(void **state) {
 
 static void a_flexure_that_the_etch_takes_is_said(void **state) {
     (void)state;
-    fw_flow *f = flow_of(SILICON);
-    fw_mask_facts facts = plain_facts;
+    fw_process_flow *f = flow_of(SILICON);
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = 40e-6;
     facts.deepest_hinge_width_m = facts.narrowest_line_m = 4e-6;
     set(f, "rie.A", 0.90);
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
     assert_true(f->edges.solved && told(184));
     assert_int_equal(f->manufacturable, 0);
 }
@@ -552,13 +558,13 @@ static void a_third_flow_needs_no_code(void **state) {
     (void)state;
     size_t nb = 0;
     const char *base = pack_text(arena, "base", &nb);
-    fw_flow *f = NULL;
-    fw_status status =
-        fw_flow_read(arena, "base.xml", base, nb, "third.xml", third, sizeof third - 1, &diags, &f);
+    fw_process_flow *f = NULL;
+    fw_status status = fw_process_flow_read(arena, "base.xml", base, nb, "third.xml", third,
+                                            sizeof third - 1, &diags, &f);
     for (size_t i = 0; status != FW_OK && i < diags.count; i++)
         print_message("%s\n", diags.item[i].message);
     assert_int_equal(status, FW_OK);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     /* foot of the oxide: (1 - 0.9) 0.3 2 um; top of the silicon: 0.02 1.2 (25 + c D^2/2w) um */
     double m = 0, D = 25e-6;
     for (int i = 0; i < 100; i++)
@@ -568,10 +574,10 @@ static void a_third_flow_needs_no_code(void **state) {
     assert_near(f->edges.cls[f->edges.field].edge.top_m, 0, 1e-18);
     assert_relative(step_of(f, "T2")->time.nominal_s,
                     60 * (D + 0.02 * D * D / (2 * (10e-6 - 2 * m))) / 2e-6, 1e-12);
-    fw_variant v = {.material.youngs = {.value = 150e9}, .thickness_m = D};
-    const fw_made_input *in;
+    fw_mechanism_variant v = {.material.youngs = {.value = 150e9}, .thickness_m = D};
+    const fw_verdict_fabrication_input *in;
     int n;
-    assert_int_equal(fw_flow_made(arena, f, &plain_facts, &v, &in, &n), FW_OK);
+    assert_int_equal(fw_process_flow_fabricated(arena, f, &plain_facts, &v, &in, &n), FW_OK);
     assert_int_equal(n, 3);
     assert_relative(in[1].edge_m, 0.3 * 2e-6, 1e-12); /* the oxide's foot moves edges alone */
     assert_near(in[1].flare_m, 0, 0);

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_fixture.h"
-#include "process/law.h"
+#include "process/process_law.h"
 #include "process/stack.h"
 
-static fw_flow *computed(const char *name, const char *from, const char *to,
-                         const fw_mask_facts *facts) {
-    fw_flow *f = read_pack(arena, name, from, to, &diags);
+static fw_process_flow *computed(const char *name, const char *from, const char *to,
+                                 const fw_process_mask_facts *facts) {
+    fw_process_flow *f = read_pack(arena, name, from, to, &diags);
     assert_non_null(f);
-    assert_int_equal(fw_flow_compute(arena, f, facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, facts, &diags), FW_OK);
     return f;
 }
 
-static const fw_quantity *derived(fw_flow *f, const char *step, const char *name) {
-    fw_step *s = step_of(f, step);
+static const fw_quantity *derived(fw_process_flow *f, const char *step, const char *name) {
+    fw_process_step *s = step_of(f, step);
     for (int i = 0; i < s->nderived; i++)
         if (strcmp(s->derived[i]->id, name) == 0) return s->derived[i];
     for (int i = 0; i < s->nderived; i++)
@@ -21,11 +21,11 @@ static const fw_quantity *derived(fw_flow *f, const char *step, const char *name
     return NULL;
 }
 
-static double shown(fw_flow *f, const char *step, const char *name) {
+static double shown(fw_process_flow *f, const char *step, const char *name) {
     return fw_quantity_in_unit(derived(f, step, name));
 }
 
-static bool reason(const fw_flow *f, const char *text) {
+static bool reason(const fw_process_flow *f, const char *text) {
     for (int i = 0; i < f->nreason; i++)
         if (strstr(f->reason[i], text)) return true;
     return false;
@@ -33,11 +33,12 @@ static bool reason(const fw_flow *f, const char *text) {
 
 static void copper(void **state) {
     (void)state;
-    fw_flow *f = computed(COPPER, NULL, NULL, &plain_facts);
-    fw_step *s = step_of(f, "C22");
+    fw_process_flow *f = computed(COPPER, NULL, NULL, &plain_facts);
+    fw_process_step *s = step_of(f, "C22");
     assert_relative(s->time.nominal_s, 1262.268843, 1e-9);
     /* 30 dies of 5 mm2 and the contact ring of 2 cm2 */
-    assert_relative(fw_quantity_in_unit(fw_flow_quantity(f, "mask.plated-area")), 3.5, 1e-12);
+    assert_relative(fw_quantity_in_unit(fw_process_flow_quantity(f, "mask.plated-area")), 3.5,
+                    1e-12);
     assert_relative(shown(f, "C22", "current"), 70.0, 1e-12);
     assert_relative(derived(f, "C22", "charge")->value, 0.07 * 1262.268843, 1e-9);
     assert_relative(shown(f, "C22", "mass deposited"), 8.064 * 3.5, 1e-9);
@@ -45,7 +46,7 @@ static void copper(void **state) {
     assert_relative(shown(f, "C22", "local current"), 16.0 / 9.0, 1e-12);
     /* edges within 0.5 um: u_A = P u_edge, and the ring's own 0.1 cm2 */
     double u = hypot(0.08 * 30 * 1e-6 / sqrt(12.0), 0.1e-4);
-    assert_relative(fw_flow_quantity(f, "mask.plated-area")->uncertainty, u, 1e-9);
+    assert_relative(fw_process_flow_quantity(f, "mask.plated-area")->uncertainty, u, 1e-9);
     assert_string_equal(s->time.contribution[0], "area 2.86 %");
     assert_relative(shown(f, "C05", "current"), 0.2770885, 1e-6);
     assert_relative(shown(f, "C05", "time for 2 um"), 110.4149070, 1e-8);
@@ -63,7 +64,7 @@ static void copper(void **state) {
     assert_true(reason(f, "adhesion"));
     /* two spins to 16 um by a typical spin curve; the dose needs the resist's name */
     for (int i = 0; i < 2; i++) {
-        const fw_time *spin = &step_of(f, i ? "C12" : "C10")->time;
+        const fw_process_time *spin = &step_of(f, i ? "C12" : "C10")->time;
         assert_true(spin->computable && spin->status >= FW_TYPICAL);
         assert_near(spin->nominal_s, 60.0, 0.0);
     }
@@ -79,8 +80,8 @@ static const char lag_measured[] =
 /* as the source has it: 90 min, and what a lag that is only assumed would ask for beside it */
 static void silicon_as_published(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
-    fw_step *s = step_of(f, "S18");
+    fw_process_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    fw_process_step *s = step_of(f, "S18");
     assert_relative(s->time.nominal_s, 5400.0, 1e-15);
     assert_relative(s->time.first_look_s / 60.0, 80.8218, 1e-6);
     assert_relative(s->time.stop_s / 60.0, 109.0961, 1e-6);
@@ -98,8 +99,8 @@ static void silicon_as_published(void **state) {
 
 static void silicon(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON, lag_assumed, lag_measured, &plain_facts);
-    fw_step *s = step_of(f, "S18");
+    fw_process_flow *f = computed(SILICON, lag_assumed, lag_measured, &plain_facts);
+    fw_process_step *s = step_of(f, "S18");
     /* 50 um in 90 min in wide openings; planned for the slot of 10 um, S = 0.1 */
     assert_relative(shown(f, "S18", "wide openings"), 90.0, 1e-15);
     assert_relative(s->time.nominal_s / 60.0, 98.854173, 1e-7);
@@ -125,7 +126,7 @@ static void silicon(void **state) {
     assert_true(reason(f, "is planned for 1.098 times that time"));
     assert_int_equal(f->not_computable, 2);
     for (int i = 0; i < f->nstep; i++) { /* a time or names, never neither */
-        fw_time *t = &f->step[i].time;
+        fw_process_time *t = &f->step[i].time;
         assert_true(t->computable ? t->nominal_s > 0.0 && t->nmissing == 0 : t->nmissing > 0);
         if (t->computable)
             assert_true(t->first_look_s <= t->nominal_s && t->nominal_s <= t->clear_by_s &&
@@ -136,9 +137,9 @@ static void silicon(void **state) {
 /* without lag the time is that of the source, and what 10 um in 50 um need */
 static void silicon_without_lag(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON, "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\"",
-                          "<q id=\"rie.S\" value=\"0\" u=\"0\"", &plain_facts);
-    fw_step *s = step_of(f, "S18");
+    fw_process_flow *f = computed(SILICON, "<q id=\"rie.S\" value=\"0.1\" u=\"0.05\"",
+                                  "<q id=\"rie.S\" value=\"0\" u=\"0\"", &plain_facts);
+    fw_process_step *s = step_of(f, "S18");
     assert_relative(s->time.nominal_s, 5400.0, 1e-15); /* 50 um in 90 min, to the last digits */
     assert_relative(s->time.stop_s / 60.0, 109.0961, 1e-6);
     assert_true(reason(f, "A = 0.9 in the nominal time and at A = 0.9167 with 20 % over-etch"));
@@ -151,8 +152,8 @@ static void silicon_without_lag(void **state) {
 
 static void missing_names(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
-    fw_time *t = &step_of(f, "S03")->time;
+    fw_process_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    fw_process_time *t = &step_of(f, "S03")->time;
     assert_false(t->computable);
     assert_int_equal(t->nmissing, 2);
     assert_string_equal(t->missing[0], "sputter rate (al.R)");
@@ -165,15 +166,16 @@ static void missing_names(void **state) {
 
 static void no_mask_yet(void **state) {
     (void)state;
-    fw_flow *f = computed(COPPER, NULL, NULL, NULL);
-    fw_time *t = &step_of(f, "C22")->time;
+    fw_process_flow *f = computed(COPPER, NULL, NULL, NULL);
+    fw_process_time *t = &step_of(f, "C22")->time;
     assert_false(t->computable);
     assert_string_equal(t->missing[0], "plated area in all (mask.plated-area)");
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_true(t->computable);
     int derived_before = step_of(f, "C22")->nderived, reasons = f->nreason;
     double total = f->total_s;
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK); /* again: the same */
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags),
+                     FW_OK); /* again: the same */
     assert_int_equal(step_of(f, "C22")->nderived, derived_before);
     assert_int_equal(f->nreason, reasons);
     assert_near(f->total_s, total, 0.0);
@@ -181,9 +183,9 @@ static void no_mask_yet(void **state) {
 
 static void device_thickness(void **state) {
     (void)state;
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_facts facts = plain_facts;
     facts.device_thickness_m = 12e-6;
-    fw_flow *f = computed(COPPER, NULL, NULL, &facts);
+    fw_process_flow *f = computed(COPPER, NULL, NULL, &facts);
     assert_relative(step_of(f, "C22")->time.nominal_s, 1262.268843 * 12.0 / 9.0, 1e-9);
     assert_int_equal(f->thickness->status, FW_ASSUMED);
     facts.device_thickness_m = 30e-6;
@@ -197,9 +199,9 @@ static void device_thickness(void **state) {
 
 static void lithography(void **state) {
     (void)state;
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = 2.6e-6;
-    fw_flow *f = computed(COPPER, NULL, NULL, &facts);
+    fw_process_flow *f = computed(COPPER, NULL, NULL, &facts);
     assert_int_equal(f->manufacturable, 0);
     assert_true(reason(f, "1.5 sqrt(lambda h/2) = 2.7 um"));
     assert_true(reason(f, "Nearest change: draw it 4.05 um wide"));
@@ -215,16 +217,17 @@ static void lithography(void **state) {
 
 static void measured_anisotropy(void **state) {
     (void)state;
-    fw_mask_facts facts = plain_facts;
-    fw_flow *f = read_pack(arena, SILICON, "<q id=\"rie.A\" unknown=\"true\"",
-                           "<q id=\"rie.A\" value=\"0.95\" u=\"0.01\"", &diags);
-    ((fw_quantity *)fw_flow_quantity(f, "rie.S"))->status = FW_MEASURED;
-    assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+    fw_process_mask_facts facts = plain_facts;
+    fw_process_flow *f = read_pack(arena, SILICON, "<q id=\"rie.A\" unknown=\"true\"",
+                                   "<q id=\"rie.A\" value=\"0.95\" u=\"0.01\"", &diags);
+    ((fw_quantity *)fw_process_flow_quantity(f, "rie.S"))->status = FW_MEASURED;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
     /* 1.1 um of the aluminium and (1 - A)(E - (D + lag)/2), which narrows the slot it is for */
     double m = 0.0, E = 0.0, field = 2.0 * (28e-6 - 5e-6) / 0.08;
     for (int i = 0; i < 60; i++) {
-        E = 1.1 * (50e-6 + 0.1 * fw_arde_integral(10e-6 - 2 * m, 50e-6, false));
-        m = 0.05 * (E - 0.5 * (50e-6 + 0.1 * fw_arde_integral(field - 2 * m, 50e-6, false)));
+        E = 1.1 * (50e-6 + 0.1 * fw_process_arde_integral(10e-6 - 2 * m, 50e-6, false));
+        m = 0.05 *
+            (E - 0.5 * (50e-6 + 0.1 * fw_process_arde_integral(field - 2 * m, 50e-6, false)));
     }
     assert_relative(f->bias_m, 1.1e-6 + m, 1e-12);
     assert_relative(f->edges.cls[f->edges.field].edge.top_m, m - 0.05 * E, 1e-11);
@@ -236,7 +239,7 @@ static void measured_anisotropy(void **state) {
 
 static void wrong_facts(void **state) {
     (void)state;
-    fw_mask_facts bad[8];
+    fw_process_mask_facts bad[8];
     for (int i = 0; i < 8; i++) {
         bad[i] = plain_facts;
         bad[i].narrowest_slot_m = bad[i].narrowest_line_m = bad[i].deepest_hinge_width_m = 8e-6;
@@ -248,10 +251,10 @@ static void wrong_facts(void **state) {
     bad[5].deepest_hinge_width_m = -8e-6;
     bad[6].device_thickness_m = -1;
     bad[7].structure_area_m2 = 9e-6, bad[7].die_area_m2 = 8e-6;
-    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         diags = fw_diags_new(arena);
-        assert_int_equal(fw_flow_compute(arena, f, &bad[i], &diags), FW_INPUT);
+        assert_int_equal(fw_process_flow_compute(arena, f, &bad[i], &diags), FW_INPUT);
         assert_int_equal(diags.item[0].number, 179);
     }
 }
@@ -260,13 +263,13 @@ static void wrong_facts(void **state) {
 static void nothing_narrow(void **state) {
     (void)state;
     const double none = (double)INFINITY;
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_facts facts = plain_facts;
     facts.narrowest_slot_m = facts.narrowest_line_m = none;
     facts.deepest_hinge_width_m = 0.0;
     facts.dies = 1;
     facts.device_thickness_m = (double)NAN;
     for (int i = 0; i < 2; i++) {
-        fw_flow *f = computed(i ? SILICON : COPPER, NULL, NULL, &facts);
+        fw_process_flow *f = computed(i ? SILICON : COPPER, NULL, NULL, &facts);
         assert_int_equal(f->manufacturable, -1);
         for (int k = 0; k < f->nreason; k++)
             if (strstr(f->reason[k], " inf") || strstr(f->reason[k], "nan "))
@@ -274,7 +277,7 @@ static void nothing_narrow(void **state) {
     }
 }
 
-static int count(const fw_stack *s, int column, const char *material) {
+static int count(const fw_process_stack *s, int column, const char *material) {
     int n = 0;
     for (int i = 0; i < s->n[column]; i++)
         n += strcmp(s->cell[column][i].material, material) == 0;
@@ -283,31 +286,33 @@ static int count(const fw_stack *s, int column, const char *material) {
 
 static void layers(void **state) {
     (void)state;
-    fw_stack s;
-    const fw_change *absent = NULL;
-    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
-    assert_int_equal(fw_flow_stack(arena, f, 12, &s, &absent), FW_OK); /* after C13: two coats */
+    fw_process_stack s;
+    const fw_process_change *absent = NULL;
+    fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_stack(arena, f, 12, &s, &absent),
+                     FW_OK); /* after C13: two coats */
     assert_int_equal(count(&s, FW_STACK_STRUCTURE, "resist"), 2);
-    assert_int_equal(fw_flow_stack(arena, f, 21, &s, &absent), FW_OK); /* after C22 */
+    assert_int_equal(fw_process_flow_stack(arena, f, 21, &s, &absent), FW_OK); /* after C22 */
     assert_int_equal(count(&s, FW_STACK_STRUCTURE, "resist"), 0);
     assert_int_equal(count(&s, FW_STACK_FIELD, "resist"), 2);
     assert_int_equal(count(&s, FW_STACK_STRUCTURE, "copper-plated"), 1);
     assert_int_equal(count(&s, FW_STACK_FIELD, "copper-plated"), 0);
-    assert_int_equal(fw_flow_stack(arena, f, 27, &s, &absent), FW_OK);
+    assert_int_equal(fw_process_flow_stack(arena, f, 27, &s, &absent), FW_OK);
     assert_int_equal(count(&s, FW_STACK_STRUCTURE, "porous-silicon"), 0);
     assert_int_equal(count(&s, FW_STACK_FIELD, "copper-seed"), 0);
     assert_null(absent);
     f = read_pack(arena, SILICON, NULL, NULL, &diags);
-    assert_int_equal(fw_flow_stack(arena, f, 22, &s, &absent), FW_OK); /* silicon alone is left */
+    assert_int_equal(fw_process_flow_stack(arena, f, 22, &s, &absent),
+                     FW_OK); /* silicon alone is left */
     assert_int_equal(s.n[FW_STACK_STRUCTURE], 1);
     assert_int_equal(s.n[FW_STACK_FIELD], 0);
-    assert_int_equal(fw_flow_stack(arena, f, -1, &s, &absent), FW_OK);
+    assert_int_equal(fw_process_flow_stack(arena, f, -1, &s, &absent), FW_OK);
     assert_int_equal(s.n[FW_STACK_STRUCTURE], 0);
 }
 
 static void counted(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
+    fw_process_flow *f = computed(SILICON, NULL, NULL, &plain_facts);
     int sum = f->unknown;
     for (int i = FW_MEASURED; i <= FW_ASSUMED; i++)
         sum += f->count[i];

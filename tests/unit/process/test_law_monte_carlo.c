@@ -4,7 +4,7 @@
    evaluated anew. A tenth of the packs' uncertainties, where first order is the whole truth; at
    their full size it is within what the window allows for. */
 #include "packs.h"
-#include "process/law.h"
+#include "process/process_law.h"
 
 enum { SAMPLES = 3000, MOST = FW_LAW_ARGUMENTS };
 
@@ -32,12 +32,13 @@ static double normal(void) {
 }
 
 static const char *group_of(const fw_process_law *law, const char *name) {
-    int i = law->argument ? fw_law_argument_index(law, name) : -1;
+    int i = law->argument ? fw_process_law_argument_index(law, name) : -1;
     return i >= 0 ? law->argument[i].group : NULL;
 }
 
 /* one draw of the inputs: the same quantity, and all of one group, move together */
-static void draw(const fw_law_use *use, double scale, fw_quantity *q, fw_argument *a) {
+static void draw(const fw_process_law_use *use, double scale, fw_quantity *q,
+                 fw_process_argument *a) {
     double z[MOST];
     for (int i = 0; i < use->nargument; i++) {
         const char *group = group_of(use->law, use->argument[i].name);
@@ -48,10 +49,11 @@ static void draw(const fw_law_use *use, double scale, fw_quantity *q, fw_argumen
                 same = k;
         z[i] = same < i ? z[same] : normal();
         q[i] = *use->argument[i].q;
-        bool held = use->law == &fw_law_dose && strcmp(use->argument[i].name, "thickness") == 0;
+        bool held =
+            use->law == &fw_process_law_dose && strcmp(use->argument[i].name, "thickness") == 0;
         if (!held) q[i].value += scale * z[i] * q[i].uncertainty; /* law_dose.c says why */
         q[i].uncertainty = 0.0;
-        a[i] = (fw_argument){use->argument[i].name, &q[i]};
+        a[i] = (fw_process_argument){use->argument[i].name, &q[i]};
     }
 }
 
@@ -60,20 +62,20 @@ typedef struct spread {
     int n;
 } spread;
 
-static spread sample(const fw_law_use *use, double scale) {
+static spread sample(const fw_process_law_use *use, double scale) {
     fw_quantity q[MOST];
-    fw_argument a[MOST];
-    fw_law_use one = *use;
+    fw_process_argument a[MOST];
+    fw_process_law_use one = *use;
     double sum = 0.0, squares = 0.0, first = (double)NAN;
     int n = 0;
     one.argument = a;
     for (int i = 0; i < SAMPLES; i++) {
         fw_arena *own = fw_arena_new(0);
-        fw_law_answer answer;
+        fw_process_law_answer answer;
         draw(use, scale, q, a);
-        assert_int_equal(fw_law_evaluate(own, &one, &answer), FW_OK);
+        assert_int_equal(fw_process_law_evaluate(own, &one, &answer), FW_OK);
         /* the current is set for the nominal area: another one gets another density */
-        for (int k = 0; use->law == &fw_law_faraday && k < use->nargument; k++)
+        for (int k = 0; use->law == &fw_process_law_faraday && k < use->nargument; k++)
             if (strcmp(a[k].name, "area") == 0)
                 answer.value *= q[k].value / use->argument[k].q->value;
         if (answer.computable) {
@@ -92,7 +94,8 @@ static int checked, curved;
 
 /* pauses make steps, and there is no first order: the stated width must hold the drawn one, and not
    be useless */
-static void check_steps(const fw_law_use *use, const fw_law_answer *answer, const char *what) {
+static void check_steps(const fw_process_law_use *use, const fw_process_law_answer *answer,
+                        const char *what) {
     spread s = sample(use, 1.0);
     if (s.n < SAMPLES || s.deviation > 1.05 * answer->uncertainty ||
         s.deviation < 0.5 * answer->uncertainty)
@@ -101,11 +104,11 @@ static void check_steps(const fw_law_use *use, const fw_law_answer *answer, cons
 }
 
 /* the deviation of 3000 draws is itself off by 1.3 %; four of those */
-static void check(const fw_law_use *use, const char *what) {
-    fw_law_answer answer;
-    assert_int_equal(fw_law_evaluate(arena, use, &answer), FW_OK);
+static void check(const fw_process_law_use *use, const char *what) {
+    fw_process_law_answer answer;
+    assert_int_equal(fw_process_law_evaluate(arena, use, &answer), FW_OK);
     if (!answer.computable || !(answer.uncertainty > 0.0)) return;
-    if (use->law == &fw_law_duty) {
+    if (use->law == &fw_process_law_duty) {
         check_steps(use, &answer, what);
         return;
     }
@@ -126,25 +129,25 @@ static void every_law_of_both_flows(void **state) {
     static const char *const flows[] = {COPPER, SILICON};
     for (int k = 0; k < 2; k++) {
         fw_diags diags = fw_diags_new(arena);
-        fw_flow *f = read_pack(arena, flows[k], NULL, NULL, &diags);
-        assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        fw_process_flow *f = read_pack(arena, flows[k], NULL, NULL, &diags);
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
         for (int i = 0; i < f->nstep; i++) {
-            const fw_step *s = &f->step[i];
-            fw_law_use time = {.law = fw_law_find(s->law),
-                               .shape = s->shape,
-                               .expression = s->expression,
-                               .wanted = FW_DIM_TIME,
-                               .argument = s->argument,
-                               .nargument = s->nargument};
+            const fw_process_step *s = &f->step[i];
+            fw_process_law_use time = {.law = fw_process_law_find(s->law),
+                                       .shape = s->shape,
+                                       .expression = s->expression,
+                                       .wanted = FW_DIM_TIME,
+                                       .argument = s->argument,
+                                       .nargument = s->nargument};
             check(&time, s->id);
             for (int j = 0; j < s->nderive; j++) {
-                const fw_derive *d = &s->derive[j];
-                fw_law_use use = {.law = fw_law_find(d->law),
-                                  .shape = d->shape,
-                                  .expression = d->expression,
-                                  .wanted = d->dimension,
-                                  .argument = d->argument,
-                                  .nargument = d->nargument};
+                const fw_process_derive *d = &s->derive[j];
+                fw_process_law_use use = {.law = fw_process_law_find(d->law),
+                                          .shape = d->shape,
+                                          .expression = d->expression,
+                                          .wanted = d->dimension,
+                                          .argument = d->argument,
+                                          .nargument = d->nargument};
                 check(&use, d->name);
             }
         }

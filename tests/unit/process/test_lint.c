@@ -99,7 +99,7 @@ static void replaced_values_keep_their_range(void **state) {
     base =
         replaced(arena, base, "</process>", fw_arena_printf(arena, "%s</process>", again[0]), &nb);
     for (size_t i = 0; i < sizeof with / sizeof with[0]; i++) {
-        fw_flow *flow = NULL;
+        fw_process_flow *flow = NULL;
         size_t m = n;
         const char *q = fw_arena_printf(
             arena,
@@ -109,7 +109,7 @@ static void replaced_values_keep_their_range(void **state) {
         const char *own = replaced(arena, text, "<q id=\"pan.R\"", q, &m);
         diags = fw_diags_new(arena);
         fw_status status =
-            fw_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
+            fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", own, m, &diags, &flow);
         assert_int_equal(status, with[i].number ? FW_INPUT : FW_OK);
         if (with[i].number) expect(with[i].number, "h.x");
     }
@@ -122,7 +122,8 @@ static void shared_hazards(void **state) {
         int number;
         const char *says;
     } bad[] = {
-        {"ghs=\"GHS02 GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS02 GHS05 GHS06\"", 174, "state buddy"},
+        {"ghs=\"GHS02 GHS05 GHS06\" buddy=\"yes\"", "ghs=\"GHS02 GHS05 GHS06\"", 174,
+         "state buddy"},
         {"calcium gluconate gel until help arrives. Eyes: rinse 15 min or longer. Inhaled",
          "cream until help arrives. Eyes: rinse 15 min or longer. Inhaled", 0, ""},
         {"<waste stream=\"solvent\">solvent can", "<waste stream=\"acid-oxidiser\">solvent can",
@@ -132,37 +133,38 @@ static void shared_hazards(void **state) {
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         size_t nb = 0, n = 0;
-        fw_flow *flow = NULL;
+        fw_process_flow *flow = NULL;
         const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
         base = replaced(arena, base, bad[i].from, bad[i].to, &nb);
         diags = fw_diags_new(arena);
         fw_status status =
-            fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow);
+            fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow);
         assert_int_equal(status, bad[i].number ? FW_INPUT : FW_OK);
         if (bad[i].number) expect(bad[i].number, bad[i].says);
     }
     /* the antidote is missing everywhere: said for both acids */
     size_t nb = 0, n = 0;
-    fw_flow *flow = NULL;
+    fw_process_flow *flow = NULL;
     const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
     while (strstr(base, "gluconate"))
         base = replaced(arena, base, "gluconate", "chloride", &nb);
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow),
-                     FW_INPUT);
+    assert_int_equal(
+        fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow),
+        FW_INPUT);
     expect(174, "'h.hf-organic' is hydrofluoric acid");
     expect(174, "'h.hf-copper' is hydrofluoric acid");
 }
 
-static fw_flow *computed(const char *name, const char *from, const char *to) {
+static fw_process_flow *computed(const char *name, const char *from, const char *to) {
     diags = fw_diags_new(arena);
-    fw_flow *f = read_pack(arena, name, from, to, &diags);
+    fw_process_flow *f = read_pack(arena, name, from, to, &diags);
     assert_non_null(f);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     return f;
 }
 
-static int reasons(const fw_flow *f, const char *says) {
+static int reasons(const fw_process_flow *f, const char *says) {
     int n = 0;
     for (int i = 0; i < f->nreason; i++)
         n += strstr(f->reason[i], says) != NULL;
@@ -183,14 +185,14 @@ static void loss(void **state) {
         const char *to = fw_arena_printf(
             arena, "<q id=\"rie.selectivity\" least=\"1\" most=\"100000\" value=\"%g\" u=\"%g\"",
             at[i].S, at[i].u);
-        fw_flow *f = computed(SILICON, from, to);
+        fw_process_flow *f = computed(SILICON, from, to);
         assert_int_equal(reasons(f, "of the open"), at[i].gone >= 0);
         assert_int_equal(found(270, "S18") != NULL, at[i].gone == 1);
         assert_int_equal(f->manufacturable, at[i].gone == 1 ? 0 : -1); /* A is unknown anyway */
     }
     /* by rate: the developer takes 75 nm/min for 60 s and 20 % over: 90 nm */
-    fw_flow *f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
-                          "<q id=\"develop.al\" value=\"840\" u=\"0\"");
+    fw_process_flow *f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
+                                  "<q id=\"develop.al\" value=\"840\" u=\"0\"");
     assert_int_equal(reasons(f,
                              "step S11 takes 1.01 um of the open aluminium, sputtered, 1 um thick, "
                              "at a rate of 840 nm/min (u = 0): it lasts below 833.3 nm/min"),
@@ -204,20 +206,21 @@ static void loss(void **state) {
 /* two coats of 8 um are the mould: 16 um */
 static void mould(void **state) {
     (void)state;
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_facts facts = plain_facts;
     static const double thick_um[] = {9.0, 15.99, 16.01, 30.0};
     for (size_t i = 0; i < 4; i++) {
         diags = fw_diags_new(arena);
-        fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+        fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
         facts.device_thickness_m = thick_um[i] * 1e-6;
-        assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
         bool over = thick_um[i] > 16.0;
         assert_int_equal(reasons(f, "grows over it"), over);
         assert_int_equal(found(273, "C22") != NULL, over);
         if (over) assert_int_equal(f->manufacturable, 0);
     }
-    fw_flow *f = computed(COPPER, "thickness=\"cu.d\" where=\"structure\"/>",
-                          "thickness=\"cu.d\" where=\"structure\" spread=\"mould.spins\"/>");
+    fw_process_flow *f =
+        computed(COPPER, "thickness=\"cu.d\" where=\"structure\"/>",
+                 "thickness=\"cu.d\" where=\"structure\" spread=\"mould.spins\"/>");
     assert_int_equal(reasons(f, "plates up to 18 um"), 1); /* twice the mean */
 }
 
@@ -234,15 +237,16 @@ static void bath(void **state) {
     for (int i = 0; i < 3; i++) {
         diags = fw_diags_new(arena);
         const char *to = fw_arena_printf(arena, "<q id=\"cu.bath-c\" %s", cases[i].concentration);
-        fw_flow *f = read_pack(arena, COPPER, "<q id=\"cu.bath-c\" unknown=\"true\"", to, &diags);
+        fw_process_flow *f =
+            read_pack(arena, COPPER, "<q id=\"cu.bath-c\" unknown=\"true\"", to, &diags);
         assert_non_null(f);
-        ((fw_quantity *)fw_flow_quantity(f, "ring.area"))->value = 0.0;
-        fw_mask_facts facts = plain_facts;
+        ((fw_quantity *)fw_process_flow_quantity(f, "ring.area"))->value = 0.0;
+        fw_process_mask_facts facts = plain_facts;
         facts.structure_area_m2 = 1e-3 / facts.dies; /* 10 cm2 in all */
         facts.die_area_m2 = 2e-3 / facts.dies;
-        ((fw_quantity *)fw_flow_quantity(f, "cu.bath-V"))->value = 0.02e-3; /* 20 mL */
-        assert_int_equal(fw_flow_compute(arena, f, &facts, &diags), FW_OK);
-        const fw_quantity *taken = fw_flow_quantity(f, "cu.taken");
+        ((fw_quantity *)fw_process_flow_quantity(f, "cu.bath-V"))->value = 0.02e-3; /* 20 mL */
+        assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+        const fw_quantity *taken = fw_process_flow_quantity(f, "cu.taken");
         assert_near(taken->value, 1.269e-3, 1e-6);
         const fw_diag *d = found(279, "C22");
         assert_int_equal(d != NULL, cases[i].warns);

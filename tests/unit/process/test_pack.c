@@ -9,7 +9,7 @@ static const char *const flows[] = {COPPER, SILICON};
 static void packs_are_clean(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        fw_flow *f = read_pack(arena, flows[i], NULL, NULL, &diags);
+        fw_process_flow *f = read_pack(arena, flows[i], NULL, NULL, &diags);
         assert_non_null(f);
         assert_int_equal(diags.count, 0); /* no warning and no note either */
         assert_string_equal(f->id, flows[i]);
@@ -35,7 +35,8 @@ static void compare(const char *name, fw_status (*generate)(fw_text *)) {
     size_t n;
     assert_int_equal(fw_input_read(arena, path, 1 << 20, &diags, &committed, &n), FW_OK);
     if (n != text.length || memcmp(committed, text.data, n) != 0)
-        fail_msg("%s differs from src/process/table.c; run FW_WRITE_REFERENCE=1 test_pack", name);
+        fail_msg("%s differs from src/process/process_table.c; run FW_WRITE_REFERENCE=1 test_pack",
+                 name);
 }
 
 static void pages_are_current(void **state) {
@@ -48,13 +49,13 @@ static void pages_are_current(void **state) {
 static void rows_are_complete(void **state) {
     (void)state;
     const fw_xml_table *const tables[] = {&fw_process_pack_table, &fw_process_laboratory_table};
-    const fw_element_row *e;
+    const fw_xml_element_row *e;
     for (int k = 0; k < 2; k++)
         for (int i = 0; (e = fw_xml_row_at(tables[k], i)) != NULL; i++) {
             assert_int_equal(fw_xml_row_index(tables[k], e->name), i); /* names are unique */
             assert_true(e->sentence && e->sentence[strlen(e->sentence) - 1] == '.');
             for (int n = 0; n < e->nattribute; n++) {
-                const fw_attribute_row *a = &e->attribute[n];
+                const fw_xml_attribute_row *a = &e->attribute[n];
                 assert_true(a->sentence && strchr(".?", a->sentence[strlen(a->sentence) - 1]));
                 assert_true(!a->required || !a->fallback);
                 assert_true(!a->ranged || (a->min < a->max && a->reason));
@@ -86,9 +87,9 @@ static void packs_follow_the_schema(void **state) {
 static void hydrofluoric_acid(void **state) {
     (void)state;
     int found = 0;
-    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
     for (int i = 0; i < f->nstep; i++) {
-        fw_step *s = &f->step[i];
+        fw_process_step *s = &f->step[i];
         bool acid = strcmp(s->equipment->id, "hf-bench") == 0, named = false;
         for (int k = 0; k < s->nhazard; k++) {
             if (strncmp(s->hazard[k]->id, "h.hf", 4) != 0) continue;
@@ -139,10 +140,10 @@ static void provenance(void **state) {
                  {1, "rie.t", "min", 90}};
     int n = (int)(sizeof paper / sizeof paper[0]), stated = 0;
     for (int k = 0; k < 2; k++) {
-        fw_flow *f = read_pack(arena, flows[k], NULL, NULL, &diags);
+        fw_process_flow *f = read_pack(arena, flows[k], NULL, NULL, &diags);
         for (int i = 0; i < n; i++) {
             if (paper[i].flow != k) continue;
-            const fw_quantity *q = fw_flow_quantity(f, paper[i].id);
+            const fw_quantity *q = fw_process_flow_quantity(f, paper[i].id);
             assert_non_null(q);
             assert_int_equal(q->status, FW_STATED);
             assert_false(q->unknown);
@@ -168,12 +169,12 @@ static void the_unknown_is_unknown(void **state) {
     static const char *const silicon[] = {"al.power", "al.R",         "al.base", "resist.type",
                                           "pan.T",    "pan.c-nitric", "rie.A",   "rie.electrode",
                                           "rie.bias", "rie.kappa",    "rie.T",   "wafer.D"};
-    fw_flow *c = read_pack(arena, COPPER, NULL, NULL, &diags),
-            *s = read_pack(arena, SILICON, NULL, NULL, &diags);
+    fw_process_flow *c = read_pack(arena, COPPER, NULL, NULL, &diags),
+                    *s = read_pack(arena, SILICON, NULL, NULL, &diags);
     for (size_t i = 0; i < sizeof copper / sizeof copper[0]; i++)
-        assert_true(fw_flow_quantity(c, copper[i])->unknown);
+        assert_true(fw_process_flow_quantity(c, copper[i])->unknown);
     for (size_t i = 0; i < sizeof silicon / sizeof silicon[0]; i++)
-        assert_true(fw_flow_quantity(s, silicon[i])->unknown);
+        assert_true(fw_process_flow_quantity(s, silicon[i])->unknown);
 }
 
 /* each mistake is found at its place, with its number */
@@ -256,7 +257,7 @@ static void place_is_exact(void **state) {
 
 static void chemicals_must_not_meet(void **state) {
     (void)state;
-    fw_flow *f =
+    fw_process_flow *f =
         read_pack(arena, SILICON, "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.sharp\"/>",
                   "<hazard-ref ref=\"h.pan\"/><hazard-ref ref=\"h.solvent\"/>", &diags);
     assert_non_null(f);
@@ -268,18 +269,18 @@ static void chemicals_must_not_meet(void **state) {
 
 static void a_flow_may_replace_shared_values(void **state) {
     (void)state;
-    fw_flow *f = read_pack(arena, COPPER, "<!-- device -->",
-                           "<q id=\"cu.rho\" value=\"8.9\" u=\"0.1\" unit=\"g/cm3\" "
-                           "status=\"assumed\" src=\"guess\"/>",
-                           &diags);
+    fw_process_flow *f = read_pack(arena, COPPER, "<!-- device -->",
+                                   "<q id=\"cu.rho\" value=\"8.9\" u=\"0.1\" unit=\"g/cm3\" "
+                                   "status=\"assumed\" src=\"guess\"/>",
+                                   &diags);
     assert_non_null(f);
     assert_int_equal(diags.count, 1);
     assert_int_equal(diags.item[0].number, 177);
-    assert_relative(fw_flow_quantity(f, "cu.rho")->value, 8900.0, 1e-12);
-    fw_step *s = step_of(f, "C22");
+    assert_relative(fw_process_flow_quantity(f, "cu.rho")->value, 8900.0, 1e-12);
+    fw_process_step *s = step_of(f, "C22");
     for (int i = 0; i < s->nargument; i++)
         if (strcmp(s->argument[i].name, "density") == 0)
-            assert_ptr_equal(s->argument[i].q, fw_flow_quantity(f, "cu.rho"));
+            assert_ptr_equal(s->argument[i].q, fw_process_flow_quantity(f, "cu.rho"));
 }
 
 static void broken_files(void **state) {
@@ -289,19 +290,22 @@ static void broken_files(void **state) {
     for (size_t cut = 0; cut < n; cut += 1997) { /* every truncation is refused, none crashes */
         fw_arena *own = fw_arena_new(0);
         fw_diags d = fw_diags_new(own);
-        fw_flow *f = NULL;
-        assert_int_equal(fw_flow_read(own, "base.xml", base, nb, "flow.xml", text, cut, &d, &f),
-                         FW_INPUT);
+        fw_process_flow *f = NULL;
+        assert_int_equal(
+            fw_process_flow_read(own, "base.xml", base, nb, "flow.xml", text, cut, &d, &f),
+            FW_INPUT);
         assert_null(f);
         assert_true(d.errors > 0);
         fw_arena_free(own);
     }
-    fw_flow *f = NULL;
-    assert_int_equal(fw_flow_read(arena, "base.xml", text, n, "flow.xml", text, n, &diags, &f),
-                     FW_INPUT); /* a flow is no shared pack */
+    fw_process_flow *f = NULL;
+    assert_int_equal(
+        fw_process_flow_read(arena, "base.xml", text, n, "flow.xml", text, n, &diags, &f),
+        FW_INPUT); /* a flow is no shared pack */
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_flow_read(arena, "base.xml", base, nb, "flow.xml", base, nb, &diags, &f),
-                     FW_INPUT);
+    assert_int_equal(
+        fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", base, nb, &diags, &f),
+        FW_INPUT);
 }
 
 /* the allocator fails at the n-th request, for every n: always a clean FW_NOMEM */
@@ -313,10 +317,11 @@ static void out_of_memory(void **state) {
     for (long at = 1;; at += at < 200 ? 1 : 37) {
         fw_arena *own = fw_arena_new(0);
         fw_diags d = fw_diags_new(own);
-        fw_flow *f = NULL;
+        fw_process_flow *f = NULL;
         fw_arena_fail_at(at, 1);
-        fw_status status = fw_flow_read(own, "base.xml", base, nb, "flow.xml", text, n, &d, &f);
-        if (status == FW_OK) status = fw_flow_compute(own, f, &plain_facts, &d);
+        fw_status status =
+            fw_process_flow_read(own, "base.xml", base, nb, "flow.xml", text, n, &d, &f);
+        if (status == FW_OK) status = fw_process_flow_compute(own, f, &plain_facts, &d);
         fw_arena_fail_at(0, 0);
         fw_arena_free(own);
         if (status == FW_OK) break;

@@ -5,8 +5,8 @@
 
 static double stiffness(double A, double width, double time, double w0) {
     double top, bottom;
-    fw_undercut_widths(width, A, 50.0, 50.0 * time / 90.0, &top, &bottom);
-    return fw_undercut_stiffness(top, bottom, w0);
+    fw_process_undercut_widths(width, A, 50.0, 50.0 * time / 90.0, &top, &bottom);
+    return fw_process_undercut_stiffness(top, bottom, w0);
 }
 
 static void table(void **state) {
@@ -30,10 +30,10 @@ static void table(void **state) {
         assert_near(stiffness(rows[i].A, 10.0, 108.0, 10.0), rows[i].t108, 6e-7);
         assert_near(stiffness(rows[i].A, 7.8, 99.0, 10.0), rows[i].biased, 6e-7);
     }
-    assert_relative(fw_undercut_stiffness(8.0, 10.0, 10.0), 0.738, 1e-12);
-    assert_relative(fw_undercut_stiffness(7.8, 7.8, 10.0), 0.474552, 1e-12);
-    assert_near(fw_undercut_stiffness(-3.0, -1.0, 10.0), 0.0, 0.0);
-    assert_near(fw_undercut_stiffness(-1.0, -1.0, 10.0), 0.0, 0.0);
+    assert_relative(fw_process_undercut_stiffness(8.0, 10.0, 10.0), 0.738, 1e-12);
+    assert_relative(fw_process_undercut_stiffness(7.8, 7.8, 10.0), 0.474552, 1e-12);
+    assert_near(fw_process_undercut_stiffness(-3.0, -1.0, 10.0), 0.0, 0.0);
+    assert_near(fw_process_undercut_stiffness(-1.0, -1.0, 10.0), 0.0, 0.0);
 }
 
 /* against quadrature of the section, negative widths counted as nothing */
@@ -45,22 +45,23 @@ static void quadrature(void **state) {
             double w = top + (bottom - top) * (i + 0.5) / 20000.0;
             sum += w > 0.0 ? w * w * w : 0.0;
         }
-        assert_relative(fw_undercut_stiffness(top, bottom, 10.0), sum / 20000.0 / 1000.0, 1e-6);
+        assert_relative(fw_process_undercut_stiffness(top, bottom, 10.0), sum / 20000.0 / 1000.0,
+                        1e-6);
     }
 }
 
 static void needed(void **state) {
     (void)state;
-    assert_relative(fw_undercut_cut(10.0, 50.0), 0.9, 1e-12);
-    assert_relative(fw_undercut_cut(10.0, 60.0), 0.9166666667, 1e-9);
-    assert_near(fw_undercut_needed(10.0, 50.0, 50.0, 0.1, 0), 0.9930, 5e-5);
-    assert_near(fw_undercut_needed(10.0, 50.0, 55.0, 0.1, 0), 0.9942, 5e-5);
-    assert_near(fw_undercut_needed(10.0, 50.0, 50.0, 0.1, 1), 0.9965489385, 1e-9);
+    assert_relative(fw_process_undercut_cut(10.0, 50.0), 0.9, 1e-12);
+    assert_relative(fw_process_undercut_cut(10.0, 60.0), 0.9166666667, 1e-9);
+    assert_near(fw_process_undercut_needed(10.0, 50.0, 50.0, 0.1, 0), 0.9930, 5e-5);
+    assert_near(fw_process_undercut_needed(10.0, 50.0, 55.0, 0.1, 0), 0.9942, 5e-5);
+    assert_near(fw_process_undercut_needed(10.0, 50.0, 50.0, 0.1, 1), 0.9965489385, 1e-9);
     for (double w = 4.0; w < 40.0; w *= 1.3) /* the answer does what it says */
         for (int straight = 0; straight < 2; straight++) {
-            double A = fw_undercut_needed(w, 50.0, 57.0, 0.2, straight), top, bottom;
-            fw_undercut_widths(w, A, 50.0, 57.0, &top, &bottom);
-            assert_near(fw_undercut_stiffness(top, straight ? top : bottom, w), 0.8, 1e-10);
+            double A = fw_process_undercut_needed(w, 50.0, 57.0, 0.2, straight), top, bottom;
+            fw_process_undercut_widths(w, A, 50.0, 57.0, &top, &bottom);
+            assert_near(fw_process_undercut_stiffness(top, straight ? top : bottom, w), 0.8, 1e-10);
         }
 }
 
@@ -68,7 +69,7 @@ static void print_limit(void **state) {
     (void)state;
     static const double gap[] = {0, 5, 10, 20}, want[] = {2.7, 3.441838172, 4.05, 5.051237472};
     for (int i = 0; i < 4; i++)
-        assert_relative(1e6 * fw_print_limit(405e-9, gap[i] * 1e-6, 16e-6), want[i], 1e-9);
+        assert_relative(1e6 * fw_process_print_limit(405e-9, gap[i] * 1e-6, 16e-6), want[i], 1e-9);
 }
 
 int main(void) {

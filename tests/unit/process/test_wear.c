@@ -3,11 +3,11 @@
  */
 #include "pack_fixture.h"
 #include "process/films.h"
-#include "process/made.h"
+#include "process/process_fabrication.h"
 #include "process/wear.h"
 
-static fw_flow *copper(double seed_m, double rate) {
-    fw_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+static fw_process_flow *copper(double seed_m, double rate) {
+    fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
     if (seed_m > 0.0) measured(f, "seed.d", seed_m, 0.1 * seed_m);
     if (rate > 0.0) measured(f, "seed.R", rate, 0.3 * rate);
     return f;
@@ -17,34 +17,34 @@ static fw_flow *copper(double seed_m, double rate) {
  */
 static void loss(void **state) {
     (void)state;
-    fw_wear w = fw_flow_wear(copper(0.3e-6, 0.0));
+    fw_process_wear w = fw_process_flow_wear(copper(0.3e-6, 0.0));
     assert_near(w.loss_m, 0.36e-6, 1e-21);
     assert_near(w.uncertainty_m, 0.036e-6, 1e-21);
     assert_null(w.missing);
-    w = fw_flow_wear(copper(0.3e-6, 5e-9));
+    w = fw_process_flow_wear(copper(0.3e-6, 5e-9));
     assert_near(w.loss_m, 0.36e-6, 1e-21);
     assert_near(w.uncertainty_m, 0.036e-6, 1e-21);
-    w = fw_flow_wear(copper(0.0, 5e-9));
+    w = fw_process_flow_wear(copper(0.0, 5e-9));
     assert_string_equal(w.missing, "seed.d");
     assert_near(w.loss_m, 0.0, 0);
     assert_string_equal(w.step->id, "C25");
     /* another rate for the plated copper: 0.36 um times 2/5, errors in quadrature */
-    fw_flow *f = copper(0.3e-6, 5e-9);
+    fw_process_flow *f = copper(0.3e-6, 5e-9);
     fw_quantity own = {.id = "own", .value = 2e-9, .uncertainty = 0.4e-9};
     step_of(f, "C25")->exposed[0].rate = &own;
-    w = fw_flow_wear(f);
+    w = fw_process_flow_wear(f);
     assert_near(w.loss_m, 0.36e-6 * 0.4, 1e-21);
     assert_relative(w.uncertainty_m, w.loss_m * sqrt(0.01 + 0.04 + 0.09), 1e-12);
     /* none in silicon */
-    assert_null(fw_flow_wear(read_pack(arena, SILICON, NULL, NULL, &diags)).step);
+    assert_null(fw_process_flow_wear(read_pack(arena, SILICON, NULL, NULL, &diags)).step);
 }
 
 /* the mask adds it, the walls end where they are drawn, the layer ends thinner */
 static void mask_and_films(void **state) {
     (void)state;
-    fw_flow *plain = copper(0.0, 0.0), *f = copper(0.3e-6, 5e-9);
-    assert_int_equal(fw_flow_compute(arena, plain, &plain_facts, &diags), FW_OK);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    fw_process_flow *plain = copper(0.0, 0.0), *f = copper(0.3e-6, 5e-9);
+    assert_int_equal(fw_process_flow_compute(arena, plain, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_true(plain->edges.worn_open && !f->edges.worn_open);
     assert_near(f->bias_m - plain->bias_m, 0.36e-6, 1e-20);
     assert_near(f->edges.cls[f->edges.field].edge.middle_m, 0.0, 1e-20);
@@ -53,8 +53,8 @@ static void mask_and_films(void **state) {
     for (int i = 0; i < plain->nreason; i++)
         said = said || strstr(plain->reason[i], "not known (seed.d)");
     assert_true(said);
-    fw_films films;
-    assert_int_equal(fw_flow_films(arena, f, f->nstep - 1, &films), FW_OK);
+    fw_process_films films;
+    assert_int_equal(fw_process_flow_films(arena, f, f->nstep - 1, &films), FW_OK);
     for (int i = 0; i < films.n; i++) {
         if (strcmp(films.film[i].material, "copper-plated") != 0) continue;
         assert_near(films.film[i].foot_m, 0.0, 1e-18);
@@ -66,25 +66,28 @@ static void mask_and_films(void **state) {
 /* at the ends of its range edges and thickness differ by what was not foreseen */
 static void verdict(void **state) {
     (void)state;
-    fw_variant v = {.thickness_m = 9e-6};
-    const fw_made_input *in;
+    fw_mechanism_variant v = {.thickness_m = 9e-6};
+    const fw_verdict_fabrication_input *in;
     int n, m;
-    assert_int_equal(fw_flow_made(arena, copper(0.0, 0.0), &plain_facts, &v, &in, &m), FW_OK);
-    assert_int_equal(fw_flow_made(arena, copper(0.3e-6, 5e-9), &plain_facts, &v, &in, &n), FW_OK);
+    assert_int_equal(fw_process_flow_fabricated(arena, copper(0.0, 0.0), &plain_facts, &v, &in, &m),
+                     FW_OK);
+    assert_int_equal(
+        fw_process_flow_fabricated(arena, copper(0.3e-6, 5e-9), &plain_facts, &v, &in, &n), FW_OK);
     assert_int_equal(n, m + 1);
-    const fw_made_input *w = &in[n - 1];
+    const fw_verdict_fabrication_input *w = &in[n - 1];
     assert_near(w->low, 0.288e-6, 1e-20);
     assert_near(w->high, 0.432e-6, 1e-20);
-    double x[FW_MADE_INPUTS];
+    double x[FW_FABRICATION_INPUTS];
     for (int i = 0; i < n; i++)
         x[i] = in[i].nominal;
-    fw_made nominal = fw_made_at(in, n, x), worst;
+    fw_verdict_fabrication nominal = fw_verdict_fabrication_at(in, n, x), worst;
     x[n - 1] = w->high;
-    worst = fw_made_at(in, n, x);
+    worst = fw_verdict_fabrication_at(in, n, x);
     assert_near(worst.edge_m - nominal.edge_m, -0.072e-6, 1e-20);
     assert_near(worst.thickness_ratio - nominal.thickness_ratio, -0.072 / 9.0, 1e-12);
     x[n - 1] = 0.0;
-    assert_near(nominal.thickness_ratio - fw_made_at(in, n, x).thickness_ratio, -0.36 / 9.0, 1e-12);
+    assert_near(nominal.thickness_ratio - fw_verdict_fabrication_at(in, n, x).thickness_ratio,
+                -0.36 / 9.0, 1e-12);
 }
 
 int main(void) {

@@ -6,14 +6,20 @@
 static void dimensions_have_names(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    assert_string_equal(fw_dimension_text(arena, (fw_dimension){.m = 1}), "length");
-    assert_string_equal(fw_dimension_text(arena, (fw_dimension){2, 1, -2, 0, 0, 0, -1}),
-                        "torsional stiffness");
-    assert_string_equal(fw_dimension_text(arena, (fw_dimension){0}), "pure number");
-    assert_string_equal(fw_dimension_text(arena, (fw_dimension){1, 0, -3, 0, 0, 0, 1}),
-                        "m s^-3 rad");
-    assert_string_equal(fw_dimension_phrase(arena, (fw_dimension){.rad = 1}), "an angle");
-    assert_string_equal(fw_dimension_phrase(arena, (fw_dimension){.m = 1}), "a length");
+    assert_string_equal(fw_quantity_dimension_text(arena, (fw_quantity_dimension){.m = 1}),
+                        "length");
+    assert_string_equal(
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){2, 1, -2, 0, 0, 0, -1}),
+        "torsional stiffness");
+    assert_string_equal(fw_quantity_dimension_text(arena, (fw_quantity_dimension){0}),
+                        "pure number");
+    assert_string_equal(
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 0, -3, 0, 0, 0, 1}),
+        "m s^-3 rad");
+    assert_string_equal(fw_quantity_dimension_phrase(arena, (fw_quantity_dimension){.rad = 1}),
+                        "an angle");
+    assert_string_equal(fw_quantity_dimension_phrase(arena, (fw_quantity_dimension){.m = 1}),
+                        "a length");
     fw_arena_free(arena);
 }
 
@@ -21,14 +27,14 @@ static void dimensions_have_names(void **state) {
 static void suggested_units_fit(void **state) {
     (void)state;
     size_t count;
-    const char *const *names = fw_unit_names(&count);
+    const char *const *names = fw_quantity_unit_names(&count);
     for (size_t i = 0; i < count; i++) {
-        fw_unit unit, suggested;
-        assert_true(fw_unit_parse(names[i], strlen(names[i]), &unit, NULL, NULL));
-        const char *text = fw_dimension_unit(unit.dimension);
+        fw_quantity_unit unit, suggested;
+        assert_true(fw_quantity_unit_parse(names[i], strlen(names[i]), &unit, NULL, NULL));
+        const char *text = fw_quantity_dimension_unit(unit.dimension);
         if (!text) continue;
-        assert_true(fw_unit_parse(text, strlen(text), &suggested, NULL, NULL));
-        assert_true(fw_dimension_equal(suggested.dimension, unit.dimension));
+        assert_true(fw_quantity_unit_parse(text, strlen(text), &suggested, NULL, NULL));
+        assert_true(fw_quantity_dimension_equal(suggested.dimension, unit.dimension));
     }
 }
 
@@ -36,8 +42,9 @@ static void dimensions_without_memory(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_arena_fail_at(1, 1);
-    const char *text = fw_dimension_text(arena, (fw_dimension){1, 2, 3, 4, 5, 6, 7});
-    const char *phrase = fw_dimension_phrase(arena, (fw_dimension){.rad = 1});
+    const char *text =
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 2, 3, 4, 5, 6, 7});
+    const char *phrase = fw_quantity_dimension_phrase(arena, (fw_quantity_dimension){.rad = 1});
     fw_arena_fail_at(0, 0);
     assert_non_null(text);
     assert_non_null(phrase);
@@ -46,13 +53,14 @@ static void dimensions_without_memory(void **state) {
 
 static void statuses_go_both_ways(void **state) {
     (void)state;
-    fw_value_status s;
+    fw_quantity_value_status s;
     for (int i = FW_MEASURED; i <= FW_ASSUMED; i++) {
-        assert_true(fw_value_status_parse(fw_value_status_text((fw_value_status)i), &s));
+        assert_true(fw_quantity_value_status_parse(
+            fw_quantity_value_status_text((fw_quantity_value_status)i), &s));
         assert_int_equal(s, i);
     }
-    assert_false(fw_value_status_parse("guessed", &s));
-    assert_false(fw_value_status_parse("", &s));
+    assert_false(fw_quantity_value_status_parse("guessed", &s));
+    assert_false(fw_quantity_value_status_parse("", &s));
 }
 
 static void quantities_in_their_unit(void **state) {
@@ -73,12 +81,12 @@ static void other_spellings_are_understood_as_such(void **state) {
                                           {"sccm", "{sccm}"},  {"umm", "um"},     {"MPA", "MPa"},
                                           {"msec", "ms"},      {"Angstrom", "Ao"}};
     for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
-        const char *got = fw_unit_suggestion(pair[i][0], strlen(pair[i][0]), NULL);
+        const char *got = fw_quantity_unit_suggestion(pair[i][0], strlen(pair[i][0]), NULL);
         assert_non_null(got);
         assert_string_equal(got, pair[i][1]);
     }
-    assert_null(fw_unit_suggestion("quux-unit-of-no-kind", 20, "um"));
-    assert_null(fw_unit_suggestion("", 0, "um"));
+    assert_null(fw_quantity_unit_suggestion("quux-unit-of-no-kind", 20, "um"));
+    assert_null(fw_quantity_unit_suggestion("", 0, "um"));
 }
 
 /* a factor of 1000 hangs on it: of equally near units the first letter decides, then the place */
@@ -90,7 +98,8 @@ static void ties_are_broken_by_prefix_and_place(void **state) {
         {"xm", "um", "um"},  {"xm", "mm", "mm"},  {"xPa", "GPa", "GPa"}, {"uNN", "mN", "uN"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
-        assert_string_equal(fw_unit_suggestion(row[i][0], strlen(row[i][0]), row[i][1]), row[i][2]);
+        assert_string_equal(fw_quantity_unit_suggestion(row[i][0], strlen(row[i][0]), row[i][1]),
+                            row[i][2]);
 }
 
 int main(void) {

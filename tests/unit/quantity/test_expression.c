@@ -3,12 +3,13 @@
 #include "quantity/expression.h"
 #include "test.h"
 
-static const fw_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1}, area = {.m = 2},
-                          force = {1, 1, -2, 0, 0, 0, 0}, mass = {.kg = 1},
-                          turning = {2, 1, -2, 0, 0, 0, -1}, rate = {.s = -1};
-static const fw_name_value items[] = {
+static const fw_quantity_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1},
+                                   area = {.m = 2}, force = {1, 1, -2, 0, 0, 0, 0},
+                                   mass = {.kg = 1}, turning = {2, 1, -2, 0, 0, 0, -1},
+                                   rate = {.s = -1};
+static const fw_quantity_name_value items[] = {
     {"t", 10e-6, {.m = 1}}, {"arc", 4.0, {.rad = 1}}, {"n", 3.0, {0}}, {"zero", 0.0, {0}}};
-static const fw_names names = {items, 4};
+static const fw_quantity_names names = {items, 4};
 
 static fw_arena *arena;
 static int setup(void **state) {
@@ -27,7 +28,7 @@ static void values(void **state) {
     const double pi = 3.14159265358979323846;
     const struct {
         const char *text;
-        fw_dimension wanted;
+        fw_quantity_dimension wanted;
         double value;
     } good[] = {
         {"10 um", length, 1e-5},
@@ -91,9 +92,9 @@ static void values(void **state) {
     };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         double value;
-        fw_expression_error e;
-        fw_status s = fw_expression_evaluate(arena, good[i].text, strlen(good[i].text), &names,
-                                             good[i].wanted, &value, &e);
+        fw_quantity_expression_error e;
+        fw_status s = fw_quantity_expression_evaluate(arena, good[i].text, strlen(good[i].text),
+                                                      &names, good[i].wanted, &value, &e);
         if (s != FW_OK) fail_msg("'%s': %s", good[i].text, e.message);
         if (!(fabs(value - good[i].value) <= 1e-14 * fabs(good[i].value) + 1e-300 + 1e-16))
             fail_msg("'%s' = %.17g, expected %.17g", good[i].text, value, good[i].value);
@@ -104,7 +105,7 @@ static void errors(void **state) {
     (void)state;
     const struct {
         const char *text;
-        fw_dimension wanted;
+        fw_quantity_dimension wanted;
         int number;
         size_t offset;
         const char *says;
@@ -121,7 +122,7 @@ static void errors(void **state) {
         {"2*3", angle, 24, 0, "deg"},
         {"12 umm", length, 21, 3, "did you mean 'um'"},
         {"12 xm", length, 21, 3, "did you mean 'um'"},
-        {"12 qPa", (fw_dimension){-1, 1, -2, 0, 0, 0, 0}, 21, 3, "did you mean 'GPa'"},
+        {"12 qPa", (fw_quantity_dimension){-1, 1, -2, 0, 0, 0, 0}, 21, 3, "did you mean 'GPa'"},
         {"300,5 um", length, 20, 3, "the decimal sign is a point, not a comma: write '300.5'"},
         {"2*(1,25 um)", length, 20, 4, "write '1.25'"},
         {"12 um, 3 um", length, 20, 5, "only between the arguments"},
@@ -171,9 +172,9 @@ static void errors(void **state) {
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         double value = 7;
-        fw_expression_error e;
-        fw_status s = fw_expression_evaluate(arena, bad[i].text, strlen(bad[i].text), &names,
-                                             bad[i].wanted, &value, &e);
+        fw_quantity_expression_error e;
+        fw_status s = fw_quantity_expression_evaluate(arena, bad[i].text, strlen(bad[i].text),
+                                                      &names, bad[i].wanted, &value, &e);
         if (s != FW_INPUT) fail_msg("'%s' is accepted", bad[i].text);
         assert_true(isnan(value));
         if (e.number != bad[i].number || e.offset != bad[i].offset ||
@@ -186,19 +187,20 @@ static void nesting_is_limited(void **state) {
     (void)state;
     char text[20001];
     double value;
-    fw_expression_error e;
+    fw_quantity_expression_error e;
     for (int kind = 0; kind < 3; kind++) {
         memset(text, "(-2"[kind], 20000);
         for (int i = 1; kind == 2 && i < 20000; i += 2)
             text[i] = '^';
-        assert_int_equal(fw_expression_evaluate(arena, text, 20000, NULL, pure, &value, &e),
-                         FW_INPUT);
+        assert_int_equal(
+            fw_quantity_expression_evaluate(arena, text, 20000, NULL, pure, &value, &e), FW_INPUT);
         assert_int_equal(e.number, 31);
     }
     memset(text, '(', 63);
     text[63] = '1';
     memset(text + 64, ')', 63);
-    assert_int_equal(fw_expression_evaluate(arena, text, 127, NULL, pure, &value, &e), FW_OK);
+    assert_int_equal(fw_quantity_expression_evaluate(arena, text, 127, NULL, pure, &value, &e),
+                     FW_OK);
 }
 
 /* random expressions against their value computed on the way */
@@ -294,10 +296,10 @@ static void random_expressions(void **state) {
         seed = (uint64_t)i + 1;
         draw(2);
         double size, value, want = random_sum(&text, (int)draw(5) - 2, 5, 0, &size);
-        fw_dimension found;
-        fw_expression_error e;
-        fw_status s =
-            fw_expression_evaluate_any(arena, text.data, text.length, NULL, &value, &found, &e);
+        fw_quantity_dimension found;
+        fw_quantity_expression_error e;
+        fw_status s = fw_quantity_expression_evaluate_any(arena, text.data, text.length, NULL,
+                                                          &value, &found, &e);
         if (s != FW_OK) fail_msg("seed %d: '%s': %s", i + 1, text.data, e.message);
         if (!(fabs(value - want) <= 1e-12 * size))
             fail_msg("seed %d: '%s' = %.17g, expected %.17g", i + 1, text.data, value, want);
@@ -317,8 +319,8 @@ static void random_bytes(void **state) {
         for (size_t k = 0; k < n; k++)
             text[k] = alphabet[draw(sizeof alphabet)];
         double value;
-        fw_expression_error e;
-        fw_status s = fw_expression_evaluate(arena, text, n, &names, length, &value, &e);
+        fw_quantity_expression_error e;
+        fw_status s = fw_quantity_expression_evaluate(arena, text, n, &names, length, &value, &e);
         assert_true(s == FW_OK ? isfinite(value) : isnan(value));
         if (s == FW_INPUT) {
             assert_true(e.offset <= n);
@@ -336,10 +338,10 @@ static void memory_runs_out(void **state) {
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         for (long n = 1; n < 20; n++) {
             double value;
-            fw_expression_error e;
+            fw_quantity_expression_error e;
             fw_arena_fail_at(n, 1);
-            fw_status s =
-                fw_expression_evaluate(arena, text[i], strlen(text[i]), &names, mass, &value, &e);
+            fw_status s = fw_quantity_expression_evaluate(arena, text[i], strlen(text[i]), &names,
+                                                          mass, &value, &e);
             long used = fw_arena_count();
             fw_arena_fail_at(0, 0);
             assert_true(s == FW_NOMEM || (s == FW_INPUT && e.message));

@@ -22,7 +22,8 @@ static void names_in_order_once(void **state) {
         size_t count;
         char got[64] = "";
         assert_int_equal(
-            fw_expression_names(arena, row[i].text, strlen(row[i].text), &names, &count), FW_OK);
+            fw_quantity_expression_names(arena, row[i].text, strlen(row[i].text), &names, &count),
+            FW_OK);
         for (size_t k = 0; k < count; k++) {
             strcat(got, names[k]);
             strcat(got, " ");
@@ -34,33 +35,33 @@ static void names_in_order_once(void **state) {
 
 static void reserved_names(void **state) {
     (void)state;
-    assert_true(fw_expression_reserved("um"));
-    assert_true(fw_expression_reserved("h"));
-    assert_true(fw_expression_reserved("sqrt"));
-    assert_true(fw_expression_reserved("pi"));
-    assert_false(fw_expression_reserved("t"));
-    assert_false(fw_expression_reserved("width"));
+    assert_true(fw_quantity_expression_reserved("um"));
+    assert_true(fw_quantity_expression_reserved("h"));
+    assert_true(fw_quantity_expression_reserved("sqrt"));
+    assert_true(fw_quantity_expression_reserved("pi"));
+    assert_false(fw_quantity_expression_reserved("t"));
+    assert_false(fw_quantity_expression_reserved("width"));
 }
 
 static void use_of_a_name(void **state) {
     (void)state;
     static const char *const lost[] = {"arc", "w"};
-    assert_true(fw_expression_uses("2*arc", 5, lost, 2));
-    assert_true(fw_expression_uses("(w)", 3, lost, 2));
-    assert_false(fw_expression_uses("2*arcs + ww", 11, lost, 2));
-    assert_false(fw_expression_uses("2*arc", 5, lost, 0));
+    assert_true(fw_quantity_expression_uses("2*arc", 5, lost, 2));
+    assert_true(fw_quantity_expression_uses("(w)", 3, lost, 2));
+    assert_false(fw_quantity_expression_uses("2*arcs + ww", 11, lost, 2));
+    assert_false(fw_quantity_expression_uses("2*arc", 5, lost, 0));
 }
 
 static void unit_as_written(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const char *unit;
-    fw_dimension length = {.m = 1};
-    fw_expression_unit(arena, "2*a + 5 um", 10, length, &unit);
+    fw_quantity_dimension length = {.m = 1};
+    fw_quantity_expression_unit(arena, "2*a + 5 um", 10, length, &unit);
     assert_string_equal(unit, "um");
-    fw_expression_unit(arena, "3 s * 2 mm/s + 5 nm", 19, length, &unit);
+    fw_quantity_expression_unit(arena, "3 s * 2 mm/s + 5 nm", 19, length, &unit);
     assert_string_equal(unit, "nm");
-    fw_expression_unit(arena, "2*a", 3, length, &unit);
+    fw_quantity_expression_unit(arena, "2*a", 3, length, &unit);
     assert_string_equal(unit, "");
     fw_arena_free(arena);
 }
@@ -73,13 +74,14 @@ static void memory_runs_out(void **state) {
     size_t count;
     for (long n = 1; n < 10; n++) {
         fw_arena_fail_at(n, 1);
-        fw_status s = fw_expression_names(arena, "a*b*c*d*e", 9, &names, &count);
+        fw_status s = fw_quantity_expression_names(arena, "a*b*c*d*e", 9, &names, &count);
         long used = fw_arena_count();
         fw_arena_fail_at(0, 0);
         assert_int_equal(s, used >= n ? FW_NOMEM : FW_OK);
     }
     fw_arena_fail_at(1, 1);
-    fw_status s = fw_expression_unit(arena, "5 um", 4, (fw_dimension){.m = 1}, &unit);
+    fw_status s =
+        fw_quantity_expression_unit(arena, "5 um", 4, (fw_quantity_dimension){.m = 1}, &unit);
     fw_arena_fail_at(0, 0);
     assert_int_equal(s, FW_NOMEM);
     fw_arena_free(arena);

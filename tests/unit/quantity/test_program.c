@@ -3,13 +3,13 @@
    complex step gives the first derivative to round-off, and differences of eighth order of it the
    second. */
 #include "base/text.h"
-#include "quantity/law.h"
+#include "quantity/quantity_law.h"
 #include "test.h"
 #include <complex.h>
 
-static const fw_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1};
-static const fw_name_value items[] = {{"r", 2e-3, {.m = 1}}, {"n", 3.0, {0}}};
-static const fw_names names = {items, 2};
+static const fw_quantity_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1};
+static const fw_quantity_name_value items[] = {{"r", 2e-3, {.m = 1}}, {"n", 3.0, {0}}};
+static const fw_quantity_names names = {items, 2};
 
 static fw_arena *arena;
 static int setup(void **state) {
@@ -23,10 +23,11 @@ static int teardown(void **state) {
     return 0;
 }
 
-static fw_program *compile(const char *text, fw_dimension wanted) {
-    fw_expression_error error;
-    fw_program *p;
-    fw_status s = fw_program_compile(arena, text, strlen(text), &names, wanted, &p, &error);
+static fw_quantity_program *compile(const char *text, fw_quantity_dimension wanted) {
+    fw_quantity_expression_error error;
+    fw_quantity_program *p;
+    fw_status s =
+        fw_quantity_program_compile(arena, text, strlen(text), &names, wanted, &p, &error);
     if (s != FW_OK) fail_msg("%s: %zu %s", text, error.offset, error.message);
     return p;
 }
@@ -36,7 +37,7 @@ static void values(void **state) {
     const double pi = 3.14159265358979323846, w = 2 * pi / 10e-3;
     const struct {
         const char *text;
-        fw_dimension wanted;
+        fw_quantity_dimension wanted;
         double t, value[3];
     } good[] = {
         {"5", pure, 0.3, {5, 0, 0}},
@@ -71,8 +72,8 @@ static void values(void **state) {
     };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         double v[3];
-        fw_program *p = compile(good[i].text, good[i].wanted);
-        fw_program_value(p, good[i].t, v);
+        fw_quantity_program *p = compile(good[i].text, good[i].wanted);
+        fw_quantity_program_value(p, good[i].t, v);
         for (int k = 0; k < 3; k++)
             if (!(fabs(v[k] - good[i].value[k]) <= 1e-13 * (fabs(good[i].value[k]) + 1)))
                 fail_msg("%s, derivative %d at %g: %.17g, not %.17g", good[i].text, k, good[i].t,
@@ -83,13 +84,13 @@ static void values(void **state) {
 static void constants_fold(void **state) {
     (void)state;
     double v[3], plain;
-    fw_expression_error error;
+    fw_quantity_expression_error error;
     static const char *const text[] = {"2*3 + sin(0.5)", "min(4, 2, 3)", "n^2 - 1/3", "-(-2)^3"};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++) {
-        fw_program_value(compile(text[i], pure), 1.5, v);
-        assert_int_equal(
-            fw_expression_evaluate(arena, text[i], strlen(text[i]), &names, pure, &plain, &error),
-            FW_OK);
+        fw_quantity_program_value(compile(text[i], pure), 1.5, v);
+        assert_int_equal(fw_quantity_expression_evaluate(arena, text[i], strlen(text[i]), &names,
+                                                         pure, &plain, &error),
+                         FW_OK);
         assert_true(v[0] == plain && v[1] == 0 && v[2] == 0);
     }
 }
@@ -306,10 +307,10 @@ static void derivatives_of_random_expressions(void **state) {
         grow(&f, 1 + (int)draw(&f, 4));
         write(&text, &f, 0);
         assert_int_equal(fw_text_end(&text), FW_OK);
-        fw_program *p = compile(text.data, pure);
+        fw_quantity_program *p = compile(text.data, pure);
         for (int k = 0; k < 4; k++) {
             double v[3], t = 0.13 + 0.61 * k, error;
-            fw_program_value(p, t, v);
+            fw_quantity_program_value(p, t, v);
             double f0 = creal(eval(&f, 0, t)), f1 = slope(&f, t), f2 = curvature(&f, t, &error);
             double size = 1 + fabs(f0) + fabs(f1);
             if (!(fabs(v[0] - f0) <= 1e-11 * size) || !(fabs(v[1] - f1) <= 1e-10 * size))
@@ -329,13 +330,13 @@ static void derivatives_of_random_expressions(void **state) {
 
 static void mistakes(void **state) {
     (void)state;
-    static const fw_name_value t_item[] = {{"t", 1e-5, {.m = 1}}};
-    static const fw_name_value both[] = {{"t", 1, {0}}, {"time", 1, {0}}};
-    static const fw_names with_t = {t_item, 1}, with_both = {both, 2};
+    static const fw_quantity_name_value t_item[] = {{"t", 1e-5, {.m = 1}}};
+    static const fw_quantity_name_value both[] = {{"t", 1, {0}}, {"time", 1, {0}}};
+    static const fw_quantity_names with_t = {t_item, 1}, with_both = {both, 2};
     const struct {
         const char *text;
-        const fw_names *names;
-        fw_dimension wanted;
+        const fw_quantity_names *names;
+        fw_quantity_dimension wanted;
         int number;
         size_t offset;
         const char *says;
@@ -360,23 +361,26 @@ static void mistakes(void **state) {
         {"", &names, {0}, 33, 0, "empty"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        fw_expression_error e;
-        fw_program *p;
-        fw_status s = fw_program_compile(arena, bad[i].text, strlen(bad[i].text), bad[i].names,
-                                         bad[i].wanted, &p, &e);
+        fw_quantity_expression_error e;
+        fw_quantity_program *p;
+        fw_status s = fw_quantity_program_compile(arena, bad[i].text, strlen(bad[i].text),
+                                                  bad[i].names, bad[i].wanted, &p, &e);
         if (s != FW_INPUT || p || e.number != bad[i].number || e.offset != bad[i].offset ||
             !strstr(e.message, bad[i].says))
             fail_msg("%s: %s, %d at %zu: %s", bad[i].text, fw_status_text(s), e.number, e.offset,
                      e.message ? e.message : "");
     }
     /* time works beside a parameter t, and t beside a parameter time; without time t is a name */
-    fw_expression_error e;
-    fw_program *p;
+    fw_quantity_expression_error e;
+    fw_quantity_program *p;
     double v;
-    assert_int_equal(fw_program_compile(arena, "time/(1 s)", 10, &with_t, pure, &p, &e), FW_OK);
-    assert_int_equal(fw_expression_evaluate(arena, "2*t", 3, &with_t, length, &v, &e), FW_OK);
+    assert_int_equal(fw_quantity_program_compile(arena, "time/(1 s)", 10, &with_t, pure, &p, &e),
+                     FW_OK);
+    assert_int_equal(fw_quantity_expression_evaluate(arena, "2*t", 3, &with_t, length, &v, &e),
+                     FW_OK);
     assert_near(v, 2e-5, 1e-20);
-    assert_int_equal(fw_expression_evaluate(arena, "2*t", 3, &names, length, &v, &e), FW_INPUT);
+    assert_int_equal(fw_quantity_expression_evaluate(arena, "2*t", 3, &names, length, &v, &e),
+                     FW_INPUT);
     assert_int_equal(e.number, 22);
 }
 
@@ -393,13 +397,13 @@ static void outside_of_the_domain(void **state) {
                                        "atan2(t, t)*0/(1 rad) + (t/(1 s))^-1"};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++) {
         double v[3];
-        fw_program_value(compile(text[i], pure), 0, v);
+        fw_quantity_program_value(compile(text[i], pure), 0, v);
         assert_false(isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]));
     }
     double v[3]; /* the slope of a root at zero is infinite, of the square of it is not known */
-    fw_program_value(compile("sqrt(t/(1 s))", pure), 0, v);
+    fw_quantity_program_value(compile("sqrt(t/(1 s))", pure), 0, v);
     assert_true(v[0] == 0 && isinf(v[1]));
-    fw_program_value(compile("sin(t/(1 s))", pure), (double)INFINITY, v);
+    fw_quantity_program_value(compile("sin(t/(1 s))", pure), (double)INFINITY, v);
     assert_true(isnan(v[0]));
 }
 
@@ -415,13 +419,14 @@ static void hostile_texts(void **state) {
         for (size_t k = 0; k < n; k++)
             text[k] = alphabet[draw(&f, sizeof alphabet - 1)];
         fw_mark mark = fw_arena_mark(arena);
-        fw_expression_error e;
-        fw_program *p;
-        fw_status s = fw_program_compile(arena, text, n, &names, (fw_dimension){.s = 1}, &p, &e);
+        fw_quantity_expression_error e;
+        fw_quantity_program *p;
+        fw_status s = fw_quantity_program_compile(arena, text, n, &names,
+                                                  (fw_quantity_dimension){.s = 1}, &p, &e);
         assert_true(s == FW_OK || (s == FW_INPUT && e.message && e.offset <= n));
         if (s == FW_OK) {
             double v[3];
-            fw_program_value(p, 0.5, v);
+            fw_quantity_program_value(p, 0.5, v);
             fine++;
         }
         fw_arena_rewind(arena, mark);
@@ -434,11 +439,11 @@ static void hostile_texts(void **state) {
     fw_text_add(&text, "t");
     for (int i = 0; i < 60; i++)
         fw_text_add(&text, ")");
-    fw_expression_error e;
-    fw_program *p;
-    assert_int_equal(
-        fw_program_compile(arena, text.data, text.length, &names, (fw_dimension){.s = 1}, &p, &e),
-        FW_INPUT);
+    fw_quantity_expression_error e;
+    fw_quantity_program *p;
+    assert_int_equal(fw_quantity_program_compile(arena, text.data, text.length, &names,
+                                                 (fw_quantity_dimension){.s = 1}, &p, &e),
+                     FW_INPUT);
     assert_int_equal(e.number, 31);
     /* a long one that does not nest is no matter */
     text = fw_text_new(arena);
@@ -446,7 +451,7 @@ static void hostile_texts(void **state) {
         fw_text_add(&text, "t+");
     fw_text_add(&text, "t");
     double v[3];
-    fw_program_value(compile(text.data, (fw_dimension){.s = 1}), 2, v);
+    fw_quantity_program_value(compile(text.data, (fw_quantity_dimension){.s = 1}), 2, v);
     assert_true(v[0] == 2002 && v[1] == 1001 && v[2] == 0);
 }
 
@@ -456,10 +461,11 @@ static void memory_runs_out(void **state) {
                                        "sinn(t)"};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         for (long n = 1; n < 30; n++) {
-            fw_expression_error e;
-            fw_program *p;
+            fw_quantity_expression_error e;
+            fw_quantity_program *p;
             fw_arena_fail_at(n, 1);
-            fw_status s = fw_program_compile(arena, text[i], strlen(text[i]), &names, pure, &p, &e);
+            fw_status s =
+                fw_quantity_program_compile(arena, text[i], strlen(text[i]), &names, pure, &p, &e);
             long used = fw_arena_count();
             fw_arena_fail_at(0, 0);
             if (used < n) break;

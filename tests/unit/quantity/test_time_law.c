@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws: values on both sides of every break, the breaks themselves, the largest value. */
 #include "quantity/law_kind.h"
-#include "quantity/law.h"
+#include "quantity/quantity_law.h"
 #include "test.h"
 
 static const double pi = 3.14159265358979323846;
@@ -17,33 +17,36 @@ static int teardown(void **state) {
     return 0;
 }
 
-static fw_law expression(const char *text) {
-    fw_expression_error error;
-    fw_program *p;
-    if (fw_program_compile(arena, text, strlen(text), NULL, (fw_dimension){0}, &p, &error) != FW_OK)
+static fw_quantity_law expression(const char *text) {
+    fw_quantity_expression_error error;
+    fw_quantity_program *p;
+    if (fw_quantity_program_compile(arena, text, strlen(text), NULL, (fw_quantity_dimension){0}, &p,
+                                    &error) != FW_OK)
         fail_msg("%s: %s", text, error.message);
-    return (fw_law){.kind = &fw_quantity_law_expression, .program = p};
+    return (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = p};
 }
 
-static void expect(const fw_law *law, double t, double piece, double f, double d, double dd) {
+static void expect(const fw_quantity_law *law, double t, double piece, double f, double d,
+                   double dd) {
     double v[3];
-    fw_law_value(law, t, piece, v);
+    fw_quantity_law_value(law, t, piece, v);
     assert_near(v[0], f, 1e-12 * (1 + fabs(f)));
     assert_near(v[1], d, 1e-12 * (1 + fabs(d)));
     assert_near(v[2], dd, 1e-12 * (1 + fabs(dd)));
 }
 
-static void expect_breaks(const fw_law *law, double end, int n, const double *want, double tol) {
+static void expect_breaks(const fw_quantity_law *law, double end, int n, const double *want,
+                          double tol) {
     double t[16];
-    assert_int_equal(fw_law_breaks(law, end, t, 16), n);
+    assert_int_equal(fw_quantity_law_breaks_of(law, end, t, 16), n);
     for (int i = 0; i < n; i++)
         assert_near(t[i], want[i], tol);
 }
 
 static void step(void **state) {
     (void)state;
-    const fw_law law = {.kind = &fw_quantity_law_step, .start_s = 1, .end_s = 3};
-    const fw_law always = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_step, .start_s = 1, .end_s = 3};
+    const fw_quantity_law always = {.kind = &fw_quantity_law_step, .end_s = (double)INFINITY};
     expect(&law, 1, 0.5, 0, 0, 0);
     expect(&law, 1, 1, 1, 0, 0);
     expect(&law, 1, 1.5, 1, 0, 0);
@@ -52,29 +55,32 @@ static void step(void **state) {
     expect_breaks(&law, 10, 2, (const double[]){1, 3}, 0);
     expect_breaks(&law, 3, 1, (const double[]){1}, 0); /* the end itself is none */
     expect_breaks(&always, 10, 0, NULL, 0);
-    assert_true(fw_law_is_constant(&always) && fw_law_is_constant(NULL));
-    assert_false(fw_law_is_constant(&law));
-    assert_true(fw_law_largest(&law, 0.5) == 0 && fw_law_largest(&law, 2) == 1);
-    assert_true(fw_law_largest(NULL, 2) == 1);
+    assert_true(fw_quantity_law_is_constant(&always) && fw_quantity_law_is_constant(NULL));
+    assert_false(fw_quantity_law_is_constant(&law));
+    assert_true(fw_quantity_law_largest(&law, 0.5) == 0 && fw_quantity_law_largest(&law, 2) == 1);
+    assert_true(fw_quantity_law_largest(NULL, 2) == 1);
 }
 
 static void ramp(void **state) {
     (void)state;
-    const fw_law law = {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 4};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 4};
     expect(&law, 1, 0.5, 0, 0, 0);
     expect(&law, 1, 1.5, 0, 0.25, 0);
     expect(&law, 2, 2, 0.25, 0.25, 0);
     expect(&law, 5, 4, 1, 0.25, 0);
     expect(&law, 5, 6, 1, 0, 0);
     expect_breaks(&law, 10, 2, (const double[]){1, 5}, 0);
-    assert_near(fw_law_largest(&law, 3), 0.5, 1e-15);
-    assert_near(fw_law_largest(&law, 30), 1, 0);
+    assert_near(fw_quantity_law_largest(&law, 3), 0.5, 1e-15);
+    assert_near(fw_quantity_law_largest(&law, 30), 1, 0);
 }
 
 static void sine(void **state) {
     (void)state;
-    const fw_law law = {
-        .kind = &fw_quantity_law_sine, .start_s = 1, .end_s = 2, .frequency_Hz = 3, .phase_rad = 0.5};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_sine,
+                                 .start_s = 1,
+                                 .end_s = 2,
+                                 .frequency_Hz = 3,
+                                 .phase_rad = 0.5};
     double w = 6 * pi;
     expect(&law, 1, 0.9, 0, 0, 0);
     expect(&law, 1, 1.1, sin(0.5), w * cos(0.5), -w * w * sin(0.5));
@@ -82,17 +88,19 @@ static void sine(void **state) {
     expect(&law, 2, 1.9, sin(0.5 + w), w * cos(0.5 + w), -w * w * sin(0.5 + w));
     expect(&law, 2, 2, 0, 0, 0);
     expect_breaks(&law, 10, 2, (const double[]){1, 2}, 0);
-    assert_near(fw_law_largest(&law, 10), 1, 0);
-    assert_near(fw_law_largest(&law, 1 + 0.1 / w), sin(0.6), 1e-12); /* no crest reached yet */
-    const fw_law early = {.kind = &fw_quantity_law_sine, .start_s = -1, .end_s = 9, .frequency_Hz = 0.125};
-    assert_near(fw_law_largest(&early, 0.5), sin(2 * pi * 0.125 * 1.5), 1e-12);
+    assert_near(fw_quantity_law_largest(&law, 10), 1, 0);
+    assert_near(fw_quantity_law_largest(&law, 1 + 0.1 / w), sin(0.6),
+                1e-12); /* no crest reached yet */
+    const fw_quantity_law early = {
+        .kind = &fw_quantity_law_sine, .start_s = -1, .end_s = 9, .frequency_Hz = 0.125};
+    assert_near(fw_quantity_law_largest(&early, 0.5), sin(2 * pi * 0.125 * 1.5), 1e-12);
 }
 
 static void half_sine(void **state) {
     (void)state;
-    const fw_law law = {.kind = &fw_quantity_law_half_sine, .start_s = 1, .rise_s = 0.5};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_half_sine, .start_s = 1, .rise_s = 0.5};
     double w = pi / 0.5;
-    assert_string_equal(fw_law_name(&law), "half-sine");
+    assert_string_equal(fw_quantity_law_name(&law), "half-sine");
     expect(&law, 0.5, 0.5, 0, 0, 0);
     expect(&law, 1, 0.9, 0, 0, 0);
     expect(&law, 1, 1.1, 0, w, 0);
@@ -102,16 +110,16 @@ static void half_sine(void **state) {
     expect(&law, 1.5, 1.5, 0, 0, 0);
     expect_breaks(&law, 10, 2, (const double[]){1, 1.5}, 0);
     expect_breaks(&law, 1.2, 1, (const double[]){1}, 0);
-    assert_false(fw_law_is_constant(&law));
-    assert_near(fw_law_largest(&law, 10), 1, 0);
-    assert_near(fw_law_largest(&law, 1.25), 1, 0);
-    assert_near(fw_law_largest(&law, 1.2), sin(0.2 * w), 1e-15);
-    assert_near(fw_law_largest(&law, 1), 0, 0);
+    assert_false(fw_quantity_law_is_constant(&law));
+    assert_near(fw_quantity_law_largest(&law, 10), 1, 0);
+    assert_near(fw_quantity_law_largest(&law, 1.25), 1, 0);
+    assert_near(fw_quantity_law_largest(&law, 1.2), sin(0.2 * w), 1e-15);
+    assert_near(fw_quantity_law_largest(&law, 1), 0, 0);
     /* a pulse carries the momentum 2/pi of its peak times its length */
     double sum = 0, v[3];
     for (int i = 0; i < 1000; i++) {
         double t = 1 + 0.5 * (i + 0.5) / 1000;
-        fw_law_value(&law, t, t, v);
+        fw_quantity_law_value(&law, t, t, v);
         sum += v[0] * 0.5 / 1000;
     }
     assert_near(sum, 2 / pi * 0.5, 1e-6);
@@ -120,7 +128,8 @@ static void half_sine(void **state) {
 static void table(void **state) {
     (void)state;
     static const double t[] = {0, 1, 2, 4}, v[] = {0, 0.5, -2, -2};
-    const fw_law law = {.kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 4};
+    const fw_quantity_law law = {
+        .kind = &fw_quantity_law_table, .table_t_s = t, .table_value = v, .ntable = 4};
     expect(&law, -1, -1, 0, 0, 0);
     expect(&law, 0, -1, 0, 0, 0);
     expect(&law, 0, 0.5, 0, 0.5, 0);
@@ -130,40 +139,41 @@ static void table(void **state) {
     expect(&law, 4, 5, -2, 0, 0);
     expect_breaks(&law, 10, 3, (const double[]){1, 2, 4}, 0);
     double stored[1];
-    assert_int_equal(fw_law_breaks(&law, 10, stored, 1), 3); /* told, though not stored */
+    assert_int_equal(fw_quantity_law_breaks_of(&law, 10, stored, 1),
+                     3); /* told, though not stored */
     assert_near(stored[0], 1, 0);
-    assert_near(fw_law_largest(&law, 1), 0.5, 0);
-    assert_near(fw_law_largest(&law, 1.5), 0.75, 1e-15);
-    assert_near(fw_law_largest(&law, 10), 2, 0);
+    assert_near(fw_quantity_law_largest(&law, 1), 0.5, 0);
+    assert_near(fw_quantity_law_largest(&law, 1.5), 0.75, 1e-15);
+    assert_near(fw_quantity_law_largest(&law, 10), 2, 0);
 }
 
 /* switches of abs, min, max are found to round-off, and each side keeps its own branch there */
 static void expressions(void **state) {
     (void)state;
-    const fw_law smooth = expression("sin(2*pi*t/(10 ms))");
+    const fw_quantity_law smooth = expression("sin(2*pi*t/(10 ms))");
     expect_breaks(&smooth, 1, 0, NULL, 0);
-    assert_near(fw_law_largest(&smooth, 10e-3), 1, 1e-5);
-    const fw_law bend = expression("abs(t - 0.3 s)/(1 s)");
+    assert_near(fw_quantity_law_largest(&smooth, 10e-3), 1, 1e-5);
+    const fw_quantity_law bend = expression("abs(t - 0.3 s)/(1 s)");
     expect_breaks(&bend, 1, 1, (const double[]){0.3}, 1e-15);
     expect(&bend, 0.3, 0.2, 0, -1, 0);
     expect(&bend, 0.3, 0.4, 0, 1, 0);
-    const fw_law cut = expression("max(0, min(1, 4*t/(1 s) - 1))");
+    const fw_quantity_law cut = expression("max(0, min(1, 4*t/(1 s) - 1))");
     expect_breaks(&cut, 1, 2, (const double[]){0.25, 0.5}, 1e-15);
     expect(&cut, 0.25, 0.1, 0, 0, 0);
     expect(&cut, 0.25, 0.3, 0, 4, 0);
     expect(&cut, 0.5, 0.4, 1, 4, 0);
     expect(&cut, 0.5, 0.6, 1, 0, 0);
     /* both bends of a rectified sine per period */
-    const fw_law rectified = expression("abs(sin(2*pi*t/(1 s)))");
+    const fw_quantity_law rectified = expression("abs(sin(2*pi*t/(1 s)))");
     expect_breaks(&rectified, 1.9, 3, (const double[]){0.5, 1, 1.5}, 1e-15);
     double w = 2 * pi;
     expect(&rectified, 0.5, 0.4, 0, -w, 0);
     expect(&rectified, 0.5, 0.6, 0, w, 0);
     /* a thousand of them, no more, however many there are */
-    const fw_law fast = expression("abs(sin(2e6*t/(1 s)))");
-    assert_true(fw_law_breaks(&fast, 1, NULL, 0) <= 1000);
-    const fw_law wild = expression("1 s/(t - 0.5 s)");
-    assert_true(isinf(fw_law_largest(&wild, 1)));
+    const fw_quantity_law fast = expression("abs(sin(2e6*t/(1 s)))");
+    assert_true(fw_quantity_law_breaks_of(&fast, 1, NULL, 0) <= 1000);
+    const fw_quantity_law wild = expression("1 s/(t - 0.5 s)");
+    assert_true(isinf(fw_quantity_law_largest(&wild, 1)));
 }
 
 int main(void) {

@@ -114,25 +114,25 @@ static const row literal[] = {
 };
 enum { COUNT = sizeof literal / sizeof literal[0] };
 
-static bool parse(const char *text, fw_unit *unit) {
-    return fw_unit_parse(text, strlen(text), unit, NULL, NULL);
+static bool parse(const char *text, fw_quantity_unit *unit) {
+    return fw_quantity_unit_parse(text, strlen(text), unit, NULL, NULL);
 }
 
 static void every_symbol_has_its_value(void **state) {
     (void)state;
     size_t count;
-    const char *const *names = fw_unit_names(&count);
+    const char *const *names = fw_quantity_unit_names(&count);
     assert_int_equal(count, COUNT);
     for (size_t i = 0; i < count; i++) {
         const row *r = literal;
         while (r < literal + COUNT && strcmp(r->symbol, names[i]) != 0)
             r++;
         if (r == literal + COUNT) fail_msg("%s is not in the literal table", names[i]);
-        fw_unit unit;
+        fw_quantity_unit unit;
         assert_true(parse(names[i], &unit));
         assert_relative(unit.factor, r->factor, 4e-16);
         assert_near(unit.offset, r->offset, 0.0);
-        fw_dimension d = unit.dimension;
+        fw_quantity_dimension d = unit.dimension;
         int got[] = {d.m, d.kg, d.s, d.A, d.K, d.mol, d.rad};
         int want[] = {r->m, r->kg, r->s, r->A, r->K, r->mol, r->rad};
         assert_memory_equal(got, want, sizeof got);
@@ -144,7 +144,7 @@ static void composed_units(void **state) {
     static const struct {
         const char *text;
         double factor;
-        fw_dimension d;
+        fw_quantity_dimension d;
     } good[] = {
         {"N m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1}},
         {"N.m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1}},
@@ -165,11 +165,11 @@ static void composed_units(void **state) {
         {"%/K", 0.01, {0, 0, 0, 0, -1, 0, 0}},
     };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
-        fw_unit unit;
+        fw_quantity_unit unit;
         if (!parse(good[i].text, &unit)) fail_msg("%s is refused", good[i].text);
         assert_relative(unit.factor, good[i].factor, 1e-15);
         assert_near(unit.offset, 0.0, 0.0);
-        if (!fw_dimension_equal(unit.dimension, good[i].d))
+        if (!fw_quantity_dimension_equal(unit.dimension, good[i].d))
             fail_msg("%s has the wrong dimension", good[i].text);
     }
 }
@@ -183,10 +183,10 @@ static void wrong_units_point_at_the_symbol(void **state) {
                {"um um 1", 6, 1},   {"um+m", 2, 2}, {"{scfm}", 0, 6},  {"5 um", 0, 0},
                {"\xc2\xb5m", 0, 3}, {"m^", 1, 1},   {"um**2", 3, 0}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        fw_unit unit;
+        fw_quantity_unit unit;
         const char *wrong = NULL;
         size_t n = 99;
-        if (fw_unit_parse(bad[i].text, strlen(bad[i].text), &unit, &wrong, &n))
+        if (fw_quantity_unit_parse(bad[i].text, strlen(bad[i].text), &unit, &wrong, &n))
             fail_msg("'%s' is accepted", bad[i].text);
         if (wrong != bad[i].text + bad[i].at || n != bad[i].n)
             fail_msg("'%s': at %td, %zu bytes", bad[i].text, wrong - bad[i].text, n);
@@ -195,7 +195,7 @@ static void wrong_units_point_at_the_symbol(void **state) {
 
 static void exponents_do_not_overflow(void **state) {
     (void)state;
-    fw_unit unit;
+    fw_quantity_unit unit;
     assert_true(parse("m^100", &unit));
     assert_false(parse("m^200", &unit));
     assert_false(parse("m^100 m^100", &unit));
@@ -220,10 +220,10 @@ static void decimals_stay_exact(void **state) {
                  {"Cel", 20, 293.15},
                  {"uN mm", 1.5, 1.5e-9}};
     for (size_t i = 0; i < sizeof exact / sizeof exact[0]; i++) {
-        fw_unit unit;
+        fw_quantity_unit unit;
         assert_true(parse(exact[i].unit, &unit));
-        assert_near(fw_unit_to_si(&unit, exact[i].written), exact[i].si, 0.0);
-        assert_relative(fw_unit_from_si(&unit, exact[i].si), exact[i].written, 2e-16);
+        assert_near(fw_quantity_unit_to_si(&unit, exact[i].written), exact[i].si, 0.0);
+        assert_relative(fw_quantity_unit_from_si(&unit, exact[i].si), exact[i].written, 2e-16);
     }
 }
 

@@ -12,7 +12,7 @@
 
 static fw_arena *arena;
 static fw_diags diags;
-static fw_flow *flow;
+static fw_process_flow *flow;
 static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
 static int setup(void **state) {
@@ -20,7 +20,7 @@ static int setup(void **state) {
     arena = fw_arena_new(0);
     diags = fw_diags_new(arena);
     flow = read_pack(arena, COPPER, NULL, NULL, &diags);
-    return fw_flow_compute(arena, flow, &plain_facts, &diags) == FW_OK ? 0 : -1;
+    return fw_process_flow_compute(arena, flow, &plain_facts, &diags) == FW_OK ? 0 : -1;
 }
 static int teardown(void **state) {
     (void)state;
@@ -28,17 +28,17 @@ static int teardown(void **state) {
     return 0;
 }
 
-static fw_status read_log(const char *text, size_t n, fw_asrun *run) {
+static fw_status read_log(const char *text, size_t n, fw_recipe_asrun *run) {
     diags = fw_diags_new(arena);
-    return fw_asrun_read(arena, flow, plan, "lot.log", text, n, &diags, run);
+    return fw_recipe_asrun_read(arena, flow, plan, "lot.log", text, n, &diags, run);
 }
 
 /* the log with one entry more; NULL: refused with `number` */
 static const char *with(const char *log, const char *words, int number) {
-    fw_asrun run;
+    fw_recipe_asrun run;
     const char *line = NULL;
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    fw_status status = fw_asrun_add(arena, flow, &run, words, &diags, &line);
+    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, &diags, &line);
     if (number) {
         assert_int_equal(status, FW_INPUT);
         assert_int_equal(diags.item[diags.count - 1].number, number);
@@ -50,7 +50,7 @@ static const char *with(const char *log, const char *words, int number) {
 
 static const char *begun(void) {
     const char *line;
-    assert_int_equal(fw_asrun_begin(arena, flow, plan, "lot 7", &line), FW_OK);
+    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", &line), FW_OK);
     return line;
 }
 
@@ -66,7 +66,7 @@ static const char *three(void) {
 
 static void what_is_written_is_read(void **state) {
     (void)state;
-    fw_asrun run;
+    fw_recipe_asrun run;
     const char *log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
     log = with(log,
                "C22; start=2026-11-20T10:30:05; end=2026-11-20T10:52:30; by=AB; second=C D; "
@@ -76,7 +76,7 @@ static void what_is_written_is_read(void **state) {
     assert_string_equal(run.lot, "lot 7");
     assert_string_equal(run.plan, plan);
     assert_int_equal(run.nentry, 2);
-    const fw_asrun_entry *e = &run.entry[1];
+    const fw_recipe_asrun_entry *e = &run.entry[1];
     assert_string_equal(e->step->id, "C22");
     assert_near(e->end_s - e->start_s, 1345.0, 0.0);
     assert_near(e->start_s - run.entry[0].end_s, 1265.0, 0.0);
@@ -98,7 +98,7 @@ static void dates(void **state) {
                {"2000-12-31T00:00", 11322}, {"2026-11-20T00:00", 20777},
                {"2100-03-01T00:00", 47541}};
     for (size_t i = 0; i < sizeof day / sizeof day[0]; i++) {
-        fw_asrun run;
+        fw_recipe_asrun run;
         const char *words =
             fw_arena_printf(arena, "C20; start=%s; end=%s; by=A", day[i].time, day[i].time);
         const char *log = with(begun(), words, 0);
@@ -140,7 +140,7 @@ static void refused_entries(void **state) {
 /* every byte, every line */
 static void changes_are_seen(void **state) {
     (void)state;
-    fw_asrun run;
+    fw_recipe_asrun run;
     const char *log = three();
     size_t n = strlen(log);
     char *copy = fw_arena_strndup(arena, log, n);
@@ -165,17 +165,19 @@ static void changes_are_seen(void **state) {
 
 static void another_plan(void **state) {
     (void)state;
-    fw_asrun run;
+    fw_recipe_asrun run;
     const char *log = three();
     diags = fw_diags_new(arena);
     const char *other = fw_arena_printf(arena, "f%s", plan + 1);
-    assert_int_equal(fw_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run),
-                     FW_INPUT);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run),
+        FW_INPUT);
     assert_int_equal(diags.item[0].number, 281);
-    fw_flow *silicon = read_pack(arena, SILICON, NULL, NULL, &diags);
+    fw_process_flow *silicon = read_pack(arena, SILICON, NULL, NULL, &diags);
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_asrun_read(arena, silicon, plan, "lot.log", log, strlen(log), &diags, &run),
-                     FW_INPUT);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, silicon, plan, "lot.log", log, strlen(log), &diags, &run),
+        FW_INPUT);
     assert_int_equal(diags.item[0].number, 281);
 }
 
@@ -185,7 +187,7 @@ static bool holds(const fw_text *text, const char *words) {
 
 static void planned_against_actual(void **state) {
     (void)state;
-    fw_asrun run;
+    fw_recipe_asrun run;
     fw_text text = fw_text_new(arena), json = fw_text_new(arena);
     const char *log = three();
     log = with(log,
@@ -193,8 +195,8 @@ static void planned_against_actual(void **state) {
                "copper bright in the mould=no",
                0);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    assert_int_equal(fw_asrun_write_text(flow, &run, &text), FW_OK);
-    assert_int_equal(fw_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
     assert_true(holds(&text, "thickness = 7.9 um: OUT of 8.1 to 9.9"));
     assert_true(holds(&text, "copper bright in the mould = no: OUT of yes"));
     assert_true(holds(&text, "contact resistance = 0.4 ohm: accepted"));
@@ -209,7 +211,7 @@ static void planned_against_actual(void **state) {
     text = fw_text_new(arena);
     log = three();
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    assert_int_equal(fw_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
     assert_true(holds(&text, "waited 21 min since C20: OUT of 0 s to 15 min"));
 }
 

@@ -2,16 +2,16 @@
 /* Sections along a cut of hand-made masks: lengths, volumes and depths by hand. */
 #include "../mask/scene.h"
 #include "../process/packs.h"
-#include "recipe/profile.h"
+#include "recipe/recipe_profile.h"
 
 static const char *const packs[] = {COPPER, SILICON, "soi-deep-rie"};
 
 typedef struct bench { /* a mask of bars that run along y: every cut at an angle is known */
     scene *s;
-    fw_flow *flow;
+    fw_process_flow *flow;
     const fw_mask *mask;
     fw_recipe_cut cut;
-    fw_slicer slicer;
+    fw_recipe_slicer slicer;
     fw_recipe_header header;
 } bench;
 
@@ -21,18 +21,18 @@ enum { BARS = sizeof bar / sizeof *bar };
 
 /* `angle` of the cut against x; it begins at x = -20 um and ends at x = 174 um */
 static bench start(const char *pack, double anisotropy, double angle) {
-    static const fw_mask_gap gap[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
+    static const fw_process_mask_gap gap[] = {{FW_GAP_HINGE, "gap of hinge A", 8e-6}};
     bench b = {.s = scene_new(1e-6, 1e-6)};
     for (int i = 0; i < BARS; i++)
         scene_box(b.s, "bar", bar[i][0], -2000, bar[i][1], 2000);
     b.flow = read_pack(b.s->arena, pack, NULL, NULL, &b.s->diags);
     assert_non_null(b.flow);
     if (anisotropy > 0.0) measured(b.flow, "rie.A", anisotropy, 0);
-    fw_mask_facts facts = plain_facts;
+    fw_process_mask_facts facts = plain_facts;
     facts.gap = gap;
     facts.ngap = 1;
     facts.narrowest_slot_m = 8e-6;
-    assert_int_equal(fw_flow_compute(b.s->arena, b.flow, &facts, &b.s->diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(b.s->arena, b.flow, &facts, &b.s->diags), FW_OK);
     b.s->options.bias_m = b.flow->bias_m;
     assert_int_equal(scene_build(b.s, &b.mask), FW_OK);
     b.cut = (fw_recipe_cut){.line = {{-20 * UM, -20 * UM * tan(angle)}, {cos(angle), sin(angle)}},
@@ -45,29 +45,29 @@ static bench start(const char *pack, double anisotropy, double angle) {
 
 static void begin(bench *b) {
     b->header.cut = &b->cut;
-    assert_int_equal(fw_slicer_start(b->s->arena, b->mask, &b->cut, &b->slicer), FW_OK);
+    assert_int_equal(fw_recipe_slicer_start(b->s->arena, b->mask, &b->cut, &b->slicer), FW_OK);
 }
 
-static int step_index(const fw_flow *f, const char *id) {
+static int step_index(const fw_process_flow *f, const char *id) {
     for (int i = 0; i < f->nstep; i++)
         if (strcmp(f->step[i].id, id) == 0) return i;
     fail_msg("no step %s", id);
     return -1;
 }
 
-static fw_cross_section section(bench *b, const char *step) {
-    fw_cross_section p;
-    assert_int_equal(fw_cross_section_of(&b->slicer, b->flow, step_index(b->flow, step), &p),
+static fw_recipe_cross_section section(bench *b, const char *step) {
+    fw_recipe_cross_section p;
+    assert_int_equal(fw_recipe_cross_section_of(&b->slicer, b->flow, step_index(b->flow, step), &p),
                      FW_OK);
     return p;
 }
 
-static double area_of(const fw_patch *p) {
+static double area_of(const fw_recipe_patch *p) {
     return 0.5 * (p->low_m[1] - p->low_m[0] + p->high_m[1] - p->high_m[0]) *
            (p->top_m - p->bottom_m);
 }
 
-static double material_area(const fw_cross_section *p, const char *material) {
+static double material_area(const fw_recipe_cross_section *p, const char *material) {
     double sum = 0.0;
     for (int i = 0; i < p->n; i++)
         if (strcmp(p->patch[i].film->material, material) == 0) sum += area_of(&p->patch[i]);
@@ -86,7 +86,7 @@ static void plated_volume(void **state) {
     for (int i = 0; i < 3; i++) {
         bench b = start(COPPER, 0.0, angle[i]);
         begin(&b);
-        fw_cross_section p = section(&b, "C22");
+        fw_recipe_cross_section p = section(&b, "C22");
         double copper = material_area(&p, "copper-plated"), length = drawn_length(angle[i]);
         assert_relative(copper, length * 9e-6, 1e-9);
         double window = b.cut.length_m;
@@ -106,12 +106,12 @@ static void etched_by_hand(void **state) {
     const double A = 0.95, D = 50e-6;
     bench b = start(SILICON, A, 0.0);
     begin(&b);
-    const fw_fixed_point *e = &b.flow->edges;
+    const fw_process_fixed_point *e = &b.flow->edges;
     double E = 1.1 * D, m = (1.0 - A) * (E - 0.5 * (D + 0.0)), wet = 1.1e-6;
     /* the lag of the open field shifts m by some 10 nm; the rest is by hand */
     assert_near(e->etch_m, m, 3e-8);
     m = e->etch_m;
-    fw_cross_section al = section(&b, "S16"), p = section(&b, "S23");
+    fw_recipe_cross_section al = section(&b, "S16"), p = section(&b, "S23");
     assert_near(b.mask->bias_m, m + wet, 1e-15);
     int found = 0;
     for (int i = 0; i < al.n; i++)
@@ -123,13 +123,13 @@ static void etched_by_hand(void **state) {
     assert_int_equal(found, 4);
     found = 0;
     for (int i = 0; i < p.n; i++) {
-        const fw_patch *q = &p.patch[i];
+        const fw_recipe_patch *q = &p.patch[i];
         if (!q->film->in[FW_STACK_STRUCTURE] || q->low_m[0] <= 0.0) continue;
         double x0 = bar[1 + found][0] * UM + 20 * UM;
         assert_near(q->high_m[0], x0 - m + (1.0 - A) * E, 1e-14);
         /* foot: u = (1 - A)(E - D - lag(w)), w the opening to the left of this bar */
         double w = (bar[1 + found][0] - bar[found][1]) * UM - 2.0 * m;
-        double left = fmax(0.0, E - D - fw_cut_lag(&e->cut[0], w, D));
+        double left = fmax(0.0, E - D - fw_process_cut_lag(&e->cut[0], w, D));
         assert_near(q->low_m[0], x0 - m + (1.0 - A) * left, 1e-13);
         found++;
     }
@@ -143,24 +143,24 @@ static void floors_and_conservation(void **state) {
     bench b = start(SILICON, 1.0, 0.25);
     begin(&b);
     double D = 50e-6, window = b.cut.length_m, c = cos(0.25);
-    fw_cross_section before = section(&b, "S17"), after = section(&b, "S18");
+    fw_recipe_cross_section before = section(&b, "S17"), after = section(&b, "S18");
     assert_relative(material_area(&before, "silicon-100"), window * D, 1e-12);
-    const fw_cut *cut = &b.flow->edges.cut[0];
+    const fw_process_cut *cut = &b.flow->edges.cut[0];
     double lost = 0.0;
     for (int i = 0; i + 1 < BARS; i++) { /* askew, and each with its own width all the same */
         double w = (bar[i + 1][0] - bar[i][1]) * UM;
         double shown = i == 0 ? 20 * UM : w; /* the first one begins outside the window */
-        lost += shown / c * fw_cut_depth(cut, w);
+        lost += shown / c * fw_process_cut_depth(cut, w);
     }
-    assert_true(fw_cut_depth(cut, 8e-6) < D); /* narrow slots are not through: S = 0.1 */
+    assert_true(fw_process_cut_depth(cut, 8e-6) < D); /* narrow slots are not through: S = 0.1 */
     assert_relative(material_area(&after, "silicon-100"), window * D - lost, 1e-9);
-    fw_section_plan plan;
-    assert_int_equal(fw_section_plan_of(&b.slicer, b.flow, &plan), FW_OK);
+    fw_recipe_section_plan plan;
+    assert_int_equal(fw_recipe_section_plan_of(&b.slicer, b.flow, &plan), FW_OK);
     assert_int_equal(plan.nopening, 3); /* the first one begins outside */
     assert_near(plan.opening[0].drawn_m, 8e-6, 1e-15);
     assert_near(plan.opening[0].mask_m, 5.8e-6, 1e-14);
     assert_near(plan.opening[0].top_m, 8e-6, 1e-14);
-    assert_near(plan.opening[0].depth_m, fw_cut_depth(cut, 8e-6), 1e-14);
+    assert_near(plan.opening[0].depth_m, fw_process_cut_depth(cut, 8e-6), 1e-14);
     scene_free(b.s);
 }
 
@@ -180,10 +180,10 @@ static void lettering(void **state) {
         double hole_um;
     } at[] = {{"S11", "resist", 10.0}, {"S16", "aluminium", 12.2}, {"S23", "silicon-100", 12.2}};
     for (int i = 0; i < 3; i++) {
-        fw_cross_section p = section(&b, at[i].step);
+        fw_recipe_cross_section p = section(&b, at[i].step);
         double left = 0.0, right = 0.0;
         for (int k = 0; k < p.n; k++) { /* the last bar, in two parts */
-            const fw_patch *q = &p.patch[k];
+            const fw_recipe_patch *q = &p.patch[k];
             if (strcmp(q->film->material, at[i].material) != 0 || q->high_m[0] < 170 * UM) continue;
             if (left == 0.0)
                 left = q->high_m[1];
@@ -202,10 +202,10 @@ static void released(void **state) {
     for (int i = 0; i < 2; i++) {
         double angle = i ? 0.4 : 0.0;
         bench b = start("soi-deep-rie", 0.0, angle);
-        b.cut.line.at = (fw_vec2){-320 * UM, -320 * UM * tan(angle)};
+        b.cut.line.at = (fw_geometry_vec2){-320 * UM, -320 * UM * tan(angle)};
         b.cut.length_m = 640 * UM / cos(angle);
         begin(&b);
-        fw_cross_section p = section(&b, "D13");
+        fw_recipe_cross_section p = section(&b, "D13");
         double length = 0.0;
         int n = 0;
         for (int k = 0; k < p.n; k++)
@@ -224,7 +224,7 @@ static void released(void **state) {
 /* every picture and every document again, byte for byte, and each step's own */
 static void the_same_again(void **state) {
     (void)state;
-    fw_status (*const write[])(const fw_flow *, const fw_recipe_header *, fw_text *) = {
+    fw_status (*const write[])(const fw_process_flow *, const fw_recipe_header *, fw_text *) = {
         fw_recipe_write_html, fw_recipe_write_sections_svg, fw_recipe_write_sections_json,
         fw_recipe_write_stack_svg};
     for (int i = 0; i < 3; i++) {
@@ -248,14 +248,14 @@ static void the_same_again(void **state) {
             assert_non_null(strstr(text[0].data, "REJECTED"));
             b.header.rejected = false;
         }
-        fw_section_scale scale;
-        assert_int_equal(fw_section_scale_of(b.s->arena, b.flow, &b.cut, &scale), FW_OK);
+        fw_recipe_section_scale scale;
+        assert_int_equal(fw_recipe_section_scale_of(b.s->arena, b.flow, &b.cut, &scale), FW_OK);
         for (int k = 0; k < b.flow->nstep; k++) {
-            fw_slicer other; /* not the cache of the other steps */
+            fw_recipe_slicer other; /* not the cache of the other steps */
             fw_text p = fw_text_new(b.s->arena), q = fw_text_new(b.s->arena);
-            assert_int_equal(fw_slicer_start(b.s->arena, b.mask, &b.cut, &other), FW_OK);
-            assert_int_equal(fw_section_exact(&b.slicer, b.flow, &scale, k, &p), FW_OK);
-            assert_int_equal(fw_section_exact(&other, b.flow, &scale, k, &q), FW_OK);
+            assert_int_equal(fw_recipe_slicer_start(b.s->arena, b.mask, &b.cut, &other), FW_OK);
+            assert_int_equal(fw_recipe_section_exact(&b.slicer, b.flow, &scale, k, &p), FW_OK);
+            assert_int_equal(fw_recipe_section_exact(&other, b.flow, &scale, k, &q), FW_OK);
             assert_string_equal(p.data, q.data);
         }
         scene_free(b.s);
@@ -265,7 +265,7 @@ static void the_same_again(void **state) {
 /* memory that runs out anywhere is said, and nothing else happens */
 static void out_of_memory(void **state) {
     (void)state;
-    fw_status (*const write[])(const fw_flow *, const fw_recipe_header *, fw_text *) = {
+    fw_status (*const write[])(const fw_process_flow *, const fw_recipe_header *, fw_text *) = {
         fw_recipe_write_html, fw_recipe_write_sections_svg, fw_recipe_write_sections_json,
         fw_recipe_write_stack_svg};
     bench b = start("soi-deep-rie", 0.0, 0.2);
@@ -293,14 +293,15 @@ static void walls(void **state) {
     uint64_t seed = 7;
     enum { N = 60, RAYS = 400 };
     for (int round = 0; round < 40; round++) {
-        fw_wall w[N];
+        fw_recipe_wall w[N];
         for (int i = 0; i < N; i++) { /* each in its own cell of a lattice: they cannot cross */
             double x = i % 10, y = i / 10;
-            w[i] = (fw_wall){.a = {x + 0.98 * random01(&seed), y + 0.98 * random01(&seed), false},
-                             .b = {x + 0.98 * random01(&seed), y + 0.98 * random01(&seed), false}};
+            w[i] = (fw_recipe_wall){
+                .a = {x + 0.98 * random01(&seed), y + 0.98 * random01(&seed), false},
+                .b = {x + 0.98 * random01(&seed), y + 0.98 * random01(&seed), false}};
         }
         double turn = 6.28 * random01(&seed), tx = cos(turn), ty = sin(turn);
-        assert_int_equal(fw_walls_sort(arena, w, N, tx, ty), FW_OK);
+        assert_int_equal(fw_recipe_walls_sort(arena, w, N, tx, ty), FW_OK);
         for (int r = 0; r < RAYS; r++) {
             double across = 24.0 * random01(&seed) - 12.0, last = -HUGE_VAL;
             for (int i = 0; i < N; i++) { /* in the order of painting: ever nearer on this ray */

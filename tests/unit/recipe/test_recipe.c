@@ -7,14 +7,14 @@
 static const char *const flows[] = {COPPER, SILICON};
 static const char mask_hash[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
-typedef fw_status (*writer)(const fw_flow *, const fw_recipe_header *, fw_text *);
+typedef fw_status (*writer)(const fw_process_flow *, const fw_recipe_header *, fw_text *);
 static const writer writers[] = {fw_recipe_write_html, fw_recipe_write_csv, fw_recipe_write_ics,
                                  fw_recipe_write_json};
 
-static fw_flow *computed(const char *name) {
-    fw_flow *f = read_pack(arena, name, NULL, NULL, &diags);
+static fw_process_flow *computed(const char *name) {
+    fw_process_flow *f = read_pack(arena, name, NULL, NULL, &diags);
     assert_non_null(f);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     return f;
 }
 
@@ -26,8 +26,8 @@ static fw_recipe_header header_of(const char *device, bool rejected) {
                               .rejected = rejected};
 }
 
-static const char *written(writer write, const fw_flow *f, const char *device, bool rejected,
-                           size_t *n) {
+static const char *written(writer write, const fw_process_flow *f, const char *device,
+                           bool rejected, size_t *n) {
     fw_text out = fw_text_new(arena);
     fw_recipe_header h = header_of(device, rejected);
     assert_int_equal(write(f, &h, &out), FW_OK);
@@ -68,7 +68,7 @@ static void check_nesting(const char *html) {
 static void html(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        fw_flow *f = computed(flows[i]);
+        fw_process_flow *f = computed(flows[i]);
         const char *text = written(fw_recipe_write_html, f, "six & <b>", false, NULL);
         check_nesting(text);
         assert_int_equal(occurrences(text, "<section class=\"step\""), f->nstep);
@@ -98,7 +98,7 @@ static void html(void **state) {
 
 static void rejected_everywhere(void **state) {
     (void)state;
-    fw_flow *f = computed(COPPER);
+    fw_process_flow *f = computed(COPPER);
     for (size_t w = 0; w < sizeof writers / sizeof writers[0]; w++) {
         const char *text = written(writers[w], f, "d", true, NULL);
         assert_non_null(strstr(text, "REJECTED"));
@@ -114,7 +114,7 @@ static void rejected_everywhere(void **state) {
 static void csv(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        fw_flow *f = computed(flows[i]);
+        fw_process_flow *f = computed(flows[i]);
         const char *text = written(fw_recipe_write_csv, f, "d", false, NULL);
         assert_memory_equal(text, "step,title,name,value,unit,uncertainty,status,source\n", 53);
         int commas = 0, quoted = 0, rows = 0;
@@ -148,7 +148,7 @@ static void no_numeric_noise(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++)
         for (int w = 1; w < 4; w += 2) {
-            fw_flow *f = computed(flows[i]);
+            fw_process_flow *f = computed(flows[i]);
             const char *text = written(writers[w], f, "d", false, NULL);
             for (const char *c = text; *c; c++) {
                 int digits = 0, leading = 1;
@@ -172,7 +172,7 @@ static void calendar(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         size_t n = 0, start = 0;
-        fw_flow *f = computed(flows[i]);
+        fw_process_flow *f = computed(flows[i]);
         const char *text = written(fw_recipe_write_ics, f, "d", false, &n);
         for (size_t at = 0; at < n;
              at++) { /* CRLF only, 75 octets at most, no control characters */
@@ -206,7 +206,7 @@ static void json(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
         json_error_t error;
-        fw_flow *f = computed(flows[i]);
+        fw_process_flow *f = computed(flows[i]);
         json_t *root =
             json_loads(written(fw_recipe_write_json, f, "a \"quoted\"\\ name\n", false, NULL),
                        JSON_REJECT_DUPLICATES, &error);
@@ -254,7 +254,7 @@ static void json(void **state) {
 
 static void sections(void **state) {
     (void)state;
-    fw_flow *f = computed(COPPER);
+    fw_process_flow *f = computed(COPPER);
     fw_text out = fw_text_new(arena);
     assert_int_equal(fw_recipe_section_svg(f, 21, &out), FW_OK);
     assert_non_null(strstr(out.data, "copper 9 µm"));
@@ -288,7 +288,7 @@ static void same_bytes(void **state) {
 
 static void out_of_memory(void **state) {
     (void)state;
-    fw_flow *f = computed(SILICON);
+    fw_process_flow *f = computed(SILICON);
     fw_recipe_header h = header_of("d", false);
     for (size_t w = 0; w < sizeof writers / sizeof writers[0]; w++) {
         for (long at = 1;; at += at < 30 ? 1 : 11) {

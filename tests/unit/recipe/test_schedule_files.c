@@ -7,14 +7,14 @@
 
 static const char *const flows[] = {COPPER, SILICON};
 
-static fw_flow *computed(const char *name, const char *from, const char *to) {
-    fw_flow *f = read_pack(arena, name, from, to, &diags);
+static fw_process_flow *computed(const char *name, const char *from, const char *to) {
+    fw_process_flow *f = read_pack(arena, name, from, to, &diags);
     assert_non_null(f);
-    assert_int_equal(fw_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     return f;
 }
 
-static const fw_schedule *scheduled(const fw_flow *f, int wafers, int operators,
+static const fw_schedule *scheduled(const fw_process_flow *f, int wafers, int operators,
                                     const char *planned) {
     const fw_schedule *s;
     fw_schedule_options o = {
@@ -23,9 +23,9 @@ static const fw_schedule *scheduled(const fw_flow *f, int wafers, int operators,
     return s;
 }
 
-typedef fw_status (*writer)(const fw_flow *, const fw_recipe_header *, fw_text *);
+typedef fw_status (*writer)(const fw_process_flow *, const fw_recipe_header *, fw_text *);
 
-static const char *written(writer write, const fw_flow *f, const fw_schedule *s) {
+static const char *written(writer write, const fw_process_flow *f, const fw_schedule *s) {
     fw_text out = fw_text_new(arena);
     fw_recipe_header h = {.device = "d<&>\"1\"", .mask_sha256 = "00", .schedule = s};
     assert_int_equal(write(f, &h, &out), FW_OK);
@@ -43,7 +43,7 @@ static void json_and_csv(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++)
         for (int wafers = 1; wafers <= 7; wafers += 3) {
-            const fw_flow *f = computed(flows[i], NULL, NULL);
+            const fw_process_flow *f = computed(flows[i], NULL, NULL);
             const fw_schedule *s = scheduled(f, wafers, 2, NULL);
             json_t *json = json_loads(written(fw_recipe_write_schedule_json, f, s), 0, NULL);
             assert_non_null(json);
@@ -74,7 +74,7 @@ static void json_and_csv(void **state) {
 static void picture(void **state) {
     (void)state;
     for (int i = 0; i < 2; i++) {
-        const fw_flow *f = computed(flows[i], NULL, NULL);
+        const fw_process_flow *f = computed(flows[i], NULL, NULL);
         const fw_schedule *s = scheduled(f, 6, 1, NULL);
         const char *svg = written(fw_recipe_write_schedule_svg, f, s);
         int attended = 0;
@@ -92,7 +92,7 @@ static void picture(void **state) {
 /* the calendar: an event for every attended load, none outside the working day */
 static void calendar(void **state) {
     (void)state;
-    const fw_flow *f = computed(SILICON, NULL, NULL);
+    const fw_process_flow *f = computed(SILICON, NULL, NULL);
     const fw_schedule *s = scheduled(f, 3, 2, NULL);
     const char *ics = written(fw_recipe_write_ics, f, s);
     int attended = 0;
@@ -111,7 +111,7 @@ static void calendar(void **state) {
 /* planning times fill what is not computable; the run sheet says so and names where to stop */
 static void planning_times(void **state) {
     (void)state;
-    const fw_flow *f = computed(SILICON, NULL, NULL);
+    const fw_process_flow *f = computed(SILICON, NULL, NULL);
     const fw_schedule *before = scheduled(f, 1, 1, NULL);
     const fw_schedule *s = scheduled(f, 1, 1, "S03=90 min,S09=20 s,C05=1 h");
     assert_int_equal(before->unknown, 2);
@@ -135,8 +135,8 @@ static void planning_times(void **state) {
 /* a pack whose windows cannot be kept: named, and no schedule */
 static void contradiction(void **state) {
     (void)state;
-    const fw_flow *f = computed(COPPER, "<lag from=\"C25\" max=\"60\" unit=\"min\"/>",
-                                "<lag from=\"C16\" max=\"30\" unit=\"min\"/>");
+    const fw_process_flow *f = computed(COPPER, "<lag from=\"C25\" max=\"60\" unit=\"min\"/>",
+                                        "<lag from=\"C16\" max=\"30\" unit=\"min\"/>");
     fw_diags said = diags = fw_diags_new(arena);
     const fw_schedule *s = scheduled(f, 2, 1, NULL);
     assert_false(s->feasible);

@@ -6,7 +6,7 @@ static void header_and_every_bit(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
-    const fw_motion *m = f->variant_verdict[0].motion[0];
+    const fw_dynamics_motion *m = f->variant_verdict[0].motion[0];
     fw_text out = fw_text_new(arena);
     assert_int_equal(fw_report_motion_csv(&f->mechanism[0], m, &out), FW_OK);
     const char *line = out.data;

@@ -34,8 +34,8 @@ static void assert_order(const char *text, const char *first, const char *second
     if (!b) fail_msg("%s does not stand before %s", first, second);
 }
 
-static fw_motion *motion_of(const whole *w) {
-    return (fw_motion *)(uintptr_t)w->f->variant_verdict[0].motion[0];
+static fw_dynamics_motion *motion_of(const whole *w) {
+    return (fw_dynamics_motion *)(uintptr_t)w->f->variant_verdict[0].motion[0];
 }
 
 static void ledger_on_the_page(void **state) {
@@ -59,19 +59,19 @@ static void ledger_on_the_page(void **state) {
 static void pull_in_on_the_page(void **state) {
     (void)state;
     whole w = whole_new();
-    static const fw_pull_in beyond = {.kind = FW_PULL_IN_SIDE,
-                                      .comb = "right<",
-                                      .voltage_V = 31.25,
-                                      .largest_V = 40,
-                                      .margin = 0.78125,
-                                      .fringe = 0.16},
-                            never = {.kind = FW_PULL_IN_NONE,
-                                     .comb = "left",
-                                     .voltage_V = HUGE_VAL,
-                                     .largest_V = 5,
-                                     .margin = HUGE_VAL,
-                                     .why = "nothing moves"};
-    static const fw_pull_in *list[2] = {&beyond, &never};
+    static const fw_statics_pull_in beyond = {.kind = FW_PULL_IN_SIDE,
+                                              .comb = "right<",
+                                              .voltage_V = 31.25,
+                                              .largest_V = 40,
+                                              .margin = 0.78125,
+                                              .fringe = 0.16},
+                                    never = {.kind = FW_PULL_IN_NONE,
+                                             .comb = "left",
+                                             .voltage_V = HUGE_VAL,
+                                             .largest_V = 5,
+                                             .margin = HUGE_VAL,
+                                             .why = "nothing moves"};
+    static const fw_statics_pull_in *list[2] = {&beyond, &never};
     w.f->variant_verdict[0].pull_in = list;
     const char *section = strstr(page_of(&w), "Pull-in");
     assert_non_null(section);
@@ -80,7 +80,7 @@ static void pull_in_on_the_page(void **state) {
     assert_order(section, ">40", "0.781");
     assert_order(section, "gentle-step", "none found (nothing moves)");
     fw_text out = fw_text_new(w.arena);
-    const fw_terminal_style style = {0};
+    const fw_report_terminal_style style = {0};
     assert_int_equal(fw_report_verdict_text(&w.f->input, style, &out), FW_OK);
     assert_non_null(
         strstr(out.data, "comb drive right< at 31.25 V (side); the scene asks for up to 40 V"));
@@ -91,7 +91,7 @@ static void pull_in_on_the_page(void **state) {
 static void ledger_in_the_terminal(void **state) {
     (void)state;
     whole w = whole_new();
-    fw_motion *motion = motion_of(&w);
+    fw_dynamics_motion *motion = motion_of(&w);
     motion->stabilise = "projection";
     fw_text out = fw_text_new(w.arena);
     assert_int_equal(
@@ -103,26 +103,26 @@ static void ledger_in_the_terminal(void **state) {
 
 /* a cable from the platform over the frame, a comb and a plate on it */
 static void actuate(whole *w) {
-    static fw_eyelet eyelet[3] = {{.body = 2, .x_m = 0.4e-3},
-                                  {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 3.6e-3},
-                                  {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 4.6e-3}};
-    static fw_tendon tendon[2];
-    static fw_comb comb[2];
-    tendon[0] = (fw_tendon){.id = "cable&1", .eyelet = eyelet, .neyelet = 3};
-    comb[0] = (fw_comb){.id = "teeth",
-                        .body_a = FW_GROUND,
-                        .body_b = 2,
-                        .fingers = 30,
-                        .gap_m = 5e-6,
-                        .overlap_m = 20e-6,
-                        .length_m = (double)NAN};
-    comb[1] = (fw_comb){.id = "faces",
-                        .kind = FW_ELECTRODES_PLATE,
-                        .body_a = FW_GROUND,
-                        .body_b = 0,
-                        .gap_m = 5e-6,
-                        .length_m = 200e-6,
-                        .direction_rad = 2};
+    static fw_device_eyelet eyelet[3] = {{.body = 2, .x_m = 0.4e-3},
+                                         {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 3.6e-3},
+                                         {.body = FW_GROUND, .x_m = 3.5e-3, .y_m = 4.6e-3}};
+    static fw_device_tendon tendon[2];
+    static fw_device_comb comb[2];
+    tendon[0] = (fw_device_tendon){.id = "cable&1", .eyelet = eyelet, .neyelet = 3};
+    comb[0] = (fw_device_comb){.id = "teeth",
+                               .body_a = FW_GROUND,
+                               .body_b = 2,
+                               .fingers = 30,
+                               .gap_m = 5e-6,
+                               .overlap_m = 20e-6,
+                               .length_m = (double)NAN};
+    comb[1] = (fw_device_comb){.id = "faces",
+                               .kind = FW_ELECTRODES_PLATE,
+                               .body_a = FW_GROUND,
+                               .body_b = 0,
+                               .gap_m = 5e-6,
+                               .length_m = 200e-6,
+                               .direction_rad = 2};
     for (int s = 0; s < 2; s++) { /* both scenes have the same */
         w->f->device.scene[s].tendon = tendon, w->f->device.scene[s].ntendon = 1;
         w->f->device.scene[s].comb = comb, w->f->device.scene[s].ncomb = 2;

@@ -10,11 +10,11 @@ enum { MOST = 16, POSES = 21 };
 
 /* built by hand: a bar on a pin, a slider on it that a driven rod holds, a plate, a spring */
 typedef struct scene {
-    fw_mass body[MOST];
-    fw_pin pin[MOST];
-    fw_tie tie[4];
-    fw_driver driver[2];
-    fw_spring spring[2];
+    fw_mechanism_mass body[MOST];
+    fw_mechanism_pin pin[MOST];
+    fw_device_joint joint[4];
+    fw_device_driver driver[2];
+    fw_device_spring spring[2];
     fw_mechanism m;
     fw_device device;
 } scene;
@@ -24,38 +24,40 @@ static void crank_on_a_slide(scene *s) {
     s->m = (fw_mechanism){.device = &s->device,
                           .body = s->body,
                           .pin = s->pin,
-                          .tie = s->tie,
+                          .joint = s->joint,
                           .driver = s->driver,
                           .spring = s->spring,
                           .nbody = 3,
                           .npin = 2,
-                          .ntie = 2,
+                          .njoint = 2,
                           .ndriver = 1,
                           .nspring = 1};
-    s->body[0] = (fw_mass){.id = "bar"};
-    s->body[1] = (fw_mass){.id = "slider"};
-    s->body[2] = (fw_mass){.id = "plate"};
+    s->body[0] = (fw_mechanism_mass){.id = "bar"};
+    s->body[1] = (fw_mechanism_mass){.id = "slider"};
+    s->body[2] = (fw_mechanism_mass){.id = "plate"};
     /* the bar: a pin at its left end, a guide along it, and a corner above */
-    s->pin[0] = (fw_pin){.id = "O", .body_a = FW_GROUND, .body_b = 0, .bx_m = -1, .hinge = FW_NONE};
-    s->pin[1] = (fw_pin){.id = "P",
-                         .body_a = 0,
-                         .ax_m = 0,
-                         .ay_m = 0.5,
-                         .body_b = 2,
-                         .hinge = FW_NONE,
-                         .stop_stiffness_Nm_per_rad = 1,
-                         .stop_min_rad = -0.5,
-                         .stop_max_rad = (double)NAN};
-    s->tie[0] = (fw_tie){.id = "S", .kind = FW_TIE_PRISMATIC, .body_a = 0, .body_b = 1};
-    s->tie[1] = (fw_tie){.id = "R",
-                         .kind = FW_TIE_DISTANCE,
-                         .body_a = FW_GROUND,
-                         .ax_m = 5,
-                         .ay_m = -4,
-                         .body_b = 1,
-                         .length_m = 1};
-    s->driver[0] = (fw_driver){.id = "d", .joint = FW_NONE, .tie = 1};
-    s->spring[0] = (fw_spring){
+    s->pin[0] = (fw_mechanism_pin){
+        .id = "O", .body_a = FW_GROUND, .body_b = 0, .bx_m = -1, .hinge = FW_NONE};
+    s->pin[1] = (fw_mechanism_pin){.id = "P",
+                                   .body_a = 0,
+                                   .ax_m = 0,
+                                   .ay_m = 0.5,
+                                   .body_b = 2,
+                                   .hinge = FW_NONE,
+                                   .stop_stiffness_Nm_per_rad = 1,
+                                   .stop_min_rad = -0.5,
+                                   .stop_max_rad = (double)NAN};
+    s->joint[0] =
+        (fw_device_joint){.id = "S", .kind = FW_JOINT_PRISMATIC, .body_a = 0, .body_b = 1};
+    s->joint[1] = (fw_device_joint){.id = "R",
+                                    .kind = FW_JOINT_DISTANCE,
+                                    .body_a = FW_GROUND,
+                                    .ax_m = 5,
+                                    .ay_m = -4,
+                                    .body_b = 1,
+                                    .length_m = 1};
+    s->driver[0] = (fw_device_driver){.id = "d", .revolute = FW_NONE, .joint = 1};
+    s->spring[0] = (fw_device_spring){
         .id = "k", .body_a = FW_GROUND, .ax_m = -3, .ay_m = 2, .body_b = 2, .stiffness_N_per_m = 1};
 }
 
@@ -69,14 +71,15 @@ static void poses(double *q) {
     }
 }
 
-static const fw_figure_part *find(const fw_figure *f, fw_figure_role role, int of) {
+static const fw_report_figure_part *find(const fw_report_drawing_figure *f,
+                                         fw_report_figure_role role, int of) {
     for (int i = 0; i < f->count; i++)
         if (f->part[i].role == role && (of == FW_NONE || f->part[i].of == of)) return &f->part[i];
     fail_msg("no part of role %d", (int)role);
     return NULL;
 }
 
-static int count_of(const fw_figure *f, fw_figure_role role) {
+static int count_of(const fw_report_drawing_figure *f, fw_report_figure_role role) {
     int n = 0;
     for (int i = 0; i < f->count; i++)
         n += f->part[i].role == role;
@@ -90,14 +93,14 @@ static void parts_of_a_mechanism(void **state) {
     crank_on_a_slide(&s);
     double q[9 * POSES];
     poses(q);
-    fw_figure f;
-    assert_int_equal(fw_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
+    fw_report_drawing_figure f;
+    assert_int_equal(fw_report_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
     /* the guide starts at point a and reaches beyond the slider at its farthest */
-    const fw_figure_part *rail = find(&f, FW_FIGURE_RAIL, FW_NONE);
+    const fw_report_figure_part *rail = find(&f, FW_FIGURE_RAIL, FW_NONE);
     assert_int_equal(rail->of, 0);
     assert_true(rail->end[0].x_m == 0 && rail->end[1].x_m > 3.05 && rail->end[1].x_m < 4.5);
     /* the bar: its pin, the end of its guide, the corner; its centre and point a lie inside */
-    const fw_figure_part *bar = find(&f, FW_FIGURE_BODY, 0);
+    const fw_report_figure_part *bar = find(&f, FW_FIGURE_BODY, 0);
     assert_int_equal(bar->noutline, 3);
     /* the slider has its joint in its centre: its block stands for it; the plate has no extent */
     assert_int_equal(count_of(&f, FW_FIGURE_BODY), 1);
@@ -121,20 +124,20 @@ static void everything_is_in_view(void **state) {
     crank_on_a_slide(&s);
     double q[9 * POSES];
     poses(q);
-    fw_figure f;
-    assert_int_equal(fw_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
-    fw_box box = fw_report_box_empty();
+    fw_report_drawing_figure f;
+    assert_int_equal(fw_report_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
+    fw_geometry_box box = fw_report_box_empty();
     for (int i = 0; i < f.count; i++)
-        fw_figure_reach(&box, &f.part[i], q, POSES, 3);
-    fw_report_view view = fw_figure_view(&box, 700);
+        fw_report_figure_reach(&box, &f.part[i], q, POSES, 3);
+    fw_report_view view = fw_report_figure_view(&box, 700);
     for (int i = 0; i < f.count; i++)
         for (int k = 0; k < POSES; k++) {
-            const fw_figure_part *p = &f.part[i];
+            const fw_report_figure_part *p = &f.part[i];
             for (int j = 0; j < (p->noutline ? p->noutline : 2); j++) {
-                fw_figure_point at = p->end[j < 2 ? j : 0];
+                fw_report_figure_point at = p->end[j < 2 ? j : 0];
                 if (p->noutline)
-                    at = (fw_figure_point){p->end[0].body, p->outline[j].x, p->outline[j].y};
-                fw_vec2 w = fw_figure_place(q + 9 * k, at);
+                    at = (fw_report_figure_point){p->end[0].body, p->outline[j].x, p->outline[j].y};
+                fw_geometry_vec2 w = fw_report_figure_place(q + 9 * k, at);
                 double x = fw_report_x(&view, w.x), y = fw_report_y(&view, w.y);
                 assert_true(x > 25 && x < view.width - 25 && y > 25 && y < view.height - 35);
             }
@@ -152,21 +155,21 @@ static void outline_is_convex(void **state) {
             .device = &s.device, .body = s.body, .pin = s.pin, .nbody = 1, .npin = n};
         for (int i = 0; i < n; i++) {
             double a = 2.399963 * i; /* in no order */
-            s.pin[i] = (fw_pin){.id = "p",
-                                .body_a = 0,
-                                .ax_m = 2 * cos(a),
-                                .ay_m = 2 * sin(a),
-                                .body_b = FW_GROUND,
-                                .hinge = FW_NONE};
+            s.pin[i] = (fw_mechanism_pin){.id = "p",
+                                          .body_a = 0,
+                                          .ax_m = 2 * cos(a),
+                                          .ay_m = 2 * sin(a),
+                                          .body_b = FW_GROUND,
+                                          .hinge = FW_NONE};
         }
         double q[3] = {0, 0, 0};
-        fw_figure f;
-        assert_int_equal(fw_figure_make(arena, &s.m, q, 1, &f), FW_OK);
-        const fw_figure_part *b = find(&f, FW_FIGURE_BODY, 0);
+        fw_report_drawing_figure f;
+        assert_int_equal(fw_report_figure_make(arena, &s.m, q, 1, &f), FW_OK);
+        const fw_report_figure_part *b = find(&f, FW_FIGURE_BODY, 0);
 
         double around = 0;
         for (int i = 0; i < b->noutline; i++) {
-            fw_vec2 u = b->outline[i], v = b->outline[(i + 1) % b->noutline];
+            fw_geometry_vec2 u = b->outline[i], v = b->outline[(i + 1) % b->noutline];
             around += remainder(atan2(v.y, v.x) - atan2(u.y, u.x), 2 * acos(-1.0));
         }
         assert_int_equal(b->noutline, n);
@@ -183,19 +186,19 @@ static void frames_have_the_same_commands(void **state) {
     crank_on_a_slide(&s);
     double q[9 * POSES];
     poses(q);
-    fw_figure f;
-    assert_int_equal(fw_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
-    fw_report_view view = fw_figure_view(&(fw_box){-4, -4, 5, 5}, 700);
+    fw_report_drawing_figure f;
+    assert_int_equal(fw_report_figure_make(arena, &s.m, q, POSES, &f), FW_OK);
+    fw_report_view view = fw_report_figure_view(&(fw_geometry_box){-4, -4, 5, 5}, 700);
     fw_text text = fw_text_new(arena);
-    const fw_figure_pen pen = {.view = &view,
-                               .out = &text,
-                               .still = q,
-                               .frame = q,
-                               .nbody = 3,
-                               .frames = POSES,
-                               .seconds = 8,
-                               .mark = 5.5};
-    fw_figure_draw(find(&f, FW_FIGURE_SPRING, FW_NONE), &pen);
+    const fw_report_figure_pen pen = {.view = &view,
+                                      .out = &text,
+                                      .still = q,
+                                      .frame = q,
+                                      .nbody = 3,
+                                      .frames = POSES,
+                                      .seconds = 8,
+                                      .mark = 5.5};
+    fw_report_figure_draw(find(&f, FW_FIGURE_SPRING, FW_NONE), &pen);
     assert_int_equal(fw_text_end(&text), FW_OK);
     const char *values = strstr(text.data, "values=\"");
     assert_non_null(values);
@@ -221,9 +224,9 @@ static void memory_may_be_short(void **state) {
         crank_on_a_slide(&s);
         double q[9 * POSES];
         poses(q);
-        fw_figure f;
+        fw_report_drawing_figure f;
         fw_arena_fail_at(n, 1);
-        fw_status status = fw_figure_make(arena, &s.m, q, POSES, &f);
+        fw_status status = fw_report_figure_make(arena, &s.m, q, POSES, &f);
         fw_arena_fail_at(0, 0);
         fw_arena_free(arena);
         if (status == FW_OK) {

@@ -155,11 +155,13 @@ static void mechanics_are_shown(void **state) {
 /* how a load goes with time is said where the load is, and at its arrow */
 static void laws_are_said(void **state) {
     (void)state;
-    static const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2e-3, .end_s = (double)INFINITY};
-    static const fw_law pulse = {.kind = &fw_quantity_law_step, .start_s = 1e-3, .end_s = 3e-3};
+    static const fw_quantity_law ramp = {
+        .kind = &fw_quantity_law_ramp, .rise_s = 2e-3, .end_s = (double)INFINITY};
+    static const fw_quantity_law pulse = {
+        .kind = &fw_quantity_law_step, .start_s = 1e-3, .end_s = 3e-3};
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.3);
-    fw_driver driver = {.id = "motor", .joint = 0, .tie = FW_NONE};
+    fw_device_driver driver = {.id = "motor", .revolute = 0, .joint = FW_NONE};
     f->device.scene[0].force[0].law = &ramp;
     f->device.scene[1].force[0].law = &pulse;
     f->device.driver = &driver, f->device.ndriver = 1;
@@ -187,7 +189,7 @@ static void hostile_names_are_text(void **state) {
     for (int b = 0; b < FIVE; b++)
         f->device.body[b].id = f->mechanism[0].body[b].id = evil;
     for (int j = 0; j < SIX; j++) {
-        f->device.joint[j].id = f->mechanism[0].pin[j].id = evil;
+        f->device.revolute[j].id = f->mechanism[0].pin[j].id = evil;
         f->verdict.hinge[j].id = f->verdict.hinge[j].scene = f->verdict.hinge[j].flow = evil;
     }
     f->variant[0].flow = f->variant[0].material.name = f->variant[0].material.youngs.source = evil;
@@ -216,7 +218,7 @@ static void numbers_that_are_not_finite_do_not_show(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
-    fw_motion *m = (fw_motion *)(uintptr_t)f->variant_verdict[0].motion[0];
+    fw_dynamics_motion *m = (fw_dynamics_motion *)(uintptr_t)f->variant_verdict[0].motion[0];
     double bad = (double)NAN;
     m->q[100] = m->angle_rad[60] = m->peak[1].angle_rad = m->peak[2].t_s = bad;
     m->stats.energy_error = HUGE_VAL;
@@ -275,7 +277,7 @@ static void same_input_same_bytes(void **state) {
     for (int i = 0; i < WRITERS; i++) {
         fw_text a = fw_text_new(arena), b = fw_text_new(arena);
         fixture *f = fixture_new(arena, 0.12), *g = fixture_new(arena, 0.12);
-        ((fw_motion *)(uintptr_t)g->variant_verdict[0].motion[0])->stats.cpu_s = 77.0;
+        ((fw_dynamics_motion *)(uintptr_t)g->variant_verdict[0].motion[0])->stats.cpu_s = 77.0;
         assert_int_equal(writers[i].write(arena, f, &a), FW_OK);
         assert_int_equal(writers[i].write(arena, g, &b), FW_OK);
         assert_int_equal(a.length, b.length);
@@ -303,7 +305,7 @@ static void tethers_stay_out_of_motion(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
     fw_text still[2], film[2], page[2];
-    fw_contour tether;
+    fw_geometry_contour tether;
     f->device.die.tethers = true;
     for (int i = 0; i < 2; i++) {
         still[i] = fw_text_new(arena);
@@ -312,8 +314,8 @@ static void tethers_stay_out_of_motion(void **state) {
         assert_int_equal(drawing(arena, f, &still[i]), FW_OK);
         assert_int_equal(animation(arena, f, &film[i]), FW_OK);
         assert_int_equal(html(arena, f, &page[i]), FW_OK);
-        fw_box box = {1.49e-3, 3.05e-3, 1.51e-3, 3.7e-3};
-        assert_int_equal(fw_contour_rectangle(arena, box, &tether), FW_OK);
+        fw_geometry_box box = {1.49e-3, 3.05e-3, 1.51e-3, 3.7e-3};
+        assert_int_equal(fw_geometry_contour_rectangle(arena, box, &tether), FW_OK);
         fixture_piece(&f->layout, FW_ROLE_TETHER, FW_GROUND, FW_NONE, "tether", tether);
     }
     const char *mark = "<path class=\"tethers\"";
@@ -342,7 +344,8 @@ static void out_of_memory_is_said(void **state) {
     for (int w = 0; w < WRITERS; w++)
         for (int ever_after = 0; ever_after < 2; ever_after++) {
             long failures = 0;
-            /* the first hundred one by one, then ever fewer: the whole workspace is found each time */
+            /* the first hundred one by one, then ever fewer: the whole workspace is found each
+               time */
             for (long n = 1;; n += 1 + n / 100) {
                 fw_arena *scratch = fw_arena_new(0);
                 assert_non_null(scratch);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
 #include "report/fixture.h"
-#include "report/json.h"
+#include "report/report_json.h"
 #include <jansson.h>
 
 static json_t *verdict_json(fw_arena *arena, const fw_report_input *input) {
@@ -118,7 +118,7 @@ static void simulate_has_the_keys_of_the_contract(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
-    const fw_motion *m = f->variant_verdict[0].motion[0];
+    const fw_dynamics_motion *m = f->variant_verdict[0].motion[0];
     fw_text out = fw_text_new(arena);
     assert_int_equal(fw_report_simulate_json(&f->mechanism[0], m, &out), FW_OK);
     json_t *root = json_loadb(out.data, out.length, JSON_REJECT_DUPLICATES, NULL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
-#include "report/page.h"
+#include "report/report_page.h"
 #include "report/fixture.h"
 
 static uint64_t seed = 88172645463325252u;
@@ -55,7 +55,7 @@ static void bent_flexure_meets_both_bodies(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
-    const fw_motion *m = f->variant_verdict[0].motion[0];
+    const fw_dynamics_motion *m = f->variant_verdict[0].motion[0];
     fw_report_bends bends;
     assert_int_equal(fw_report_bends_make(arena, &f->device, &f->layout, &bends), FW_OK);
     assert_int_equal(bends.count, SIX);
@@ -68,9 +68,10 @@ static void bent_flexure_meets_both_bodies(void **state) {
             if (w > 1e-9 && w < 1.0 - 1e-9) continue;
             ends++;
             for (int t = 0; t < SAMPLES; t += 50) {
-                fw_vec2 p = fw_report_bent(&f->mechanism[0], m, b, m->t_s[t], b->point[k]);
-                fw_vec2 q = fw_report_moved(&f->mechanism[0], m, w < 0.5 ? b->lower : b->upper,
-                                            m->t_s[t], (fw_vec2){b->point[k].x_m, b->point[k].y_m});
+                fw_geometry_vec2 p = fw_report_bent(&f->mechanism[0], m, b, m->t_s[t], b->point[k]);
+                fw_geometry_vec2 q =
+                    fw_report_moved(&f->mechanism[0], m, w < 0.5 ? b->lower : b->upper, m->t_s[t],
+                                    (fw_geometry_vec2){b->point[k].x_m, b->point[k].y_m});
                 assert_near(p.x, q.x, 1e-12);
                 assert_near(p.y, q.y, 1e-12);
             }
@@ -84,7 +85,7 @@ static void pose_is_the_sample_at_a_sample(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.12);
-    const fw_motion *m = f->variant_verdict[0].motion[0];
+    const fw_dynamics_motion *m = f->variant_verdict[0].motion[0];
     double pose[3];
     for (int i = 0; i < SAMPLES; i += 7)
         for (int b = 0; b < FIVE; b++) {
@@ -102,7 +103,7 @@ static void pose_is_the_sample_at_a_sample(void **state) {
 static void picture_keeps_points_where_they_are(void **state) {
     (void)state;
     for (int trial = 0; trial < 200; trial++) {
-        fw_box box = {uniform(), uniform(), 0.0, 0.0};
+        fw_geometry_box box = {uniform(), uniform(), 0.0, 0.0};
         box.x1 = box.x0 + 1e-6 + uniform();
         box.y1 = box.y0 + 1e-6 + uniform();
         fw_report_view v = fw_report_view_fit(box, 640.0, 0.1 * (box.x1 - box.x0));

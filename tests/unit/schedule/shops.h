@@ -45,10 +45,10 @@ static const row si_rows[] = {
 
 enum { CU_ROWS = sizeof cu_rows / sizeof cu_rows[0], SI_ROWS = sizeof si_rows / sizeof si_rows[0] };
 
-static const fw_calendar round_the_clock = {0.0, 86400.0, true};
+static const fw_schedule_calendar round_the_clock = {0.0, 86400.0, true};
 
-static inline fw_hold hold_of(int from, int to, double min_s, double max_s) {
-    return (fw_hold){.from = from, .to = to, .min_s = min_s, .max_s = max_s};
+static inline fw_schedule_hold hold_of(int from, int to, double min_s, double max_s) {
+    return (fw_schedule_hold){.from = from, .to = to, .min_s = min_s, .max_s = max_s};
 }
 
 static inline int find_row(const row *rows, int n, const char *id) {
@@ -59,9 +59,10 @@ static inline int find_row(const row *rows, int n, const char *id) {
 }
 
 /* operators 0: as many as anybody can want */
-static inline fw_shop shop_of(fw_arena *arena, const row *rows, int n, int wafers, int operators) {
-    fw_task *task = fw_arena_array(arena, fw_task, (size_t)n);
-    fw_machine *machine = fw_arena_array(arena, fw_machine, (size_t)n);
+static inline fw_schedule_shop shop_of(fw_arena *arena, const row *rows, int n, int wafers,
+                                       int operators) {
+    fw_schedule_task *task = fw_arena_array(arena, fw_schedule_task, (size_t)n);
+    fw_schedule_machine *machine = fw_arena_array(arena, fw_schedule_machine, (size_t)n);
     assert_true(task && machine);
     int machines = 0;
     for (int i = 0; i < n; i++) {
@@ -70,44 +71,46 @@ static inline fw_shop shop_of(fw_arena *arena, const row *rows, int n, int wafer
         while (m < machines && strcmp(machine[m].id, rows[i].machine) != 0)
             m++;
         if (m == machines)
-            machine[machines++] = (fw_machine){rows[i].machine, rows[i].machine, shelf ? 50 : 1};
-        task[i] = (fw_task){.id = rows[i].id,
-                            .title = rows[i].id,
-                            .machine = m,
-                            .duration_s = 60.0 * rows[i].run_min,
-                            .latest_s = 60.0 * rows[i].run_min,
-                            .attended_s = 60.0 * rows[i].attended_min,
-                            .load = load < wafers ? load : wafers,
-                            .lot = lot,
-                            .alone = shelf};
+            machine[machines++] =
+                (fw_schedule_machine){rows[i].machine, rows[i].machine, shelf ? 50 : 1};
+        task[i] = (fw_schedule_task){.id = rows[i].id,
+                                     .title = rows[i].id,
+                                     .machine = m,
+                                     .duration_s = 60.0 * rows[i].run_min,
+                                     .latest_s = 60.0 * rows[i].run_min,
+                                     .attended_s = 60.0 * rows[i].attended_min,
+                                     .load = load < wafers ? load : wafers,
+                                     .lot = lot,
+                                     .alone = shelf};
     }
-    return (fw_shop){.task = task,
-                     .machine = machine,
-                     .ntask = n,
-                     .nmachine = machines,
-                     .wafers = wafers,
-                     .operators = operators ? operators : 50,
-                     .calendar = round_the_clock};
+    return (fw_schedule_shop){.task = task,
+                              .machine = machine,
+                              .ntask = n,
+                              .nmachine = machines,
+                              .wafers = wafers,
+                              .operators = operators ? operators : 50,
+                              .calendar = round_the_clock};
 }
 
 /* every rule of a schedule, looked at from outside: each wafer does every task once and in order,
    no machine takes more than it has places for, nobody stands in two places, people work by day,
    every hold is kept */
 static inline void check_schedule(const fw_schedule *s) {
-    const fw_shop *shop = s->shop;
+    const fw_schedule_shop *shop = s->shop;
     static double start[200 * 50], end[200 * 50];
     static int count[200 * 50];
     memset(count, 0, sizeof count);
     double last = 0.0;
     for (int i = 0; i < s->nrun; i++) {
-        const fw_run *r = &s->run[i];
-        const fw_task *t = &shop->task[r->task];
+        const fw_schedule_run *r = &s->run[i];
+        const fw_schedule_task *t = &shop->task[r->task];
         assert_true(r->count >= 1 && r->first + r->count <= shop->wafers);
         assert_true(r->count <= t->load && (!t->lot || r->count == shop->wafers));
         assert_near(r->end_s - r->start_s, t->duration_s, 1e-6);
         double there = t->by_day ? t->duration_s : t->attended_s;
         if (there > 0.0)
-            assert_near(fw_calendar_fit(&shop->calendar, r->start_s, there), r->start_s, 1e-6);
+            assert_near(fw_schedule_calendar_fit(&shop->calendar, r->start_s, there), r->start_s,
+                        1e-6);
         for (int w = r->first; w < r->first + r->count; w++) {
             count[r->task * shop->wafers + w]++;
             start[r->task * shop->wafers + w] = r->start_s;
@@ -116,8 +119,8 @@ static inline void check_schedule(const fw_schedule *s) {
         last = r->end_s > last ? r->end_s : last;
         int same = 0;
         for (int k = 0; k < s->nrun; k++) {
-            const fw_run *o = &s->run[k];
-            const fw_task *u = &shop->task[o->task];
+            const fw_schedule_run *o = &s->run[k];
+            const fw_schedule_task *u = &shop->task[o->task];
             if (u->machine == t->machine && o->start_s <= r->start_s + 1e-6 &&
                 o->end_s > r->start_s + 2e-6)
                 same++;
@@ -135,7 +138,7 @@ static inline void check_schedule(const fw_schedule *s) {
     }
     for (int k = 0; k < shop->nhold; k++)
         for (int w = 0; w < shop->wafers; w++) {
-            const fw_hold *h = &shop->hold[k];
+            const fw_schedule_hold *h = &shop->hold[k];
             double waited = start[h->to * shop->wafers + w] - end[h->from * shop->wafers + w];
             assert_true(waited <= h->max_s + 2e-6 && waited >= h->min_s - 2e-6);
         }

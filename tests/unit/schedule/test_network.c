@@ -15,7 +15,7 @@ static int teardown(void **state) {
     return 0;
 }
 
-static fw_hold hold(const char *from, const char *to, double min_min, double max_min) {
+static fw_schedule_hold hold(const char *from, const char *to, double min_min, double max_min) {
     return hold_of(find_row(cu_rows, CU_ROWS, from), find_row(cu_rows, CU_ROWS, to), 60.0 * min_min,
                    60.0 * max_min);
 }
@@ -24,22 +24,22 @@ static fw_hold hold(const char *from, const char *to, double min_min, double max
    exposed within 90 min of its drying 122 min lie between */
 static void windows(void **state) {
     (void)state;
-    fw_shop shop = shop_of(arena, cu_rows, CU_ROWS, 1, 0);
-    fw_hold holds[] = {hold("C05", "C07", 0, 10), hold("C13", "C16", 77, 1440),
-                       hold("C20", "C22", 0, 15), hold("C08", "C16", 0, 90)};
+    fw_schedule_shop shop = shop_of(arena, cu_rows, CU_ROWS, 1, 0);
+    fw_schedule_hold holds[] = {hold("C05", "C07", 0, 10), hold("C13", "C16", 77, 1440),
+                                hold("C20", "C22", 0, 15), hold("C08", "C16", 0, 90)};
     const char *why;
     double earliest[CU_ROWS];
     bool ok;
     int failing;
     shop.hold = holds;
     shop.nhold = 3;
-    assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
     assert_null(why);
-    assert_int_equal(fw_network_earliest(&shop, 0.0, earliest, &ok, &failing), FW_OK);
+    assert_int_equal(fw_schedule_network_earliest(&shop, 0.0, earliest, &ok, &failing), FW_OK);
     assert_true(ok);
     assert_near(earliest[CU_ROWS - 1] + shop.task[CU_ROWS - 1].duration_s, 444.04 * 60.0, 1e-6);
     shop.nhold = 4;
-    assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
     assert_string_equal(why,
                         "C16 must start within 90 min of the end of C08, but what lies between "
                         "takes 2 h 2 min (C09 10 min, C10 4 min, C11 8 min, C12 4 min, C13 16 "
@@ -51,30 +51,30 @@ static void chains(void **state) {
     (void)state;
     const row rows[] = {
         {"A", "a", 1, 5, 0}, {"B", "b", 1, 7, 0}, {"C", "c", 1, 3, 0}, {"D", "d", 1, 2, 0}};
-    fw_shop shop = shop_of(arena, rows, 4, 1, 0);
-    fw_hold holds[] = {hold_of(0, 2, 0.0, 600.0), hold_of(1, 3, 0.0, 200.0),
-                       hold_of(0, 3, 900.0, (double)INFINITY)};
+    fw_schedule_shop shop = shop_of(arena, rows, 4, 1, 0);
+    fw_schedule_hold holds[] = {hold_of(0, 2, 0.0, 600.0), hold_of(1, 3, 0.0, 200.0),
+                                hold_of(0, 3, 900.0, (double)INFINITY)};
     const char *why;
     shop.hold = holds;
     shop.nhold = 3;
     /* end A -> D at least 15 min; C within 10 min of A, D within 200 s of the end of B; B ends at
        the latest when C starts: 10 min + 200 s < 15 min */
-    assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
     assert_non_null(why);
     assert_non_null(strstr(why, "C must start within 10 min of the end of A"));
     assert_non_null(strstr(why, "after A at least 15 min"));
     holds[2].min_s = 700.0;
-    assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
     assert_null(why);
-    ((fw_task *)shop.task)[1].latest_s = 660.0;
-    assert_int_equal(fw_network_conflict(arena, &shop, true, &why), FW_OK);
+    ((fw_schedule_task *)shop.task)[1].latest_s = 660.0;
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, true, &why), FW_OK);
     assert_string_equal(why,
                         "C must start within 10 min of the end of A, but what lies between takes "
                         "11 min (B 11 min): 60 s too long");
-    fw_hold later = hold_of(2, 1, 0.0, 60.0);
+    fw_schedule_hold later = hold_of(2, 1, 0.0, 60.0);
     shop.hold = &later;
     shop.nhold = 1;
-    assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+    assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
     assert_string_equal(why, "the hold of B counts from C, which comes later");
 }
 
@@ -86,14 +86,15 @@ static int below(int n) {
 
 enum { N = 6 };
 
-static bool all_pairs(const fw_shop *shop, double d[N][N]) { /* d: most of start_j - start_i */
+static bool all_pairs(const fw_schedule_shop *shop,
+                      double d[N][N]) { /* d: most of start_j - start_i */
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
             d[i][j] = i == j ? 0.0 : 1e18;
     for (int i = 0; i + 1 < N; i++)
         d[i + 1][i] = -shop->task[i].duration_s;
     for (int k = 0; k < shop->nhold; k++) {
-        const fw_hold *h = &shop->hold[k];
+        const fw_schedule_hold *h = &shop->hold[k];
         double p = shop->task[h->from].duration_s;
         d[h->to][h->from] = fmin(d[h->to][h->from], -(p + h->min_s));
         d[h->from][h->to] = fmin(d[h->from][h->to], p + h->max_s);
@@ -113,10 +114,10 @@ static void random_networks(void **state) {
     int feasible = 0;
     for (int round = 0; round < 3000; round++) {
         row rows[N];
-        fw_hold holds[4];
+        fw_schedule_hold holds[4];
         for (int i = 0; i < N; i++)
             rows[i] = (row){id[i], id[i], 1, 1 + below(9), 0};
-        fw_shop shop = shop_of(arena, rows, N, 1, 0);
+        fw_schedule_shop shop = shop_of(arena, rows, N, 1, 0);
         shop.hold = holds;
         shop.nhold = below(5);
         for (int k = 0; k < shop.nhold; k++) {
@@ -128,16 +129,16 @@ static void random_networks(void **state) {
         double d[N][N], earliest[N], pause[N];
         bool possible = all_pairs(&shop, d), ok = false;
         int failing;
-        assert_int_equal(fw_network_conflict(arena, &shop, false, &why), FW_OK);
+        assert_int_equal(fw_schedule_network_conflict(arena, &shop, false, &why), FW_OK);
         assert_int_equal(why == NULL, possible);
         if (!possible) {
             assert_non_null(strstr(why, "must start within"));
             continue;
         }
         feasible++;
-        assert_int_equal(fw_network_earliest(&shop, 0.0, earliest, &ok, &failing), FW_OK);
+        assert_int_equal(fw_schedule_network_earliest(&shop, 0.0, earliest, &ok, &failing), FW_OK);
         assert_true(ok);
-        assert_int_equal(fw_network_pauses(arena, &shop, pause), FW_OK);
+        assert_int_equal(fw_schedule_network_pauses(arena, &shop, pause), FW_OK);
         for (int i = 0; i < N; i++)
             assert_near(earliest[i], -d[i][0], 1e-6);
         for (int i = 0; i + 1 < N; i++) {
@@ -155,20 +156,20 @@ static void random_networks(void **state) {
 static void days(void **state) {
     (void)state;
     const row rows[] = {{"A", "a", 1, 60, 60}, {"B", "b", 1, 700, 1}, {"C", "c", 1, 5, 5}};
-    fw_shop shop = shop_of(arena, rows, 3, 1, 1);
-    fw_hold holds[] = {hold_of(1, 2, 0.0, 600.0)};
+    fw_schedule_shop shop = shop_of(arena, rows, 3, 1, 1);
+    fw_schedule_hold holds[] = {hold_of(1, 2, 0.0, 600.0)};
     double at[3];
     bool ok;
     int failing;
     shop.hold = holds;
     shop.nhold = 1;
-    shop.calendar = (fw_calendar){8 * 3600.0, 18 * 3600.0, true};
+    shop.calendar = (fw_schedule_calendar){8 * 3600.0, 18 * 3600.0, true};
     /* B takes 11 h 40 min, so that C falls on the next morning: B starts 20:10 at night at the
        earliest, which needs somebody; C within 10 min of 8:00 never comes */
-    assert_int_equal(fw_network_earliest(&shop, 8 * 3600.0, at, &ok, &failing), FW_OK);
+    assert_int_equal(fw_schedule_network_earliest(&shop, 8 * 3600.0, at, &ok, &failing), FW_OK);
     assert_false(ok);
     holds[0].max_s = 6.0 * 3600.0;
-    assert_int_equal(fw_network_earliest(&shop, 8 * 3600.0, at, &ok, &failing), FW_OK);
+    assert_int_equal(fw_schedule_network_earliest(&shop, 8 * 3600.0, at, &ok, &failing), FW_OK);
     assert_true(ok);
     assert_near(at[0], 8 * 3600.0, 1e-6);
     assert_near(at[2], 32 * 3600.0, 1e-6);

@@ -34,13 +34,13 @@ static void greedy_reference(void **state) {
     for (int people = 0; people < 2; people++)
         for (int i = 0; i < 6; i++)
             for (int flow = 0; flow < 2; flow++) {
-                fw_shop shop = flow ? shop_of(arena, si_rows, SI_ROWS, wafers[i], people)
-                                    : shop_of(arena, cu_rows, CU_ROWS, wafers[i], people);
+                fw_schedule_shop shop = flow ? shop_of(arena, si_rows, SI_ROWS, wafers[i], people)
+                                             : shop_of(arena, cu_rows, CU_ROWS, wafers[i], people);
                 double want = 60.0 * (flow ? si : cu)[people][i];
-                fw_placing p;
+                fw_schedule_placing p;
                 fw_schedule s;
-                assert_int_equal(fw_placing_new(arena, &shop, &p), FW_OK);
-                assert_true(fw_place_all(&p, FW_RULE_EARLIEST_ADVANCED));
+                assert_int_equal(fw_schedule_placing_new(arena, &shop, &p), FW_OK);
+                assert_true(fw_schedule_place_all(&p, FW_RULE_EARLIEST_ADVANCED));
                 assert_near(p.makespan_s, want, 1e-6);
                 assert_int_equal(fw_schedule_solve(arena, &shop, 10, &s), FW_OK);
                 assert_true(s.feasible);
@@ -55,9 +55,9 @@ static void greedy_reference(void **state) {
 enum { TASKS = 3, MOST = 14 }; /* minutes of the horizon */
 
 typedef struct small {
-    fw_shop shop;
+    fw_schedule_shop shop;
     row rows[TASKS];
-    fw_hold hold[2];
+    fw_schedule_hold hold[2];
     int start[TASKS * 3]; /* minutes, task * wafers + wafer; -1: not yet */
     int best, wafers;
 } small;
@@ -68,7 +68,7 @@ static int run_min(const small *s, int task) {
 
 /* does (task, wafer) at t fit with what was put before? loads are equal starts of one task */
 static bool fits(const small *s, int task, int wafer, int t, int upto) {
-    const fw_task *k = &s->shop.task[task];
+    const fw_schedule_task *k = &s->shop.task[task];
     int together = 1, people = k->attended_s > 0;
     if (task > 0 && t < s->start[(task - 1) * s->wafers + wafer] + run_min(s, task - 1))
         return false;
@@ -80,7 +80,7 @@ static bool fits(const small *s, int task, int wafer, int t, int upto) {
         }
     for (int i = 0; i < upto; i++) {
         int other = i / s->wafers, at = s->start[i];
-        const fw_task *o = &s->shop.task[other];
+        const fw_schedule_task *o = &s->shop.task[other];
         bool same_run = other == task && at == t;
         together += same_run;
         if (same_run) continue;
@@ -175,14 +175,14 @@ static void random_shops(void **state) {
     int found = 0;
     for (int round = 0; round < 120; round++) {
         row rows[8];
-        fw_hold hold[4];
+        fw_schedule_hold hold[4];
         for (int i = 0; i < 8; i++) {
             double run = 1 + below(200);
             rows[i] = (row){id[i], machine[below(5)], below(8) ? 1 + below(4) : 99, run,
                             below(4) ? below((int)run + 1) : 0};
             if (strcmp(rows[i].machine, "shelf") == 0) rows[i].attended_min = 0;
         }
-        fw_shop shop = shop_of(arena, rows, 8, 1 + below(8), 1 + below(3));
+        fw_schedule_shop shop = shop_of(arena, rows, 8, 1 + below(8), 1 + below(3));
         shop.nhold = below(4);
         shop.hold = hold;
         for (int k = 0; k < shop.nhold; k++) {
@@ -190,7 +190,8 @@ static void random_shops(void **state) {
             double between = to > from + 1 ? shop.task[from + 1].duration_s : 0.0;
             hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
         }
-        if (below(2)) shop.calendar = (fw_calendar){8 * 3600.0, 18 * 3600.0, below(2) == 0};
+        if (below(2))
+            shop.calendar = (fw_schedule_calendar){8 * 3600.0, 18 * 3600.0, below(2) == 0};
         fw_schedule got;
         assert_int_equal(fw_schedule_solve(arena, &shop, 20, &got), FW_OK);
         assert_true(got.feasible || got.why);
@@ -207,10 +208,10 @@ static void line(void **state) {
     (void)state;
     for (int round = 0; round < 2000; round++) {
         double start[9], end[9];
-        fw_line l = {.start_s = start, .end_s = end, .places = 1 + below(3)};
+        fw_schedule_line l = {.start_s = start, .end_s = end, .places = 1 + below(3)};
         for (int i = 0; i < 9; i++) {
             int t = below(30), n = below(8);
-            double at = fw_line_fit(&l, t, n);
+            double at = fw_schedule_line_fit(&l, t, n);
             bool full = true;
             for (double x = t; full && x <= at; x += 1.0) {
                 full = false;
@@ -223,7 +224,7 @@ static void line(void **state) {
                 if (!full) assert_near(at, x, 0);
             }
             assert_false(full);
-            fw_line_add(&l, at, at + n);
+            fw_schedule_line_add(&l, at, at + n);
         }
     }
 }
@@ -231,7 +232,7 @@ static void line(void **state) {
 /* the same shop gives the same schedule */
 static void repeatable(void **state) {
     (void)state;
-    fw_shop shop = shop_of(arena, si_rows, SI_ROWS, 5, 2);
+    fw_schedule_shop shop = shop_of(arena, si_rows, SI_ROWS, 5, 2);
     fw_schedule a, b;
     assert_int_equal(fw_schedule_solve(arena, &shop, 0, &a), FW_OK);
     assert_int_equal(fw_schedule_solve(arena, &shop, 0, &b), FW_OK);

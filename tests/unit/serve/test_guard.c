@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The guard against an independent list of what is right, and every single change of a right
  * request. */
-#include "serve/guard.h"
+#include "serve/serve_guard.h"
 #include "test.h"
 
-static fw_guard guard;
+static fw_serve_guard guard;
 
-static fw_guard_facts reading(void) {
+static fw_serve_guard_facts reading(void) {
     static char cookie[160];
     snprintf(cookie, sizeof cookie, "other=1; %s=%s; more=2", guard.cookie_name, guard.cookie);
-    return (fw_guard_facts){.version = "HTTP/1.1",
-                            .method = "GET",
-                            .path = "/api/session",
-                            .host = guard.host[0],
-                            .cookie = cookie,
-                            .head_bytes = 100,
-                            .seen_bytes = 100};
+    return (fw_serve_guard_facts){.version = "HTTP/1.1",
+                                  .method = "GET",
+                                  .path = "/api/session",
+                                  .host = guard.host[0],
+                                  .cookie = cookie,
+                                  .head_bytes = 100,
+                                  .seen_bytes = 100};
 }
 
-static fw_guard_facts writing(void) {
-    fw_guard_facts f = reading();
+static fw_serve_guard_facts writing(void) {
+    fw_serve_guard_facts f = reading();
     f.method = "POST";
     f.path = "/api/jobs";
     f.origin = guard.origin[0];
@@ -32,11 +32,11 @@ static fw_guard_facts writing(void) {
 
 static int fresh(void **state) {
     (void)state;
-    return fw_guard_new(&guard, 8931, true) ? 0 : -1;
+    return fw_serve_guard_new(&guard, 8931, true) ? 0 : -1;
 }
 
-static unsigned check(fw_guard_facts f) {
-    fw_refusal r = fw_guard_check(&guard, &f);
+static unsigned check(fw_serve_guard_facts f) {
+    fw_serve_refusal r = fw_serve_guard_check(&guard, &f);
     assert_int_equal(r.status == 0, r.why == NULL);
     return r.status;
 }
@@ -44,12 +44,12 @@ static unsigned check(fw_guard_facts f) {
 static void what_is_right_goes_on(void **state) {
     (void)state;
     assert_int_equal(check(reading()), 0);
-    fw_guard_facts f = writing();
+    fw_serve_guard_facts f = writing();
     assert_int_equal(check(f), 0);
-    assert_int_equal(fw_guard_body(&f), 1048576);
+    assert_int_equal(fw_serve_guard_body(&f), 1048576);
     f.method = "DELETE", f.content_length = f.content_type = NULL;
     assert_int_equal(check(f), 0);
-    assert_int_equal(fw_guard_body(&f), 0);
+    assert_int_equal(fw_serve_guard_body(&f), 0);
     f = reading();
     f.fetch_site = "none";
     assert_int_equal(check(f), 0);
@@ -62,7 +62,7 @@ static void what_is_right_goes_on(void **state) {
 /* each line: a right request with one thing changed, and the status that it gets */
 #define ONE(from, change, status)                                                                  \
     do {                                                                                           \
-        fw_guard_facts f = from();                                                                 \
+        fw_serve_guard_facts f = from();                                                           \
         change;                                                                                    \
         assert_int_equal(check(f), status);                                                        \
     } while (0)
@@ -116,7 +116,7 @@ static void a_cookie_with_one_other_digit(void **state) {
     (void)state;
     char cookie[160];
     for (int i = 0; i < 64; i++) {
-        fw_guard_facts f = reading();
+        fw_serve_guard_facts f = reading();
         int n = snprintf(cookie, sizeof cookie, "%s=", guard.cookie_name);
         snprintf(cookie + n, sizeof cookie - (size_t)n, "%s", guard.cookie);
         cookie[n + i] = cookie[n + i] == 'f' ? '0' : 'f';
@@ -127,9 +127,9 @@ static void a_cookie_with_one_other_digit(void **state) {
 
 static void the_token_opens_once(void **state) {
     (void)state;
-    fw_guard_facts f = reading();
+    fw_serve_guard_facts f = reading();
     f.path = "/", f.cookie = NULL, f.query = true, f.entry = guard.entry;
-    assert_true(fw_guard_is_entry(&f));
+    assert_true(fw_serve_guard_is_entry(&f));
     assert_int_equal(check(f), 0);
     f.entry = guard.cookie;
     assert_int_equal(check(f), 403);
@@ -144,19 +144,19 @@ static void the_token_opens_once(void **state) {
 
 static void secrets_are_new_and_whole(void **state) {
     (void)state;
-    fw_guard other;
-    assert_true(fw_guard_new(&other, 8931, false));
+    fw_serve_guard other;
+    assert_true(fw_serve_guard_new(&other, 8931, false));
     assert_int_equal(strlen(other.cookie), 64);
     assert_string_not_equal(other.cookie, guard.cookie);
     assert_string_not_equal(other.cookie, other.header);
     assert_string_not_equal(other.cookie, other.entry);
-    fw_guard_facts f = reading();
-    assert_int_equal(fw_guard_check(&other, &f).status, 401);
+    fw_serve_guard_facts f = reading();
+    assert_int_equal(fw_serve_guard_check(&other, &f).status, 401);
     f.host = f.origin = "[::1]:8931"; /* this one does not listen there */
-    assert_int_equal(fw_guard_check(&other, &f).status, 421);
-    assert_false(fw_guard_equal("abc", "abcd"));
-    assert_false(fw_guard_equal("abc", "abd"));
-    assert_true(fw_guard_equal("", ""));
+    assert_int_equal(fw_serve_guard_check(&other, &f).status, 421);
+    assert_false(fw_serve_guard_equal("abc", "abcd"));
+    assert_false(fw_serve_guard_equal("abc", "abd"));
+    assert_true(fw_serve_guard_equal("", ""));
 }
 
 int main(void) {

@@ -29,7 +29,7 @@ static void any_bytes_become_text(void **state) {
         }
         text[n] = '\0';
         memcpy(cleaned, text, n + 1);
-        fw_reply_clean(cleaned);
+        fw_serve_reply_clean(cleaned);
         assert_int_equal(strlen(cleaned), n);
         assert_true(is_text(cleaned));
         if (is_text(text)) {
@@ -57,7 +57,7 @@ static void every_character_stays(void **state) {
             text[0] = (char)(0xF0 | c >> 18), text[1] = (char)(0x80 | (c >> 12 & 63)),
             text[2] = (char)(0x80 | (c >> 6 & 63)), text[3] = (char)(0x80 | (c & 63));
         memcpy(cleaned, text, sizeof text);
-        fw_reply_clean(cleaned);
+        fw_serve_reply_clean(cleaned);
         assert_string_equal(cleaned, text);
     }
 }
@@ -65,8 +65,8 @@ static void every_character_stays(void **state) {
 /* an error is JSON with its message, whatever stands in it */
 static void an_error_is_json(void **state) {
     (void)state;
-    fw_request r = {.arena = fw_arena_new(0)};
-    fw_reply_error(&r, 400, "FW-D286", "%s \"quoted\" \\ \n\xff %s", "\xc3\xa4", "end");
+    fw_serve_request r = {.arena = fw_arena_new(0)};
+    fw_serve_reply_error(&r, 400, "FW-D286", "%s \"quoted\" \\ \n\xff %s", "\xc3\xa4", "end");
     assert_int_equal(r.reply.status, 400);
     assert_string_equal(r.reply.type, "application/json");
     json_t *json = json_loadb(r.reply.data, r.reply.n, 0, NULL);
@@ -75,7 +75,7 @@ static void an_error_is_json(void **state) {
                         "\xc3\xa4 \"quoted\" \\ \n? end");
     assert_string_equal(json_string_value(json_object_get(error, "code")), "FW-D286");
     json_decref(json);
-    fw_reply_error(&r, 404, NULL, "%0700d", 1); /* cut, still whole */
+    fw_serve_reply_error(&r, 404, NULL, "%0700d", 1); /* cut, still whole */
     json = json_loadb(r.reply.data, r.reply.n, 0, NULL);
     assert_true(json_is_null(json_object_get(json_object_get(json, "error"), "code")));
     json_decref(json);

@@ -24,31 +24,32 @@ static inline bool said(const fixture *f, int number) {
 
 /* ground and `body` slide along the direction `axis` through (x, y) and the body's centre of mass
  */
-static inline fw_tie *rig_guide(fixture *f, rig *r, int body, double x, double y, double axis) {
-    if (!r->m.tie) r->m.tie = fw_arena_array(f->arena, fw_tie, 8);
-    fw_tie *t = &r->m.tie[r->m.ntie++];
-    *t = (fw_tie){.id = "guide",
-                  .kind = FW_TIE_PRISMATIC,
-                  .body_a = FW_GROUND,
-                  .body_b = body,
-                  .ax_m = x,
-                  .ay_m = y,
-                  .axis_rad = axis};
+static inline fw_device_joint *rig_guide(fixture *f, rig *r, int body, double x, double y,
+                                         double axis) {
+    if (!r->m.joint) r->m.joint = fw_arena_array(f->arena, fw_device_joint, 8);
+    fw_device_joint *t = &r->m.joint[r->m.njoint++];
+    *t = (fw_device_joint){.id = "guide",
+                           .kind = FW_JOINT_PRISMATIC,
+                           .body_a = FW_GROUND,
+                           .body_b = body,
+                           .ax_m = x,
+                           .ay_m = y,
+                           .axis_rad = axis};
     return t;
 }
 
-static inline fw_spring *rig_spring(rig *r, int a, double ax, double ay, int b, double bx,
-                                    double by, double k, double length) {
-    fw_spring *s = &r->m.spring[r->m.nspring++];
-    *s = (fw_spring){.id = "spring",
-                     .body_a = a,
-                     .body_b = b,
-                     .ax_m = ax,
-                     .ay_m = ay,
-                     .bx_m = bx,
-                     .by_m = by,
-                     .stiffness_N_per_m = k,
-                     .length_m = length};
+static inline fw_device_spring *rig_spring(rig *r, int a, double ax, double ay, int b, double bx,
+                                           double by, double k, double length) {
+    fw_device_spring *s = &r->m.spring[r->m.nspring++];
+    *s = (fw_device_spring){.id = "spring",
+                            .body_a = a,
+                            .body_b = b,
+                            .ax_m = ax,
+                            .ay_m = ay,
+                            .bx_m = bx,
+                            .by_m = by,
+                            .stiffness_N_per_m = k,
+                            .length_m = length};
     return s;
 }
 

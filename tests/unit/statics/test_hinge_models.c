@@ -11,8 +11,8 @@
 static const double E = 147.0790923914665e9;
 
 enum { LOADS = 4, MODELS = 3 };
-static const fw_hinge_model models[MODELS] = {FW_HINGE_REVOLUTE, FW_HINGE_COMPLIANCE,
-                                              FW_HINGE_ELASTICA};
+static const fw_effects_hinge_model models[MODELS] = {FW_HINGE_REVOLUTE, FW_HINGE_COMPLIANCE,
+                                                      FW_HINGE_ELASTICA};
 
 typedef struct reference { /* um and rad: platform by model, twist (rad, um, um) of each hinge with
                               exact beams; shooting by Runge-Kutta, n = 128 */
@@ -22,7 +22,7 @@ typedef struct reference { /* um and rad: platform by model, twist (rad, um, um)
     double angle[6]; /* A to F, as phi_b - phi_a counts */
 } reference;
 
-static const reference loads[LOADS] = {
+static const reference load_acceleration[LOADS] = {
     {{0, 4},
      {{0, 0, 1.5e-7}, {0, 0, 0.5e-7}},
      {{-154.21262097871914, -21.98175475034262, 0.03581046514255851},
@@ -55,8 +55,8 @@ static const reference loads[LOADS] = {
 
 typedef struct scenery {
     rig r;
-    fw_force force[2];
-    fw_torque torque[2];
+    fw_device_force force[2];
+    fw_device_torque torque[2];
 } scenery;
 
 static void six_bar(scenery *s, const reference *load, double share) {
@@ -65,10 +65,11 @@ static void six_bar(scenery *s, const reference *load, double share) {
     for (int i = 0; i < 6; i++)
         rig_strip(&r->hinge[i], E);
     for (int i = 0; i < 2; i++) {
-        s->force[i] = (fw_force){.body = load->body[i],
-                                 .fx_N = share * load->load[i][0],
-                                 .fy_N = share * load->load[i][1]};
-        s->torque[i] = (fw_torque){.body = load->body[i], .value_Nm = share * load->load[i][2]};
+        s->force[i] = (fw_device_force){.body = load->body[i],
+                                        .fx_N = share * load->load[i][0],
+                                        .fy_N = share * load->load[i][1]};
+        s->torque[i] =
+            (fw_device_torque){.body = load->body[i], .value_Nm = share * load->load[i][2]};
     }
     r->scene.force = s->force, r->scene.nforce = 2;
     r->scene.torque = s->torque, r->scene.ntorque = 2;
@@ -78,11 +79,11 @@ static const char *last_word(const rig *r) {
     return r->diags.count ? r->diags.item[r->diags.count - 1].message : "no message";
 }
 
-static const fw_statics *rest(rig *r, fw_hinge_model model, double accuracy) {
+static const fw_statics *rest(rig *r, fw_effects_hinge_model model, double accuracy) {
     const fw_statics *out = NULL;
-    const fw_static_options o = {.effects = {.mode = FW_EFFECTS_AUTO, .hinge = model},
-                                 .accuracy = accuracy};
-    if (fw_static_equilibrium(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
+    const fw_statics_static_options o = {.effects = {.mode = FW_EFFECTS_AUTO, .hinge = model},
+                                         .accuracy = accuracy};
+    if (fw_statics_solve(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
         fail_msg("%s", last_word(r));
     return out;
 }
@@ -93,15 +94,15 @@ static void poses(void **state) {
     for (int l = 0; l < LOADS; l++)
         for (int k = 0; k < MODELS; k++) {
             scenery s;
-            six_bar(&s, &loads[l], 1);
+            six_bar(&s, &load_acceleration[l], 1);
             const fw_statics *x = rest(&s.r, models[k], 0);
-            const double *want = loads[l].pose[k];
+            const double *want = load_acceleration[l].pose[k];
             assert_int_equal(x->ledger.hinge.used, models[k]);
             assert_near((x->q[6] - s.r.body[2].x_m) * 1e6, want[0], 2e-5);
             assert_near((x->q[7] - s.r.body[2].y_m) * 1e6, want[1], 2e-5);
             assert_near(x->q[8], want[2], 1e-8);
             for (int i = 0; i < 6 && k == 2; i++)
-                assert_near(x->angle_rad[i], loads[l].angle[i], 5e-9);
+                assert_near(x->angle_rad[i], load_acceleration[l].angle[i], 5e-9);
             fw_arena_free(s.r.arena);
         }
 }
@@ -112,8 +113,8 @@ static void step_up(void **state) {
     for (int l = 0; l < LOADS; l++)
         for (int k = 0; k < MODELS; k++) {
             scenery s;
-            six_bar(&s, &loads[l], 1);
-            const fw_level_step *step = rest(&s.r, models[k], 0)->level;
+            six_bar(&s, &load_acceleration[l], 1);
+            const fw_statics_level_step *step = rest(&s.r, models[k], 0)->level;
             assert_non_null(step);
             assert_int_equal(step->used, models[k]);
             if (k == MODELS - 1) {
@@ -125,8 +126,8 @@ static void step_up(void **state) {
             assert_null(step->why_not);
             assert_int_equal(step->next, models[k + 1]);
             for (int i = 0; i < 3; i++) {
-                const double unit = i < 2 ? 1e6 : 1, *a = loads[l].pose[k],
-                             *b = loads[l].pose[k + 1];
+                const double unit = i < 2 ? 1e6 : 1, *a = load_acceleration[l].pose[k],
+                             *b = load_acceleration[l].pose[k + 1];
                 double tolerance = i < 2 ? 4e-5 : 2e-8;
                 assert_near((step->up.q[6 + i] - step->at.q[6 + i]) * unit, b[i] - a[i], tolerance);
             }
@@ -149,7 +150,7 @@ static void by_accuracy(void **state) {
     (void)state;
     for (int l = 0; l < LOADS; l++) {
         scenery s;
-        six_bar(&s, &loads[l], 1);
+        six_bar(&s, &load_acceleration[l], 1);
         const fw_statics *rough = rest(&s.r, FW_HINGE_AUTO, 1e-3);
         assert_int_equal(rough->ledger.hinge.used, FW_HINGE_COMPLIANCE);
         double error = rough->ledger.hinge.error;
@@ -164,11 +165,11 @@ static void by_accuracy(void **state) {
     }
 }
 
-static const fw_modes *small(rig *r, fw_hinge_model model, bool loaded) {
-    const fw_modes *out = NULL;
-    const fw_mode_options o = {.effects = {.mode = FW_EFFECTS_ALL, .hinge = model},
-                               .at_equilibrium = loaded};
-    if (fw_small_motions(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
+static const fw_statics_modes *small(rig *r, fw_effects_hinge_model model, bool loaded) {
+    const fw_statics_modes *out = NULL;
+    const fw_statics_mode_options o = {.effects = {.mode = FW_EFFECTS_ALL, .hinge = model},
+                                       .at_equilibrium = loaded};
+    if (fw_statics_small_motions(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
         fail_msg("%s", last_word(r));
     return out;
 }
@@ -181,10 +182,10 @@ static void frequencies(void **state) {
     for (int l = 0; l < LOADS; l++)
         for (int loaded = 0; loaded < 2; loaded++) {
             scenery s;
-            six_bar(&s, &loads[l], 1);
-            const fw_modes *pin = small(&s.r, FW_HINGE_REVOLUTE, loaded);
-            const fw_modes *law = small(&s.r, FW_HINGE_COMPLIANCE, loaded);
-            const fw_modes *exact = small(&s.r, FW_HINGE_ELASTICA, loaded);
+            six_bar(&s, &load_acceleration[l], 1);
+            const fw_statics_modes *pin = small(&s.r, FW_HINGE_REVOLUTE, loaded);
+            const fw_statics_modes *law = small(&s.r, FW_HINGE_COMPLIANCE, loaded);
+            const fw_statics_modes *exact = small(&s.r, FW_HINGE_ELASTICA, loaded);
             assert_int_equal(pin->count, 3);
             assert_int_equal(law->count, 15);
             assert_int_equal(exact->count, 15);
@@ -211,18 +212,18 @@ static void frequencies(void **state) {
 static void motions(void **state) {
     (void)state;
     scenery s;
-    six_bar(&s, &loads[2], 0.5);
+    six_bar(&s, &load_acceleration[2], 0.5);
     s.r.scene.duration_s = 2e-3;
     for (int i = 0; i < 6; i++)
         s.r.pin[i].damping_Nms_per_rad = 2e-12;
-    const fw_motion *x[3];
+    const fw_dynamics_motion *x[3];
     for (int k = 0; k < 3; k++) {
-        const fw_motion_options o = {
+        const fw_dynamics_motion_options o = {
             .effects = {.mode = FW_EFFECTS_ALL,
                         .hinge = k ? FW_HINGE_ELASTICA : FW_HINGE_COMPLIANCE},
             .accuracy = 1e-5,
             .samples = 401};
-        if (fw_move_scene(s.r.arena, &s.r.m, &s.r.scene, &o, &s.r.diags, &x[k]) != FW_OK)
+        if (fw_statics_move_scene(s.r.arena, &s.r.m, &s.r.scene, &o, &s.r.diags, &x[k]) != FW_OK)
             fail_msg("%s", last_word(&s.r));
         assert_true(x[k]->stats.energy_error < 1e-6);
         assert_int_equal(x[k]->ledger.hinge.used, o.effects.hinge);

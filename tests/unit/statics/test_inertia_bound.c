@@ -16,7 +16,7 @@ static void slow_down(bounds_device *d, uint64_t seed) {
     double factor = bounds_log(&seed, 1, 200);
     d->r.scene.duration_s *= factor;
     for (int i = 0; i < d->laws; i++) {
-        fw_law *l = &d->law[i];
+        fw_quantity_law *l = &d->law[i];
         l->start_s *= factor, l->end_s *= factor, l->rise_s *= factor;
         l->frequency_Hz /= factor, l->frequency_most_Hz /= factor;
         if (rig_random(&seed) < 0.8) /* begins at nothing */
@@ -27,7 +27,7 @@ static void slow_down(bounds_device *d, uint64_t seed) {
         l->kind = &fw_quantity_law_ramp; /* a jump is never slow */
         l->rise_s = d->r.scene.duration_s * (0.1 + rig_random(&seed));
     }
-    fw_scene *s = &d->r.scene; /* what acts from the start on comes in the same way */
+    fw_device_scene *s = &d->r.scene; /* what acts from the start on comes in the same way */
     for (int i = 0; i < s->nforce; i++)
         if (!s->force[i].law) s->force[i].law = &d->law[0];
     for (int i = 0; i < s->ntorque; i++)
@@ -40,8 +40,8 @@ static void try(uint64_t seed, score *to) {
     static bounds_device d;
     if (bounds_make(arena, seed, &d)) {
         fw_effect_ledger ledger;
-        fw_terms terms;
-        const fw_motion *row = NULL;
+        fw_effects_loads loads;
+        const fw_dynamics_motion *row = NULL;
         const char *why = NULL;
         const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
         uint64_t more = seed ^ 0x77;
@@ -49,7 +49,7 @@ static void try(uint64_t seed, score *to) {
         d.r.scene.ninitial = 0;
         d.r.scene.gravity = rig_random(&more) < 0.1 && d.r.scene.gravity;
         assert_int_equal(
-            fw_effects_compile(arena, &d.r.m, &d.r.scene, &all, 1e-3, &diags, &ledger, &terms),
+            fw_effects_compile(arena, &d.r.m, &d.r.scene, &all, 1e-3, &diags, &ledger, &loads),
             FW_OK);
         double bound = 0, unknown;
         int ended = 0;
@@ -57,15 +57,15 @@ static void try(uint64_t seed, score *to) {
             if (strcmp(ledger.item[i].id, "inertia") == 0) bound = ledger.item[i].bound;
         to->devices++;
         if (isfinite(bound)) {
-            const fw_motion_options o = {.accuracy = 1e-4};
-            fw_status status = fw_row_of_equilibria(arena, &d.r.m, &d.r.scene, &o, &ledger, &terms,
-                                                    &diags, &row, &why);
+            const fw_dynamics_motion_options o = {.accuracy = 1e-4};
+            fw_status status = fw_statics_quasi_static_motion(arena, &d.r.m, &d.r.scene, &o,
+                                                              &ledger, &loads, &diags, &row, &why);
             to->bounded++;
             to->left_out += bound < 0.1;
             if (status == FW_SOLVER) to->ended++;
             assert_true(status == FW_OK || status == FW_SOLVER);
         }
-        const fw_motion *full =
+        const fw_dynamics_motion *full =
             row ? bounds_run(arena, &d.r, FW_EFFECTS_ALL, NULL, 1e-3, &ended) : NULL;
         if (full) {
             double change = bounds_apart(full, row, &unknown);

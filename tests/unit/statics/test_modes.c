@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/modes.h"
-#include "statics/rest.h"
+#include "statics/statics_equilibrium.h"
 #include "statics/tangent.h"
 #include "rest_rigs.h"
 #include <float.h>
 
-static const fw_modes *modes_at(fixture *f, const rig *r, bool equilibrium, int drawn) {
-    const fw_modes *out = NULL;
-    const fw_mode_options o = {.at_equilibrium = equilibrium, .drawn = drawn};
-    fw_status status = fw_small_motions(f->arena, &r->m, &r->scene, &o, &f->diags, &out);
+static const fw_statics_modes *modes_at(fixture *f, const rig *r, bool equilibrium, int drawn) {
+    const fw_statics_modes *out = NULL;
+    const fw_statics_mode_options o = {.at_equilibrium = equilibrium, .drawn = drawn};
+    fw_status status = fw_statics_small_motions(f->arena, &r->m, &r->scene, &o, &f->diags, &out);
     if (status != FW_OK)
         fail_msg("%s: %s", fw_status_text(status),
                  f->diags.count ? f->diags.item[f->diags.count - 1].message : "");
@@ -29,13 +29,13 @@ static void six_bar_reference(void **state) {
     for (int kind = 0; kind < 4; kind++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, kind & 1);
-        const fw_modes *m = modes_at(&f, &r, kind & 2, 0);
+        const fw_statics_modes *m = modes_at(&f, &r, kind & 2, 0);
         assert_int_equal(m->count, 3);
         assert_int_equal(m->rank.rank, 12);
         assert_int_equal(f.diags.count, 0);
         assert_near(m->out_of_rest, 0, 1e-14);
         for (int k = 0; k < 3; k++) {
-            const fw_mode *mode = &m->mode[k];
+            const fw_statics_mode *mode = &m->mode[k];
             const double *want = value[kind / 2][k];
             assert_int_equal(mode->kind, FW_MODE_OSCILLATION);
             assert_relative(mode->omega_rad_per_s / 1e3, want[0], 2e-13);
@@ -55,9 +55,9 @@ static void shapes_of_the_six_bar(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_modes *m = modes_at(&f, &r, false, 3);
+    const fw_statics_modes *m = modes_at(&f, &r, false, 3);
     for (int k = 0; k < 3; k++) {
-        const fw_mode *mode = &m->mode[k];
+        const fw_statics_mode *mode = &m->mode[k];
         double mass = 0, stiff = 0, most = 0;
         for (int b = 0; b < 5; b++) {
             const double *s = mode->shape + 3 * b;
@@ -66,7 +66,7 @@ static void shapes_of_the_six_bar(void **state) {
             most = fmax(most, fmax(fabs(s[2]), hypot(s[0], s[1]) / m->unit_length_m));
         }
         for (int i = 0; i < r.m.npin; i++) {
-            const fw_pin *p = &r.m.pin[i];
+            const fw_mechanism_pin *p = &r.m.pin[i];
             double turn = 0, open[2] = {0};
             for (int side = 0; side < 2; side++) {
                 int b = side ? p->body_b : p->body_a;
@@ -114,7 +114,7 @@ static void shapes_of_the_six_bar(void **state) {
                 assert_near(at[0], at[1], 1e-15);
             }
     }
-    assert_string_equal(fw_mode_kind_text(m->mode[0].kind), "oscillation");
+    assert_string_equal(fw_statics_mode_kind_text(m->mode[0].kind), "oscillation");
     fw_arena_free(f.arena);
 }
 
@@ -130,8 +130,8 @@ static void pendulum_up_and_down(void **state) {
         r.scene.gravity = true;
         r.scene.gy_m_per_s2 = -g;
         r.scene.duration_s = 1;
-        const fw_modes *out = modes_at(&f, &r, false, 1);
-        const fw_mode *mode = &out->mode[0];
+        const fw_statics_modes *out = modes_at(&f, &r, false, 1);
+        const fw_statics_mode *mode = &out->mode[0];
         double stiff = (k - up * m * g * l) / (j + m * l * l);
         assert_relative(mode->stiffness_per_s2, stiff, 1e-13);
         assert_int_equal(mode->kind, stiff > 0 ? FW_MODE_OSCILLATION : FW_MODE_UNSTABLE);
@@ -139,7 +139,7 @@ static void pendulum_up_and_down(void **state) {
         assert_near(mode->omega_rad_per_s, stiff > 0 ? sqrt(stiff) : 0, 1e-12);
         assert_int_equal(said(&f, 113), stiff < 0);
         if (kind == 2) { /* nothing holds it up: it comes to rest below */
-            const fw_modes *down = modes_at(&f, &r, true, 0);
+            const fw_statics_modes *down = modes_at(&f, &r, true, 0);
             assert_relative(down->mode[0].stiffness_per_s2, m * g * l / (j + m * l * l), 1e-12);
             assert_near(fabs(down->q[2]), acos(-1.0), 1e-12);
         }
@@ -158,7 +158,7 @@ static void damping_of_one_wheel(void **state) {
         rig_body(&r, "wheel", 1e-6, j, 0, 0, 0);
         rig_pin(&r, "axle", FW_GROUND, 0, 0, 0, k, 2 * z * j * omega);
         r.scene.duration_s = 1;
-        const fw_mode *mode = &modes_at(&f, &r, false, 0)->mode[0];
+        const fw_statics_mode *mode = &modes_at(&f, &r, false, 0)->mode[0];
         assert_relative(mode->omega_rad_per_s, omega, 1e-14);
         if (z < 1) {
             assert_int_equal(mode->kind, FW_MODE_OSCILLATION);
@@ -196,7 +196,7 @@ static void light_links_and_stiff_springs(void **state) {
         double a = m11 * m22 - m12 * m12, b = (k1 + k2) * m22 + k2 * m11 + 2 * k2 * m12,
                c = k1 * k2;
         double root = b + sqrt(b * b - 4 * a * c);
-        const fw_modes *m = modes_at(&f, &r, false, 0);
+        const fw_statics_modes *m = modes_at(&f, &r, false, 0);
         assert_int_equal(m->count, 2);
         assert_relative(m->mode[0].stiffness_per_s2, 2 * c / root, 1e-13 + 4e-16 * stiff);
         assert_relative(m->mode[1].stiffness_per_s2, root / (2 * a), 1e-12);
@@ -214,11 +214,11 @@ static void free_motions_are_named(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 5, 0);
     rig_pin(&r, "P", FW_GROUND, 1, 3, 0, 0, 0.7);
     r.scene.duration_s = 1;
-    const fw_modes *m = modes_at(&f, &r, false, 0);
+    const fw_statics_modes *m = modes_at(&f, &r, false, 0);
     assert_int_equal(m->count, 5);
     int cranks = 0, pucks = 0;
     for (int k = 0; k < 4; k++) {
-        const fw_mode *mode = &m->mode[k];
+        const fw_statics_mode *mode = &m->mode[k];
         assert_int_equal(mode->kind, FW_MODE_FREE);
         assert_near(mode->f_Hz, 0, 0);
         assert_near(mode->eigenvalue_per_s[0][0], 0, 0);
@@ -249,7 +249,7 @@ static void free_motions_stay_apart(void **state) {
     r.scene.gravity = true; /* both level: no stiffness */
     r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 1;
-    const fw_modes *m = modes_at(&f, &r, false, 0);
+    const fw_statics_modes *m = modes_at(&f, &r, false, 0);
     assert_int_equal(m->count, 2);
     int heavy = strcmp(m->mode[0].bodies, "heavy") == 0 ? 0 : 1;
     assert_string_equal(m->mode[heavy].bodies, "heavy");
@@ -258,9 +258,9 @@ static void free_motions_stay_apart(void **state) {
     assert_near(m->mode[heavy].shape[5], 0, 8 * DBL_EPSILON * sqrt(2 / 2e-15));
     assert_near(m->mode[1 - heavy].shape[2], 0, 1e-12);
     const fw_statics *s;
-    const fw_static_options o = {.path = false};
+    const fw_statics_static_options o = {.path = false};
     r.scene.gravity = false;
-    assert_int_equal(fw_static_equilibrium(f.arena, &r.m, &r.scene, &o, &f.diags, &s), FW_OK);
+    assert_int_equal(fw_statics_solve(f.arena, &r.m, &r.scene, &o, &f.diags, &s), FW_OK);
     assert_non_null(strstr(s->loose, "heavy"));
     assert_non_null(strstr(s->loose, "light"));
     fw_arena_free(f.arena);
@@ -276,7 +276,7 @@ static void spring_without_length(void **state) {
     rig_spring(&r, FW_GROUND, 0, 0, 0, 0, 0, 100, 0)->damping_Ns_per_m = 0.4;
     r.scene.duration_s = 1;
     for (int at = 0; at < 2; at++) {
-        const fw_modes *m = modes_at(&f, &r, at, 0);
+        const fw_statics_modes *m = modes_at(&f, &r, at, 0);
         assert_int_equal(m->count, 3);
         assert_int_equal(m->mode[0].kind, FW_MODE_FREE); /* it turns about that point */
         for (int k = 1; k < 3; k++) {
@@ -290,11 +290,11 @@ static void spring_without_length(void **state) {
     rig_pin(&r, "A", FW_GROUND, 0, 0.8, 0, 0, 0);
     rig_spring(&r, FW_GROUND, 0, 0, 0, -0.3, 0, 100, 0);
     r.scene.duration_s = 1;
-    const fw_modes *m = modes_at(&g, &r, false, 0);
+    const fw_statics_modes *m = modes_at(&g, &r, false, 0);
     assert_relative(m->mode[0].omega_rad_per_s, sqrt(100 * 0.64 / 1.25), 1e-13);
     const fw_statics *s;
-    const fw_static_options o = {.path = false};
-    assert_int_equal(fw_static_equilibrium(g.arena, &r.m, &r.scene, &o, &g.diags, &s), FW_OK);
+    const fw_statics_static_options o = {.path = false};
+    assert_int_equal(fw_statics_solve(g.arena, &r.m, &r.scene, &o, &g.diags, &s), FW_OK);
     assert_int_equal(s->negative + s->neutral, 0);
     assert_relative(s->eigenvalue_per_s2[0], 51.2, 1e-13);
     fw_arena_free(f.arena);
@@ -307,7 +307,7 @@ static void out_of_rest_is_said(void **state) {
     fixture f = begin();
     rig r = rig_mast(&f, 1, 2, 0.5);
     r.m.pin[0].free_angle_rad = 0.2;
-    const fw_modes *m = modes_at(&f, &r, false, 0);
+    const fw_statics_modes *m = modes_at(&f, &r, false, 0);
     assert_true(said(&f, 114));
     assert_near(m->out_of_rest, 0.2, 1e-12);
     fixture g = begin();
@@ -333,16 +333,17 @@ static void damped_pairs_satisfy_the_pencil(void **state) {
         uint64_t noise = seed;
         for (int i = 0; i < r.m.npin; i++) /* from light to heavy, not proportional */
             r.m.pin[i].damping_Nms_per_rad = pow(10, -12 + 3 * rig_random(&noise));
-        const fw_modes *m = modes_at(&f, &r, true, 0);
-        fw_rest w;
+        const fw_statics_modes *m = modes_at(&f, &r, true, 0);
+        fw_statics_equilibrium w;
         const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
-        assert_int_equal(fw_rest_new(f.arena, &r.m, &r.scene, &all, &f.diags, &w), FW_OK);
+        assert_int_equal(fw_statics_equilibrium_new(f.arena, &r.m, &r.scene, &all, &f.diags, &w),
+                         FW_OK);
         bool unstable;
-        assert_int_equal(fw_rest_settle(&w, &unstable), FW_OK);
+        assert_int_equal(fw_statics_equilibrium_settle(&w, &unstable), FW_OK);
         int n = w.reduced.n, dof = w.reduced.dof;
         double t = w.model->scale.time_s, sum = 0, trace = 0, fastest = 0;
         double *c = fw_arena_array(f.arena, double, (size_t)(n * n));
-        fw_tangent(w.model, 0, w.y, w.lambda, w.stiffness, c);
+        fw_statics_tangent(w.model, 0, w.y, w.lambda, w.stiffness, c);
         for (int k = 0; k < dof; k++) {
             const double *phi = w.reduced.shape + k * n;
             for (int i = 0; i < n * n; i++)
@@ -385,10 +386,10 @@ static void short_memory_is_said(void **state) {
     for (long n = 1;; n += 5) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, true);
-        const fw_modes *m;
-        const fw_mode_options o = {.at_equilibrium = true, .drawn = 3};
+        const fw_statics_modes *m;
+        const fw_statics_mode_options o = {.at_equilibrium = true, .drawn = 3};
         fw_arena_fail_at(n, 1);
-        fw_status status = fw_small_motions(f.arena, &r.m, &r.scene, &o, &f.diags, &m);
+        fw_status status = fw_statics_small_motions(f.arena, &r.m, &r.scene, &o, &f.diags, &m);
         fw_arena_fail_at(0, 0);
         fw_arena_free(f.arena);
         if (status == FW_OK) break;

@@ -2,21 +2,22 @@
 /* Motions that stay on an unstable equilibrium: rates, growth, bearable load and the equilibrium
    behind in closed form; what falls, swings or ends in time is not reported. */
 #include "quantity/law_kind.h"
-#include "statics/poise.h"
+#include "statics/stability.h"
 #include "rest_rigs.h"
 #include "statics/quasi.h"
 
-static const fw_motion *move(fixture *f, const rig *r, int samples) {
-    const fw_motion_options o = {.samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *m = NULL;
-    assert_int_equal(fw_move_scene(f->arena, &r->m, &r->scene, &o, &f->diags, &m), FW_OK);
+static const fw_dynamics_motion *move(fixture *f, const rig *r, int samples) {
+    const fw_dynamics_motion_options o = {.samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_statics_move_scene(f->arena, &r->m, &r->scene, &o, &f->diags, &m), FW_OK);
     return m;
 }
 
-static const fw_poise *find(fixture *f, const rig *r, int samples) {
-    const fw_motion *m = move(f, r, samples);
-    const fw_poise *p = NULL;
-    assert_int_equal(fw_poise_find(f->arena, &r->m, &r->scene, m, &f->diags, &p), FW_OK);
+static const fw_statics_stability *find(fixture *f, const rig *r, int samples) {
+    const fw_dynamics_motion *m = move(f, r, samples);
+    const fw_statics_stability *p = NULL;
+    assert_int_equal(fw_statics_stability_find(f->arena, &r->m, &r->scene, m, &f->diags, &p),
+                     FW_OK);
     assert_int_equal(said(f, 259), p != NULL);
     return p;
 }
@@ -41,7 +42,7 @@ static void mast(void **state) {
         for (int samples = 2; samples <= 101; samples += 99) {
             fixture f = begin();
             rig r = rig_mast(&f, 1, k, times[i] * k);
-            const fw_poise *p = find(&f, &r, samples);
+            const fw_statics_stability *p = find(&f, &r, samples);
             if (times[i] < 1) {
                 assert_null(p);
                 fw_arena_free(f.arena);
@@ -85,7 +86,8 @@ static void too_short_to_grow(void **state) {
         r.scene.duration_s = (i ? 2.1 : 1.9) / rate;
         assert_int_equal(find(&f, &r, 101) != NULL, i);
         fw_arena_free(f.arena);
-        const fw_law law = {.kind = &fw_quantity_law_step, .end_s = (i ? 2.1 : 1.9) / rate};
+        const fw_quantity_law law = {.kind = &fw_quantity_law_step,
+                                     .end_s = (i ? 2.1 : 1.9) / rate};
         f = begin();
         r = rig_mast(&f, 1, 40, 80);
         r.scene.force[0].law = &law;
@@ -98,12 +100,12 @@ static void too_short_to_grow(void **state) {
 /* P = 3 k/l t/T: unstable from T/3 on; integral of sqrt(3 t/T - 1) is 2/9 2^(3/2) T */
 static void rising_load(void **state) {
     (void)state;
-    const fw_law law = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
+    const fw_quantity_law law = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
     fixture f = begin();
     rig r = rig_mast(&f, 1, 40, 120);
     r.scene.force[0].law = &law;
     r.scene.duration_s = 2;
-    const fw_poise *p = find(&f, &r, 101);
+    const fw_statics_stability *p = find(&f, &r, 101);
     assert_non_null(p);
     assert_relative(p->growth, sqrt(40 / mast_inertia) * 2 * 2 / 9.0 * pow(2, 1.5), 0.02);
     assert_near(p->t_s, 2, 1e-12);
@@ -125,7 +127,7 @@ static void it_moves_along_the_symmetry(void **state) {
         rig_force(&r, 1, i == 2 ? 0.3 : 0, i ? -40 : -8);
         r.scene.force[0].y_m = 0.5;
         r.scene.duration_s = 2;
-        const fw_poise *p = find(&f, &r, 201);
+        const fw_statics_stability *p = find(&f, &r, 201);
         assert_int_equal(p != NULL, i == 1);
         if (p) assert_string_equal(p->body, "lever");
         fw_arena_free(f.arena);
@@ -139,7 +141,7 @@ static void column(void **state) {
         fixture f = begin();
         rig r = rig_column(&f, 1, 6, i ? 13 : 11); /* 2 k/l = 12 */
         r.scene.duration_s = 20;
-        const fw_poise *p = find(&f, &r, 101);
+        const fw_statics_stability *p = find(&f, &r, 101);
         assert_int_equal(p != NULL, i);
         if (p) assert_relative(p->share, 12 / 13.0, 1e-9);
         fw_arena_free(f.arena);
@@ -152,7 +154,7 @@ static void mechanisms_without_symmetry(void **state) {
     for (uint64_t seed = 1; seed <= 40; seed++) {
         fixture f = begin();
         rig r = rig_any(f.arena, seed);
-        const fw_poise *p = find(&f, &r, 51);
+        const fw_statics_stability *p = find(&f, &r, 51);
         if (p) fail_msg("seed %d: %s", (int)seed, p->text);
         fw_arena_free(f.arena);
     }
@@ -162,9 +164,9 @@ static void too_large(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_windows(f.arena, 60);
-    const fw_motion *m = move(&f, &r, 2);
-    const fw_poise *p;
-    assert_int_equal(fw_poise_find(f.arena, &r.m, &r.scene, m, &f.diags, &p), FW_OK);
+    const fw_dynamics_motion *m = move(&f, &r, 2);
+    const fw_statics_stability *p;
+    assert_int_equal(fw_statics_stability_find(f.arena, &r.m, &r.scene, m, &f.diags, &p), FW_OK);
     assert_null(p);
     assert_true(said(&f, 259));
     fw_arena_free(f.arena);

@@ -8,28 +8,28 @@
 static const double eps0 = 8.8541878128e-12;
 static const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
 
-static const fw_comb plate_drive = {.id = "plate",
-                                    .kind = FW_ELECTRODES_PLATE,
-                                    .body_a = FW_GROUND,
-                                    .body_b = 0,
-                                    .gap_m = 3e-6,
-                                    .length_m = 250e-6,
-                                    .depth_m = 20e-6,
-                                    .voltage_V = 5};
+static const fw_device_comb plate_drive = {.id = "plate",
+                                           .kind = FW_ELECTRODES_PLATE,
+                                           .body_a = FW_GROUND,
+                                           .body_b = 0,
+                                           .gap_m = 3e-6,
+                                           .length_m = 250e-6,
+                                           .depth_m = 20e-6,
+                                           .voltage_V = 5};
 
-static const fw_comb comb_drive = {.id = "comb",
-                                   .kind = FW_ELECTRODES_COMB,
-                                   .body_a = FW_GROUND,
-                                   .body_b = 1,
-                                   .fingers = 40,
-                                   .gap_m = 4e-6,
-                                   .overlap_m = 50e-6,
-                                   .length_m = 200e-6,
-                                   .depth_m = 50e-6,
-                                   .voltage_V = 10};
+static const fw_device_comb comb_drive = {.id = "comb",
+                                          .kind = FW_ELECTRODES_COMB,
+                                          .body_a = FW_GROUND,
+                                          .body_b = 1,
+                                          .fingers = 40,
+                                          .gap_m = 4e-6,
+                                          .overlap_m = 50e-6,
+                                          .length_m = 200e-6,
+                                          .depth_m = 50e-6,
+                                          .voltage_V = 10};
 
-static void add_drive(fixture *f, rig *r, const fw_comb *c) {
-    if (!r->scene.comb) r->scene.comb = fw_arena_array(f->arena, fw_comb, 4);
+static void add_drive(fixture *f, rig *r, const fw_device_comb *c) {
+    if (!r->scene.comb) r->scene.comb = fw_arena_array(f->arena, fw_device_comb, 4);
     r->scene.comb[r->scene.ncomb++] = *c;
     r->scene.duration_s = 1e-3;
 }
@@ -48,16 +48,17 @@ static rig comb_on_stage(fixture *f, double kx, double ky) {
     rig_body(&r, "shuttle", 3e-9, 1e-17, 0.4e-3, 0, 0);
     rig_body(&r, "rotor", 2e-9, 1e-17, 0.4e-3, 0, 0);
     rig_guide(f, &r, 0, 0.4e-3, 0, 0)->stiffness_N_per_m = kx;
-    fw_tie *across = rig_guide(f, &r, 1, 0, 0, acos(0.0));
+    fw_device_joint *across = rig_guide(f, &r, 1, 0, 0, acos(0.0));
     across->id = "across";
     across->body_a = 0;
     across->stiffness_N_per_m = ky;
     return r;
 }
 
-static const fw_pull_in *find(fixture *f, const rig *r) {
-    const fw_pull_in *found;
-    assert_int_equal(fw_pull_in_find(f->arena, &r->m, &r->scene, &all, &f->diags, &found), FW_OK);
+static const fw_statics_pull_in *find(fixture *f, const rig *r) {
+    const fw_statics_pull_in *found;
+    assert_int_equal(fw_statics_pull_in_find(f->arena, &r->m, &r->scene, &all, &f->diags, &found),
+                     FW_OK);
     return found;
 }
 
@@ -69,10 +70,10 @@ static void test_plate(void **state) {
         double k = 0.3 * pow(7, i), g = 3e-6, area = 250e-6 * 20e-6;
         double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
         rig r = plate_on_spring(&f, k);
-        fw_comb c = plate_drive;
+        fw_device_comb c = plate_drive;
         c.voltage_V = volt * pow(10, 2 - i);
         add_drive(&f, &r, &c);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_FOLD);
         assert_false(p->bifurcation);
@@ -99,7 +100,7 @@ static void test_plate_with_load(void **state) {
         rig r = plate_on_spring(&f, k);
         add_drive(&f, &r, &plate_drive);
         rig_force(&r, 0, force, 0);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_FOLD);
         assert_relative(p->voltage_V, volt, 1e-10);
@@ -115,12 +116,12 @@ static void test_two_plates(void **state) {
     fixture f = begin();
     double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
     rig r = plate_on_spring(&f, k);
-    fw_comb other = plate_drive;
+    fw_device_comb other = plate_drive;
     other.id = "other";
     other.direction_rad = acos(-1.0);
     add_drive(&f, &r, &plate_drive);
     add_drive(&f, &r, &other);
-    const fw_pull_in *p = find(&f, &r);
+    const fw_statics_pull_in *p = find(&f, &r);
     assert_non_null(p);
     assert_int_equal(p->kind, FW_PULL_IN_FOLD);
     assert_true(p->bifurcation);
@@ -138,7 +139,7 @@ static void test_side(void **state) {
         double square = 2 * ky / (b + sqrt(b * b + 4 * a * ky)), x = face * square / (g * kx);
         rig r = comb_on_stage(&f, kx, ky);
         add_drive(&f, &r, &comb_drive);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_SIDE);
         assert_true(p->bifurcation);
@@ -183,7 +184,7 @@ static void test_side_with_offset(void **state) {
         rig r = comb_on_stage(&f, c.kx, c.ky);
         add_drive(&f, &r, &comb_drive);
         rig_force(&r, 1, 0, c.force);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_SIDE);
         assert_false(p->bifurcation);
@@ -218,7 +219,7 @@ static void test_side_almost_in_the_middle(void **state) {
         rig r = comb_on_stage(&f, c.kx, c.ky);
         add_drive(&f, &r, &comb_drive);
         rig_force(&r, 1, 0, c.force);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_SIDE);
         assert_relative(p->voltage_V, sqrt(square_at(&c, low)), 1e-9);
@@ -235,10 +236,10 @@ static void test_side_of_a_soft_stage(void **state) {
         double a = 2 * face * face / (g * g * g * g * kx), b = 2 * face * o / (g * g * g);
         double square = 2 * ky / (b + sqrt(b * b + 4 * a * ky));
         rig r = comb_on_stage(&f, kx, ky);
-        fw_comb long_fingers = comb_drive;
+        fw_device_comb long_fingers = comb_drive;
         long_fingers.length_m = 5e-3;
         add_drive(&f, &r, &long_fingers);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_SIDE);
         assert_relative(p->voltage_V, sqrt(square), 1e-9);
@@ -254,11 +255,11 @@ static void test_tilt(void **state) {
     rig r = rig_new(f.arena, 1, 1, 0);
     rig_body(&r, "rotor", 2e-9, 1e-17, 0.4e-3, 0.1e-3, 0.3);
     rig_pin(&r, "hinge", FW_GROUND, 0, 0.4e-3, 0.1e-3, k, 0)->free_angle_rad = 0.3;
-    fw_comb c = comb_drive;
+    fw_device_comb c = comb_drive;
     c.body_b = 0;
     c.direction_rad = 1.1;
     add_drive(&f, &r, &c);
-    const fw_pull_in *p = find(&f, &r);
+    const fw_statics_pull_in *p = find(&f, &r);
     assert_non_null(p);
     assert_int_equal(p->kind, FW_PULL_IN_TILT);
     assert_true(p->bifurcation);
@@ -274,11 +275,11 @@ static void test_end_of_the_formula(void **state) {
     for (int i = 0; i < 2; i++) {
         fixture f = begin();
         rig r = plate_on_spring(&f, kx);
-        fw_comb c = comb_drive;
+        fw_device_comb c = comb_drive;
         c.body_b = 0;
         c.voltage_V = i ? 1.3 * root : 0.7 * root;
         add_drive(&f, &r, &c);
-        const fw_pull_in *p = find(&f, &r);
+        const fw_statics_pull_in *p = find(&f, &r);
         assert_non_null(p);
         assert_int_equal(p->kind, FW_PULL_IN_NONE);
         assert_non_null(strstr(p->why, "root"));
@@ -293,22 +294,22 @@ static void test_end_of_the_formula(void **state) {
    anything that holds the rotor it is lost from the start */
 static void test_around_it(void **state) {
     (void)state;
-    static const fw_law sine = {
+    static const fw_quantity_law sine = {
         .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1e4};
     double k = 2, g = 3e-6, area = 250e-6 * 20e-6;
     double volt = sqrt(8 * k * g * g * g / (27 * eps0 * area));
     fixture f = begin();
     rig r = plate_on_spring(&f, k);
-    fw_comb c = plate_drive;
+    fw_device_comb c = plate_drive;
     assert_null(find(&f, &r));
     c.law = &sine;
     c.voltage_V = -1.25 * volt;
     add_drive(&f, &r, &c);
-    const fw_pull_in *p = find(&f, &r);
+    const fw_statics_pull_in *p = find(&f, &r);
     assert_relative(p->voltage_V, volt, 1e-10);
     assert_relative(p->margin, 0.8, 1e-10);
     assert_true(said(&f, 248));
-    r.m.tie[0].stiffness_N_per_m = 0;
+    r.m.joint[0].stiffness_N_per_m = 0;
     p = find(&f, &r);
     assert_int_equal(p->kind, FW_PULL_IN_NONE);
     assert_true(p->voltage_V == 0);
@@ -328,12 +329,12 @@ static void test_statics(void **state) {
         static const double share[] = {0.5, 0.99, 1.02};
         fixture f = begin();
         rig r = plate_on_spring(&f, k);
-        fw_comb c = plate_drive;
+        fw_device_comb c = plate_drive;
         c.voltage_V = share[i] * volt;
         add_drive(&f, &r, &c);
-        const fw_static_options o = {.effects = all, .path = i == 1};
+        const fw_statics_static_options o = {.effects = all, .path = i == 1};
         const fw_statics *s;
-        fw_status status = fw_static_equilibrium(f.arena, &r.m, &r.scene, &o, &f.diags, &s);
+        fw_status status = fw_statics_solve(f.arena, &r.m, &r.scene, &o, &f.diags, &s);
         if (i == 2) {
             assert_int_equal(status, FW_SOLVER);
             assert_true(said(&f, 248));

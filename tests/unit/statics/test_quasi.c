@@ -8,30 +8,31 @@
 
 static const double pi = 3.14159265358979323846;
 
-static const fw_motion *row_of(fixture *f, const rig *r, const fw_motion_options *o,
-                               const char **why) {
+static const fw_dynamics_motion *row_of(fixture *f, const rig *r,
+                                        const fw_dynamics_motion_options *o, const char **why) {
     fw_effect_ledger ledger;
-    fw_terms terms;
+    fw_effects_loads loads;
     const char *unused;
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
-    const fw_motion *m = NULL;
+    const fw_dynamics_motion *m = NULL;
     assert_int_equal(
-        fw_effects_compile(f->arena, &r->m, &r->scene, &all, 1e-3, &f->diags, &ledger, &terms),
+        fw_effects_compile(f->arena, &r->m, &r->scene, &all, 1e-3, &f->diags, &ledger, &loads),
         FW_OK);
-    fw_status status = fw_row_of_equilibria(f->arena, &r->m, &r->scene, o, &ledger, &terms,
-                                            &f->diags, &m, why ? why : &unused);
+    fw_status status = fw_statics_quasi_static_motion(f->arena, &r->m, &r->scene, o, &ledger,
+                                                      &loads, &f->diags, &m, why ? why : &unused);
     assert_int_equal(status, m ? FW_OK : FW_SOLVER);
     return m;
 }
 
-static const fw_motion *full_motion(fixture *f, const rig *r, const fw_motion_options *o) {
-    const fw_motion *m = NULL;
-    assert_int_equal(fw_simulate(f->arena, &r->m, &r->scene, o, &f->diags, &m), FW_OK);
+static const fw_dynamics_motion *full_motion(fixture *f, const rig *r,
+                                             const fw_dynamics_motion_options *o) {
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_dynamics_simulate(f->arena, &r->m, &r->scene, o, &f->diags, &m), FW_OK);
     return m;
 }
 
 /* every load of the rig follows the law */
-static void put_law(rig *r, const fw_law *law) {
+static void put_law(rig *r, const fw_quantity_law *law) {
     for (int i = 0; i < r->scene.nforce; i++)
         r->scene.force[i].law = law;
     for (int i = 0; i < r->scene.ntorque; i++)
@@ -46,12 +47,13 @@ static void lever(void **state) {
     rig_body(&r, "lever", 2, 0.3, 0.7, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 5, 0);
     rig_torque(&r, 0, 2);
-    const fw_law law = {.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.6};
+    const fw_quantity_law law = {
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.6};
     double w = 2 * pi * 0.6;
     put_law(&r, &law);
     r.scene.duration_s = 3;
-    const fw_motion_options o = {.samples = 101, .reactions = true, .accuracy = 1e-4};
-    const fw_motion *m = row_of(&f, &r, &o, NULL);
+    const fw_dynamics_motion_options o = {.samples = 101, .reactions = true, .accuracy = 1e-4};
+    const fw_dynamics_motion *m = row_of(&f, &r, &o, NULL);
     assert_non_null(m);
     for (int i = 0; i < m->nsample; i++) {
         double t = 3 * i / 100.0, turn = 0.4 * sin(w * t);
@@ -74,20 +76,19 @@ static void ramp_is_the_load_path(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
     put_law(&r, &ramp);
     r.scene.duration_s = 2;
-    const fw_motion_options o = {.samples = 5, .reactions = true};
-    const fw_motion *m = row_of(&f, &r, &o, NULL);
+    const fw_dynamics_motion_options o = {.samples = 5, .reactions = true};
+    const fw_dynamics_motion *m = row_of(&f, &r, &o, NULL);
     assert_non_null(m);
     for (int i = 0; i < 5; i++) {
         rig part = rig_six_bar(f.arena, false);
         const fw_statics *s = NULL;
-        const fw_static_options so = {0};
+        const fw_statics_static_options so = {0};
         part.scene.force[0].fx_N *= i / 4.0, part.scene.force[0].fy_N *= i / 4.0;
         part.scene.torque[0].value_Nm *= i / 4.0;
-        assert_int_equal(fw_static_equilibrium(f.arena, &part.m, &part.scene, &so, &f.diags, &s),
-                         FW_OK);
+        assert_int_equal(fw_statics_solve(f.arena, &part.m, &part.scene, &so, &f.diags, &s), FW_OK);
         for (int k = 0; k < 15; k++)
             assert_near(m->q[15 * i + k], s->q[k], k % 3 == 2 ? 1e-8 : 1e-11);
         for (int k = 0; k < 12; k++)
@@ -107,12 +108,14 @@ static void rates(void **state) {
     fixture f = begin();
     for (uint64_t seed = 1; seed < 12; seed++) {
         rig r = rig_any(f.arena, seed);
-        const fw_law law = {
-            .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1, .phase_rad = 0.3};
+        const fw_quantity_law law = {.kind = &fw_quantity_law_sine,
+                                     .end_s = (double)INFINITY,
+                                     .frequency_Hz = 1,
+                                     .phase_rad = 0.3};
         put_law(&r, &law);
         r.scene.duration_s = 0.7;
-        const fw_motion_options o = {.samples = 701, .accuracy = 1e-5};
-        const fw_motion *m = row_of(&f, &r, &o, NULL);
+        const fw_dynamics_motion_options o = {.samples = 701, .accuracy = 1e-5};
+        const fw_dynamics_motion *m = row_of(&f, &r, &o, NULL);
         if (!m) continue; /* loads of this rig may buckle it */
         int n = 3 * m->nbody;
         for (int c = 0; c < n; c++) {
@@ -147,13 +150,14 @@ static void agrees_with_the_full_motion(void **state) {
             rig_torque(&r, 0, 12);
         }
         double slow = which % 2 ? 60 : 0.2;
-        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.8 * slow};
-        const fw_law sine = {
+        const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.8 * slow};
+        const fw_quantity_law sine = {
             .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1.2 / slow};
         put_law(&r, which < 2 ? &ramp : &sine);
         r.scene.duration_s = slow;
-        const fw_motion_options o = {.samples = 0};
-        const fw_motion *at_rest = row_of(&f, &r, &o, NULL), *full = full_motion(&f, &r, &o);
+        const fw_dynamics_motion_options o = {.samples = 0};
+        const fw_dynamics_motion *at_rest = row_of(&f, &r, &o, NULL),
+                                 *full = full_motion(&f, &r, &o);
         assert_non_null(at_rest);
         double most = 0;
         for (int i = 0; i < r.m.npin; i++)
@@ -175,7 +179,7 @@ typedef struct seen {
     bool ordered;
 } seen;
 
-static void look(void *context, const fw_instant *now) {
+static void look(void *context, const fw_dynamics_instant *now) {
     seen *s = context;
     if (!now) {
         *s = (seen){.starts = s->starts + 1, .ordered = true};
@@ -192,12 +196,13 @@ static void jumps_and_watching(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law step = {.kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = 0.6};
+    const fw_quantity_law step = {.kind = &fw_quantity_law_step, .start_s = 0.3, .end_s = 0.6};
     put_law(&r, &step);
     r.scene.duration_s = 1;
     seen s = {0};
-    fw_motion_options o = {.samples = 11, .observe = look, .context = &s, .reactions = true};
-    const fw_motion *m = row_of(&f, &r, &o, NULL);
+    fw_dynamics_motion_options o = {
+        .samples = 11, .observe = look, .context = &s, .reactions = true};
+    const fw_dynamics_motion *m = row_of(&f, &r, &o, NULL);
     assert_non_null(m);
     assert_true(s.starts == 1 && s.ordered && s.count > 3 * FW_INSTANTS);
     assert_near(s.last, 1, 1e-12);
@@ -206,7 +211,7 @@ static void jumps_and_watching(void **state) {
     assert_near(m->angle_rad[6 * 5], m->peak[0].angle_rad, 1e-9);
     assert_true(m->peak[0].t_s >= 0.3 && m->peak[0].t_s <= 0.6);
     assert_true(m->force_peak[0].force_N > 0 && m->force_peak[0].t_s <= 0.6);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
     put_law(&r, &ramp);
     o.most_angle_rad = 0.5 * s.largest;
     m = row_of(&f, &r, &o, NULL);
@@ -225,13 +230,13 @@ static void driven(void **state) {
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 3, 0);
     rig_pin(&r, "A", 0, 1, 1, 0, 4, 0);
     rig_force(&r, 1, 0, 2); /* at the rod's middle: 4 a = 2 * 0.5 cos(phi + a) */
-    r.m.driver = fw_arena_array(f.arena, fw_driver, 1);
+    r.m.driver = fw_arena_array(f.arena, fw_device_driver, 1);
     r.m.ndriver = 1;
-    r.m.driver[0] = (fw_driver){.id = "turn", .joint = 0, .tie = FW_NONE};
-    r.m.driver[0].law = (fw_law){.kind = &fw_quantity_law_ramp, .rise_s = 2};
+    r.m.driver[0] = (fw_device_driver){.id = "turn", .revolute = 0, .joint = FW_NONE};
+    r.m.driver[0].law = (fw_quantity_law){.kind = &fw_quantity_law_ramp, .rise_s = 2};
     r.scene.duration_s = 2;
-    const fw_motion_options o = {.samples = 9, .reactions = true};
-    const fw_motion *m = row_of(&f, &r, &o, NULL);
+    const fw_dynamics_motion_options o = {.samples = 9, .reactions = true};
+    const fw_dynamics_motion *m = row_of(&f, &r, &o, NULL);
     assert_non_null(m);
     for (int i = 0; i < 9; i++) {
         double phi = i / 8.0, a = m->angle_rad[2 * i + 1];
@@ -252,11 +257,11 @@ static void where_it_ends(void **state) {
     fixture f = begin();
     double fold = truss_load(1, 0.3, 100, truss_fold(1, 0.3));
     rig r = rig_truss(&f, 1, 0.3, 100, 1.2 * fold);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 50};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 50};
     put_law(&r, &ramp);
     r.scene.duration_s = 50;
     const char *why = NULL;
-    const fw_motion_options o = {.samples = 3};
+    const fw_dynamics_motion_options o = {.samples = 3};
     assert_null(row_of(&f, &r, &o, &why));
     assert_non_null(strstr(why, "ends"));
     r.scene.force[0].fy_N *= 0.8 / 1.2;
@@ -274,24 +279,26 @@ static void moved(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion_options o = {.samples = 7, .effects = {.mode = FW_EFFECTS_ALL}};
-    const fw_motion *a = NULL, *b = full_motion(&f, &r, &o);
-    assert_int_equal(fw_move_scene(f.arena, &r.m, &r.scene, &o, &f.diags, &a), FW_OK);
+    const fw_dynamics_motion_options o = {.samples = 7, .effects = {.mode = FW_EFFECTS_ALL}};
+    const fw_dynamics_motion *a = NULL, *b = full_motion(&f, &r, &o);
+    assert_int_equal(fw_statics_move_scene(f.arena, &r.m, &r.scene, &o, &f.diags, &a), FW_OK);
     for (int i = 0; i < 7 * 15; i++)
         assert_true(a->q[i] == b->q[i]);
     assert_string_equal(a->method, "chain");
-    const fw_motion_options wrong = {.method = "chian"};
-    assert_int_equal(fw_move_scene(f.arena, &r.m, &r.scene, &wrong, &f.diags, &a), FW_USAGE);
+    const fw_dynamics_motion_options wrong = {.method = "chian"};
+    assert_int_equal(fw_statics_move_scene(f.arena, &r.m, &r.scene, &wrong, &f.diags, &a),
+                     FW_USAGE);
     fw_arena_free(f.arena);
 }
 
-static const fw_motion *move(fixture *f, const rig *r, const fw_motion_options *o) {
-    const fw_motion *m = NULL;
-    assert_int_equal(fw_move_scene(f->arena, &r->m, &r->scene, o, &f->diags, &m), FW_OK);
+static const fw_dynamics_motion *move(fixture *f, const rig *r,
+                                      const fw_dynamics_motion_options *o) {
+    const fw_dynamics_motion *m = NULL;
+    assert_int_equal(fw_statics_move_scene(f->arena, &r->m, &r->scene, o, &f->diags, &m), FW_OK);
     return m;
 }
 
-static const fw_effect_entry *inertia(const fw_motion *m) {
+static const fw_effect_entry *inertia(const fw_dynamics_motion *m) {
     for (int i = 0; i < m->ledger.count; i++)
         if (strcmp(m->ledger.item[i].id, "inertia") == 0) return &m->ledger.item[i];
     fail_msg("no inertia");
@@ -303,15 +310,15 @@ static void left_out_by_itself(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.5};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.5};
     put_law(&r, &ramp);
     r.scene.force[0].fx_N *= 0.1, r.scene.force[0].fy_N *= 0.1, r.scene.ntorque = 0;
     r.scene.duration_s = 0.7;
-    const fw_motion_options o = {.samples = 2, .accuracy = 2e-2};
-    fw_motion_options named = o, all = o;
+    const fw_dynamics_motion_options o = {.samples = 2, .accuracy = 2e-2};
+    fw_dynamics_motion_options named = o, all = o;
     named.integrator = "dop853", all.effects.mode = FW_EFFECTS_ALL;
     all.accuracy = 1e-5; /* what its own steps miss is not what inertia does */
-    const fw_motion *row = move(&f, &r, &o), *full = move(&f, &r, &all);
+    const fw_dynamics_motion *row = move(&f, &r, &o), *full = move(&f, &r, &all);
     assert_string_equal(row->method, "quasi-static");
     assert_false(inertia(row)->active);
     assert_true(row->ledger.left_out >= inertia(row)->bound && row->ledger.left_out < 2e-2);
@@ -324,12 +331,12 @@ static void left_out_by_itself(void **state) {
     double out = row->ledger.left_out, largest = 0; /* every peak's error knows of it, once */
     for (int i = 0; i < r.m.npin; i++)
         largest = fmax(largest, fabs(row->peak[i].angle_rad));
-    assert_relative(fw_motion_left_out(row), out / (1 - out) * largest, 1e-12);
+    assert_relative(fw_dynamics_motion_left_out(row), out / (1 - out) * largest, 1e-12);
     for (int i = 0; i < r.m.npin; i++) {
-        assert_true(row->peak[i].error_rad > fw_motion_left_out(row));
-        assert_true(row->peak[i].error_rad < 1.5 * fw_motion_left_out(row));
+        assert_true(row->peak[i].error_rad > fw_dynamics_motion_left_out(row));
+        assert_true(row->peak[i].error_rad < 1.5 * fw_dynamics_motion_left_out(row));
     }
-    assert_true(fw_motion_left_out(full) == 0);
+    assert_true(fw_dynamics_motion_left_out(full) == 0);
     for (int i = 0; i < row->ledger.count; i++) /* the same six-bar has dampers */
         if (strcmp(row->ledger.item[i].id, "joint-damping") == 0)
             assert_false(row->ledger.item[i].active);
@@ -345,17 +352,17 @@ static void left_out_by_hand(void **state) {
     (void)state;
     fixture f = begin();
     rig r = rig_six_bar(f.arena, false);
-    const fw_motion_options none = {.samples = 2, .effects = {.mode = FW_EFFECTS_NONE}};
+    const fw_dynamics_motion_options none = {.samples = 2, .effects = {.mode = FW_EFFECTS_NONE}};
     assert_string_equal(move(&f, &r, &none)->method, "quasi-static"); /* a step */
     assert_true(said(&f, 254));
     fw_diags quiet = fw_diags_new(f.arena);
     f.diags = quiet;
     double fold = truss_load(1, 0.3, 100, truss_fold(1, 0.3));
     rig truss = rig_truss(&f, 1, 0.3, 100, 1.2 * fold);
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5};
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5};
     put_law(&truss, &ramp);
     truss.scene.duration_s = 5;
-    const fw_motion *m = move(&f, &truss, &none);
+    const fw_dynamics_motion *m = move(&f, &truss, &none);
     assert_string_equal(m->integrator, "dop853");
     assert_true(inertia(m)->active && said(&f, 254));
     assert_non_null(strstr(inertia(m)->reason, "ends"));
@@ -373,20 +380,20 @@ static void out_of_memory(void **state) {
     for (long n = 1; n < 4000; n++) {
         fixture f = begin();
         rig r = rig_six_bar(f.arena, false);
-        const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
+        const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2};
         put_law(&r, &ramp);
         r.scene.duration_s = 2;
         fw_effect_ledger ledger;
-        fw_terms terms;
-        const fw_motion_options o = {.samples = 3, .reactions = true, .accuracy = 0.1};
-        const fw_motion *m;
+        fw_effects_loads loads;
+        const fw_dynamics_motion_options o = {.samples = 3, .reactions = true, .accuracy = 0.1};
+        const fw_dynamics_motion *m;
         const char *why;
         assert_int_equal(fw_effects_compile(f.arena, &r.m, &r.scene, &o.effects, 1e-3, &f.diags,
-                                            &ledger, &terms),
+                                            &ledger, &loads),
                          FW_OK);
         fw_arena_fail_at(n, 0);
-        fw_status status =
-            fw_row_of_equilibria(f.arena, &r.m, &r.scene, &o, &ledger, &terms, &f.diags, &m, &why);
+        fw_status status = fw_statics_quasi_static_motion(f.arena, &r.m, &r.scene, &o, &ledger,
+                                                          &loads, &f.diags, &m, &why);
         long made = fw_arena_count();
         fw_arena_fail_at(0, 0);
         fw_arena_free(f.arena);

@@ -4,15 +4,16 @@
 #include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "dynamics/element_rigs.h"
-#include "statics/rest.h"
+#include "statics/statics_equilibrium.h"
 #include "statics/tangent.h"
 
-static const fw_statics *solve(fixture *f, const rig *r, const fw_terms *t, bool path) {
-    fw_rest *w = fw_arena_one(f->arena, fw_rest);
+static const fw_statics *solve(fixture *f, const rig *r, const fw_effects_loads *t, bool path) {
+    fw_statics_equilibrium *w = fw_arena_one(f->arena, fw_statics_equilibrium);
     const fw_statics *out = NULL;
-    const fw_static_options o = {.path = path};
-    assert_int_equal(fw_rest_new_terms(f->arena, &r->m, &r->scene, t, &f->diags, w), FW_OK);
-    fw_status status = fw_rest_statics(w, &o, &out);
+    const fw_statics_static_options o = {.path = path};
+    assert_int_equal(fw_statics_equilibrium_new_loads(f->arena, &r->m, &r->scene, t, &f->diags, w),
+                     FW_OK);
+    fw_status status = fw_statics_equilibrium_statics(w, &o, &out);
     if (status != FW_OK)
         fail_msg("%s", f->diags.count ? f->diags.item[f->diags.count - 1].message : "no message");
     return out;
@@ -21,12 +22,13 @@ static const fw_statics *solve(fixture *f, const rig *r, const fw_terms *t, bool
 /* ---- tangent ---- */
 
 /* G^T lambda - Q at y, flags as they are */
-static void balance(fw_model *m, double t, const double *y, const double *lambda, double *f) {
-    fw_model_pose(m, y);
-    fw_model_forces(m, t, y);
+static void balance(fw_multibody_model *m, double t, const double *y, const double *lambda,
+                    double *f) {
+    fw_multibody_model_pose(m, y);
+    fw_multibody_model_forces(m, t, y);
     for (int i = 0; i < m->nq; i++)
         f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * m->accel[i];
-    fw_model_transpose(m, lambda, f);
+    fw_multibody_model_transpose(m, lambda, f);
 }
 
 static void tangent_is_the_derivative(void **state) {
@@ -37,7 +39,7 @@ static void tangent_is_the_derivative(void **state) {
         fixture f = begin();
         uint64_t pick = 71 * seed;
         rig r = rig_any(f.arena, seed);
-        fw_terms t = rig_terms(f.arena, &r);
+        fw_effects_loads t = rig_terms(f.arena, &r);
         line d[3];
         const bush b = {30, 1e-6, 2e-11};
         for (int i = 0; i < 3; i++) {
@@ -50,11 +52,12 @@ static void tangent_is_the_derivative(void **state) {
         if (seed % 2) bush_release(f.arena, &r.m, &t, 1, &b);
         double q[3 * 16], y[128] = {0}, z[128], lambda[64] = {0}, value[7][64], sum;
         for (int i = 0; i < 3 * r.m.nbody; i++) {
-            const fw_mass *at = &r.m.body[i / 3];
+            const fw_mechanism_mass *at = &r.m.body[i / 3];
             q[i] = i % 3 == 0 ? at->x_m : i % 3 == 1 ? at->y_m : at->phi_rad;
         }
-        fw_model *m;
-        assert_int_equal(fw_model_new(f.arena, &r.m, &t, q, 1, NULL, &f.diags, &m), FW_OK);
+        fw_multibody_model *m;
+        assert_int_equal(fw_multibody_model_new(f.arena, &r.m, &t, q, 1, NULL, &f.diags, &m),
+                         FW_OK);
         int n = m->nq;
         double *k = fw_arena_array(f.arena, double, (size_t)(n * n)), worst = 0, most = 0;
         double *c = fw_arena_array(f.arena, double, (size_t)(n * n));
@@ -62,10 +65,10 @@ static void tangent_is_the_derivative(void **state) {
             y[i] = 0.3 * (rig_random(&pick) - 0.5);
         for (int i = 0; i < 2 * m->nblock; i++)
             lambda[i] = rig_random(&pick) - 0.5;
-        fw_model_set_switches(m, 0, y);
-        on += fw_model_switch_on(m, 0);
-        fw_model_pose(m, y);
-        fw_tangent(m, 0, y, lambda, k, c);
+        fw_multibody_model_set_switches(m, 0, y);
+        on += fw_multibody_model_switch_on(m, 0);
+        fw_multibody_model_pose(m, y);
+        fw_statics_tangent(m, 0, y, lambda, k, c);
         for (int j = 0; j < 2 * n; j++) {
             const double *matrix = j < n ? k + j : c + j - n, h = 1e-3;
             for (int s = 0; s < 7; s++) {
@@ -100,7 +103,7 @@ static double bar_moment(double phi, double kr, const line *d, double law) {
 static void pulled_bar(void **state) {
     (void)state;
     static const double time[3] = {0, 1, 2}, factor[3] = {0, 5, 0.6};
-    const fw_law law = {
+    const fw_quantity_law law = {
         .kind = &fw_quantity_law_table, .table_t_s = time, .table_value = factor, .ntable = 3};
     const line cases[] = {{.pull = 3},
                           {.k = 5, .draw = 0.5, .length = hypot(0.6, 1.3)},
@@ -111,8 +114,9 @@ static void pulled_bar(void **state) {
         rig_body(&r, "bar", 1, 0.1, 0.5, 0, 0);
         rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 2, 0);
         r.scene.duration_s = 2;
-        fw_terms t = rig_terms(f.arena, &r);
-        fw_force_element *e = line_add(f.arena, &t, &cases[i], FW_GROUND, 0.4, 1.3, 0, 0.5, 0);
+        fw_effects_loads t = rig_terms(f.arena, &r);
+        fw_effects_force_element *e =
+            line_add(f.arena, &t, &cases[i], FW_GROUND, 0.4, 1.3, 0, 0.5, 0);
         e->law[e->laws++] = &law;
         double low = -1, high = 1.4;
         for (int k = 0; k < 60; k++) {
@@ -142,9 +146,9 @@ static void slack_line(void **state) {
     rig_body(&r, "cart", 1, 1, 0, 0, 0);
     rig_guide(&f, &r, 0, 0, 0, 0)->stiffness_N_per_m = 3;
     r.scene.duration_s = 1;
-    fw_terms t = rig_terms(f.arena, &r);
+    fw_effects_loads t = rig_terms(f.arena, &r);
     const line d = {.k = 5, .draw = 0.5, .length = 1.2};
-    fw_force_element *e = line_add(f.arena, &t, &d, FW_GROUND, 1, 0, 0, 0, 0);
+    fw_effects_force_element *e = line_add(f.arena, &t, &d, FW_GROUND, 1, 0, 0, 0, 0);
     e->switches = 1, e->id = "rope";
     const fw_statics *s = solve(&f, &r, &t, true);
     assert_near(s->q[0], 5 * 0.3 / 8, 1e-13);
@@ -165,7 +169,7 @@ static void slack_line(void **state) {
 
 /* ---- plates: C (load / gap)^2 between ports along x; they touch at a tenth of a unit ---- */
 
-static double gap_of(const fw_seen *s) {
+static double gap_of(const fw_effects_port_state *s) {
     return s->p[0] - s->p[3];
 }
 
@@ -174,18 +178,20 @@ static void plate_push(double force, double *f) {
     f[3] = force, f[0] = -force;
 }
 
-static void plate_force(const fw_force_element *e, const fw_seen *s, double *f) {
+static void plate_force(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                        double *f) {
     double g = gap_of(s), c = *(const double *)e->data;
     plate_push(c * s->load * s->load / (g * g), f);
 }
 
-static void plate_slope(const fw_force_element *e, const fw_seen *s, double *f) {
+static void plate_slope(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                        double *f) {
     double g = gap_of(s), c = *(const double *)e->data;
     plate_push(2 * c * s->load / (g * g), f);
 }
 
-static void plate_tangent(const fw_force_element *e, const fw_seen *s, double *stiffness,
-                          double *damping) {
+static void plate_tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                          double *stiffness, double *damping) {
     double g = gap_of(s), c = *(const double *)e->data, k = 2 * c * s->load * s->load / (g * g * g);
     memset(stiffness, 0, 36 * sizeof *stiffness);
     memset(damping, 0, 36 * sizeof *damping);
@@ -193,17 +199,18 @@ static void plate_tangent(const fw_force_element *e, const fw_seen *s, double *s
     stiffness[3] = stiffness[3 * 6] = k;
 }
 
-static bool plate_valid(const fw_force_element *e, const fw_seen *s, const char **why) {
+static bool plate_valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                        const char **why) {
     (void)e;
     *why = "the plates touch: lower the voltage";
     return gap_of(s) > 0.1;
 }
 
-static const fw_element_class plate_class = {.effect = "plate",
-                                             .force = plate_force,
-                                             .tangent = plate_tangent,
-                                             .slope = plate_slope,
-                                             .valid = plate_valid};
+static const fw_effects_element_class plate_class = {.effect = "plate",
+                                                     .force = plate_force,
+                                                     .tangent = plate_tangent,
+                                                     .slope = plate_slope,
+                                                     .valid = plate_valid};
 
 /* pull-in at a third of the gap, where s^2 C = 4 K g^3 / 27: a fold of the path; above it there is
    no equilibrium, and the plates say why */
@@ -215,10 +222,10 @@ static void pull_in(void **state) {
         rig_body(&r, "rotor", 1, 1, 0, 0, 0);
         rig_guide(&f, &r, 0, 0, 0, 0)->stiffness_N_per_m = 3;
         r.scene.duration_s = 1;
-        fw_terms t = rig_terms(f.arena, &r);
+        fw_effects_loads t = rig_terms(f.arena, &r);
         double top = 4 * 3 * 8.0 / 27, c = (over ? 1.3 : 0.8) * top;
-        fw_force_element *e = fw_terms_add_element(f.arena, &t, &plate_class, 2);
-        e->port[0] = (fw_port){FW_GROUND, 2, 0}, e->port[1] = (fw_port){0, 0, 0};
+        fw_effects_force_element *e = fw_effects_loads_add_element(f.arena, &t, &plate_class, 2);
+        e->port[0] = (fw_effects_port){FW_GROUND, 2, 0}, e->port[1] = (fw_effects_port){0, 0, 0};
         e->works = true, e->force_N = c / 4, e->data = &c, e->id = "drive";
         if (!over) {
             const fw_statics *s = solve(&f, &r, &t, false);
@@ -228,13 +235,14 @@ static void pull_in(void **state) {
             fw_arena_free(f.arena);
             continue;
         }
-        fw_rest w;
+        fw_statics_equilibrium w;
         const fw_statics *none;
-        fw_path *path;
+        fw_statics_path *path;
         bool unstable = false;
-        assert_int_equal(fw_rest_new_terms(f.arena, &r.m, &r.scene, &t, &f.diags, &w), FW_OK);
-        assert_int_equal(fw_rest_descend(&w, &unstable), FW_OK);
-        assert_int_equal(fw_rest_follow(&w, 0, &path), FW_OK);
+        assert_int_equal(
+            fw_statics_equilibrium_new_loads(f.arena, &r.m, &r.scene, &t, &f.diags, &w), FW_OK);
+        assert_int_equal(fw_statics_equilibrium_descend(&w, &unstable), FW_OK);
+        assert_int_equal(fw_statics_equilibrium_follow(&w, 0, &path), FW_OK);
         int fold = -1;
         for (int i = 0; i < path->count; i++)
             if (path->mark[i] == FW_PATH_FOLD) fold = i;
@@ -242,9 +250,10 @@ static void pull_in(void **state) {
         assert_near(path->q[3 * fold], 2.0 / 3, 1e-7);
         assert_near(path->factor[fold], sqrt(top / c), 1e-12);
         assert_false(path->complete);
-        assert_int_equal(fw_rest_new_terms(f.arena, &r.m, &r.scene, &t, &f.diags, &w), FW_OK);
-        const fw_static_options o = {0};
-        assert_int_equal(fw_rest_statics(&w, &o, &none), FW_SOLVER);
+        assert_int_equal(
+            fw_statics_equilibrium_new_loads(f.arena, &r.m, &r.scene, &t, &f.diags, &w), FW_OK);
+        const fw_statics_static_options o = {0};
+        assert_int_equal(fw_statics_equilibrium_statics(&w, &o, &none), FW_SOLVER);
         assert_true(said(&f, 242));
         assert_non_null(strstr(f.diags.item[f.diags.count - 1].message, "lower the voltage"));
         fw_arena_free(f.arena);
@@ -264,13 +273,14 @@ static void bar_on_a_released_pin(void **state) {
     rig_body(&r, "bar", mass, inertia, l, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 3, 0);
     r.scene.duration_s = 1;
-    fw_terms t = rig_terms(f.arena, &r);
+    fw_effects_loads t = rig_terms(f.arena, &r);
     bush_release(f.arena, &r.m, &t, 0, &d);
-    fw_rest w;
-    const fw_modes *m;
-    const fw_mode_options o = {0};
-    assert_int_equal(fw_rest_new_terms(f.arena, &r.m, &r.scene, &t, &f.diags, &w), FW_OK);
-    assert_int_equal(fw_rest_modes(&w, &o, &m), FW_OK);
+    fw_statics_equilibrium w;
+    const fw_statics_modes *m;
+    const fw_statics_mode_options o = {0};
+    assert_int_equal(fw_statics_equilibrium_new_loads(f.arena, &r.m, &r.scene, &t, &f.diags, &w),
+                     FW_OK);
+    assert_int_equal(fw_statics_equilibrium_modes(&w, &o, &m), FW_OK);
     assert_int_equal(m->count, 3);
     assert_int_equal(m->rank.rows, 0);
     double a = d.k / mass, b = (d.k * l * l + d.kr) / inertia;
@@ -295,7 +305,7 @@ static void reaction_of_a_released_pin(void **state) {
     r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
     r.scene.duration_s = 1;
     const bush d = {900, 40, 0};
-    fw_terms t = rig_terms(f.arena, &r);
+    fw_effects_loads t = rig_terms(f.arena, &r);
     bush_release(f.arena, &r.m, &t, 0, &d);
     const fw_statics *s = solve(&f, &r, &t, false);
     double phi = s->angle_rad[0];

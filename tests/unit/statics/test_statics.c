@@ -5,8 +5,8 @@
 #include "rest_rigs.h"
 
 static fw_status solve(fixture *f, const rig *r, bool path, const fw_statics **out) {
-    const fw_static_options o = {.path = path};
-    return fw_static_equilibrium(f->arena, &r->m, &r->scene, &o, &f->diags, out);
+    const fw_statics_static_options o = {.path = path};
+    return fw_statics_solve(f->arena, &r->m, &r->scene, &o, &f->diags, out);
 }
 
 static const fw_statics *equilibrium(fixture *f, const rig *r, bool path) {
@@ -21,13 +21,13 @@ static const fw_statics *equilibrium(fixture *f, const rig *r, bool path) {
 }
 
 /* index of the n-th point with this mark, or -1 */
-static int marked(const fw_path *p, fw_path_mark mark, int n) {
+static int marked(const fw_statics_path *p, fw_statics_path_mark mark, int n) {
     for (int i = 0; i < p->count; i++)
         if (p->mark[i] == mark && n-- == 0) return i;
     return -1;
 }
 
-static int count_marks(const fw_path *p, fw_path_mark mark) {
+static int count_marks(const fw_statics_path *p, fw_statics_path_mark mark) {
     int count = 0;
     for (int i = 0; i < p->count; i++)
         count += p->mark[i] == mark;
@@ -68,7 +68,7 @@ static void six_bar_reference(void **state) {
         } else
             assert_null(s->rank.joints);
         if (kind & 2) {
-            const fw_path *p = s->path;
+            const fw_statics_path *p = s->path;
             assert_true(p->complete);
             assert_int_equal(p->mark[p->count - 1], FW_PATH_END);
             assert_int_equal(count_marks(p, FW_PATH_POINT), p->count - 1);
@@ -115,7 +115,7 @@ static void von_mises_truss(void **state) {
         double limit = truss_load(b, h, stiff, fold), load = (1.2 + 0.3 * k) * limit;
         rig r = rig_truss(&f, b, h, stiff, load);
         const fw_statics *s = equilibrium(&f, &r, true);
-        const fw_path *p = s->path;
+        const fw_statics_path *p = s->path;
         assert_true(p->complete);
         assert_int_equal(count_marks(p, FW_PATH_FOLD), 2);
         int up = marked(p, FW_PATH_FOLD, 0), down = marked(p, FW_PATH_FOLD, 1);
@@ -235,7 +235,7 @@ static void stop_takes_over(void **state) {
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 1, 0);
     rig_body(&r, "arm", 1, 1, 1, 0, 0);
-    fw_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 2, 0);
+    fw_mechanism_pin *p = rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 2, 0);
     p->stop_min_rad = (double)NAN, p->stop_max_rad = 0.4, p->stop_stiffness_Nm_per_rad = 50;
     rig_torque(&r, 0, 3);
     r.scene.duration_s = 1;
@@ -286,14 +286,17 @@ static void laws_at_the_end_of_the_scene(void **state) {
     rig_body(&r, "rod", 1, 0.1, 1.5, 0, 0);
     rig_pin(&r, "O", FW_GROUND, 0, 0, 0, 0, 0);
     rig_pin(&r, "P", 0, 1, 1, 0, 4, 0);
-    r.m.driver = fw_arena_array(f.arena, fw_driver, 1);
+    r.m.driver = fw_arena_array(f.arena, fw_device_driver, 1);
     r.m.ndriver = 1;
-    r.m.driver[0] = (fw_driver){
-        .id = "turn", .joint = 0, .tie = FW_NONE, .law = {.kind = &fw_quantity_law_table, .ntable = 2}};
+    r.m.driver[0] = (fw_device_driver){.id = "turn",
+                                       .revolute = 0,
+                                       .joint = FW_NONE,
+                                       .law = {.kind = &fw_quantity_law_table, .ntable = 2}};
     const double t[2] = {0, 2}, angle[2] = {0, 7};
     r.m.driver[0].law.table_t_s = t;
     r.m.driver[0].law.table_value = angle;
-    const fw_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 4, .end_s = (double)INFINITY};
+    const fw_quantity_law ramp = {
+        .kind = &fw_quantity_law_ramp, .rise_s = 4, .end_s = (double)INFINITY};
     rig_torque(&r, 1, 2);
     r.scene.torque[0].law = &ramp;
     r.scene.duration_s = 1;
@@ -309,12 +312,13 @@ static void laws_at_the_end_of_the_scene(void **state) {
     fw_arena_free(f.arena);
 }
 
-static fw_driver *rig_drive(fixture *f, rig *r, const char *id, int joint, double way) {
-    if (!r->m.driver) r->m.driver = fw_arena_array(f->arena, fw_driver, 4);
+static fw_device_driver *rig_drive(fixture *f, rig *r, const char *id, int joint, double way) {
+    if (!r->m.driver) r->m.driver = fw_arena_array(f->arena, fw_device_driver, 4);
     double *table = fw_arena_array(f->arena, double, 4);
     table[1] = r->scene.duration_s, table[3] = way;
-    fw_driver *d = &r->m.driver[r->m.ndriver++];
-    *d = (fw_driver){.id = id, .joint = joint, .tie = FW_NONE, .law = {.kind = &fw_quantity_law_table}};
+    fw_device_driver *d = &r->m.driver[r->m.ndriver++];
+    *d = (fw_device_driver){
+        .id = id, .revolute = joint, .joint = FW_NONE, .law = {.kind = &fw_quantity_law_table}};
     d->law.ntable = 2, d->law.table_t_s = table, d->law.table_value = table + 2;
     return d;
 }
@@ -344,9 +348,9 @@ static void driven_slider_crank(void **state) {
         assert_near(s->q[6], cos(way) + 3 * cos(tilt), 1e-12);
         /* the motor holds against the piston, the guide carries what the rod pushes across */
         assert_near(s->driver_N[0], 7 * slope, 1e-11);
-        assert_near(s->tie_N[0], 0, 1e-12);
-        assert_near(s->tie_N[1], 2 + 7 * tan(tilt), 1e-11);
-        assert_near(s->tie_N[2], 0, 1e-11);
+        assert_near(s->joint_N[0], 0, 1e-12);
+        assert_near(s->joint_N[1], 2 + 7 * tan(tilt), 1e-11);
+        assert_near(s->joint_N[2], 0, 1e-11);
     }
     fw_arena_free(f.arena);
 }

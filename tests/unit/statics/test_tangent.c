@@ -8,9 +8,9 @@ enum { BODIES = 5, N = 3 * BODIES };
 
 typedef struct plant { /* bodies with every joint and every force, at random */
     rig r;
-    fw_terms terms;
-    fw_law ramp, drive;
-    fw_model *m;
+    fw_effects_loads loads;
+    fw_quantity_law ramp, drive;
+    fw_multibody_model *m;
 } plant;
 
 static double pick(uint64_t *seed) {
@@ -24,74 +24,79 @@ static int other_body(uint64_t *seed, int not ) {
     }
 }
 
-static void random_ties(fw_arena *arena, plant *p, uint64_t *seed) {
+static void random_joints(fw_arena *arena, plant *p, uint64_t *seed) {
     fw_mechanism *m = &p->r.m;
-    m->tie = fw_arena_array(arena, fw_tie, 3);
-    m->ntie = 3;
+    m->joint = fw_arena_array(arena, fw_device_joint, 3);
+    m->njoint = 3;
     for (int i = 0; i < 3; i++) {
         int a = other_body(seed, 99);
-        m->tie[i] = (fw_tie){.id = "tie",
-                             .kind = (fw_tie_kind)i,
-                             .body_a = a,
-                             .body_b = other_body(seed, a),
-                             .ax_m = pick(seed),
-                             .ay_m = pick(seed),
-                             .bx_m = pick(seed),
-                             .by_m = pick(seed),
-                             .axis_rad = 3 * pick(seed),
-                             .angle_rad = pick(seed),
-                             .length_m = 1 + pick(seed),
-                             .free_length_m = pick(seed)};
+        m->joint[i] = (fw_device_joint){.id = "tie",
+                                        .kind = (fw_device_joint_kind)i,
+                                        .body_a = a,
+                                        .body_b = other_body(seed, a),
+                                        .ax_m = pick(seed),
+                                        .ay_m = pick(seed),
+                                        .bx_m = pick(seed),
+                                        .by_m = pick(seed),
+                                        .axis_rad = 3 * pick(seed),
+                                        .angle_rad = pick(seed),
+                                        .length_m = 1 + pick(seed),
+                                        .free_length_m = pick(seed)};
     }
-    p->drive = (fw_law){.kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.1};
-    m->driver = fw_arena_array(arena, fw_driver, 2);
+    p->drive = (fw_quantity_law){
+        .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 0.1};
+    m->driver = fw_arena_array(arena, fw_device_driver, 2);
     m->ndriver = 2;
-    m->driver[0] = (fw_driver){.id = "turn", .joint = 0, .tie = FW_NONE, .law = p->drive};
-    m->driver[1] = (fw_driver){.id = "travel", .joint = FW_NONE, .tie = 0, .law = p->drive};
+    m->driver[0] =
+        (fw_device_driver){.id = "turn", .revolute = 0, .joint = FW_NONE, .law = p->drive};
+    m->driver[1] =
+        (fw_device_driver){.id = "travel", .revolute = FW_NONE, .joint = 0, .law = p->drive};
 }
 
 static void random_terms(fw_arena *arena, plant *p, uint64_t *seed) {
-    fw_terms *t = &p->terms;
+    fw_effects_loads *t = &p->loads;
     const fw_mechanism *m = &p->r.m;
-    *t = (fw_terms){.nbody = BODIES};
+    *t = (fw_effects_loads){.nbody = BODIES};
     t->constant = fw_arena_array(arena, double, N);
     t->velocity = fw_arena_array(arena, double, N);
-    t->torsion = fw_arena_array(arena, fw_torsion, 8);
-    t->stop = fw_arena_array(arena, fw_stop, 8);
-    t->load = fw_arena_array(arena, fw_point_load, 8);
-    t->timed = fw_arena_array(arena, fw_timed_load, 8);
-    t->spring = fw_arena_array(arena, fw_spring, 8);
-    t->slide = fw_arena_array(arena, fw_slide, 1);
+    t->torsion = fw_arena_array(arena, fw_effects_torsion, 8);
+    t->stop = fw_arena_array(arena, fw_effects_stop, 8);
+    t->load = fw_arena_array(arena, fw_effects_point_load, 8);
+    t->timed = fw_arena_array(arena, fw_effects_timed_load, 8);
+    t->spring = fw_arena_array(arena, fw_device_spring, 8);
+    t->slide = fw_arena_array(arena, fw_effects_slide, 1);
     for (int i = 0; i < N; i++)
         t->constant[i] = pick(seed);
-    p->ramp = (fw_law){.kind = &fw_quantity_law_ramp, .end_s = (double)INFINITY, .rise_s = 3};
+    p->ramp =
+        (fw_quantity_law){.kind = &fw_quantity_law_ramp, .end_s = (double)INFINITY, .rise_s = 3};
     for (int i = 0; i < 3; i++) {
-        const fw_pin *pin = &m->pin[i];
-        t->torsion[t->ntorsion++] = (fw_torsion){
+        const fw_mechanism_pin *pin = &m->pin[i];
+        t->torsion[t->ntorsion++] = (fw_effects_torsion){
             i, pin->body_a, pin->body_b, rig_random(seed), rig_random(seed), pick(seed)};
-        t->stop[t->nstop++] = (fw_stop){.pin = i,
-                                        .body_a = pin->body_a,
-                                        .body_b = pin->body_b,
-                                        .side = i % 2 ? 1 : -1,
-                                        .at_rad = pick(seed),
-                                        .stiffness_Nm_per_rad = rig_random(seed),
-                                        .damping_Nms_per_rad = 0.1 * rig_random(seed)};
+        t->stop[t->nstop++] = (fw_effects_stop){.pin = i,
+                                                .body_a = pin->body_a,
+                                                .body_b = pin->body_b,
+                                                .side = i % 2 ? 1 : -1,
+                                                .at_rad = pick(seed),
+                                                .stiffness_Nm_per_rad = rig_random(seed),
+                                                .damping_Nms_per_rad = 0.1 * rig_random(seed)};
         int a = other_body(seed, 99);
-        t->spring[t->nspring++] = (fw_spring){.body_a = a,
-                                              .body_b = other_body(seed, a),
-                                              .ax_m = pick(seed),
-                                              .ay_m = pick(seed),
-                                              .bx_m = pick(seed),
-                                              .by_m = pick(seed),
-                                              .stiffness_N_per_m = rig_random(seed),
-                                              .damping_Ns_per_m = rig_random(seed),
-                                              .length_m = rig_random(seed),
-                                              .cable = i == 1};
-        t->load[t->nload++] = (fw_point_load){i, pick(seed), pick(seed), pick(seed), pick(seed)};
-        t->timed[t->ntimed++] = (fw_timed_load){i + 1,      pick(seed), pick(seed), pick(seed),
-                                                pick(seed), pick(seed), &p->ramp};
+        t->spring[t->nspring++] = (fw_device_spring){.body_a = a,
+                                                     .body_b = other_body(seed, a),
+                                                     .ax_m = pick(seed),
+                                                     .ay_m = pick(seed),
+                                                     .bx_m = pick(seed),
+                                                     .by_m = pick(seed),
+                                                     .stiffness_N_per_m = rig_random(seed),
+                                                     .damping_Ns_per_m = rig_random(seed),
+                                                     .length_m = rig_random(seed),
+                                                     .cable = i == 1};
+        t->load[t->nload++] =
+            (fw_effects_point_load){i, pick(seed), pick(seed), pick(seed), pick(seed)};
+        t->timed[t->ntimed++] = (fw_effects_timed_load){
+            i + 1, pick(seed), pick(seed), pick(seed), pick(seed), pick(seed), &p->ramp};
     }
-    t->slide[t->nslide++] = (fw_slide){0, rig_random(seed), rig_random(seed)};
+    t->slide[t->nslide++] = (fw_effects_slide){0, rig_random(seed), rig_random(seed)};
 }
 
 static void plant_new(fw_arena *arena, uint64_t seed, plant *p) {
@@ -104,7 +109,7 @@ static void plant_new(fw_arena *arena, uint64_t seed, plant *p) {
         rig_pin_local(&p->r, "pin", a, pick(&seed), pick(&seed), other_body(&seed, a), pick(&seed),
                       pick(&seed));
     }
-    random_ties(arena, p, &seed);
+    random_joints(arena, p, &seed);
     random_terms(arena, p, &seed);
     double q[N];
     for (int b = 0; b < BODIES; b++) {
@@ -113,21 +118,23 @@ static void plant_new(fw_arena *arena, uint64_t seed, plant *p) {
         q[3 * b + 2] = p->r.m.body[b].phi_rad;
     }
     fw_diags diags = fw_diags_new(arena);
-    assert_int_equal(fw_model_new(arena, &p->r.m, &p->terms, q, 5, NULL, &diags, &p->m), FW_OK);
+    assert_int_equal(fw_multibody_model_new(arena, &p->r.m, &p->loads, q, 5, NULL, &diags, &p->m),
+                     FW_OK);
     p->m->piece = 1;
 }
 
 /* G^T lambda - Q at y, with the flags of stops and cables as they are */
-static void balance(fw_model *m, double t, const double *y, const double *lambda, double *f) {
-    fw_model_pose(m, y);
-    fw_model_forces(m, t, y);
+static void balance(fw_multibody_model *m, double t, const double *y, const double *lambda,
+                    double *f) {
+    fw_multibody_model_pose(m, y);
+    fw_multibody_model_forces(m, t, y);
     for (int i = 0; i < N; i++)
         f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * m->accel[i];
-    fw_model_transpose(m, lambda, f);
+    fw_multibody_model_transpose(m, lambda, f);
 }
 
 /* largest difference between column j of the tangent and the difference quotient of order 6 */
-static double column_error(fw_model *m, double t, double *y, const double *lambda, int j,
+static double column_error(fw_multibody_model *m, double t, double *y, const double *lambda, int j,
                            const double *matrix, int column) {
     static const double weight[6] = {-1.0 / 60, 9.0 / 60,  -45.0 / 60,
                                      45.0 / 60, -9.0 / 60, 1.0 / 60};
@@ -140,7 +147,7 @@ static double column_error(fw_model *m, double t, double *y, const double *lambd
             sum[i] += weight[k] * f[i] / h;
     }
     y[j] = keep;
-    fw_model_pose(m, y);
+    fw_multibody_model_pose(m, y);
     for (int i = 0; i < N; i++)
         worst = fmax(worst, fabs(sum[i] - matrix[i * N + column]));
     return worst;
@@ -154,7 +161,7 @@ static void every_joint_and_force(void **state) {
         uint64_t noise = seed * 7919;
         plant p;
         plant_new(arena, seed, &p);
-        fw_model *m = p.m;
+        fw_multibody_model *m = p.m;
         double y[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N], t = 1.5 / m->scale.time_s;
         for (int i = 0; i < 2 * N; i++)
             y[i] = pick(&noise);
@@ -164,11 +171,11 @@ static void every_joint_and_force(void **state) {
             lambda[2 * i + 1] = two ? pick(&noise) : 0;
             kinds[m->block[i].rows]++;
         }
-        fw_model_set_switches(m, t, y);
-        for (int i = 0; i < fw_model_switches(m); i++)
-            if (fw_model_switch_on(m, i)) *(i < m->nstop ? &stops : &cables) += 1;
-        fw_model_pose(m, y);
-        fw_tangent(m, t, y, lambda, k, c);
+        fw_multibody_model_set_switches(m, t, y);
+        for (int i = 0; i < fw_multibody_model_switches(m); i++)
+            if (fw_multibody_model_switch_on(m, i)) *(i < m->nstop ? &stops : &cables) += 1;
+        fw_multibody_model_pose(m, y);
+        fw_statics_tangent(m, t, y, lambda, k, c);
         for (int j = 0; j < N; j++) {
             double stiff = column_error(m, t, y, lambda, j, k, j);
             double damp = column_error(m, t, y, lambda, N + j, c, j);
@@ -195,8 +202,8 @@ static void rest_is_symmetric(void **state) {
             lambda[i] = pick(&noise);
         for (int i = 0; i < N; i++)
             y[i] = pick(&noise), x[i] = pick(&noise);
-        fw_model_pose(p.m, y);
-        fw_tangent(p.m, 0, y, lambda, k, c);
+        fw_multibody_model_pose(p.m, y);
+        fw_statics_tangent(p.m, 0, y, lambda, k, c);
         for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++) {
                 assert_near(k[i * N + j], k[j * N + i], 1e-14);
@@ -215,15 +222,15 @@ static void springs_without_length(void **state) {
         fw_arena *arena = fw_arena_new(0);
         plant p;
         plant_new(arena, seed, &p);
-        fw_terms *t = &p.terms;
+        fw_effects_loads *t = &p.loads;
         t->ntorsion = t->nstop = t->nload = t->ntimed = t->nslide = 0;
         for (int i = 0; i < 3; i++) {
-            fw_spring *s = &t->spring[i];
+            fw_device_spring *s = &t->spring[i];
             if (s->body_b == FW_GROUND) s->body_b = s->body_a, s->body_a = FW_GROUND;
-            const fw_mass *b = &p.r.m.body[s->body_b];
+            const fw_mechanism_mass *b = &p.r.m.body[s->body_b];
             double x = s->ax_m, y = s->ay_m;
             if (s->body_a != FW_GROUND) {
-                const fw_mass *a = &p.r.m.body[s->body_a];
+                const fw_mechanism_mass *a = &p.r.m.body[s->body_a];
                 x = a->x_m + cos(a->phi_rad) * s->ax_m - sin(a->phi_rad) * s->ay_m;
                 y = a->y_m + sin(a->phi_rad) * s->ax_m + cos(a->phi_rad) * s->ay_m;
             }
@@ -233,14 +240,14 @@ static void springs_without_length(void **state) {
         }
         double q[N], u[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N];
         for (int i = 0; i < N; i++) {
-            const fw_mass *b = &p.r.m.body[i / 3];
+            const fw_mechanism_mass *b = &p.r.m.body[i / 3];
             q[i] = i % 3 == 0 ? b->x_m : i % 3 == 1 ? b->y_m : b->phi_rad;
         }
         fw_diags diags = fw_diags_new(arena);
-        assert_int_equal(fw_model_new(arena, &p.r.m, t, q, 5, NULL, &diags, &p.m), FW_OK);
+        assert_int_equal(fw_multibody_model_new(arena, &p.r.m, t, q, 5, NULL, &diags, &p.m), FW_OK);
         p.m->piece = 1;
-        fw_model_pose(p.m, u);
-        fw_tangent(p.m, 0, u, lambda, k, c);
+        fw_multibody_model_pose(p.m, u);
+        fw_statics_tangent(p.m, 0, u, lambda, k, c);
         double most = 0;
         for (int j = 0; j < N; j++) {
             double stiff = column_error(p.m, 0, u, lambda, j, k, j);

@@ -5,25 +5,25 @@
 
 static void decades(void **state) {
     (void)state;
-    fw_axis a = fw_axis_new(true);
-    fw_axis_add(&a, 3e-4);
-    fw_axis_add(&a, 2e-9);
-    fw_axis_add(&a, 0);
-    fw_axis_add(&a, (double)NAN);
-    fw_axis_add(&a, (double)INFINITY);
-    fw_axis_end(&a);
+    fw_study_axis a = fw_study_axis_new(true);
+    fw_study_axis_add(&a, 3e-4);
+    fw_study_axis_add(&a, 2e-9);
+    fw_study_axis_add(&a, 0);
+    fw_study_axis_add(&a, (double)NAN);
+    fw_study_axis_add(&a, (double)INFINITY);
+    fw_study_axis_end(&a);
     assert_near(a.low, -9, 0);
     assert_near(a.high, -3, 0);
-    fw_panel p = {.x = 10, .y = 20, .width = 600, .height = 100, .ax = a, .ay = a};
-    assert_near(fw_panel_x(&p, 1e-3), 10, 1e-9); /* it falls to the right */
-    assert_near(fw_panel_x(&p, 1e-4), 110, 1e-9);
-    assert_near(fw_panel_x(&p, 1e-9), 610, 1e-9);
-    assert_near(fw_panel_x(&p, 1e-20), 610, 1e-9); /* stays inside */
+    fw_study_panel p = {.x = 10, .y = 20, .width = 600, .height = 100, .ax = a, .ay = a};
+    assert_near(fw_study_panel_x(&p, 1e-3), 10, 1e-9); /* it falls to the right */
+    assert_near(fw_study_panel_x(&p, 1e-4), 110, 1e-9);
+    assert_near(fw_study_panel_x(&p, 1e-9), 610, 1e-9);
+    assert_near(fw_study_panel_x(&p, 1e-20), 610, 1e-9); /* stays inside */
     p.ay.falls = false;
-    assert_near(fw_panel_y(&p, 1e-9), 120, 1e-9);
-    assert_near(fw_panel_y(&p, 1e-3), 20, 1e-9);
-    fw_axis none = fw_axis_new(false);
-    fw_axis_end(&none);
+    assert_near(fw_study_panel_y(&p, 1e-9), 120, 1e-9);
+    assert_near(fw_study_panel_y(&p, 1e-3), 20, 1e-9);
+    fw_study_axis none = fw_study_axis_new(false);
+    fw_study_axis_end(&none);
     assert_true(none.high > none.low);
 }
 
@@ -32,10 +32,10 @@ static void labels(void **state) {
     static const double y[][5] = {
         {50, 50, 50, 50, 50}, {10, 11, 12, 190, 191}, {198, 199, 199, 199, 199}, {3, 1, 2, 1, 0}};
     for (int k = 0; k < 4; k++) {
-        fw_labels l = {0};
+        fw_study_labels l = {0};
         for (int i = 0; i < 5; i++)
-            fw_labels_add(&l, "x", 0, y[k][i], i);
-        fw_labels_spread(&l, 5, 195, 16);
+            fw_study_labels_add(&l, "x", 0, y[k][i], i);
+        fw_study_labels_spread(&l, 5, 195, 16);
         for (int i = 0; i < 5; i++) {
             assert_true(l.item[i].at >= 5 - 1e-9 && l.item[i].at <= 195 + 1e-9);
             if (i > 0) {

@@ -15,7 +15,7 @@ static void by_hand(void **state) {
     const double error[] = {1e-2, 1e-3, 1e-4, 1e-4, 1e-6, 1e-6, 1e-9, (double)NAN, 0};
     const bool want[] = {true, false, true, false, true, false, false, false, false};
     bool front[9];
-    fw_front_mark(cost, error, 9, front);
+    fw_study_front_mark(cost, error, 9, front);
     for (int i = 0; i < 9; i++)
         if (front[i] != want[i]) fail_msg("point %d", i);
 }
@@ -29,10 +29,10 @@ static void of_random_clouds(void **state) {
         bool front[40];
         int n = 1 + trial % 40, members = 0;
         for (int i = 0; i < n; i++) {
-            cost[i] = 1 + floor(20 * uniform(&seed)); /* ties happen */
+            cost[i] = 1 + floor(20 * uniform(&seed)); /* joints happen */
             error[i] = pow(10, -floor(12 * uniform(&seed)));
         }
-        fw_front_mark(cost, error, n, front);
+        fw_study_front_mark(cost, error, n, front);
         for (int i = 0; i < n; i++) {
             bool beaten = false, twin = false;
             for (int k = 0; k < n; k++) {
@@ -54,15 +54,16 @@ static void a_power_law(void **state) {
     bool front[9];
     for (int i = 0; i < 9; i++)
         error[i] = pow(10, -2 - i), cost[i] = 3e6 * pow(error[i], -0.125);
-    fw_front_mark(cost, error, 9, front);
-    assert_relative(fw_front_digit(cost, error, front, 9), pow(10, 0.125), 1e-12);
-    assert_relative(fw_front_cost(cost, error, front, 9, 3e-5), 3e6 * pow(3e-5, -0.125), 1e-12);
-    assert_relative(fw_front_cost(cost, error, front, 9, 1), cost[0], 0);
-    assert_true(isnan(fw_front_cost(cost, error, front, 9, 1e-11)));
+    fw_study_front_mark(cost, error, 9, front);
+    assert_relative(fw_study_front_digit(cost, error, front, 9), pow(10, 0.125), 1e-12);
+    assert_relative(fw_study_front_cost(cost, error, front, 9, 3e-5), 3e6 * pow(3e-5, -0.125),
+                    1e-12);
+    assert_relative(fw_study_front_cost(cost, error, front, 9, 1), cost[0], 0);
+    assert_true(isnan(fw_study_front_cost(cost, error, front, 9, 1e-11)));
     front[0] = true;
     for (int i = 1; i < 9; i++)
         front[i] = false;
-    assert_true(isnan(fw_front_digit(cost, error, front, 9)));
+    assert_true(isnan(fw_study_front_digit(cost, error, front, 9)));
 }
 
 static void orders(void **state) {
@@ -70,12 +71,12 @@ static void orders(void **state) {
     double work[7], error[7];
     for (int i = 0; i < 7; i++)
         work[i] = 100 * pow(1.7, i), error[i] = 5 * pow(work[i], -5);
-    assert_relative(fw_front_order(work, error, 7, 0), 5, 1e-10);
+    assert_relative(fw_study_front_order(work, error, 7, 0), 5, 1e-10);
     error[6] = 1e-15, error[5] = 2e-15; /* round-off does not count */
-    assert_relative(fw_front_order(work, error, 7, 3e-15), 5, 1e-10);
-    assert_true(isnan(fw_front_order(work, error, 2, 0)));
+    assert_relative(fw_study_front_order(work, error, 7, 3e-15), 5, 1e-10);
+    assert_true(isnan(fw_study_front_order(work, error, 2, 0)));
     error[1] = (double)NAN;
-    assert_relative(fw_front_order(work, error, 5, 0), 5, 1e-10);
+    assert_relative(fw_study_front_order(work, error, 5, 0), 5, 1e-10);
 }
 
 int main(void) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Medians and their intervals, against tables and distributions whose median is known. */
-#include "study/interval.h"
+#include "study/study_interval.h"
 #include "test.h"
 
 static double uniform(uint64_t *s) {
@@ -14,23 +14,23 @@ static void ranks(void **state) {
     static const int row[][2] = {{5, 0},  {6, 1},  {8, 1},  {9, 2},  {11, 2},
                                  {12, 3}, {15, 4}, {20, 6}, {21, 6}, {25, 8}};
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
-        assert_int_equal(fw_median_rank(row[i][0]), row[i][1]);
+        assert_int_equal(fw_study_median_rank(row[i][0]), row[i][1]);
 }
 
 static void plain(void **state) {
     (void)state;
     double odd[] = {3, 1, 2, 9, 5, 7, 4}, even[] = {4, 1, 3, 2}, one[] = {5};
-    fw_median m = fw_median_of(odd, 7);
+    fw_study_median m = fw_study_median_of(odd, 7);
     assert_near(m.value, 4, 0);
     assert_near(m.low, 1, 0);
     assert_near(m.high, 9, 0);
-    m = fw_median_of(even, 4);
+    m = fw_study_median_of(even, 4);
     assert_near(m.value, 2.5, 0);
-    assert_true(isnan(m.low) && !fw_median_told(&m));
-    m = fw_median_of(one, 1);
+    assert_true(isnan(m.low) && !fw_study_median_told(&m));
+    m = fw_study_median_of(one, 1);
     assert_near(m.value, 5, 0);
-    m = fw_median_of(one, 0);
-    assert_true(isnan(m.value) && !fw_median_told(&m));
+    m = fw_study_median_of(one, 0);
+    assert_true(isnan(m.value) && !fw_study_median_told(&m));
 }
 
 /* with normal, exponential and Cauchy samples (which have no mean) the interval holds the median in
@@ -51,7 +51,7 @@ static void coverage(void **state) {
                        : kind == 1 ? -log(u)
                                    : tan(pi * (u - 0.5));
             }
-            fw_median m = fw_median_of(x, N);
+            fw_study_median m = fw_study_median_of(x, N);
             held += m.low <= median[kind] && median[kind] <= m.high;
         }
         double share = held / (double)TRIALS;
@@ -68,10 +68,10 @@ static void refusal(void **state) {
         noisy[i] = 1 + uniform(&seed);
         calm[i] = (i % 6 == 5 ? 30 : 1) * (1 + 0.02 * uniform(&seed));
     }
-    fw_median m = fw_median_of(noisy, 25);
-    assert_false(fw_median_told(&m));
-    m = fw_median_of(calm, 25);
-    assert_true(fw_median_told(&m));
+    fw_study_median m = fw_study_median_of(noisy, 25);
+    assert_false(fw_study_median_told(&m));
+    m = fw_study_median_of(calm, 25);
+    assert_true(fw_study_median_told(&m));
     assert_near(m.value, 1.01, 0.011);
 }
 

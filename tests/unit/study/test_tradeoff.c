@@ -7,7 +7,7 @@
 
 static fw_plan *plan_of(const char *file, const char *path, const char *value) {
     char name[600];
-    const fw_set set = {path, value};
+    const fw_device_set set = {path, value};
     fw_plan_options options = fw_plan_options_default();
     options.data_directory = FW_TEST_SOURCE_DIR;
     options.set = path ? &set : NULL;
@@ -19,10 +19,10 @@ static fw_plan *plan_of(const char *file, const char *path, const char *value) {
     return plan;
 }
 
-static const fw_tradeoff *run(fw_plan *plan, double budget_s) {
-    const fw_tradeoff *t;
-    const fw_tradeoff_options options = {.budget_s = budget_s};
-    assert_int_equal(fw_tradeoff_run(plan, &options, &t), FW_OK);
+static const fw_study_tradeoff *run(fw_plan *plan, double budget_s) {
+    const fw_study_tradeoff *t;
+    const fw_study_tradeoff_options options = {.budget_s = budget_s};
+    assert_int_equal(fw_study_tradeoff_run(plan, &options, &t), FW_OK);
     return t;
 }
 
@@ -45,8 +45,8 @@ static void quad(double t_ms, double phi[5]) {
     assert_true(found);
 }
 
-static const fw_tradeoff_curve *curve(const fw_tradeoff *t, const char *method,
-                                      const char *integrator) {
+static const fw_study_tradeoff_curve *curve(const fw_study_tradeoff *t, const char *method,
+                                            const char *integrator) {
     for (int i = 0; i < t->ncurve; i++)
         if (strcmp(t->curve[i].method, method) == 0 &&
             strcmp(t->curve[i].integrator, integrator) == 0)
@@ -68,12 +68,12 @@ static void reference_and_errors(void **state) {
     for (int i = 0; i < 6; i++)
         largest = fmax(largest, fabs(want[i]));
     fw_plan *plan = plan_of("tests/data/six-bar-benchmark.xml", "scene[step]/@duration", "0.6 ms");
-    const fw_tradeoff *t = run(plan, 1);
+    const fw_study_tradeoff *t = run(plan, 1);
     assert_true(t->reference.independent);
     assert_true(t->reference.error < 1e-10);
     int done = 0;
     for (int i = -2; i < t->npoint; i++) {
-        const fw_tradeoff_point *p = i < 0 ? t->reference.run[i + 2] : &t->point[i];
+        const fw_study_tradeoff_point *p = i < 0 ? t->reference.run[i + 2] : &t->point[i];
         if (p->state != FW_TRADEOFF_DONE) continue;
         double off = 0;
         for (int k = 0; k < 6; k++)
@@ -94,7 +94,7 @@ static void reference_and_errors(void **state) {
 static void orders(void **state) {
     (void)state;
     fw_plan *plan = plan_of("tests/data/six-bar-benchmark.xml", "scene[step]/@duration", "3 ms");
-    const fw_tradeoff *t = run(plan, 3);
+    const fw_study_tradeoff *t = run(plan, 3);
     assert_near(curve(t, "chain", "rk4")->order, 4, 0.15);
     assert_near(curve(t, "chain", "dopri5")->order, 5, 1);
     assert_near(curve(t, "chain", "generalised-alpha")->order, 2, 0.4);
@@ -107,9 +107,9 @@ static void orders(void **state) {
     /* every method solves the same equations, so that the same tolerance gives the same error;
        minimal has other coordinates, whose errors are others */
     const double own = t->point[curve(t, "chain", "dop853")->first].error;
-    for (size_t m = 0; fw_method_at(m).name; m++) {
-        const char *name = fw_method_at(m).name;
-        const fw_tradeoff_point *p = &t->point[curve(t, name, "dop853")->first];
+    for (size_t m = 0; fw_multibody_method_at(m).name; m++) {
+        const char *name = fw_multibody_method_at(m).name;
+        const fw_study_tradeoff_point *p = &t->point[curve(t, name, "dop853")->first];
         if (p->state != FW_TRADEOFF_DONE) continue;
         if (strcmp(name, "minimal") == 0)
             assert_near(log10(p->error), log10(own), 0.5);
@@ -126,7 +126,7 @@ static void same_bytes(void **state) {
     for (int i = 0; i < 2; i++) {
         plan[i] = plan_of("docs/mechanisms/toggle.xml", NULL, NULL);
         fw_text json = fw_text_new(plan[i]->arena);
-        assert_int_equal(fw_tradeoff_json(run(plan[i], 1), &json), FW_OK);
+        assert_int_equal(fw_study_tradeoff_json(run(plan[i], 1), &json), FW_OK);
         if (i == 0)
             first = json;
         else
@@ -140,7 +140,7 @@ static void same_bytes(void **state) {
 static void budget(void **state) {
     (void)state;
     fw_plan *plan = plan_of("docs/mechanisms/squeezer.xml", NULL, NULL);
-    const fw_tradeoff *t = run(plan, 1);
+    const fw_study_tradeoff *t = run(plan, 1);
     int skipped = 0;
     double sum = 0;
     for (int i = 0; i < t->npoint; i++) {

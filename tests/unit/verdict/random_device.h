@@ -185,22 +185,22 @@ static inline fw_quantity device_known(double value) {
     return (fw_quantity){.value = value, .unit = "1", .status = FW_TYPICAL, .source = ""};
 }
 
-static inline fw_variant device_silicon(void) {
-    return (fw_variant){.material = {.id = "silicon-100",
-                                     .name = "silicon",
-                                     .youngs = device_known(169e9),
-                                     .poisson = device_known(0.28),
-                                     .density = device_known(2329),
-                                     .strength = device_known(2.5e9),
-                                     .criterion = "fracture",
-                                     .loss = device_known(1e-3),
-                                     .expansion = device_known(2.6e-6),
-                                     .modulus_change = device_known(-60e-6)},
-                        .substrate_expansion = device_known(2.6e-6),
-                        .thickness_m = 50e-6,
-                        .explicit_mass_scale = 1,
-                        .explicit_stiffness_scale = 1,
-                        .explicit_damping_scale = 1};
+static inline fw_mechanism_variant device_silicon(void) {
+    return (fw_mechanism_variant){.material = {.id = "silicon-100",
+                                               .name = "silicon",
+                                               .youngs = device_known(169e9),
+                                               .poisson = device_known(0.28),
+                                               .density = device_known(2329),
+                                               .strength = device_known(2.5e9),
+                                               .criterion = "fracture",
+                                               .loss = device_known(1e-3),
+                                               .expansion = device_known(2.6e-6),
+                                               .modulus_change = device_known(-60e-6)},
+                                  .substrate_expansion = device_known(2.6e-6),
+                                  .thickness_m = 50e-6,
+                                  .explicit_mass_scale = 1,
+                                  .explicit_stiffness_scale = 1,
+                                  .explicit_damping_scale = 1};
 }
 
 /* ---- judging ---- */
@@ -214,9 +214,10 @@ static inline fw_status device_judge(fw_arena *arena, const char *xml, double ac
     fw_status status =
         fw_device_read(arena, "random.xml", xml, strlen(xml), NULL, 0, &diags, &device);
     if (status != FW_OK) fail_msg("%s\n%s", diags.item[0].message, xml);
-    fw_variant *variant = fw_arena_one(arena, fw_variant);
+    fw_mechanism_variant *variant = fw_arena_one(arena, fw_mechanism_variant);
     *variant = device_silicon();
-    *verdict = (fw_verdict){.nvariant = 1, .variant = fw_arena_array(arena, fw_variant_verdict, 1)};
+    *verdict = (fw_verdict){.nvariant = 1,
+                            .variant = fw_arena_array(arena, fw_verdict_variant_verdict, 1)};
     verdict->variant[0].variant = variant;
     const fw_verdict_options options = {.motion = {.accuracy = accuracy, .samples = 65}};
     status = fw_verdict_run(arena, device, &options, &diags, verdict, &layout);

@@ -10,8 +10,9 @@ static double unit(uint64_t *seed) {
     return (double)(*seed >> 11) / 9007199254740992.0;
 }
 
-static fw_hinge_verdict hinge(double u, double numeric, double model, double lasting) {
-    fw_hinge_verdict h = {.scene = "s", .utilisation = u, .numeric = numeric, .lasting = lasting};
+static fw_verdict_hinge_verdict hinge(double u, double numeric, double model, double lasting) {
+    fw_verdict_hinge_verdict h = {
+        .scene = "s", .utilisation = u, .numeric = numeric, .lasting = lasting};
     h.utilisation_low = u * (1 - model) - numeric;
     h.utilisation_high = u * (1 + model) + numeric;
     h.decision = h.utilisation_low > 1    ? FW_REJECT
@@ -21,7 +22,7 @@ static fw_hinge_verdict hinge(double u, double numeric, double model, double las
 }
 
 /* some outcome is not inconclusive */
-static bool decides(const fw_hinge_verdict *h, double moves, double stays) {
+static bool decides(const fw_verdict_hinge_verdict *h, double moves, double stays) {
     for (int i = 0; i <= 400; i++) {
         double u = h->utilisation + moves * (i - 200) / 200.0;
         if (u * (1 + stays) < 1 || u * (1 - stays) > 1) return true;
@@ -37,16 +38,16 @@ static void no_outcome_is_missed(void **state) {
         double u = 0.8 + 0.4 * unit(&seed), model = 0.02 + 0.1 * unit(&seed);
         double numeric = pow(10, -6 + 5 * unit(&seed));
         double lasting = model * unit(&seed);
-        fw_hinge_verdict h = hinge(u, numeric, model, lasting);
+        fw_verdict_hinge_verdict h = hinge(u, numeric, model, lasting);
         if (h.decision != FW_INCONCLUSIVE) continue;
-        fw_closer closer = fw_verdict_closer(&h, 1);
-        count[closer]++;
-        if (closer == FW_CLOSER_NUMBERS) {
+        fw_verdict_refinement refinement = fw_verdict_refinement_of(&h, 1);
+        count[refinement]++;
+        if (refinement == FW_REFINE_NUMBERS) {
             assert_true(numeric > 1e-5 && decides(&h, numeric, model));
         } else {
             if (numeric > 1e-5) assert_false(decides(&h, numeric * 0.999, model));
             bool better = decides(&h, (numeric + u * (model - lasting)) * 0.999, lasting);
-            if (closer == FW_CLOSER_NOTHING) assert_false(better);
+            if (refinement == FW_REFINE_NOTHING) assert_false(better);
         }
     }
     for (int c = 0; c < 3; c++)
@@ -56,15 +57,15 @@ static void no_outcome_is_missed(void **state) {
 /* one hinge that stays inconclusive spares the look at another, unless that one may be rejected */
 static void all_hinges_count(void **state) {
     (void)state;
-    fw_hinge_verdict two[2] = {hinge(1, 1e-6, 0.03, 0.03), hinge(0.975, 0.01, 0.02, 0.02)};
-    assert_int_equal(fw_verdict_closer(two, 1), FW_CLOSER_NOTHING);
-    assert_int_equal(fw_verdict_closer(two + 1, 1), FW_CLOSER_NUMBERS);
-    assert_int_equal(fw_verdict_closer(two, 2), FW_CLOSER_NOTHING);
+    fw_verdict_hinge_verdict two[2] = {hinge(1, 1e-6, 0.03, 0.03), hinge(0.975, 0.01, 0.02, 0.02)};
+    assert_int_equal(fw_verdict_refinement_of(two, 1), FW_REFINE_NOTHING);
+    assert_int_equal(fw_verdict_refinement_of(two + 1, 1), FW_REFINE_NUMBERS);
+    assert_int_equal(fw_verdict_refinement_of(two, 2), FW_REFINE_NOTHING);
     two[1] = hinge(1.025, 0.01, 0.02, 0.02);
-    assert_int_equal(fw_verdict_closer(two, 2), FW_CLOSER_NUMBERS);
+    assert_int_equal(fw_verdict_refinement_of(two, 2), FW_REFINE_NUMBERS);
     two[1] = hinge(0.975, 0.01, 0.02, 0.02);
     two[1].touches = true; /* solids that meet are no question of numbers */
-    assert_int_equal(fw_verdict_closer(two + 1, 1), FW_CLOSER_NOTHING);
+    assert_int_equal(fw_verdict_refinement_of(two + 1, 1), FW_REFINE_NOTHING);
 }
 
 /* where the utilisation stays and numbers go with the accuracy, the one that is asked for decides
@@ -74,14 +75,14 @@ static void enough_decides(void **state) {
     uint64_t seed = 11;
     int count = 0;
     for (int i = 0; i < 20000; i++) {
-        fw_hinge_verdict two[2];
+        fw_verdict_hinge_verdict two[2];
         double numeric[2], model[2];
         for (int k = 0; k < 2; k++) {
             numeric[k] = pow(10, -4 + 3 * unit(&seed));
             model[k] = 0.02 + 0.1 * unit(&seed);
             two[k] = hinge(0.85 + 0.1 * unit(&seed), numeric[k], model[k], 0.01);
         }
-        if (fw_verdict_closer(two, 2) != FW_CLOSER_NUMBERS) continue;
+        if (fw_verdict_refinement_of(two, 2) != FW_REFINE_NUMBERS) continue;
         double share = fw_verdict_enough(two, 2, 1e-3) / 1e-3;
         assert_true(share > 0 && share <= 1);
         bool decided = true, looser = true, stays = true;

@@ -5,11 +5,11 @@
 static const double none = (double)NAN;
 
 typedef struct bench {
-    fw_mass body[2];
-    fw_joint joint[1];
-    fw_pin pin[1];
-    fw_tie tie[3];
-    fw_driver driver[1];
+    fw_mechanism_mass body[2];
+    fw_device_revolute revolute[1];
+    fw_mechanism_pin pin[1];
+    fw_device_joint joint[3];
+    fw_device_driver driver[1];
     fw_device device;
     fw_mechanism m;
 } bench;
@@ -17,44 +17,44 @@ typedef struct bench {
 /* a weld, a rod and a slide between two bodies, all of them closed */
 static void bench_new(bench *b) {
     memset(b, 0, sizeof *b);
-    b->body[0] = (fw_mass){"a", 1e-6, 1e-12, 1e-3, 0, 0.5};
-    b->body[1] = (fw_mass){"b", 1e-6, 1e-12, 4e-3, 1e-3, 0.2};
+    b->body[0] = (fw_mechanism_mass){"a", 1e-6, 1e-12, 1e-3, 0, 0.5};
+    b->body[1] = (fw_mechanism_mass){"b", 1e-6, 1e-12, 4e-3, 1e-3, 0.2};
     double c = cos(0.5), s = sin(0.5), x = 3e-3, y = 1e-3;
     double lx = c * x + s * y, ly = -s * x + c * y; /* centre of b in the frame of a */
-    b->tie[0] = (fw_tie){.id = "weld",
-                         .kind = FW_TIE_WELD,
-                         .body_a = 0,
-                         .body_b = 1,
-                         .ax_m = lx,
-                         .ay_m = ly,
-                         .angle_rad = -0.3};
-    b->tie[1] = (fw_tie){
-        .id = "rod", .kind = FW_TIE_DISTANCE, .body_a = 0, .body_b = 1, .length_m = hypot(x, y)};
-    b->tie[2] = (fw_tie){.id = "slide",
-                         .kind = FW_TIE_PRISMATIC,
-                         .body_a = 0,
-                         .body_b = 1,
-                         .axis_rad = atan2(ly, lx),
-                         .angle_rad = -0.3};
-    b->pin[0] = (fw_pin){.id = "pin",
-                         .body_a = 0,
-                         .body_b = 1,
-                         .ax_m = lx,
-                         .ay_m = ly,
-                         .stop_min_rad = none,
-                         .stop_max_rad = none};
-    b->driver[0] = (fw_driver){.id = "pull", .joint = FW_NONE, .tie = 1};
+    b->joint[0] = (fw_device_joint){.id = "weld",
+                                    .kind = FW_JOINT_WELD,
+                                    .body_a = 0,
+                                    .body_b = 1,
+                                    .ax_m = lx,
+                                    .ay_m = ly,
+                                    .angle_rad = -0.3};
+    b->joint[1] = (fw_device_joint){
+        .id = "rod", .kind = FW_JOINT_DISTANCE, .body_a = 0, .body_b = 1, .length_m = hypot(x, y)};
+    b->joint[2] = (fw_device_joint){.id = "slide",
+                                    .kind = FW_JOINT_PRISMATIC,
+                                    .body_a = 0,
+                                    .body_b = 1,
+                                    .axis_rad = atan2(ly, lx),
+                                    .angle_rad = -0.3};
+    b->pin[0] = (fw_mechanism_pin){.id = "pin",
+                                   .body_a = 0,
+                                   .body_b = 1,
+                                   .ax_m = lx,
+                                   .ay_m = ly,
+                                   .stop_min_rad = none,
+                                   .stop_max_rad = none};
+    b->driver[0] = (fw_device_driver){.id = "pull", .revolute = FW_NONE, .joint = 1};
     for (int i = 0; i < 3; i++)
-        b->tie[i].place = (fw_place){"d.xml", 10 + i, 1};
-    b->joint[0].place = (fw_place){"d.xml", 9, 1};
-    b->device = (fw_device){.joint = b->joint, .njoint = 1};
+        b->joint[i].place = (fw_place){"d.xml", 10 + i, 1};
+    b->revolute[0].place = (fw_place){"d.xml", 9, 1};
+    b->device = (fw_device){.revolute = b->revolute, .nrevolute = 1};
     b->m = (fw_mechanism){.body = b->body,
                           .pin = b->pin,
-                          .tie = b->tie,
+                          .joint = b->joint,
                           .driver = b->driver,
                           .nbody = 2,
                           .npin = 1,
-                          .ntie = 3};
+                          .njoint = 3};
 }
 
 static void every_joint_must_close(void **state) {
@@ -70,28 +70,28 @@ static void every_joint_must_close(void **state) {
             b.pin[0].bx_m = 1e-6;
             break;
         case 2:
-            b.tie[0].bx_m = 1e-6;
+            b.joint[0].bx_m = 1e-6;
             break;
         case 3:
-            b.tie[0].angle_rad = -0.29;
+            b.joint[0].angle_rad = -0.29;
             break;
         case 4:
-            b.tie[1].length_m += 1e-6;
+            b.joint[1].length_m += 1e-6;
             break;
         case 5: /* a driven rod has the driver's length */
-            b.tie[1].length_m += 1e-6;
+            b.joint[1].length_m += 1e-6;
             b.m.ndriver = 1;
             break;
         case 6:
-            b.tie[2].by_m = 1e-6;
+            b.joint[2].by_m = 1e-6;
             break;
         case 7:
-            b.tie[2].angle_rad = 0;
+            b.joint[2].angle_rad = 0;
             break;
         case 8: /* along the axis it may be anywhere; 1 nm is nothing */
-            b.tie[2].ax_m = 0.7 * cos(b.tie[2].axis_rad) * 1e-3;
-            b.tie[2].ay_m = 0.7 * sin(b.tie[2].axis_rad) * 1e-3;
-            b.tie[0].bx_m = 1e-9;
+            b.joint[2].ax_m = 0.7 * cos(b.joint[2].axis_rad) * 1e-3;
+            b.joint[2].ay_m = 0.7 * sin(b.joint[2].axis_rad) * 1e-3;
+            b.joint[0].bx_m = 1e-9;
             break;
         default:
             break;

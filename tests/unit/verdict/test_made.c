@@ -26,8 +26,8 @@ typedef struct set_up {
     fw_arena *arena;
     fw_diags diags;
     const fw_device *device;
-    fw_variant variant;
-    fw_made_input input[3];
+    fw_mechanism_variant variant;
+    fw_verdict_fabrication_input input[3];
 } set_up;
 
 static fw_quantity known(double value, const char *unit) {
@@ -43,50 +43,51 @@ static void begin(set_up *s, const char *load) {
     if (fw_device_read(s->arena, "t.xml", xml, strlen(xml), NULL, 0, &s->diags, &s->device) !=
         FW_OK)
         fail_msg("%d: %s", s->diags.item[0].place.line, s->diags.item[0].message);
-    s->variant = (fw_variant){.flow = "test",
-                              .material = {.id = "silicon-100",
-                                           .name = "silicon",
-                                           .youngs = known(169e9, "Pa"),
-                                           .poisson = known(0.28, "1"),
-                                           .density = known(2329, "kg/m3"),
-                                           .strength = known(2e9, "Pa"),
-                                           .criterion = "fracture",
-                                           .loss = known(1e-3, "1"),
-                                           .expansion = {.unknown = true},
-                                           .modulus_change = {.unknown = true}},
-                              .substrate_expansion = {.unknown = true},
-                              .thickness_m = 50e-6,
-                              .explicit_mass_scale = 1,
-                              .explicit_stiffness_scale = 1,
-                              .explicit_damping_scale = 1};
-    s->input[0] = (fw_made_input){.name = "edge",
-                                  .q = known(0, "m"),
-                                  .low = -0.3e-6,
-                                  .high = 0.3e-6,
-                                  .sigma = 0.15e-6,
-                                  .edge_m = 1};
-    s->input[1] = (fw_made_input){.name = "anisotropy",
-                                  .q = known(0.995, "1"),
-                                  .drawn = 1,
-                                  .even = 1,
-                                  .nominal = 0.995,
-                                  .low = 0.99,
-                                  .high = 1,
-                                  .sigma = 0.003,
-                                  .edge_m = 30e-6,
-                                  .flare_m = -50e-6};
-    s->input[2] = (fw_made_input){.name = "thickness",
-                                  .q = known(50e-6, "m"),
-                                  .drawn = 50e-6,
-                                  .nominal = 50e-6,
-                                  .low = 48e-6,
-                                  .high = 52e-6,
-                                  .sigma = 1e-6,
-                                  .thickness = 1 / 50e-6};
+    s->variant = (fw_mechanism_variant){.flow = "test",
+                                        .material = {.id = "silicon-100",
+                                                     .name = "silicon",
+                                                     .youngs = known(169e9, "Pa"),
+                                                     .poisson = known(0.28, "1"),
+                                                     .density = known(2329, "kg/m3"),
+                                                     .strength = known(2e9, "Pa"),
+                                                     .criterion = "fracture",
+                                                     .loss = known(1e-3, "1"),
+                                                     .expansion = {.unknown = true},
+                                                     .modulus_change = {.unknown = true}},
+                                        .substrate_expansion = {.unknown = true},
+                                        .thickness_m = 50e-6,
+                                        .explicit_mass_scale = 1,
+                                        .explicit_stiffness_scale = 1,
+                                        .explicit_damping_scale = 1};
+    s->input[0] = (fw_verdict_fabrication_input){.name = "edge",
+                                                 .q = known(0, "m"),
+                                                 .low = -0.3e-6,
+                                                 .high = 0.3e-6,
+                                                 .sigma = 0.15e-6,
+                                                 .edge_m = 1};
+    s->input[1] = (fw_verdict_fabrication_input){.name = "anisotropy",
+                                                 .q = known(0.995, "1"),
+                                                 .drawn = 1,
+                                                 .even = 1,
+                                                 .nominal = 0.995,
+                                                 .low = 0.99,
+                                                 .high = 1,
+                                                 .sigma = 0.003,
+                                                 .edge_m = 30e-6,
+                                                 .flare_m = -50e-6};
+    s->input[2] = (fw_verdict_fabrication_input){.name = "thickness",
+                                                 .q = known(50e-6, "m"),
+                                                 .drawn = 50e-6,
+                                                 .nominal = 50e-6,
+                                                 .low = 48e-6,
+                                                 .high = 52e-6,
+                                                 .sigma = 1e-6,
+                                                 .thickness = 1 / 50e-6};
 }
 
-static fw_verdict judge(set_up *s, fw_corners corners) {
-    fw_verdict v = {.nvariant = 1, .variant = fw_arena_array(s->arena, fw_variant_verdict, 1)};
+static fw_verdict judge(set_up *s, fw_verdict_corners corners) {
+    fw_verdict v = {.nvariant = 1,
+                    .variant = fw_arena_array(s->arena, fw_verdict_variant_verdict, 1)};
     const fw_verdict_options options = {.motion = {.accuracy = 1e-3, .samples = 65},
                                         .corners = corners};
     const fw_layout *layout;
@@ -96,13 +97,15 @@ static fw_verdict judge(set_up *s, fw_corners corners) {
     return v;
 }
 
-static fw_variant_verdict at(set_up *s, const double *x) {
-    fw_made made = fw_made_at(s->input, 3, x);
-    fw_made_device *d = fw_arena_one(s->arena, fw_made_device);
-    fw_variant_verdict v = {0};
+static fw_verdict_variant_verdict at(set_up *s, const double *x) {
+    fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(s->input, 3, x);
+    fw_verdict_fabricated_device *d = fw_arena_one(s->arena, fw_verdict_fabricated_device);
+    fw_verdict_variant_verdict v = {0};
     const fw_mechanism *m;
     const fw_verdict_options options = {.motion = {.accuracy = 1e-3, .samples = 65}};
-    assert_int_equal(fw_made_build(s->arena, s->device, NULL, &s->variant, &made, d), FW_OK);
+    assert_int_equal(
+        fw_verdict_fabrication_build(s->arena, s->device, NULL, &s->variant, &fabricated, d),
+        FW_OK);
     assert_null(d->gone);
     v.variant = &d->variant;
     assert_int_equal(fw_mechanism_build(s->arena, &d->device, NULL, &d->variant, &s->diags, &m),
@@ -122,11 +125,12 @@ static void what_is_made_follows_the_edges(void **state) {
     (void)state;
     set_up s;
     begin(&s, "0.02 mN");
-    const fw_made made = {-0.5e-6, 0.25e-6, 0.98, 1.1};
-    fw_made_device d;
-    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &made, &d), FW_OK);
+    const fw_verdict_fabrication fabricated = {-0.5e-6, 0.25e-6, 0.98, 1.1};
+    fw_verdict_fabricated_device d;
+    assert_int_equal(
+        fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &fabricated, &d), FW_OK);
     assert_null(d.gone);
-    const fw_flexure *f = &d.device.flexure[0];
+    const fw_device_flexure *f = &d.device.flexure[0];
     assert_near(f->width_m, 7e-6, 1e-15);
     assert_near(f->gap_m, 7e-6, 1e-15);
     assert_near(f->flare_m, 0.25e-6, 0);
@@ -152,20 +156,23 @@ static void what_is_made_follows_the_edges(void **state) {
     assert_relative(now->body[0].mass_kg, 0.98 * drawn->body[0].mass_kg, 1e-12);
     /* to the end of the range that was compared, unless it was drawn beyond that */
     fw_device wide = *s.device;
-    fw_flexure flexure[2] = {s.device->flexure[0], s.device->flexure[1]};
+    fw_device_flexure flexure[2] = {s.device->flexure[0], s.device->flexure[1]};
     wide.flexure = flexure;
-    const fw_made thin = {-1e-6, 0, 1, 1};
+    const fw_verdict_fabrication thin = {-1e-6, 0, 1, 1};
     const double fillet[] = {3e-6, 8e-6, 9.9e-6, 11e-6}, then[] = {4e-6, 7.5e-6, 7.5e-6, 12e-6};
     for (int i = 0; i < 4; i++) {
         flexure[0].fillet_m = fillet[i];
-        assert_int_equal(fw_made_build(s.arena, &wide, NULL, &s.variant, &thin, &d), FW_OK);
+        assert_int_equal(fw_verdict_fabrication_build(s.arena, &wide, NULL, &s.variant, &thin, &d),
+                         FW_OK);
         assert_near(d.device.flexure[0].fillet_m, then[i], 1e-15);
     }
-    const fw_made cut = {-3.9e-6, 0.3e-6, 1, 1};
-    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &cut, &d), FW_OK);
+    const fw_verdict_fabrication cut = {-3.9e-6, 0.3e-6, 1, 1};
+    assert_int_equal(fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &cut, &d),
+                     FW_OK);
     assert_non_null(d.gone);
-    const fw_made shut = {3.1e-6, 0, 1, 1};
-    assert_int_equal(fw_made_build(s.arena, s.device, NULL, &s.variant, &shut, &d), FW_OK);
+    const fw_verdict_fabrication shut = {3.1e-6, 0, 1, 1};
+    assert_int_equal(fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &shut, &d),
+                     FW_OK);
     assert_non_null(strstr(d.gone, "gap"));
     fw_arena_free(s.arena);
 }
@@ -180,29 +187,29 @@ static void no_corner_is_worse(void **state) {
         set_up s;
         begin(&s, load[n]);
         fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-        const fw_made_verdict *made = v.variant[0].made;
+        const fw_verdict_fabricated_verdict *fabricated = v.variant[0].fabricated;
         decisions[v.decision]++;
-        if (!made) {
+        if (!fabricated) {
             assert_true(v.drawn != FW_ACCEPT);
             fw_arena_free(s.arena);
             continue;
         }
         double worst[2] = {0};
-        fw_decision all = FW_ACCEPT;
+        fw_verdict_decision all = FW_ACCEPT;
         for (unsigned bits = 0; bits < 8; bits++) {
             double x[3];
             corner(&s, bits, x);
-            fw_variant_verdict now = at(&s, x);
+            fw_verdict_variant_verdict now = at(&s, x);
             if (now.decision > all) all = now.decision;
             for (int k = 0; k < 2; k++)
                 worst[k] = fmax(worst[k], now.hinge[k].utilisation);
         }
         if (v.decision == FW_ACCEPT) assert_int_equal(all, FW_ACCEPT);
         if (all == FW_ACCEPT && v.drawn == FW_ACCEPT) assert_int_equal(v.decision, FW_ACCEPT);
-        for (int k = 0; k < 2 && made->ncorner > 1; k++) {
-            const fw_made_hinge *h = &made->hinge[k];
+        for (int k = 0; k < 2 && fabricated->ncorner > 1; k++) {
+            const fw_verdict_fabricated_hinge *h = &fabricated->hinge[k];
             assert_true(worst[k] <= h->most * (1 + 1e-6));
-            const fw_hinge_verdict *tightest = &made->corner[h->corner].hinge[k];
+            const fw_verdict_hinge_verdict *tightest = &fabricated->corner[h->corner].hinge[k];
             assert_near(tightest->utilisation, worst[k], 1e-6 * worst[k] + tightest->numeric);
             assert_true(tightest->numeric < 0.03 * worst[k]);
         }
@@ -224,26 +231,27 @@ static void each_hinge_has_its_own_corner(void **state) {
               "<eyelet on=\"b\" x=\"-0.2 mm\" y=\"0.1 mm\"/></tendon>"
               "<force on=\"b\" fx=\"0 mN\" fy=\"0 uN");
     fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-    const fw_made_verdict *made = v.variant[0].made;
-    assert_non_null(made);
+    const fw_verdict_fabricated_verdict *fabricated = v.variant[0].fabricated;
+    assert_non_null(fabricated);
     double worst[2] = {0};
     unsigned where[2] = {0};
     for (unsigned bits = 0; bits < 8; bits++) {
         double x[3];
         corner(&s, bits, x);
-        fw_variant_verdict now = at(&s, x);
+        fw_verdict_variant_verdict now = at(&s, x);
         for (int k = 0; k < 2; k++) {
             if (now.hinge[k].utilisation > worst[k])
                 worst[k] = now.hinge[k].utilisation, where[k] = bits;
         }
     }
     assert_true(where[0] != where[1]);
-    assert_false(made->all); /* found by their slopes */
+    assert_false(fabricated->all); /* found by their slopes */
     for (int k = 0; k < 2; k++) {
-        const fw_hinge_verdict *tightest = &made->corner[made->hinge[k].corner].hinge[k];
+        const fw_verdict_hinge_verdict *tightest =
+            &fabricated->corner[fabricated->hinge[k].corner].hinge[k];
         /* of B's the thickness makes so little that first order may take the other end */
         assert_near(tightest->utilisation, worst[k], 2e-3 * worst[k]);
-        assert_true(worst[k] <= made->hinge[k].most * (1 + 1e-6));
+        assert_true(worst[k] <= fabricated->hinge[k].most * (1 + 1e-6));
         assert_true(worst[k] > 0.9);
     }
     fw_arena_free(s.arena);
@@ -255,7 +263,7 @@ static void sigma_is_first_order(void **state) {
     set_up s;
     begin(&s, "20 uN");
     fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-    const fw_made_hinge *h = &v.variant[0].made->hinge[0];
+    const fw_verdict_fabricated_hinge *h = &v.variant[0].fabricated->hinge[0];
     double sum = 0;
     for (int i = 0; i < 3; i++) {
         double x[3] = {s.input[0].nominal, s.input[1].nominal, s.input[2].nominal}, u[2];
@@ -277,25 +285,26 @@ static void what_must_be_held_is_enough(void **state) {
     set_up s;
     begin(&s, "150 uN");
     fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-    const fw_made_verdict *made = v.variant[0].made;
+    const fw_verdict_fabricated_verdict *fabricated = v.variant[0].fabricated;
     assert_int_equal(v.drawn, FW_ACCEPT);
     assert_int_equal(v.decision, FW_INCONCLUSIVE);
-    assert_non_null(made->control);
+    assert_non_null(fabricated->control);
     assert_int_equal(v.variant[0].reason[0].number, 237);
-    assert_true(made->held != FW_NONE || made->held_share > 0);
-    fw_made_input was[3];
+    assert_true(fabricated->held != FW_NONE || fabricated->held_share > 0);
+    fw_verdict_fabrication_input was[3];
     memcpy(was, s.input, sizeof was);
     for (int less = 0; less < 2; less++) {
         memcpy(s.input, was, sizeof was);
         for (int i = 0; i < 3; i++) {
-            fw_made_input *in = &s.input[i];
-            double share = made->held == FW_NONE ? fmin(1, made->held_share + 0.08 * less) : 1;
+            fw_verdict_fabrication_input *in = &s.input[i];
+            double share =
+                fabricated->held == FW_NONE ? fmin(1, fabricated->held_share + 0.08 * less) : 1;
             in->low = in->nominal + share * (in->low - in->nominal);
             in->high = in->nominal + share * (in->high - in->nominal);
-            if (i != made->held) continue;
+            if (i != fabricated->held) continue;
             double slack = 0.05 * less * (in->high - in->low);
-            in->low = fmax(in->low, made->held_low - slack);
-            in->high = fmin(in->high, made->held_high + slack);
+            in->low = fmax(in->low, fabricated->held_low - slack);
+            in->high = fmin(in->high, fabricated->held_high + slack);
             in->nominal = fmin(fmax(in->nominal, in->low), in->high);
         }
         fw_verdict again = judge(&s, FW_CORNERS_AUTO);
@@ -314,17 +323,17 @@ static void what_counts_most_is_held(void **state) {
         set_up s;
         begin(&s, load[n]);
         fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-        const fw_made_verdict *made = v.variant[0].made;
-        if (v.decision == FW_INCONCLUSIVE && made->held != FW_NONE) {
-            const double *share = made->hinge[made->governing].share;
+        const fw_verdict_fabricated_verdict *fabricated = v.variant[0].fabricated;
+        if (v.decision == FW_INCONCLUSIVE && fabricated->held != FW_NONE) {
+            const double *share = fabricated->hinge[fabricated->governing].share;
             double most = 0;
             int first = FW_NONE;
             for (int i = 0; i < 3; i++) {
                 double w = fabs(share[i]) / s.input[i].sigma * (s.input[i].high - s.input[i].low);
                 if (w > most) most = w, first = i;
             }
-            assert_int_equal(made->held, first);
-            assert_true(share[first] < 0 && made->held_low > s.input[first].low);
+            assert_int_equal(fabricated->held, first);
+            assert_true(share[first] < 0 && fabricated->held_low > s.input[first].low);
             held++;
         }
         fw_arena_free(s.arena);
@@ -340,16 +349,17 @@ static void made_as_drawn(void **state) {
     s.input[1].nominal = s.input[1].drawn;
     const double x[3] = {s.input[0].nominal, s.input[1].nominal, s.input[2].nominal};
     fw_verdict v = judge(&s, FW_CORNERS_AUTO);
-    fw_variant_verdict again = at(&s, x);
+    fw_verdict_variant_verdict again = at(&s, x);
     for (int k = 0; k < 2; k++) {
-        const fw_hinge_verdict *made = &v.variant[0].made->corner[0].hinge[k];
-        assert_near(made->utilisation, v.variant[0].hinge[k].utilisation, 0);
-        assert_near(made->utilisation, again.hinge[k].utilisation, 1e-12);
+        const fw_verdict_hinge_verdict *fabricated = &v.variant[0].fabricated->corner[0].hinge[k];
+        assert_near(fabricated->utilisation, v.variant[0].hinge[k].utilisation, 0);
+        assert_near(fabricated->utilisation, again.hinge[k].utilisation, 1e-12);
     }
     s.input[0].nominal = 0.1e-6; /* a little wider: no longer the same */
     v = judge(&s, FW_CORNERS_AUTO);
     double drawn = v.variant[0].hinge[0].utilisation;
-    assert_true(fabs(v.variant[0].made->corner[0].hinge[0].utilisation - drawn) > 0.01 * drawn);
+    assert_true(fabs(v.variant[0].fabricated->corner[0].hinge[0].utilisation - drawn) >
+                0.01 * drawn);
     fw_arena_free(s.arena);
 }
 
@@ -368,8 +378,8 @@ static void first_look_decides_alike(void **state) {
                                                 .corners = FW_CORNERS_FIRST,
                                                 .coarse_first = coarse};
             const fw_layout *layout;
-            v[coarse] = (fw_verdict){.nvariant = 1,
-                                     .variant = fw_arena_array(s.arena, fw_variant_verdict, 1)};
+            v[coarse] = (fw_verdict){
+                .nvariant = 1, .variant = fw_arena_array(s.arena, fw_verdict_variant_verdict, 1)};
             v[coarse].variant[0].variant = &s.variant;
             v[coarse].variant[0].input = s.input, v[coarse].variant[0].ninput = 3;
             assert_int_equal(
@@ -389,7 +399,7 @@ static void drawn_only_when_asked(void **state) {
     set_up s;
     begin(&s, "150 uN");
     fw_verdict v = judge(&s, FW_CORNERS_NONE);
-    assert_null(v.variant[0].made);
+    assert_null(v.variant[0].fabricated);
     assert_int_equal(v.decision, FW_ACCEPT);
     assert_int_equal(v.drawn, FW_ACCEPT);
     fw_arena_free(s.arena);

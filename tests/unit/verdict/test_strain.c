@@ -35,25 +35,25 @@ static const struct {
     {"L6 F", -0.0509517562, -4.79495597, 164.955242, 1.5962722, 50784.8996},
 };
 
-static fw_flexure arc(void) {
+static fw_device_flexure arc(void) {
     double angle = 1.5 * acos(-1.0);
-    return (fw_flexure){.id = "H1",
-                        .kind = FW_FLEXURE_CSFH,
-                        .length_m = 100e-6 * angle,
-                        .angle_rad = angle,
-                        .radius_m = 100e-6,
-                        .width_m = 8e-6};
+    return (fw_device_flexure){.id = "H1",
+                               .kind = FW_FLEXURE_CSFH,
+                               .length_m = 100e-6 * angle,
+                               .angle_rad = angle,
+                               .radius_m = 100e-6,
+                               .width_m = 8e-6};
 }
 
 static void section_moments_of_a_whole_six_bar(void **state) {
     (void)state;
-    fw_flexure f = arc();
+    fw_device_flexure f = arc();
     double K = 764912.2e-12 * 147079.09 / 169000.0, W = 30.0105e-6;
     for (size_t i = 0; i < sizeof reference / sizeof reference[0]; i++) {
         double c = cos(reference[i].turned_rad), s = sin(reference[i].turned_rad);
         double fx = -reference[i].fx_uN * 1e-6, fy = -reference[i].fy_uN * 1e-6, root, inside;
-        fw_arc_moments(&f, W, K * reference[i].angle_rad, c * fx + s * fy, -s * fx + c * fy, &root,
-                       &inside);
+        fw_verdict_arc_moments(&f, W, K * reference[i].angle_rad, c * fx + s * fy, -s * fx + c * fy,
+                               &root, &inside);
         double largest = fmax(root, inside) * 1e12;
         if (!(fabs(largest / reference[i].moment - 1.0) < 0.029))
             fail_msg("%s: %g, exact %g", reference[i].name, largest, reference[i].moment);
@@ -63,7 +63,7 @@ static void section_moments_of_a_whole_six_bar(void **state) {
 /* the closed-form extremum is not below any sampled section */
 static void no_section_carries_more(void **state) {
     (void)state;
-    fw_flexure f = arc();
+    fw_device_flexure f = arc();
     uint64_t seed = 3;
     for (int i = 0; i < 2000; i++) {
         double u[4];
@@ -74,7 +74,7 @@ static void no_section_carries_more(void **state) {
         f.angle_rad = 3.2 + 2.4 * u[3];
         double M = u[0] * 1e-7, fx = u[1] * 1e-3, fy = u[2] * 1e-3, W = 25e-6, root, inside,
                most = 0;
-        fw_arc_moments(&f, W, M, fx, fy, &root, &inside);
+        fw_verdict_arc_moments(&f, W, M, fx, fy, &root, &inside);
         for (int k = 0; k <= 2000; k++) {
             double b = f.angle_rad * (k / 2000.0 - 0.5);
             most = fmax(most, fabs(M + W * fy + f.radius_m * (fx * sin(b) - fy * cos(b))));
@@ -84,7 +84,7 @@ static void no_section_carries_more(void **state) {
     }
 }
 
-static fw_flexure_input input_of(const fw_flexure *f) {
+static fw_flexure_input input_of(const fw_device_flexure *f) {
     return (fw_flexure_input){.kind = f->kind,
                               .length_m = f->length_m,
                               .angle_rad = f->angle_rad,
@@ -100,16 +100,16 @@ static fw_flexure_input input_of(const fw_flexure *f) {
 
 /* one flexure between the ground and body 0, which is the upper one; two hinges of it */
 typedef struct one_flexure {
-    fw_flexure f;
+    fw_device_flexure f;
     fw_device device;
-    fw_variant variant;
-    fw_pin pin;
-    fw_hinge hinge[2];
+    fw_mechanism_variant variant;
+    fw_mechanism_pin pin;
+    fw_mechanism_hinge hinge[2];
     fw_mechanism m;
-    fw_hinge_layout drawn;
+    fw_layout_hinge_layout drawn;
 } one_flexure;
 
-static void set_up(one_flexure *o, fw_flexure f, double axis_rad) {
+static void set_up(one_flexure *o, fw_device_flexure f, double axis_rad) {
     *o = (one_flexure){
         .f = f,
         .variant = {.thickness_m = 50e-6},
@@ -134,21 +134,21 @@ static void pure_rotation_and_bound(void **state) {
     (void)state;
     one_flexure o;
     set_up(&o, arc(), 1.0);
-    fw_hinge_load load = {0.1, 0, 0, 0};
-    assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load),
+    fw_verdict_hinge_load load = {0.1, 0, 0, 0};
+    assert_relative(fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load),
                     0.1 * o.hinge[0].closed_form.strain_per_rad, 1e-12);
     for (int i = 0; i < 360; i++) {
         load.fx_N = 2e-4 * cos(i / 57.3);
         load.fy_N = 2e-4 * sin(i / 57.3);
-        assert_true(fw_hinge_strain(&o.m, &o.hinge[0], NULL, &load) >=
-                    fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load));
+        assert_true(fw_verdict_hinge_strain(&o.m, &o.hinge[0], NULL, &load) >=
+                    fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load));
         /* which of the two bodies is called b does not matter */
-        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
         fw_mechanism n = o.m;
         n.pin = &swapped;
-        fw_hinge_load back = {-load.angle_rad, -load.fx_N, -load.fy_N, 0};
-        assert_relative(fw_hinge_strain(&n, &o.hinge[0], &o.drawn, &back),
-                        fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), 1e-12);
+        fw_verdict_hinge_load back = {-load.angle_rad, -load.fx_N, -load.fy_N, 0};
+        assert_relative(fw_verdict_hinge_strain(&n, &o.hinge[0], &o.drawn, &back),
+                        fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), 1e-12);
     }
 }
 
@@ -159,41 +159,42 @@ static void root_strains_have_signs(void **state) {
     one_flexure o;
     set_up(&o, arc(), 1.0);
     const fw_flexure_result *c = &o.hinge[0].closed_form;
-    fw_hinge_load load = {-0.1, 0, 0, 0};
+    fw_verdict_hinge_load load = {-0.1, 0, 0, 0};
     double s[2], back[2];
-    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
+    fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(s[0], -0.1 * c->strain_per_rad, 1e-12);
     assert_relative(s[1], -0.1 * c->strain_per_rad, 1e-12);
     int governed = 0;
     for (int i = 0; i < 360; i++) {
-        load = (fw_hinge_load){0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
-        const fw_hinge_load other = {-0.1, -load.fx_N, -load.fy_N, 0.3};
+        load = (fw_verdict_hinge_load){0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
+        const fw_verdict_hinge_load other = {-0.1, -load.fx_N, -load.fy_N, 0.3};
         double axial = 2e-4 / (147.08e9 * 8e-6 * 50e-6), root, inside;
-        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
-        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &other, back);
+        fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
+        fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &other, back);
         assert_relative(s[0], -back[0], 1e-12);
         assert_relative(s[1], -back[1], 1e-12);
         double along = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
         double across = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N);
-        fw_arc_moments(&o.f, c->centre_m, 0.1 * c->stiffness_Nm_per_rad, along, across, &root,
-                       &inside);
+        fw_verdict_arc_moments(&o.f, c->centre_m, 0.1 * c->stiffness_Nm_per_rad, along, across,
+                               &root, &inside);
         double most = fmax(fabs(s[0]), fabs(s[1]));
         assert_relative(most, root * c->strain_per_rad / c->stiffness_Nm_per_rad, 1e-12);
         if (root > inside / c->concentration) {
             governed++;
-            assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), most + axial,
-                            1e-12);
+            assert_relative(fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load),
+                            most + axial, 1e-12);
         }
         /* which of the two bodies is called b does not matter */
-        fw_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
+        fw_mechanism_pin swapped = {.id = "A", .body_a = 0, .body_b = FW_GROUND, .hinge = 0};
         fw_mechanism n = o.m;
         n.pin = &swapped;
-        fw_hinge_root_strains(&n, &o.hinge[0], &o.drawn, &other, back);
+        fw_verdict_hinge_root_strains(&n, &o.hinge[0], &o.drawn, &other, back);
         assert_relative(s[0], back[0], 1e-12);
         assert_relative(s[1], back[1], 1e-12);
         /* without a drawing: with the rotation's sign, as much as the peak has */
-        fw_hinge_root_strains(&o.m, &o.hinge[0], NULL, &other, s);
-        assert_relative(s[0] - axial, -fw_hinge_strain(&o.m, &o.hinge[0], NULL, &load), 1e-12);
+        fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], NULL, &other, s);
+        assert_relative(s[0] - axial, -fw_verdict_hinge_strain(&o.m, &o.hinge[0], NULL, &load),
+                        1e-12);
         assert_near(s[1], s[0], 0);
     }
     assert_true(governed > 100);
@@ -208,20 +209,20 @@ static void moments_are_about_the_true_centre(void **state) {
     const double d[2] = {6e-6, -4e-6}, K = o.hinge[0].closed_form.stiffness_Nm_per_rad;
     o.hinge[1].closed_form.offset_m[0] = d[0], o.hinge[1].closed_form.offset_m[1] = d[1];
     for (int i = 0; i < 360; i++) {
-        fw_hinge_load load = {0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
-        fw_hinge_load moved = load;
+        fw_verdict_hinge_load load = {0.1, 2e-4 * cos(i / 57.3), 2e-4 * sin(i / 57.3), 0.3};
+        fw_verdict_hinge_load moved = load;
         double Fx = -(cos(1.3) * load.fx_N + sin(1.3) * load.fy_N);
         double Fy = -(-sin(1.3) * load.fx_N + cos(1.3) * load.fy_N), off[2], plain[2];
         moved.angle_rad += (d[0] * Fy - d[1] * Fx) / K;
-        assert_relative(fw_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load),
-                        fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &moved), 1e-12);
-        fw_hinge_root_strains(&o.m, &o.hinge[1], &o.drawn, &load, off);
-        fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &moved, plain);
+        assert_relative(fw_verdict_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load),
+                        fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &moved), 1e-12);
+        fw_verdict_hinge_root_strains(&o.m, &o.hinge[1], &o.drawn, &load, off);
+        fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &moved, plain);
         for (int side = 0; side < 2; side++)
             assert_near(off[side], plain[side], 1e-15);
         /* without a drawing no direction is known: not below any */
-        assert_true(fw_hinge_strain(&o.m, &o.hinge[1], NULL, &load) >=
-                    fw_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load));
+        assert_true(fw_verdict_hinge_strain(&o.m, &o.hinge[1], NULL, &load) >=
+                    fw_verdict_hinge_strain(&o.m, &o.hinge[1], &o.drawn, &load));
     }
 }
 
@@ -231,26 +232,27 @@ static void root_strains_of_a_leaf(void **state) {
     (void)state;
     one_flexure o;
     set_up(&o,
-           (fw_flexure){.id = "L", .kind = FW_FLEXURE_LEAF, .length_m = 400e-6, .width_m = 8e-6},
+           (fw_device_flexure){
+               .id = "L", .kind = FW_FLEXURE_LEAF, .length_m = 400e-6, .width_m = 8e-6},
            0);
     const fw_flexure_result *c = &o.hinge[0].closed_form;
     double turned = 0.05 * c->strain_per_rad, s[2], back[2];
     double bent = 1e-4 * 200e-6 * c->strain_per_rad / c->stiffness_Nm_per_rad;
-    fw_hinge_load load = {0.05, 0, 1e-4, 0};
-    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
+    fw_verdict_hinge_load load = {0.05, 0, 1e-4, 0};
+    fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(s[0], turned, 1e-12);
     assert_relative(s[1], turned, 1e-12);
-    load = (fw_hinge_load){0.05, 1e-4, 0, 0};
-    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
+    load = (fw_verdict_hinge_load){0.05, 1e-4, 0, 0};
+    fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, s);
     assert_relative(fmax(s[0], s[1]), turned + bent, 1e-12);
     assert_relative(fmin(s[0], s[1]), turned - bent, 1e-10);
-    load = (fw_hinge_load){-0.05, -1e-4, 0, 0};
-    fw_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, back);
+    load = (fw_verdict_hinge_load){-0.05, -1e-4, 0, 0};
+    fw_verdict_hinge_root_strains(&o.m, &o.hinge[0], &o.drawn, &load, back);
     for (int side = 0; side < 2; side++)
         assert_relative(back[side], -s[side], 1e-12);
     double axial = 1e-4 / (147.08e9 * 8e-6 * 50e-6);
-    assert_relative(fw_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load), turned + bent + axial,
-                    1e-12);
+    assert_relative(fw_verdict_hinge_strain(&o.m, &o.hinge[0], &o.drawn, &load),
+                    turned + bent + axial, 1e-12);
 }
 
 /* a path of one arc under any load: at the roots as the arc, inside never less (the arc's formula
@@ -258,15 +260,15 @@ static void root_strains_of_a_leaf(void **state) {
 static void path_as_the_arc_it_is(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_flexure f[2] = {arc(), arc()};
+    fw_device_flexure f[2] = {arc(), arc()};
     double t = f[0].width_m, L = f[0].length_m;
-    const fw_strip_piece one = {L, 1 / f[0].radius_m, {t, t, t}};
+    const fw_geometry_strip_piece one = {L, 1 / f[0].radius_m, {t, t, t}};
     f[1].kind = FW_FLEXURE_PATH, f[1].piece = &one, f[1].npiece = 1;
     fw_device device = {.flexure = f, .nflexure = 2};
-    fw_variant variant = {.thickness_m = 50e-6};
+    fw_mechanism_variant variant = {.thickness_m = 50e-6};
     variant.material.youngs.value = 147.08e9;
-    fw_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
-    fw_hinge hinge[2] = {{.flexure = 0}, {.flexure = 1}};
+    fw_mechanism_pin pin = {.id = "A", .body_a = FW_GROUND, .body_b = 0, .hinge = 0};
+    fw_mechanism_hinge hinge[2] = {{.flexure = 0}, {.flexure = 1}};
     for (int i = 0; i < 2; i++) {
         hinge[i].input = fw_flexure_input_of(&f[i], 4e-6);
         hinge[i].input.depth_m = 50e-6, hinge[i].input.youngs_Pa = 147.08e9;
@@ -274,27 +276,27 @@ static void path_as_the_arc_it_is(void **state) {
         hinge[i].input.safety_factor = 1;
         fw_flexure_closed_form(&hinge[i].input, &hinge[i].closed_form);
     }
-    assert_int_equal(fw_path_strain_new(arena, &hinge[1].input, &hinge[1].section), FW_OK);
+    assert_int_equal(fw_flexure_path_strain_new(arena, &hinge[1].input, &hinge[1].section), FW_OK);
     fw_mechanism m = {.device = &device,
                       .variant = &variant,
                       .pin = &pin,
                       .npin = 1,
                       .hinge = hinge,
                       .nhinge = 2};
-    fw_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
+    fw_layout_hinge_layout drawn = {.drawn = true, .axis_rad = 1.0, .lower = FW_GROUND, .upper = 0};
     double K = hinge[0].closed_form.stiffness_Nm_per_rad;
     for (int i = 0; i < 360; i++) {
-        fw_hinge_load load = {0.1, 3e-4 * cos(i / 57.3), 3e-4 * sin(i / 57.3), 0.3};
-        double want = fw_hinge_strain(&m, &hinge[0], &drawn, &load), root, inside;
-        double got = fw_hinge_strain(&m, &hinge[1], &drawn, &load);
+        fw_verdict_hinge_load load = {0.1, 3e-4 * cos(i / 57.3), 3e-4 * sin(i / 57.3), 0.3};
+        double want = fw_verdict_hinge_strain(&m, &hinge[0], &drawn, &load), root, inside;
+        double got = fw_verdict_hinge_strain(&m, &hinge[1], &drawn, &load);
         double c = cos(1.3), s = sin(1.3), fx = -load.fx_N, fy = -load.fy_N;
-        fw_arc_moments(&f[0], hinge[0].closed_form.centre_m, K * 0.1, c * fx + s * fy,
-                       -s * fx + c * fy, &root, &inside);
+        fw_verdict_arc_moments(&f[0], hinge[0].closed_form.centre_m, K * 0.1, c * fx + s * fy,
+                               -s * fx + c * fy, &root, &inside);
         if (root * hinge[0].closed_form.concentration > 1.2 * inside)
             assert_relative(got, want, 1e-9);
         else
             assert_true(got > 0.999 * want && got < 1.15 * want);
-        assert_true(fw_hinge_strain(&m, &hinge[1], NULL, &load) >= got);
+        assert_true(fw_verdict_hinge_strain(&m, &hinge[1], NULL, &load) >= got);
     }
     fw_arena_free(arena);
 }

@@ -34,19 +34,19 @@ static const reference cases[] = {
 typedef struct scenery {
     rig r;
     fw_device device;
-    fw_flexure flexure;
-    fw_force force[2];
-    fw_torque torque[2];
+    fw_device_flexure flexure;
+    fw_device_force force[2];
+    fw_device_torque torque[2];
 } scenery;
 
 static void six_bar(scenery *s, const reference *load, double share) {
     rig *r = &s->r;
     rig_six_bar(r, false);
-    s->flexure = (fw_flexure){.kind = FW_FLEXURE_CSFH,
-                              .radius_m = 100e-6,
-                              .angle_rad = 1.5 * M_PI,
-                              .length_m = 150e-6 * M_PI,
-                              .width_m = 8e-6};
+    s->flexure = (fw_device_flexure){.kind = FW_FLEXURE_CSFH,
+                                     .radius_m = 100e-6,
+                                     .angle_rad = 1.5 * M_PI,
+                                     .length_m = 150e-6 * M_PI,
+                                     .width_m = 8e-6};
     s->device = (fw_device){.flexure = &s->flexure, .nflexure = 1};
     r->m.device = &s->device;
     r->variant.material.youngs.value = 147.0790923914665e9;
@@ -56,29 +56,30 @@ static void six_bar(scenery *s, const reference *load, double share) {
         r->hinge[i].closed_form.concentration = 1.3;
     }
     for (int i = 0; i < 2; i++) {
-        s->force[i] = (fw_force){.body = load->body[i],
-                                 .fx_N = share * load->load[i][0],
-                                 .fy_N = share * load->load[i][1]};
-        s->torque[i] = (fw_torque){.body = load->body[i], .value_Nm = share * load->load[i][2]};
+        s->force[i] = (fw_device_force){.body = load->body[i],
+                                        .fx_N = share * load->load[i][0],
+                                        .fy_N = share * load->load[i][1]};
+        s->torque[i] =
+            (fw_device_torque){.body = load->body[i], .value_Nm = share * load->load[i][2]};
     }
     r->scene.force = s->force, r->scene.nforce = 2;
     r->scene.torque = s->torque, r->scene.ntorque = 2;
 }
 
-static const fw_statics *rest(rig *r, fw_hinge_model model) {
+static const fw_statics *rest(rig *r, fw_effects_hinge_model model) {
     const fw_statics *out = NULL;
-    const fw_static_options o = {.effects = {.hinge = model}};
-    if (fw_static_equilibrium(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
+    const fw_statics_static_options o = {.effects = {.hinge = model}};
+    if (fw_statics_solve(r->arena, &r->m, &r->scene, &o, &r->diags, &out) != FW_OK)
         fail_msg("%s", r->diags.count ? r->diags.item[r->diags.count - 1].message : "?");
     return out;
 }
 
-static fw_hinge_load load_of(const rig *r, const fw_statics *x, int i) {
-    const fw_pin *p = &r->m.pin[i];
+static fw_verdict_hinge_load load_of(const rig *r, const fw_statics *x, int i) {
+    const fw_mechanism_pin *p = &r->m.pin[i];
     double a = p->body_a == FW_GROUND ? 0 : x->q[3 * p->body_a + 2];
     double b = p->body_b == FW_GROUND ? 0 : x->q[3 * p->body_b + 2];
-    return (fw_hinge_load){x->angle_rad[i], x->reaction_N[2 * i], x->reaction_N[2 * i + 1],
-                           0.5 * (a + b)};
+    return (fw_verdict_hinge_load){x->angle_rad[i], x->reaction_N[2 * i], x->reaction_N[2 * i + 1],
+                                   0.5 * (a + b)};
 }
 
 /* all hinges of the six-bar under four loads, to 3e-8; the strain is that moment's, or what is
@@ -90,19 +91,19 @@ static void moments_of_the_six_bar(void **state) {
         six_bar(&s, &cases[l], 1);
         const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
         for (int i = 0; i < 6; i++) {
-            const fw_hinge *h = &s.r.hinge[i];
-            fw_elastica *beam;
-            const fw_hinge_load at = load_of(&s.r, x, i);
-            assert_int_equal(fw_hinge_beam(s.r.arena, h, &beam), FW_OK);
+            const fw_mechanism_hinge *h = &s.r.hinge[i];
+            fw_flexure_elastica *beam;
+            const fw_verdict_hinge_load at = load_of(&s.r, x, i);
+            assert_int_equal(fw_verdict_hinge_beam(s.r.arena, h, &beam), FW_OK);
             double axis = h->axis_rad + at.frame_rad - 0.5 * at.angle_rad, root, inside;
             const double force[2] = {-cos(axis) * at.fx_N - sin(axis) * at.fy_N,
                                      sin(axis) * at.fx_N - cos(axis) * at.fy_N};
-            assert_true(fw_exact_moments(beam, at.angle_rad, force, 1, &root, &inside));
+            assert_true(fw_verdict_exact_moments(beam, at.angle_rad, force, 1, &root, &inside));
             /* the tables have the largest of the 129 nodes of their steps: less than the largest */
             double off = fmax(root, inside) * 1e12 / cases[l].moment[i] - 1;
             assert_true(off > -3e-8 && off < 1.5e-4);
             if (inside <= root) assert_true(fabs(off) < 3e-8);
-            double strain = fw_hinge_strain_exact(&s.r.m, h, NULL, beam, &at);
+            double strain = fw_verdict_hinge_strain_exact(&s.r.m, h, NULL, beam, &at);
             double area = 8e-6 * 50e-6, E = 147.0790923914665e9;
             double per = h->closed_form.strain_per_rad / h->closed_form.stiffness_Nm_per_rad;
             assert_near(strain,
@@ -123,14 +124,14 @@ static void closed_form_to_second_order(void **state) {
         six_bar(&s, &cases[2], part ? 1.0 / 3 : 1);
         const fw_statics *x = rest(&s.r, FW_HINGE_ELASTICA);
         for (int i = 0; i < 6; i++) {
-            const fw_hinge *h = &s.r.hinge[i];
-            const fw_hinge_load at = load_of(&s.r, x, i);
-            const fw_hinge_layout drawn = {
+            const fw_mechanism_hinge *h = &s.r.hinge[i];
+            const fw_verdict_hinge_load at = load_of(&s.r, x, i);
+            const fw_layout_hinge_layout drawn = {
                 .drawn = true, .upper = s.r.pin[i].body_b, .axis_rad = h->axis_rad};
-            fw_elastica *beam;
-            assert_int_equal(fw_hinge_beam(s.r.arena, h, &beam), FW_OK);
-            double exact = fw_hinge_strain_exact(&s.r.m, h, &drawn, beam, &at);
-            double closed = fw_hinge_strain(&s.r.m, h, &drawn, &at);
+            fw_flexure_elastica *beam;
+            assert_int_equal(fw_verdict_hinge_beam(s.r.arena, h, &beam), FW_OK);
+            double exact = fw_verdict_hinge_strain_exact(&s.r.m, h, &drawn, beam, &at);
+            double closed = fw_verdict_hinge_strain(&s.r.m, h, &drawn, &at);
             off[part] = fmax(off[part], fabs(exact - closed));
             size[part] = fmax(size[part], exact);
         }
@@ -147,12 +148,12 @@ static void band_of_a_step(void **state) {
     scenery s;
     six_bar(&s, &cases[0], 1);
     const fw_statics *pins = rest(&s.r, FW_HINGE_REVOLUTE);
-    fw_motion x = {.ledger = pins->ledger, .level = pins->level};
-    fw_terms still = {.quasi_static = true};
-    x.terms = &still;
-    assert_near(fw_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion,
+    fw_dynamics_motion x = {.ledger = pins->ledger, .level = pins->level};
+    fw_effects_loads still = {.quasi_static = true};
+    x.loads = &still;
+    assert_near(fw_verdict_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion,
                 0); /* no strains */
-    assert_int_equal(fw_level_strains(s.r.arena, &s.r.m, pins->level), FW_OK);
+    assert_int_equal(fw_verdict_level_strains(s.r.arena, &s.r.m, pins->level), FW_OK);
     double off = 0, largest = 0;
     for (int i = 0; i < 6; i++) {
         off = fmax(off, fabs(pins->level->up.strain[i] - pins->level->at.strain[i]));
@@ -160,15 +161,15 @@ static void band_of_a_step(void **state) {
         s.r.hinge[i].closed_form.error.stiffness = 0.006;
     }
     double want = fmax(off / largest, pins->level->relative) + 0.006;
-    assert_near(fw_motion_model_error(&s.r.m, &x), want, 1e-15);
+    assert_near(fw_verdict_motion_model_error(&s.r.m, &x), want, 1e-15);
     assert_true(want > 0.007 && want < 0.04);
     still.quasi_static = false; /* pins that swing */
-    assert_true(fw_motion_model_error(&s.r.m, &x) >= fw_verdict_model_error.motion);
+    assert_true(fw_verdict_motion_model_error(&s.r.m, &x) >= fw_verdict_model_error.motion);
     const fw_statics *exact = rest(&s.r, FW_HINGE_ELASTICA);
     x.ledger = exact->ledger, x.level = exact->level;
-    assert_near(fw_motion_model_error(&s.r.m, &x), 0.006, 0);
+    assert_near(fw_verdict_motion_model_error(&s.r.m, &x), 0.006, 0);
     x.ledger = pins->ledger, x.level = NULL;
-    assert_near(fw_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion, 0);
+    assert_near(fw_verdict_motion_model_error(&s.r.m, &x), fw_verdict_model_error.motion, 0);
     fw_arena_free(s.r.arena);
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/watch.h"
+#include "verdict/strain_monitor.h"
 #include "test.h"
 
 /* |A cos| seen at uneven instants: the height and the time of its largest value */
@@ -7,11 +7,11 @@ static void finds_the_peak_between_instants(void **state) {
     (void)state;
     uint64_t seed = 9;
     for (int round = 0; round < 200; round++) {
-        fw_strain_peak p = {0};
+        fw_verdict_strain_peak p = {0};
         double most = 0, at = 0;
         for (double t = 0; t < 20;) {
             double envelope = exp(-(t - 7.3) * (t - 7.3) / 8.0);
-            fw_strain_peak_add(&p, t, fabs(envelope * cos(3.0 * t)));
+            fw_verdict_strain_peak_add(&p, t, fabs(envelope * cos(3.0 * t)));
             seed = seed * 6364136223846793005u + 1442695040888963407u;
             t += 0.03 + 0.05 * (double)(seed >> 11) / 9007199254740992.0;
         }
@@ -27,19 +27,19 @@ static void finds_the_peak_between_instants(void **state) {
 
 static void ends_count_too(void **state) {
     (void)state;
-    fw_strain_peak p = {0};
+    fw_verdict_strain_peak p = {0};
     for (int i = 0; i <= 10; i++)
-        fw_strain_peak_add(&p, i, i); /* still rising at the end */
+        fw_verdict_strain_peak_add(&p, i, i); /* still rising at the end */
     assert_near(p.strain, 10, 0);
     assert_near(p.t_s, 10, 0);
-    p = (fw_strain_peak){0};
+    p = (fw_verdict_strain_peak){0};
     for (int i = 0; i <= 10; i++)
-        fw_strain_peak_add(&p, i, 10 - i);
+        fw_verdict_strain_peak_add(&p, i, 10 - i);
     assert_near(p.strain, 10, 0);
     assert_near(p.t_s, 0, 0);
-    p = (fw_strain_peak){0};
+    p = (fw_verdict_strain_peak){0};
     for (int i = 0; i <= 3; i++)
-        fw_strain_peak_add(&p, i, 1); /* flat */
+        fw_verdict_strain_peak_add(&p, i, 1); /* flat */
     assert_near(p.strain, 1, 0);
 }
 

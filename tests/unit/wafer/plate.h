@@ -2,7 +2,7 @@
 /* A small die with a frame in two halves, lettering, a mark and a lane, and wafers of it. */
 #ifndef FW_TEST_PLATE_H
 #define FW_TEST_PLATE_H
-#include "layout/text.h"
+#include "layout/layout_text.h"
 #include "mask/scene.h"
 #include "wafer/wafer.h"
 
@@ -14,7 +14,7 @@ typedef struct plate {
     fw_mask_layer layer[5];
     fw_mask_table table;
     fw_device device;
-    fw_parameter parameter[2];
+    fw_device_parameter parameter[2];
     fw_wafer_variant variant[MOST_VARIANTS];
     fw_wafer_input input;
     const char *lettering; /* of the dies of sweeps */
@@ -34,29 +34,31 @@ static inline fw_mask_layer layer_of(int number, const char *id, unsigned roles,
                            .rule_source = "test rule"};
 }
 
-static inline fw_contour loop(fw_arena *arena, const double (*p)[3], int n) {
-    fw_outline o = fw_outline_start(arena, (fw_vec2){p[0][0] * UM, p[0][1] * UM});
+static inline fw_geometry_contour loop(fw_arena *arena, const double (*p)[3], int n) {
+    fw_geometry_outline o =
+        fw_geometry_outline_start(arena, (fw_geometry_vec2){p[0][0] * UM, p[0][1] * UM});
     for (int i = 1; i <= n; i++)
-        fw_outline_line(&o, (fw_vec2){p[i % n][0] * UM, p[i % n][1] * UM},
-                        p[i % n][2] != 0 ? FW_SEGMENT_JOINT : 0);
-    fw_contour c = {0};
-    assert_int_equal(fw_outline_close(&o, &c), FW_OK);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){p[i % n][0] * UM, p[i % n][1] * UM},
+                                 p[i % n][2] != 0 ? FW_SEGMENT_JOINT : 0);
+    fw_geometry_contour c = {0};
+    assert_int_equal(fw_geometry_outline_close(&o, &c), FW_OK);
     return c;
 }
 
 typedef struct pieces {
-    fw_piece *piece;
+    fw_layout_piece *piece;
     int count, capacity;
 } pieces;
 
-static inline void put_piece(plate *p, pieces *list, fw_role role, fw_contour contour) {
-    fw_piece item = {role, FW_NONE - 1, FW_NONE, "piece", contour};
+static inline void put_piece(plate *p, pieces *list, fw_layout_role role,
+                             fw_geometry_contour contour) {
+    fw_layout_piece item = {role, FW_NONE - 1, FW_NONE, "piece", contour};
     assert_int_equal(fw_layout_add(p->arena, item, &list->piece, &list->count, &list->capacity),
                      FW_OK);
 }
 
-static inline void put_box(plate *p, pieces *list, fw_role role, double x0, double y0, double x1,
-                           double y1) {
+static inline void put_box(plate *p, pieces *list, fw_layout_role role, double x0, double y0,
+                           double x1, double y1) {
     const double q[4][2] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
     put_piece(p, list, role, polygon(p->arena, q, 4));
 }
@@ -64,11 +66,12 @@ static inline void put_box(plate *p, pieces *list, fw_role role, double x0, doub
 /* die of 2000 um x 1600 um about (300, -200) um with a lane of 50 um, a frame of `bar` um in halves
    that share two joints, a disc of `radius` um in the window */
 static inline const fw_mask *die_mask(plate *p, double bar, double radius, const char *title,
-                                      bool rejected, fw_box *die, fw_box *window) {
+                                      bool rejected, fw_geometry_box *die,
+                                      fw_geometry_box *window) {
     pieces list = {0};
     double x0 = -700, x1 = 1300, y0 = -1000, y1 = 600, l = 50, in = l + bar, m = -200;
-    *die = (fw_box){x0 * UM, y0 * UM, x1 * UM, y1 * UM};
-    *window = (fw_box){(x0 + in) * UM, (y0 + in) * UM, (x1 - in) * UM, (y1 - in) * UM};
+    *die = (fw_geometry_box){x0 * UM, y0 * UM, x1 * UM, y1 * UM};
+    *window = (fw_geometry_box){(x0 + in) * UM, (y0 + in) * UM, (x1 - in) * UM, (y1 - in) * UM};
     const double lower[8][3] = {{x0 + l, y0 + l, 0}, {x1 - l, y0 + l, 0},   {x1 - l, m, 0},
                                 {x1 - in, m, 1},     {x1 - in, y0 + in, 0}, {x0 + in, y0 + in, 0},
                                 {x0 + in, m, 0},     {x0 + l, m, 1}};
@@ -77,13 +80,15 @@ static inline const fw_mask *die_mask(plate *p, double bar, double radius, const
                                 {x1 - in, y1 - in, 0}, {x1 - in, m, 0}};
     put_piece(p, &list, FW_ROLE_FRAME, loop(p->arena, lower, 8));
     put_piece(p, &list, FW_ROLE_FRAME, loop(p->arena, upper, 8));
-    fw_contour disc;
-    assert_int_equal(fw_contour_disc(p->arena, (fw_vec2){300 * UM, -200 * UM}, radius * UM, &disc),
+    fw_geometry_contour disc;
+    assert_int_equal(fw_geometry_contour_disc(p->arena, (fw_geometry_vec2){300 * UM, -200 * UM},
+                                              radius * UM, &disc),
                      FW_OK);
     put_piece(p, &list, FW_ROLE_STRUCTURE, disc);
     put_box(p, &list, FW_ROLE_MARK, x0 + l + 20, y0 + l + 20, x0 + l + 60, y0 + l + 60);
     double stroke = 6e-6;
-    assert_int_equal(fw_layout_text(p->arena, title, (fw_vec2){(x0 + in) * UM, (y0 + l + 20) * UM},
+    assert_int_equal(fw_layout_text(p->arena, title,
+                                    (fw_geometry_vec2){(x0 + in) * UM, (y0 + l + 20) * UM},
                                     9 * stroke, stroke, FW_ROLE_TEXT, "title", &list.piece,
                                     &list.count, &list.capacity),
                      FW_OK);
@@ -117,17 +122,17 @@ static inline plate *plate_new(double bar) {
                                .layer = p->layer,
                                .nlayer = 5,
                                .plate = "1/0 NOT 2/0 NOT 3/0"};
-    p->parameter[0] = (fw_parameter){.name = "arc", .dimension = {.rad = 1}, .unit = "deg"};
-    p->parameter[1] = (fw_parameter){.name = "link", .dimension = {.m = 1}, .unit = "um"};
+    p->parameter[0] = (fw_device_parameter){.name = "arc", .dimension = {.rad = 1}, .unit = "deg"};
+    p->parameter[1] = (fw_device_parameter){.name = "link", .dimension = {.m = 1}, .unit = "um"};
     p->device = (fw_device){.name = "tiny device", .parameter = p->parameter, .nparameter = 2};
-    p->device.wafer = (fw_wafer_asked){.asked = true,
-                                       .diameter_m = 50.8e-3,
-                                       .flat_m = none,
-                                       .edge_m = 3e-3,
-                                       .pitch_x_m = none,
-                                       .pitch_y_m = none,
-                                       .plate_m = none,
-                                       .title = "TINY PLATE"};
+    p->device.wafer = (fw_device_wafer_asked){.asked = true,
+                                              .diameter_m = 50.8e-3,
+                                              .flat_m = none,
+                                              .edge_m = 3e-3,
+                                              .pitch_x_m = none,
+                                              .pitch_y_m = none,
+                                              .plate_m = none,
+                                              .title = "TINY PLATE"};
     p->input = (fw_wafer_input){.device = &p->device,
                                 .table = &p->table,
                                 .variant = p->variant,
@@ -143,8 +148,8 @@ static inline plate *plate_new(double bar) {
 
 /* n x m different dies */
 static inline void plate_sweep(plate *p, double bar, int n, int m) {
-    p->device.wafer.sweep[0] = (fw_sweep){.parameter = 0, .unit = "deg", .steps = n};
-    p->device.wafer.sweep[1] = (fw_sweep){.parameter = 1, .unit = "um", .steps = m};
+    p->device.wafer.sweep[0] = (fw_device_sweep){.parameter = 0, .unit = "deg", .steps = n};
+    p->device.wafer.sweep[1] = (fw_device_sweep){.parameter = 1, .unit = "um", .steps = m};
     p->device.wafer.nsweep = m > 1 ? 2 : 1;
     p->input.nvariant = n * m;
     for (int i = 0; i < n * m; i++) {

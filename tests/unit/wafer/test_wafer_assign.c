@@ -7,7 +7,7 @@
 typedef struct bench {
     fw_arena *arena;
     fw_diags diags;
-    fw_wafer_asked asked;
+    fw_device_wafer_asked asked;
     fw_wafer_form form;
     fw_wafer_grid grid;
 } bench;
@@ -44,7 +44,7 @@ static int count(const bench *b, fw_wafer_kind kind) {
 }
 
 static void sweep(bench *b, int k, int steps) {
-    b->asked.sweep[k] = (fw_sweep){.steps = steps, .unit = ""};
+    b->asked.sweep[k] = (fw_device_sweep){.steps = steps, .unit = ""};
     b->asked.nsweep = k + 1;
 }
 
@@ -54,7 +54,7 @@ static void test_alignment(void **state) {
     for (int centre = 0; centre < 3; centre++) {
         bench *b = begin();
         b->asked.alignment = true;
-        b->asked.centre = (fw_wafer_centre)centre;
+        b->asked.centre = (fw_device_wafer_centre)centre;
         assign(b, 5600000, 5000000);
         const fw_wafer_site *at[2] = {NULL, NULL};
         for (int i = 0; i < b->grid.nsite; i++)
@@ -165,7 +165,7 @@ static void test_dies(void **state) {
     b->asked.alignment = true;
     b->asked.tests = 5;
     assign(b, 5600000, 5000000);
-    fw_box die = {1e-3, -2e-3, 6.6e-3, 3e-3};
+    fw_geometry_box die = {1e-3, -2e-3, 6.6e-3, 3e-3};
     int dies;
     assert_int_equal(fw_wafer_dies(b->arena, &b->asked, die, &dies), FW_OK);
     assert_int_equal(dies, count(b, FW_WAFER_DIE));

@@ -76,20 +76,21 @@ static void test_sweeps(void **state) {
 
 /* ---- ids ---- */
 
-static bool all_inside(const fw_polygon *q, int32_t dx, int32_t dy, const fw_mask *mask) {
+static bool all_inside(const fw_geometry_polygon *q, int32_t dx, int32_t dy, const fw_mask *mask) {
     for (int i = 0; i < q->count; i++) {
-        fw_vec2 at = {(q->vertex[i].x_dbu + dx) * 1e-9, (q->vertex[i].y_dbu + dy) * 1e-9};
+        fw_geometry_vec2 at = {(q->vertex[i].x_dbu + dx) * 1e-9, (q->vertex[i].y_dbu + dy) * 1e-9};
         bool inside = false;
         for (int s = 0; s < mask->nshape && !inside; s++)
             inside = mask->shape[s].piece->role == FW_ROLE_FRAME &&
-                     fw_contour_contains(&mask->shape[s].contour, at);
+                     fw_geometry_contour_contains(&mask->shape[s].contour, at);
         if (!inside) return false;
     }
     return true;
 }
 
 /* distance in dbu between boxes of two polygons, the second moved */
-static double apart(const fw_polygon *a, const fw_polygon *b, int32_t dx, int32_t dy) {
+static double apart(const fw_geometry_polygon *a, const fw_geometry_polygon *b, int32_t dx,
+                    int32_t dy) {
     double least = HUGE_VAL;
     for (int i = 0; i < a->count; i++)
         for (int j = 0; j < b->count; j++) /* corners of right-angled letters: within a stroke */
@@ -347,7 +348,8 @@ static void test_gds(void **state) {
             const fw_wafer_site *t = &w->grid.site[s];
             const fw_mask *m = t->variant >= 0 ? w->variant[t->variant].mask : NULL;
             for (int i = 0; m && i < m->nshape; i++)
-                area[m->shape[i].layer] += 0.5 * (double)fw_polygon_area2(&m->shape[i].polygon);
+                area[m->shape[i].layer] +=
+                    0.5 * (double)fw_geometry_polygon_area2(&m->shape[i].polygon);
         }
         assert_relative(c[n - 1].area[4], area[3], 1e-12);
         assert_true(c[n - 1].area[1] > area[0]);       /* plate and alignment besides */

@@ -4,15 +4,15 @@
 #include "mask/scene.h"
 #include "wafer/wafer.h"
 
-static fw_wafer_asked asked(double diameter_m, double flat_m, double edge_m) {
+static fw_device_wafer_asked asked(double diameter_m, double flat_m, double edge_m) {
     double none = (double)NAN;
-    return (fw_wafer_asked){.asked = true,
-                            .diameter_m = diameter_m,
-                            .flat_m = flat_m,
-                            .edge_m = edge_m,
-                            .pitch_x_m = none,
-                            .pitch_y_m = none,
-                            .plate_m = none};
+    return (fw_device_wafer_asked){.asked = true,
+                                   .diameter_m = diameter_m,
+                                   .flat_m = flat_m,
+                                   .edge_m = edge_m,
+                                   .pitch_x_m = none,
+                                   .pitch_y_m = none,
+                                   .plate_m = none};
 }
 
 typedef struct bench {
@@ -27,7 +27,7 @@ static bench begin(void) {
     return (bench){.arena = arena, .diags = fw_diags_new(arena)};
 }
 
-static int fill(bench *b, const fw_wafer_asked *a, double width_m, double height_m) {
+static int fill(bench *b, const fw_device_wafer_asked *a, double width_m, double height_m) {
     assert_int_equal(fw_wafer_form_of(a, &b->diags, &b->form), FW_OK);
     assert_int_equal(fw_wafer_grid_fill(b->arena, &b->form, a, (int32_t)lround(width_m * 1e9),
                                         (int32_t)lround(height_m * 1e9), &b->diags, &b->grid),
@@ -52,7 +52,7 @@ static void test_squares_in_a_circle(void **state) {
                 root++;
             expected += 4 * root;
         }
-        fw_wafer_asked a = asked(2e-3 * n, 0, 0);
+        fw_device_wafer_asked a = asked(2e-3 * n, 0, 0);
         a.diameter_m = 2e-3 * n;
         a.centre = FW_CENTRE_STREET;
         if (fw_wafer_form_of(&a, &b.diags, &b.form) != FW_OK) fail();
@@ -66,7 +66,7 @@ static void test_squares_in_a_circle(void **state) {
 static void test_517_dies(void **state) {
     (void)state;
     bench b = begin();
-    fw_wafer_asked a = asked(0.1, 0, 3e-3);
+    fw_device_wafer_asked a = asked(0.1, 0, 3e-3);
     a.pitch_x_m = a.pitch_y_m = 3.5e-3;
     a.centre = FW_CENTRE_DIE;
     assert_int_equal(fill(&b, &a, 3e-3, 3e-3), 517);
@@ -76,14 +76,14 @@ static void test_517_dies(void **state) {
 }
 
 /* ---- an independent decision: corners in the circle, beyond the chord, far from the notch ---- */
-static void turned(fw_wafer_side side, double *x, double *y) {
+static void turned(fw_device_wafer_side side, double *x, double *y) {
     double u = *x, v = *y; /* so that the flat is at the bottom */
     if (side == FW_SIDE_TOP) *y = -v;
     if (side == FW_SIDE_LEFT) *x = v, *y = u;
     if (side == FW_SIDE_RIGHT) *x = v, *y = -u;
 }
 
-static bool corner_fits(const fw_wafer_asked *a, double diameter, double flat, int64_t x_dbu,
+static bool corner_fits(const fw_device_wafer_asked *a, double diameter, double flat, int64_t x_dbu,
                         int64_t y_dbu) {
     double x = (double)x_dbu * 1e-9, y = (double)y_dbu * 1e-9, r = 0.5 * diameter;
     turned(a->side, &x, &y);
@@ -92,7 +92,7 @@ static bool corner_fits(const fw_wafer_asked *a, double diameter, double flat, i
 }
 
 /* the sides of the die in steps of 20 um: corners alone do not see a notch between them */
-static bool misses_notch(const fw_wafer_asked *a, double diameter, const fw_wafer_grid *g,
+static bool misses_notch(const fw_device_wafer_asked *a, double diameter, const fw_wafer_grid *g,
                          int64_t x_dbu, int64_t y_dbu) {
     double near = 1.25e-3 + a->edge_m - 1e-14, r = 0.5 * diameter;
     for (int side = 0; side < 4; side++)
@@ -106,7 +106,8 @@ static bool misses_notch(const fw_wafer_asked *a, double diameter, const fw_wafe
     return true;
 }
 
-static void search(bench *b, const fw_wafer_asked *a, double diameter, double flat, bool notch) {
+static void search(bench *b, const fw_device_wafer_asked *a, double diameter, double flat,
+                   bool notch) {
     const fw_wafer_grid *g = &b->grid;
     int found = 0;
     int64_t x0 = g->site[0].x, y0 = g->site[0].y;
@@ -153,9 +154,9 @@ static void test_against_search(void **state) {
     for (int k = 0; k < 60; k++) {
         bench b = begin();
         int which = k % 5;
-        fw_wafer_asked a = asked(wafer[which].diameter, (double)NAN, 1e-3 * (1 + k % 4));
-        a.side = (fw_wafer_side)(k % 4);
-        a.centre = (fw_wafer_centre)(k / 5 % 3);
+        fw_device_wafer_asked a = asked(wafer[which].diameter, (double)NAN, 1e-3 * (1 + k % 4));
+        a.side = (fw_device_wafer_side)(k % 4);
+        a.centre = (fw_device_wafer_centre)(k / 5 % 3);
         double w = 1e-9 * floor(1e9 * (2e-3 + 6e-3 * random01(&seed)));
         double h = 1e-9 * floor(1e9 * (2e-3 + 6e-3 * random01(&seed)));
         a.pitch_x_m = w + 1e-4 * (k % 3);
@@ -171,7 +172,7 @@ static void test_auto_is_best(void **state) {
     (void)state;
     for (int k = 0; k < 30; k++) {
         bench b = begin();
-        fw_wafer_asked a = asked(0.1, (double)NAN, 3e-3);
+        fw_device_wafer_asked a = asked(0.1, (double)NAN, 3e-3);
         double size = 3e-3 + 0.137e-3 * k;
         int best = fill(&b, &a, size, size);
         a.centre = FW_CENTRE_DIE;
@@ -187,7 +188,7 @@ static void test_auto_is_best(void **state) {
 static void test_borders(void **state) {
     (void)state;
     bench b = begin();
-    fw_wafer_asked a = asked(0.1, (double)NAN, 3e-3);
+    fw_device_wafer_asked a = asked(0.1, (double)NAN, 3e-3);
     assert_int_equal(fw_wafer_form_of(&a, &b.diags, &b.form), FW_OK);
     assert_near((double)b.form.flat_dbu, 1e9 * (sqrt(0.05 * 0.05 - 0.01625 * 0.01625) - 3e-3),
                 0.51);
@@ -206,7 +207,7 @@ static void test_borders(void **state) {
     end(&b);
 }
 
-static void refused(fw_wafer_asked a, int number, const char *part) {
+static void refused(fw_device_wafer_asked a, int number, const char *part) {
     bench b = begin();
     fw_status status = fw_wafer_form_of(&a, &b.diags, &b.form);
     if (status == FW_OK)
@@ -224,7 +225,7 @@ static void test_refusals(void **state) {
     refused(asked(0.1, 0.1, 3e-3), 190, "chord");
     refused(asked(0.1, 0, 0.05), 190, "nothing is left");
     refused(asked(0.1, 0, 0.0489), 190, "no die");
-    fw_wafer_asked a = asked(0.1, 0, 3e-3);
+    fw_device_wafer_asked a = asked(0.1, 0, 3e-3);
     a.plate_m = 0.105;
     refused(a, 190, "plate");
     a = asked(0.1, 0, 3e-3);
@@ -249,7 +250,7 @@ static void test_usual_sizes(void **state) {
                                      {300, 300, 0, 355.6}};
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++) {
         bench b = begin();
-        fw_wafer_asked a = asked(1e-3 * size[i][0], (double)NAN, 3e-3);
+        fw_device_wafer_asked a = asked(1e-3 * size[i][0], (double)NAN, 3e-3);
         assert_int_equal(fw_wafer_form_of(&a, &b.diags, &b.form), FW_OK);
         assert_relative(b.form.diameter_m, 1e-3 * size[i][1], 1e-12);
         assert_near(b.form.flat_m, 1e-3 * size[i][2], 1e-12);

@@ -6,11 +6,11 @@
 
 typedef struct six_bar_fixture {
     fw_device device;
-    fw_variant variant;
-    fw_mass body[5];
-    fw_pin pin[6];
+    fw_mechanism_variant variant;
+    fw_mechanism_mass body[5];
+    fw_mechanism_pin pin[6];
     fw_mechanism mechanism;
-    fw_workspace_box box;
+    fw_device_workspace_box box;
 } six_bar_fixture;
 
 /* p: A..F in um; the platform's reference point is the middle of C and D */
@@ -21,7 +21,7 @@ static inline void six_bar_make(six_bar_fixture *f, const double p[6][2]) {
         f->body[i].y_m = 0.5e-6 * (p[i][1] + p[i + 1][1]);
     }
     for (int i = 0; i < 6; i++) {
-        fw_pin *pin = &f->pin[i];
+        fw_mechanism_pin *pin = &f->pin[i];
         pin->body_a = i - 1; /* A: ground -1 -> 0 .. F: 4 -> ground */
         pin->body_b = i == 5 ? FW_GROUND : i;
         double x = p[i][0] * 1e-6, y = p[i][1] * 1e-6;

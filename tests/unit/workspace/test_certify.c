@@ -39,25 +39,26 @@ static void ranges_hold_and_are_sharp(void **state) {
         six_bar_make(&f, (const double(*)[2])p);
         for (int h = 0; h < 6; h++)
             f.pin[h].free_angle_rad = either(0.03);
-        fw_loop loop;
-        if (!fw_loop_set_up(&f.mechanism, &loop)) continue;
+        fw_workspace_loop loop;
+        if (!fw_workspace_loop_set_up(&f.mechanism, &loop)) continue;
         const double scale[3] = {400e-6, 300e-6, 0.3};
-        fw_box3 box;
+        fw_workspace_box3 box;
         for (int k = 0; k < 3; k++) {
             double a = either(scale[k]), b = unit() < 0.1 ? a : either(scale[k]);
             box.lo[k] = fmin(a, b), box.hi[k] = fmax(a, b);
         }
         fw_workspace_proof proof;
-        fw_proof_end end;
+        fw_workspace_proof_end end;
         fw_arena *arena = fw_arena_new(0);
-        assert_int_equal(fw_certify_box(arena, &loop, &box, 1e-4, 20000, &proof, pose, &end),
-                         FW_OK);
+        assert_int_equal(
+            fw_workspace_certify_box(arena, &loop, &box, 1e-4, 20000, &proof, pose, &end), FW_OK);
         assert_int_equal(proof.proved, end == FW_PROVED);
         if (end == FW_REFUTED) {
             double angle[FW_SIX];
             int leg;
             refuted++;
-            assert_false(fw_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg));
+            assert_false(
+                fw_workspace_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg));
             for (int k = 0; k < 3; k++)
                 assert_true(pose[k] >= box.lo[k] && pose[k] <= box.hi[k]);
         }
@@ -70,20 +71,21 @@ static void ranges_hold_and_are_sharp(void **state) {
                 for (int k = 0; k < 3; k++)
                     pose[k] = n < 8 ? (n >> k & 1 ? box.hi[k] : box.lo[k])
                                     : box.lo[k] + unit() * (box.hi[k] - box.lo[k]);
-                assert_true(
-                    fw_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg));
+                assert_true(fw_workspace_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2],
+                                                         angle, &leg));
                 for (int j = 0; j < FW_SIX; j++)
                     assert_true(fw_interval_holds(proof.angle_rad[j], angle[j]));
             }
             for (int j = 0; j < FW_SIX; j++) {
                 const fw_workspace_extreme *end_of[2] = {&proof.least[j], &proof.most[j]};
-                fw_interval r = proof.angle_rad[j];
+                fw_maths_interval r = proof.angle_rad[j];
                 double most = fmax(fabs(r.lo), fabs(r.hi));
                 for (int s = 0; s < 2; s++) {
                     const double *at = end_of[s]->pose;
                     double angle[FW_SIX];
                     int leg;
-                    assert_true(fw_six_bar_inverse(&f.mechanism, at[0], at[1], at[2], angle, &leg));
+                    assert_true(fw_workspace_six_bar_inverse(&f.mechanism, at[0], at[1], at[2],
+                                                             angle, &leg));
                     assert_near(angle[j], s ? r.hi : r.lo, 1.1e-4 * most + 1e-10);
                     assert_true(end_of[s]->angle_rad.lo <= angle[j] + 2e-14 &&
                                 end_of[s]->angle_rad.hi >= angle[j] - 2e-14);
@@ -101,22 +103,23 @@ static void extremes_inside_are_found(void **state) {
     (void)state;
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
     /* C turns about D's side: at phi the reach |AC| is stationary where C moves across AC */
     double best = -1;
-    fw_box3 box = {{0, 0, -1.2}, {0, 0, 0.8}};
+    fw_workspace_box3 box = {{0, 0, -1.2}, {0, 0, 0.8}};
     for (int n = 0; n <= 200000; n++) {
         double angle[FW_SIX], phi = box.lo[2] + n * 1e-5;
         int leg;
-        assert_true(fw_six_bar_inverse(&f.mechanism, 0, 0, phi, angle, &leg));
+        assert_true(fw_workspace_six_bar_inverse(&f.mechanism, 0, 0, phi, angle, &leg));
         best = fmax(best, angle[1]);
     }
     fw_arena *arena = fw_arena_new(0);
     fw_workspace_proof proof;
-    fw_proof_end end;
+    fw_workspace_proof_end end;
     double pose[3];
-    assert_int_equal(fw_certify_box(arena, &loop, &box, 1e-6, 20000, &proof, pose, &end), FW_OK);
+    assert_int_equal(fw_workspace_certify_box(arena, &loop, &box, 1e-6, 20000, &proof, pose, &end),
+                     FW_OK);
     assert_int_equal(end, FW_PROVED);
     assert_true(proof.angle_rad[1].hi >= best);
     assert_near(proof.angle_rad[1].hi, best, 2e-6 * (1 + best));
@@ -128,22 +131,25 @@ static void stretched_leg_is_left_undecided(void **state) {
     (void)state;
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
     /* straight up: |AC| = l1 + l2 at y where (300^2 + (1700 + y)^2) = (l1 + l2)^2 */
     double l = 1118.033988749895 + 1063.014581273465, top = sqrt(l * l - 300 * 300) - 1700;
     fw_arena *arena = fw_arena_new(0);
     fw_workspace_proof proof;
-    fw_proof_end end;
+    fw_workspace_proof_end end;
     double pose[3];
-    fw_box3 under = {{0, 0, 0}, {0, (top - 1) * 1e-6, 0}}, over = under;
+    fw_workspace_box3 under = {{0, 0, 0}, {0, (top - 1) * 1e-6, 0}}, over = under;
     over.hi[1] = (top + 1) * 1e-6;
-    assert_int_equal(fw_certify_box(arena, &loop, &under, 1e-3, 100000, &proof, pose, &end), FW_OK);
+    assert_int_equal(
+        fw_workspace_certify_box(arena, &loop, &under, 1e-3, 100000, &proof, pose, &end), FW_OK);
     assert_int_equal(end, FW_PROVED);
-    assert_int_equal(fw_certify_box(arena, &loop, &over, 1e-3, 100000, &proof, pose, &end), FW_OK);
+    assert_int_equal(
+        fw_workspace_certify_box(arena, &loop, &over, 1e-3, 100000, &proof, pose, &end), FW_OK);
     assert_int_equal(end, FW_REFUTED);
     under.hi[1] = nextafter(top * 1e-6, 0);
-    assert_int_equal(fw_certify_box(arena, &loop, &under, 1e-3, 3000, &proof, pose, &end), FW_OK);
+    assert_int_equal(fw_workspace_certify_box(arena, &loop, &under, 1e-3, 3000, &proof, pose, &end),
+                     FW_OK);
     assert_int_not_equal(end, FW_REFUTED);
     fw_arena_free(arena);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/cut.h"
+#include "workspace/workspace_cut.h"
 #include "test.h"
 
 static uint64_t seed = 5;
@@ -27,7 +27,7 @@ static void against_slices(void **state) {
     for (int i = 0; i < 400; i++) {
         double p[3] = {pow(10, -4 * unit()), pow(10, -4 * unit()), 1.0};
         double t = (2 * unit() - 1) * (p[0] + p[1] + p[2]);
-        fw_interval v = fw_cut_share(p, t);
+        fw_maths_interval v = fw_workspace_cut_share(p, t);
         assert_true(v.lo <= v.hi && v.lo >= 0 && v.hi <= 1);
         assert_near(0.5 * (v.lo + v.hi), slices(p, t), 2e-5);
         assert_true(v.hi - v.lo < 3e-13);
@@ -43,10 +43,11 @@ static void identities(void **state) {
         double q[3] = {p[2], p[0], p[1]}, sum = p[0] + p[1] + p[2];
         double corner = p[0] * (unit() < 0.5 ? 1 : -1) + p[1] * (unit() < 0.5 ? 1 : -1) - p[2];
         double t = unit() < 0.5 ? corner : (2 * unit() - 1) * sum;
-        fw_interval a = fw_cut_share(p, t), b = fw_cut_share(q, t), c = fw_cut_share(p, -t);
+        fw_maths_interval a = fw_workspace_cut_share(p, t), b = fw_workspace_cut_share(q, t),
+                          c = fw_workspace_cut_share(p, -t);
         assert_near(0.5 * (a.lo + a.hi), 0.5 * (b.lo + b.hi), 1e-12);
         assert_near(0.5 * (a.lo + a.hi + c.lo + c.hi), 1.0, 1e-12);
-        fw_interval more = fw_cut_share(p, t + 1e-9 * sum);
+        fw_maths_interval more = fw_workspace_cut_share(p, t + 1e-9 * sum);
         assert_true(more.hi >= a.lo);
         assert_near(more.lo, a.lo, 4e-9);
     }
@@ -55,13 +56,16 @@ static void identities(void **state) {
 static void ends(void **state) {
     (void)state;
     const double p[3] = {0.5, 0.0, 0.25}, none[3] = {0, 0, 0};
-    assert_true(fw_cut_share(p, 0.76).lo == 1.0 && fw_cut_share(p, -0.76).hi == 0.0);
-    assert_true(fw_cut_share(none, 1.0).lo == 1.0 && fw_cut_share(none, -1.0).hi == 0.0);
-    fw_interval open = fw_cut_share(none, 0.0);
+    assert_true(fw_workspace_cut_share(p, 0.76).lo == 1.0 &&
+                fw_workspace_cut_share(p, -0.76).hi == 0.0);
+    assert_true(fw_workspace_cut_share(none, 1.0).lo == 1.0 &&
+                fw_workspace_cut_share(none, -1.0).hi == 0.0);
+    fw_maths_interval open = fw_workspace_cut_share(none, 0.0);
     assert_true(open.lo == 0.0 && open.hi == 1.0);
     const double cube[3] = {1, 1, 1};
-    assert_near(fw_cut_share(cube, -2.0).lo, 1.0 / 48.0, 1e-12); /* a corner of legs 1 of 2 */
-    assert_near(fw_cut_share(cube, -1.0).lo, 1.0 / 6.0, 1e-12);
+    assert_near(fw_workspace_cut_share(cube, -2.0).lo, 1.0 / 48.0,
+                1e-12); /* a corner of legs 1 of 2 */
+    assert_near(fw_workspace_cut_share(cube, -1.0).lo, 1.0 / 6.0, 1e-12);
 }
 
 int main(void) {

@@ -53,8 +53,9 @@ static void reference_poses(void **state) {
     for (size_t i = 0; i < sizeof reference / sizeof reference[0]; i++) {
         double angle[FW_SIX];
         int leg;
-        assert_true(fw_six_bar_inverse(&f.mechanism, reference[i].x_um * 1e-6,
-                                       reference[i].y_um * 1e-6, reference[i].phi, angle, &leg));
+        assert_true(fw_workspace_six_bar_inverse(&f.mechanism, reference[i].x_um * 1e-6,
+                                                 reference[i].y_um * 1e-6, reference[i].phi, angle,
+                                                 &leg));
         for (int j = 0; j < FW_SIX; j++)
             assert_near(angle[j], reference[i].turn[j], 1e-13);
     }
@@ -75,7 +76,7 @@ static void round_trip_on_random_poses(void **state) {
         }
         double x = u[0] * 2e-3, y = u[1] * 2e-3, phi = u[2] * 2.0, t[FW_SIX];
         int leg;
-        if (!fw_six_bar_inverse(&f.mechanism, x, y, phi, t, &leg)) continue;
+        if (!fw_workspace_six_bar_inverse(&f.mechanism, x, y, phi, t, &leg)) continue;
         reached++;
         const double(*p)[2] = six_bar_reference;
         double ax = p[0][0], ay = p[0][1];
@@ -98,9 +99,9 @@ static void out_of_reach_names_the_leg(void **state) {
     six_bar_make(&f, six_bar_reference);
     double angle[FW_SIX];
     int leg = -1;
-    assert_false(fw_six_bar_inverse(&f.mechanism, 3e-3, 0, 0, angle, &leg));
+    assert_false(fw_workspace_six_bar_inverse(&f.mechanism, 3e-3, 0, 0, angle, &leg));
     assert_int_equal(leg, 0);
-    assert_false(fw_six_bar_inverse(&f.mechanism, -1.5e-3, 0, 0, angle, &leg));
+    assert_false(fw_workspace_six_bar_inverse(&f.mechanism, -1.5e-3, 0, 0, angle, &leg));
     assert_int_equal(leg, 1);
 }
 

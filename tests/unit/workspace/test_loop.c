@@ -17,7 +17,7 @@ static double either(double size) {
 }
 
 /* a six-bar whose hinges are moved by up to `by` um; start angles in the platform's pose */
-static bool strewn(six_bar_fixture *f, double by, fw_loop *loop) {
+static bool strewn(six_bar_fixture *f, double by, fw_workspace_loop *loop) {
     double p[6][2];
     for (int i = 0; i < 6; i++)
         for (int k = 0; k < 2; k++)
@@ -25,10 +25,10 @@ static bool strewn(six_bar_fixture *f, double by, fw_loop *loop) {
     six_bar_make(f, (const double(*)[2])p);
     for (int i = 0; i < 6; i++)
         f->pin[i].free_angle_rad = either(0.05);
-    return fw_loop_set_up(&f->mechanism, loop);
+    return fw_workspace_loop_set_up(&f->mechanism, loop);
 }
 
-static double left_or_right(const fw_loop *k, int hinge, double angle) {
+static double left_or_right(const fw_workspace_loop *k, int hinge, double angle) {
     double turn = angle - k->start_rad[hinge];
     return hinge < 3 ? turn : -turn;
 }
@@ -40,9 +40,9 @@ static void forms_hold_every_pose(void **state) {
     long held = 0;
     for (int i = 0; i < 3000; i++) {
         six_bar_fixture f;
-        fw_loop loop;
+        fw_workspace_loop loop;
         if (!strewn(&f, 300, &loop)) continue;
-        fw_box3 box;
+        fw_workspace_box3 box;
         double size = pow(10, -4.5 * unit()), half[3], middle[3];
         const double scale[3] = {300e-6, 300e-6, 0.3};
         for (int k = 0; k < 3; k++) {
@@ -50,8 +50,8 @@ static void forms_hold_every_pose(void **state) {
             box.lo[k] = c - h, box.hi[k] = c + h;
             middle[k] = fw_box3_middle(&box, k, &half[k]);
         }
-        fw_loop_box known;
-        fw_loop_pose_box(&loop, &box, &known);
+        fw_workspace_loop_box known;
+        fw_workspace_loop_pose_box(&loop, &box, &known);
         for (int n = 0; n < 20; n++) {
             double pose[3], angle[FW_SIX];
             int leg;
@@ -60,12 +60,13 @@ static void forms_hold_every_pose(void **state) {
                     fmax(middle[k] + (n < 8 ? (n >> k & 1 ? half[k] : -half[k]) : either(half[k])),
                          box.lo[k]),
                     box.hi[k]);
-            bool there = fw_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg);
+            bool there =
+                fw_workspace_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg);
             if (known.reached == FW_OUT_OF_REACH) assert_false(there);
             if (known.reached != FW_REACHED) continue;
             assert_true(there);
             for (int j = 0; j < FW_SIX; j++) {
-                const fw_form *psi = &known.psi[j];
+                const fw_workspace_form *psi = &known.psi[j];
                 double line = 0, value = left_or_right(&loop, j, angle[j]);
                 for (int k = 0; k < 3; k++)
                     line += psi->grad[k] * (pose[k] - middle[k]);
@@ -89,25 +90,25 @@ static void joint_boxes_close(void **state) {
     long held = 0;
     for (int i = 0; i < 2000; i++) {
         six_bar_fixture f;
-        fw_loop loop;
+        fw_workspace_loop loop;
         if (!strewn(&f, 200, &loop)) continue;
-        fw_box3 box;
+        fw_workspace_box3 box;
         double half[3], middle[3], size = pow(10, -1 - 4 * unit());
         for (int k = 0; k < 3; k++) {
             double c = either(0.15), h = size * unit();
             box.lo[k] = c - h, box.hi[k] = c + h;
             middle[k] = fw_box3_middle(&box, k, &half[k]);
         }
-        fw_loop_box known;
-        const fw_interval all = {-(double)INFINITY, (double)INFINITY};
-        fw_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
+        fw_workspace_loop_box known;
+        const fw_maths_interval all = {-(double)INFINITY, (double)INFINITY};
+        fw_workspace_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
         if (known.reached != FW_REACHED) continue;
         for (int n = 0; n < 10; n++) {
             double q[3], angle[FW_SIX], pose[3];
             for (int k = 0; k < 3; k++)
                 q[k] = middle[k] + either(half[k]);
             /* forward: C and the platform of the left leg */
-            const fw_leg *l = &loop.leg[0];
+            const fw_workspace_leg *l = &loop.leg[0];
             double a = q[0], b = q[0] + q[1], c = q[0] + q[1] + q[2];
             pose[0] = l->base.x + cos(a) * l->a.x - sin(a) * l->a.y + cos(b) * l->b.x -
                       sin(b) * l->b.y - cos(c) * l->to.x + sin(c) * l->to.y - loop.centre.x;
@@ -115,9 +116,11 @@ static void joint_boxes_close(void **state) {
                       cos(b) * l->b.y - sin(c) * l->to.x - cos(c) * l->to.y - loop.centre.y;
             pose[2] = c;
             int leg;
-            assert_true(fw_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg));
+            assert_true(
+                fw_workspace_six_bar_inverse(&f.mechanism, pose[0], pose[1], pose[2], angle, &leg));
             for (int j = 0; j < FW_SIX + 3; j++) {
-                const fw_form *form = j < FW_SIX ? &known.psi[j] : &known.extent[j - FW_SIX];
+                const fw_workspace_form *form =
+                    j < FW_SIX ? &known.psi[j] : &known.extent[j - FW_SIX];
                 double value = j < FW_SIX ? left_or_right(&loop, j, angle[j]) : pose[j - FW_SIX];
                 double line = 0, slack = j < FW_SIX ? 1e-13 : 1e-17;
                 if (j == FW_SIX + 2) slack = 1e-14;
@@ -139,15 +142,15 @@ static void remainders_fall_fourfold(void **state) {
     (void)state;
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
     double before[FW_SIX] = {0};
     for (int n = 0; n < 5; n++) {
         double h = 0.01 / (1 << n);
-        fw_box3 box = {{0.02 - h, -0.03 - h, 0.01 - h}, {0.02 + h, -0.03 + h, 0.01 + h}};
-        fw_loop_box known;
-        const fw_interval all = {-(double)INFINITY, (double)INFINITY};
-        fw_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
+        fw_workspace_box3 box = {{0.02 - h, -0.03 - h, 0.01 - h}, {0.02 + h, -0.03 + h, 0.01 + h}};
+        fw_workspace_loop_box known;
+        const fw_maths_interval all = {-(double)INFINITY, (double)INFINITY};
+        fw_workspace_loop_joint_box(&loop, &box, all, FW_WANT_ALL, &known);
         assert_int_equal(known.reached, FW_REACHED);
         for (int j = 3; j < FW_SIX; j++) {
             if (n > 1) assert_near(before[j] / known.psi[j].rest, 4.0, 0.4);

@@ -7,16 +7,16 @@
 
 static const double degree = 0.017453292519943295;
 
-static void set_up(six_bar_fixture *f, fw_loop *loop) {
+static void set_up(six_bar_fixture *f, fw_workspace_loop *loop) {
     six_bar_make(f, six_bar_reference);
-    assert_true(fw_loop_set_up(&f->mechanism, loop));
+    assert_true(fw_workspace_loop_set_up(&f->mechanism, loop));
 }
 
-static fw_reach_limits all_equal(double deg) {
+static fw_workspace_reach_limits all_equal(double deg) {
     double limit[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         limit[i] = deg * degree;
-    return fw_limits_symmetric(limit);
+    return fw_workspace_limits_symmetric(limit);
 }
 
 static const struct {
@@ -32,20 +32,22 @@ static const struct {
 static void volumes_of_the_reference(void **state) {
     (void)state;
     six_bar_fixture f;
-    fw_loop loop;
+    fw_workspace_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
     for (size_t i = 0; i < 3; i++) {
-        fw_reach_limits limits = all_equal(volume[i].deg);
-        fw_measure v;
-        assert_int_equal(fw_reach_volume(arena, &loop, &limits, (fw_effort){1e-3, 1000000}, &v),
+        fw_workspace_reach_limits limits = all_equal(volume[i].deg);
+        fw_workspace_measure v;
+        assert_int_equal(fw_workspace_reach_volume(arena, &loop, &limits,
+                                                   (fw_workspace_proof_effort){1e-3, 1000000}, &v),
                          FW_OK);
         double low = v.value.lo * 1e12, high = v.value.hi * 1e12;
         assert_true(v.reached && high / low - 1 <= 1e-3);
         assert_true(low <= volume[i].high && high >= volume[i].low);
         assert_true(volume[i].sampled > low - 4 * volume[i].sigma &&
                     volume[i].sampled < high + 4 * volume[i].sigma);
-        assert_int_equal(fw_reach_volume(arena, &loop, &limits, (fw_effort){1e-2, 1000000}, &v),
+        assert_int_equal(fw_workspace_reach_volume(arena, &loop, &limits,
+                                                   (fw_workspace_proof_effort){1e-2, 1000000}, &v),
                          FW_OK);
         assert_true(v.reached && v.boxes < 60000);
     }
@@ -56,23 +58,26 @@ static void volumes_of_the_reference(void **state) {
 static void brackets_nest(void **state) {
     (void)state;
     six_bar_fixture f;
-    fw_loop loop;
+    fw_workspace_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
-    fw_reach_limits limits = all_equal(7);
+    fw_workspace_reach_limits limits = all_equal(7);
     limits.high_rad[0] = 0.05, limits.low_rad[3] = -0.2, limits.high_rad[4] = 0.09;
-    fw_interval before = {0, (double)INFINITY};
+    fw_maths_interval before = {0, (double)INFINITY};
     for (int i = 0; i < 7; i++) {
-        fw_measure v;
+        fw_workspace_measure v;
         assert_int_equal(
-            fw_reach_volume(arena, &loop, &limits, (fw_effort){0.3 * pow(0.3, i), 5000000}, &v),
+            fw_workspace_reach_volume(arena, &loop, &limits,
+                                      (fw_workspace_proof_effort){0.3 * pow(0.3, i), 5000000}, &v),
             FW_OK);
         assert_true(v.reached);
         assert_true(v.value.lo >= before.lo && v.value.hi <= before.hi);
         before = v.value;
     }
-    fw_measure few;
-    assert_int_equal(fw_reach_volume(arena, &loop, &limits, (fw_effort){1e-6, 2000}, &few), FW_OK);
+    fw_workspace_measure few;
+    assert_int_equal(fw_workspace_reach_volume(arena, &loop, &limits,
+                                               (fw_workspace_proof_effort){1e-6, 2000}, &few),
+                     FW_OK);
     assert_true(!few.reached && few.boxes < 2100);
     assert_true(few.value.lo <= before.lo && few.value.hi >= before.hi);
     fw_arena_free(arena);
@@ -91,15 +96,15 @@ static const struct {
 static void areas_of_the_reference(void **state) {
     (void)state;
     six_bar_fixture f;
-    fw_loop loop;
+    fw_workspace_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
     for (size_t i = 0; i < sizeof area / sizeof area[0]; i++) {
-        fw_reach_limits limits = all_equal(area[i].deg);
-        fw_measure a;
-        assert_int_equal(
-            fw_reach_area(arena, &loop, &limits, area[i].phi, (fw_effort){1e-5, 1000000}, &a),
-            FW_OK);
+        fw_workspace_reach_limits limits = all_equal(area[i].deg);
+        fw_workspace_measure a;
+        assert_int_equal(fw_workspace_reach_area(arena, &loop, &limits, area[i].phi,
+                                                 (fw_workspace_proof_effort){1e-5, 1000000}, &a),
+                         FW_OK);
         assert_true(a.reached);
         assert_near(a.value.lo * 1e12, area[i].area, 2e-3 * area[i].area + 1e-9);
         assert_near(a.value.hi * 1e12, area[i].area, 2e-3 * area[i].area + 1e-9);
@@ -112,16 +117,17 @@ static void areas_of_the_reference(void **state) {
 static void areas_add_up_to_the_volume(void **state) {
     (void)state;
     six_bar_fixture f;
-    fw_loop loop;
+    fw_workspace_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
-    fw_reach_limits limits = all_equal(10);
+    fw_workspace_reach_limits limits = all_equal(10);
     enum { SLICES = 400 };
     double sum = 0, reach = 0.19;
     for (int i = 0; i < SLICES; i++) {
-        fw_measure a;
+        fw_workspace_measure a;
         double phi = reach * ((2.0 * i + 1) / SLICES - 1);
-        assert_int_equal(fw_reach_area(arena, &loop, &limits, phi, (fw_effort){1e-3, 100000}, &a),
+        assert_int_equal(fw_workspace_reach_area(arena, &loop, &limits, phi,
+                                                 (fw_workspace_proof_effort){1e-3, 100000}, &a),
                          FW_OK);
         sum += 0.5 * (a.value.lo + a.value.hi) * 2 * reach / SLICES;
     }
@@ -134,21 +140,29 @@ static void areas_add_up_to_the_volume(void **state) {
 static void scaling_and_nothing(void **state) {
     (void)state;
     six_bar_fixture f;
-    fw_loop loop;
+    fw_workspace_loop loop;
     set_up(&f, &loop);
     fw_arena *arena = fw_arena_new(0);
-    fw_measure a, b;
-    fw_reach_limits one = all_equal(0.01), two = all_equal(0.02);
-    assert_int_equal(fw_reach_volume(arena, &loop, &one, (fw_effort){1e-3, 1000000}, &a), FW_OK);
-    assert_int_equal(fw_reach_volume(arena, &loop, &two, (fw_effort){1e-3, 1000000}, &b), FW_OK);
+    fw_workspace_measure a, b;
+    fw_workspace_reach_limits one = all_equal(0.01), two = all_equal(0.02);
+    assert_int_equal(fw_workspace_reach_volume(arena, &loop, &one,
+                                               (fw_workspace_proof_effort){1e-3, 1000000}, &a),
+                     FW_OK);
+    assert_int_equal(fw_workspace_reach_volume(arena, &loop, &two,
+                                               (fw_workspace_proof_effort){1e-3, 1000000}, &b),
+                     FW_OK);
     assert_relative(b.value.lo / a.value.lo, 8.0, 2e-3);
-    fw_reach_limits none = all_equal(1);
+    fw_workspace_reach_limits none = all_equal(1);
     none.low_rad[4] = 0.5, none.high_rad[4] = 0.6; /* E would have to be turned by 30 deg */
-    assert_int_equal(fw_reach_volume(arena, &loop, &none, (fw_effort){1e-3, 1000000}, &a), FW_OK);
+    assert_int_equal(fw_workspace_reach_volume(arena, &loop, &none,
+                                               (fw_workspace_proof_effort){1e-3, 1000000}, &a),
+                     FW_OK);
     assert_true(a.reached && a.value.hi == 0.0);
     none = all_equal(1);
     none.low_rad[1] = 0.2, none.high_rad[1] = 0.1;
-    assert_int_equal(fw_reach_volume(arena, &loop, &none, (fw_effort){1e-3, 1000000}, &a), FW_OK);
+    assert_int_equal(fw_workspace_reach_volume(arena, &loop, &none,
+                                               (fw_workspace_proof_effort){1e-3, 1000000}, &a),
+                     FW_OK);
     assert_true(a.reached && a.value.hi == 0.0);
     fw_arena_free(arena);
 }

@@ -18,8 +18,8 @@ static double either(double size) {
 
 typedef struct subject {
     six_bar_fixture f;
-    fw_loop loop;
-    fw_reach_limits limits;
+    fw_workspace_loop loop;
+    fw_workspace_reach_limits limits;
 } subject;
 
 static bool strewn(subject *s, double by, double limit) {
@@ -33,21 +33,22 @@ static bool strewn(subject *s, double by, double limit) {
         s->limits.low_rad[i] = -limit * (0.3 + unit());
         s->limits.high_rad[i] = limit * (0.3 + unit());
     }
-    return fw_loop_set_up(&s->f.mechanism, &s->loop);
+    return fw_workspace_loop_set_up(&s->f.mechanism, &s->loop);
 }
 
 /* within the limits, by the engine's own inverse kinematics */
 static bool plain(const subject *s, const double pose[3]) {
     double angle[FW_SIX];
     int leg;
-    if (!fw_six_bar_inverse(&s->f.mechanism, pose[0], pose[1], pose[2], angle, &leg)) return false;
+    if (!fw_workspace_six_bar_inverse(&s->f.mechanism, pose[0], pose[1], pose[2], angle, &leg))
+        return false;
     for (int i = 0; i < FW_SIX; i++)
         if (angle[i] < s->limits.low_rad[i] || angle[i] > s->limits.high_rad[i]) return false;
     return true;
 }
 
 static void forward(const subject *s, const double q[3], double pose[3]) {
-    const fw_leg *l = &s->loop.leg[0];
+    const fw_workspace_leg *l = &s->loop.leg[0];
     double a = q[0], b = q[0] + q[1], c = q[0] + q[1] + q[2];
     pose[0] = l->base.x + cos(a) * l->a.x - sin(a) * l->a.y + cos(b) * l->b.x - sin(b) * l->b.y -
               cos(c) * l->to.x + sin(c) * l->to.y - s->loop.centre.x;
@@ -59,8 +60,9 @@ static void forward(const subject *s, const double q[3], double pose[3]) {
 /* What a cut box says of its parts beforehand, and what a part says of which only that is asked
    which is not proved of the box, is so at points of the part. How many parts were told
    beforehand. */
-static int parts_agree(const subject *s, const fw_allowed *allowed, const fw_box3 *box,
-                       unsigned open, const fw_loop_box *known) {
+static int parts_agree(const subject *s, const fw_workspace_allowed *allowed,
+                       const fw_workspace_box3 *box, unsigned open,
+                       const fw_workspace_loop_box *known) {
     double between[3];
     unsigned inside, outside;
     int told = 0;
@@ -69,15 +71,16 @@ static int parts_agree(const subject *s, const fw_allowed *allowed, const fw_box
         between[k] = middle + either(4e-16);
         between[k] = fmin(fmax(between[k], box->lo[k]), box->hi[k]);
     }
-    fw_reach_parts(allowed, 3, box, between, open, known, &inside, &outside);
+    fw_workspace_reach_parts(allowed, 3, box, between, open, known, &inside, &outside);
     for (int part = 0; part < 8; part++) {
-        fw_box3 half = *box;
+        fw_workspace_box3 half = *box;
         for (int k = 0; k < 3; k++)
             *(part >> k & 1 ? &half.lo[k] : &half.hi[k]) = between[k];
-        fw_loop_box seen;
-        fw_interval share;
+        fw_workspace_loop_box seen;
+        fw_maths_interval share;
         unsigned left = open;
-        fw_inside where = fw_reach_judge(&s->loop, allowed, 3, 0, &half, &left, &seen, &share);
+        fw_workspace_inside where =
+            fw_workspace_reach_judge(&s->loop, allowed, 3, 0, &half, &left, &seen, &share);
         bool in = inside >> part & 1, out = outside >> part & 1;
         assert_false(in && out);
         told += in || out;
@@ -102,17 +105,18 @@ static void boxes_agree_with_plain_kinematics(void **state) {
     for (int i = 0; i < 4000; i++) {
         subject s;
         if (!strewn(&s, 300, 0.25)) continue;
-        fw_allowed allowed = fw_limits_allow(&s.loop, &s.limits);
-        fw_box3 whole = fw_reach_whole(&s.loop, &allowed), box;
+        fw_workspace_allowed allowed = fw_workspace_limits_allow(&s.loop, &s.limits);
+        fw_workspace_box3 whole = fw_workspace_reach_whole(&s.loop, &allowed), box;
         for (int k = 0; k < 3; k++) {
             double w = (whole.hi[k] - whole.lo[k]) * 0.12 * unit();
             box.lo[k] = whole.lo[k] + unit() * (whole.hi[k] - whole.lo[k] - w);
             box.hi[k] = box.lo[k] + w;
         }
-        fw_loop_box known;
-        fw_interval share;
+        fw_workspace_loop_box known;
+        fw_maths_interval share;
         unsigned open = FW_WANT_LIMITS;
-        fw_inside where = fw_reach_judge(&s.loop, &allowed, 3, 0, &box, &open, &known, &share);
+        fw_workspace_inside where =
+            fw_workspace_reach_judge(&s.loop, &allowed, 3, 0, &box, &open, &known, &share);
         enum { POINTS = 400 };
         int in = 0;
         for (int n = 0; n < POINTS; n++) {
@@ -144,8 +148,9 @@ static void volume_against_monte_carlo(void **state) {
     for (int i = 0; i < 6; i++) {
         subject s;
         if (!strewn(&s, 200, i < 4 ? 0.1 : 0.3)) continue;
-        fw_measure v;
-        assert_int_equal(fw_reach_volume(arena, &s.loop, &s.limits, (fw_effort){3e-3, 1000000}, &v),
+        fw_workspace_measure v;
+        assert_int_equal(fw_workspace_reach_volume(arena, &s.loop, &s.limits,
+                                                   (fw_workspace_proof_effort){3e-3, 1000000}, &v),
                          FW_OK);
         assert_true(v.reached);
         enum { POSES = 400000 };
@@ -176,9 +181,10 @@ static void stretched_legs_end_the_branch(void **state) {
     assert_true(strewn(&s, 0, 0.5));
     for (int i = 0; i < FW_SIX; i++)
         s.f.pin[i].free_angle_rad = 0, s.limits.low_rad[i] = -1.5, s.limits.high_rad[i] = 1.5;
-    assert_true(fw_loop_set_up(&s.f.mechanism, &s.loop));
-    fw_measure v;
-    assert_int_equal(fw_reach_volume(arena, &s.loop, &s.limits, (fw_effort){0.05, 1000000}, &v),
+    assert_true(fw_workspace_loop_set_up(&s.f.mechanism, &s.loop));
+    fw_workspace_measure v;
+    assert_int_equal(fw_workspace_reach_volume(arena, &s.loop, &s.limits,
+                                               (fw_workspace_proof_effort){0.05, 1000000}, &v),
                      FW_OK);
     assert_true(v.value.lo > 0 && v.value.hi < 1.4 * v.value.lo);
     enum { POSES = 400000 };

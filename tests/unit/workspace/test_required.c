@@ -7,12 +7,12 @@
 static fw_workspace_result run(six_bar_fixture *f, double x, double y, double phi) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
-    f->box = (fw_workspace_box){.x_min_m = -x,
-                                .x_max_m = x,
-                                .y_min_m = -y,
-                                .y_max_m = y,
-                                .phi_min_rad = -phi,
-                                .phi_max_rad = phi};
+    f->box = (fw_device_workspace_box){.x_min_m = -x,
+                                       .x_max_m = x,
+                                       .y_min_m = -y,
+                                       .y_max_m = y,
+                                       .phi_min_rad = -phi,
+                                       .phi_max_rad = phi};
     f->device.nworkspace = 1;
     fw_workspace_result result;
     assert_int_equal(fw_workspace_required(arena, &f->mechanism, &diags, &result), FW_OK);
@@ -38,7 +38,7 @@ static void corners_and_interior(void **state) {
                 seed = seed * 6364136223846793005u + 1442695040888963407u;
                 u[k] = (2.0 * (double)(seed >> 11) / 9007199254740992.0 - 1.0) * box[b][k];
             }
-            assert_true(fw_six_bar_inverse(&f.mechanism, u[0], u[1], u[2], angle, &leg));
+            assert_true(fw_workspace_six_bar_inverse(&f.mechanism, u[0], u[1], u[2], angle, &leg));
             for (int j = 0; j < FW_SIX; j++)
                 assert_true(fabs(angle[j]) <= fabs(r.peak[j].angle_rad) + r.peak[j].error_rad);
         }
@@ -67,26 +67,26 @@ static void symmetric_design_gives_symmetric_hinges(void **state) {
 static void riders(void **state) {
     (void)state;
     const struct {
-        fw_tie tie[3];
-        fw_pin pin;
-        int nbody, ntie, npin, driven; /* driven: 1 + joint */
+        fw_device_joint joint[3];
+        fw_mechanism_pin pin;
+        int nbody, njoint, npin, driven; /* driven: 1 + joint */
         const char *held;
     } row[] = {
         {.nbody = 5},
-        {{{.id = "t", .body_a = 2, .body_b = 5}}, .nbody = 6, .ntie = 1},
-        {{{.id = "t", .body_a = 2, .body_b = FW_GROUND}}, .nbody = 5, .ntie = 1, .held = "t"},
-        {{{.id = "t", .body_a = 0, .body_b = 3}}, .nbody = 5, .ntie = 1, .held = "t"},
+        {{{.id = "t", .body_a = 2, .body_b = 5}}, .nbody = 6, .njoint = 1},
+        {{{.id = "t", .body_a = 2, .body_b = FW_GROUND}}, .nbody = 5, .njoint = 1, .held = "t"},
+        {{{.id = "t", .body_a = 0, .body_b = 3}}, .nbody = 5, .njoint = 1, .held = "t"},
         /* a loop of riders on the platform */
         {{{.id = "t", .body_a = 2, .body_b = 5},
           {.id = "u", .body_a = 5, .body_b = 6},
           {.id = "v", .body_a = 6, .body_b = 2}},
          .nbody = 7,
-         .ntie = 3},
+         .njoint = 3},
         /* the same loop over the platform and a link, closed by a pin */
         {{{.id = "t", .body_a = 2, .body_b = 5}, {.id = "u", .body_a = 6, .body_b = 5}},
          .pin = {.id = "p", .body_a = FW_GROUND, .body_b = 6},
          .nbody = 7,
-         .ntie = 2,
+         .njoint = 2,
          .npin = 1,
          .held = "t"},
         {.nbody = 5, .driven = 3, .held = "drive"},
@@ -95,27 +95,27 @@ static void riders(void **state) {
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         six_bar_fixture f;
         six_bar_make(&f, six_bar_reference);
-        fw_pin pin[FW_SIX + 1];
+        fw_mechanism_pin pin[FW_SIX + 1];
         memcpy(pin, f.mechanism.pin, FW_SIX * sizeof pin[0]);
         pin[FW_SIX] = row[i].pin;
-        fw_driver driver = {.id = "drive", .joint = row[i].driven - 1, .tie = FW_NONE};
+        fw_device_driver driver = {.id = "drive", .revolute = row[i].driven - 1, .joint = FW_NONE};
         fw_mechanism m = f.mechanism;
-        fw_tie tie[3];
-        memcpy(tie, row[i].tie, sizeof tie);
-        m.pin = pin, m.tie = tie, m.driver = &driver;
-        m.npin = FW_SIX + row[i].npin, m.ntie = row[i].ntie, m.nbody = row[i].nbody;
+        fw_device_joint joint[3];
+        memcpy(joint, row[i].joint, sizeof joint);
+        m.pin = pin, m.joint = joint, m.driver = &driver;
+        m.npin = FW_SIX + row[i].npin, m.njoint = row[i].njoint, m.nbody = row[i].nbody;
         m.ndriver = row[i].driven > 0;
         fw_arena *arena = fw_arena_new(0);
         const char *held = "?";
-        assert_int_equal(fw_six_bar_restrained(arena, &m, &held), FW_OK);
+        assert_int_equal(fw_workspace_six_bar_foreign_joint(arena, &m, &held), FW_OK);
         if (!held != !row[i].held || (held && strcmp(held, row[i].held) != 0))
             fail_msg("row %zu: %s", i, held ? held : "none");
         /* and the required workspace says so */
         fw_diags diags = fw_diags_new(arena);
         fw_workspace_result result;
-        f.box = (fw_workspace_box){.x_min_m = -1e-6, .x_max_m = 1e-6};
+        f.box = (fw_device_workspace_box){.x_min_m = -1e-6, .x_max_m = 1e-6};
         f.device.nworkspace = 1;
-        fw_mass mass[7] = {0};
+        fw_mechanism_mass mass[7] = {0};
         memcpy(mass, f.mechanism.body, 5 * sizeof mass[0]);
         m.body = mass;
         assert_int_equal(fw_workspace_required(arena, &m, &diags, &result),

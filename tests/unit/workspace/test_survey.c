@@ -5,11 +5,11 @@
 
 static const double degree = 0.017453292519943295;
 
-static fw_reach_limits all_equal(double deg) {
+static fw_workspace_reach_limits all_equal(double deg) {
     double limit[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         limit[i] = deg * degree;
-    return fw_limits_symmetric(limit);
+    return fw_workspace_limits_symmetric(limit);
 }
 
 /* independent bounds of twice the areas over a superset of the 10 deg workspace, um2 */
@@ -34,14 +34,14 @@ static void singularities_of_the_reference(void **state) {
     fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_reach_limits limits = all_equal(10);
-    fw_survey s;
-    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 5, &s), FW_OK);
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_reach_limits limits = all_equal(10);
+    fw_workspace_survey s;
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 5, &s), FW_OK);
     assert_true(s.singular.regular[0] && s.singular.regular[1]);
     for (int i = 0; i < FW_TRIANGLES; i++) {
-        const fw_triangle *t = &s.singular.passive[i];
+        const fw_workspace_triangle *t = &s.singular.passive[i];
         for (int k = 0; k < 3; k++)
             assert_int_equal(t->hinge[k], passive[i].hinge[k]);
         assert_true(t->regular && t->negative && !t->positive);
@@ -55,8 +55,8 @@ static void singularities_of_the_reference(void **state) {
         /* the pose does have that length */
         double angle[FW_SIX];
         int leg;
-        assert_true(
-            fw_six_bar_inverse(&f.mechanism, t->pose[0], t->pose[1], t->pose[2], angle, &leg));
+        assert_true(fw_workspace_six_bar_inverse(&f.mechanism, t->pose[0], t->pose[1], t->pose[2],
+                                                 angle, &leg));
         for (int j = 0; j < FW_SIX; j++)
             assert_true(fabs(angle[j]) <= 10 * degree + 1e-12);
     }
@@ -69,11 +69,11 @@ static void shares_of_the_reference(void **state) {
     fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_reach_limits limits = all_equal(10);
-    fw_survey s;
-    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_reach_limits limits = all_equal(10);
+    fw_workspace_survey s;
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
     const double want[FW_SIX] = {.143, .155, .201, .201, .156, .144}; /* independent */
     double sum = 0;
     for (int i = 0; i < FW_SIX; i++) {
@@ -84,16 +84,18 @@ static void shares_of_the_reference(void **state) {
     assert_near(s.exponent, 2.99, 0.02);
     /* one hinge alone is tight: it owns nearly all of it that it can */
     limits.low_rad[4] = -0.01, limits.high_rad[4] = 0.01;
-    assert_int_equal(fw_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
     double grows[FW_SIX], all = 0;
     for (int i = 0; i < FW_SIX; i++) {
         double v[2];
         for (int k = 0; k < 2; k++) {
-            fw_reach_limits other = limits;
+            fw_workspace_reach_limits other = limits;
             other.low_rad[i] *= k ? 1.05 : 0.95;
             other.high_rad[i] *= k ? 1.05 : 0.95;
-            fw_measure m;
-            assert_int_equal(fw_reach_volume(arena, &loop, &other, (fw_effort){2e-3, 1000000}, &m),
+            fw_workspace_measure m;
+            assert_int_equal(fw_workspace_reach_volume(arena, &loop, &other,
+                                                       (fw_workspace_proof_effort){2e-3, 1000000},
+                                                       &m),
                              FW_OK);
             v[k] = 0.5 * (m.value.lo + m.value.hi);
         }
@@ -110,12 +112,12 @@ static void extents_of_the_reference(void **state) {
     (void)state;
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_reach_limits limits = all_equal(10);
-    fw_survey s;
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_reach_limits limits = all_equal(10);
+    fw_workspace_survey s;
     fw_arena *arena = fw_arena_new(0);
-    assert_int_equal(fw_reach_extents(arena, &loop, &limits, 1e-3, 20000, &s), FW_OK);
+    assert_int_equal(fw_workspace_reach_extents(arena, &loop, &limits, 1e-3, 20000, &s), FW_OK);
     const double low[3] = {-261e-6, -126e-6, -10.7 * degree},
                  high[3] = {264e-6, 111e-6, 10.7 * degree};
     for (int c = 0; c < 3; c++) {
@@ -131,7 +133,8 @@ static void extents_of_the_reference(void **state) {
             const double *at = k ? s.most_at[c] : s.least_at[c];
             double angle[FW_SIX];
             int leg;
-            assert_true(fw_six_bar_inverse(&f.mechanism, at[0], at[1], at[2], angle, &leg));
+            assert_true(
+                fw_workspace_six_bar_inverse(&f.mechanism, at[0], at[1], at[2], angle, &leg));
             for (int j = 0; j < FW_SIX; j++)
                 assert_true(fabs(angle[j]) <= 10 * degree + 1e-12);
             assert_near(at[c], k ? s.most[c].lo : s.least[c].hi, 1e-12);
@@ -148,18 +151,18 @@ static void required_box_is_regular_or_not(void **state) {
     fw_arena *arena = fw_arena_new(0);
     six_bar_fixture f;
     six_bar_make(&f, six_bar_reference);
-    fw_loop loop;
-    assert_true(fw_loop_set_up(&f.mechanism, &loop));
-    fw_regularity r;
-    fw_box3 box = {{-50e-6, -50e-6, -0.03}, {50e-6, 50e-6, 0.03}};
-    assert_int_equal(fw_required_survey(arena, &loop, &box, &r), FW_OK);
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
+    fw_workspace_regularity r;
+    fw_workspace_box3 box = {{-50e-6, -50e-6, -0.03}, {50e-6, 50e-6, 0.03}};
+    assert_int_equal(fw_workspace_required_survey(arena, &loop, &box, &r), FW_OK);
     for (int i = 0; i < FW_TRIANGLES; i++)
         assert_true(r.passive[i].regular);
     assert_true(r.regular[0] && r.regular[1]);
     /* far enough to put C, D and E in line: both signs of that triangle are met */
-    fw_box3 far = {{-100e-6, 0, -0.9}, {100e-6, 0, 0}};
-    assert_int_equal(fw_required_survey(arena, &loop, &far, &r), FW_OK);
-    const fw_triangle *cde = &r.passive[16];
+    fw_workspace_box3 far = {{-100e-6, 0, -0.9}, {100e-6, 0, 0}};
+    assert_int_equal(fw_workspace_required_survey(arena, &loop, &far, &r), FW_OK);
+    const fw_workspace_triangle *cde = &r.passive[16];
     assert_false(cde->regular);
     assert_true(cde->positive && cde->negative && cde->length_m.hi == 0);
     fw_arena_free(arena);

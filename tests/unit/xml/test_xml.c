@@ -2,9 +2,9 @@
 #include "xml/xml.h"
 #include "test.h"
 
-static fw_element *parse(fw_arena *arena, const char *text) {
+static fw_xml_element *parse(fw_arena *arena, const char *text) {
     fw_diags diags = fw_diags_new(arena);
-    fw_element *root;
+    fw_xml_element *root;
     fw_status s = fw_xml_read(arena, "t.xml", text, strlen(text), &diags, &root);
     if (s != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : fw_status_text(s));
     return root;
@@ -27,7 +27,7 @@ static void places_of_everything(void **state) {
                        "\td=\"1\"/><![CDATA[<x y=\"z\">]]>\n"
                        "  <c e=\"\xc3\xa9\" f=\"2\">  text </c>\n"
                        "</r>\n";
-    fw_element *r = parse(arena, text);
+    fw_xml_element *r = parse(arena, text);
     assert_string_equal(r->name, "r");
     assert_string_equal(r->space, "urn:x");
     assert_place(r->place, 3, 1);
@@ -40,7 +40,7 @@ static void places_of_everything(void **state) {
     assert_int_equal(memcmp(text + r->attribute[0].value_offset, "one", 3), 0);
     assert_place(r->text_place, 5, 3);
     assert_non_null(strstr(r->text, "<x y=\"z\">"));
-    fw_element *c = r->first_child, *d = c->next;
+    fw_xml_element *c = r->first_child, *d = c->next;
     assert_place(c->place, 6, 3);
     assert_place(c->attribute[0].place, 7, 5);
     assert_string_equal(c->text, "");
@@ -51,16 +51,16 @@ static void places_of_everything(void **state) {
     assert_ptr_equal(d, r->last_child);
     assert_ptr_equal(d->parent, r);
     assert_null(d->next);
-    assert_null(fw_xml_attribute(d, "nothing"));
-    assert_ptr_equal(fw_xml_attribute(d, "f"), &d->attribute[1]);
+    assert_null(fw_xml_attribute_of(d, "nothing"));
+    assert_ptr_equal(fw_xml_attribute_of(d, "f"), &d->attribute[1]);
     fw_arena_free(arena);
 }
 
 static void values_with_entities_are_not_exact(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_element *r = parse(arena, "<r a=\"1 &lt; 2\" b=\"x\ny\tz\" c=\"&#181;m\" d=\"\"/>");
-    const fw_attribute *a = r->attribute;
+    fw_xml_element *r = parse(arena, "<r a=\"1 &lt; 2\" b=\"x\ny\tz\" c=\"&#181;m\" d=\"\"/>");
+    const fw_xml_attribute *a = r->attribute;
     assert_string_equal(a[0].value, "1 < 2");
     assert_int_equal(a[0].exact, 0);
     assert_place(fw_xml_inside(&a[0], 3), 1, 7); /* only the value's own place is known */
@@ -78,7 +78,7 @@ static void values_with_entities_are_not_exact(void **state) {
 static void a_mark_and_line_ends(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_element *r = parse(arena, "\xef\xbb\xbf<r>\r\n<c a=\"1\"/>\r\n</r>");
+    fw_xml_element *r = parse(arena, "\xef\xbb\xbf<r>\r\n<c a=\"1\"/>\r\n</r>");
     assert_place(r->place, 1, 4);
     assert_place(r->first_child->place, 2, 1);
     assert_place(r->first_child->attribute[0].place, 2, 7);
@@ -94,7 +94,7 @@ static void many_lines(void **state) {
     for (int i = 0; i < 70000; i++)
         fw_text_add(&text, "\n");
     fw_text_add(&text, " <c a='1'/></r>");
-    fw_element *r = parse(arena, text.data);
+    fw_xml_element *r = parse(arena, text.data);
     assert_place(r->first_child->place, 70001, 2);
     assert_place(r->first_child->attribute[0].place, 70001, 8);
     fw_arena_free(arena);
@@ -108,9 +108,9 @@ static void many_elements_keep_their_places(void **state) {
     for (int i = 0; i < 19990; i++)
         fw_text_printf(&text, "<c%d a='%d'>t</c%d>\n", i, i, i);
     fw_text_add(&text, "</r>");
-    fw_element *r = parse(arena, text.data);
+    fw_xml_element *r = parse(arena, text.data);
     int i = 0;
-    for (fw_element *c = r->first_child; c; c = c->next, i++) {
+    for (fw_xml_element *c = r->first_child; c; c = c->next, i++) {
         char name[16], value[16];
         snprintf(name, sizeof name, "c%d", i);
         snprintf(value, sizeof value, "%d", i);
@@ -132,7 +132,7 @@ static void memory_runs_out(void **state) {
         for (long n = 1;; n++) {
             fw_arena *arena = fw_arena_new(0);
             fw_diags diags = fw_diags_new(arena);
-            fw_element *root;
+            fw_xml_element *root;
             fw_arena_fail_at(n, ever);
             fw_status s = fw_xml_read(arena, "t", text, strlen(text), &diags, &root);
             long used = fw_arena_count();

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "xml/quantity.h"
+#include "xml/xml_quantity.h"
 #include "test.h"
 
-static const fw_source_text sources[] = {{"s", "a source"}, {"t", "another"}};
+static const fw_xml_source_text sources[] = {{"s", "a source"}, {"t", "another"}};
 
 static fw_status read_q(fw_arena *arena, const char *attributes, fw_quantity *q, fw_diags *diags) {
     char xml[512];
-    fw_element *root;
+    fw_xml_element *root;
     snprintf(xml, sizeof xml, "<q %s/>", attributes);
     *diags = fw_diags_new(arena);
     assert_int_equal(fw_xml_read(arena, "t", xml, strlen(xml), diags, &root), FW_OK);
-    return fw_quantity_read(arena, root, sources, 2, diags, q);
+    return fw_xml_quantity_read(arena, root, sources, 2, diags, q);
 }
 
 static void good_quantities(void **state) {
@@ -111,16 +111,16 @@ static void sources_are_collected(void **state) {
     const char *xml = "<p><source id='a'>first</source><x/><source id='b'/></p>";
     const char *bad = "<p><source id='a'>1</source><source id='a'>2</source><source/></p>";
     fw_diags diags = fw_diags_new(arena);
-    fw_element *root;
-    fw_source_text *source;
+    fw_xml_element *root;
+    fw_xml_source_text *source;
     int n;
     assert_int_equal(fw_xml_read(arena, "t", xml, strlen(xml), &diags, &root), FW_OK);
-    assert_int_equal(fw_sources_read(arena, root, &diags, &source, &n), FW_OK);
+    assert_int_equal(fw_xml_sources_read(arena, root, &diags, &source, &n), FW_OK);
     assert_int_equal(n, 2);
     assert_string_equal(source[0].text, "first");
     assert_string_equal(source[1].text, "");
     assert_int_equal(fw_xml_read(arena, "t", bad, strlen(bad), &diags, &root), FW_OK);
-    assert_int_equal(fw_sources_read(arena, root, &diags, &source, &n), FW_INPUT);
+    assert_int_equal(fw_xml_sources_read(arena, root, &diags, &source, &n), FW_INPUT);
     assert_int_equal(diags.errors, 2);
     fw_arena_free(arena);
 }

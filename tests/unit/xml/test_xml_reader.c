@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The reader by a table of its own: every kind of value, how often elements may stand, text, elements
+/* The reader by a table of its own: every kind of value, how often elements may stand, text,
+   elements
    with several parents, and rows made for one element. */
 #include "test.h"
-#include "xml/reader.h"
+#include "xml/xml_reader.h"
 
 static bool is_even(const char *text) {
     return strlen(text) % 2 == 0;
 }
 
 static const char *const colours[] = {"red", "green", NULL};
-static const fw_attribute_row box_rows[] = {
+static const fw_xml_attribute_row box_rows[] = {
     {"id", .kind = FW_KIND_ID, .required = true, .sentence = "Its name."},
     {"size", .kind = FW_KIND_NUMBER, .dimension = {.m = 1}, .unit = "um", .ranged = true,
      .open = true, .max = 1e-3, .reason = "it must fit", .sentence = "Its size."},
@@ -20,19 +21,20 @@ static const fw_attribute_row box_rows[] = {
     {"label", .kind = FW_KIND_FORM, .form = is_even, .reason = "of even length",
      .sentence = "What is written on it."},
 };
-static const fw_attribute_row long_rows[] = {
+static const fw_xml_attribute_row long_rows[] = {
     {"kind", .required = true, .sentence = "What it is."},
     {"length", .kind = FW_KIND_DECIMAL, .required = true, .sentence = "How long."},
 };
-static fw_status lid_row(fw_xml_reader *r, const fw_element *e, const fw_element_row **row) {
-    static const fw_element_row made = {"lid kind=\"long\"", "box", .attribute = long_rows,
-                                        .nattribute = 2, .sentence = "A long one."};
-    const fw_attribute *kind = fw_xml_attribute(e, "kind");
+static fw_status lid_row(fw_xml_reader *r, const fw_xml_element *e,
+                         const fw_xml_element_row **row) {
+    static const fw_xml_element_row made = {"lid kind=\"long\"", "box", .attribute = long_rows,
+                                            .nattribute = 2, .sentence = "A long one."};
+    const fw_xml_attribute *kind = fw_xml_attribute_of(e, "kind");
     *row = kind && strcmp(kind->value, "long") == 0 ? &made : NULL;
     if (!*row) fw_diag_error(r->diags, 185, e->place, "no such lid");
     return FW_OK;
 }
-static const fw_element_row rows[] = {
+static const fw_xml_element_row rows[] = {
     {"shelf", "", .sentence = "A shelf."},
     {"box", "shelf", "id", 1, .needed = true, .attribute = box_rows, .nattribute = 6,
      .sentence = "A box."},
@@ -40,7 +42,7 @@ static const fw_element_row rows[] = {
     {"lid", "box", .specialise = lid_row, .sentence = "What closes it."},
     {0},
 };
-static const fw_element_row *const parts[] = {rows, NULL};
+static const fw_xml_element_row *const parts[] = {rows, NULL};
 static const char *const spaces[] = {"name", "box"};
 static const fw_xml_table table = {.file = "shelf file",
                                    .root = "shelf",
@@ -86,16 +88,17 @@ static void values_are_read(void **state) {
                           &diags, &r),
                      FW_OK);
     assert_int_equal(diags.count, 0);
-    const fw_record *a = r.record->first_child;
+    const fw_xml_record *a = r.record->first_child;
     assert_int_equal(fw_xml_children(r.record, "box"), 2);
-    assert_string_equal(fw_text_of(a, "id"), "a");
-    assert_near(fw_number_of(a, "size"), 6e-6, 1e-20);
-    assert_near(fw_number_of(a, "count"), 4, 0);
-    assert_string_equal(fw_text_of(a, "stripes"), "red  green");
+    assert_string_equal(fw_xml_text_of(a, "id"), "a");
+    assert_near(fw_xml_number_of(a, "size"), 6e-6, 1e-20);
+    assert_near(fw_xml_number_of(a, "count"), 4, 0);
+    assert_string_equal(fw_xml_text_of(a, "stripes"), "red  green");
     assert_string_equal(a->first_child->element->text, "hello");
-    assert_near(fw_number_of(a->first_child->next, "length"), 7.5, 0);
-    assert_true(fw_is(a->next, "note") && fw_is(a->next->next, "box") && !a->next->next->next);
-    assert_null(fw_text_of(a->next->next, "colour"));
+    assert_near(fw_xml_number_of(a->first_child->next, "length"), 7.5, 0);
+    assert_true(fw_xml_is(a->next, "note") && fw_xml_is(a->next->next, "box") &&
+                !a->next->next->next);
+    assert_null(fw_xml_text_of(a->next->next, "colour"));
     fw_arena_free(arena);
 }
 

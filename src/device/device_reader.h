@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the records of a device file (xml/xml_reader.h) to its description. Private to device/. */
+#ifndef FW_DEVICE_DEVICE_READER_H
+#define FW_DEVICE_DEVICE_READER_H
+#include "device/device.h"
+#include "device/device_table.h"
+#include "xml/xml_reader.h"
+
+typedef struct
+    fw_device_override { /* --set of a parameter: its declared value still gives the dimension
+                              */
+    const fw_xml_element *element;
+    const fw_xml_attribute *attribute;
+} fw_device_override;
+
+typedef struct fw_device_id_index { /* ids of one space by hash; grows with the description */
+    int *slot;                      /* (1 << bits) 1 + index, 0: free */
+    int bits, entered;
+} fw_device_id_index;
+
+typedef struct fw_device_reader {
+    fw_xml_reader xml; /* the file's records */
+    fw_arena *arena;   /* the same as of xml, as diags is */
+    fw_diags *diags;
+    fw_device_override *override_; /* (noverride) */
+    int noverride;
+    fw_quantity_name_value *name; /* parameters with a value, those of xml.names */
+    fw_device_id_index index[FW_SPACE_COUNT];
+    fw_device *device;
+} fw_device_reader;
+
+/* set.c, parameter.c: steps between those of xml/xml_reader.h */
+fw_status fw_device_sets_apply(fw_device_reader *r, const fw_device_set *set, int nset);
+fw_status fw_device_parameters_read(fw_device_reader *r);
+
+/* one step per part of the description */
+fw_status fw_device_build_parts(fw_device_reader *r);
+fw_status fw_device_build_wafer(fw_device_reader *r); /* <wafer> with its sweeps */
+fw_status fw_device_build_flexures(fw_device_reader *r);
+fw_status fw_device_expand_six_bar(fw_device_reader *r); /* bodies 0..4 and joints 0..5 */
+fw_status fw_device_build_mechanism(fw_device_reader *r);
+fw_status fw_device_build_scenes(fw_device_reader *r);
+/* close.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
+fw_status fw_device_close_rounded(fw_device_reader *r);
+
+/* time_law.c: the law of a load, NULL for one that is constant from the start or was reported */
+fw_status fw_device_time_law(fw_device_reader *r, const fw_xml_record *record,
+                             const fw_quantity_law **law);
+/* an attribute as an expression in time; *program NULL when it is absent or was reported */
+fw_status fw_device_time_program(fw_device_reader *r, const fw_xml_record *record, const char *name,
+                                 fw_quantity_dimension wanted, const fw_quantity_program **program);
+/* error where the law is not finite at one of some instants of [0, duration_s] */
+void fw_device_finite_check(fw_device_reader *r, const fw_xml_record *record, const char *name,
+                            const fw_quantity_law *law, double duration_s);
+
+enum { FW_NOWHERE = -2 };
+/* index of what the attribute refers to (joints first, then joints njoint + i), FW_GROUND (==
+   FW_NONE) for "ground" or when it is absent, FW_NOWHERE when there is none: that has been reported
+ */
+int fw_device_reference(fw_device_reader *r, const fw_xml_record *record, const char *name);
+bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate */
+/* what is drawn must lie on a wafer */
+void fw_device_wafer_check(fw_device_reader *r, const fw_xml_record *record, const char *name,
+                           double value_m);
+/* mass and inertia both or neither, and one of them or a shape */
+void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool shape,
+                          const char *shape_advice);
+
+#endif

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tolerances by the accuracy that is wanted. Two runs are made, a looser one first, then the
+   answer. With rho the ratio of their tolerances and D what they differ by
+   (fw_dynamics_tolerance_difference), the
+   error of the answer is
+
+     |error| <= c (10/rho)^0.6 D + b |drift of the energies| + round-off,  b = 1/2
+
+   c = 1, for dop853 0.7 where the looser tolerance is at most 1e-6; b = 3 where both runs took
+   about the same steps: then D says nothing of the steps' error. Twice as much D where switches of
+   contacts, stops or friction turned: when they do does not go with the tolerance.
+   How far apart the two are follows from the steps N of the looser one and the number n of bodies:
+   the error of dop853 is about rtol kappa N^0.9 n^1.5 (a fit over 545 random devices at tolerances
+   from 1e-2 to 1e-11, right within a factor of 9 for two of three of them), so that
+
+     rho = looser kappa N^0.9 n^1.5 / wanted,  at least sqrt(10), at most 100
+
+   Where the estimate is not below what is wanted, this answer is the looser run of the next one,
+   whose tolerance is lower by 2 estimate / wanted, at least by sqrt(10).
+   Joint forces, and verdicts, count D whole (trust below).
+   Validity: integrators in the table below; wanted between 1e-12 and 0.1.
+   Error: measured on a thousand other random devices, docs/theory/integrators.md.
+   Source: tolerance proportionality, Hairer, Norsett and Wanner I, II.4; factors are measured.
+   Test: test_steer.c, tests/accuracy/survey.c. */
+#include "dynamics/tolerance_control.h"
+#include <math.h>
+
+static const double fw_tightest = 1e-13;
+/* beyond, steps of order 8 span whole oscillations, and what they miss both runs may miss */
+static const double fw_loosest_of_two = 1e-3, fw_loosest_of_verdicts = 5e-4;
+static const double fw_ratio = 10, fw_ratio_far = 100, fw_ratio_least = 3.1622776601683795;
+static const double fw_part_power = 0.6;
+static const double fw_loose_of_forces = 25; /* as pace_row.loose, where forces are asked for */
+static const double fw_tolerable = 1e-6;     /* looser tolerances above are trusted less */
+
+typedef struct tolerance_trust { /* above fw_tolerable, and below */
+    double kappa;                /* of the error law; 0: there is none, and the ratio is 10 */
+    double part;                 /* c */
+} tolerance_trust;
+typedef struct tolerance_row {
+    const fw_maths_stepper_row *row;
+    double loose; /* wanted over the looser tolerance, for a start */
+    tolerance_trust loose_ones, tight_ones;
+} tolerance_row;
+static const tolerance_row fw_dynamics_tolerance_table[] = {
+    {&fw_maths_dop853_row, 3, {0.04, 1}, {0.015, 0.7}},
+    {&fw_maths_radau5_row, 10, {0, 1}, {0, 1}},
+    {&fw_maths_dopri5_row, 30, {0, 1}, {0, 1}}};
+
+static const tolerance_row *row_of(const fw_maths_stepper_row *row) {
+    for (size_t i = 0; i < sizeof fw_dynamics_tolerance_table / sizeof *fw_dynamics_tolerance_table;
+         i++)
+        if (fw_dynamics_tolerance_table[i].row == row) return &fw_dynamics_tolerance_table[i];
+    return NULL;
+}
+
+/* where m r^2/J is huge the accelerations carry round-off of 1e-16 m r^2/J; below some 1e-3 of that
+   the error estimate follows noise, and steps shrink for nothing. Likewise where a light body sits
+   between heavy ones, but for methods in independent coordinates. */
+static double noise_floor(const fw_dynamics_problem *problem) {
+    const fw_multibody_model *m = problem->model;
+    double ratio = 0, masses = m->method->independent ? 0 : 3e-17 * problem->uneven;
+    for (int i = 0; i < 2 * m->nblock; i++) {
+        int b = m->body[i];
+        double x = m->local[2 * i], y = m->local[2 * i + 1];
+        if (b < m->nbody) ratio = fmax(ratio, m->jinv[b] / m->minv[b] * (x * x + y * y));
+    }
+    return fmax(3e-19 * ratio, masses);
+}
+
+/* before an integrator is chosen nothing is trusted */
+static const tolerance_trust *trust_of(const fw_dynamics_controller *control, double looser) {
+    static const tolerance_trust none = {0, 1};
+    const tolerance_row *p = row_of(control->integrator);
+    if (!p) return &none;
+    return looser > fw_tolerable ? &p->loose_ones : &p->tight_ones;
+}
+
+double fw_dynamics_tolerance_tightest(const fw_dynamics_problem *problem) {
+    return fmax(fw_tightest, noise_floor(problem));
+}
+
+double fw_dynamics_tolerance_wanted(const fw_dynamics_recorder *record) {
+    double accuracy = record->motion->accuracy;
+    return fmax(accuracy - record->motion->ledger.left_out, 0.05 * accuracy);
+}
+
+bool fw_dynamics_tolerance_known(const fw_dynamics_problem *problem,
+                                 const fw_maths_stepper_row *row) {
+    return !(problem->options->rtol > 0) && row_of(row);
+}
+
+/* Verdicts stand on their errors: of 400 devices near their limit, factors that serve 99 % left
+   three outside their bands, and runs a hundred times apart, whose difference counts as it is, none
+   of 60 000 (test_hard_verdict.c, test_peak.c). Loads that may begin at any time are met by chance:
+   likewise, and fw_dynamics_run_margin counts. */
+static bool far_apart(const fw_dynamics_problem *problem) {
+    return problem->sudden || problem->options->unsettled;
+}
+
+/* What differences of the two runs are multiplied with. Runs that the same tolerances may have come
+   out alike by chance must be far apart for their difference to count as it is. */
+static void set_margins(const fw_dynamics_controller *control, fw_dynamics_tolerances *p) {
+    double rho = p->looser / p->rtol;
+    p->margin = 1, p->part = 0;
+    if (far_apart(control->problem)) return;
+    p->margin = p->looser > fw_tolerable ? 3 : 2;
+    if (rho < fw_ratio) p->margin *= pow(fw_ratio / rho, fw_part_power);
+    p->part = trust_of(control, p->looser)->part * pow(fw_ratio / rho, fw_part_power);
+}
+
+/* Round-off as large as the error does not go with the tolerance. */
+static fw_dynamics_tolerances tolerances_at(const fw_dynamics_controller *control, double looser,
+                                            double rtol) {
+    double tightest = fw_dynamics_tolerance_tightest(control->problem);
+    fw_dynamics_tolerances p = {.looser = looser, .rtol = rtol};
+    if (p.rtol <= tightest)
+        return (fw_dynamics_tolerances){.looser = 100 * tightest, .rtol = tightest, .margin = 1};
+    set_margins(control, &p);
+    return p;
+}
+
+static fw_dynamics_tolerances tolerances_below(const fw_dynamics_controller *control,
+                                               double looser) {
+    bool far = far_apart(control->problem);
+    looser = fmin(looser, far ? fw_loosest_of_verdicts : fw_loosest_of_two);
+    return tolerances_at(control, looser, looser / (far ? fw_ratio_far : fw_ratio));
+}
+
+/* Forces of hinges that give are a stiffness times a tiny displacement: to have them as exactly as
+   angles takes tolerances this much tighter, as measured on the devices of docs/gallery. */
+static double tighter_for_forces(const fw_dynamics_problem *problem) {
+    if (problem->model->nreleased == 0) return 1;
+    return problem->options->reactions ? 3000 : 1;
+}
+
+fw_dynamics_tolerances fw_dynamics_tolerance_start(const fw_dynamics_controller *control,
+                                                   const fw_maths_stepper_row *row, double wanted) {
+    if (control->problem->options->unsettled)
+        return tolerances_below(control, fmin(1e-4, wanted / 100));
+    if (control->problem->sudden) return tolerances_below(control, wanted / 30);
+    double loose = control->problem->options->reactions ? fw_loose_of_forces : row_of(row)->loose;
+    return tolerances_below(control, wanted / tighter_for_forces(control->problem) / loose);
+}
+
+fw_dynamics_tolerances fw_dynamics_tolerance_answer(const fw_dynamics_run *r,
+                                                    fw_dynamics_tolerances tolerances, long steps) {
+    const double kappa = trust_of(&r->control, tolerances.looser)->kappa;
+    double bodies = r->problem.model->nbody,
+           wanted = fw_dynamics_tolerance_wanted(&r->record) / tighter_for_forces(&r->problem);
+    if (far_apart(&r->problem) || !(kappa > 0) ||
+        tolerances.rtol <= fw_dynamics_tolerance_tightest(&r->problem))
+        return tolerances;
+    double law = kappa * pow((double)steps, 0.9) * pow(bodies, 1.5);
+    double ratio = fmin(fw_ratio_far, tolerances.looser * law / wanted);
+    double least = r->problem.options->reactions ? fw_ratio : fw_ratio_least;
+    tolerances.rtol =
+        fmax(fw_dynamics_tolerance_tightest(&r->problem), tolerances.looser / fmax(least, ratio));
+    set_margins(&r->control, &tolerances);
+    return tolerances;
+}
+
+fw_dynamics_tolerances fw_dynamics_tolerance_next(const fw_dynamics_controller *control,
+                                                  fw_dynamics_tolerances tolerances, double off,
+                                                  int tries, bool *reuse) {
+    /* what does not go with the tolerance is not waited for: 10, 30, 100, ... */
+    double lower = fmax(2 * off, tries > 1 ? pow(10, 0.5 * tries) : fw_ratio_least);
+    if (!(lower < 1e3)) lower = 1e3;
+    if (far_apart(control->problem)) {
+        *reuse = lower <= fw_ratio_far && control->problem->nstride == 0;
+        return tolerances_below(control,
+                                tolerances.looser / fmax(lower, *reuse ? fw_ratio_far : lower));
+    }
+    *reuse = control->problem->nstride == 0;
+    if (!*reuse) return tolerances_below(control, tolerances.looser / lower);
+    if (control->problem->options->reactions) lower = fmax(lower, fw_ratio);
+    fw_dynamics_tolerances next = tolerances_at(control, tolerances.rtol, tolerances.rtol / lower);
+    /* this once errors did not go with the tolerance */
+    if (next.part > 0) next.part = fmax(next.part, trust_of(control, next.looser)->part);
+    *reuse = next.looser == tolerances.rtol;
+    return next;
+}
+
+/* ---- what the two runs differ by ---- */
+
+/* Sizes count, angles at the marks a fifth: what is asked for are peaks, and an error of phase,
+   which methods of even order make first, moves the angles of an oscillation but not its peaks. The
+   largest size so far is compared at sixteen marks, because one number may agree by chance. */
+double fw_dynamics_tolerance_difference(double peak, double sizes, double angles) {
+    return fmax(fmax(peak, sizes), 0.2 * angles);
+}
+
+double fw_dynamics_tolerance_energy_ratio(long steps, long looser_steps) {
+    return 20 * steps <= 21 * looser_steps ? 3 : 0.5;
+}

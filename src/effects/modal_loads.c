@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What loads the modes over a scene, and how much of it there is. */
+#include "effects/modal.h"
+#include "base/sort.h"
+#include "quantity/law_kind.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BREAKS_MOST = 1024, CELLS = 2048 };
+
+static void to_modes(const fw_effects_modal *o, const double *force, double *mode) {
+    for (int j = 0; j < o->modes; j++)
+        for (int i = 0; i < o->n; i++)
+            mode[j] += o->shape[(size_t)j * (size_t)o->n + (size_t)i] * force[i];
+}
+
+void fw_effects_modal_load_at(const fw_effects_modal *o, const fw_effects_modal_loads *p,
+                              const fw_effects_modal_load *modal_load, double t_s, double piece_s,
+                              double *force) {
+    double value[3] = {1, 0, 0};
+    if (modal_load->element) {
+        memset(p->work, 0, (size_t)o->n * sizeof *p->work);
+        fw_effects_loads_element_force(o->mechanism, modal_load->element, t_s, piece_s, p->work);
+        to_modes(o, p->work, force);
+        return;
+    }
+    if (modal_load->law) fw_quantity_law_value(modal_load->law, t_s, piece_s, value);
+    for (int j = 0; j < o->modes; j++)
+        force[j] += value[0] * modal_load->mode[j];
+}
+
+static bool gather(const fw_quantity_law *law, double end_s, double *t_s, int *have) {
+    int more = fw_quantity_law_breaks_of(law, end_s, t_s + *have, BREAKS_MOST - *have);
+    if (more > BREAKS_MOST - *have) return false;
+    *have += more;
+    return true;
+}
+
+static bool breaks_of(const fw_effects_modal_load *modal_load, double end_s, double *t_s,
+                      int *have) {
+    if (modal_load->law && !gather(modal_load->law, end_s, t_s, have)) return false;
+    for (int i = 0; modal_load->element && i < modal_load->element->laws; i++)
+        if (!gather(modal_load->element->law[i], end_s, t_s, have)) return false;
+    return true;
+}
+
+/* sorted, each once, the end behind them; -1: too many */
+static int pieces(const fw_effects_modal_load *modal_load, int count, double end_s, double *t_s) {
+    int have = 0, kept = 0;
+    for (int i = 0; i < count; i++)
+        if (!breaks_of(&modal_load[i], end_s, t_s, &have)) return -1;
+    fw_sort_doubles(t_s, (size_t)have);
+    for (int i = 0; i < have; i++)
+        if (t_s[i] > 0 && t_s[i] < end_s && (kept == 0 || t_s[i] > t_s[kept - 1]))
+            t_s[kept++] = t_s[i];
+    t_s[kept++] = end_s;
+    return kept;
+}
+
+fw_status fw_effects_modal_loads_breaks(fw_arena *arena, const fw_effects_modal *o,
+                                        const fw_effects_modal_loads *p, double **t_s, int *count) {
+    FW_NEED(*t_s = fw_arena_array(arena, double, BREAKS_MOST + 1));
+    *count = pieces(p->item, p->count, o->scene->duration_s, *t_s);
+    return FW_OK;
+}
+
+/* ---- how much ---- */
+
+typedef struct tally { /* of one modal force, as samples come in */
+    double last, second_last, fine, coarse, full, sup, first;
+    int seen;
+} tally;
+
+static void count_sample(tally *t, double value, double h, bool new_piece) {
+    if (t->seen == 0) {
+        *t = (tally){.last = value, .second_last = value, .sup = fabs(value), .first = fabs(value)};
+        t->seen = 1;
+        return;
+    }
+    t->fine += fabs(value - t->last);
+    t->full += 0.5 * h * (fabs(value) + fabs(t->last));
+    t->sup = fmax(t->sup, fabs(value));
+    t->last = value;
+    t->seen = new_piece ? 1 : t->seen + 1;
+    if (new_piece || t->seen % 2 == 1) {
+        t->coarse += fabs(value - t->second_last);
+        t->second_last = value;
+    }
+}
+
+/* Total variation by samples is too small by what lies between them; where half as many samples say
+   nearly the same the difference is added, and where they do not the variation is not known. The
+   integral of the size is off by at most variation times the cell. */
+static void conclude(const fw_effects_modal *o, const fw_effects_modal_load *modal_load,
+                     const tally *t, int j) {
+    double end = o->scene->duration_s, gap = t->fine - t->coarse;
+    modal_load->sup[j] = t->sup + gap;
+    modal_load->first[j] = t->first;
+    modal_load->sway[j] = t->fine + gap;
+    if (gap > 0.05 * t->fine) modal_load->sway[j] = (double)INFINITY;
+    if (modal_load->law) {
+        double size = fabs(modal_load->mode[j]);
+        modal_load->sup[j] = fmax(t->sup, size * fw_quantity_law_largest(modal_load->law, end));
+        if (modal_load->law->kind->variation)
+            modal_load->sway[j] = size * modal_load->law->kind->variation(modal_load->law, end);
+        if (!isfinite(modal_load->sway[j])) modal_load->sup[j] *= 1.1;
+    }
+    modal_load->full[j] =
+        fmin(modal_load->sup[j] * end, t->full + modal_load->sway[j] * end / CELLS * 2);
+}
+
+static fw_status measure(fw_arena *arena, const fw_effects_modal *o, fw_effects_modal_loads *p,
+                         const fw_effects_modal_load *modal_load) {
+    size_t m = (size_t)o->modes;
+    double *value, *t_s, from = 0, end = o->scene->duration_s;
+    tally *t;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(value = fw_arena_array(arena, double, m));
+    FW_NEED(t = fw_arena_array(arena, tally, m));
+    FW_NEED(t_s = fw_arena_array(arena, double, BREAKS_MOST + 1));
+    int count = pieces(modal_load, 1, end, t_s);
+    if (count < 0) p->why_not = "a law breaks too often";
+    for (int i = 0; i < count; i++) {
+        double middle = 0.5 * (from + t_s[i]), span = t_s[i] - from;
+        int cells =
+            modal_load->law || modal_load->element ? 4 + 2 * (int)(0.5 * CELLS * span / end) : 2;
+        for (int k = 0; k <= cells; k++) {
+            double at = k == cells ? t_s[i] : from + span * k / cells;
+            memset(value, 0, m * sizeof *value);
+            fw_effects_modal_load_at(o, p, modal_load, at, middle, value);
+            for (size_t j = 0; j < m; j++) {
+                if (!isfinite(value[j])) p->why_not = "a load is not finite";
+                count_sample(&t[j], value[j], k ? span / cells : 0, k == 0);
+            }
+        }
+        from = t_s[i];
+    }
+    for (int j = 0; j < o->modes; j++)
+        conclude(o, modal_load, &t[j], j);
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* ---- the list ---- */
+
+static fw_status add(fw_arena *arena, const fw_effects_modal *o, fw_effects_modal_loads *p,
+                     const fw_quantity_law *law, const fw_effects_force_element *element) {
+    size_t m = (size_t)o->modes;
+    fw_effects_modal_load *modal_load = &p->item[p->count++];
+    *modal_load = (fw_effects_modal_load){.law = law, .element = element};
+    FW_NEED(modal_load->force = fw_arena_array(arena, double, (size_t)o->n));
+    FW_NEED(modal_load->mode = fw_arena_array(arena, double, m));
+    double **of[4] = {&modal_load->sup, &modal_load->first, &modal_load->sway, &modal_load->full};
+    for (int i = 0; i < 4; i++)
+        FW_NEED(*of[i] = fw_arena_array(arena, double, m));
+    return FW_OK;
+}
+
+/* one timed load with the factor 1 */
+static void of_load(const fw_effects_modal *o, const fw_effects_timed_load *l, double *force) {
+    const fw_mechanism_mass *b = &o->mechanism->body[l->body];
+    double c = cos(b->phi_rad), s = sin(b->phi_rad);
+    double x = c * l->x_m - s * l->y_m, y = s * l->x_m + c * l->y_m;
+    force[3 * l->body] += l->fx_N;
+    force[3 * l->body + 1] += l->fy_N;
+    force[3 * l->body + 2] += x * l->fy_N - y * l->fx_N + l->torque_Nm;
+}
+
+fw_status fw_effects_modal_loads_find(fw_arena *arena, const fw_effects_modal *o,
+                                      fw_effects_modal_loads *p) {
+    const fw_effects_loads *loads = o->loads;
+    *p = (fw_effects_modal_loads){0};
+    size_t most = 3 + (size_t)loads->ntimed + (size_t)loads->nelement;
+    FW_NEED(p->item = fw_arena_array(arena, fw_effects_modal_load, most));
+    FW_NEED(p->work = fw_arena_array(arena, double, (size_t)o->n));
+    fw_effects_loads still = *loads;
+    still.ntimed = still.nelement = 0;
+    FW_TRY(add(arena, o, p, NULL, NULL));
+    fw_effects_loads_initial_force(o->mechanism, &still, p->item[0].force);
+    for (int i = 0; i < loads->ntimed; i++) {
+        FW_TRY(add(arena, o, p, loads->timed[i].law, NULL));
+        of_load(o, &loads->timed[i], p->item[p->count - 1].force);
+    }
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
+        if (e->laws > 0)
+            FW_TRY(add(arena, o, p, NULL, e));
+        else
+            fw_effects_loads_element_force(o->mechanism, e, 0, DBL_MIN, p->item[0].force);
+    }
+    for (int i = 0; i < 2; i++)
+        if (o->shift[i]) {
+            FW_TRY(add(arena, o, p, i ? loads->stretch.law : NULL, NULL));
+            p->item[p->count - 1].shift = true;
+            memcpy(p->item[p->count - 1].force, o->shift_force[i], (size_t)o->n * sizeof(double));
+        }
+    for (int i = 0; i < p->count; i++) {
+        to_modes(o, p->item[i].force, p->item[i].mode);
+        FW_TRY(measure(arena, o, p, &p->item[i]));
+    }
+    return FW_OK;
+}

@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed form of a strip of lines and arcs whose width varies. */
+#include "flexure/gauss.h"
+#include "base/constants.h"
+#include "flexure/kinds.h"
+#include "flexure/path_sections.h"
+#include <math.h>
+
+enum { NODES = FW_GAUSS_MOST, PANELS_MOST = 256, PLACES = 48 };
+
+typedef struct rule {
+    double node[NODES], weight[NODES];
+} rule;
+
+/* sums over the strip about a point; see fw_flexure_path */
+enum { W1, WX, WY, FXX, FXY, FYY, AXX, AXY, AYY, THIN, LOST, SUMS };
+
+static void add(const fw_flexure_path_section *at, double weight, const double about[2],
+                double *sum) {
+    double x = at->neutral_x_m - about[0], y = at->neutral_y_m - about[1];
+    double c = cos(at->pose.angle_rad), s = sin(at->pose.angle_rad);
+    double w = weight * at->bend_per_Nm2, f = weight * at->force_per_Nm2;
+    double n = weight * at->stretch_per_N, v = weight * at->shear_per_N;
+    sum[W1] += w, sum[WX] += w * x, sum[WY] += w * y;
+    sum[FXX] += f * x * x, sum[FXY] += f * x * y, sum[FYY] += f * y * y;
+    sum[AXX] += n * c * c + v * s * s;
+    sum[AXY] += (n - v) * c * s;
+    sum[AYY] += n * s * s + v * c * c;
+    sum[THIN] += weight * at->thin_per_Nm2;
+}
+
+/* a root bends only, about the end of the centre line, and so does what an end loses, inside of it
+ */
+static void add_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m, int end,
+                     const double about[2], double *sum) {
+    fw_flexure_path_section at;
+    double root;
+    fw_flexure_path_root(p, m, end, &at, &root);
+    at.neutral_x_m = at.pose.x_m, at.neutral_y_m = at.pose.y_m;
+    at.stretch_per_N = at.shear_per_N = at.thin_per_Nm2 = 0;
+    /* forces: E I D alone, without what curvature does to the strip */
+    at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
+    add(&at, root, about, sum);
+    fw_flexure_path_end_loss(p, m, end, &at, &root);
+    if (root == 0) return;
+    at.stretch_per_N = at.shear_per_N = at.thin_per_Nm2 = 0;
+    at.force_per_Nm2 = at.bend_per_Nm2 * at.golovin;
+    add(&at, -root, about, sum);
+    sum[LOST] += root * at.bend_per_Nm2;
+}
+
+static void integrate(const fw_flexure_course *p, const fw_flexure_path_stuff *m, const rule *r,
+                      int panels, const double about[2], double *sum) {
+    fw_flexure_path_section at;
+    for (int k = 0; k < SUMS; k++)
+        sum[k] = 0;
+    for (int i = 0; i < p->n; i++) {
+        double h = p->shape[i].piece.length_m / panels;
+        for (int j = 0; j < panels; j++)
+            for (int k = 0; k < NODES; k++) {
+                fw_flexure_path_section_at(p, m, i, (j + r->node[k]) * h, &at);
+                add(&at, r->weight[k] * h, about, sum);
+            }
+    }
+    for (int end = 0; end < 2; end++)
+        add_root(p, m, end, about, sum);
+}
+
+static double apart(const double *a, const double *b, double length) {
+    double worst = fabs(a[W1] - b[W1]) / a[W1];
+    worst = fmax(worst, hypot(a[WX] - b[WX], a[WY] - b[WY]) / (a[W1] * length));
+    double force = fabs(a[FXX]) + fabs(a[FYY]), give = fabs(a[AXX]) + fabs(a[AYY]);
+    for (int k = FXX; k <= FYY; k++)
+        worst = fmax(worst, fabs(a[k] - b[k]) / force);
+    for (int k = AXX; k <= AYY; k++)
+        worst = fmax(worst, fabs(a[k] - b[k]) / give);
+    return worst;
+}
+
+/* centre of the weights w, then the sums about it; panels doubled until nothing moves by 1e-13 */
+static int measure(const fw_flexure_course *p, const fw_flexure_path_stuff *m, double centre[2],
+                   double *sum) {
+    rule r;
+    double before[SUMS], length = 0;
+    int panels = 1;
+    for (int i = 0; i < p->n; i++)
+        length += p->shape[i].piece.length_m;
+    fw_flexure_gauss_rule(NODES, r.node, r.weight);
+    centre[0] = centre[1] = 0;
+    integrate(p, m, &r, panels, centre, before);
+    for (panels = 2; panels <= PANELS_MOST; panels *= 2) {
+        integrate(p, m, &r, panels, centre, sum);
+        bool done = apart(sum, before, length) < 1e-13;
+        for (int k = 0; k < SUMS; k++)
+            before[k] = sum[k];
+        if (done) break;
+    }
+    for (int turn = 0; turn < 2; turn++) { /* about W, so that nothing cancels */
+        centre[0] += sum[WX] / sum[W1], centre[1] += sum[WY] / sum[W1];
+        integrate(p, m, &r, panels, centre, sum);
+    }
+    return panels;
+}
+
+/* ---- place in the frame ---- */
+
+static void lay(fw_flexure_course *p, const fw_geometry_strip_piece *piece, int n,
+                fw_geometry_pose start) {
+    p->n = n;
+    for (int i = 0; i < n; i++) {
+        fw_geometry_strip_shape_of(&piece[i], &p->shape[i]);
+        p->start[i] = start;
+        start = fw_geometry_strip_along(start, piece[i].curvature_per_m, piece[i].length_m);
+    }
+    p->start[n] = start;
+}
+
+static void give_roots(fw_flexure_course *p, double fillet_m) {
+    const double ends[2] = {p->shape[0].piece.width_m[0], p->shape[p->n - 1].piece.width_m[2]};
+    for (int end = 0; end < 2; end++) {
+        p->root_m[end] = fw_flexure_root_length_m(ends[end], fillet_m);
+        p->concentration[end] = fw_flexure_fillet_concentration(ends[end], fillet_m);
+    }
+}
+
+static void outline_centre(const fw_flexure_course *p, double W[2]) {
+    const fw_flexure_path_stuff plain = {.youngs_Pa = 1};
+    double sum[SUMS];
+    measure(p, &plain, W, sum);
+}
+
+/* the chord up the y axis, W on the x axis */
+static void lay_on_chord(fw_flexure_course *p, const fw_geometry_strip_piece *piece, int n,
+                         double fillet_m) {
+    fw_geometry_pose end = fw_geometry_strip_end(piece, n, (fw_geometry_pose){0});
+    double up = 0.5 * FW_PI - atan2(end.y_m, end.x_m), W[2];
+    lay(p, piece, n, (fw_geometry_pose){0, 0, up});
+    give_roots(p, fillet_m);
+    outline_centre(p, W);
+    if (W[0] < -1e-9 * fw_geometry_strip_length(piece, n)) { /* the same from its other end */
+        fw_geometry_strip_piece back[FW_STRIP_MOST];
+        fw_geometry_strip_turned(piece, n, back);
+        for (int i = 0; i < n; i++)
+            back[i].curvature_per_m = -back[i].curvature_per_m;
+        lay_on_chord(p, back, n, fillet_m);
+        return;
+    }
+    for (int i = 0; i <= n; i++)
+        p->start[i].y_m -= W[1];
+}
+
+void fw_flexure_path_of(const fw_flexure_input *in, fw_flexure_course *p) {
+    if (in->kind == FW_FLEXURE_PATH) {
+        lay_on_chord(p, in->piece, in->npiece, in->fillet_m);
+        return;
+    }
+    bool arc = in->kind == FW_FLEXURE_CSFH;
+    double t = in->width_m, r = in->radius_m, a = 0.5 * in->angle_rad;
+    double middle = in->width_middle_m > 0 ? in->width_middle_m : t;
+    const fw_geometry_strip_piece one = {in->length_m, arc ? 1 / r : 0, {t, middle, t}};
+    lay(p, &one, 1,
+        arc ? (fw_geometry_pose){r * cos(a), -r * sin(a), 0.5 * FW_PI - a}
+            : (fw_geometry_pose){0, -0.5 * in->length_m, 0.5 * FW_PI});
+    give_roots(p, in->fillet_m);
+}
+
+static double farthest(const fw_flexure_course *p, double x, double y) {
+    double far = 0;
+    for (int i = 0; i < p->n; i++)
+        for (int k = 0; k <= PLACES; k++) {
+            const fw_geometry_strip_piece *q = &p->shape[i].piece;
+            fw_geometry_pose at =
+                fw_geometry_strip_along(p->start[i], q->curvature_per_m, q->length_m * k / PLACES);
+            far = fmax(far, hypot(at.x_m - x, at.y_m - y));
+        }
+    return far;
+}
+
+static bool beyond(const fw_flexure_course *p, double fillet_m) {
+    bool out = false;
+    for (int end = 0; end < 2; end++) {
+        const fw_geometry_strip_piece *q = &p->shape[end ? p->n - 1 : 0].piece;
+        double x = fillet_m / q->width_m[2 * end];
+        out = out || (x >= 0 && x < 0.05) || x > 1.25 * (1.0 + 1e-9);
+    }
+    for (int i = 0; i < p->n; i++) {
+        const fw_geometry_strip_piece *q = &p->shape[i].piece;
+        double t = fmax(q->width_m[1], fmax(q->width_m[0], q->width_m[2]));
+        out = out || t * fabs(q->curvature_per_m) > 0.3;
+    }
+    return out;
+}
+
+/* what the outline alone gives; W of a uniform modulus, as it is drawn about. Cost: that of one
+   integral, see below */
+void fw_flexure_path_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
+    fw_flexure_course p;
+    double W[2], turn = 0, least = HUGE_VAL, length = 0;
+    fw_flexure_path_of(in, &p);
+    outline_centre(&p, W);
+    for (int i = 0; i < p.n; i++) {
+        double low, high;
+        const fw_geometry_strip_piece *q = &p.shape[i].piece;
+        fw_geometry_strip_widths(&p.shape[i], &low, &high);
+        least = fmin(least, low);
+        length += q->length_m, turn += q->curvature_per_m * q->length_m;
+    }
+    double dL = 0.5 * (p.root_m[0] + p.root_m[1]);
+    *f = (fw_flexure_shape){.kind = FW_FLEXURE_PATH,
+                            .length_m = length,
+                            .radius_m = farthest(&p, W[0], 0),
+                            .width_m = least,
+                            .fillet_m = in->fillet_m,
+                            .half_angle_rad = 0.5 * turn,
+                            .golovin = 1,
+                            .root_length_m = dL,
+                            .whole_m = length + 2 * dL,
+                            .per_length = 1 / length,
+                            .per_whole = 1 / (length + 2 * dL),
+                            .per_section = 12 / (least * least),
+                            .fillet_concentration = fmax(p.concentration[0], p.concentration[1]),
+                            .centre_m = W[0],
+                            .beyond_fit = beyond(&p, in->fillet_m),
+                            .start = p.start[0]};
+}
+
+/* ---- the closed form ---- */
+
+static double largest_curvature(const fw_flexure_course *p, double *thick, double *slope,
+                                double *aside) {
+    double k = 0;
+    *thick = *slope = *aside = 0;
+    for (int i = 0; i < p->n; i++) {
+        const fw_geometry_strip_piece *q = &p->shape[i].piece;
+        double h = q->length_m / PLACES, last = q->width_m[0];
+        k = fmax(k, fabs(q->curvature_per_m));
+        for (int j = 0; j <= PLACES; j++) {
+            double t = fw_geometry_strip_width(&p->shape[i], j * h);
+            *thick = fmax(*thick, t * fabs(q->curvature_per_m));
+            *slope = fmax(*slope, 0.5 * fabs(t - last) / h);
+            *aside = fmax(*aside, fabs(fw_geometry_strip_aside(&p->shape[i], j * h)));
+            last = t;
+        }
+    }
+    return k;
+}
+
+/* What a path's closed form may be off by: that of arcs (flexure_table.c), besides
+     edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
+       stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
+     middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
+   and twice all that where anything but one arc or line of one width is concerned, which no finite
+   element was compared with. In: rad, m. test_path.c errors_are_stated */
+fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
+    fw_flexure_course p;
+    double thick, slope, aside;
+    fw_flexure_path_of(in, &p);
+    double k = largest_curvature(&p, &thick, &slope, &aside);
+    bool plain = p.n == 1 && p.shape[0].uniform;
+    double by = plain ? 1 : 2, size = f->radius_m;
+    by *= f->length_m < 20 * f->width_m ? 2 : 1;
+    by *= f->beyond_fit && thick <= 0.3 ? 2 : 1;
+    by *= thick > 0.15 ? 2 : 1;
+    if (thick > 0.3) by = fmax(by, 10);
+    double taper = slope * slope, off = 2 * aside / size;
+    double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m;
+    return (fw_flexure_error){by * 0.012 + taper,
+                              by * 0.030 + taper + off,
+                              by * 0.030 + taper + off,
+                              by * 0.050 + taper,
+                              by * centre + aside + 0.1 * taper * size,
+                              by > 1};
+}
+
+static fw_flexure_path_section section_of(const fw_flexure_course *p,
+                                          const fw_flexure_path_stuff *m, int i, double s) {
+    fw_flexure_path_section at;
+    fw_flexure_path_section_at(p, m, i, s, &at);
+    return at;
+}
+
+static double fibre(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
+                    const fw_flexure_input *in, int i, double s) {
+    const fw_flexure_path_section at = section_of(p, m, i, s);
+    return fw_flexure_path_fibre(&at, in->youngs_Pa, m);
+}
+
+/* largest strain per moment: at the roots with their fillets, and in each piece, found on a grid
+   and closed in by golden section; concentration: over what the beam has where it is; fit: by eq. 5
+ */
+static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
+                   const fw_flexure_input *in, double *concentration, double *fit) {
+    const double part = 0.5 * (sqrt(5) - 1);
+    double best = 0, share = 1, roots = 0, between = 0;
+    for (int end = 0; end < 2; end++) {
+        int i = end ? p->n - 1 : 0;
+        const fw_flexure_path_section at =
+            section_of(p, m, i, end ? p->shape[i].piece.length_m : 0);
+        double plain = fw_flexure_path_fibre(&at, in->youngs_Pa, m),
+               own = fw_flexure_path_fibre_factor(&at);
+        double factor = fw_flexure_path_root_factor(in, m, end, &at);
+        roots = fmax(roots, plain * p->concentration[end]);
+        if (plain * factor <= best * own) continue;
+        best = plain * factor / own;
+        share = factor;
+    }
+    for (int i = 0; i < p->n; i++) {
+        double L = p->shape[i].piece.length_m, h = L / PLACES, top = 0, where = 0;
+        for (int k = 0; k <= PLACES; k++) {
+            double e = fibre(p, m, in, i, k * h);
+            if (e > top) top = e, where = k * h;
+        }
+        double low = fmax(0, where - h), high = fmin(L, where + h);
+        for (int k = 0; k < 40 && !p->shape[i].uniform; k++) {
+            double a = high - part * (high - low), b = low + part * (high - low);
+            if (fibre(p, m, in, i, a) > fibre(p, m, in, i, b))
+                high = b;
+            else
+                low = a;
+        }
+        if (!p->shape[i].uniform) top = fmax(top, fibre(p, m, in, i, 0.5 * (low + high)));
+        const fw_flexure_path_section at = section_of(p, m, i, 0.5 * (low + high));
+        between = fmax(between, top);
+        if (top > best) best = top, share = fw_flexure_path_fibre_factor(&at);
+    }
+    *concentration = share;
+    *fit = fmax(roots, between);
+    return best;
+}
+
+/* mean of both roots' (dL - d)/E, counted in the mean modulus */
+static double crystal_root(const fw_flexure_course *p, const fw_flexure_path_stuff *m) {
+    double sum = 0;
+    for (int end = 0; end < 2; end++) {
+        fw_flexure_path_section at;
+        double root, lost, t;
+        fw_flexure_path_root(p, m, end, &at, &root);
+        t = at.width_m;
+        fw_flexure_path_end_loss(p, m, end, &at, &lost);
+        sum += 0.5 * (root - lost) * at.thin_per_Nm2 * m->depth_m * t * t * t / 12;
+    }
+    return sum * m->youngs_Pa;
+}
+
+/* Strip of any centre line P(s), width t(s), local radius R, neutral radius R - e (Winkler), depth
+   factor D(R, t), Golovin's factor g(t/2R), roots dL as weights at the two ends:
+     w  = ds/(E I D g),  W = int P_n w/int w,  P_n = P moved by e to the centre of curvature
+     C_th = int w = 1/K
+     C_ff = int b b' df + int (t t' (R - e)/R/(E A D) + n n' 6/5/(G A)) ds
+            df = ds/(E A e R D) (ds/EI where straight), b = (y, -x) of P_n from W
+   that is fw_flexure_csfh with its constants taken at every place. D is that of an endless arc of
+   the local radius: where pieces of different radius meet it changes within sqrt(R t) and not at
+   once. Strain: M t/2/(E I D g) max((1 + t/3R) F_inner, (1 - t/3R) F_outer), the largest of the
+   whole strip, with Kt and a crystal's q at the roots.
+   in: outline, m, Pa, rad; out: SI. Error: fw_flexure_path_errors. Cost 140 us for one piece.
+   source: docs/theory/flexure-path.md; test_path.c */
+void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
+                     fw_flexure_result *out) {
+    fw_flexure_course p;
+    double sum[SUMS], W[2];
+    fw_flexure_path_of(in, &p);
+    const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
+    measure(&p, &m, W, sum);
+    out->offset_m[0] = W[0] - f->centre_m, out->offset_m[1] = W[1];
+    if (hypot(out->offset_m[0], out->offset_m[1]) < 1e-12 * f->length_m)
+        out->offset_m[0] = out->offset_m[1] = 0;
+    double(*C)[3] = out->compliance;
+    C[0][0] = sum[W1];
+    C[0][1] = C[1][0] = C[0][2] = C[2][0] = 0;
+    C[1][1] = sum[FYY] + sum[AXX];
+    C[2][2] = sum[FXX] + sum[AYY];
+    C[1][2] = C[2][1] = sum[AXY] - sum[FXY];
+    out->youngs_Pa = m.youngs_Pa, out->poisson = m.poisson;
+    if (m.crystal) out->root_length_m = crystal_root(&p, &m);
+    out->stiffness_Nm_per_rad = 1 / sum[W1];
+    out->stiffness_thin = 1 / sum[THIN];
+    fw_flexure_path_stuff flat = m;
+    flat.depth_m = 0;
+    double without[SUMS], other[2];
+    measure(&p, &flat, other, without);
+    out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
+    double fit;
+    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh_crystal.c) */
+    out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / rooted;
+    out->strain_fit_per_rad = fit / rooted;
+}

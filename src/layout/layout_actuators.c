@@ -1,0 +1,582 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What moves the device: eyelets of tendons and electrodes of comb drives become part of the
+   drawing, as far as nothing is in their way. What cannot be drawn is left out whole and said
+   (FW-D131); the motion has it all the same. */
+#include "geometry/segment.h"
+#include "layout/draw.h"
+#include "layout/layout_text.h"
+#include <math.h>
+#include <string.h>
+
+enum { SETTLING = 20 };
+static const double SETTLED_M = 1e-12;
+
+/* ---- collecting ---- */
+
+static bool same_comb(const fw_device_comb *p, const fw_device_comb *q) {
+    bool length = p->length_m == q->length_m || (isnan(p->length_m) && isnan(q->length_m));
+    return p->kind == q->kind && p->body_a == q->body_a && p->body_b == q->body_b &&
+           p->bx_m == q->bx_m && p->by_m == q->by_m && p->direction_rad == q->direction_rad &&
+           p->fingers == q->fingers && p->gap_m == q->gap_m && p->width_m == q->width_m && length &&
+           (p->kind == FW_ELECTRODES_PLATE || p->overlap_m == q->overlap_m);
+}
+
+static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
+    for (int k = 0; k < t->neyelet; k++) {
+        const fw_device_eyelet *e = &t->eyelet[k];
+        bool there = false;
+        for (int i = 0; i < d->neyelet && !there; i++) {
+            const fw_device_eyelet *o = d->eyelet[i].eyelet;
+            there = o->body == e->body && o->x_m == e->x_m && o->y_m == e->y_m;
+        }
+        if (!there)
+            d->eyelet[d->neyelet++] =
+                (fw_layout_eyelet_plan){.tendon = t,
+                                        .eyelet = e,
+                                        .at = fw_v(e->x_m, e->y_m),
+                                        .hole_m = e->hole_m > 0.0 ? e->hole_m : FW_EYELET_HOLE_M,
+                                        .ring_m = e->ring_m > 0.0 ? e->ring_m : FW_EYELET_RING_M};
+    }
+}
+
+static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
+    for (int i = 0; i < d->ncomb; i++)
+        if (same_comb(d->comb[i].comb, c)) return;
+    double length = c->length_m;
+    if (isnan(length)) length = 2.0 * c->overlap_m;
+    d->comb[d->ncomb++] =
+        (fw_layout_comb_plan){.comb = c,
+                              .width_m = c->width_m > 0.0 ? c->width_m : FW_FINGER_WIDTH_M,
+                              .length_m = length};
+}
+
+fw_status fw_layout_actuators_plan(fw_layout_drawing *d) {
+    const fw_device *device = d->device;
+    size_t neyelet = 0, ncomb = 0;
+    for (int i = 0; i < device->nscene; i++) {
+        const fw_device_scene *s = &device->scene[i];
+        ncomb += (size_t)s->ncomb;
+        for (int t = 0; t < s->ntendon; t++)
+            neyelet += (size_t)s->tendon[t].neyelet;
+    }
+    if (neyelet + ncomb == 0) return FW_OK;
+    FW_NEED(d->eyelet = fw_arena_array(d->arena, fw_layout_eyelet_plan, neyelet));
+    FW_NEED(d->comb = fw_arena_array(d->arena, fw_layout_comb_plan, ncomb));
+    for (int i = 0; i < device->nscene; i++) {
+        const fw_device_scene *s = &device->scene[i];
+        for (int t = 0; t < s->ntendon; t++)
+            plan_tendon(d, &s->tendon[t]);
+        for (int c = 0; c < s->ncomb; c++)
+            plan_comb(d, &s->comb[c]);
+    }
+    FW_NEED(d->bare = fw_arena_array(d->arena, fw_geometry_contour, (size_t)device->nbody));
+    return FW_OK;
+}
+
+bool fw_layout_eyelets_on(const fw_layout_drawing *d, int body) {
+    for (int i = 0; i < d->neyelet; i++)
+        if (d->eyelet[i].eyelet->body == body) return true;
+    return false;
+}
+
+/* ---- saying ---- */
+
+void fw_layout_eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
+    char x[32], y[32];
+    e->off = true;
+    e->cap.count = 0;
+    if (d->said) return;
+    fw_diag_warning(d->diags, 131, e->eyelet->place,
+                    "tendon %s moves the device, but its eyelet at (%s, %s) um is not drawn: %s; "
+                    "add it to the mask by hand before you order it; its mass is not in the motion "
+                    "either",
+                    e->tendon->id ? e->tendon->id : "(unnamed)", fw_layout_um(x, e->at.x),
+                    fw_layout_um(y, e->at.y), why);
+}
+
+static void comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
+    p->off = true;
+    p->rotor.count = p->stator.count = 0;
+    if (d->said) return;
+    fw_diag_warning(
+        d->diags, 131, p->comb->place,
+        "comb drive %s moves the device, but it is not drawn: %s; add the electrodes to "
+        "the mask by hand before you order it; their mass is not in the motion either",
+        p->comb->id ? p->comb->id : "(unnamed)", why);
+}
+
+/* ---- bodies ---- */
+
+/* pose of a body as drawn: where the file does not say, its outline's centroid */
+static fw_geometry_vec2 centre_of(const fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
+    fw_geometry_vec2 c = d->layout->body[body].centroid;
+    return fw_v(isnan(b->x_m) ? c.x : b->x_m, isnan(b->y_m) ? c.y : b->y_m);
+}
+
+static fw_geometry_vec2 placed(const fw_layout_drawing *d, int body, double x, double y) {
+    if (body < 0) return fw_v(x, y);
+    fw_layout_local l = {centre_of(d, body), cos(d->device->body[body].phi_rad),
+                         sin(d->device->body[body].phi_rad), false};
+    return fw_layout_local_point(&l, fw_v(x, y));
+}
+
+static void place_all(fw_layout_drawing *d, int body) {
+    for (int i = 0; i < d->neyelet; i++) {
+        const fw_device_eyelet *e = d->eyelet[i].eyelet;
+        if (e->body == body) d->eyelet[i].at = placed(d, body, e->x_m, e->y_m);
+    }
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_device_comb *c = d->comb[i].comb;
+        double turn = c->direction_rad;
+        if (c->body_b != body) continue;
+        if (c->body_a >= 0) turn += d->device->body[c->body_a].phi_rad;
+        double cosine = cos(turn), sine = sin(turn); /* axes are axes to the last bit */
+        if (fabs(sine) < 1e-12) sine = 0.0, cosine = cosine < 0.0 ? -1.0 : 1.0;
+        if (fabs(cosine) < 1e-12) cosine = 0.0, sine = sine < 0.0 ? -1.0 : 1.0;
+        d->comb[i].local =
+            (fw_layout_local){placed(d, body, c->bx_m, c->by_m), cosine, sine, false};
+    }
+}
+
+/* every cut of `before` is one of `after`, bit for bit */
+static bool keeps_joints(const fw_geometry_contour *before, const fw_geometry_contour *after) {
+    for (int i = 0; i < before->count; i++) {
+        const fw_geometry_segment *s = &before->segment[i];
+        bool there = !(s->flags & FW_SEGMENT_JOINT);
+        for (int k = 0; k < after->count && !there; k++)
+            there = after->segment[k].flags & FW_SEGMENT_JOINT &&
+                    vec_same(after->segment[k].a, s->a) && vec_same(after->segment[k].b, s->b);
+        if (!there) return false;
+    }
+    return true;
+}
+
+/* a process moves the edges by about 1 um to either side */
+static fw_status takes_bias(fw_arena *arena, const fw_geometry_contour *c, bool *good) {
+    static const double bias_m[] = {1.5e-6, -1.5e-6};
+    *good = true;
+    for (int i = 0; i < 2 && *good; i++) {
+        fw_geometry_contour moved;
+        fw_status status = fw_geometry_contour_offset(arena, c, bias_m[i], &moved, NULL, NULL);
+        *good = status == FW_OK;
+        if (status != FW_GEOMETRY) FW_TRY(status);
+    }
+    return FW_OK;
+}
+
+/* rounded without a word, and no worse for a mask than the outline before; else not *good, and what
+   was there stays */
+static fw_status rounds(fw_layout_drawing *d, int slot, int body, const fw_geometry_contour *raw,
+                        double least, bool *good) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    fw_geometry_contour plain;
+    fw_geometry_vec2 where;
+    d->diags = &unsaid;
+    fw_status status = fw_layout_body_round(d, body, raw, &plain, &d->corner_m[slot], &where);
+    d->diags = said;
+    *good = status == FW_OK && fw_layout_body_soundness(&plain, &where) > 0.95 * least;
+    if (*good && least > 0.0) FW_TRY(takes_bias(d->arena, &plain, good));
+    if (*good) d->plain[slot] = plain;
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
+/* the rotor's electrode, and a stem behind it where its bar does not reach the body */
+static fw_status add_rotor(fw_layout_drawing *d, fw_layout_comb_plan *p, fw_geometry_contour *raw,
+                           const char **why) {
+    fw_geometry_vec2 u = fw_v(p->local.c, p->local.s), back;
+    fw_geometry_region all = {raw, 1}, add, both = {NULL, 0};
+    double root =
+        p->comb->kind == FW_ELECTRODES_COMB ? p->length_m - 0.5 * p->comb->overlap_m : 0.0;
+    const char *what;
+    *why = NULL;
+    FW_TRY(fw_layout_comb_rotor(d->arena, p, &p->rotor));
+    FW_TRY(fw_layout_actuator_crosses(d, &p->rotor, p->comb->body_b, fw_layout_rule.least_space_m,
+                                      (int)(p - d->comb), &what));
+    if (what) {
+        FW_NEED(*why = fw_arena_printf(d->arena, "its rotor would cross or nearly touch %s", what));
+        return FW_OK;
+    }
+    add = (fw_geometry_region){&p->rotor, 1};
+    fw_status status = fw_geometry_region_boolean(d->arena, &all, &add, FW_UNION, &both);
+    for (double s = 0.0; status == FW_OK && both.count != 1 && s < 1e-3; s += 5e-6) {
+        fw_geometry_contour stem;
+        back = fw_add(p->local.origin, -root - 20e-6, u);
+        if (!fw_geometry_contour_contains(raw, fw_add(back, -s, u))) continue;
+        FW_TRY(fw_geometry_contour_bar(d->arena, back, fw_add(back, -s - 20e-6, u),
+                                       fw_layout_rule.neck_width_m, &stem));
+        FW_TRY(fw_layout_actuator_crosses(d, &stem, p->comb->body_b, fw_layout_rule.least_space_m,
+                                          (int)(p - d->comb), &what));
+        if (what) break;
+        fw_geometry_region way = {&stem, 1};
+        fw_geometry_region parts = both;
+        status = fw_geometry_region_boolean(d->arena, &parts, &way, FW_UNION, &both);
+        break;
+    }
+    if (status == FW_OK && both.count == 1 && keeps_joints(raw, &both.contour[0]))
+        *raw = both.contour[0];
+    else if (status == FW_OK || status == FW_GEOMETRY)
+        *why = "its rotor and its body do not make one outline, not even with a stem of up to 1 mm "
+               "straight behind the electrode";
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
+static double soundness_now(const fw_layout_drawing *d, int slot) {
+    fw_geometry_vec2 where;
+    return fmin(1.0, fw_layout_body_soundness(&d->plain[slot], &where));
+}
+
+fw_status fw_layout_frame_soundness(fw_layout_drawing *d, const fw_geometry_contour *raw,
+                                    double *sound) {
+    fw_geometry_contour round;
+    fw_geometry_vec2 where;
+    fw_status status =
+        fw_geometry_contour_round(d->arena, raw, 0.0, fw_layout_rule.corner_m, &round, &where);
+    *sound = status == FW_OK ? fmin(1.0, fw_layout_body_soundness(&round, &where)) : 0.0;
+    bool good = true;
+    if (status == FW_OK) FW_TRY(takes_bias(d->arena, &round, &good));
+    if (!good) *sound = 0.0;
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
+fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                               double least, fw_geometry_contour *raw, const char **why) {
+    static const double wider_m[] = {0.0, 6e-6, 12e-6, 18e-6, 25e-6};
+    const char *first = NULL;
+    for (; e->wider < (int)(sizeof wider_m / sizeof wider_m[0]); e->wider++) {
+        fw_geometry_contour ringed, open;
+        fw_layout_eyelet_plan ring = *e;
+        double sound = 0.0;
+        bool good = false;
+        ring.ring_m += wider_m[e->wider];
+        FW_TRY(fw_layout_eyelet_ring(d, &ring, body, raw, &ringed, why));
+        if (!*why) FW_TRY(fw_layout_eyelet_hole(d, e, &ringed, &open, &e->cap, why));
+        if (!*why && !keeps_joints(raw, &open))
+            *why = "its ring would cover the cut between two pieces";
+        if (!*why && slot >= 0) FW_TRY(rounds(d, slot, body, &open, least, &good));
+        if (!*why && slot < 0) {
+            FW_TRY(fw_layout_frame_soundness(d, &open, &sound));
+            good = sound > 0.95 * least;
+        }
+        if (good) {
+            *raw = open;
+            return FW_OK;
+        }
+        if (!*why)
+            *why = "between its ring and what carries it there would be steps or slits that no "
+                   "mask shows";
+        if (!first) first = *why;
+    }
+    *why = first ? first : "its ring does not fit";
+    return FW_OK;
+}
+
+fw_status fw_layout_eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                               fw_geometry_contour *raw) {
+    const char *why;
+    FW_TRY(fw_layout_eyelet_fit(d, slot, body, e, soundness_now(d, slot), raw, &why));
+    if (why) fw_layout_eyelet_off(d, e, why);
+    return FW_OK;
+}
+
+/* body as it was before, then everything on it that can be drawn; one pass for the poses that hold
+   now */
+static fw_status dress(fw_layout_drawing *d, int body) {
+    fw_geometry_contour raw = d->bare[body];
+    bool good;
+    FW_TRY(rounds(d, body, body, &raw, 0.0, &good));
+    place_all(d, body);
+    for (int i = 0; i < d->ncomb; i++) {
+        fw_layout_comb_plan *p = &d->comb[i];
+        fw_geometry_contour with = raw;
+        const char *why;
+        if (p->off || p->comb->body_b != body) continue;
+        FW_TRY(add_rotor(d, p, &with, &why));
+        if (!why) FW_TRY(rounds(d, body, body, &with, soundness_now(d, body), &good));
+        if (!why && !good)
+            why = "between its rotor and its body there would be steps or slits that no mask shows";
+        if (why)
+            comb_off(d, p, why);
+        else
+            raw = with;
+    }
+    for (int i = 0; i < d->neyelet; i++)
+        if (!d->eyelet[i].off && d->eyelet[i].eyelet->body == body)
+            FW_TRY(fw_layout_eyelet_add(d, body, body, &d->eyelet[i], &raw));
+    d->raw[body] = raw;
+    return rounds(d, body, body, &raw, 0.0, &good);
+}
+
+/* area and moments of outline and caps; their cuts are no edges */
+static fw_status measure(fw_layout_drawing *d, int body) {
+    fw_geometry_contour *part;
+    int n = 1;
+    FW_NEED(part = fw_arena_array(d->arena, fw_geometry_contour, (size_t)d->neyelet + 1));
+    part[0] = d->plain[body];
+    double perimeter = fw_geometry_contour_perimeter(&part[0]);
+    for (int i = 0; i < d->neyelet; i++) {
+        const fw_geometry_contour *cap = &d->eyelet[i].cap;
+        if (d->eyelet[i].off || d->eyelet[i].eyelet->body != body || cap->count == 0) continue;
+        part[n++] = *cap;
+        perimeter += fw_geometry_contour_perimeter(cap) -
+                     2.0 * (fw_geometry_segment_length(&cap->segment[1]) +
+                            fw_geometry_segment_length(&cap->segment[3]));
+    }
+    fw_geometry_region region = {part, n};
+    fw_geometry_moments m = fw_geometry_region_moments(&region);
+    d->layout->body[body] = (fw_layout_body_layout){m.area_m2, perimeter, m.centroid, m.polar_m4};
+    return FW_OK;
+}
+
+static bool carries(const fw_layout_drawing *d, int body) {
+    for (int i = 0; i < d->ncomb; i++)
+        if (d->comb[i].comb->body_b == body) return true;
+    return fw_layout_eyelets_on(d, body);
+}
+
+/* Points are given from the centre of mass, which moves with what is added at them: the drawing is
+   repeated until it stands. Each round leaves the share of the added mass (a few per cent) of the
+   last shift; 1e-12 m after about six. */
+static fw_status dress_until_still(fw_layout_drawing *d, int body) {
+    for (int round = 0; round < SETTLING; round++) {
+        fw_geometry_vec2 before = centre_of(d, body);
+        FW_TRY(dress(d, body));
+        FW_TRY(measure(d, body));
+        if (fw_norm(fw_sub(centre_of(d, body), before)) < SETTLED_M) break;
+    }
+    return FW_OK;
+}
+
+fw_status fw_layout_actuators_draw(fw_layout_drawing *d) {
+    for (int b = 0; b < d->device->nbody && d->bare; b++)
+        if (d->bare[b].count == 0) d->bare[b] = d->raw[b];
+    for (bool again = d->bare != NULL; again;) {
+        again = false;
+        for (int b = 0; b < d->device->nbody; b++)
+            if (carries(d, b)) FW_TRY(dress_until_still(d, b));
+        for (int i = 0; i < d->ncomb; i++) {
+            const char *why;
+            if (d->comb[i].off) continue;
+            FW_TRY(fw_layout_stator_place(d, &d->comb[i], &why));
+            if (!why) continue;
+            comb_off(d, &d->comb[i], why);
+            again = true; /* its rotor goes, too */
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- stators ---- */
+
+bool fw_layout_stators_drawn(const fw_layout_drawing *d) {
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off) return true;
+    return false;
+}
+
+bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour *c,
+                           double space_m) {
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_geometry_contour *s = &d->comb[i].stator;
+        if (d->comb[i].off || s->count == 0) continue;
+        if (fw_geometry_contour_distance_below(s, c, space_m, NULL, NULL) < space_m ||
+            fw_geometry_contour_contains(c, s->segment[0].a))
+            return true;
+    }
+    return false;
+}
+
+void fw_layout_stators_drop(fw_layout_drawing *d, const char *why) {
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off) comb_off(d, &d->comb[i], why);
+}
+
+/* Eyelets on base and frame, and the pieces of all that moves the device. */
+
+/* ---- on the ground ---- */
+
+static fw_status avoid(fw_layout_drawing *d, const fw_geometry_contour *c) {
+    FW_NEED(d->lug = fw_arena_grow(d->arena, d->lug, (size_t)d->nlug, (size_t)d->nlug + 1,
+                                   sizeof *d->lug));
+    d->lug[d->nlug++] = *c;
+    return FW_OK;
+}
+
+/* metres from a ring's centre to the frame; 0: over it */
+static double to_frame(const fw_layout_drawing *d, fw_geometry_vec2 p) {
+    const fw_geometry_box *w = &d->layout->window;
+    return fmax(0.0, fmin(fmin(p.x - w->x0, w->x1 - p.x), fmin(p.y - w->y0, w->y1 - p.y)));
+}
+
+/* the base that is nearest and nearer than the frame; -1: the frame */
+static int base_of(const fw_layout_drawing *d, fw_geometry_vec2 at) {
+    double least = to_frame(d, at);
+    int best = -1;
+    for (int s = d->device->nbody; s < d->nslot && least > 0.0; s++) {
+        if (d->plain[s].count == 0) continue;
+        double far = HUGE_VAL, t;
+        fw_geometry_vec2 on;
+        for (int i = 0; i < d->plain[s].count; i++)
+            far = fmin(far, fw_geometry_segment_nearest(&d->plain[s].segment[i], at, &t, &on));
+        if (fw_geometry_contour_contains(&d->plain[s], at)) far = 0.0;
+        if (far > least) continue;
+        least = far;
+        best = s;
+    }
+    return best;
+}
+
+static const char across[] = "it lies across the cut between base and frame";
+
+/* does a ring on the frame reach a base? */
+static bool near_base(const fw_layout_drawing *d, const fw_layout_eyelet_plan *e) {
+    double reach = 0.5 * e->hole_m + e->ring_m + fw_layout_rule.least_space_m, t;
+    fw_geometry_vec2 on;
+    for (int s = d->device->nbody; s < d->nslot; s++)
+        for (int i = 0; i < d->plain[s].count; i++)
+            if (fw_geometry_segment_nearest(&d->plain[s].segment[i], e->at, &t, &on) < reach)
+                return true;
+    return false;
+}
+
+fw_status fw_layout_actuators_on_base(fw_layout_drawing *d) {
+    for (int i = 0; i < d->neyelet; i++) {
+        fw_layout_eyelet_plan *e = &d->eyelet[i];
+        fw_geometry_contour disc;
+        if (e->off) continue;
+        FW_TRY(fw_geometry_contour_disc(d->arena, e->at, 0.5 * e->hole_m + e->ring_m, &disc));
+        FW_TRY(avoid(d, &disc));
+        if (e->cap.count > 0) FW_TRY(avoid(d, &e->cap));
+        int slot = e->eyelet->body == FW_GROUND ? base_of(d, e->at) : -1;
+        e->on_frame = e->eyelet->body == FW_GROUND && slot < 0;
+        if (slot >= 0 &&
+            to_frame(d, e->at) < 0.5 * e->hole_m + e->ring_m + fw_layout_rule.least_space_m) {
+            fw_layout_eyelet_off(d, e, across);
+            continue;
+        }
+        if (slot >= 0) FW_TRY(fw_layout_eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
+    }
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off) FW_TRY(avoid(d, &d->comb[i].stator));
+    return FW_OK;
+}
+
+static bool outside(const fw_layout_drawing *d, const fw_layout_eyelet_plan *e) {
+    const fw_geometry_box die = d->layout->die;
+    double rim = d->lane_m + 0.5 * e->hole_m + e->ring_m;
+    return e->at.x < die.x0 + rim || e->at.x > die.x1 - rim || e->at.y < die.y0 + rim ||
+           e->at.y > die.y1 - rim;
+}
+
+/* rings whose centre is over a half of the frame, or nearest to it, before it is rounded */
+fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour *raw) {
+    fw_geometry_box half = fw_geometry_contour_box(raw);
+    for (int i = 0; i < d->neyelet; i++) {
+        fw_layout_eyelet_plan *e = &d->eyelet[i];
+        if (e->off || !e->on_frame || e->cap.count > 0) continue;
+        if (outside(d, e)) {
+            fw_layout_eyelet_off(d, e, "it lies outside of the frame");
+            continue;
+        }
+        if (e->at.y < half.y0 || e->at.y > half.y1) continue;
+        if (near_base(d, e)) {
+            fw_layout_eyelet_off(d, e, across);
+            continue;
+        }
+        fw_geometry_contour open = *raw;
+        const char *why;
+        double before;
+        FW_TRY(fw_layout_frame_soundness(d, raw, &before));
+        FW_TRY(fw_layout_eyelet_fit(d, -1, FW_GROUND, e, before, &open, &why));
+        if (why)
+            fw_layout_eyelet_off(d, e, why);
+        else
+            *raw = open;
+    }
+    return FW_OK;
+}
+
+/* ---- pieces ---- */
+
+static fw_status add_cap(fw_layout_drawing *d, const fw_layout_eyelet_plan *e) {
+    const char *label =
+        fw_arena_printf(d->arena, "ring of tendon %s", e->tendon->id ? e->tendon->id : "");
+    return fw_layout_drawing_add(d, e->on_frame ? FW_ROLE_FRAME : FW_ROLE_STRUCTURE,
+                                 e->eyelet->body, FW_NONE, label, &e->cap);
+}
+
+static void report_masses(fw_layout_drawing *d) {
+    for (int b = 0; b < d->device->nbody && !d->said; b++) {
+        const fw_device_body *body = &d->device->body[b];
+        bool drawn = false;
+        for (int i = 0; i < d->ncomb; i++)
+            drawn = drawn || (!d->comb[i].off && d->comb[i].comb->body_b == b);
+        for (int i = 0; i < d->neyelet; i++)
+            drawn = drawn || (!d->eyelet[i].off && d->eyelet[i].eyelet->body == b);
+        if (drawn && !isnan(body->mass_kg))
+            fw_diag_note(d->diags, 255, body->place,
+                         "body %s states its mass, which holds as it is: electrodes and rings that "
+                         "are drawn on it add nothing; leave mass and inertia out to have them "
+                         "counted",
+                         body->id);
+    }
+}
+
+fw_status fw_layout_actuators_add(fw_layout_drawing *d) {
+    for (int i = 0; i < d->neyelet; i++) {
+        const fw_layout_eyelet_plan *e = &d->eyelet[i];
+        if (!e->off && e->cap.count > 0) FW_TRY(add_cap(d, e));
+    }
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_layout_comb_plan *p = &d->comb[i];
+        if (p->off) continue;
+        const char *id = p->comb->id ? p->comb->id : "(unnamed)",
+                   *label = fw_arena_printf(d->arena, "stator of comb drive %s", id);
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, FW_ISLAND, FW_NONE, label, &p->stator));
+    }
+    report_masses(d);
+    return FW_OK;
+}
+
+static bool apart(fw_geometry_box a, fw_geometry_box b) {
+    return a.x1 < b.x0 || b.x1 < a.x0 || a.y1 < b.y0 || b.y1 < a.y0;
+}
+
+/* the letters of the pads come, those under a ring in the frame go */
+fw_status fw_layout_actuators_letters(fw_layout_drawing *d) {
+    fw_layout *l = d->layout;
+    for (int i = 0; i < d->neyelet; i++) {
+        const fw_layout_eyelet_plan *e = &d->eyelet[i];
+        double r = 0.5 * e->hole_m + 10e-6;
+        fw_geometry_box box = {e->at.x - r, e->at.y - r, e->at.x + r, e->at.y + r};
+        int kept = 0, gone = 0;
+        if (e->off || e->eyelet->body != FW_GROUND || e->cap.count == 0) continue;
+        for (int k = 0; k < l->npiece; k++) {
+            fw_layout_role role = l->piece[k].role;
+            if ((role == FW_ROLE_TEXT || role == FW_ROLE_MARK) &&
+                (!apart(fw_geometry_contour_box(&l->piece[k].contour), box) ||
+                 !apart(fw_geometry_contour_box(&l->piece[k].contour),
+                        fw_geometry_contour_box(&e->cap))))
+                gone++;
+            else
+                l->piece[kept++] = l->piece[k];
+        }
+        l->npiece = kept;
+        if (gone > 0 && !d->said)
+            fw_diag_warning(
+                d->diags, 258, e->eyelet->place,
+                "this eyelet is where the frame has lettering or a mark; %d polygons of "
+                "that are left out: move the eyelet to have them whole",
+                gone);
+    }
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_layout_comb_plan *p = &d->comb[i];
+        if (p->off) continue;
+        int first = l->npiece;
+        FW_TRY(fw_layout_text(d->arena, p->letter, p->letter_at, 45e-6, 5e-6, FW_ROLE_TEXT,
+                              "lettering of a bond pad", &l->piece, &l->npiece, &d->capacity));
+        for (int k = first; k < l->npiece; k++)
+            l->piece[k].body = FW_ISLAND;
+    }
+    return FW_OK;
+}

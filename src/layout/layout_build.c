@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From the description to outlines. The construction: docs/theory/layout.md. */
+#include "layout/draw.h"
+#include "layout/layout_text.h"
+#include <math.h>
+
+enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };
+
+/* NULL when every body has a shape and every joint a flexure; else what is missing */
+static const char *missing(fw_arena *arena, const fw_device *device, bool *failed) {
+    const char *why = NULL;
+    *failed = false;
+    if (device->nbody == 0 || device->nrevolute == 0) return "there is no mechanism";
+    if (device->nbody > BODIES_MOST || device->nrevolute > JOINTS_MOST)
+        return "more than 2000 bodies or 4000 hinges are computed, but not drawn";
+    for (int i = 0; i < device->nbody && !why; i++) {
+        const fw_device_body *b = &device->body[i];
+        int n = fw_layout_body_joints(device, i, NULL, 0);
+        bool plate = b->plate_width_m > 0.0 && b->plate_height_m > 0.0 &&
+                     isfinite(b->plate_x_m + b->plate_y_m + b->plate_angle_rad);
+        if (!(b->width_m > 0.0 || plate))
+            why = fw_arena_printf(arena, "body %s has neither a width nor a plate", b->id);
+        else if (!isnan(b->plate_width_m) && !plate)
+            why = fw_arena_printf(arena, "the plate of body %s lacks its size or place", b->id);
+        else if (!plate && (n == 0 || (n == 1 && !isfinite(b->x_m + b->y_m))))
+            why =
+                fw_arena_printf(arena, "body %s has a width, but no second hinge to reach", b->id);
+        else
+            continue;
+        *failed = !why;
+    }
+    for (int i = 0; i < device->nrevolute && !why && !*failed; i++) {
+        const fw_device_revolute *j = &device->revolute[i];
+        if (j->flexure == FW_NONE)
+            why = fw_arena_printf(arena, "joint %s has no flexure", j->id);
+        else if (!isfinite(j->x_m + j->y_m))
+            why = fw_arena_printf(arena, "joint %s has no place in the drawing", j->id);
+        else
+            continue;
+        *failed = !why;
+    }
+    return why;
+}
+
+static fw_status add_bodies(fw_layout_drawing *d) {
+    for (int s = 0; s < d->nslot; s++) {
+        int body = s < d->device->nbody ? s : FW_GROUND;
+        const fw_geometry_contour *whole = fw_layout_drawing_outline(d, s);
+        if (whole->count == 0) continue;
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE,
+                                     fw_layout_body_label(d, body), whole));
+    }
+    for (int i = 0; i < d->nattachment; i++) {
+        const fw_layout_attachment *a = &d->attachment[i];
+        if (a->tether.count == 0) continue;
+        const char *label = fw_layout_body_label(d, a->body);
+        FW_NEED(label);
+        FW_NEED(label = fw_arena_printf(d->arena, "tether of %s", label));
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, label, &a->tether));
+    }
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const char *label =
+            fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[j].id);
+        FW_NEED(label);
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_FLEXURE, d->layout->hinge[j].lower, j, label,
+                                     &d->hinge[j].flexure));
+    }
+    return FW_OK;
+}
+
+static void measure_free_rotation(fw_layout_drawing *d) {
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        fw_layout_hinge_layout *h = &d->layout->hinge[j];
+        const fw_geometry_contour *p =
+            fw_layout_drawing_outline(d, fw_layout_drawing_slot(d, h->lower, j));
+        const fw_geometry_contour *q =
+            fw_layout_drawing_outline(d, fw_layout_drawing_slot(d, h->upper, j));
+        h->free_rad = fw_layout_free_rotation(h->centre, p, q, 4.0 * h->keep_out_m);
+    }
+}
+
+/* window and base around what is there; *why set: stators are in the way of that */
+static fw_status try_ground(fw_layout_drawing *d, fw_status *base, const char **why) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    bool stators = fw_layout_stators_drawn(d);
+    *why = NULL;
+    if (stators) d->diags = &unsaid; /* it is tried again without them, and then said */
+    fw_status status = fw_layout_window_choose(d);
+    if (status == FW_GEOMETRY && stators) *why = "the die is too small for its stator";
+    if (status == FW_OK) {
+        *base = fw_layout_ground_draw(d);
+        if (*base != FW_OK && *base != FW_GEOMETRY) status = *base;
+        if (*base == FW_GEOMETRY && stators) *why = "its stator is in the way of the base";
+    }
+    for (int s = d->device->nbody; s < d->nslot && status == FW_OK && stators && !*why; s++)
+        if (d->plain[s].count > 0 && fw_layout_near_stator(d, &d->plain[s], 20e-6))
+            *why = "its stator would cross or nearly touch the base";
+    d->diags = said;
+    return *why ? FW_OK : status;
+}
+
+/* actuators on all bodies, then the ground; once more without drives that stand in its way */
+static fw_status draw_ground(fw_layout_drawing *d, fw_status *base) {
+    for (;;) {
+        const char *why;
+        *base = FW_OK;
+        d->nattachment = 0;
+        for (int s = d->device->nbody; s < d->nslot; s++)
+            d->plain[s].count = d->raw[s].count = 0;
+        FW_TRY(fw_layout_actuators_draw(d));
+        FW_TRY(try_ground(d, base, &why));
+        if (!why) return FW_OK;
+        fw_layout_stators_drop(d, why);
+    }
+}
+
+static bool has_hub(const fw_device *device, int body) {
+    return isnan(device->body[body].plate_width_m) &&
+           fw_layout_body_joints(device, body, NULL, 0) > 2;
+}
+
+/* Bodies whose hinges stand in the way of their own spokes get the hub beside them. Tried without a
+   word, and all is drawn anew. */
+static fw_status choose_hubs(fw_layout_drawing *d) {
+    const fw_device *device = d->device;
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    bool any = false;
+    for (int b = 0; b < device->nbody; b++)
+        any = any || has_hub(device, b);
+    if (!any) return FW_OK;
+    FW_NEED(d->beside = fw_arena_array(d->arena, bool, (size_t)device->nbody));
+    d->diags = &unsaid;
+    fw_status status = fw_layout_hinges_plan(d);
+    for (int b = 0; status == FW_OK && b < device->nbody; b++) {
+        if (!has_hub(device, b)) continue;
+        fw_status drawn = fw_layout_body_draw(d, b, FW_NONE, NULL, 0);
+        if (drawn != FW_OK && drawn != FW_GEOMETRY) status = drawn;
+        d->beside[b] = drawn == FW_GEOMETRY;
+    }
+    d->diags = said;
+    d->nlug = 0;
+    return status == FW_GEOMETRY ? FW_OK : status; /* the hinges themselves: said later */
+}
+
+static fw_status draw(fw_layout_drawing *d) {
+    const fw_device *device = d->device;
+    int nground = fw_layout_body_joints(device, FW_GROUND, NULL, 0);
+    d->nslot = device->nbody + (nground > 2 ? nground : 1);
+    size_t slots = (size_t)d->nslot;
+    bool bad = false;
+    for (int j = 0; j < device->nrevolute; j++)
+        d->centre = fw_add(d->centre, 1.0 / device->nrevolute, fw_layout_joint_point(device, j));
+    FW_NEED(d->raw = fw_arena_array(d->arena, fw_geometry_contour, slots));
+    FW_NEED(d->plain = fw_arena_array(d->arena, fw_geometry_contour, slots));
+    FW_NEED(d->held = fw_arena_array(d->arena, fw_geometry_contour, slots));
+    FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
+    FW_TRY(choose_hubs(d));
+    FW_TRY(fw_layout_hinges_plan(d));
+    FW_TRY(fw_layout_actuators_plan(d));
+    for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
+        fw_status status = fw_layout_body_draw(d, b, FW_NONE, NULL, 0);
+        if (status == FW_GEOMETRY)
+            bad = true;
+        else if (status != FW_OK)
+            return status;
+    }
+    if (bad) return FW_GEOMETRY;
+    fw_status base;
+    FW_TRY(draw_ground(d, &base));
+    FW_TRY(base == FW_OK ? fw_layout_actuators_on_base(d) : FW_OK);
+    FW_TRY(base == FW_OK ? fw_layout_tethers_draw(d) : FW_OK);
+    FW_TRY(fw_layout_frame_draw(d));
+    FW_TRY(fw_layout_clearance_check(d));
+    FW_TRY(base);
+    measure_free_rotation(d);
+    FW_TRY(fw_layout_release_holes(d));
+    FW_TRY(add_bodies(d));
+    FW_TRY(fw_layout_actuators_add(d));
+    fw_layout *l = d->layout;
+    FW_TRY(fw_layout_annotate(d->arena, device, l->window, l->die, d->said ? NULL : d->diags,
+                              &l->piece, &l->npiece, &d->capacity));
+    return fw_layout_actuators_letters(d);
+}
+
+/* what the mechanism computes and the drawing cannot show: once per file */
+static void say_joints(const fw_device *device, fw_diags *diags) {
+    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic",
+                                       [FW_JOINT_DISTANCE] = "distance",
+                                       [FW_JOINT_WELD] = "weld"};
+    if (device->njoint == 0) return;
+    const fw_device_joint *t = &device->joint[0];
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == 130) return;
+    fw_diag_warning(diags, 130, t->place,
+                    "%s joint %s is not drawn%s: flexures are the only joints that can be "
+                    "fabricated, so the masks leave its bodies apart; the motion is computed with "
+                    "it",
+                    kind[t->kind], t->id ? t->id : "(unnamed)",
+                    device->njoint > 1 ? ", and so are the other joints that do not turn" : "");
+}
+
+/* warnings and notes of a drawing, which are not repeated when the device is drawn again */
+static bool comments_drawing(int number) {
+    static const int of_drawing[] = {131, 138, 139, 189, 255, 258};
+    for (size_t i = 0; i < sizeof of_drawing / sizeof of_drawing[0]; i++)
+        if (number == of_drawing[i]) return true;
+    return false;
+}
+
+fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                          const fw_layout **layout) {
+    fw_layout *l;
+    bool failed;
+    FW_NEED(l = fw_arena_one(arena, fw_layout));
+    FW_NEED(l->hinge = fw_arena_array(arena, fw_layout_hinge_layout, (size_t)device->nrevolute));
+    FW_NEED(l->body = fw_arena_array(arena, fw_layout_body_layout, (size_t)device->nbody));
+    l->why_not = missing(arena, device, &failed);
+    if (failed) return FW_NOMEM;
+    if (!l->why_not) {
+        l->fill = device->die.fill;
+        fw_layout_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
+        say_joints(device, diags);
+        for (size_t i = 0; i < diags->count; i++)
+            d.said = d.said || comments_drawing(diags->item[i].number);
+        FW_TRY(draw(&d));
+        l->drawn = true;
+    }
+    *layout = l;
+    return FW_OK;
+}

@@ -1,0 +1,307 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hinges: where the bulge points, the two rings about W. docs/theory/layout.md, sections 2 and 3.
+ */
+#include "base/constants.h"
+#include "layout/draw.h"
+#include <math.h>
+
+static const double FILLET_SAME = 0.01; /* no mask shows the difference */
+
+static const fw_layout_hinge_drawer drawers[] = {
+    {FW_FLEXURE_CSFH, fw_layout_hinge_shape_csfh},
+    {FW_FLEXURE_LEAF, fw_layout_hinge_shape_leaf},
+};
+
+static double cross(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    return p.x * q.y - p.y * q.x;
+}
+static double angle_of(fw_geometry_vec2 p) {
+    return atan2(p.y, p.x);
+}
+
+/* ---- which way ---- */
+
+/* where a body's material lies, seen from one of its hinges */
+static fw_geometry_vec2 body_target(const fw_layout_drawing *d, int body, int joint) {
+    const fw_device *device = d->device;
+    fw_geometry_vec2 here = fw_layout_joint_point(device, joint), other = here;
+    int n = 0;
+    for (int j = 0; j < device->nrevolute; j++) {
+        if (device->revolute[j].body_a != body && device->revolute[j].body_b != body) continue;
+        fw_geometry_vec2 p = fw_layout_joint_point(device, j);
+        n++;
+        if (j != joint) other = p;
+    }
+    if (body >= 0 && !isnan(device->body[body].plate_width_m))
+        return fw_v(device->body[body].plate_x_m, device->body[body].plate_y_m);
+    if (n == 2) return other;
+    if (n > 2 && body >= 0) return fw_layout_body_hub(d, body);
+    if (body >= 0) return fw_v(device->body[body].x_m, device->body[body].y_m);
+    fw_geometry_vec2 out = fw_sub(here, d->centre); /* own base: straight to the frame */
+    if (fabs(out.x) > fabs(out.y)) return fw_add(here, out.x > 0.0 ? 1.0 : -1.0, fw_v(1.0, 0.0));
+    return fw_add(here, out.y > 0.0 ? 1.0 : -1.0, fw_v(0.0, 1.0));
+}
+
+/* from W along its direction until a body's plate begins; 0: inside, or no plate */
+static double plate_begins(const fw_device_body *b, fw_geometry_vec2 w,
+                           fw_geometry_vec2 direction) {
+    double c = cos(b->plate_angle_rad), s = sin(b->plate_angle_rad), begin = 0.0;
+    fw_geometry_vec2 to = fw_sub(w, fw_v(b->plate_x_m, b->plate_y_m));
+    double x = fabs(c * to.x + s * to.y) - 0.5 * b->plate_width_m;
+    double y = fabs(c * to.y - s * to.x) - 0.5 * b->plate_height_m;
+    if (x > 0.0) begin = fmax(begin, x / fabs(c * direction.x + s * direction.y));
+    if (y > 0.0) begin = fmax(begin, y / fabs(c * direction.y - s * direction.x));
+    return begin;
+}
+
+static double half_width(const fw_layout_drawing *d, int body) {
+    const fw_device *device = d->device;
+    if (body >= 0) {
+        const fw_device_body *b = &device->body[body];
+        double plate = fw_layout_rule.neck_plate_share * fmin(b->plate_width_m, b->plate_height_m),
+               wide = 0.5 * b->width_m;
+        if (isnan(plate)) return wide;
+        return fmin(isnan(wide) ? 0.5 * fw_layout_rule.neck_width_m : wide, plate);
+    }
+    double widest = 0.0;
+    for (int i = 0; i < device->nbody; i++)
+        if (device->body[i].width_m > widest) widest = device->body[i].width_m;
+    return 0.5 * (widest > 0.0 ? fmin(fw_layout_rule.base_width_m, 2.0 * widest)
+                               : fw_layout_rule.base_width_m);
+}
+
+/* joints between a body and the ground, so that mirrored hinges get mirrored rings */
+int fw_layout_steps_to_ground(const fw_device *device, int body) {
+    enum { MOST = 64 };
+    unsigned char level[MOST + 1] = {0}; /* 1 + steps; 0: not reached */
+    if (device->nbody > MOST) return body;
+    level[device->nbody] = 1;
+    for (int round = 0; round < device->nbody; round++)
+        for (int j = 0; j < device->nrevolute; j++) {
+            int a = device->revolute[j].body_a, b = device->revolute[j].body_b;
+            a = a < 0 ? device->nbody : a;
+            b = b < 0 ? device->nbody : b;
+            if (level[a] == round + 1 && !level[b]) level[b] = (unsigned char)(round + 2);
+            if (level[b] == round + 1 && !level[a]) level[a] = (unsigned char)(round + 2);
+        }
+    return level[body < 0 ? device->nbody : body];
+}
+
+static double choose_axis(const fw_layout_drawing *d, int joint, fw_geometry_vec2 da,
+                          fw_geometry_vec2 db) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    if (!isnan(j->axis_rad)) return j->axis_rad;
+    fw_geometry_vec2 between = fw_add(da, 1.0, db);
+    if (fw_norm(between) > fw_layout_rule.opposite_norm)
+        return angle_of(fw_v(-between.x, -between.y));
+    fw_geometry_vec2 side = fw_left(da),
+                     away = fw_sub(fw_layout_joint_point(d->device, joint), d->centre);
+    if (fw_dot(side, away) < 0.0) side = fw_v(-side.x, -side.y);
+    return angle_of(side);
+}
+
+static void choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *plan,
+                         double *axis) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    fw_geometry_vec2 w = fw_layout_joint_point(d->device, joint);
+    fw_geometry_vec2 da = fw_towards(w, body_target(d, j->body_a, joint));
+    fw_geometry_vec2 db = fw_towards(w, body_target(d, j->body_b, joint));
+    *axis = choose_axis(d, joint, da, db);
+    fw_geometry_vec2 n = fw_polar(*axis);
+    bool a_up = cross(n, da) >= cross(n, db);
+    for (int i = 0; i < 2; i++) {
+        fw_layout_side *side = &plan->side[i];
+        bool is_a = (i == 1) == a_up;
+        side->body = is_a ? j->body_a : j->body_b;
+        side->direction = is_a ? da : db;
+        side->half_width_m = half_width(d, side->body);
+        side->form = fw_layout_head_form(0);
+        if (side->body >= 0 && !isnan(d->device->body[side->body].plate_width_m))
+            side->plate = &d->device->body[side->body];
+        if (side->plate) side->plate_at_m = plate_begins(side->plate, w, side->direction);
+        side->local = (fw_layout_local){w, n.x, n.y, i == 0};
+        double up = cross(n, side->direction), along = fw_dot(n, side->direction);
+        side->own_rad = atan2(i == 0 ? -up : up, along);
+        if (side->own_rad < -0.5 * FW_PI) side->own_rad += 2.0 * FW_PI;
+    }
+    int low = fw_layout_steps_to_ground(d->device, plan->side[0].body);
+    int high = fw_layout_steps_to_ground(d->device, plan->side[1].body);
+    plan->convex = low == high ? plan->side[1].body > plan->side[0].body : high > low;
+}
+
+/* ---- the rings ---- */
+
+/* radii about W, from inside: flexure, free width, convex ring, gap, concave ring */
+static void choose_rings(fw_layout_hinge_plan *plan, double gap) {
+    const fw_layout_hinge_shape *s = &plan->shape[0], *t = &plan->shape[1];
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double free_width =
+        fmin(fmax(rule->ring_free_sizes * s->size_m, rule->ring_free_m), rule->ring_free_most_m);
+    double sized = fmin(fmax(rule->ring_sizes * s->size_m, rule->ring_least_m), rule->ring_m);
+    double thick = fmax(rule->ring_widths * fmax(s->width_m, t->width_m), sized);
+    fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
+    double reach = fmax(fmax(s->reach_m, fw_norm(s->inner_corner)),
+                        fmax(t->reach_m, fw_norm(t->inner_corner)));
+    in->ring_in_m = reach + free_width;
+    in->ring_out_m = in->ring_in_m + thick;
+    out->ring_in_m = in->ring_out_m + (gap > 0.0 ? gap : rule->corner_m);
+    out->ring_out_m = out->ring_in_m + thick;
+    for (int i = 0; i < 2; i++)
+        fw_layout_neck_choose(&plan->side[i], out->ring_out_m + rule->beside_ring_m);
+}
+
+/* A ring runs on past the bulge until the other body's stem (inside) or bar (outside) is the free
+   rotation away. Returns the sector in which the two surfaces face each other. */
+static double choose_ring_ends(fw_layout_hinge_plan *plan, double gap) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const fw_layout_hinge_shape *s = &plan->shape[plan->convex];
+    fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
+    double stem = fmin(angle_of(fw_layout_ring_foot(s, in->ring_in_m)),
+                       angle_of(fw_layout_ring_foot(s, in->ring_out_m)));
+    double bar = in->own_rad - asin(in->neck_m / out->ring_in_m);
+    in->ring_end_rad = fmax(rule->free_rad - stem, -rule->ring_past_rad);
+    out->ring_end_rad = fmax(rule->free_rad - bar, -rule->ring_past_rad);
+    for (int i = 0; i < 2; i++) {
+        fw_layout_side *side = &plan->side[i];
+        double q0 = side->ring_in_m, q1 = side->ring_out_m;
+        double most =
+            fmin(angle_of(fw_layout_ring_foot(&plan->shape[i], q0)) - rule->ring_from_face_m / q0,
+                 side->own_rad - asin(side->neck_m / q1) - rule->ring_from_neck_m / q1);
+        if (!(gap > 0.0) || side->ring_end_rad > most) side->ring_end_rad = most;
+    }
+    return -in->ring_end_rad - out->ring_end_rad;
+}
+
+static fw_status refuse(fw_layout_drawing *d, int joint, int number, const char *what) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    const fw_device_flexure *f = &d->device->flexure[j->flexure];
+    char length[32], width[32], angle[32];
+    bool turns = isfinite(f->angle_rad); /* not a leaf */
+    fw_diag_error(d->diags, number, f->place, "hinge %s (length %s um, width %s um%s%s%s): %s",
+                  j->id, fw_layout_um(length, f->length_m), fw_layout_um(width, f->width_m),
+                  turns ? ", angle " : "",
+                  turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / FW_PI, 5) : "",
+                  turns ? " deg" : "", what);
+    return FW_GEOMETRY;
+}
+
+/* a fillet of the file that does not fit; once per flexure. The layout has found the largest one
+   that does: exactly for arcs and leaves, within 5 % at the ends of a path. */
+static bool fillet_fits(fw_layout_drawing *d, int joint, double most_m) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    const fw_device_flexure *f = &d->device->flexure[j->flexure];
+    char wanted[32], most[32];
+    if (isnan(f->fillet_m) || !(most_m < (1.0 - FILLET_SAME) * f->fillet_m)) return true;
+    for (int i = 0; i < joint; i++)
+        if (d->device->revolute[i].flexure == j->flexure) return false;
+    fw_diag_error(d->diags, 129, f->fillet_place,
+                  "flexure %s: a fillet of %s um does not fit: the roots of this flexure have room "
+                  "for %s um (layout rule: %s); write %s um or less, leave the fillet out, or make "
+                  "the flexure longer",
+                  f->id ? f->id : "", fw_layout_um(wanted, f->fillet_m), fw_layout_um(most, most_m),
+                  f->kind == FW_FLEXURE_LEAF ? "at most a quarter of a leaf's length"
+                                             : "at most 0.3 of the inner radius, with 1 um of the "
+                                               "root face left flat",
+                  most);
+    return false;
+}
+
+static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    const fw_device_flexure *f = &d->device->flexure[j->flexure];
+    fw_layout_hinge_plan *plan = &d->hinge[joint];
+    fw_layout_hinge_layout *layout = &d->layout->hinge[joint];
+    double axis = 0.0;
+    bool drawn = false;
+    double fillet = isnan(f->fillet_m) ? fw_flexure_default_fillet(f) : f->fillet_m;
+    plan->shape[0].fillet_m = fillet;
+    if (fw_device_flexure_varies(f))
+        drawn = fw_layout_hinge_shape_path(f, fillet, plan->shape);
+    else {
+        for (size_t i = 0; i < sizeof drawers / sizeof drawers[0]; i++)
+            if (drawers[i].kind == f->kind) drawn = drawers[i].shape(f, &plan->shape[0]);
+        plan->shape[1] = plan->shape[0];
+    }
+    if (!drawn)
+        return refuse(d, joint, 121,
+                      "no room for two root blocks 8 um apart and their fillets; lengthen the "
+                      "flexure, or make it thinner or its angle smaller");
+    if (!fillet_fits(d, joint, plan->shape[0].fillet_m)) return FW_GEOMETRY;
+    choose_sides(d, joint, plan, &axis);
+    choose_rings(plan, f->gap_m);
+    double facing = choose_ring_ends(plan, f->gap_m);
+    if (f->gap_m > 0.0 && facing < fw_layout_rule.facing_least_rad)
+        return refuse(
+            d, joint, 122,
+            "the conjugate surfaces would face each other over less than 20 degrees; turn "
+            "the bulge away from the links, or set gap=\"0 um\" to leave them out");
+    for (int i = 0; i < 2; i++) {
+        fw_status status = fw_layout_head_draw_shape(d->arena, &plan->shape[i], &plan->side[i]);
+        if (status == FW_GEOMETRY)
+            return refuse(d, joint, 122,
+                          "the root block, the ring and the neck of one body do not join to one "
+                          "outline; lengthen the flexure, or make it or the link thinner");
+        FW_TRY(status);
+    }
+    FW_TRY(fw_layout_flexure_draw(d->arena, f, plan));
+    if (fw_device_flexure_varies(f) && fw_layout_path_in_the_way(f, plan))
+        return refuse(d, joint, 264,
+                      "the root blocks and rings that belong to its two ends would cross, or come "
+                      "within 7 um of the strip; let the ends point away from the bulge, or open "
+                      "the path");
+
+    const fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
+    layout->drawn = true;
+    layout->centre = fw_layout_joint_point(d->device, joint);
+    layout->arc_centre = fw_layout_local_point(&plan->side[1].local, plan->shape[1].arc_centre);
+    layout->axis_rad = axis;
+    layout->lower = plan->side[0].body;
+    layout->upper = plan->side[1].body;
+    layout->convex = in->body;
+    layout->fillet_m = plan->shape[0].fillet_m;
+    layout->surface_radius_m = f->gap_m > 0.0 ? in->ring_out_m : 0.0;
+    layout->gap_m = f->gap_m;
+    layout->facing_rad = f->gap_m > 0.0 ? facing : 0.0;
+    layout->facing_from_rad = plan->side[1].ring_end_rad;
+    layout->keep_out_m = out->ring_out_m + fw_layout_rule.beside_ring_m;
+    return FW_OK;
+}
+
+/* the rings and where they end stay: only neck and block differ */
+fw_status fw_layout_head_draw(fw_layout_drawing *d, int joint, int body, int attempt) {
+    fw_layout_hinge_plan *plan = &d->hinge[joint];
+    fw_layout_side *side = &plan->side[plan->side[1].body == body];
+    side->attempt = attempt;
+    side->form = fw_layout_head_form(attempt);
+    fw_layout_neck_choose(side, d->layout->hinge[joint].keep_out_m);
+    return fw_layout_head_draw_shape(d->arena, &plan->shape[side == &plan->side[1]], side);
+}
+
+fw_status fw_layout_hinges_plan(fw_layout_drawing *d) {
+    const fw_device *device = d->device;
+    bool bad = false;
+    FW_NEED(d->hinge = fw_arena_array(d->arena, fw_layout_hinge_plan, (size_t)device->nrevolute));
+    for (int i = 0; i < device->nrevolute; i++) { /* all refusals in one run */
+        fw_status status = plan_hinge(d, i);
+        if (status == FW_GEOMETRY)
+            bad = true;
+        else if (status != FW_OK)
+            return status;
+    }
+    if (bad) return FW_GEOMETRY;
+    for (int i = 0; i < device->nrevolute; i++)
+        for (int k = i + 1; k < device->nrevolute; k++) {
+            const fw_layout_hinge_layout *p = &d->layout->hinge[i], *q = &d->layout->hinge[k];
+            double apart = fw_norm(fw_sub(p->centre, q->centre)),
+                   least = p->keep_out_m + q->keep_out_m;
+            char a[32], b[32];
+            if (apart >= least) continue;
+            fw_diag_error(d->diags, 125, device->revolute[k].place,
+                          "hinges %s and %s are %s um apart, but their surfaces and clearance need "
+                          "%s um; move them apart, or make the flexures shorter",
+                          device->revolute[i].id, device->revolute[k].id, fw_layout_um(a, apart),
+                          fw_layout_um(b, least));
+            bad = true;
+        }
+    return bad ? FW_GEOMETRY : FW_OK;
+}

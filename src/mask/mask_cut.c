@@ -1,0 +1,255 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/mask_cut.h"
+#include "mask/cut_tree.h"
+#include <math.h>
+#include <string.h>
+
+/* Nothing below is worth asking for: a quarter of the spot of a fine laser writer. */
+static const double CLEAR_DBU = 50;
+enum { SAMPLES = 1024 };
+
+typedef struct search {
+    const fw_geometry_polygon *p;
+    fw_mask_cut_tree tree;
+    const int *sample; /* (nsample) vertices at which cuts may end, in order */
+    int nsample;
+    double wanted_dbu;        /* distance from all other vertices; 0: the larger, the better */
+    int least;                /* vertices that lie on either side at least */
+    int peel;                 /* 0; else one side has no more edges, the cut not counted */
+    int i, j;                 /* best so far; -1: none */
+    double least2, clear_dbu; /* its length, its distance */
+} search;
+
+static fw_geometry_point at(const fw_geometry_polygon *p, int i) {
+    return p->vertex[i < 0 ? i + p->count : i < p->count ? i : i - p->count];
+}
+
+static double length2(fw_geometry_point a, fw_geometry_point b) {
+    double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+    return x * x + y * y;
+}
+
+/* does the line from vertex i to q leave into the polygon? */
+static bool enters(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
+    fw_geometry_point v = at(p, i), before = at(p, i - 1), after = at(p, i + 1);
+    bool left_of_out = fw_mask_cut_cross(v, after, q) > 0,
+         left_of_in = fw_mask_cut_cross(before, v, q) > 0;
+    return fw_mask_cut_cross(before, v, after) > 0 ? left_of_out && left_of_in
+                                                   : left_of_out || left_of_in;
+}
+
+/* does the line from vertex i to q run over one of the edges there? */
+static bool along(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
+    for (int side = -1; side <= 1; side += 2) {
+        fw_geometry_point v = at(p, i), w = at(p, i + side);
+        int64_t x = ((int64_t)w.x_dbu - v.x_dbu) * ((int64_t)q.x_dbu - v.x_dbu);
+        int64_t y = ((int64_t)w.y_dbu - v.y_dbu) * ((int64_t)q.y_dbu - v.y_dbu);
+        if (fw_mask_cut_cross(v, w, q) == 0 && x >= 0 && y >= 0) return true;
+    }
+    return false;
+}
+
+/* Distance of the line between two vertices from all others where it lies strictly inside and this
+   is more than `least`; else a number up to it. The four vertices beside its ends first: they are
+   nearest most often. */
+static double clearance(const search *s, int i, int j, double least, double most) {
+    const fw_geometry_polygon *p = s->p;
+    fw_geometry_point a = at(p, i), b = at(p, j);
+    if (!enters(p, i, b) || !enters(p, j, a)) return -1;
+    double clear = most;
+    const int beside[4] = {i - 1, i + 1, j - 1, j + 1};
+    for (int k = 0; k < 4; k++) {
+        clear = fmin(clear, fw_mask_cut_distance(a, b, at(p, beside[k])));
+        if (clear <= least) return clear;
+    }
+    if (along(p, i, b) || along(p, j, a)) return -1;
+    return fw_mask_cut_clearance(&s->tree, i, j, least, clear);
+}
+
+/* the shortest cut that keeps the distance wanted; where none is, that of the largest distance */
+static void look(search *s) {
+    int n = s->p->count, least = s->least;
+    for (int k = 0, far = 0; k < s->nsample; k++) {
+        int i = s->sample[k];
+        while (far < s->nsample && s->sample[far] < i + least)
+            far++;
+        for (int m = far; m < s->nsample && s->sample[m] <= i + n - least; m++) {
+            int j = s->sample[m];
+            if (s->peel && j - i > s->peel && n - j + i > s->peel) continue;
+            double l2 = length2(at(s->p, i), at(s->p, j)), most = HUGE_VAL, more = s->clear_dbu;
+            if (s->wanted_dbu > 0) {
+                if (!(l2 < s->least2)) continue;
+                most = s->wanted_dbu;
+                more = most * (1 - 1e-12);
+            }
+            double clear = clearance(s, i, j, more, most);
+            if (!(clear > more)) continue;
+            s->least2 = l2;
+            s->clear_dbu = clear;
+            s->i = i;
+            s->j = j;
+        }
+    }
+}
+
+/* Where an outline begins to be something else: the lengths of the edges differ by half, or it
+   turns by more than 30 degrees. Such ends of straight edges take cuts at any angle. */
+static bool is_end(const fw_geometry_polygon *p, int i) {
+    fw_geometry_point v = at(p, i), before = at(p, i - 1), after = at(p, i + 1);
+    double in2 = length2(before, v), out2 = length2(v, after);
+    double turn = (double)fw_mask_cut_cross(before, v, after);
+    return in2 > 2.25 * out2 || out2 > 2.25 * in2 || turn * turn > 0.25 * in2 * out2;
+}
+
+/* All vertices of a small polygon; of a large one the ends of straight edges, and of the others as
+   many, evenly. */
+static fw_status sample(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
+    int n = p->count, ends = 0;
+    int *list = fw_arena_array(arena, int, (size_t)n);
+    FW_NEED(list);
+    for (int i = 0; i < n && n > SAMPLES; i++)
+        ends += is_end(p, i);
+    int every_end = ends / (SAMPLES / 2) + 1, room = SAMPLES - ends / every_end;
+    int every = n > SAMPLES ? (n - ends) / room + 1 : 1;
+    s->nsample = 0;
+    for (int i = 0, end = 0, other = 0; i < n; i++) {
+        bool take = n <= SAMPLES || (is_end(p, i) ? end++ % every_end == 0 : other++ % every == 0);
+        if (take) list[s->nsample++] = i;
+    }
+    s->sample = list;
+    return FW_OK;
+}
+
+static fw_status all(fw_arena *arena, const fw_geometry_polygon *p, search *s) {
+    int *list = fw_arena_array(arena, int, (size_t)p->count);
+    FW_NEED(list);
+    for (int i = 0; i < p->count; i++)
+        list[i] = i;
+    s->sample = list;
+    s->nsample = p->count;
+    return FW_OK;
+}
+
+/* How to go about it: a quarter or a third on either side at least, or parts of half the number to
+   the full one taken off one by one. The latter leaves the fewest slivers: its parts are as large
+   as they may be, and a part along an arc is the better the more of the arc it has. */
+typedef struct manner {
+    int share;
+    bool peel;
+} manner;
+static const manner manners[] = {{4, true}, {4, false}, {3, false}, {8, false}};
+enum { PEELED = 64 }; /* parts at most; a larger polygon is halved first, so that n ln n remains */
+
+/* Shortest straight cut that keeps wanted_dbu to all vertices but its own and leaves at least a
+   quarter of the vertices on either side, or less where only that keeps the distance: a neck, where
+   there is one. Where no cut keeps it (a disc of equal chords has none whose sides are below 128
+   degrees), the one that keeps most. In: a simple polygon, counter-clockwise. Out: numbers of the
+   two vertices, the distance (dbu). Every polygon has a cut inside it with at least n / 3 edges on
+   either side (the middle edge of the tree of any triangulation), so the last search, over all
+   pairs, finds one. Cost: O(n) for the boxes and at most SAMPLES^2 / 2 pairs, of which only those
+   that are shorter than the best are looked at, in O(ln n); only where that finds nothing, all
+   pairs. Exact integers decide what is inside. Test: test_polygon_cut.c. */
+static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double wanted_dbu, int most,
+                      manner how, search *s) {
+    static const struct {
+        bool wanted, all;
+        int part; /* of the share */
+    } rounds[] = {
+        {true, false, 1},  {true, false, 2},  {true, false, 4}, {true, false, 8},
+        {false, false, 2}, {false, false, 8}, {false, true, 1},
+    };
+    *s = (search){.p = p, .i = -1, .j = -1};
+    FW_TRY(fw_mask_cut_tree_new(arena, p, &s->tree));
+    FW_TRY(sample(arena, p, s));
+    for (size_t k = 0; k < sizeof rounds / sizeof *rounds && s->i < 0; k++) {
+        if (rounds[k].all) FW_TRY(all(arena, p, s));
+        bool peel = how.peel && !rounds[k].all && p->count / PEELED < most;
+        int of = peel && 2 * most < p->count ? 2 * most : p->count;
+        s->peel = peel ? most - 1 : 0;
+        int least = of / (rounds[k].part * how.share);
+        s->least = least > 2 ? least : 2;
+        s->wanted_dbu = rounds[k].wanted ? wanted_dbu : 0;
+        s->least2 = HUGE_VAL;
+        s->clear_dbu = -1;
+        look(s);
+    }
+    return s->i >= 0 ? FW_OK : FW_GEOMETRY;
+}
+
+static fw_status part_of(fw_arena *arena, const fw_geometry_polygon *p, int from, int to,
+                         fw_geometry_polygon *out) {
+    int n = to - from + 1;
+    FW_NEED(out->vertex = fw_arena_array(arena, fw_geometry_point, (size_t)n));
+    for (int k = 0; k < n; k++)
+        out->vertex[k] = at(p, from + k);
+    out->count = n;
+    return FW_OK;
+}
+
+/* Distances wanted do not become smaller with the parts: a cut that keeps them keeps them to the
+   edges that are cuts, too, because these end at vertices. */
+static double wanted(const fw_geometry_polygon *p) {
+    double least2 = HUGE_VAL;
+    for (int i = 0; i < p->count; i++)
+        least2 = fmin(least2, length2(at(p, i), at(p, i + 1)));
+    return fmax(CLEAR_DBU, FW_CUT_SHARE * sqrt(least2));
+}
+
+typedef struct parts {
+    fw_geometry_polygon *list;
+    int n;
+    double clear_dbu;
+} parts;
+
+static fw_status cut(fw_arena *arena, const fw_geometry_polygon *polygon, int most,
+                     double wanted_dbu, manner how, parts *out) {
+    int room = polygon->count; /* triangles are fewer */
+    FW_NEED(out->list = fw_arena_array(arena, fw_geometry_polygon, (size_t)room));
+    out->list[0] = *polygon;
+    out->n = 1;
+    out->clear_dbu = HUGE_VAL;
+    for (int k = 0; k < out->n;) {
+        if (out->list[k].count <= most) {
+            k++;
+            continue;
+        }
+        if (out->n == room) return FW_GEOMETRY;
+        search s;
+        fw_geometry_polygon whole = out->list[k], *here = &out->list[k];
+        fw_mark mark = fw_arena_mark(arena);
+        /* better than the worst so far would be of no use */
+        double enough_dbu = fmin(wanted_dbu, out->clear_dbu);
+        fw_status status = find(arena, &whole, enough_dbu, most, how, &s);
+        fw_arena_rewind(arena, mark);
+        FW_TRY(status);
+        out->clear_dbu = fmin(out->clear_dbu, s.clear_dbu);
+        memmove(here + 2, here + 1, (size_t)(out->n - k - 1) * sizeof *here);
+        FW_TRY(part_of(arena, &whole, s.i, s.j, &here[0]));
+        FW_TRY(part_of(arena, &whole, s.j, s.i + whole.count, &here[1]));
+        out->n++;
+    }
+    return FW_OK;
+}
+
+fw_status fw_mask_polygon_cut(fw_arena *arena, const fw_geometry_polygon *polygon, int most,
+                              fw_geometry_polygon **part, int *npart, double *clear_dbu) {
+    if (polygon->count <= most) {
+        FW_NEED(*part = fw_arena_one(arena, fw_geometry_polygon));
+        **part = *polygon;
+        *npart = 1;
+        if (clear_dbu) *clear_dbu = HUGE_VAL;
+        return FW_OK;
+    }
+    parts best = {.n = 0}, now;
+    double wanted_dbu = wanted(polygon);
+    for (size_t k = 0; k < sizeof manners / sizeof *manners; k++) {
+        FW_TRY(cut(arena, polygon, most, wanted_dbu, manners[k], &now));
+        if (k == 0 || now.clear_dbu > 1.1 * best.clear_dbu) best = now;
+        /* far from it: the outline itself is why, as of a disc in many parts */
+        if (best.clear_dbu >= wanted_dbu || best.clear_dbu < wanted_dbu / 8) break;
+    }
+    *part = best.list;
+    *npart = best.n;
+    if (clear_dbu) *clear_dbu = best.clear_dbu;
+    return FW_OK;
+}

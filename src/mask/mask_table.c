@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/mask_table.h"
+#include "mask/order.h"
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const role_names[] = {
+    [FW_ROLE_STRUCTURE] = "structure", [FW_ROLE_FLEXURE] = "flexure", [FW_ROLE_FRAME] = "frame",
+    [FW_ROLE_TETHER] = "tether",       [FW_ROLE_TEXT] = "text",       [FW_ROLE_MARK] = "mark",
+    [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_COUNT] = NULL};
+static const char *const tones[] = {"data clear", "data dark", NULL};
+const char *const fw_mask_yes_no[] = {"yes", "no", NULL};
+
+/* ---- forms of text ---- */
+
+bool fw_mask_is_plain(const char *text) {
+    size_t n = strlen(text);
+    for (size_t i = 0; i < n; i++)
+        if ((unsigned char)text[i] < 0x20 || (unsigned char)text[i] > 0x7e) return false;
+    return n > 0 && n <= 400;
+}
+
+static bool is_identifier(const char *s) {
+    size_t n = strlen(s);
+    if (n == 0 || n > 32) return false;
+    return strspn(s, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == n;
+}
+
+static bool read_gds(const char *s, long *layer, long *datatype) {
+    char *end;
+    *layer = strtol(s, &end, 10);
+    if (!(s[0] >= '0' && s[0] <= '9' && *end == '/' && end[1] >= '0' && end[1] <= '9'))
+        return false;
+    *datatype = strtol(end + 1, &end, 10);
+    return *end == '\0' && *layer >= 1 && *layer <= 63 && *datatype >= 0 && *datatype <= 63;
+}
+
+static bool is_gds(const char *s) {
+    long layer, datatype;
+    return read_gds(s, &layer, &datatype);
+}
+
+static bool is_colour(const char *s) {
+    return strlen(s) == 7 && s[0] == '#' && strspn(s + 1, "0123456789abcdefABCDEF") == 6;
+}
+
+/* ---- rows ---- */
+
+#define REQUIRED .required = true
+#define NAME                                                                                       \
+    .kind = FW_KIND_FORM, .form = is_identifier, .reason = "a name of 1 to 32 of A-Z a-z 0-9 _ -"
+#define LEAST                                                                                      \
+    FW_MASK_LENGTH, .ranged = true, .max = 1e-2, .reason = "no design rule is wider than 10 mm",   \
+                    .fallback = "no rule"
+
+static const fw_xml_attribute_row root_rows[] = {
+    {"flow", NAME, REQUIRED, .sentence = "Flow that the masks are for."},
+    {"reading", FW_MASK_PLAIN, REQUIRED,
+     .sentence = "How the plate is read, such as right-reading chrome down."},
+    {"order", FW_MASK_PLAIN, .sentence = "What the mask shop is told."},
+    {"plate", FW_MASK_PLAIN, .sentence = "Layers with AND, OR, NOT or XOR between: 1/0 NOT 2/0."},
+};
+static const fw_xml_attribute_row layer_rows[] = {
+    {"gds", .kind = FW_KIND_FORM, .form = is_gds, REQUIRED,
+     .reason = "LAYER/DATATYPE with layer 1 to 63 and data type 0 to 63, which every mask shop "
+               "reads, for example 1/0",
+     .sentence = "Its numbers in GDSII and OASIS."},
+    {"id", NAME, REQUIRED, .sentence = "Name that rules use."},
+    {"name", NAME, REQUIRED, .sentence = "Name in files of masks."},
+    {"purpose", FW_MASK_PLAIN, REQUIRED, .sentence = "What it is for."},
+    {"tone", .kind = FW_KIND_WORD, .words = tones, REQUIRED,
+     .sentence = "What the data are on the plate."},
+    {"colour", .kind = FW_KIND_FORM, .form = is_colour, REQUIRED,
+     .reason = "#rrggbb, for example #3d6aa8", .sentence = "In pictures."},
+    {"roles", .kind = FW_KIND_WORDS, .words = role_names, .sentence = "What is drawn on it."},
+    {"biased", FW_MASK_YES_NO, .sentence = "Does the bias of the process apply?"},
+    {"source", FW_MASK_PLAIN, .sentence = "Where its rule is from."},
+    {"min-width", LEAST, .sentence = "Narrowest that is printed."},
+    {"min-space", LEAST, .sentence = "Nearest that is printed apart."},
+    {"documentation", FW_MASK_YES_NO, .sentence = "yes: for people; nothing is exposed."},
+};
+static const fw_xml_element_row rows[] = {
+    {"mask-table", "", FW_MASK_ROWS(root_rows), .sentence = "The layers of a flow's masks."},
+    {"layer", "mask-table", "id", .needed = true, FW_MASK_ROWS(layer_rows),
+     .sentence = "A layer of the masks."},
+    {"rule", "mask-table", .specialise = fw_mask_rule_row, .numbers = &fw_mask_rule_numbers,
+     .sentence = "A design rule of a layer."},
+    {"pattern", "mask-table", .specialise = fw_mask_pattern_row,
+     .numbers = &fw_mask_pattern_numbers, .sentence = "A test pattern."},
+    {0},
+};
+static const fw_xml_element_row *const parts[] = {rows, NULL};
+static const char *const spaces[] = {"name"};
+
+static const fw_xml_table table_of_layers = {.file = "layer table",
+                                             .root = "mask-table",
+                                             .urn = "urn:flexwright:masks:1",
+                                             .head = "flow=\"...\" reading=\"...\"",
+                                             .source = "src/mask/mask_table.c",
+                                             .part = parts,
+                                             .space = spaces,
+                                             .nspace = 1,
+                                             .numbers = {.root = 140,
+                                                         .element = 140,
+                                                         .misplaced = 140,
+                                                         .needed = 140,
+                                                         .attribute = 140,
+                                                         .at_value = true,
+                                                         .missing = 140,
+                                                         .text = 49,
+                                                         .word = 141,
+                                                         .form = 141,
+                                                         .range = 141}};
+
+/* ---- layers ---- */
+
+bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word) {
+    const char *text = fw_xml_text_of(record, name);
+    return text && strcmp(text, word) == 0;
+}
+
+static unsigned roles_of(const fw_xml_record *record) {
+    const char *text = fw_xml_text_of(record, "roles");
+    unsigned roles = 0;
+    for (const char *s = text ? text : ""; *s;) {
+        size_t n = strcspn(s, " \t\r\n");
+        for (unsigned k = 0; k < FW_ROLE_COUNT; k++)
+            if (strlen(role_names[k]) == n && memcmp(role_names[k], s, n) == 0) roles |= 1u << k;
+        s += n + strspn(s + n, " \t\r\n");
+    }
+    return roles;
+}
+
+static fw_mask_layer layer_of(fw_diags *diags, const fw_xml_record *record) {
+    fw_mask_layer l = {.id = fw_xml_text_of(record, "id"),
+                       .name = fw_xml_text_of(record, "name"),
+                       .purpose = fw_xml_text_of(record, "purpose"),
+                       .tone = fw_xml_text_of(record, "tone"),
+                       .colour = fw_xml_text_of(record, "colour"),
+                       .roles = roles_of(record),
+                       .biased = fw_mask_says(record, "biased", "yes"),
+                       .rule_source = fw_xml_text_of(record, "source"),
+                       .documentation = fw_mask_says(record, "documentation", "yes"),
+                       .place = record->element->place};
+    const char *gds = fw_xml_text_of(record, "gds");
+    long layer, datatype;
+    if (gds && read_gds(gds, &layer, &datatype)) {
+        l.layer = (int)layer;
+        l.datatype = (int)datatype;
+    }
+    const fw_xml_cell *width = fw_xml_cell_of(record, "min-width"),
+                      *space = fw_xml_cell_of(record, "min-space");
+    l.min_width_m = width->ok ? width->number : 0.0;
+    l.min_space_m = space->ok ? space->number : 0.0;
+    if ((l.min_width_m > 0 || l.min_space_m > 0) && !fw_xml_given(record, "source"))
+        fw_diag_error(diags, 140, l.place,
+                      "<layer> has a design rule without its reason; add source=\"...\"");
+    if (l.documentation && l.roles)
+        fw_diag_error(diags, 141, l.place,
+                      "a documentation layer is never exposed, so no role may be drawn on it; "
+                      "remove roles or documentation");
+    return l;
+}
+
+static void check_plate(const fw_mask_table *table, const fw_xml_record *root, fw_diags *diags) {
+    int first;
+    const char *wrong;
+    if (fw_mask_plate_layers(table, NULL, &first, &wrong)) return;
+    fw_diag_error(diags, 133, fw_xml_place_of(root, "plate"),
+                  "plate=\"%s\" cannot be read at \"%s\"; write layers of this table with AND, OR, "
+                  "NOT or XOR between, for example \"1/0 NOT 2/0\"",
+                  table->plate, wrong);
+}
+
+/* same id, same GDSII pair, a role on two layers, two documentation layers */
+static void check_collisions(const fw_mask_table *table, fw_diags *diags) {
+    for (int j = 1; j < table->nlayer; j++)
+        for (int i = 0; i < j; i++) {
+            const fw_mask_layer *a = &table->layer[i], *b = &table->layer[j];
+            if (a->id && b->id && strcmp(a->id, b->id) == 0)
+                fw_diag_error(diags, 142, b->place,
+                              "layer id \"%s\" is used twice, first in line %d", b->id,
+                              a->place.line);
+            if (a->layer > 0 && a->layer == b->layer && a->datatype == b->datatype)
+                fw_diag_error(diags, 142, b->place,
+                              "layer %d/%d is used twice, first in line %d; choose a free number",
+                              b->layer, b->datatype, a->place.line);
+            for (unsigned k = 0; k < FW_ROLE_COUNT; k++)
+                if (a->roles & b->roles & 1u << k)
+                    fw_diag_error(diags, 142, b->place,
+                                  "role \"%s\" is drawn on two layers, first in line %d; keep one",
+                                  role_names[k], a->place.line);
+            if (a->documentation && b->documentation)
+                fw_diag_error(diags, 142, b->place,
+                              "two documentation layers, first in line %d; keep one",
+                              a->place.line);
+        }
+}
+
+fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                             fw_diags *diags, fw_mask_table *table) {
+    *table = (fw_mask_table){0};
+    size_t errors = diags->errors;
+    fw_xml_reader r;
+    FW_TRY(fw_xml_table_read(arena, &table_of_layers, file, xml, n, diags, &r));
+    const fw_xml_record *root = r.record;
+    table->flow = fw_xml_text_of(root, "flow");
+    table->reading = fw_xml_text_of(root, "reading");
+    table->order = fw_xml_text_of(root, "order");
+    table->plate = fw_xml_text_of(root, "plate");
+    size_t count = (size_t)fw_xml_children(root, "layer");
+    FW_NEED(table->layer = fw_arena_array(arena, fw_mask_layer, count));
+    for (const fw_xml_record *e = root->first_child; e; e = e->next)
+        if (fw_xml_is(e, "layer")) table->layer[table->nlayer++] = layer_of(diags, e);
+    check_collisions(table, diags);
+    if (table->plate) check_plate(table, root, diags);
+    FW_TRY(fw_mask_patterns_build(&r, table));
+    FW_TRY(fw_mask_rules_build(&r, table));
+    if (diags->failed) return FW_NOMEM;
+    return diags->errors > errors ? FW_INPUT : FW_OK;
+}

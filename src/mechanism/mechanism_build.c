@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/flare.h"
+#include "base/constants.h"
+#include "mechanism/builder.h"
+#include <math.h>
+
+/* ---- the variant ---- */
+
+static fw_status check_variant(const fw_mechanism_builder *b) {
+    const fw_mechanism_variant *v = b->variant;
+    const fw_place nowhere = {b->device->file, 0, 0};
+    const double scale[3] = {v->explicit_mass_scale, v->explicit_stiffness_scale,
+                             v->explicit_damping_scale};
+    char text[32];
+    if (!(v->thickness_m > 0) || !isfinite(v->thickness_m))
+        return fw_diag_error(b->diags, 80, nowhere, "layer thickness is %s m; give one above 0",
+                             fw_number_text(text, sizeof text, v->thickness_m, 4));
+    if (!fw_mechanism_all_finite(scale, 3) || scale[0] <= 0 || scale[1] < 0 || scale[2] < 0)
+        return fw_diag_error(b->diags, 80, nowhere,
+                             "scales of the explicit values must be finite and not negative");
+    return FW_OK;
+}
+
+/* a property that is needed now; FW_INPUT when the material does not have it */
+static fw_status need_property(const fw_mechanism_builder *b, const fw_quantity *q,
+                               const char *what, const char *why, fw_place place) {
+    if (!q->unknown && isfinite(q->value) && q->value > 0) return FW_OK;
+    return fw_diag_error(b->diags, 81, place,
+                         "%s of material %s is not known, and %s needs it; give it in <material>",
+                         what, fw_mechanism_name_or_none(b->variant->material.id), why);
+}
+
+/* ---- bodies ---- */
+
+/* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
+   J = rho h I_p, centre of mass = centroid */
+static fw_status build_body(const fw_mechanism_builder *b, int i) {
+    const fw_device_body *from = &b->device->body[i];
+    const fw_layout_body_layout *shape =
+        b->layout && b->layout->drawn && b->layout->body[i].area_m2 > 0 ? &b->layout->body[i]
+                                                                        : NULL;
+    const fw_mechanism_variant *v = b->variant;
+    fw_mechanism_mass *to = &b->mechanism->body[i];
+    *to = (fw_mechanism_mass){.id = from->id,
+                              .mass_kg = from->mass_kg * v->explicit_mass_scale,
+                              .inertia_kg_m2 = from->inertia_kg_m2 * v->explicit_mass_scale,
+                              .x_m = from->x_m,
+                              .y_m = from->y_m,
+                              .phi_rad = from->phi_rad};
+    b->mechanism->shape[i] = (fw_mechanism_shape){shape ? shape->area_m2 : (double)NAN,
+                                                  shape ? shape->polar_m4 : (double)NAN,
+                                                  shape ? shape->perimeter_m : (double)NAN};
+    bool needs = isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(to->x_m) || isnan(to->y_m);
+    if (needs && !shape)
+        return fw_diag_error(b->diags, 82, from->place,
+                             "body %s has no shape that could give its mass, inertia and position; "
+                             "give mass, inertia, x and y, or a width",
+                             fw_mechanism_name_or_none(from->id));
+    if (isnan(to->mass_kg) || isnan(to->inertia_kg_m2)) {
+        FW_TRY(
+            need_property(b, &v->material.density, "density", "the mass of a body", from->place));
+        double surface = v->material.density.value * v->thickness_m; /* kg/m2 */
+        if (isnan(to->mass_kg)) to->mass_kg = surface * shape->area_m2;
+        if (isnan(to->inertia_kg_m2)) to->inertia_kg_m2 = surface * shape->polar_m4;
+    }
+    if (isnan(to->x_m)) to->x_m = shape->centroid.x;
+    if (isnan(to->y_m)) to->y_m = shape->centroid.y;
+    const double pose[3] = {to->x_m, to->y_m, to->phi_rad};
+    char mass[32], inertia[32];
+    if (!(to->mass_kg > 0) || !(to->inertia_kg_m2 > 0) || !isfinite(to->mass_kg) ||
+        !isfinite(to->inertia_kg_m2))
+        return fw_diag_error(b->diags, 83, from->place,
+                             "body %s has mass %s kg and inertia %s kg m2; both must be above 0",
+                             fw_mechanism_name_or_none(from->id),
+                             fw_number_text(mass, sizeof mass, to->mass_kg, 4),
+                             fw_number_text(inertia, sizeof inertia, to->inertia_kg_m2, 4));
+    if (!fw_mechanism_all_finite(pose, 3))
+        return fw_diag_error(b->diags, 83, from->place, "the pose of body %s is not finite",
+                             fw_mechanism_name_or_none(from->id));
+    return FW_OK;
+}
+
+/* ---- pins ---- */
+
+static const fw_mechanism_mass *body_of(const fw_mechanism_builder *b, int index) {
+    return index == FW_GROUND ? NULL : &b->mechanism->body[index];
+}
+
+static fw_geometry_vec2 to_local(const fw_mechanism_mass *m, fw_geometry_vec2 world) {
+    if (!m) return world;
+    double c = cos(m->phi_rad), s = sin(m->phi_rad);
+    double dx = world.x - m->x_m, dy = world.y - m->y_m;
+    return (fw_geometry_vec2){c * dx + s * dy, -s * dx + c * dy};
+}
+
+static bool known(fw_geometry_vec2 p) {
+    return !isnan(p.x) && !isnan(p.y);
+}
+
+static fw_status pin_points(const fw_mechanism_builder *b, const fw_device_revolute *from,
+                            fw_mechanism_pin *to) {
+    const fw_mechanism_mass *ma = body_of(b, to->body_a), *mb = body_of(b, to->body_b);
+    fw_geometry_vec2 world = {from->x_m, from->y_m};
+    fw_geometry_vec2 a = {from->ax_m, from->ay_m}, c = {from->bx_m, from->by_m};
+    if (!known(world) && known(a))
+        world = fw_mechanism_body_point(ma, a);
+    else if (!known(world) && known(c))
+        world = fw_mechanism_body_point(mb, c);
+    if (!known(a)) a = to_local(ma, world);
+    if (!known(c)) c = to_local(mb, world);
+    to->ax_m = a.x, to->ay_m = a.y, to->bx_m = c.x, to->by_m = c.y;
+    const double all[4] = {a.x, a.y, c.x, c.y};
+    if (!fw_mechanism_all_finite(all, 4))
+        return fw_diag_error(b->diags, 84, from->place,
+                             "joint %s has no place; give x and y, or local points on its bodies",
+                             fw_mechanism_name_or_none(from->id));
+    return FW_OK;
+}
+
+/* moment of inertia about a point of the body; infinite for the ground */
+static double inertia_about(const fw_mechanism_mass *m, double x, double y) {
+    return m ? m->inertia_kg_m2 + m->mass_kg * (x * x + y * y) : (double)INFINITY;
+}
+
+static int flexures_in_use(const fw_device *device) {
+    int n = 0;
+    for (int j = 0; j < device->nrevolute; j++)
+        n += device->revolute[j].flexure != FW_NONE;
+    return n;
+}
+
+/* what it bears; in->strength_Pa becomes the governing static limit */
+static fw_status limits_of(const fw_mechanism_builder *b, fw_flexure_input *in,
+                           fw_flexure_limits *limits) {
+    const fw_device_material *m = &b->variant->material;
+    const fw_flexure_limit_input asked = {m, in, &b->device->limits, flexures_in_use(b->device)};
+    fw_flexure_limits_of(&asked, limits);
+    if (limits->missing && !fw_mechanism_said_already(b->diags, 235, limits->missing_place))
+        return fw_diag_error(b->diags, 235, limits->missing_place,
+                             "material '%s' has no data for this: give %s on <material>, or on the "
+                             "material of the flow, or remove the attribute",
+                             fw_mechanism_name_or_none(m->id), limits->missing);
+    const fw_flexure_limit *governing = fw_flexure_limits_governing(limits);
+    if (governing) in->strength_Pa = governing->allowable_Pa;
+    return limits->missing ? FW_INPUT : FW_OK;
+}
+
+/* the direction of the hinge in the crystal: of its drawn axis, or of the stated one */
+static fw_flexure_crystal crystal_of(const fw_device *device, const fw_layout *layout,
+                                     const fw_mechanism_variant *variant, int joint) {
+    const fw_device_material *m = &variant->material;
+    if (!fw_device_material_is_crystal(m)) return (fw_flexure_crystal){.known = false};
+    bool drawn = layout && layout->drawn && layout->hinge[joint].drawn;
+    double axis = drawn ? layout->hinge[joint].axis_rad : device->revolute[joint].axis_rad;
+    return fw_flexure_crystal_cubic(m->c11.value, m->c12.value, m->c44.value,
+                                    axis - variant->orientation_rad);
+}
+
+fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
+                                      const fw_mechanism_variant *variant, int joint) {
+    const fw_device_flexure *f = &device->flexure[device->revolute[joint].flexure];
+    const fw_device_material *m = &variant->material;
+    double fillet = f->fillet_m;
+    if (layout && layout->drawn && layout->hinge[joint].drawn)
+        fillet = layout->hinge[joint].fillet_m;
+    else if (isnan(fillet))
+        fillet = fw_flexure_default_fillet(f);
+    fw_flexure_input in = fw_flexure_input_of(f, fillet);
+    in.depth_m = variant->thickness_m;
+    in.youngs_Pa = m->youngs.value;
+    in.poisson = m->poisson.unknown ? 0 : m->poisson.value;
+    in.strength_Pa = m->strength.value;
+    in.safety_factor = device->safety_factor;
+    in.crystal = crystal_of(device, layout, variant, joint);
+    return in;
+}
+
+/* said once per flexure: what its law at finite rotation leaves out of a strip that is no mirror
+   image of itself */
+static void report_left_out(const fw_mechanism_builder *b, const fw_device_flexure *f,
+                            const fw_device_revolute *joint, const fw_flexure_path_way *way,
+                            double limit_rad) {
+    double drift, coupling;
+    char um[32], share[32], degrees[32];
+    double most = fmin(limit_rad, 1.0);
+    fw_flexure_path_left_out(way, most, &drift, &coupling);
+    if (!(drift > 1e-9 || coupling > 0.01) || fw_mechanism_said_already(b->diags, 265, f->place))
+        return;
+    fw_diag_warning(
+        b->diags, 265, f->place,
+        "hinge %s: its path is not its own mirror image; up to %s deg the model of compliant "
+        "hinges neglects %s um of drift along its axis and a coupling of %s between the two "
+        "directions of force; make the path symmetric if that matters",
+        fw_mechanism_name_or_none(joint->id),
+        fw_number_text(degrees, sizeof degrees, most * 180 / FW_PI, 3),
+        fw_number_text(um, sizeof um, 1e6 * drift, 2),
+        fw_number_text(share, sizeof share, coupling, 2));
+}
+
+/* flared: what a section as made adds to the strain of a moment */
+static fw_status varying(const fw_mechanism_builder *b, const fw_device_flexure *f,
+                         const fw_device_revolute *joint, double flared,
+                         fw_mechanism_hinge *hinge) {
+    const fw_flexure_path_way *way;
+    FW_TRY(fw_flexure_path_law(b->arena, &hinge->input, &hinge->closed_form, &hinge->law));
+    FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, &hinge->section));
+    for (int i = 0; i < hinge->section.n; i++)
+        hinge->section.point[i].strain_per_Nm *= flared;
+    FW_TRY(fw_flexure_path_way_new(b->arena, &hinge->input, &way));
+    report_left_out(b, f, joint, way, hinge->closed_form.limit_angle_rad);
+    return FW_OK;
+}
+
+static fw_status flexure_result(const fw_mechanism_builder *b, int j,
+                                const fw_device_revolute *joint, fw_mechanism_hinge *hinge) {
+    fw_flexure_result *result = &hinge->closed_form;
+    const fw_device_flexure *f = &b->device->flexure[joint->flexure];
+    const fw_device_material *m = &b->variant->material;
+    FW_TRY(need_property(b, &m->youngs, "Young's modulus", "a flexure", joint->place));
+    FW_TRY(need_property(b, &m->strength, "strength", "a flexure", joint->place));
+    hinge->input = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
+    FW_TRY(limits_of(b, &hinge->input, &hinge->limits));
+    fw_flexure_closed_form(&hinge->input, result);
+    double drawn = result->strain_per_rad / result->stiffness_Nm_per_rad;
+    fw_flexure_flare(&hinge->input, f->flare_m, result);
+    double flared = result->strain_per_rad / result->stiffness_Nm_per_rad / drawn;
+    if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
+        return fw_diag_error(
+            b->diags, 85, f->place,
+            "flexure %s has no finite stiffness; check its length, angle and width",
+            fw_mechanism_name_or_none(f->id));
+    if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);
+    fw_flexure_hinge_law_of(&hinge->input, result, &hinge->law);
+    return FW_OK;
+}
+
+/* the file's number wins, but a number that its own geometry contradicts is worth a word */
+static void compare_stiffness(const fw_mechanism_builder *b, const fw_device_revolute *joint,
+                              double given, double own) {
+    if (!(fabs(given - own) > 0.1 * own) || fw_mechanism_said_already(b->diags, 86, joint->place))
+        return;
+    char g[32], o[32];
+    fw_diag_warning(b->diags, 86, joint->place,
+                    "stiffness of joint %s is given as %s N m/rad, its flexure's geometry has %s; "
+                    "they differ by more than 10 %%: check which of the two is meant",
+                    fw_mechanism_name_or_none(joint->id), fw_number_text(g, sizeof g, given, 4),
+                    fw_number_text(o, sizeof o, own, 4));
+}
+
+static fw_status check_pin_bodies(const fw_mechanism_builder *b, const fw_device_revolute *joint) {
+    int n = b->device->nbody, x = joint->body_a, y = joint->body_b;
+    if (x < FW_GROUND || y < FW_GROUND || x >= n || y >= n || x == y || joint->flexure < FW_NONE ||
+        joint->flexure >= b->device->nflexure)
+        return fw_diag_error(b->diags, 87, joint->place,
+                             "joint %s must join two different bodies of the mechanism",
+                             fw_mechanism_name_or_none(joint->id));
+    return FW_OK;
+}
+
+/* damping of a flexure from the material's loss factor eta. c = eta k / omega holds at one
+   frequency only; here omega = sqrt(k/J) with the smaller inertia of the two bodies about the pin,
+   hence c = eta sqrt(k J): an assumption, stated in docs/theory/dynamics.md */
+static double loss_damping(const fw_mechanism_builder *b, const fw_mechanism_pin *pin) {
+    const fw_quantity *loss = &b->variant->material.loss;
+    if (loss->unknown || !isfinite(loss->value) || loss->value <= 0) return 0;
+    double ja = inertia_about(body_of(b, pin->body_a), pin->ax_m, pin->ay_m);
+    double jb = inertia_about(body_of(b, pin->body_b), pin->bx_m, pin->by_m);
+    return loss->value * sqrt(pin->stiffness_Nm_per_rad * fmin(ja, jb));
+}
+
+/* stops scale like the joint's own spring and damper; without any stop angle there is none */
+static void build_stops(const fw_mechanism_builder *b, const fw_device_revolute *from,
+                        fw_mechanism_pin *to) {
+    double k = from->stop_stiffness_Nm_per_rad, c = from->stop_damping_Nms_per_rad;
+    bool any = (!isnan(from->stop_min_rad) || !isnan(from->stop_max_rad)) && !isnan(k) && k != 0;
+    to->stop_min_rad = any ? from->stop_min_rad : (double)NAN;
+    to->stop_max_rad = any ? from->stop_max_rad : (double)NAN;
+    to->stop_stiffness_Nm_per_rad = any ? k * b->variant->explicit_stiffness_scale : 0;
+    to->stop_damping_Nms_per_rad = any && !isnan(c) ? c * b->variant->explicit_damping_scale : 0;
+}
+
+/* what the layout drew of the flexure; without a drawing its axis and surfaces are not known */
+static void set_hinge_shape(const fw_mechanism_builder *b, int j, const fw_device_revolute *from,
+                            fw_mechanism_hinge *to) {
+    to->stated = !isnan(from->stiffness_Nm_per_rad);
+    to->damping_stated = !isnan(from->damping_Nms_per_rad);
+    to->axis_rad = from->axis_rad;
+    to->first_is_a = true;
+    to->cover_from_rad = to->cover_to_rad = (double)NAN;
+    if (!b->layout || !b->layout->drawn || !b->layout->hinge[j].drawn) return;
+    const fw_layout_hinge_layout *h = &b->layout->hinge[j];
+    to->axis_rad = h->axis_rad;
+    to->first_is_a = h->lower == from->body_a;
+    to->surface_radius_m = h->surface_radius_m;
+    if (!(h->surface_radius_m > 0)) return;
+    double turned = from->body_a == FW_GROUND ? 0 : b->mechanism->body[from->body_a].phi_rad;
+    to->convex_is_a = h->convex == from->body_a;
+    to->cover_from_rad = h->axis_rad + h->facing_from_rad - turned;
+    to->cover_to_rad = to->cover_from_rad + h->facing_rad;
+}
+
+static fw_geometry_vec2 turned_back(const fw_mechanism_mass *m, fw_geometry_vec2 world) {
+    if (!m) return world;
+    double c = cos(m->phi_rad), s = sin(m->phi_rad);
+    return (fw_geometry_vec2){c * world.x + s * world.y, -s * world.x + c * world.y};
+}
+
+/* the pin of a crystal goes from where the hinge is drawn to its own centre of compliance; what is
+   drawn, the conjugate surfaces too, stays, since one drawing serves all materials */
+static void move_pin(const fw_mechanism_builder *b, fw_mechanism_hinge *hinge,
+                     fw_mechanism_pin *pin) {
+    const double *off = hinge->closed_form.offset_m;
+    double c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
+    if (!isfinite(hinge->axis_rad)) return;
+    const fw_geometry_vec2 world = {c * off[0] - s * off[1], s * off[0] + c * off[1]};
+    hinge->off_a_m = turned_back(body_of(b, pin->body_a), world);
+    hinge->off_b_m = turned_back(body_of(b, pin->body_b), world);
+    pin->ax_m += hinge->off_a_m.x, pin->ay_m += hinge->off_a_m.y;
+    pin->bx_m += hinge->off_b_m.x, pin->by_m += hinge->off_b_m.y;
+}
+
+static fw_status build_pin(const fw_mechanism_builder *b, int j) {
+    const fw_device_revolute *from = &b->device->revolute[j];
+    const fw_mechanism_variant *v = b->variant;
+    fw_mechanism_pin *to = &b->mechanism->pin[j];
+    FW_TRY(check_pin_bodies(b, from));
+    to->id = from->id;
+    to->body_a = from->body_a, to->body_b = from->body_b;
+    to->free_angle_rad = isnan(from->free_angle_rad) ? 0 : from->free_angle_rad;
+    to->hinge = FW_NONE;
+    FW_TRY(pin_points(b, from, to));
+    to->stiffness_Nm_per_rad = from->stiffness_Nm_per_rad * v->explicit_stiffness_scale;
+    to->damping_Nms_per_rad = from->damping_Nms_per_rad * v->explicit_damping_scale;
+    if (from->flexure != FW_NONE) {
+        fw_mechanism_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
+        *hinge = (fw_mechanism_hinge){.pin = j, .flexure = from->flexure};
+        FW_TRY(flexure_result(b, j, from, hinge));
+        set_hinge_shape(b, j, from, hinge);
+        move_pin(b, hinge, to);
+        to->hinge = b->mechanism->nhinge++;
+        double own = hinge->closed_form.stiffness_Nm_per_rad;
+        if (isnan(to->stiffness_Nm_per_rad))
+            to->stiffness_Nm_per_rad = own;
+        else
+            compare_stiffness(b, from, to->stiffness_Nm_per_rad, own);
+    }
+    if (isnan(to->stiffness_Nm_per_rad)) to->stiffness_Nm_per_rad = 0;
+    if (isnan(to->damping_Nms_per_rad))
+        to->damping_Nms_per_rad = from->flexure == FW_NONE ? 0 : loss_damping(b, to);
+    build_stops(b, from, to);
+    const double all[5] = {to->stiffness_Nm_per_rad, to->damping_Nms_per_rad, to->free_angle_rad,
+                           to->stop_stiffness_Nm_per_rad, to->stop_damping_Nms_per_rad};
+    if (!fw_mechanism_all_finite(all, 5) || all[0] < 0 || all[1] < 0 || all[3] < 0 || all[4] < 0 ||
+        isinf(to->stop_min_rad) || isinf(to->stop_max_rad))
+        return fw_diag_error(b->diags, 88, from->place,
+                             "stiffness and damping of joint %s must be finite and not negative",
+                             fw_mechanism_name_or_none(from->id));
+    return FW_OK;
+}
+
+/* goes on after mistakes, so that all of them are reported in one run */
+static fw_status keep_going(fw_status so_far, fw_status now) {
+    return so_far == FW_OK || now == FW_NOMEM ? now : so_far;
+}
+
+fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_mechanism_variant *variant, fw_diags *diags,
+                             const fw_mechanism **mechanism) {
+    fw_mechanism *m = fw_arena_one(arena, fw_mechanism);
+    FW_NEED(m);
+    fw_mechanism_builder b = {arena, device, layout, variant, diags, m};
+    *mechanism = NULL;
+    FW_TRY(check_variant(&b));
+    m->device = device;
+    m->variant = variant;
+    FW_NEED(m->body = fw_arena_array(arena, fw_mechanism_mass, (size_t)device->nbody));
+    FW_NEED(m->shape = fw_arena_array(arena, fw_mechanism_shape, (size_t)device->nbody));
+    FW_NEED(m->pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)device->nrevolute));
+    FW_NEED(m->spring = fw_arena_array(arena, fw_device_spring, (size_t)device->nspring));
+    FW_NEED(m->hinge = fw_arena_array(arena, fw_mechanism_hinge, (size_t)device->nrevolute));
+    FW_NEED(m->joint = fw_arena_array(arena, fw_device_joint, (size_t)device->njoint));
+    FW_NEED(m->driver = fw_arena_array(arena, fw_device_driver, (size_t)device->ndriver));
+    m->nbody = device->nbody;
+    m->npin = device->nrevolute;
+    m->nspring = device->nspring;
+    m->njoint = device->njoint;
+    m->ndriver = device->ndriver;
+    fw_status status = FW_OK;
+    for (int i = 0; i < m->nbody; i++)
+        status = keep_going(status, build_body(&b, i));
+    if (status != FW_OK) return status; /* the rest would only repeat what is missing here */
+    for (int j = 0; j < m->npin; j++)
+        status = keep_going(status, build_pin(&b, j));
+    for (int i = 0; i < m->nspring; i++)
+        status = keep_going(status, fw_mechanism_build_spring(&b, i));
+    for (int i = 0; i < m->njoint; i++)
+        status = keep_going(status, fw_mechanism_build_joint(&b, i));
+    for (int i = 0; i < m->ndriver; i++)
+        status = keep_going(status, fw_mechanism_build_driver(&b, i));
+    if (status == FW_OK) *mechanism = m;
+    return status;
+}

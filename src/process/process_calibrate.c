@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/calibrate.h"
+#include "process/coupon.h"
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* in the order in which one needs another: edges before the ladder, rates before depths by time */
+static const fw_process_coupon *const table[] = {
+    &fw_process_coupon_cd_lines, &fw_process_coupon_etch_rate, &fw_process_coupon_slots,
+    &fw_process_coupon_ladder,   &fw_process_coupon_step,      &fw_process_coupon_mass,
+    &fw_process_coupon_pads,     &fw_process_coupon_spin};
+enum { KINDS = sizeof table / sizeof table[0] };
+
+static const double least_probability =
+    0.001; /* of a larger chi square: below, the data contradict */
+
+const char *fw_process_coupon_name(int i) {
+    return i >= 0 && i < KINDS ? table[i]->name : NULL;
+}
+
+/* ---- what kinds share ---- */
+
+fw_status fw_process_coupon_wrong(fw_process_coupon_work *w, const fw_process_measurement *row,
+                                  const char *format, ...) {
+    char text[400];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return fw_diag_error(w->diags, 211, row->place, "%s", text);
+}
+
+bool fw_process_coupon_has(const fw_process_flow *flow, const char *id) {
+    return fw_process_flow_quantity(flow, id) != NULL;
+}
+
+bool fw_process_coupon_value(const fw_process_coupon_work *w, const char *id, double *value,
+                             double *uncertainty) {
+    for (int i = 0; i < w->nknown; i++)
+        if (strcmp(w->known[i].id, id) == 0) {
+            *value = w->known[i].value;
+            *uncertainty = w->known[i].uncertainty;
+            return true;
+        }
+    const fw_quantity *q = fw_process_flow_quantity(w->flow, id);
+    if (!q || q->unknown) return false;
+    *value = q->value;
+    *uncertainty = q->uncertainty;
+    return true;
+}
+
+fw_status fw_process_coupon_condition(fw_process_coupon_work *w, fw_quantity_dimension d,
+                                      const char *what, double *value, double *uncertainty) {
+    const fw_process_measurement *first = w->row[0];
+    *value = first->at;
+    *uncertainty = first->at_uncertainty;
+    for (int i = 0; i < w->nrow; i++) {
+        const fw_process_measurement *r = w->row[i];
+        if (!fw_quantity_dimension_equal(r->at_dimension, d) || !(r->at > 0.0))
+            return fw_process_coupon_wrong(w, r, "%s needs %s in the columns at, u_at and at_unit",
+                                           r->coupon, what);
+        if (fabs(r->at - *value) > 1e-9 * *value ||
+            fabs(r->at_uncertainty - *uncertainty) > 1e-9 * *value)
+            return fw_process_coupon_wrong(
+                w, r,
+                "%s: all rows are of one run, so %s and its uncertainty are "
+                "the same in all; put other runs into a table of their own",
+                r->coupon, what);
+    }
+    return FW_OK;
+}
+
+double fw_process_coupon_loss(const fw_process_flow *flow) {
+    double loss = 0.0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (c->isotropic && c->thickness && !c->thickness->unknown)
+                loss += c->thickness->value * (1.0 + flow->step[i].overrun);
+        }
+    return loss;
+}
+
+static const char *number(char text[32], double value, int digits) {
+    return fw_number_text(text, 32, value, digits);
+}
+
+fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, double value,
+                                 double uncertainty, const fw_process_fit *fit, const char *note) {
+    double p = fw_process_chi_square_above(fit->chi_square, fit->freedom);
+    const char *coupon = w->row[0]->coupon;
+    char a[32], b[32];
+    if (!fw_process_coupon_has(w->flow, id))
+        return fw_process_coupon_wrong(w, w->row[0], "%s gives %s, which flow '%s' does not have",
+                                       coupon, id, w->flow->id);
+    if (p < least_probability)
+        return fw_diag_error(w->diags, 212, w->row[0]->place,
+                             "the values of %s scatter more around their model than their "
+                             "uncertainties allow: chi square %s with %d degrees of freedom has "
+                             "a probability of %s; %s is not calibrated from it",
+                             coupon, number(a, fit->chi_square, 4), fit->freedom, number(b, p, 2),
+                             id);
+    if (!(uncertainty > 0.0) || !isfinite(value) || !isfinite(uncertainty))
+        return fw_process_coupon_wrong(w, w->row[0], "%s gives no finite value of %s", coupon, id);
+    if (w->nout == FW_COUPON_RESULTS) return FW_LIMIT;
+    w->out[w->nout++] = (fw_process_calibrated){
+        id, value, uncertainty, coupon, note, fit->chi_square, p, w->nrow, fit->freedom};
+    return FW_OK;
+}
+
+/* ---- the whole table ---- */
+
+static const fw_process_coupon *kind_of(const char *name) {
+    for (int i = 0; i < KINDS; i++)
+        if (strcmp(table[i]->name, name) == 0) return table[i];
+    return NULL;
+}
+
+static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *row) {
+    const char *names[KINDS];
+    for (int i = 0; i < KINDS; i++)
+        names[i] = table[i]->name;
+    const char *best = fw_did_you_mean(row->coupon, names, KINDS);
+    fw_text list = fw_text_new(diags->arena);
+    for (int i = 0; i < KINDS; i++)
+        fw_text_printf(&list, "%s%s", i ? ", " : "", names[i]);
+    FW_TRY(fw_text_end(&list));
+    return fw_diag_error(diags, 211, row->place, "there is no coupon '%s'%s%s%s; known are %s",
+                         row->coupon, best ? "; did you mean '" : "", best ? best : "",
+                         best ? "'?" : "", list.data);
+}
+
+static fw_status check_row(fw_diags *diags, const fw_process_measurement *r) {
+    const fw_process_coupon *kind = kind_of(r->coupon);
+    if (!kind) return unknown_kind(diags, r);
+    const char *is = fw_quantity_dimension_text(diags->arena, r->dimension),
+               *want = fw_quantity_dimension_text(diags->arena, kind->measured);
+    FW_NEED(is ? want : NULL);
+    if (!fw_quantity_dimension_equal(r->dimension, kind->measured))
+        return fw_diag_error(diags, 211, r->place, "%s is measured as %s, not as %s", r->coupon,
+                             want, is);
+    if (kind->drawn && !(r->drawn_m > 0.0))
+        return fw_diag_error(diags, 211, r->place, "%s needs drawn_um, the width on the mask",
+                             r->coupon);
+    if (kind->at && !(r->at > 0.0))
+        return fw_diag_error(diags, 211, r->place,
+                             "%s needs the columns at, u_at and at_unit: the time, depth, "
+                             "charge or speed at which it was measured",
+                             r->coupon);
+    return FW_OK;
+}
+
+/* two coupons of one number: their weighted mean, unless they contradict each other */
+static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *list, int *n) {
+    for (int i = 0; i < *n; i++)
+        for (int k = i + 1; k < *n; k++) {
+            fw_process_calibrated *a = &list[i], *b = &list[k];
+            if (strcmp(a->id, b->id) != 0) continue;
+            double y[2] = {a->value, b->value}, s[2] = {a->uncertainty, b->uncertainty};
+            fw_process_fit f = fw_process_fit_mean(y, s, 2);
+            double p = fw_process_chi_square_above(f.chi_square, 1);
+            char text[32];
+            if (p < least_probability)
+                return fw_diag_error(
+                    diags, 212, (fw_place){0},
+                    "%s from %s and from %s contradict each other (probability %s)", a->id,
+                    a->coupon, b->coupon, number(text, p, 2));
+            FW_NEED(a->coupon = fw_arena_printf(arena, "%s, %s", a->coupon, b->coupon));
+            FW_NEED(a->note = fw_arena_printf(arena, "%s; and %s", a->note, b->note));
+            a->value = f.value[0], a->uncertainty = f.uncertainty[0];
+            a->rows += b->rows;
+            a->chi_square += b->chi_square + f.chi_square;
+            a->freedom += b->freedom + 1;
+            a->probability = fw_process_chi_square_above(a->chi_square, a->freedom);
+            memmove(b, b + 1, (size_t)(*n - k - 1) * sizeof *b);
+            --*n, --k;
+        }
+    return FW_OK;
+}
+
+fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
+                               const fw_process_measurement *row, int nrow, fw_diags *diags,
+                               fw_process_calibration *calibration) {
+    fw_status status = FW_OK;
+    fw_process_calibrated *out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS);
+    fw_process_coupon_work *w = fw_arena_one(arena, fw_process_coupon_work);
+    FW_NEED(out ? w : NULL);
+    *w = (fw_process_coupon_work){
+        .arena = arena, .flow = flow, .known = out, .out = out, .diags = diags};
+    for (int i = 0; i < nrow; i++) {
+        fw_status of_row = check_row(diags, &row[i]);
+        if (of_row == FW_NOMEM) return of_row;
+        if (of_row != FW_OK) status = of_row;
+    }
+    if (nrow == 0)
+        return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
+    FW_TRY(status);
+    for (int k = 0; k < KINDS; k++) {
+        w->nrow = 0;
+        for (int i = 0; i < nrow; i++) {
+            if (kind_of(row[i].coupon) != table[k]) continue;
+            if (w->nrow == FW_COUPON_ROWS)
+                return fw_process_coupon_wrong(w, &row[i], "more than %d rows of one coupon",
+                                               FW_COUPON_ROWS);
+            w->row[w->nrow++] = &row[i];
+        }
+        if (w->nrow == 0) continue;
+        fw_status of_kind = table[k]->fit(w);
+        if (of_kind == FW_OK) of_kind = join(arena, diags, out, &w->nout);
+        if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
+        if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
+        w->nknown = w->nout;
+    }
+    FW_TRY(status);
+    *calibration = (fw_process_calibration){out, w->nout};
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

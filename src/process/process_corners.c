@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Corners of a flow: read from the pack, and handed to the verdict as independent inputs. */
+#include "process/process_fabrication.h"
+#include "process/pack.h"
+#include "process/wear.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- reading ---- */
+
+static const struct {
+    const char *word;
+    fw_quantity_dimension dimension;
+} kind[] = {{"edge", FW_DIM_LENGTH},
+            {"taper", {.rad = 1}},
+            {"anisotropy", {0}},
+            {"thickness", FW_DIM_LENGTH},
+            {"youngs", {0}}};
+enum { KINDS = sizeof kind / sizeof kind[0] };
+
+static const fw_quantity *quantity(fw_process_pack *pack, const fw_xml_record *e, const char *name,
+                                   int of) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, name);
+    if (!a) return NULL;
+    const fw_quantity *q = fw_process_pack_find(pack, a, FW_ID_QUANTITY);
+    if (q && !fw_quantity_dimension_equal(q->dimension, kind[of].dimension))
+        fw_diag_error(pack->diags, 260, a->place, "'%s' is no %s; give a quantity of that kind",
+                      a->value, kind[of].word);
+    return q;
+}
+
+static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
+    fw_process_flow *f = pack->flow;
+    int of = 0;
+    while (of < KINDS && strcmp(kind[of].word, fw_process_pack_text(e, "of")) != 0)
+        of++;
+    if (of == KINDS) return; /* said by the schema */
+    fw_process_corner *c = &f->corner[f->ncorner++];
+    *c = (fw_process_corner){.of = (fw_process_corner_of)of,
+                             .name = fw_process_pack_text(e, "name"),
+                             .q = quantity(pack, e, "q", of),
+                             .assumed = quantity(pack, e, "assumed", of),
+                             .place = e->element->place};
+    const fw_quantity *layer = f->thickness;
+    if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
+        c->aim_m = layer->value;
+    if ((of == FW_CORNER_YOUNGS) == (fw_process_pack_get(e, "q") != NULL))
+        fw_diag_error(pack->diags, 260, e->element->place,
+                      of == FW_CORNER_YOUNGS
+                          ? "the corner of Young's modulus is the material's own; it takes no q"
+                          : "a corner of '%s' needs q: the quantity whose range it is",
+                      kind[of].word);
+}
+
+void fw_process_pack_corners(fw_process_pack *pack) {
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
+        if (fw_xml_is(e, "corner")) read_corner(pack, e);
+    if (pack->flow->ncorner > FW_FABRICATION_INPUTS)
+        fw_diag_error(pack->diags, 260, pack->flow->corner[FW_FABRICATION_INPUTS].place,
+                      "a flow has at most %d corners: join those that move the same edge",
+                      FW_FABRICATION_INPUTS);
+}
+
+/* ---- inputs of the verdict ---- */
+
+void fw_process_quantity_range(const fw_quantity *q, double *low, double *high) {
+    *low = q->interval ? q->low : q->value - 2.0 * q->uncertainty;
+    *high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
+}
+
+static void set_range(fw_verdict_fabrication_input *in, const fw_quantity *q) {
+    in->q = *q;
+    in->nominal = q->value;
+    in->sigma = q->uncertainty;
+    fw_process_quantity_range(q, &in->low, &in->high);
+}
+
+static void scale_range(fw_verdict_fabrication_input *in, double by) {
+    in->nominal *= by, in->low *= by, in->high *= by, in->sigma *= by;
+}
+
+/* u(z) = (1 - A)(E - z - lag(z)) from every wall at depth z: the edge goes back by the mean of both
+   faces, (1 - A)(E - (D + lag)/2), against the m that the mask adds, and one face is left
+   2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
+   lag and m are those of the fixed point, so that mask, time and corner cannot differ. A masking
+   layer counts with its foot, E - D - lag. D, E m; A 1. Edges are even where (1 - A) edge_m = m.
+   Source: docs/theory/etching.md; test_corners.c against fw_process_undercut_widths,
+   test_fixed_point.c. */
+static bool anisotropy(const fw_process_fixed_point *p, const fw_process_corner *c,
+                       fw_verdict_fabrication_input *in) {
+    const fw_process_cut *cut = fw_process_fixed_point_cut(p, c->q);
+    if (!cut || isnan(cut->etched_m)) return false;
+    double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
+    double foot = fw_process_cut_foot(cut, field);
+    in->edge_m = cut->device ? 0.5 * (cut->etched_m + foot) : foot;
+    in->flare_m = cut->device ? foot - cut->etched_m : 0.0;
+    in->drawn = 1.0;
+    in->even = in->edge_m > 0.0 ? 1.0 - cut->mask_m / in->edge_m : 1.0;
+    in->high = fmin(in->high, 1.0);
+    in->nominal = fmin(in->nominal, 1.0);
+    return true;
+}
+
+static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
+                 const fw_mechanism_variant *v, fw_verdict_fabrication_input *in) {
+    bool unknown = c->q && c->q->unknown;
+    const fw_quantity *q = c->of == FW_CORNER_YOUNGS ? &v->material.youngs
+                           : unknown                 ? c->assumed
+                                                     : c->q;
+    if (!q || q->unknown) return false;
+    *in = (fw_verdict_fabrication_input){.name = c->name, .unknown = unknown ? c->q->id : NULL};
+    set_range(in, q);
+    switch (c->of) {
+    case FW_CORNER_EDGE: /* its known part is in the bias of the mask */
+        in->edge_m = 1.0;
+        in->drawn = in->nominal;
+        in->even = unknown ? 0.0 : in->nominal;
+        break;
+    case FW_CORNER_TAPER:
+        in->flare_m = v->thickness_m;
+        break;
+    case FW_CORNER_ANISOTROPY:
+        if (!anisotropy(p, c, in)) return false;
+        break;
+    case FW_CORNER_THICKNESS:
+        /* the device may ask for another one; what is measured may lie beside what was aimed at */
+        scale_range(in, v->thickness_m / (c->aim_m > 0.0 ? c->aim_m : q->value));
+        in->thickness = 1.0 / v->thickness_m;
+        in->drawn = v->thickness_m;
+        break;
+    case FW_CORNER_YOUNGS:
+        in->youngs = 1.0 / q->value;
+        in->drawn = q->value;
+        break;
+    }
+    return in->high > in->low;
+}
+
+/* what wet steps take of every open face, l: the mask adds the known l at the edges, and the layer
+   ends l thinner. Edges move by -(x - l), thickness by -x/t. Test: test_wear.c. */
+static bool wear_input(const fw_process_wear *w, const fw_mechanism_variant *v,
+                       fw_verdict_fabrication_input *in) {
+    if (!(w->loss_m > 0.0) || !(v->thickness_m > 0.0)) return false;
+    *in = (fw_verdict_fabrication_input){.name = "wet steps on the device",
+                                         .q = {.id = w->exposed->rate->id,
+                                               .value = w->loss_m,
+                                               .uncertainty = w->uncertainty_m,
+                                               .dimension = FW_DIM_LENGTH,
+                                               .unit = "um",
+                                               .status = w->exposed->rate->status,
+                                               .source = w->exposed->rate->source,
+                                               .place = w->exposed->place}};
+    set_range(in, &in->q);
+    in->low = fmax(in->low, 0.0);
+    in->edge_m = -1.0;
+    in->even = w->loss_m;
+    in->thickness = -1.0 / v->thickness_m;
+    return true;
+}
+
+fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_process_mask_facts *facts,
+                                     const fw_mechanism_variant *variant,
+                                     const fw_verdict_fabrication_input **input, int *ninput) {
+    fw_verdict_fabrication_input *list =
+        fw_arena_array(arena, fw_verdict_fabrication_input, FW_FABRICATION_INPUTS);
+    fw_process_fixed_point *edges = fw_arena_one(arena, fw_process_fixed_point);
+    FW_NEED(list && edges ? list : NULL);
+    FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, variant->thickness_m, edges));
+    *ninput = 0;
+    for (int i = 0; i < flow->ncorner && *ninput < FW_FABRICATION_INPUTS; i++)
+        *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
+    fw_process_wear wear = fw_process_flow_wear(flow);
+    if (*ninput < FW_FABRICATION_INPUTS) *ninput += wear_input(&wear, variant, &list[*ninput]);
+    *input = list;
+    return FW_OK;
+}

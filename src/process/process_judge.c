@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/judge.h"
+#include "process/undercut.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- shared with judge_etch.c ---- */
+
+const char *fw_process_judge_number(fw_process_numbers *list, double value, int digits) {
+    char *text = list->text[list->n++ % 8];
+    return fw_number_text(text, sizeof list->text[0], value, digits);
+}
+const char *fw_process_judge_um(fw_process_numbers *list, double value_m) {
+    return fw_process_judge_number(list, value_m * 1e6, 4);
+}
+
+double fw_process_judge_known(const fw_quantity *q) {
+    return q && !q->unknown ? q->value : (double)NAN;
+}
+
+static fw_status append(fw_arena *arena, fw_process_flow *f, const char *why) {
+    const char **grown =
+        fw_arena_grow(arena, f->reason, (size_t)f->nreason, (size_t)f->nreason + 1, sizeof *grown);
+    FW_NEED(why && grown);
+    f->reason = grown;
+    f->reason[f->nreason++] = why;
+    return FW_OK;
+}
+
+/* the reasons from `from` on come before all others, in their order */
+static void to_the_front(fw_process_flow *f, int from) {
+    for (int i = from; i < f->nreason; i++) {
+        const char *why = f->reason[i];
+        memmove(f->reason + i - from + 1, f->reason + i - from, (size_t)from * sizeof *f->reason);
+        f->reason[i - from] = why;
+    }
+}
+
+fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
+                                     const char *why) {
+    FW_TRY(append(arena, flow, why));
+    if (manufacturable == 0) to_the_front(flow, flow->nreason - 1);
+    if (manufacturable == 0 || flow->manufacturable != 0) flow->manufacturable = manufacturable;
+    return FW_OK;
+}
+
+fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight, const char *format,
+                                  ...) {
+    char text[1200];
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (length >= (int)sizeof text) { /* cut a very long list, never inside a character */
+        size_t end = sizeof text - 4;
+        while (end > 0 && ((unsigned char)text[end] & 0xC0) == 0x80)
+            end--;
+        memcpy(text + end, "...", 4);
+    }
+    FW_TRY(append(j->arena, j->flow, fw_arena_strdup(j->arena, text)));
+    if (weight < j->verdict) j->verdict = weight;
+    return FW_OK;
+}
+
+static fw_status printable(fw_process_judge *j, const char *what, double drawn, double on_mask,
+                           double hard, double safe, double resist) {
+    fw_process_numbers t = {0};
+    const char *thick = fw_process_judge_um(&t, resist), *size = fw_process_judge_um(&t, on_mask),
+               *as_drawn = fw_process_judge_um(&t, drawn);
+    if (on_mask < hard)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_NO,
+            "the %s is %s um on the mask (%s um drawn), below what %s um of resist "
+            "can print in contact, 1.5 sqrt(lambda h/2) = %s um. Nearest change: draw it "
+            "%s um wide or use a thinner resist",
+            what, size, as_drawn, thick, fw_process_judge_um(&t, hard),
+            fw_process_judge_um(&t, drawn + (safe - on_mask)));
+    if (on_mask < safe)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_OPEN,
+            "the %s is %s um on the mask: %s um of resist print it only in perfect "
+            "contact; with the gap of this flow the limit is %s um",
+            what, size, thick, fw_process_judge_um(&t, safe));
+    return FW_OK;
+}
+
+typedef struct printing {  /* what this flow's lithography can print */
+    double hard_m, safe_m; /* in contact, with the gap of the flow */
+    double resist_m;
+} printing;
+
+static bool printing_of(const fw_process_flow *flow, printing *p) {
+    double lambda = fw_process_judge_known(fw_process_flow_quantity(flow, "litho.wavelength")),
+           gap = fw_process_judge_known(fw_process_flow_quantity(flow, "litho.gap")),
+           resist = fw_process_judge_known(fw_process_flow_quantity(flow, "litho.resist"));
+    if (isnan(resist))
+        resist = fw_process_judge_known(fw_process_flow_quantity(flow, "mould.height"));
+    if (isnan(lambda) || isnan(gap) || isnan(resist)) return false;
+    *p = (printing){fw_process_print_limit(lambda, 0.0, resist),
+                    fw_process_print_limit(lambda, gap, resist), resist};
+    return true;
+}
+
+static fw_status print_drawn(fw_process_judge *j, const char *what, double drawn, double on_mask,
+                             const printing *p) {
+    fw_process_numbers t = {0};
+    if (on_mask < p->hard_m)
+        fw_diag_warning(j->diags, 182, j->flow->place,
+                        "flow %s cannot print the %s: %s um drawn, %s um on the mask, at least %s "
+                        "um are needed in perfect contact",
+                        j->flow->id, what, fw_process_judge_um(&t, drawn),
+                        fw_process_judge_um(&t, on_mask), fw_process_judge_um(&t, p->hard_m));
+    return printable(j, what, drawn, on_mask, p->hard_m, p->safe_m, p->resist_m);
+}
+
+static fw_status lithography(fw_process_judge *j) {
+    printing p;
+    if (!j->facts || !printing_of(j->flow, &p)) return FW_OK;
+    double twice = 2.0 * j->flow->bias_m;
+    FW_TRY(print_drawn(j, "narrowest slot", j->facts->narrowest_slot_m,
+                       j->facts->narrowest_slot_m - twice, &p));
+    return print_drawn(j, "narrowest line", j->facts->narrowest_line_m,
+                       j->facts->narrowest_line_m + twice, &p);
+}
+
+/* a deposit must stay below its mould: no mushroom while f_J d < h */
+static fw_status mould(fw_process_judge *j) {
+    fw_process_numbers t = {0};
+    double wall = fw_process_judge_known(fw_process_flow_quantity(j->flow, "mould.height")),
+           d = fw_process_judge_known(j->flow->thickness);
+    if (isnan(wall) || isnan(d)) return FW_OK;
+    if (d >= wall)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_NO,
+            "%s um do not fit into a mould of %s um. Nearest change: a device layer of %s um "
+            "or a thicker resist",
+            fw_process_judge_um(&t, d), fw_process_judge_um(&t, wall),
+            fw_process_judge_um(&t, wall / 1.3));
+    if (wall / d < 1.3)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_OPEN,
+            "the mould is only %s times as high as the deposit: local current above that "
+            "factor overplates it",
+            fw_process_judge_number(&t, wall / d, 4));
+    return FW_OK;
+}
+
+static fw_status not_computable(fw_process_judge *j) {
+    for (int i = 0; i < j->flow->nstep; i++) {
+        const fw_process_step *s = &j->flow->step[i];
+        fw_text list = fw_text_new(j->arena);
+        if (s->time.computable) continue;
+        for (int k = 0; k < s->time.nmissing; k++) {
+            fw_text_add(&list, k ? ", " : "");
+            fw_text_add(&list, s->time.missing[k]);
+        }
+        FW_TRY(fw_text_end(&list));
+        FW_TRY(fw_process_judge_reason(j, FW_ANSWER_OPEN,
+                                       "step %s (%s) is NOT COMPUTABLE, missing: %s", s->id,
+                                       s->title, list.data ? list.data : "its inputs"));
+    }
+    return FW_OK;
+}
+
+fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
+                                const fw_process_mask_facts *facts, fw_diags *diags) {
+    fw_process_judge j = {.arena = arena,
+                          .flow = flow,
+                          .facts = facts,
+                          .diags = diags,
+                          .note = fw_text_new(arena),
+                          .verdict = FW_ANSWER_FINE};
+    flow->reason = NULL;
+    flow->nreason = 0;
+    FW_TRY(fw_process_judge_etching(&j));
+    FW_TRY(lithography(&j));
+    FW_TRY(mould(&j));
+    FW_TRY(not_computable(&j));
+    for (int i = 0; i < flow->nopen_point; i++)
+        FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));
+    const fw_quantity *edge = fw_process_flow_quantity(flow, "litho.edge");
+    if (edge && !edge->unknown && edge->uncertainty > 0.0) {
+        fw_process_numbers t = {0};
+        fw_text_printf(&j.note,
+                       "%sprinted edges may lie off by %s um (standard), which is not known "
+                       "and not compensated",
+                       j.note.length ? "; " : "", fw_process_judge_um(&t, edge->uncertainty));
+    }
+    FW_TRY(fw_text_end(&j.note));
+    flow->bias_note = j.note.length ? j.note.data : "nothing to compensate is known";
+    flow->manufacturable = j.verdict == FW_ANSWER_NO ? 0 : j.verdict == FW_ANSWER_OPEN ? -1 : 1;
+    return FW_OK;
+}
+
+/* ---- comb drives ---- */
+
+static fw_status drive_names(fw_process_judge *j, const fw_process_drive_facts *drive, int n,
+                             const char **names) {
+    fw_text list = fw_text_new(j->arena);
+    for (int i = 0; i < n; i++)
+        fw_text_printf(&list, "%s%s", i ? ", " : "", drive[i].id ? drive[i].id : "(unnamed)");
+    FW_TRY(fw_text_end(&list));
+    *names = list.data;
+    return FW_OK;
+}
+
+/* rotor and stator are electrodes: they must not be one piece of conductor */
+static fw_status insulation(fw_process_judge *j, const fw_process_drive_facts *drive, int n,
+                            fw_diags *diags) {
+    const char *names, *layer = fw_process_flow_material_name(j->flow, j->flow->material);
+    FW_TRY(drive_names(j, drive, n, &names));
+    FW_TRY(fw_process_judge_reason(
+        j, FW_ANSWER_NO,
+        "comb drive %s: nothing insulates its rotor from its stator. In this flow the device "
+        "is one conducting layer (%s), cut from one sheet or standing on a conducting wafer, "
+        "so that every voltage is shorted. Nearest change: a carrier that insulates (glass, "
+        "or an oxidised silicon handle) with anchors of rotor and stator apart on it, <flow "
+        "ref=\"%s\" carrier=\"insulating\"/>",
+        names, layer, j->flow->id));
+    fw_diag_warning(diags, 207, drive[0].place,
+                    "comb drive %s cannot work in flow %s: nothing insulates rotor from stator; "
+                    "carrier=\"insulating\" in <flow> says that the handle does",
+                    names, j->flow->id);
+    return FW_OK;
+}
+
+/* what an etch with unknown anisotropy makes of the gap: force per V^2 goes with 1/gap */
+static fw_status widened(fw_process_judge *j, const fw_process_drive_facts *d) {
+    for (int i = 0; i < j->flow->nstep; i++)
+        for (int k = 0; k < j->flow->step[i].nchange; k++) {
+            const fw_process_step *s = &j->flow->step[i];
+            double depth = fw_process_judge_known(s->change[k].thickness), g = d->gap_m;
+            const fw_quantity *a = s->change[k].anisotropy;
+            if (!a || !isnan(fw_process_judge_known(a)) || isnan(depth)) continue;
+            fw_process_numbers t = {0};
+            const char *as_drawn = fw_process_judge_um(&t, g);
+            double mild = 0.02 * depth, strong = 0.1 * depth; /* both sides, A = 0.99 and 0.95 */
+            FW_TRY(fw_process_judge_reason(
+                j, FW_ANSWER_OPEN,
+                "the gap of comb drive %s, drawn %s um, is not known until the anisotropy A of "
+                "step %s is measured: at its top edge it is %s um at A = 0.99 and %s um at A = "
+                "0.95, and the force at a given voltage %s and %s of the drawn one's",
+                d->id ? d->id : "(unnamed)", as_drawn, s->id, fw_process_judge_um(&t, g + mild),
+                fw_process_judge_um(&t, g + strong), fw_process_judge_number(&t, g / (g + mild), 3),
+                fw_process_judge_number(&t, g / (g + strong), 3)));
+        }
+    return FW_OK;
+}
+
+static fw_status drive_gap(fw_process_judge *j, const fw_process_drive_facts *d, fw_diags *diags) {
+    fw_process_numbers t = {0};
+    printing p;
+    double on_mask = d->gap_m - 2.0 * j->flow->bias_m;
+    const char *what =
+        fw_arena_printf(j->arena, "gap of comb drive %s", d->id ? d->id : "(unnamed)");
+    FW_NEED(what);
+    bool limited = printing_of(j->flow, &p);
+    if (on_mask <= 0.0)
+        FW_TRY(fw_process_judge_reason(
+            j, FW_ANSWER_NO,
+            "the compensation of %s um per edge closes the %s, %s um drawn, on the mask. "
+            "Nearest change: a gap above %s um",
+            fw_process_judge_um(&t, j->flow->bias_m), what, fw_process_judge_um(&t, d->gap_m),
+            fw_process_judge_um(&t, 2.0 * j->flow->bias_m + (limited ? p.safe_m : 0.0))));
+    else if (limited)
+        FW_TRY(printable(j, what, d->gap_m, on_mask, p.hard_m, p.safe_m, p.resist_m));
+    if (on_mask <= 0.0 || (limited && on_mask < p.hard_m))
+        fw_diag_warning(diags, 208, d->place,
+                        "the %s is too narrow for flow %s: %s um drawn, %s um on the mask", what,
+                        j->flow->id, fw_process_judge_um(&t, d->gap_m),
+                        fw_process_judge_um(&t, on_mask));
+    return widened(j, d);
+}
+
+fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
+                                       bool insulating_carrier, const fw_process_drive_facts *drive,
+                                       int n, fw_diags *diags) {
+    static const fw_process_answer as_judged[] = {FW_ANSWER_OPEN, FW_ANSWER_NO,
+                                                  FW_ANSWER_FINE}; /* -1, 0, 1 */
+    fw_process_judge j = {
+        .arena = arena, .flow = flow, .verdict = as_judged[flow->manufacturable + 1]};
+    int before = flow->nreason;
+    if (n == 0) return FW_OK;
+    if (!insulating_carrier && !flow->insulating) FW_TRY(insulation(&j, drive, n, diags));
+    for (int i = 0; i < n; i++) {
+        bool told = false; /* once per gap */
+        for (int k = 0; k < i && !told; k++)
+            told = drive[k].gap_m == drive[i].gap_m;
+        if (!told) FW_TRY(drive_gap(&j, &drive[i], diags));
+    }
+    to_the_front(flow, before); /* what refuses comes first */
+    flow->manufacturable = j.verdict == FW_ANSWER_NO ? 0 : j.verdict == FW_ANSWER_OPEN ? -1 : 1;
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time laws: one file and one row in process_law.c each. A law is a function of named arguments
+   with
+   dimensions; the evaluator adds uncertainty, status, window and what is missing. */
+#ifndef FW_PROCESS_PROCESS_LAW_H
+#define FW_PROCESS_PROCESS_LAW_H
+#include "process/process.h"
+
+#define FW_DIM(m, kg, s, A, K, mol, rad)                                                           \
+    { m, kg, s, A, K, mol, rad }
+#define FW_DIM_NONE            FW_DIM(0, 0, 0, 0, 0, 0, 0)
+#define FW_DIM_LENGTH          FW_DIM(1, 0, 0, 0, 0, 0, 0)
+#define FW_DIM_AREA            FW_DIM(2, 0, 0, 0, 0, 0, 0)
+#define FW_DIM_PER_AREA        FW_DIM(-2, 0, 0, 0, 0, 0, 0)
+#define FW_DIM_VOLUME          FW_DIM(3, 0, 0, 0, 0, 0, 0)
+#define FW_DIM_FLOW            FW_DIM(3, 0, -1, 0, 0, 0, 0)
+#define FW_DIM_TIME            FW_DIM(0, 0, 1, 0, 0, 0, 0)
+#define FW_DIM_SPEED           FW_DIM(1, 0, -1, 0, 0, 0, 0)
+#define FW_DIM_ROTATION        FW_DIM(0, 0, -1, 0, 0, 0, 1)
+#define FW_DIM_TEMPERATURE     FW_DIM(0, 0, 0, 0, 1, 0, 0)
+#define FW_DIM_ENERGY          FW_DIM(2, 1, -2, 0, 0, 0, 0)
+#define FW_DIM_DOSE            FW_DIM(0, 1, -2, 0, 0, 0, 0)
+#define FW_DIM_INTENSITY       FW_DIM(0, 1, -3, 0, 0, 0, 0)
+#define FW_DIM_CURRENT         FW_DIM(0, 0, 0, 1, 0, 0, 0)
+#define FW_DIM_CURRENT_DENSITY FW_DIM(-2, 0, 0, 1, 0, 0, 0)
+#define FW_DIM_CHARGE          FW_DIM(0, 0, 1, 1, 0, 0, 0)
+#define FW_DIM_MASS            FW_DIM(0, 1, 0, 0, 0, 0, 0)
+#define FW_DIM_MOLAR_MASS      FW_DIM(0, 1, 0, 0, 0, -1, 0)
+#define FW_DIM_DENSITY         FW_DIM(-3, 1, 0, 0, 0, 0, 0)
+
+enum { FW_LAW_ARGUMENTS = 24 }; /* most arguments of one law */
+
+typedef enum fw_process_law_need { FW_LAW_REQUIRED, FW_LAW_OPTIONAL } fw_process_law_need;
+
+typedef struct fw_process_law_argument {
+    const char *name;
+    fw_quantity_dimension dimension;
+    fw_process_law_need need;
+    bool any_dimension; /* `dimension` is not looked at */
+    /* arguments of one group stand in one table and share its error: their parts add up before
+       squaring, as those of one quantity do. It names the contribution; NULL: independent. */
+    const char *group;
+} fw_process_law_argument;
+
+typedef struct fw_process_law_call {
+    fw_arena *arena;
+    const char *shape, *expression;         /* "" when not given */
+    const char *const *name;                /* (n) the arguments that x holds; needed by expr */
+    const fw_quantity_dimension *dimension; /* (n) */
+    int n;
+    fw_quantity_dimension wanted; /* of the result; a time except for expr in <derive> */
+    const char *why;              /* set with FW_INPUT: why there is no answer */
+} fw_process_law_call;
+
+typedef struct fw_process_law_answer {
+    bool computable;
+    double value, uncertainty;       /* SI, standard */
+    fw_quantity_value_status status; /* worst of the inputs */
+    const char **missing;            /* (nmissing) */
+    const char **contribution;       /* (ncontribution) */
+    int nmissing, ncontribution;
+} fw_process_law_answer;
+
+typedef struct fw_process_law_use { /* a law with what it is applied to */
+    const struct fw_process_law *law;
+    const char *shape, *expression;
+    fw_quantity_dimension wanted;
+    const fw_process_argument *argument;
+    int nargument;
+    const fw_process_argument
+        *need; /* inputs that must be known although the law does not take them */
+    int nneed;
+    const fw_process_setting *setting; /* gives missing inputs the name that the run sheet uses */
+    int nsetting;
+} fw_process_law_use;
+
+typedef struct fw_process_law {
+    const char *name, *formula;
+    const fw_process_law_argument *argument; /* (nargument); NULL: any names (expr) */
+    int nargument;
+    /* x in the order of `argument`, NaN where not given. FW_INPUT with call->why when outside. */
+    fw_status (*evaluate)(fw_process_law_call *call, const double *x, double *result);
+    /* d(result)/dx where it differs from the slope of `evaluate` or is cheaper; may be NULL, and
+       dx stays NaN where the central difference is to be used */
+    void (*slope)(const double *x, double result, double *dx);
+    /* quantities that come with the result, for the run sheet; may be NULL */
+    fw_status (*derive)(fw_arena *arena, const fw_process_law_use *use,
+                        const fw_process_law_answer *answer, fw_process_step *step);
+    /* what steps of the result within the inputs' uncertainties u add to its own: standard, to be
+       added as it is; NULL: the law has no steps */
+    double (*steps)(const double *x, const double *u);
+} fw_process_law;
+
+const fw_process_law *fw_process_law_row(int i);             /* i-th law, NULL after the last */
+const fw_process_law *fw_process_law_find(const char *name); /* or NULL */
+/* index of argument `name`, or -1 */
+int fw_process_law_argument_index(const fw_process_law *law, const char *name);
+
+/* FW_OK also when it is not computable (answer->computable false, missing filled) */
+fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
+                                  fw_process_law_answer *answer);
+/* the answer as a time with its window */
+void fw_process_law_window(const fw_process_law_answer *answer, double k, double overrun,
+                           fw_process_time *time);
+/* value and uncertainty of argument `name` as used; NULL when not given or unknown */
+const fw_quantity *fw_process_law_input(const fw_process_law_use *use, const char *name);
+/* appends a derived quantity to the step; `value` and u in SI */
+fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const char *name,
+                                 double value, double uncertainty, fw_quantity_dimension dimension,
+                                 const char *unit, fw_quantity_value_status status,
+                                 const char *source);
+
+extern const fw_process_law fw_process_law_const, fw_process_law_rate, fw_process_law_arrhenius,
+    fw_process_law_faraday, fw_process_law_dose, fw_process_law_spin, fw_process_law_diffusion,
+    fw_process_law_dilution, fw_process_law_lab_table, fw_process_law_arde, fw_process_law_loading,
+    fw_process_law_duty, fw_process_law_expr;
+
+/* probability that a particle crosses a slot of depth/width x, or a cylinder of length/radius l */
+double fw_process_knudsen_slot(double x);
+double fw_process_knudsen_cylinder(double l);
+/* int_0^depth (1/K(z/w) - 1) dz */
+double fw_process_arde_integral(double width_m, double depth_m, bool cylinder);
+/* factor on a time when `area` is open instead of `reference` */
+double fw_process_loading_factor(double kappa_per_m2, double area_m2, double reference_m2);
+/* piecewise linear through n pairs (stride 2: x0 y0 x1 y1 ...), ends where x is NaN. false outside
+   the pairs or when they do not rise; *why then says so */
+bool fw_process_table_between(const double *pairs, int n, double x, double *y, const char **why);
+
+#endif

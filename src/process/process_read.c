@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/hash.h"
+#include "process/lint.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name) {
+    return fw_xml_cell_of(e, name)->given;
+}
+
+const char *fw_process_pack_text(const fw_xml_record *e, const char *name) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, name);
+    return a ? a->value : "";
+}
+
+double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent) {
+    const fw_xml_cell *cell = fw_xml_cell_of(e, name);
+    return cell->ok ? cell->number : absent;
+}
+
+static int by_id(const void *a, const void *b) {
+    const fw_process_id *s = a, *t = b;
+    int order = strcmp(s->id, t->id);
+    if (order == 0) order = (s->base ? 1 : 0) - (t->base ? 1 : 0);
+    return order ? order : s->order - t->order;
+}
+
+/* the flow's own one wins over the shared one */
+static const fw_process_id *find(const fw_process_pack *pack, const char *id) {
+    int low = 0, high = pack->nid;
+    while (low < high) {
+        int middle = low + (high - low) / 2;
+        if (strcmp(pack->id[middle].id, id) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < pack->nid && strcmp(pack->id[low].id, id) == 0 ? &pack->id[low] : NULL;
+}
+
+static const char *nearest(const fw_process_pack *pack, const char *wrong,
+                           fw_process_id_kind kind) {
+    const char *best = NULL;
+    int least = 3;
+    for (int i = 0; i < pack->nid; i++) {
+        int d = pack->id[i].kind == kind ? fw_edit_distance(wrong, pack->id[i].id, 2) : 3;
+        if (d < least) {
+            least = d;
+            best = pack->id[i].id;
+        }
+    }
+    return best;
+}
+
+void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attribute,
+                           fw_process_id_kind kind) {
+    static const char *const word[] = {"source", "material", "equipment",
+                                       "hazard", "quantity", "step"};
+    const fw_process_id *found = find(pack, attribute->value);
+    if (found && found->kind == kind) return found->item;
+    const char *best = nearest(pack, attribute->value, kind);
+    fw_diag_error(pack->diags, 165, attribute->place, "%s='%s': there is no %s with this id%s%s%s",
+                  attribute->name, attribute->value, word[kind], best ? "; did you mean '" : "",
+                  best ? best : "", best ? "'?" : "");
+    return NULL;
+}
+
+static void enter(fw_process_pack *pack, const char *id, fw_process_id_kind kind, bool base,
+                  void *item, fw_place place) {
+    pack->id[pack->nid] = (fw_process_id){id, kind, base, pack->nid, item, place};
+    pack->nid++;
+}
+
+static void read_source(fw_process_pack *pack, const fw_xml_record *e, fw_process_source *s) {
+    *s = (fw_process_source){fw_process_pack_text(e, "id"), fw_process_pack_text(e, "kind"),
+                             fw_process_pack_text(e, "date"), e->element->text};
+    (void)pack;
+}
+
+static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_process_hazard *h) {
+    *h = (fw_process_hazard){.id = fw_process_pack_text(e, "id"),
+                             .ghs = fw_process_pack_text(e, "ghs"),
+                             .ppe = "",
+                             .first_aid = "",
+                             .waste_stream = "",
+                             .waste = "",
+                             .buddy = strcmp(fw_process_pack_text(e, "buddy"), "yes") == 0,
+                             .place = e->element->place};
+    size_t most = (size_t)fw_xml_children(e, "incompatible");
+    FW_NEED(h->incompatible = fw_arena_array(pack->arena, const char *, most));
+    most = (size_t)fw_xml_children(e, "attacks");
+    FW_NEED(h->attacks = fw_arena_array(pack->arena, const char *, most));
+    for (const fw_xml_record *c = e->first_child; c; c = c->next) {
+        if (fw_xml_is(c, "ppe"))
+            h->ppe = c->element->text;
+        else if (fw_xml_is(c, "firstaid"))
+            h->first_aid = c->element->text;
+        else if (fw_xml_is(c, "waste")) {
+            h->waste = c->element->text;
+            h->waste_stream = fw_process_pack_text(c, "stream");
+        } else if (fw_xml_is(c, "incompatible"))
+            h->incompatible[h->nincompatible++] = fw_process_pack_text(c, "with");
+        else if (fw_xml_is(c, "attacks"))
+            h->attacks[h->nattacks++] = fw_process_pack_text(c, "material");
+    }
+    return FW_OK;
+}
+
+/* of a material's own quantities the process needs what it bears; the others are device/'s */
+static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
+                               fw_process_material *m) {
+    *m = (fw_process_material){.id = fw_process_pack_text(e, "id"),
+                               .name = fw_process_pack_text(e, "name"),
+                               .contaminates = fw_process_pack_text(e, "contaminates"),
+                               .holes = strcmp(fw_process_pack_text(e, "holes"), "yes") == 0,
+                               .place = e->element->place};
+    for (const fw_xml_record *c = e->first_child; c; c = c->next) {
+        if (strcmp(fw_process_pack_text(c, "id"), "highest-temperature") != 0) continue;
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        fw_status status = fw_xml_quantity_read(pack->arena, c->element, pack->source,
+                                                pack->nsource, pack->diags, q);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        if (!fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
+            fw_diag_error(pack->diags, 169, c->element->place,
+                          "highest-temperature is not a temperature");
+        m->highest_K = q;
+    }
+    return FW_OK;
+}
+
+static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool base) {
+    fw_process_flow *f = pack->flow;
+    const fw_xml_attribute *id = fw_process_pack_get(e, "id");
+    if (fw_xml_is(e, "open-point")) {
+        f->open_point[f->nopen_point++] = e->element->text;
+        return FW_OK;
+    }
+    if (!id && fw_xml_is(e, "q"))
+        fw_diag_error(pack->diags, 162, e->element->place, "<q> needs the attribute 'id'");
+    if (!id) return FW_OK;
+    if (fw_xml_is(e, "source")) {
+        fw_process_source *s = &f->source[f->nsource++];
+        read_source(pack, e, s);
+        enter(pack, id->value, FW_ID_SOURCE, base, s, id->place);
+    } else if (fw_xml_is(e, "material")) {
+        fw_process_material *m = &f->process_material[f->nprocess_material++];
+        FW_TRY(read_material(pack, e, m));
+        enter(pack, id->value, FW_ID_MATERIAL, base, m, id->place);
+    } else if (fw_xml_is(e, "equipment")) {
+        fw_process_equipment *q = &f->equipment[f->nequipment++];
+        int capacity = (int)fw_process_pack_number(e, "capacity", 1.0);
+        *q = (fw_process_equipment){id->value, fw_process_pack_text(e, "class"), e->element->text,
+                                    capacity,  fw_process_pack_text(e, "takes"), e->element->place};
+        enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
+    } else if (fw_xml_is(e, "hazard")) {
+        fw_process_hazard *h = &f->hazard[f->nhazard++];
+        FW_TRY(read_hazard(pack, e, h));
+        enter(pack, id->value, FW_ID_HAZARD, base, h, id->place);
+    } else if (fw_xml_is(e, "q")) {
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        fw_status status = fw_xml_quantity_read(pack->arena, e->element, pack->source,
+                                                pack->nsource, pack->diags, q);
+        if (status != FW_OK && status != FW_INPUT) return status;
+        q->id = id->value;
+        f->quantity[f->nquantity++] = q;
+        enter(pack, id->value, FW_ID_QUANTITY, base, q, id->place);
+    }
+    return FW_OK;
+}
+
+/* <derive id> makes a quantity that is computed later */
+static fw_status read_derived_ids(fw_process_pack *pack, const fw_xml_record *step) {
+    for (const fw_xml_record *c = step->first_child; c; c = c->next) {
+        const fw_xml_attribute *id = fw_process_pack_get(c, "id");
+        if (!fw_xml_is(c, "derive") || !id) continue;
+        fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
+        FW_NEED(q);
+        *q = (fw_quantity){.id = id->value,
+                           .unknown = true,
+                           .unit = fw_process_pack_text(c, "unit"),
+                           .status = FW_DERIVED,
+                           .source = "computed",
+                           .place = c->element->place};
+        fw_quantity_unit unit;
+        if (fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+            q->dimension = unit.dimension;
+        pack->flow->quantity[pack->flow->nquantity++] = q;
+        enter(pack, id->value, FW_ID_QUANTITY, false, q, id->place);
+    }
+    return FW_OK;
+}
+
+static int count_ids(const fw_xml_record *root) {
+    int n = 0;
+    for (const fw_xml_record *c = root->first_child; c; c = c->next) {
+        n++;
+        if (fw_xml_is(c, "step")) n += fw_xml_children(c, "derive");
+    }
+    return n;
+}
+
+static fw_status make_room(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    size_t n = (size_t)count_ids(pack->base) + (size_t)count_ids(pack->root);
+    FW_NEED(pack->id = fw_arena_array(pack->arena, fw_process_id, n));
+    FW_NEED(f->source = fw_arena_array(pack->arena, fw_process_source, n));
+    FW_NEED(f->hazard = fw_arena_array(pack->arena, fw_process_hazard, n));
+    FW_NEED(f->equipment = fw_arena_array(pack->arena, fw_process_equipment, n));
+    FW_NEED(f->process_material = fw_arena_array(pack->arena, fw_process_material, n));
+    FW_NEED(f->quantity = fw_arena_array(pack->arena, fw_quantity *, n));
+    FW_NEED(f->corner = fw_arena_array(pack->arena, fw_process_corner, n));
+    FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
+    FW_NEED(f->step = fw_arena_array(pack->arena, fw_process_step,
+                                     (size_t)fw_xml_children(pack->root, "step")));
+    return FW_OK;
+}
+
+static fw_status read_sources(fw_process_pack *pack) {
+    fw_xml_source_text *list[2];
+    int n[2];
+    FW_TRY(fw_xml_sources_read(pack->arena, pack->root->element, pack->diags, &list[0], &n[0]));
+    FW_TRY(fw_xml_sources_read(pack->arena, pack->base->element, pack->diags, &list[1], &n[1]));
+    pack->nsource = n[0] + n[1];
+    FW_NEED(pack->source = fw_arena_array(pack->arena, fw_xml_source_text, (size_t)pack->nsource));
+    for (int i = 0; i < pack->nsource; i++)
+        pack->source[i] = i < n[0] ? list[0][i] : list[1][i - n[0]];
+    return FW_OK;
+}
+
+static void report_duplicates(fw_process_pack *pack) {
+    for (int i = 1; i < pack->nid; i++) {
+        const fw_process_id *a = &pack->id[i - 1], *b = &pack->id[i];
+        if (strcmp(a->id, b->id) != 0) continue;
+        if (a->base == b->base && b->kind != FW_ID_SOURCE)
+            fw_diag_error(pack->diags, 164, b->place,
+                          "id '%s' is used twice; it was given at line %d first", b->id,
+                          a->place.line);
+        else if (a->base != b->base && a->kind != b->kind)
+            fw_diag_error(pack->diags, 164, a->place,
+                          "id '%s' is something else in the shared pack (line %d); choose another",
+                          a->id, b->place.line);
+        else if (a->base != b->base)
+            fw_diag_note(pack->diags, 177, a->place,
+                         "'%s' replaces the one of the shared pack (line %d)", a->id,
+                         b->place.line);
+    }
+}
+
+static fw_status read_everything(fw_process_pack *pack) {
+    for (int part = 0; part < 2; part++) {
+        const fw_xml_record *root = part == 0 ? pack->base : pack->root;
+        for (const fw_xml_record *c = root->first_child; c; c = c->next) {
+            FW_TRY(read_one(pack, c, part == 0));
+            if (fw_xml_is(c, "step")) FW_TRY(read_derived_ids(pack, c));
+        }
+    }
+    fw_process_step *step = pack->flow->step;
+    for (const fw_xml_record *c = pack->root->first_child; c; c = c->next)
+        if (fw_xml_is(c, "step")) {
+            const fw_xml_attribute *id = fw_process_pack_get(c, "id");
+            if (id) enter(pack, id->value, FW_ID_STEP, false, step, id->place);
+            step++;
+        }
+    qsort(pack->id, (size_t)pack->nid, sizeof *pack->id, by_id);
+    report_duplicates(pack);
+    return FW_OK;
+}
+
+static void read_head(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    const fw_xml_attribute *material = fw_process_pack_get(pack->root, "material"),
+                           *thickness = fw_process_pack_get(pack->root, "thickness");
+    f->id = fw_process_pack_text(pack->root, "id");
+    f->version = fw_process_pack_text(pack->root, "version");
+    f->title = fw_process_pack_text(pack->root, "title");
+    f->place = pack->root->element->place;
+    f->bias_note = "";
+    f->insulating = strcmp(fw_process_pack_text(pack->root, "carrier"), "insulating") == 0;
+    if (!material || !thickness) {
+        fw_diag_error(pack->diags, 162, pack->root->element->place,
+                      "a flow needs the attributes 'material' and 'thickness' of its device layer");
+        return;
+    }
+    f->material = material->value;
+    fw_process_pack_find(pack, material, FW_ID_MATERIAL);
+    f->thickness = fw_process_pack_find(pack, thickness, FW_ID_QUANTITY);
+    if (f->thickness &&
+        !fw_quantity_dimension_equal(f->thickness->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, thickness->place, "'%s' is not a length", thickness->value);
+}
+
+/* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be
+   mistakes in them */
+static fw_status check(fw_xml_reader *r, bool is_base, const fw_xml_record **root) {
+    FW_TRY(fw_xml_records_read(r));
+    FW_TRY(fw_xml_words_read(r));
+    FW_TRY(fw_xml_numbers_read(r));
+    *root = r->record;
+    const fw_place place = r->root->place;
+    int steps = fw_xml_children(*root, "step");
+    if (is_base && steps > 0)
+        fw_diag_error(r->diags, 160, place,
+                      "the shared pack holds no <step>; steps belong to a flow");
+    if (!is_base && steps == 0) fw_diag_error(r->diags, 180, place, "a flow needs a <step>");
+    return FW_OK;
+}
+
+static fw_status read_files(fw_xml_reader *base, const char *base_file, const char *base_xml,
+                            size_t base_n, fw_xml_reader *own, const char *file, const char *xml,
+                            size_t n) {
+    fw_status first =
+        fw_xml_read(base->arena, base_file, base_xml, base_n, base->diags, &base->root);
+    fw_status second = fw_xml_read(own->arena, file, xml, n, own->diags, &own->root);
+    if (first == FW_NOMEM || second == FW_NOMEM) return FW_NOMEM;
+    if (first != FW_OK || second != FW_OK) return first != FW_OK ? first : second;
+    return base->root && own->root ? FW_OK : FW_INPUT;
+}
+
+fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
+                               size_t base_n, const char *file, const char *xml, size_t n,
+                               fw_diags *diags, fw_process_flow **flow) {
+    fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
+    fw_xml_reader own = base;
+    fw_process_pack pack = {.arena = arena, .diags = diags};
+    size_t errors = diags->errors;
+    *flow = NULL;
+    FW_TRY(read_files(&base, base_file, base_xml, base_n, &own, file, xml, n));
+    FW_TRY(check(&base, true, &pack.base));
+    FW_TRY(check(&own, false, &pack.root));
+    FW_NEED(pack.flow = fw_arena_one(arena, fw_process_flow));
+    char hash[65];
+    fw_sha256(xml, n, hash);
+    FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
+    pack.flow->file = file;
+    fw_status status = read_sources(&pack);
+    if (status != FW_OK && status != FW_INPUT) return status;
+    FW_TRY(make_room(&pack));
+    FW_TRY(read_everything(&pack));
+    read_head(&pack);
+    fw_process_pack_corners(&pack);
+    FW_TRY(fw_process_pack_steps(&pack));
+    if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));
+    if (diags->failed) return FW_NOMEM;
+    if (diags->errors > errors) return FW_INPUT;
+    *flow = pack.flow;
+    return FW_OK;
+}

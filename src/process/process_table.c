@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a process pack may hold, and a laboratory pack. The schemas of processes/ come from these
+   rows.
+   References may lead into base.xml and are looked up by the reader of packs (process_read.c). */
+#include "process/pack.h"
+
+#define ROWS(a) .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
+#define TEXT    .kind = FW_KIND_TEXT
+#define TOKEN   .kind = FW_KIND_TEXT, .datatype = "NCName"
+#define ID                                                                                         \
+    { "id", TOKEN, .required = true, .sentence = "Name that references use." }
+#define WORD(of) .kind = FW_KIND_WORD, .words = (of)
+#define TO(what) .kind = FW_KIND_REF, .datatype = "NCName", .space = 1 + FW_ID_##what
+#define REQUIRED .required = true
+#define AMOUNT   .kind = FW_KIND_DECIMAL, .ranged = true, .max = 1e9, .reason = "an amount"
+#define COUNT                                                                                      \
+    .kind = FW_KIND_DECIMAL, .ranged = true, .whole = true, .min = 1, .max = 1e9,                  \
+    .reason = "there is at least one"
+
+static const char *const yes_no[] = {"yes", "no", NULL};
+static const char *const carriers[] = {"none", "insulating", NULL};
+static const char *const source_kinds[] = {"publication", "datasheet", "handbook", "measured",
+                                           "convention",  "assumed",   NULL};
+static const char *const corners[] = {"edge", "taper", "anisotropy", "thickness", "youngs", NULL};
+static const char *const operations[] = {
+    "clean",    "anodise",  "displace", "coat",    "bake",  "expose", "develop", "plate", "deposit",
+    "wet-etch", "dry-etch", "strip",    "release", "mount", "hold",   "inspect", NULL};
+static const char *const changes[] = {"add", "remove", "convert", "pattern", NULL};
+static const char *const places[] = {"all", "structure", "field", NULL};
+static const char *const sides[] = {"front", "back", NULL};
+static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
+static const char *const faces[] = {"top", "middle", "bottom", NULL};
+static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
+static const char *const outcomes[] = {"rework", "continue", "hold", "scrap", NULL};
+
+static const fw_xml_attribute_row process_rows[] = {
+    {"id", TOKEN, REQUIRED, .sentence = "Name of the flow; the device file uses it."},
+    {"version", TEXT, REQUIRED, .sentence = "It goes into every run sheet."},
+    {"title", TEXT, REQUIRED, .sentence = "What people call the flow."},
+    {"material", TO(MATERIAL), .sentence = "Of the device layer; every flow has one."},
+    {"thickness", TO(QUANTITY), .sentence = "Of the device layer; every flow has one."},
+    {"carrier", WORD(carriers), .fallback = "none",
+     .sentence = "insulating: what is not joined in the device layer is insulated."},
+};
+static const fw_xml_attribute_row source_rows[] = {
+    ID,
+    {"kind", WORD(source_kinds), REQUIRED, .sentence = "What sort of source it is."},
+    {"date", TEXT, .datatype = "date", .sentence = "When it was published or measured."},
+};
+static const fw_xml_attribute_row material_rows[] = {
+    ID,
+    {"name", TEXT, REQUIRED, .sentence = "What people call it."},
+    {"criterion", TEXT, .sentence = "What its strength is: fracture, proportional limit or yield."},
+    {"contaminates", TEXT, .datatype = "NMTOKEN",
+     .sentence = "Group of contaminants that a tool must take."},
+    {"holes", WORD(yes_no), .fallback = "no",
+     .sentence = "yes: a film that does not protect what is below it."},
+};
+static const fw_xml_attribute_row equipment_rows[] = {
+    ID,
+    {"class", TEXT, REQUIRED, .sentence = "What sort of equipment it is."},
+    {"capacity", COUNT, REQUIRED, .sentence = "Wafers that it takes at once."},
+    {"takes", TEXT, .datatype = "NMTOKENS", .sentence = "Groups of contaminants that it may meet."},
+};
+static const fw_xml_attribute_row hazard_rows[] = {
+    ID,
+    {"ghs", TEXT, .datatype = "NMTOKENS", REQUIRED, .sentence = "Its pictograms."},
+    {"buddy", WORD(yes_no), .fallback = "no",
+     .sentence = "yes: never alone; a step with it has a second signature."},
+};
+static const fw_xml_attribute_row waste_rows[] = {
+    {"stream", TEXT, REQUIRED, .sentence = "Container that it goes into."},
+};
+static const fw_xml_attribute_row incompatible_rows[] = {
+    {"with", TO(HAZARD), REQUIRED, .sentence = "What it must not meet."},
+};
+static const fw_xml_attribute_row attacks_rows[] = {
+    {"material", TO(MATERIAL), REQUIRED, .sentence = "What it dissolves or sputters."},
+};
+static const fw_xml_attribute_row corner_rows[] = {
+    {"of", WORD(corners), REQUIRED, .sentence = "What is not made exactly as drawn."},
+    {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
+    {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
+    {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
+};
+static const fw_xml_attribute_row step_rows[] = {
+    ID,
+    {"op", WORD(operations), REQUIRED, .sentence = "What is done."},
+    {"title", TEXT, REQUIRED, .sentence = "What people call the step."},
+    {"equipment", TO(EQUIPMENT), REQUIRED, .sentence = "Where it is done."},
+    {"in-source", WORD(yes_no), REQUIRED, .sentence = "Does the publication describe the step?"},
+    {"mask", TEXT, .sentence = "Layer of the mask that it exposes."},
+    {"batch", COUNT, .fallback = "1", .sentence = "Wafers at once."},
+    {"second-signature", WORD(yes_no), .fallback = "no", .sentence = "Two people sign."},
+    {"attended", AMOUNT, .fallback = "0", .sentence = "How many minutes somebody must be there."},
+};
+static const fw_xml_attribute_row change_rows[] = {
+    {"kind", WORD(changes), REQUIRED, .sentence = "What the step does to the wafer."},
+    {"material", TO(MATERIAL), REQUIRED, .sentence = "To which layer, or what it becomes."},
+    {"thickness", TO(QUANTITY), .sentence = "How much of it."},
+    {"where", WORD(places), .fallback = "all",
+     .sentence = "structure: what stays of the device; field: all else."},
+    {"from", TO(MATERIAL), .sentence = "convert: what is turned into the material."},
+    {"side", WORD(sides), .fallback = "front", .sentence = "Of the wafer."},
+    {"profile", WORD(profiles), .fallback = "anisotropic",
+     .sentence = "isotropic: it undercuts its mask."},
+    {"anisotropy", TO(QUANTITY), .sentence = "Of a masked etch: 1 less lateral over vertical."},
+    {"compensate", WORD(faces), .fallback = "middle",
+     .sentence = "The face whose edge the mask brings to where it is drawn."},
+    {"spread", TO(QUANTITY), .sentence = "Of a plating: largest local thickness over the mean."},
+    {"reach", TO(QUANTITY),
+     .sentence = "remove: how far it goes sideways from every opening, below what stays."},
+};
+static const fw_xml_attribute_row exposed_rows[] = {
+    {"material", TO(MATERIAL), REQUIRED, .sentence = "What lies open and is taken along."},
+    {"rate", TO(QUANTITY), .sentence = "Its own rate."},
+    {"selectivity", TO(QUANTITY), .sentence = "Or the selectivity of the etch to it."},
+};
+static const fw_xml_attribute_row set_rows[] = {
+    {"name", TEXT, REQUIRED, .sentence = "What is set."},
+    {"q", TO(QUANTITY), REQUIRED, .sentence = "To which value."},
+    {"tol-lo", TEXT, REQUIRED, .sentence = "Lowest that is tolerated, in the unit of q; or empty."},
+    {"tol-hi", TEXT, REQUIRED, .sentence = "Highest that is tolerated; or empty."},
+};
+static const fw_xml_attribute_row time_rows[] = {
+    {"law", TOKEN, REQUIRED, .sentence = "How the time is computed."},
+    {"overrun", AMOUNT, REQUIRED, .sentence = "Share that is added beyond the end."},
+    {"k", AMOUNT, REQUIRED, .sentence = "Standard uncertainties between first look and clear-by."},
+    {"shape", WORD(shapes), .sentence = "Of what is filled or emptied, where the law asks."},
+};
+static const fw_xml_attribute_row derive_rows[] = {
+    {"name", TEXT, REQUIRED, .sentence = "What is computed on the way."},
+    {"unit", TEXT, REQUIRED, .sentence = "In which it is shown."},
+    {"law", TOKEN, REQUIRED, .sentence = "How it is computed."},
+    {"shape", WORD(shapes), .sentence = "Of what is filled or emptied, where the law asks."},
+    {"id", TOKEN, .sentence = "Later laws may use the value by this name."},
+    {"most", TO(QUANTITY), .sentence = "Above it the plan warns."},
+};
+static const fw_xml_attribute_row argument_rows[] = {
+    {"name", TEXT, REQUIRED, .sentence = "Argument of the law."},
+    {"q", TO(QUANTITY), REQUIRED, .sentence = "Its value."},
+};
+static const fw_xml_attribute_row accept_rows[] = {
+    {"measure", TEXT, REQUIRED, .sentence = "What is measured."},
+    {"lo", TEXT, REQUIRED, .sentence = "Lowest that is accepted; or empty."},
+    {"hi", TEXT, REQUIRED, .sentence = "Highest that is accepted; or empty."},
+    {"unit", TEXT, REQUIRED, .sentence = "Of lo and hi."},
+    {"sites", COUNT, REQUIRED, .sentence = "At how many sites of a wafer."},
+    {"every", COUNT, REQUIRED, .sentence = "On every so many wafers."},
+};
+static const fw_xml_attribute_row hazard_ref_rows[] = {
+    {"ref", TO(HAZARD), REQUIRED, .sentence = "A hazard of the step."},
+};
+static const fw_xml_attribute_row on_fail_rows[] = {
+    {"if", TEXT, REQUIRED, .sentence = "What was found."},
+    {"then", WORD(outcomes), REQUIRED, .sentence = "What becomes of the wafer."},
+    {"goto", TO(STEP), .sentence = "Where it goes on."},
+};
+static const fw_xml_attribute_row lag_rows[] = {
+    {"from", TO(STEP), REQUIRED, .sentence = "The step from whose end it is counted."},
+    {"min", AMOUNT, .sentence = "Shortest wait."},
+    {"max", AMOUNT, .sentence = "Longest wait."},
+    {"unit", TEXT, REQUIRED, .sentence = "Of time, for min and max."},
+};
+
+#define Q_ROW(parents)                                                                             \
+    {                                                                                              \
+        "q", parents, "id",                                                                        \
+            .apart = true, .attribute = fw_xml_quantity_rows, .nattribute = FW_QUANTITY_ROWS,      \
+            .sentence = "A number with its unit, uncertainty, status and source, or unknown."      \
+    }
+static const fw_xml_element_row pack_rows[] = {
+    {"process", "", ROWS(process_rows), .sentence = "A process pack."},
+    {"source", "process", "id", .text = true, .needed = true, ROWS(source_rows),
+     .sentence = "Where numbers are from."},
+    {"material", "process", "id", ROWS(material_rows), .sentence = "A material of the wafer."},
+    {"equipment", "process", "id", .text = true, ROWS(equipment_rows),
+     .sentence = "A machine or a bench."},
+    {"hazard", "process", "id", ROWS(hazard_rows), .sentence = "What is dangerous."},
+    Q_ROW("process material"),
+    {"corner", "process", ROWS(corner_rows),
+     .sentence = "What a flow does not make exactly as drawn."},
+    {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
+    {"step", "process", "id", ROWS(step_rows), .sentence = "A step of the flow."},
+    {"ppe", "hazard", .text = true, .once = true, .needed = true,
+     .sentence = "Protection that people wear."},
+    {"firstaid", "hazard", .text = true, .once = true, .needed = true,
+     .sentence = "What to do at once."},
+    {"waste", "hazard", .text = true, .once = true, .needed = true, ROWS(waste_rows),
+     .sentence = "Where it goes afterwards."},
+    {"incompatible", "hazard", ROWS(incompatible_rows), .sentence = "Two that must not meet."},
+    {"attacks", "hazard", ROWS(attacks_rows), .sentence = "What it harms."},
+    {"purpose", "step", .text = true, .once = true, .needed = true,
+     .sentence = "Why the step is there."},
+    {"change", "step", ROWS(change_rows), .sentence = "What becomes of a layer."},
+    {"exposed", "step", ROWS(exposed_rows), .sentence = "What the chemistry takes along."},
+    {"set", "step", ROWS(set_rows), .sentence = "A setting of the machine."},
+    {"time", "step", .once = true, .needed = true, ROWS(time_rows),
+     .sentence = "How long the step takes."},
+    {"derive", "step", ROWS(derive_rows), .sentence = "Another law on the way."},
+    {"endpoint", "step", .text = true, .needed = true, .sentence = "How people see its end."},
+    {"accept", "step", .needed = true, ROWS(accept_rows), .sentence = "What is measured after it."},
+    {"hazard-ref", "step", ROWS(hazard_ref_rows), .sentence = "A hazard that it has."},
+    {"on-fail", "step", .text = true, .needed = true, ROWS(on_fail_rows),
+     .sentence = "What to do where it failed."},
+    {"lag", "step", ROWS(lag_rows), .sentence = "A shortest or longest wait since another step."},
+    {"arg", "time derive", ROWS(argument_rows), .sentence = "An argument of the law."},
+    {"needs", "time", ROWS(argument_rows),
+     .sentence = "What must be known although the law does not take it."},
+    {"expr", "time derive", .text = true, .once = true, .sentence = "The law expr as a formula."},
+    {0},
+};
+
+static const fw_xml_attribute_row laboratory_rows[] = {
+    {"id", TOKEN, .sentence = "Name of the pack."},
+    {"version", TEXT, .sentence = "Of the pack."},
+    {"title", TEXT, .sentence = "What people call it."},
+    {"flow", TOKEN, REQUIRED, .sentence = "id of the flow whose values it replaces."},
+};
+static const fw_xml_attribute_row laboratory_source_rows[] = {
+    ID,
+    {"kind", WORD(source_kinds), .sentence = "What sort of source it is."},
+    {"date", TEXT, .datatype = "date", .sentence = "When it was measured."},
+};
+static const fw_xml_element_row laboratory[] = {
+    {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
+    {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
+     .sentence = "Where numbers are from."},
+    Q_ROW("process"),
+    {0},
+};
+
+static const fw_xml_element_row *const pack_parts[] = {pack_rows, NULL};
+static const fw_xml_element_row *const laboratory_parts[] = {laboratory, NULL};
+static const char *const spaces[] = {"name",   "source",   "material", "equipment",
+                                     "hazard", "quantity", "step"};
+#define FILE_OF(what, rows)                                                                        \
+    .file = what, .root = "process", .urn = "urn:flexwright:process:1",                            \
+    .source = "src/process/process_table.c", .part = rows, .space = spaces,                        \
+    .nspace = sizeof spaces / sizeof spaces[0]
+
+const fw_xml_table fw_process_pack_table = {FILE_OF("process pack", pack_parts),
+                                            .head = "id=\"...\" version=\"...\" title=\"...\"",
+                                            .numbers = {.root = 178,
+                                                        .element = 160,
+                                                        .misplaced = 160,
+                                                        .once = 51,
+                                                        .needed = 180,
+                                                        .attribute = 161,
+                                                        .at_value = true,
+                                                        .missing = 162,
+                                                        .text = 49,
+                                                        .word = 163,
+                                                        .range = 171,
+                                                        .whole = 171,
+                                                        .decimal = 171}};
+const fw_xml_table fw_process_laboratory_table = {FILE_OF("laboratory pack", laboratory_parts),
+                                                  .head = "id=\"lab\" flow=\"...\"",
+                                                  .numbers = {.root = 178,
+                                                              .element = 211,
+                                                              .misplaced = 211,
+                                                              .once = 51,
+                                                              .needed = 211,
+                                                              .attribute = 211,
+                                                              .at_value = true,
+                                                              .missing = 211,
+                                                              .text = 49,
+                                                              .word = 163,
+                                                              .range = 211,
+                                                              .whole = 211,
+                                                              .decimal = 211}};
+
+fw_status fw_process_schema(fw_text *out) {
+    return fw_xml_schema(&fw_process_pack_table, out);
+}
+
+fw_status fw_process_laboratory_schema(fw_text *out) {
+    return fw_xml_schema(&fw_process_laboratory_table, out);
+}
+
+fw_status fw_process_reference_markdown(fw_text *out) {
+    const fw_xml_table *table = &fw_process_pack_table;
+    const fw_xml_element_row *e;
+    fw_text_add(out,
+                "<!-- generated from src/process/process_table.c; do not edit -->\n"
+                "# Process packs\n\n"
+                "A process pack is XML in UTF-8: a flow, or what all flows share (`base.xml`). "
+                "What it means is in [theory/process.md](../theory/process.md).\n"
+                "The schema for editors is [process.rng](../../processes/process.rng). A "
+                "laboratory pack is a `<process>` with `flow`, and only `<source>` and `<q>` "
+                "in it ([laboratory.rng](../../processes/laboratory.rng)).\n");
+    for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
+        fw_xml_page_element(e, out);
+        if (e->text) fw_text_add(out, "\nIt holds text.\n");
+        if (e->nattribute > 0) fw_text_add(out, FW_XML_PAGE_HEAD);
+        for (int k = 0; k < e->nattribute; k++)
+            fw_xml_page_attribute(table, &e->attribute[k], out);
+    }
+    return fw_text_end(out);
+}

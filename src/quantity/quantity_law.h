@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How something goes with time: a pure factor for loads, an angle or a length for drivers.
+
+   Laws may jump or bend at known times (fw_quantity_law_breaks_of); integration stops there and
+   goes on in the
+   next piece. Inside a piece a law and its first two derivatives are continuous. `piece` is a time
+   inside the piece that is meant, so that the value at a break is the limit from that side.
+
+   What a law is, its row says (law_kind.h); laws.def lists them. */
+#ifndef FW_QUANTITY_QUANTITY_LAW_H
+#define FW_QUANTITY_QUANTITY_LAW_H
+#include "quantity/expression.h"
+
+/* ---- an expression in t, compiled ---- */
+
+typedef struct fw_quantity_program fw_quantity_program;
+/* compiles `text` (n bytes) with parameters `names`; `t` (or `time`) is time in s. Where a
+   parameter is called t, the bare `t` is refused (it could mean either) and the message says to
+   write `time`. The dimension of the result must be `wanted`. FW_OK, FW_INPUT with *error filled,
+   FW_NOMEM. */
+fw_status fw_quantity_program_compile(fw_arena *arena, const char *text, size_t n,
+                                      const fw_quantity_names *names, fw_quantity_dimension wanted,
+                                      fw_quantity_program **program,
+                                      fw_quantity_expression_error *error);
+/* value[0..2]: value, d/dt, d2/dt2 (SI, exact differentiation of the expression, forward second
+   order); not finite where the expression is not */
+void fw_quantity_program_value(const fw_quantity_program *program, double t_s, double value[3]);
+/* false when abs, min, max or atan2 of something that varies occur: the value is then only
+   piecewise smooth, and fw_quantity_law_breaks_of looks for the switches */
+bool fw_quantity_program_smooth(const fw_quantity_program *program);
+
+/* ---- laws ---- */
+
+typedef struct fw_quantity_law_kind fw_quantity_law_kind;
+enum { FW_QUANTITY_LAW_OWN = 4 };
+
+typedef struct
+    fw_quantity_law { /* which of the numbers it has, and what they mean, its kind says */
+    const fw_quantity_law_kind *kind;
+    double start_s, end_s, rise_s, frequency_Hz, phase_rad;
+    const double *table_t_s, *table_value; /* (ntable) times rise strictly */
+    int ntable;
+    const fw_quantity_program *program;
+    double frequency_most_Hz, lines, seed; /* random; the last two are whole */
+    double own[FW_QUANTITY_LAW_OWN];       /* of laws to which none of the numbers above belongs */
+} fw_quantity_law;
+
+const char *fw_quantity_law_name(const fw_quantity_law *law); /* "ramp" */
+/* value[0..2]: the factor or coordinate, d/dt, d2/dt2 */
+void fw_quantity_law_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]);
+/* times in (0, end_s) where the law or its slope jumps, ascending; at most `most` are stored.
+   Returns how many there are. Expressions: switches of abs, min and max as far as 2000 samples show
+   them, located to round-off, at most 1000. NULL, no law, has none. */
+int fw_quantity_law_breaks_of(const fw_quantity_law *law, double end_s, double *t_s, int most);
+/* constant 1 from the start on: what a load without a law (NULL) has */
+bool fw_quantity_law_is_constant(const fw_quantity_law *law);
+/* largest |value| in [0, end_s]: exact, but for random an upper bound (within 2 % in short scenes,
+   the top of the envelope in long ones) and for expressions the largest of 2001 samples; infinite
+   where a sample is not finite. 1 without a law (NULL). */
+double fw_quantity_law_largest(const fw_quantity_law *law, double end_s);
+/* of a law over (0, end_s): largest |value|, largest |slope| (1/s), total variation from 0 before
+   the start on; of a constant 1, 0, 1. Upper bounds, infinite where there is none */
+typedef struct fw_quantity_law_size {
+    double most, slope, variation;
+} fw_quantity_law_size;
+fw_quantity_law_size fw_quantity_law_measure(const fw_quantity_law *law, double end_s);
+
+/* ---- steps that see all of it (stride.c) ---- */
+
+typedef struct
+    fw_quantity_law_strides { /* from t_s[i] on a step longer than most_s[i] may miss something */
+    double *t_s, *most_s;     /* (n) ascending; most_s may be infinite */
+    int n;                    /* 0: any step sees all of it */
+} fw_quantity_law_strides;
+/* Looks at the law once over [0, end_s], which sines, steps, ramps and tables do not need.
+   `break_s` (breaks), ascending: its fw_quantity_law_breaks_of, at which steps end anyway.
+   coordinate: the law
+   drives a joint, so that its second derivative counts. FW_OK or FW_NOMEM. Not seen is what is zero
+   to the last bit at 2049 looks (a bell exp(-(t/w)^2) with w below some 1e-5 end_s), and what is
+   shorter than a look beside larger things. */
+fw_status fw_quantity_law_look(fw_arena *arena, const fw_quantity_law *law, bool coordinate,
+                               double end_s, const double *break_s, int breaks,
+                               fw_quantity_law_strides *strides);
+/* longest step from t_s on that does not leap over anything, with every stride `factor` times as
+   long; *row (0 at first) remembers where the search stood */
+double fw_quantity_law_stride(const fw_quantity_law_strides *strides, double factor, double t_s,
+                              int *row);
+
+#endif

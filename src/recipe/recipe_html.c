@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The run sheet: one file, no scripts, made for A4 and a pen. */
+#include "recipe/recipe_profile.h"
+#include "recipe/recipe_words.h"
+#include <string.h>
+
+static void cell(fw_text *out, const char *text) {
+    fw_text_add(out, "<td>");
+    fw_text_escaped(out, text);
+    fw_text_add(out, "</td>");
+}
+
+void fw_recipe_html_overrides(const fw_process_flow *flow, fw_text *out) {
+    if (flow->noverride == 0) return;
+    fw_text_printf(out,
+                   "<h3>Values of the laboratory: %d</h3>\n<table class=\"small\"><thead><tr>"
+                   "<th>Value</th><th>Laboratory</th><th>In the process file</th><th>Source</th>"
+                   "</tr></thead><tbody>\n",
+                   flow->noverride);
+    for (int i = 0; i < flow->noverride; i++) {
+        const fw_process_override *o = &flow->override[i];
+        fw_text_add(out, "<tr>");
+        cell(out, o->id);
+        cell(out, o->is);
+        cell(out, o->was);
+        cell(out, o->source);
+        fw_text_add(out, "</tr>\n");
+    }
+    fw_text_add(out, "</tbody></table>\n");
+}
+
+static const char style[] =
+    "@page{size:A4;margin:13mm 13mm 14mm}\n"
+    "*{box-sizing:border-box}\n"
+    "body{font:9pt/1.28 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
+    "max-width:184mm;margin:0 auto;padding:4mm 0}\n"
+    "h1{font-size:17pt;line-height:1.15;margin:0 0 1mm}\n"
+    "h2{font-size:12pt;line-height:1.2;margin:0}\n"
+    "h3{font-size:10pt;margin:3mm 0 1mm;break-after:avoid}\n"
+    "p{margin:0.8mm 0}\n"
+    ".lead{color:#333;margin-bottom:3mm}\n"
+    "table{border-collapse:collapse;width:100%;margin:1.2mm 0}\n"
+    "td.id{white-space:nowrap}\n"
+    "th,td{border:0.5pt solid #888;padding:0.4mm 1.2mm;text-align:left;vertical-align:top}\n"
+    "th{font-weight:bold;background:#f0f0f0;-webkit-print-color-adjust:exact;"
+    "print-color-adjust:exact}\n"
+    "td.n,th.n{text-align:right;white-space:nowrap;font-variant-numeric:tabular-nums}\n"
+    "tr{break-inside:avoid}\nthead{display:table-header-group}\n"
+    ".blank td{height:7.5mm}\n.blank td.k{width:21%;background:#f7f7f7}\n"
+    ".hash{font-family:'DejaVu Sans Mono',monospace;font-size:7pt;word-break:break-all}\n"
+    ".box{display:inline-block;width:4.2mm;height:4.2mm;border:1pt solid #000;"
+    "vertical-align:-0.6mm;margin-right:2mm}\n"
+    ".tag{display:inline-block;border:0.5pt solid #000;border-radius:1.6mm;padding:0 1.3mm;"
+    "font-size:7.5pt;white-space:nowrap}\n"
+    ".tag.assumed,.tag.unknown{border-style:dashed}\n.tag.unknown{font-weight:bold}\n"
+    ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:2mm 0}\n"
+    ".nc{border:1.4pt solid #000;padding:1.2mm 2mm;margin:1.5mm 0}\n"
+    ".step{border:0.9pt solid #000;padding:1.4mm 2.4mm;margin:0 0 2.5mm;break-inside:avoid}\n"
+    ".step>header{display:flex;justify-content:space-between;align-items:flex-start;gap:4mm;"
+    "border-bottom:0.5pt solid #888;padding-bottom:1.2mm;margin-bottom:1.2mm}\n"
+    ".meta{font-size:8pt;text-align:right;white-space:nowrap;padding-top:0.8mm}\n"
+    ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
+    ".pair>div:last-child{width:70mm}\n.pair svg{width:70mm;height:auto;display:block}\n"
+    ".small{font-size:7.8pt}\n.muted{color:#444}\n"
+    ".hazard{border:0.9pt solid #000;padding:0.7mm 1.8mm;margin:1mm 0;font-size:8pt}\n"
+    ".window td{text-align:center;font-size:10pt}\n.window th{text-align:center}\n"
+    ".actual td{height:7.5mm;width:16.6%;font-size:7.5pt;color:#444}\n"
+    ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
+    "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n"
+    "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"
+    "@media print{body{max-width:none;padding:0}a{color:#000;text-decoration:none}}\n";
+
+static void margin_boxes(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    fw_text_add(out, "@page{@bottom-left{content:\"");
+    /* inside a CSS string: only letters, digits and a few marks of the id get through */
+    for (const char *c = flow->id; *c; c++)
+        if (strchr("-_.", *c) || (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') ||
+            (*c >= 'a' && *c <= 'z'))
+            fw_text_bytes(out, c, 1);
+    fw_text_printf(out,
+                   "; mask %.8s; process %.8s; lot ______________\";font:8pt Helvetica,Arial,"
+                   "sans-serif}@bottom-right{content:counter(page) \" / \" counter(pages);font:8pt "
+                   "Helvetica,Arial,sans-serif}%s}\n",
+                   h->mask_sha256 ? h->mask_sha256 : "-", flow->sha256,
+                   h->rejected
+                       ? "@top-center{content:\"REJECTED - DO NOT FABRICATE\";font:bold 12pt "
+                         "Helvetica,Arial,sans-serif;letter-spacing:0.08em}"
+                       : "");
+}
+
+static void blank_row(fw_text *out, const char *left, const char *right) {
+    fw_text_printf(out,
+                   "<tr><td class=\"k\">%s</td><td></td><td class=\"k\">%s</td><td></td></tr>\n",
+                   left, right);
+}
+
+static void hash_row(fw_text *out, const char *name, const char *hash) {
+    fw_text_printf(out, "<tr><td class=\"k\">%s</td><td colspan=\"3\" class=\"hash\">", name);
+    fw_text_escaped(out, hash ? hash : "none");
+    fw_text_add(out, "</td></tr>\n");
+}
+
+static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
+    fw_text_add(out, "<h1>Run sheet: ");
+    fw_text_escaped(out, flow->title);
+    fw_text_add(out, "</h1>\n<p class=\"lead\">Device <b>");
+    fw_text_escaped(out, h->device ? h->device : "");
+    fw_text_add(out, "</b>, flow <b>");
+    fw_text_escaped(out, flow->id);
+    fw_text_add(out, "</b>, device layer ");
+    fw_text_escaped(out, flow->material ? fw_process_flow_material_name(flow, flow->material) : "");
+    if (flow->thickness && !flow->thickness->unknown) {
+        fw_text_add(out, ", ");
+        fw_recipe_put_value(out, fw_quantity_in_unit(flow->thickness));
+        fw_text_add(out, " ");
+        fw_recipe_put_unit(out, flow->thickness->unit);
+    }
+    fw_text_add(out, "</p>\n<table class=\"blank\">\n");
+    blank_row(out, "Lot", "Wafer IDs");
+    blank_row(out, "Date", "Operator");
+    blank_row(out, "Buddy (HF steps)", "Laboratory");
+    hash_row(out, "Mask set, SHA-256", h->mask_sha256);
+    hash_row(out, "Process file, SHA-256", flow->sha256);
+    fw_text_add(out, "<tr><td class=\"k\">Process version</td><td>");
+    fw_text_escaped(out, flow->version);
+    fw_text_add(out, "</td><td class=\"k\">Program version</td><td>");
+    fw_text_escaped(out, h->program_version ? h->program_version : "");
+    fw_text_add(out, "</td></tr>\n</table>\n");
+    fw_text_printf(
+        out,
+        "<p class=\"note\"><b>Values with status assumed: %d, typical: %d, unknown: "
+        "%d.</b> Stated: %d, derived: %d, measured: %d. %d of %d steps are NOT COMPUTABLE "
+        "until what they name is entered. Steps marked <i>added</i> are not described in "
+        "the source; a real run needs them.</p>\n",
+        flow->count[FW_ASSUMED], flow->count[FW_TYPICAL], flow->unknown, flow->count[FW_STATED],
+        flow->count[FW_DERIVED], flow->count[FW_MEASURED], flow->not_computable, flow->nstep);
+}
+
+static void judgement(const fw_process_flow *flow, fw_text *out) {
+    static const char *const word[] = {"Not guaranteed until something is measured",
+                                       "Not manufacturable in this flow",
+                                       "Nothing speaks against making it in this flow"};
+    fw_text_printf(out, "<h3>Can this flow make this device? %s.</h3>\n<ul class=\"small\">\n",
+                   word[flow->manufacturable + 1]);
+    for (int i = 0; i < flow->nreason; i++) {
+        fw_text_add(out, "<li>");
+        fw_text_escaped(out, flow->reason[i]);
+        fw_text_add(out, "</li>\n");
+    }
+    fw_text_add(out, "</ul>\n<p class=\"small\"><b>Mask compensation: ");
+    fw_text_fixed(out, flow->bias_m * 1e6, 3);
+    fw_text_add(out, " µm per edge.</b> ");
+    fw_text_escaped(out, flow->bias_note ? flow->bias_note : "");
+    fw_text_add(out, ".</p>\n");
+}
+
+static void summary_row(const fw_process_step *s, fw_text *out) {
+    const fw_process_time *t = &s->time;
+    fw_text_add(out, "<tr><td class=\"id\"><span class=\"box\"></span><a href=\"#");
+    fw_text_escaped(out, s->id);
+    fw_text_add(out, "\">");
+    fw_text_escaped(out, s->id);
+    fw_text_add(out, "</a></td><td>");
+    fw_text_escaped(out, s->title);
+    fw_text_printf(out, "%s</td><td>%s</td>", s->second_signature ? " <b>(2)</b>" : "",
+                   s->in_source ? "source" : "added");
+    if (!t->computable) {
+        fw_text_add(out, "<td colspan=\"4\"><b>NOT COMPUTABLE</b></td></tr>\n");
+        return;
+    }
+    const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s};
+    for (int i = 0; i < 4; i++) {
+        fw_text_add(out, "<td class=\"n\">");
+        fw_schedule_put_duration(out, value[i]);
+        fw_text_add(out, "</td>");
+    }
+    fw_text_add(out, "</tr>\n");
+}
+
+static void summary(const fw_process_flow *flow, fw_text *out) {
+    fw_text_add(out,
+                "<h3>Steps and times</h3>\n<table class=\"small\"><thead><tr><th>Step</th>"
+                "<th>Title; (2) needs two signatures</th><th>In</th><th class=\"n\">Planned</th>"
+                "<th class=\"n\">First look</th><th class=\"n\">Clear by</th><th class=\"n\">"
+                "Stop</th></tr></thead><tbody>\n");
+    for (int i = 0; i < flow->nstep; i++)
+        summary_row(&flow->step[i], out);
+    fw_text_printf(out,
+                   "<tr><td></td><td><b>Sum of the planned times of %d computable steps</b></td>"
+                   "<td></td><td class=\"n\"><b>",
+                   flow->nstep - flow->not_computable);
+    fw_schedule_put_duration(out, flow->total_s);
+    fw_text_add(out,
+                "</b></td><td colspan=\"3\"></td></tr>\n</tbody></table>\n"
+                "<p class=\"small\">First look = planned (1 - k u), clear by = planned (1 + k u), "
+                "stop = clear by (1 + overrun); u is the relative standard uncertainty of the "
+                "time, k = 2.</p>\n");
+}
+
+void fw_recipe_html_source(const fw_process_flow *flow, const char *source, fw_text *out) {
+    if (!source || !source[0]) return;
+    for (int i = 0; i < flow->nsource; i++)
+        if (strcmp(flow->source[i].text, source) == 0) {
+            fw_text_printf(out, "[%d]", i + 1);
+            return;
+        }
+    fw_text_escaped(out, source);
+}
+
+static void sources(const fw_process_flow *flow, fw_text *out) {
+    fw_text_add(out, "<h3>Sources</h3>\n<ol class=\"small\">\n");
+    for (int i = 0; i < flow->nsource; i++) {
+        fw_text_add(out, "<li>");
+        fw_text_escaped(out, flow->source[i].text);
+        fw_text_add(out, " <span class=\"muted\">(");
+        fw_text_escaped(out, flow->source[i].kind);
+        fw_text_add(out, ")</span></li>\n");
+    }
+    fw_text_add(out, "</ol>\n");
+}
+
+fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
+                               fw_text *out) {
+    fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+                     "<title>");
+    fw_text_add(out, header->rejected ? "REJECTED: " : "");
+    fw_text_escaped(out, flow->title);
+    fw_text_add(out, ", run sheet</title>\n<style>\n");
+    fw_text_add(out, style);
+    margin_boxes(flow, header, out);
+    fw_text_add(out, "</style>\n</head>\n<body>\n");
+    if (header->rejected)
+        fw_text_add(out,
+                    "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
+                    "fabricate.</div>\n");
+    front(flow, header, out);
+    judgement(flow, out);
+    fw_recipe_html_overrides(flow, out);
+    summary(flow, out);
+    fw_recipe_html_schedule(header, out);
+    fw_recipe_slicer slicer;
+    fw_recipe_section_scale scale;
+    bool cut = header->mask && header->cut;
+    if (cut) {
+        FW_TRY(fw_recipe_slicer_start(out->arena, header->mask, header->cut, &slicer));
+        FW_TRY(fw_recipe_section_scale_of(out->arena, flow, header->cut, &scale));
+        FW_TRY(fw_recipe_html_pictures(flow, header, &slicer, &scale, out));
+    }
+    fw_text_add(out, "<h3>Step by step</h3>\n");
+    for (int i = 0; i < flow->nstep; i++)
+        fw_recipe_html_step(flow, i, cut ? &slicer : NULL, &scale, out);
+    sources(flow, out);
+    fw_text_add(out, "</body>\n</html>\n");
+    return fw_text_end(out);
+}

@@ -1,0 +1,384 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The JSON of this room: flexwright.recipe/1, flexwright.schedule/1, flexwright.sections/1. */
+#include "base/json.h"
+#include "recipe/recipe_profile.h"
+#include "recipe/recipe_words.h"
+#include <math.h>
+
+/* NULL is "" */
+static void words(fw_json *out, const char *key, const char *text) {
+    fw_json_text(out, key, text ? text : "");
+}
+
+static void number(fw_json *out, const char *key, double value) {
+    fw_json_number(out, key, value, FW_PLAIN_DIGITS);
+}
+
+static void quantity(fw_json *out, const fw_recipe_row *row) {
+    const fw_quantity *q = row->q;
+    fw_json_object(out, NULL);
+    words(out, "name", row->name);
+    if (q->unknown)
+        fw_json_null(out, "value");
+    else
+        number(out, "value", fw_quantity_in_unit(q));
+    words(out, "unit", q->unit);
+    if (q->unknown)
+        fw_json_null(out, "uncertainty");
+    else
+        fw_json_number(out, "uncertainty", fw_recipe_row_uncertainty(q), FW_UNCERTAINTY_DIGITS);
+    words(out, "status", q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
+    words(out, "source", q->source);
+    if (q->note) words(out, "note", q->note);
+    fw_json_end(out);
+}
+
+static void strings(fw_json *out, const char *name, const char **list, int n) {
+    fw_json_list(out, name);
+    for (int i = 0; i < n; i++)
+        words(out, NULL, list[i]);
+    fw_json_end(out);
+}
+
+static void times(fw_json *out, const fw_process_time *t) {
+    if (!t->computable) {
+        fw_json_null(out, "time_s");
+        return;
+    }
+    fw_json_object(out, "time_s");
+    number(out, "nominal", t->nominal_s);
+    number(out, "first_look", t->first_look_s);
+    number(out, "clear_by", t->clear_by_s);
+    number(out, "stop", t->stop_s);
+    fw_json_number(out, "relative_uncertainty", t->relative_uncertainty, FW_UNCERTAINTY_DIGITS);
+    words(out, "status", fw_quantity_value_status_text(t->status));
+    fw_json_end(out);
+}
+
+static fw_status step(fw_json *out, const fw_process_step *s) {
+    fw_recipe_row *row = NULL;
+    int n = 0;
+    FW_TRY(fw_recipe_step_rows(out->out->arena, s, &row, &n));
+    fw_json_object(out, NULL);
+    words(out, "id", s->id);
+    words(out, "title", s->title);
+    fw_json_truth(out, "in_source", s->in_source);
+    words(out, "law", s->law);
+    times(out, &s->time);
+    strings(out, "not_computable", s->time.missing, s->time.nmissing);
+    strings(out, "contributions", s->time.contribution, s->time.ncontribution);
+    fw_json_list(out, "quantities");
+    for (int i = 0; i < n; i++)
+        quantity(out, &row[i]);
+    fw_json_end(out);
+    fw_json_end(out);
+    return FW_OK;
+}
+
+/* ---- bias, gaps and edges of the fixed point ---- */
+
+static void face(fw_json *out, const char *key, double known_m, double low_m, double high_m) {
+    fw_json_object(out, key);
+    number(out, "known_m", known_m);
+    number(out, "low_m", low_m);
+    number(out, "high_m", high_m);
+    fw_json_end(out);
+}
+
+static void opening(fw_json *out, const fw_process_edge_class *c) {
+    fw_json_line(out, 0);
+    fw_json_object(out, NULL);
+    words(out, "name", c->name);
+    number(out, "drawn_m", c->drawn_m);
+    number(out, "mask_m", c->plate_m);
+    number(out, "under_mask_m", c->opening_m);
+    number(out, "through_s", c->through_s);
+    number(out, "over_etch", c->over_etch);
+    face(out, "top", c->edge.top_m, c->low.top_m, c->high.top_m);
+    face(out, "bottom", c->edge.bottom_m, c->low.bottom_m, c->high.bottom_m);
+    fw_json_end(out);
+}
+
+static void edges(const fw_process_flow *flow, fw_json *out) {
+    const fw_process_fixed_point *p = &flow->edges;
+    fw_json_object(out, "edges");
+    fw_json_truth(out, "solved", p->solved);
+    fw_json_truth(out, "open", p->open || p->wet_open || p->worn_open);
+    number(out, "printed_m", p->printed_m);
+    number(out, "wet_m", p->wet_m);
+    number(out, "worn_m", p->worn_m);
+    number(out, "etch_m", p->etch_m);
+    number(out, "least_bias_m", p->low_m);
+    number(out, "most_bias_m", p->high_m);
+    fw_json_list(out, "openings");
+    for (int i = 0; i < p->ncls; i++)
+        opening(out, &p->cls[i]);
+    fw_json_end(out);
+    fw_json_end(out);
+}
+
+/* ---- the recipe ---- */
+
+fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
+                               fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    words(out, "schema", "flexwright.recipe/1");
+    words(out, "flow", flow->id);
+    words(out, "device", header->device);
+    fw_json_truth(out, "rejected", header->rejected);
+    if (header->rejected) words(out, "banner", "REJECTED");
+    fw_json_list(out, "steps");
+    for (int i = 0; i < flow->nstep; i++) {
+        fw_json_line(out, 0);
+        FW_TRY(step(out, &flow->step[i]));
+    }
+    fw_json_end(out);
+    number(out, "total_s", flow->total_s);
+    fw_json_whole(out, "not_computable_steps", flow->not_computable);
+    if (flow->manufacturable < 0)
+        fw_json_null(out, "manufacturable");
+    else
+        fw_json_truth(out, "manufacturable", flow->manufacturable);
+    strings(out, "reasons", flow->reason, flow->nreason);
+    fw_json_list(out, "overrides");
+    for (int i = 0; i < flow->noverride; i++) {
+        const fw_process_override *o = &flow->override[i];
+        fw_json_object(out, NULL);
+        words(out, "id", o->id);
+        words(out, "was", o->was);
+        words(out, "is", o->is);
+        words(out, "source", o->source);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    number(out, "bias_m", flow->bias_m);
+    words(out, "bias_note", flow->bias_note);
+    edges(flow, out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}
+
+/* ---- the schedule ---- */
+
+static void tasks(fw_json *out, const fw_schedule *s) {
+    const fw_schedule_shop *shop = s->shop;
+    fw_json_list(out, "steps");
+    for (int i = 0; i < shop->ntask; i++) {
+        const fw_schedule_task *t = &shop->task[i];
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        words(out, "id", t->id);
+        words(out, "equipment", shop->machine[t->machine].id);
+        fw_json_number(out, "duration_s", t->duration_s, FW_PLAIN_DIGITS);
+        fw_json_number(out, "attended_s", t->attended_s, FW_PLAIN_DIGITS);
+        fw_json_whole(out, "load", t->load);
+        words(out, "time", t->unknown ? "unknown" : t->stated ? "planned" : "computed");
+        bool last = i + 1 == shop->ntask, known = s->pause_s && !last;
+        fw_json_number(out, "longest_pause_s", known ? fmax(0.0, s->pause_s[i]) : (double)INFINITY,
+                       FW_PLAIN_DIGITS);
+        fw_json_truth(out, "safe_stop", s->pause_s && isinf(s->pause_s[i]));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void holds(fw_json *out, const fw_schedule_shop *shop) {
+    fw_json_list(out, "holds");
+    for (int i = 0; i < shop->nhold; i++) {
+        const fw_schedule_hold *h = &shop->hold[i];
+        fw_json_object(out, NULL);
+        words(out, "from", shop->task[h->from].id);
+        words(out, "to", shop->task[h->to].id);
+        fw_json_number(out, "min_s", h->min_s, FW_PLAIN_DIGITS);
+        fw_json_number(out, "max_s", h->max_s, FW_PLAIN_DIGITS);
+        fw_json_truth(out, "implied", h->implied);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void runs(fw_json *out, const fw_schedule *s) {
+    fw_json_list(out, "runs");
+    for (int i = 0; i < s->nrun; i++) {
+        const fw_schedule_run *r = &s->run[i];
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        words(out, "step", s->shop->task[r->task].id);
+        fw_json_whole(out, "first_wafer", r->first + 1);
+        fw_json_whole(out, "wafers", r->count);
+        fw_json_number(out, "start_s", r->start_s, FW_PLAIN_DIGITS);
+        fw_json_number(out, "end_s", r->end_s, FW_PLAIN_DIGITS);
+        if (r->operator_ >= 0)
+            fw_json_whole(out, "operator", r->operator_ + 1);
+        else
+            fw_json_null(out, "operator");
+        words(out, "waits_for", fw_schedule_wait_text(r->waits_for));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_recipe_header *header,
+                                        fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    const fw_schedule *s = header->schedule;
+    const fw_schedule_shop *shop = s->shop;
+    fw_json_object(out, NULL);
+    words(out, "schema", "flexwright.schedule/1");
+    words(out, "flow", flow->id);
+    words(out, "device", header->device);
+    fw_json_truth(out, "rejected", header->rejected);
+    fw_json_whole(out, "wafers", shop->wafers);
+    fw_json_whole(out, "operators", shop->operators);
+    fw_json_number(out, "day_open_s", shop->calendar.open_s, FW_PLAIN_DIGITS);
+    fw_json_number(out, "day_close_s", shop->calendar.close_s, FW_PLAIN_DIGITS);
+    fw_json_truth(out, "weekends", shop->calendar.weekends);
+    fw_json_truth(out, "feasible", s->feasible);
+    words(out, "why", s->why);
+    words(out, "at_stop_times", s->late);
+    fw_json_number(out, "makespan_s", s->feasible ? s->makespan_s : (double)INFINITY,
+                   FW_PLAIN_DIGITS);
+    fw_json_number(out, "lower_bound_s", s->feasible ? s->bound.best_s : (double)INFINITY,
+                   FW_PLAIN_DIGITS);
+    fw_json_object(out, "bounds");
+    fw_json_number(out, "one_wafer_s", s->bound.path_s, FW_PLAIN_DIGITS);
+    fw_json_number(out, "machine_s", s->bound.machine_s, FW_PLAIN_DIGITS);
+    words(out, "machine", shop->nmachine ? shop->machine[s->bound.machine].id : "");
+    fw_json_number(out, "operators_s", s->bound.operator_s, FW_PLAIN_DIGITS);
+    fw_json_end(out);
+    fw_json_number(out, "gap", s->feasible ? s->gap : (double)INFINITY, FW_PLAIN_DIGITS);
+    fw_json_truth(out, "optimal", s->optimal);
+    words(out, "found_by", s->rule);
+    fw_json_whole(out, "unknown_steps", s->unknown);
+    tasks(out, s);
+    holds(out, shop);
+    runs(out, s);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}
+
+/* ---- sections ---- */
+
+static void point(fw_json *out, const char *key, double x_m, double y_m) {
+    fw_json_list(out, key);
+    number(out, NULL, x_m);
+    number(out, NULL, y_m);
+    fw_json_end(out);
+}
+
+static void cut(const fw_recipe_cut *c, const fw_recipe_section_scale *scale, fw_json *out) {
+    fw_json_object(out, "cut");
+    words(out, "name", c->name);
+    point(out, "from_m", c->line.at.x, c->line.at.y);
+    point(out, "to_m", c->line.at.x + c->length_m * c->line.along.x,
+          c->line.at.y + c->length_m * c->line.along.y);
+    number(out, "length_m", c->length_m);
+    number(out, "exaggeration", scale->exaggeration);
+    fw_json_end(out);
+}
+
+static void along(const fw_recipe_section_plan *plan, fw_json *out) {
+    fw_json_line(out, 0);
+    fw_json_list(out, "parts");
+    for (int i = 0; i < plan->npart; i++) {
+        fw_json_object(out, NULL);
+        words(out, "label", plan->part[i].label);
+        number(out, "from_m", plan->part[i].from_m);
+        number(out, "to_m", plan->part[i].to_m);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "openings");
+    for (int i = 0; i < plan->nopening; i++) {
+        const fw_recipe_section_opening *o = &plan->opening[i];
+        fw_json_object(out, NULL);
+        number(out, "from_m", o->from_m);
+        number(out, "to_m", o->to_m);
+        number(out, "drawn_m", o->drawn_m);
+        number(out, "mask_m", o->mask_m);
+        number(out, "top_m", o->top_m);
+        number(out, "bottom_m", o->bottom_m);
+        number(out, "depth_m", o->depth_m);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void area(const fw_recipe_patch *p, fw_json *out) {
+    fw_json_list(out, NULL);
+    point(out, NULL, p->low_m[0], p->bottom_m);
+    point(out, NULL, p->low_m[1], p->bottom_m);
+    point(out, NULL, p->high_m[1], p->top_m);
+    point(out, NULL, p->high_m[0], p->top_m);
+    fw_json_end(out);
+}
+
+/* patches of one film follow each other */
+static void films(const fw_recipe_cross_section *p, fw_json *out) {
+    fw_json_list(out, "films");
+    for (int i = 0; i < p->n;) {
+        const fw_process_film *f = p->patch[i].film;
+        if (i > 0) fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        words(out, "material", f->material);
+        number(out, "thickness_m", f->thickness_m);
+        fw_json_truth(out, "shortened", f->shortened);
+        fw_json_truth(out, "exposed", f->exposed);
+        fw_json_list(out, "areas_m");
+        for (; i < p->n && p->patch[i].film == f; i++)
+            area(&p->patch[i], out);
+        fw_json_end(out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static fw_status section(fw_recipe_slicer *slicer, const fw_process_flow *flow, int index,
+                         fw_json *out) {
+    const fw_process_step *s = &flow->step[index];
+    fw_recipe_cross_section p;
+    fw_json_object(out, NULL);
+    words(out, "id", s->id);
+    words(out, "title", s->title);
+    fw_json_truth(out, "changes", fw_process_step_changes(s));
+    if (fw_process_step_changes(s)) { /* else as before */
+        FW_TRY(fw_recipe_cross_section_of(slicer, flow, index, &p));
+        films(&p, out);
+        fw_json_list(out, "notes");
+        for (int i = 0; i < p.films.nnote; i++)
+            words(out, NULL, p.films.note[i]);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    return FW_OK;
+}
+
+fw_status fw_recipe_write_sections_json(const fw_process_flow *flow, const fw_recipe_header *header,
+                                        fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_recipe_slicer slicer;
+    fw_recipe_section_scale scale;
+    fw_recipe_section_plan plan;
+    FW_TRY(fw_recipe_slicer_start(text->arena, header->mask, header->cut, &slicer));
+    FW_TRY(fw_recipe_section_scale_of(text->arena, flow, header->cut, &scale));
+    FW_TRY(fw_recipe_section_plan_of(&slicer, flow, &plan));
+    fw_json_object(out, NULL);
+    words(out, "schema", "flexwright.sections/1");
+    words(out, "flow", flow->id);
+    words(out, "device", header->device);
+    fw_json_truth(out, "rejected", header->rejected);
+    if (header->rejected) words(out, "banner", "REJECTED");
+    cut(header->cut, &scale, out);
+    along(&plan, out);
+    fw_json_line(out, 0);
+    fw_json_list(out, "steps");
+    for (int i = 0; i < flow->nstep; i++) {
+        fw_json_line(out, 0);
+        FW_TRY(section(&slicer, flow, i, out));
+    }
+    fw_json_end(out);
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}

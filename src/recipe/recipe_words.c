@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "recipe/recipe_words.h"
+#include <math.h>
+#include <string.h>
+
+static bool listed(const fw_recipe_row *row, int n, const fw_quantity *q) {
+    for (int i = 0; i < n; i++)
+        if (row[i].q == q) return true;
+    return false;
+}
+
+static const char *in_words(fw_arena *arena, const char *name) {
+    char *words = fw_arena_strdup(arena, name);
+    for (char *c = words; c && *c; c++)
+        if (*c == '_') *c = ' ';
+    return words;
+}
+
+fw_status fw_recipe_step_rows(fw_arena *arena, const fw_process_step *s, fw_recipe_row **row,
+                              int *n) {
+    size_t most = (size_t)(s->nsetting + s->nargument + s->nneed + s->nderived);
+    FW_NEED(*row = fw_arena_array(arena, fw_recipe_row, most));
+    *n = 0;
+    for (int i = 0; i < s->nsetting; i++)
+        (*row)[(*n)++] = (fw_recipe_row){s->setting[i].name, s->setting[i].tolerance_low,
+                                         s->setting[i].tolerance_high, s->setting[i].q, false};
+    for (int i = 0; i < s->nargument + s->nneed; i++) {
+        const fw_process_argument *a =
+            i < s->nargument ? &s->argument[i] : &s->need[i - s->nargument];
+        if (listed(*row, *n, a->q)) continue;
+        const char *name = in_words(arena, a->name);
+        FW_NEED(name);
+        (*row)[(*n)++] = (fw_recipe_row){name, "", "", a->q, false};
+    }
+    for (int i = 0; i < s->nderived; i++)
+        (*row)[(*n)++] = (fw_recipe_row){s->derived[i]->id, "", "", s->derived[i], true};
+    return FW_OK;
+}
+
+double fw_recipe_row_uncertainty(const fw_quantity *q) {
+    fw_quantity_unit unit;
+    if (!q->unit || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+        return q->uncertainty;
+    unit.offset = 0.0; /* a width has no zero point */
+    return fw_quantity_unit_from_si(&unit, q->uncertainty);
+}
+
+void fw_recipe_put_plain(fw_text *out, double value) {
+    fw_text_number(out, value, FW_PLAIN_DIGITS);
+}
+
+void fw_recipe_put_uncertainty(fw_text *out, double value) {
+    fw_text_number(out, value, FW_UNCERTAINTY_DIGITS);
+}
+
+void fw_recipe_put_value(fw_text *out, double value) {
+    double size = fabs(value);
+    if (size >= 1e5 && size < 1e7 && floor(size) == size)
+        fw_text_number(out, value, FW_UNCERTAINTY_DIGITS);
+    else
+        fw_text_number(out, value, size >= 100.0 && size < 1e6 ? 6 : 4);
+}
+
+static const struct {
+    const char *from, *to;
+} symbols[] = {{"um", "µm"},   {"Cel", "°C"}, {"Ao", "Å"},        {"ohm", "Ω"},   {"kohm", "kΩ"},
+               {"Mohm", "MΩ"}, {"uN", "µN"},  {"{sccm}", "sccm"}, {"cm2", "cm²"}, {"cm3", "cm³"},
+               {"m2", "m²"},   {"m3", "m³"},  {"cm-2", "cm⁻²"},   {"mm2", "mm²"}};
+
+static void put_symbol(fw_text *out, const char *s, size_t n) {
+    for (size_t i = 0; i < sizeof symbols / sizeof symbols[0]; i++)
+        if (strlen(symbols[i].from) == n && memcmp(symbols[i].from, s, n) == 0) {
+            fw_text_add(out, symbols[i].to);
+            return;
+        }
+    for (size_t i = 0; i < n; i++) {
+        char one[2] = {s[i], '\0'};
+        fw_text_escaped(out, one);
+    }
+}
+
+void fw_recipe_put_unit(fw_text *out, const char *unit) {
+    if (strcmp(unit, "1") == 0) return;
+    while (*unit) {
+        size_t n = strcspn(unit, " /.*");
+        put_symbol(out, unit, n);
+        unit += n;
+        if (*unit) {
+            fw_text_bytes(out, unit, 1);
+            unit++;
+        }
+    }
+}
+
+const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time) {
+    fw_text list = fw_text_new(arena);
+    fw_text_add(&list, "");
+    for (int i = 0; i < time->nmissing; i++) {
+        fw_text_add(&list, i ? ", " : "");
+        fw_text_add(&list, time->missing[i]);
+    }
+    return fw_text_end(&list) == FW_OK ? list.data : NULL;
+}
+
+void fw_recipe_put_moment(fw_text *out, double seconds) {
+    long minutes = lround(seconds / 60.0);
+    fw_text_printf(out, "day %ld, %02ld:%02ld", minutes / 1440 + 1, minutes / 60 % 24,
+                   minutes % 60);
+}
+
+void fw_recipe_put_wafers(fw_text *out, const fw_schedule_run *run) {
+    fw_text_printf(out, "%d", run->first + 1);
+    if (run->count > 1) fw_text_printf(out, "-%d", run->first + run->count);
+}
+
+static void put_day(fw_text *out, const fw_schedule_calendar *c) {
+    if (fw_schedule_calendar_round(c)) {
+        fw_text_add(out, "round the clock");
+        return;
+    }
+    long open = lround(c->open_s / 60.0), close = lround(c->close_s / 60.0);
+    fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld, Monday to Friday", open / 60, open % 60,
+                   close / 60, close % 60);
+}
+
+static void put_percent(fw_text *out, double part) {
+    char text[32];
+    fw_text_printf(out, "%s %%", fw_percent_text(text, sizeof text, part));
+}
+
+/* the steps whose time is not known, or is the user's own */
+static void put_steps(fw_text *out, const fw_schedule_shop *shop, bool stated) {
+    int n = 0;
+    for (int i = 0; i < shop->ntask; i++)
+        if (stated ? shop->task[i].stated : shop->task[i].unknown) {
+            fw_text_add(out, n++ ? ", " : "");
+            fw_text_escaped(out, shop->task[i].id);
+        }
+}
+
+static const char *bound_words(const fw_schedule *s) {
+    const fw_schedule_bound *b = &s->bound;
+    if (b->best_s <= b->path_s) return "one wafer alone, with its holds and the working day";
+    return b->best_s <= b->machine_s ? s->shop->machine[b->machine].title
+                                     : "everything that somebody must stand by";
+}
+
+void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
+    const fw_schedule_shop *shop = s->shop;
+    int stated = 0;
+    for (int i = 0; i < shop->ntask; i++)
+        stated += shop->task[i].stated;
+    fw_text_printf(out, "%d wafer%s, %d operator%s, ", shop->wafers, shop->wafers > 1 ? "s" : "",
+                   shop->operators, shop->operators > 1 ? "s" : "");
+    put_day(out, &shop->calendar);
+    if (!s->feasible) {
+        fw_text_add(out, ": there is no schedule. ");
+        fw_text_escaped(out, s->why ? s->why : "");
+        fw_text_add(out, ".");
+        return;
+    }
+    fw_text_printf(out, ": %s", s->unknown ? "at least " : "");
+    fw_schedule_put_duration(out, s->makespan_s);
+    fw_text_add(out, ", until ");
+    fw_recipe_put_moment(out, s->start_s + s->makespan_s);
+    fw_text_add(out, ". No schedule is shorter than ");
+    fw_schedule_put_duration(out, s->bound.best_s);
+    fw_text_add(out, " (");
+    fw_text_escaped(out, bound_words(s));
+    if (s->optimal)
+        fw_text_add(out, "): this one is shortest.");
+    else {
+        fw_text_add(out, "); this one is ");
+        put_percent(out, s->gap);
+        fw_text_add(out, " above that.");
+    }
+    if (s->unknown) {
+        fw_text_add(out, " The times of ");
+        put_steps(out, shop, false);
+        fw_text_add(out, " are not known: they are counted with the time that somebody must stand "
+                         "by, and nothing more.");
+    }
+    if (stated) {
+        fw_text_add(out, " The times of ");
+        put_steps(out, shop, true);
+        fw_text_add(out, " are planning times of the user.");
+    }
+    if (s->late) {
+        fw_text_add(out, " When every step runs to its stop time: ");
+        fw_text_escaped(out, s->late);
+        fw_text_add(out, ".");
+    }
+}
+
+void fw_recipe_put_stops(fw_text *out, const fw_schedule *s) {
+    const fw_schedule_shop *shop = s->shop;
+    const double night_s = 86400.0 - (shop->calendar.close_s - shop->calendar.open_s);
+    int started = 0;
+    if (!s->pause_s) return;
+    for (int kind = 0; kind < 3; kind++) {
+        static const char *const head[] = {"for any time after ",
+                                           "over night, for so long at most: ", "never between "};
+        int n = 0;
+        for (int i = 0; i + 1 < shop->ntask; i++) {
+            double pause = s->pause_s[i];
+            bool company = shop->task[i].by_day && shop->task[i + 1].by_day;
+            int is = company ? 2 : pause >= 1e15 ? 0 : pause >= fmax(night_s, 8.0 * 3600.0) ? 1 : 2;
+            if (is != kind) continue;
+            fw_text_add(out, n++ ? ", " : started++ ? "; " : "");
+            fw_text_add(out, n > 1 ? "" : head[kind]);
+            fw_text_escaped(out, shop->task[i].id);
+            if (kind == 2) {
+                fw_text_add(out, " and ");
+                fw_text_escaped(out, shop->task[i + 1].id);
+            }
+            if (kind == 0) continue;
+            if (company) {
+                fw_text_add(out, " (not alone, the same day)");
+                continue;
+            }
+            fw_text_add(out, " (");
+            fw_schedule_put_duration(out, fmax(0.0, pause));
+            fw_text_add(out, ")");
+        }
+    }
+}
+
+void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
+    const fw_schedule *s = header->schedule;
+    if (!s) return;
+    fw_text_add(out, "<h3>Schedule</h3>\n<p class=\"small\">");
+    fw_recipe_put_schedule_summary(out, s);
+    fw_text_add(out, "</p>\n");
+    if (!s->pause_s) return;
+    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where no hold window of the "
+                     "process file is running: ");
+    fw_recipe_put_stops(out, s);
+    fw_text_add(out, " (longest pause that the windows allow).</p>\n");
+    if (!s->feasible) return;
+    fw_text_add(out, "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end "
+                     "(operator)</th></tr></thead><tbody>\n");
+    for (int i = 0; i < s->shop->ntask; i++) {
+        int n = 0;
+        fw_text_add(out, "<tr><td class=\"id\">");
+        fw_text_escaped(out, s->shop->task[i].id);
+        fw_text_add(out, s->shop->task[i].unknown ? " (time unknown)</td><td>" : "</td><td>");
+        for (int k = 0; k < s->nrun; k++) {
+            const fw_schedule_run *r = &s->run[k];
+            if (r->task != i) continue;
+            fw_text_add(out, n++ ? "; " : "");
+            fw_recipe_put_wafers(out, r);
+            fw_text_add(out, ": ");
+            fw_recipe_put_moment(out, r->start_s);
+            fw_text_add(out, " to ");
+            fw_recipe_put_moment(out, r->end_s);
+            if (r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
+        }
+        fw_text_add(out, "</td></tr>\n");
+    }
+    fw_text_add(out, "</tbody></table>\n");
+}

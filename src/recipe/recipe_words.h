@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers and names as the run sheet prints them; private to recipe/. */
+#ifndef FW_RECIPE_RECIPE_WORDS_H
+#define FW_RECIPE_RECIPE_WORDS_H
+#include "recipe/recipe.h"
+#include "schedule/schedule_words.h"
+
+/* a row of a step: a setting, an input of the time law or a derived value */
+typedef struct fw_recipe_row {
+    const char *name, *low, *high; /* tolerances as written, "" = none */
+    const fw_quantity *q;
+    bool derived;
+} fw_recipe_row;
+
+/* every quantity of a step once: settings, then inputs that are no setting, then derived ones */
+fw_status fw_recipe_step_rows(fw_arena *arena, const fw_process_step *step, fw_recipe_row **row,
+                              int *n);
+
+/* standard uncertainty in the quantity's own unit */
+double fw_recipe_row_uncertainty(const fw_quantity *q);
+/* shortest text of at most 12 digits: what arithmetic adds beyond them is no information. An
+   uncertainty gets 9, since slopes by central difference hold about 1e-10. */
+enum { FW_PLAIN_DIGITS = 12, FW_UNCERTAINTY_DIGITS = 9 };
+void fw_recipe_put_plain(fw_text *out, double value);
+void fw_recipe_put_uncertainty(fw_text *out, double value);
+void fw_recipe_put_value(fw_text *out, double value); /* up to 6 significant digits */
+/* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
+void fw_recipe_put_unit(fw_text *out, const char *unit);
+const char *fw_recipe_missing_list(fw_arena *arena,
+                                   const fw_process_time *time); /* NULL: no memory */
+
+void fw_recipe_put_csv(fw_text *out, const char *text);              /* quoted where needed */
+void fw_recipe_put_moment(fw_text *out, double seconds);             /* "day 2, 13:05" */
+void fw_recipe_put_wafers(fw_text *out, const fw_schedule_run *run); /* "3" or "1-6" */
+/* sentences about a schedule: how long, how good, what is not known; escaped for XML and HTML */
+void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s);
+/* "safe stopping points" of the flow, with the longest pause at each; escaped */
+void fw_recipe_put_stops(fw_text *out, const fw_schedule *s);
+/* the table of values that a laboratory replaced; nothing without */
+void fw_recipe_html_overrides(const fw_process_flow *flow, fw_text *out);
+/* the section about it in the run sheet; nothing without a schedule */
+void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out);
+
+/* one step of the run sheet; slicer NULL: nothing is cut, its layers are drawn not to scale */
+struct fw_recipe_slicer;
+struct fw_recipe_section_scale;
+/* what is made: the block behind the cut, the parts and openings along it */
+fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_header *header,
+                                  struct fw_recipe_slicer *slicer,
+                                  const struct fw_recipe_section_scale *scale, fw_text *out);
+void fw_recipe_html_step(const fw_process_flow *flow, int index, struct fw_recipe_slicer *slicer,
+                         const struct fw_recipe_section_scale *scale, fw_text *out);
+/* "[3]": number of the source in the list at the end; other text as it is */
+void fw_recipe_html_source(const fw_process_flow *flow, const char *source, fw_text *out);
+
+#endif

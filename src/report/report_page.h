@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inside the report room: colours, drawing in picture coordinates, sections of the page. */
+#ifndef FW_REPORT_REPORT_PAGE_H
+#define FW_REPORT_REPORT_PAGE_H
+#include "base/svg.h"
+#include "report/report.h"
+
+extern const char fw_report_style[];  /* style sheet of the page */
+extern const char fw_report_script[]; /* its player */
+
+/* ---- drawing.c: colours; Okabe and Ito's, which colour-blind readers tell apart ---- */
+typedef struct fw_report_class {
+    double below; /* utilisation */
+    const char *colour, *label;
+} fw_report_class;
+enum { FW_REPORT_CLASSES = 5 };
+extern const fw_report_class fw_report_classes[FW_REPORT_CLASSES]; /* last: no limit known */
+const char *fw_report_utilisation_colour(double utilisation);
+const char *fw_report_decision_colour(fw_verdict_decision decision);
+/* "REJECTED: " in front of the titles of files that may travel alone, else ""; NULL allowed */
+const char *fw_report_rejected(const fw_verdict *verdict);
+const char *fw_report_decision_word(fw_verdict_decision decision); /* "ACCEPT" ... */
+/* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
+const char *fw_report_layer_colour(const char *colour, int index);
+
+/* ---- drawing.c: from the plane to picture coordinates, y down ---- */
+typedef struct fw_report_view {
+    double x0_m, y1_m, scale; /* pixel per m */
+    double width, height;
+} fw_report_view;
+fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_m);
+double fw_report_x(const fw_report_view *view, double x_m);
+double fw_report_y(const fw_report_view *view, double y_m);
+void fw_report_path(fw_text *out, const fw_report_view *view, const fw_geometry_contour *contour);
+fw_geometry_box fw_report_box_empty(void);
+void fw_report_box_add(fw_geometry_box *box, double x_m, double y_m);
+/* what the pictures show: the mechanism at rest and, with `reach`, where its hinges get to */
+fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
+                                     const fw_geometry_box *reach, double width);
+/* hinge point of a joint in the drawn position */
+fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
+bool fw_report_drawn(const fw_layout *layout);
+bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a shape of its own */
+/* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
+double fw_report_scale_bar(const fw_report_view *view);
+void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
+
+/* ---- film.c: bodies and bending flexures at an instant ---- */
+typedef struct fw_report_bend_point {
+    double x_m, y_m;
+    double weight; /* share of the upper body's turn about the hinge point with which it goes */
+} fw_report_bend_point;
+typedef struct fw_report_bend {
+    const fw_layout_piece *piece;
+    fw_geometry_vec2 centre; /* hinge point */
+    int lower, upper;        /* bodies */
+    int joint;
+    fw_report_bend_point *point; /* (npoint) closed outline */
+    int npoint;
+} fw_report_bend;
+typedef struct fw_report_bends {
+    fw_report_bend *item; /* (count) */
+    int count;
+} fw_report_bends;
+fw_status fw_report_bends_make(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               fw_report_bends *bends);
+/* pose of a body between the samples; ground rests at zero. pose: x, y (m), angle (rad) */
+void fw_report_pose_at(const fw_dynamics_motion *motion, int body, double t_s, double pose[3]);
+/* where the point (x, y) of the drawn position is when `body` has moved to its pose at t */
+fw_geometry_vec2 fw_report_moved(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                 int body, double t_s, fw_geometry_vec2 drawn);
+fw_geometry_vec2 fw_report_bent(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                const fw_report_bend *bend, double t_s, fw_report_bend_point point);
+/* adds where the hinge points of all bodies get to */
+void fw_report_reach_add(fw_geometry_box *box, const fw_device *device, const fw_layout *layout,
+                         const fw_mechanism *mechanism, const fw_dynamics_motion *motion);
+/* largest peak over limit of the scene, its instant; pin FW_NONE when nothing is limited */
+typedef struct fw_report_worst {
+    int pin;
+    double utilisation, t_s;
+} fw_report_worst;
+fw_report_worst fw_report_motion_worst(const fw_mechanism *mechanism,
+                                       const fw_dynamics_motion *motion);
+double fw_report_pin_limit(const fw_mechanism *mechanism, int pin); /* rad; NaN: none */
+
+/* ---- film.c: a mechanism that moves ---- */
+typedef struct fw_report_film {
+    const fw_device *device;
+    const fw_layout *layout; /* NULL or not drawn: bodies as lines between their joints */
+    const fw_mechanism *mechanism;
+    const fw_dynamics_motion *motion; /* from its first to its last sample */
+    const fw_report_view *view;
+    fw_text *out;
+    int frames;     /* key frames, more where bodies turn far; 0: a still picture */
+    int seconds;    /* time to play */
+    double still_s; /* instant that viewers without animation show */
+    bool ghost;     /* the first sample too, dashed */
+    bool small;     /* for small pictures */
+} fw_report_film;
+/* everything that belongs into the <svg> except caption and scale bar */
+fw_status fw_report_film_draw(fw_arena *arena, const fw_report_film *film);
+/* `count` poses q (count x 3 nbody) as a motion from t = 0 to 1 */
+fw_status fw_report_poses(fw_arena *arena, const fw_mechanism *mechanism, int count, double *q,
+                          fw_dynamics_motion *motion);
+/* adds where everything gets to */
+fw_status fw_report_poses_reach(fw_arena *arena, fw_geometry_box *box, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_dynamics_motion *motion);
+/* a view of that; where the device is drawn, of the whole of it too */
+fw_report_view fw_report_poses_view(const fw_device *device, const fw_layout *layout,
+                                    const fw_geometry_box *reach, double width);
+
+/* ---- plot.c: hinge angles against time ---- */
+/* at most `most` indices that keep the first, the last and every extreme; returns how many */
+int fw_report_decimate(const double *y, int stride, int count, int most, int *index);
+
+/* one panel per pin; at most FW_REPORT_PANELS of them, the most used ones */
+enum { FW_REPORT_PANELS = 12, FW_REPORT_CURVE = 400 };
+typedef struct fw_report_figure {
+    int columns, curve_points;
+    bool standalone; /* a file of its own: with a heading */
+    const char *title;
+} fw_report_figure;
+fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_dynamics_motion *motion, const fw_report_figure *figure,
+                           fw_text *out);
+
+/* ---- drawing.c: the device ---- */
+/* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
+fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
+                            const fw_verdict *verdict, const fw_report_view *view, bool ids,
+                            fw_text *out);
+/* path of all rigid pieces of a body */
+void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
+                         fw_text *out);
+double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
+
+/* ---- report_actuators.c ---- */
+typedef struct fw_report_canvas { /* where shapes are drawn; coordinates of the picture */
+    /* through n points xy (2 n), closed and filled where `fill` is not NULL */
+    void (*path)(void *to, const double *xy, int n, const char *fill, const char *ink, double width,
+                 bool dashed);
+    void (*circle)(void *to, double x, double y, double r, const char *fill, const char *ink,
+                   double width);
+    void (*label)(void *to, double x, double y, const char *text); /* NULL: without names */
+    void *to;
+    double px; /* what a pixel of the usual picture of 640 is here */
+} fw_report_canvas;
+/* tendons and electrodes of all scenes, over the drawing */
+void fw_report_actuators(const fw_device *device, const fw_layout *layout,
+                         const fw_report_view *view, const fw_report_canvas *canvas);
+void fw_report_actuators_svg(const fw_device *device, const fw_layout *layout,
+                             const fw_report_view *view, fw_text *out);
+/* adds where tendons and electrodes lead */
+void fw_report_actuators_reach(const fw_device *device, const fw_layout *layout,
+                               fw_geometry_box *box);
+
+/* ---- sections of the page ---- */
+typedef struct fw_report_page {
+    fw_arena *arena;
+    fw_text *out;
+    const fw_report_input *in;
+    fw_report_view view; /* of the drawing and of all animations */
+    int nmotion;         /* motions in the whole page */
+} fw_report_page;
+void fw_report_banner(fw_report_page *page);
+void fw_report_advice(fw_report_page *page);
+void fw_report_mechanics(
+    fw_report_page *page); /* masses, stiffnesses, dampings as used, per flow */
+fw_status fw_report_section_device(fw_report_page *page);
+fw_status fw_report_section_hinges(fw_report_page *page);
+fw_status fw_report_section_fabricated(fw_report_page *page);
+fw_status fw_report_section_motion(fw_report_page *page);
+fw_status fw_report_section_workspace(fw_report_page *page);
+fw_status fw_report_section_flows(fw_report_page *page);
+fw_status fw_report_section_masks(fw_report_page *page);
+void fw_report_findings(fw_text *out, const fw_mask *mask); /* what breaks design rules, a table */
+fw_status fw_report_section_recipes(fw_report_page *page);
+fw_status fw_report_section_effects(fw_report_page *page);
+fw_status fw_report_section_accuracy(fw_report_page *page);
+fw_status fw_report_section_assumptions(fw_report_page *page);
+fw_status fw_report_section_messages(fw_report_page *page);
+/* hinges.c: table of the hinges by every model, and their picture; nothing without hinges */
+fw_status fw_report_ladder(fw_report_page *page);
+/* hinges.c: the same picture as an element of the page */
+fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                                   fw_text *out);
+/* table of hinge verdicts; `with_flow` adds the column */
+void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, int nhinge,
+                           bool with_flow, const char *caption);
+/* player of one motion: still picture at the worst instant, controls, data for the script */
+fw_status fw_report_player(fw_report_page *page, const fw_verdict_variant_verdict *variant,
+                           int scene, int number);
+#endif

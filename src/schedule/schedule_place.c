@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Serial schedule generation with windows: runs are placed one after the other at their earliest
+   feasible start, also into gaps. Where a longest time is broken, the run that opened the window is
+   shifted by what is missing and what follows is placed again (the unscheduling step of Neumann,
+   Schwindt, Zimmermann, Project Scheduling with Time Windows and Scarce Resources, 2003, 2.6). */
+#include "schedule/place.h"
+#include "schedule/line.h"
+#include <math.h>
+#include <string.h>
+
+static const double tiny_s = 1e-6, horizon_s = 400.0 * 86400.0;
+enum { MOST_SHIFTS = 400, MOST_RESTARTS = 25 };
+
+typedef enum answer { PLACED, LATE, FAILED } answer;
+
+static int at(const fw_schedule_placing *p, int task, int wafer) {
+    return task * p->shop->wafers + wafer;
+}
+
+static fw_status new_line(fw_arena *arena, size_t most, int places, fw_schedule_line *line) {
+    *line = (fw_schedule_line){.places = places};
+    FW_NEED(line->start_s = fw_arena_array(arena, double, most));
+    FW_NEED(line->end_s = fw_arena_array(arena, double, most));
+    return FW_OK;
+}
+
+fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
+                                  fw_schedule_placing *p) {
+    size_t all = (size_t)shop->ntask * (size_t)shop->wafers;
+    *p = (fw_schedule_placing){.shop = shop, .start_s = shop->calendar.open_s, .tie_s = FW_TIE_S};
+    FW_NEED(p->load = fw_arena_array(arena, int, (size_t)shop->ntask));
+    FW_NEED(p->priority = fw_arena_array(arena, double, all));
+    FW_NEED(p->release_s = fw_arena_array(arena, double, all));
+    FW_NEED(p->begin_s = fw_arena_array(arena, double, all));
+    FW_NEED(p->finish_s = fw_arena_array(arena, double, all));
+    FW_NEED(p->unit = fw_arena_array(arena, fw_schedule_group, all));
+    FW_NEED(p->run = fw_arena_array(arena, fw_schedule_run, all));
+    FW_NEED(p->next = fw_arena_array(arena, int, (size_t)shop->wafers));
+    FW_NEED(p->machine = fw_arena_array(arena, fw_schedule_line, (size_t)shop->nmachine));
+    for (int m = 0; m < shop->nmachine; m++) {
+        size_t most = 0;
+        for (int i = 0; i < shop->ntask; i++)
+            most += shop->task[i].machine == m ? (size_t)shop->wafers : 0;
+        FW_TRY(new_line(arena, most, shop->machine[m].places, &p->machine[m]));
+    }
+    FW_TRY(new_line(arena, all, shop->operators, &p->people));
+    for (int i = 0; i < shop->ntask; i++)
+        p->load[i] = shop->task[i].load;
+    return FW_OK;
+}
+
+/* last task of the block that starts with `from` */
+static int block_end(const fw_schedule_shop *shop, int from, double tie_s) {
+    int to = from;
+    for (bool grown = true; grown;) {
+        grown = false;
+        for (int i = 0; i < shop->nhold; i++) {
+            const fw_schedule_hold *h = &shop->hold[i];
+            if (h->max_s > tie_s || isinf(h->max_s) || h->from > to || h->to <= to ||
+                h->from < from)
+                continue;
+            to = h->to;
+            grown = true;
+        }
+    }
+    return to;
+}
+
+static void make_units(fw_schedule_placing *p) {
+    const fw_schedule_shop *shop = p->shop;
+    p->nunit = 0;
+    for (int from = 0; from < shop->ntask;) {
+        int to = block_end(shop, from, p->tie_s), group = 1;
+        for (int i = from; i <= to; i++)
+            group = p->load[i] > group ? p->load[i] : group;
+        for (int w = 0; w < shop->wafers; w += group) {
+            int count = shop->wafers - w < group ? shop->wafers - w : group;
+            p->unit[p->nunit++] = (fw_schedule_group){from, to, w, count, false};
+        }
+        from = to + 1;
+    }
+}
+
+/* earliest start of a run for what was placed so far, and what it waited for last */
+static double earliest(const fw_schedule_placing *p, int task, int first, int count,
+                       fw_schedule_wait *why) {
+    const fw_schedule_shop *shop = p->shop;
+    const fw_schedule_task *t = &shop->task[task];
+    double start = p->start_s, there = t->by_day ? t->duration_s : t->attended_s;
+    *why = FW_WAIT_NOTHING;
+    for (int w = first; w < first + count; w++) {
+        double ready = task > 0 ? p->finish_s[at(p, task - 1, w)] : p->start_s;
+        for (int k = 0; k < shop->nhold; k++)
+            if (shop->hold[k].to == task && shop->hold[k].min_s > 0.0)
+                ready =
+                    fmax(ready, p->finish_s[at(p, shop->hold[k].from, w)] + shop->hold[k].min_s);
+        if (ready > start + tiny_s) start = ready, *why = FW_WAIT_FLOW;
+    }
+    for (int w = first; w < first + count; w++)
+        if (p->release_s[at(p, task, w)] > start + tiny_s)
+            start = p->release_s[at(p, task, w)], *why = FW_WAIT_HOLD;
+    for (;;) {
+        double before = start, next = start;
+        if (there > 0.0) next = fw_schedule_calendar_fit(&shop->calendar, start, there);
+        if (next > start + tiny_s) start = next, *why = FW_WAIT_DAY;
+        next = fw_schedule_line_fit(&p->machine[t->machine], start, t->duration_s);
+        if (next > start + tiny_s) start = next, *why = FW_WAIT_MACHINE;
+        next = fw_schedule_line_fit(&p->people, start, t->attended_s);
+        if (next > start + tiny_s) start = next, *why = FW_WAIT_OPERATOR;
+        if (start <= before || start > p->start_s + horizon_s) return start;
+    }
+}
+
+static void place_run(fw_schedule_placing *p, int task, int first, int count) {
+    const fw_schedule_task *t = &p->shop->task[task];
+    fw_schedule_wait why;
+    double start = earliest(p, task, first, count, &why), end = start + t->duration_s;
+    p->run[p->nrun++] = (fw_schedule_run){task, first, count, start, end, -1, why};
+    for (int w = first; w < first + count; w++) {
+        p->begin_s[at(p, task, w)] = start;
+        p->finish_s[at(p, task, w)] = end;
+    }
+    fw_schedule_line_add(&p->machine[t->machine], start, end);
+    fw_schedule_line_add(&p->people, start, start + t->attended_s);
+    p->work++;
+}
+
+static void undo_to(fw_schedule_placing *p, int nrun) {
+    while (p->nrun > nrun) {
+        const fw_schedule_run *r = &p->run[--p->nrun];
+        const fw_schedule_task *t = &p->shop->task[r->task];
+        fw_schedule_line_remove(&p->machine[t->machine], r->start_s, r->end_s);
+        fw_schedule_line_remove(&p->people, r->start_s, r->start_s + t->attended_s);
+    }
+}
+
+/* pushes the opening of a broken window back; false: none is broken. Only windows that open inside
+   the unit (inside) or before it. The shift goes to all wafers of the run that opened it. */
+static bool broken(fw_schedule_placing *p, const fw_schedule_group *u, bool inside) {
+    const fw_schedule_shop *shop = p->shop;
+    bool any = false;
+    for (int k = 0; k < shop->nhold; k++) {
+        const fw_schedule_hold *h = &shop->hold[k];
+        if (h->to < u->from || h->to > u->to || (h->from >= u->from) != inside) continue;
+        for (int w = u->first; w < u->first + u->count; w++) {
+            double over = p->begin_s[at(p, h->to, w)] - p->finish_s[at(p, h->from, w)] - h->max_s;
+            if (!(over > tiny_s)) continue;
+            double begin = p->begin_s[at(p, h->from, w)] + over;
+            p->release_s[at(p, h->from, w)] = fmax(begin, p->release_s[at(p, h->from, w)]);
+            any = true;
+        }
+    }
+    return any;
+}
+
+static answer place_unit(fw_schedule_placing *p, fw_schedule_group *u) {
+    int before = p->nrun;
+    for (int shift = 0; shift < MOST_SHIFTS; shift++) {
+        for (int task = u->from; task <= u->to; task++)
+            for (int w = 0; w < u->count; w += p->load[task]) {
+                int left = u->count - w;
+                place_run(p, task, u->first + w, left < p->load[task] ? left : p->load[task]);
+            }
+        if (p->run[p->nrun - 1].start_s > p->start_s + horizon_s) break;
+        if (!broken(p, u, true)) {
+            u->placed = true;
+            for (int w = u->first; w < u->first + u->count; w++)
+                p->next[w] = u->to + 1;
+            return broken(p, u, false) ? LATE : PLACED;
+        }
+        undo_to(p, before);
+    }
+    undo_to(p, before);
+    return FAILED;
+}
+
+static bool ready(const fw_schedule_placing *p, const fw_schedule_group *u) {
+    for (int w = u->first; w < u->first + u->count; w++)
+        if (p->next[w] != u->from) return false;
+    return !u->placed;
+}
+
+/* smaller goes first; the second decides between equal ones, then the wafer */
+static void key_of(const fw_schedule_placing *p, const fw_schedule_group *u, fw_schedule_rule rule,
+                   double key[3]) {
+    const fw_schedule_task *t = &p->shop->task[u->from];
+    int count = u->count < p->load[u->from] ? u->count : p->load[u->from];
+    fw_schedule_wait why;
+    double start = 0.0;
+    if (rule <= FW_RULE_EARLIEST_LONG)
+        start = round(earliest(p, u->from, u->first, count, &why) * 1e6) * 1e-6;
+    const double of[][2] = {[FW_RULE_EARLIEST_ADVANCED] = {start, -u->from},
+                            [FW_RULE_EARLIEST_BEHIND] = {start, u->from},
+                            [FW_RULE_EARLIEST_END] = {start + t->duration_s, -u->from},
+                            [FW_RULE_EARLIEST_LONG] = {start, -t->duration_s},
+                            [FW_RULE_WAFER] = {u->first, u->from},
+                            [FW_RULE_STEP] = {u->from, u->first},
+                            [FW_RULE_LIST] = {p->priority[at(p, u->from, u->first)], -u->from}};
+    key[0] = of[rule][0];
+    key[1] = of[rule][1];
+    key[2] = u->first;
+}
+
+static fw_schedule_group *choose(fw_schedule_placing *p, fw_schedule_rule rule) {
+    fw_schedule_group *best = NULL;
+    double least[3] = {0, 0, 0};
+    for (int i = 0; i < p->nunit; i++) {
+        double key[3];
+        if (!ready(p, &p->unit[i])) continue;
+        key_of(p, &p->unit[i], rule, key);
+        int k = 0;
+        while (best && k < 2 && key[k] == least[k])
+            k++;
+        if (best && !(key[k] < least[k])) continue;
+        best = &p->unit[i];
+        memcpy(least, key, sizeof least);
+    }
+    return best;
+}
+
+static void begin(fw_schedule_placing *p) {
+    p->nrun = p->people.n = 0;
+    p->people.longest_s = 0.0;
+    for (int m = 0; m < p->shop->nmachine; m++) {
+        p->machine[m].n = 0;
+        p->machine[m].longest_s = 0.0;
+    }
+    for (int w = 0; w < p->shop->wafers; w++)
+        p->next[w] = 0;
+    for (int i = 0; i < p->nunit; i++)
+        p->unit[i].placed = false;
+}
+
+static void forget_releases(fw_schedule_placing *p) {
+    for (int i = 0; i < p->shop->ntask * p->shop->wafers; i++)
+        p->release_s[i] = p->start_s;
+}
+
+/* windows that do not open for so many wafers at once: one less at the step with the largest load
+ */
+static bool smaller_load(fw_schedule_placing *p, const fw_schedule_group *u) {
+    int most = -1;
+    for (int i = u->from; i <= u->to; i++)
+        if (!p->shop->task[i].lot && p->load[i] > 1 && (most < 0 || p->load[i] > p->load[most]))
+            most = i;
+    if (most < 0) return false;
+    p->load[most] = u->count - 1 < p->load[most] && u->count > 1 ? u->count - 1 : p->load[most] - 1;
+    return true;
+}
+
+static void measure(fw_schedule_placing *p) {
+    const fw_schedule_shop *shop = p->shop;
+    p->makespan_s = p->sum_s = 0.0;
+    for (int w = 0; w < shop->wafers; w++) {
+        double end = p->finish_s[at(p, shop->ntask - 1, w)] - p->start_s;
+        p->makespan_s = fmax(p->makespan_s, end);
+        p->sum_s += end;
+    }
+}
+
+bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule) {
+    make_units(p);
+    forget_releases(p);
+    for (int restart = 0; restart < MOST_RESTARTS;) {
+        answer result = PLACED;
+        begin(p);
+        for (int left = p->nunit; left > 0 && result == PLACED; left--) {
+            fw_schedule_group *u = choose(p, rule);
+            if (!u) return false;
+            result = place_unit(p, u);
+            if (result != PLACED) {
+                p->failed_from = u->from;
+                p->failed_to = u->to;
+            }
+            if (result == FAILED) {
+                if (!smaller_load(p, u)) return false;
+                make_units(p);
+                forget_releases(p);
+            }
+        }
+        if (result == PLACED) {
+            measure(p);
+            return true;
+        }
+        restart += result == LATE;
+    }
+    return false;
+}
+
+const char *fw_schedule_rule_text(fw_schedule_rule rule) {
+    static const char *const text[] = {"earliest start, most advanced wafer first",
+                                       "earliest start, least advanced wafer first",
+                                       "earliest end first",
+                                       "earliest start, longest run first",
+                                       "wafer by wafer",
+                                       "step by step",
+                                       "improved order"};
+    return text[rule];
+}

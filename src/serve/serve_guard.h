@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Who may ask for what: one function over the facts of a request, before anything else looks at it.
+   The threats and what each check is for: docs/decisions/0015-serve.md. Private to the room. */
+#ifndef FW_SERVE_SERVE_GUARD_H
+#define FW_SERVE_SERVE_GUARD_H
+#include <stdbool.h>
+#include <stddef.h>
+
+enum {
+    FW_SERVE_SECRET = 65,             /* 64 hexadecimal digits (256 bits) and a NUL */
+    FW_SERVE_MOST_BODY = 1024 * 1024, /* bytes of a request's body */
+    FW_SERVE_MOST_PATH = 512,         /* bytes of a request's path */
+    FW_SERVE_ADDRESSES = 2            /* 127.0.0.1, and ::1 when asked for */
+};
+
+typedef struct fw_serve_guard {
+    char host[FW_SERVE_ADDRESSES][40];   /* exactly what Host must be: "127.0.0.1:8931" */
+    char origin[FW_SERVE_ADDRESSES][48]; /* "http://" and the same */
+    int addresses;
+    char cookie_name[40];         /* has the port: cookies are shared by the ports of a host */
+    char cookie[FW_SERVE_SECRET]; /* of the session */
+    char header[FW_SERVE_SECRET]; /* of X-Flexwright-Token */
+    char entry[FW_SERVE_SECRET];  /* the one-time token of the printed address */
+    bool entry_used;
+} fw_serve_guard;
+
+/* what the server knows of a request when its head is there; NULL: the header is not there */
+typedef struct fw_serve_guard_facts {
+    const char *version, *method, *path; /* path as it was sent, without the query */
+    const char *host, *origin, *fetch_site, *fetch_mode, *content_type, *content_length,
+        *transfer_encoding, *cookie, *token;
+    bool repeated;     /* one of these headers is there twice */
+    const char *entry; /* value of ?token= */
+    bool query;        /* there is a query */
+    size_t head_bytes; /* of the whole head */
+    size_t seen_bytes; /* of its parts as texts, with one blank before each value */
+} fw_serve_guard_facts;
+
+typedef struct fw_serve_refusal {
+    unsigned status; /* HTTP; 0: not refused */
+    const char *why;
+} fw_serve_refusal;
+
+/* new secrets for a server on this port; false: the system gives no random numbers */
+bool fw_serve_guard_new(fw_serve_guard *guard, unsigned port, bool ipv6);
+/* the answer for a request, {0} when it may go on. Does not change the guard. */
+fw_serve_refusal fw_serve_guard_check(const fw_serve_guard *guard,
+                                      const fw_serve_guard_facts *facts);
+/* is this the request that exchanges the one-time token for the cookie? */
+bool fw_serve_guard_is_entry(const fw_serve_guard_facts *facts);
+/* the bytes of a declared body; only after the check */
+size_t fw_serve_guard_body(const fw_serve_guard_facts *facts);
+/* equal texts? takes the same time wherever they differ */
+bool fw_serve_guard_equal(const char *a, const char *b);
+
+#endif

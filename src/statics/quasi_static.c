@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Follows the equilibria of a scene through its time. Every step solves for those in its middle and
+   at its end, where du/dt is exact too; a step is good when the cubic through its ends meets the
+   middle. Its curve, of degree 5, is far better than that. Source: predictor-corrector
+   continuation, Allgower and Georg 1990, ch. 2; Hermite interpolation, Stoer and Bulirsch, 2.1.
+   Test: test_quasi.c. */
+#include "statics/quasi_static.h"
+#include "base/sort.h"
+#include "quantity/law_kind.h"
+#include "statics/quasi.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { FW_TRIES = 12 };
+static const double fw_farthest = 0.3; /* rad or scaled lengths: a correction, at most */
+static const double fw_least = 1e-10;  /* step, relative to the scene */
+static const long fw_usual_steps = 10 * 1000 * 1000;
+
+/* ---- one equilibrium ---- */
+
+static bool stable(const fw_statics_reduced *r) {
+    for (int k = 0; k < r->dof; k++)
+        if (!(r->value[k] > r->zero[k])) return false;
+    return true;
+}
+
+/* Newton from guess; forces and tangent are those within 1e-10 of the result */
+fw_status fw_statics_quasi_static_solve(fw_statics_quasi_static *r, double t) {
+    fw_statics_equilibrium *w = &r->w;
+    size_t n = (size_t)w->model->nq;
+    double before = (double)INFINITY;
+    fw_statics_equilibrium_at(w, t * w->model->scale.time_s, r->piece_s);
+    memcpy(w->y, r->guess, n * sizeof(double));
+    r->solved++;
+    for (int i = 0; i < FW_TRIES; i++) {
+        FW_TRY(fw_statics_equilibrium_evaluate(w));
+        r->evaluated++;
+        if (!stable(&w->reduced)) return FW_SOLVER;
+        double most = fw_statics_equilibrium_newton(w, w->step);
+        if (!(most <= fw_farthest)) return FW_SOLVER;
+        for (size_t k = 0; k < n; k++)
+            w->y[k] += w->step[k];
+        if (most <= 1e-10 ||
+            (most > 0.5 * before && (most < 1e-9 || fw_statics_equilibrium_quiet(w)))) {
+            fw_statics_equilibrium_rate(w, r->rate);
+            return FW_OK;
+        }
+        before = most;
+    }
+    return FW_SOLVER;
+}
+
+static void keep(fw_statics_quasi_static *r, double t, fw_statics_node *node) {
+    size_t bytes = (size_t)r->w.model->nq * sizeof(double);
+    double size;
+    node->t = t;
+    memcpy(node->u, r->w.y, bytes);
+    memcpy(node->v, r->rate, bytes);
+    for (int i = 0; i < r->w.model->nq; i++)
+        r->size = fmax(r->size, fabs(node->u[i]));
+    r->kinetic = fmax(r->kinetic, fw_multibody_model_kinetic(r->w.model, r->rate));
+    r->elastic = fmax(r->elastic, fabs(fw_statics_equilibrium_energy(&r->w, node->u, &size)));
+    r->elastic = fmax(r->elastic, size / 2);
+}
+
+/* where a piece begins: loads may have jumped, so that the nearest minimum is looked for */
+static fw_status land(fw_statics_quasi_static *r, double t) {
+    fw_statics_equilibrium *w = &r->w;
+    bool unstable = false;
+    fw_statics_equilibrium_at(w, t * w->model->scale.time_s, r->piece_s);
+    memcpy(w->y, r->from.u, (size_t)w->model->nq * sizeof(double));
+    r->solved++;
+    fw_status status = fw_statics_equilibrium_descend(w, &unstable);
+    if (status == FW_OK && (unstable || !stable(&w->reduced))) status = FW_SOLVER;
+    FW_TRY(status);
+    r->evaluated++;
+    fw_statics_equilibrium_rate(w, r->rate);
+    keep(r, t, &r->from);
+    return FW_OK;
+}
+
+/* ---- the curve of a step ---- */
+
+/* cubic through both ends plus x^2 (1 - x)^2 (c0 + c1 (x - 1/2)), which leaves the ends alone */
+void fw_statics_quasi_static_curve(const fw_statics_quasi_static *r, double x, double *value,
+                                   double *slope, double *bend) {
+    double h = r->to.t - r->from.t, z = x - 0.5, p = x * (1 - x), dp = 1 - 2 * x;
+    double bump = p * p, rise = 2 * p * dp, curl = 2 * dp * dp - 4 * p;
+    for (int i = 0; i < r->w.model->nq; i++) {
+        double a = r->from.u[i], b = r->to.u[i], m = r->middle.u[i];
+        double va = h * r->from.v[i], vb = h * r->to.v[i], vm = h * r->middle.v[i];
+        double c2 = 3 * (b - a) - 2 * va - vb, c3 = va + vb - 2 * (b - a);
+        double c0 = 16 * (m - (a + va / 2 + c2 / 4 + c3 / 8));
+        double c1 = 16 * (vm - (va + c2 + 0.75 * c3)), c = c0 + c1 * z;
+        if (value) value[i] = a + x * (va + x * (c2 + x * c3)) + bump * c;
+        if (slope) slope[i] = (va + x * (2 * c2 + 3 * x * c3) + rise * c + bump * c1) / h;
+        if (bend) bend[i] = (2 * c2 + 6 * x * c3 + curl * c + 2 * rise * c1) / (h * h);
+    }
+}
+
+/* by how much the cubic through the ends misses the middle */
+static double miss(const fw_statics_quasi_static *r) {
+    double h = r->to.t - r->from.t, most = 0;
+    for (int i = 0; i < r->w.model->nq; i++) {
+        double cubic = 0.5 * (r->from.u[i] + r->to.u[i]) + h / 8 * (r->from.v[i] - r->to.v[i]);
+        most = fmax(most, fabs(r->middle.u[i] - cubic));
+    }
+    return most;
+}
+
+/* ---- steps ---- */
+
+static const fw_quantity_law *law_at(const fw_statics_quasi_static *r,
+                                     const fw_effects_loads *loads, int i) {
+    return i < loads->ntimed ? loads->timed[i].law : &r->w.mechanism->driver[i - loads->ntimed].law;
+}
+
+/* an eighth of a period: no step can take one wave for another */
+static double own_step(const fw_quantity_law *law) {
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    return wave.fastest_Hz > 0 ? wave.shortest_s / 8 : (double)INFINITY;
+}
+
+/* smooth pieces between the breaks of all laws, and how long steps may be */
+static fw_status look_at_laws(fw_statics_quasi_static *r, const fw_effects_loads *loads) {
+    int laws = loads->ntimed + r->w.mechanism->ndriver, have = 0, kept = 0;
+    double end = r->w.scene->duration_s, second = r->w.model->scale.time_s, *at;
+    for (int i = 0; i < laws; i++)
+        have += fw_quantity_law_breaks_of(law_at(r, loads, i), end, NULL, 0);
+    FW_NEED(at = fw_arena_array(r->w.arena, double, (size_t)have + 1));
+    FW_NEED(r->look = fw_arena_array(r->w.arena, fw_quantity_law_strides, (size_t)laws));
+    FW_NEED(r->look_row = fw_arena_array(r->w.arena, int, (size_t)laws));
+    r->law_step_s = end / 8;
+    for (int i = 0, first = 0; i < laws; i++) {
+        const fw_quantity_law *law = law_at(r, loads, i);
+        int count = fw_quantity_law_breaks_of(law, end, at + first, have - first);
+        fw_sort_doubles(at + first, (size_t)count);
+        if (!isfinite(own_step(law)) && !fw_quantity_law_is_straight(law))
+            FW_TRY(fw_quantity_law_look(r->w.arena, law, i >= loads->ntimed, end, at + first, count,
+                                        &r->look[r->nlook++]));
+        first += count;
+        r->law_step_s = fmin(r->law_step_s, own_step(law));
+    }
+    fw_sort_doubles(at, (size_t)have);
+    for (int i = 0; i < have; i++)
+        if (at[i] > 0 && at[i] < end && (kept == 0 || at[i] > at[kept - 1])) at[kept++] = at[i];
+    at[kept++] = end;
+    for (int i = 0; i < kept; i++)
+        at[i] /= second;
+    r->end = at;
+    r->npiece = kept;
+    r->duration = end / second;
+    return FW_OK;
+}
+
+static double longest_step(const fw_statics_quasi_static *r, double t) {
+    double second = r->w.model->scale.time_s, most = r->law_step_s;
+    for (int i = 0; i < r->nlook; i++)
+        most = fmin(most, fw_quantity_law_stride(&r->look[i], 1, t * second, &r->look_row[i]));
+    return most / second;
+}
+
+/* from r->from to t: middle by the tangent, end by the cubic through start and middle */
+static fw_status try_step(fw_statics_quasi_static *r, double t) {
+    double h = (t - r->from.t) / 2;
+    int n = r->w.model->nq;
+    for (int i = 0; i < n; i++)
+        r->guess[i] = r->from.u[i] + h * r->from.v[i];
+    FW_TRY(fw_statics_quasi_static_solve(r, r->from.t + h));
+    keep(r, r->from.t + h, &r->middle);
+    for (int i = 0; i < n; i++)
+        r->guess[i] =
+            5 * r->from.u[i] - 4 * r->middle.u[i] + h * (2 * r->from.v[i] + 4 * r->middle.v[i]);
+    FW_TRY(fw_statics_quasi_static_solve(r, t));
+    keep(r, t, &r->to);
+    return FW_OK;
+}
+
+static fw_status cannot(fw_statics_quasi_static *r, double t, const char *what) {
+    char at[32];
+    FW_NEED(r->why =
+                fw_arena_printf(r->w.arena, "%s at %s s: inertia acts", what,
+                                fw_number_text(at, sizeof at, t * r->w.model->scale.time_s, 4)));
+    return FW_SOLVER;
+}
+
+static fw_status too_many(const fw_statics_quasi_static *r, long most) {
+    char count[32];
+    fw_status status = fw_diag_error(r->w.diags, 108, r->w.scene->place,
+                                     "scene %s needs more than %s equilibria: shorten it",
+                                     fw_statics_equilibrium_scene_name(&r->w),
+                                     fw_number_text(count, sizeof count, (double)most, 9));
+    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
+}
+
+static bool turned_too_far(const fw_statics_quasi_static *r) {
+    double most = r->options->most_angle_rad;
+    for (int i = 0; most > 0 && i < r->motion->npin; i++)
+        if (fabs(r->motion->peak[i].angle_rad) > most) return true;
+    return false;
+}
+
+static void swap_ends(fw_statics_quasi_static *r) {
+    fw_statics_node old = r->from;
+    r->from = r->to;
+    r->to = old;
+}
+
+/* from the piece's start to `end`; *h is the step to try first, and last was good */
+static fw_status walk(fw_statics_quasi_static *r, double end, double *h) {
+    long most = r->options->most_steps > 0 ? r->options->most_steps : fw_usual_steps;
+    while (r->from.t < end && !r->motion->ended) {
+        if (fw_arena_cancelled(r->w.arena)) return FW_CANCELLED;
+        if (r->solved > most) return too_many(r, most);
+        double step = fmin(*h, longest_step(r, r->from.t)), left = end - r->from.t;
+        double before = r->size, t = step >= 0.999 * left ? end : r->from.t + fmin(step, left / 2);
+        fw_status status = try_step(r, t);
+        if (status != FW_OK && status != FW_SOLVER) return status;
+        double off = status == FW_OK ? miss(r) : (double)INFINITY;
+        double bear = fmax(r->tolerance * r->size, 1e-13), grow = 0.9 * sqrt(sqrt(bear / off));
+        if (!(off <= bear)) {
+            r->size = before;
+            r->rejected++;
+            *h = (t - r->from.t) * (status == FW_OK ? fmax(0.1, fmin(0.7, grow)) : 0.25);
+            if (*h < fw_least * r->duration)
+                return cannot(r, r->from.t,
+                              "the sequence of equilibria ends, as at a "
+                              "snap-through,");
+            continue;
+        }
+        r->worst = fmax(r->worst, off);
+        *h = (t - r->from.t) * fmin(4, fmax(0.5, grow));
+        FW_TRY(fw_statics_quasi_static_record(r));
+        r->motion->ended = t < r->duration && turned_too_far(r);
+        r->motion->end_s = t * r->w.model->scale.time_s;
+        swap_ends(r);
+    }
+    return FW_OK;
+}
+
+static fw_status follow(fw_statics_quasi_static *r) {
+    double second = r->w.model->scale.time_s;
+    r->motion->observed = r->options->context;
+    if (r->options->observe) r->options->observe(r->options->context, NULL);
+    for (int piece = 0; piece < r->npiece && !r->motion->ended; piece++) {
+        double begin = piece ? r->end[piece - 1] : 0, h = (r->end[piece] - begin) / 16;
+        r->piece_s = 0.5 * (begin + r->end[piece]) * second;
+        fw_status status = land(r, begin);
+        if (status == FW_SOLVER) return cannot(r, begin, "there is no stable equilibrium near");
+        FW_TRY(status);
+        r->first = true;
+        FW_TRY(fw_statics_quasi_static_begin(r));
+        FW_TRY(walk(r, r->end[piece], &h));
+    }
+    return FW_OK;
+}
+
+/* ---- the entry ---- */
+
+static fw_status nodes(fw_statics_quasi_static *r) {
+    fw_statics_node *node[] = {&r->from, &r->middle, &r->to};
+    size_t n = (size_t)r->w.model->nq;
+    for (int i = 0; i < 3; i++) {
+        FW_NEED(node[i]->u = fw_arena_array(r->w.arena, double, n));
+        FW_NEED(node[i]->v = fw_arena_array(r->w.arena, double, n));
+    }
+    FW_NEED(r->rate = fw_arena_array(r->w.arena, double, n));
+    FW_NEED(r->guess = fw_arena_array(r->w.arena, double, n));
+    FW_NEED(r->accel = fw_arena_array(r->w.arena, double, n));
+    return FW_OK;
+}
+
+static double cpu_seconds(void) {
+    struct timespec now;
+    if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) return 0;
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* what this room knows how to take at one time: no history, no laws inside of elements */
+static const char *not_at_rest(const fw_effects_loads *t) {
+    for (int i = 0; i < 3 * t->nbody; i++)
+        if (t->velocity[i] != 0) return "the scene starts with velocities: inertia carries them on";
+    if (t->nfriction > 0) return "friction has no equilibrium of its own: inertia acts";
+    if (t->stretch.law) return "the ground stretches with time: inertia acts";
+    for (int i = 0; i < t->nelement; i++)
+        if (t->element[i].laws > 0) return "an actuator follows a law: inertia acts";
+    return NULL;
+}
+
+fw_status fw_statics_quasi_static_motion(fw_arena *arena, const fw_mechanism *mechanism,
+                                         const fw_device_scene *scene,
+                                         const fw_dynamics_motion_options *options,
+                                         const fw_effect_ledger *ledger,
+                                         const fw_effects_loads *loads, fw_diags *diags,
+                                         const fw_dynamics_motion **motion, const char **why) {
+    fw_statics_quasi_static r = {
+        .w = {.arena = arena, .mechanism = mechanism, .scene = scene, .diags = diags},
+        .options = options};
+    double began = cpu_seconds(), accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    *motion = NULL;
+    r.why = not_at_rest(loads);
+    *why = r.why;
+    if (r.why) return FW_SOLVER;
+    *why = "the assembled pose has no static model: inertia acts";
+    r.w.ledger = *ledger;
+    r.tolerance = fmax(1e-9, options->rtol > 0 ? 10 * options->rtol : 0.02 * accuracy);
+    FW_TRY(fw_statics_equilibrium_in_time(&r.w, loads));
+    FW_TRY(nodes(&r));
+    FW_TRY(look_at_laws(&r, loads));
+    FW_TRY(fw_statics_quasi_static_arrays(&r));
+    fw_status status = follow(&r);
+    if (r.why) *why = r.why;
+    FW_TRY(status);
+    fw_statics_quasi_static_finish(&r);
+    FW_NEED(r.motion->loads = fw_effects_loads_keep(arena, loads));
+    r.motion->stats.cpu_s = cpu_seconds() - began;
+    *motion = r.motion;
+    return FW_OK;
+}

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Is what a motion rests on stable? At 2 to 12 instants, the ends and the insides of the smooth
+   pieces of all laws, the lowest eigenvalue mu of the reduced stiffness at the position of the
+   motion under the loads of that time (forces, drivers, elements; friction left out, as in
+   statics). A disturbance grows by e^G, G = integral of sqrt(max(0, -mu)) dt, by the trapezoidal
+   rule: without damping, which would only slow it. It is reported where G is at least 2 and the
+   motion has moved along the unstable mode phi by less than a tenth of the way to the stable
+   equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, so
+   that a motion that falls, or swings through, is not. mu is linear in the loads along a straight
+   path of equilibria: with mu_0 of the same mode without them the share that it would bear is
+   mu_0/(mu_0 - mu). Units: scaled. Valid where statics is; a motion between instants is taken as
+   straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
+   where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
+   Theory of Elastic Stability 1973. Test: test_poise.c. */
+#include "statics/stability.h"
+#include "base/sort.h"
+#include "base/constants.h"
+#include "quantity/law_kind.h"
+#include "statics/statics_equilibrium.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const double fw_statics_stability_growth = 2;
+static const double fw_left = 0.1;      /* of the way: it has left */
+static const double fw_most_work = 2e8; /* floating-point operations of all looks */
+enum { FW_LEAST_LOOKS = 2, FW_STEADY_LOOKS = 4, FW_MOST_LOOKS = 12, FW_MOST_BREAKS = 4096 };
+
+typedef struct looker {
+    fw_statics_equilibrium w;
+    const fw_dynamics_motion *motion;
+    double *at; /* (pieces + 1) ends of the smooth pieces, s */
+    int pieces;
+    bool vary; /* some law does within a piece */
+    double lowest, growth;
+    double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
+    fw_statics_stability *out;
+} looker;
+
+/* ---- when ---- */
+
+static const fw_quantity_law *law_at(const fw_effects_loads *t, const fw_mechanism *m, int i) {
+    if (i < t->ntimed) return t->timed[i].law;
+    i -= t->ntimed;
+    if (i < m->ndriver) return &m->driver[i].law;
+    i -= m->ndriver;
+    for (int k = 0; k < t->nelement; k++) {
+        if (i < t->element[k].laws) return t->element[k].law[i];
+        i -= t->element[k].laws;
+    }
+    return NULL;
+}
+
+static int law_count(const fw_effects_loads *t, const fw_mechanism *m) {
+    int count = t->ntimed + m->ndriver;
+    for (int k = 0; k < t->nelement; k++)
+        count += t->element[k].laws;
+    return count;
+}
+
+static fw_status find_pieces(looker *k, const fw_effects_loads *loads) {
+    double end = k->w.scene->duration_s;
+    int laws = law_count(loads, k->w.mechanism), have = 0;
+    for (int i = 0; i < laws; i++) {
+        const fw_quantity_law *law = law_at(loads, k->w.mechanism, i);
+        have += fw_quantity_law_breaks_of(law, end, NULL, 0);
+        k->vary = k->vary || !(fw_quantity_law_is_constant(law) || law->kind->stepwise);
+    }
+    if (have > FW_MOST_BREAKS) have = FW_MOST_BREAKS;
+    FW_NEED(k->at = fw_arena_array(k->w.arena, double, (size_t)have + 2));
+    int count = 1; /* at[0] = 0 */
+    for (int i = 0; i < laws; i++) {
+        int found = fw_quantity_law_breaks_of(law_at(loads, k->w.mechanism, i), end, k->at + count,
+                                              have + 1 - count);
+        count += found < have + 1 - count ? found : have + 1 - count;
+    }
+    fw_sort_doubles(k->at, (size_t)count);
+    int kept = 1;
+    for (int i = 1; i < count; i++)
+        if (k->at[i] > k->at[kept - 1] && k->at[i] < end) k->at[kept++] = k->at[i];
+    k->at[kept] = end;
+    k->pieces = kept;
+    return FW_OK;
+}
+
+/* ---- one look ---- */
+
+/* u of the motion at a time, straight between its rows */
+static void place(const looker *k, double t_s, double *u) {
+    const fw_dynamics_motion *x = k->motion;
+    size_t n = (size_t)k->w.model->nq;
+    double last = x->t_s[x->nsample - 1], part = 0;
+    int row = 0;
+    if (x->nsample > 1 && last > 0) {
+        double at = fmin(fmax(t_s / last, 0), 1) * (x->nsample - 1);
+        row = (int)fmin(floor(at), x->nsample - 2);
+        part = at - row;
+    }
+    const double *a = x->q + (size_t)row * n, *b = x->nsample > 1 ? a + n : a;
+    for (size_t i = 0; i < n; i++) {
+        double unit = i % 3 == 2 ? 1 : k->w.model->scale.length_m;
+        u[i] = (a[i] + part * (b[i] - a[i]) - k->w.q0[i]) / unit;
+    }
+}
+
+static void loads_of(looker *k, double t_s, double piece_s) {
+    fw_statics_equilibrium_at(&k->w, t_s, piece_s);
+    k->w.model->held_s = t_s;
+}
+
+/* stands for weight_s of the scene */
+static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
+    fw_statics_equilibrium *w = &k->w;
+    size_t n = (size_t)w->model->nq;
+    loads_of(k, t_s, piece_s);
+    memset(w->y, 0, (size_t)w->model->ny * sizeof *w->y);
+    place(k, t_s, w->y);
+    fw_status status = fw_statics_equilibrium_evaluate(w);
+    if (status == FW_SOLVER) return FW_OK; /* nothing is known there */
+    FW_TRY(status);
+    if (w->reduced.dof == 0 || w->reduced.value[0] >= -w->reduced.zero[0]) return FW_OK;
+    double lowest = w->reduced.value[0];
+    k->growth += sqrt(-lowest) * weight_s / w->model->scale.time_s;
+    if (lowest >= k->lowest) return FW_OK;
+    k->lowest = lowest;
+    k->t_s = t_s;
+    k->piece_s = piece_s;
+    memcpy(k->where, w->y, n * sizeof *k->where);
+    memcpy(k->shape, w->reduced.shape, n * sizeof *k->shape);
+    return FW_OK;
+}
+
+/* pieces that are many share the looks: then one in the middle of every so many */
+static fw_status look_along(looker *k) {
+    double n = k->w.model->nq, most = fw_most_work / (30 * n * n * n);
+    int usual = k->pieces > 1 || k->vary ? FW_MOST_LOOKS : FW_STEADY_LOOKS;
+    int looks = (int)fmin(fmax(most, FW_LEAST_LOOKS), usual), each = looks / k->pieces;
+    double end = k->at[k->pieces];
+    if (each < 2) {
+        for (int i = 0; i < looks; i++) {
+            double t = (i + 0.5) * end / looks;
+            FW_TRY(look(k, t, t, end / looks));
+        }
+        return FW_OK;
+    }
+    for (int p = 0; p < k->pieces; p++) {
+        double from = k->at[p], h = (k->at[p + 1] - from) / (each - 1);
+        for (int i = 0; i < each; i++) {
+            if (fw_arena_cancelled(k->w.arena)) return FW_CANCELLED;
+            FW_TRY(look(k, from + i * h, 0.5 * (from + k->at[p + 1]),
+                        i == 0 || i == each - 1 ? 0.5 * h : h));
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- has it left? ---- */
+
+static double product(const fw_multibody_model *m, const double *x, const double *y) {
+    double sum = 0;
+    for (int i = 0; i < m->nq; i++)
+        sum += (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * x[i] * y[i];
+    return sum;
+}
+
+/* how far the motion goes along the mode, from where it is most unstable */
+static double travelled(looker *k) {
+    const fw_multibody_model *m = k->w.model;
+    double *u = k->w.step, most = 0;
+    for (int row = 0; row < k->motion->nsample; row++) {
+        place(k, k->motion->t_s[row], u);
+        for (int i = 0; i < m->nq; i++)
+            u[i] -= k->where[i];
+        most = fmax(most, fabs(product(m, k->shape, u)));
+    }
+    return most;
+}
+
+/* the way to the stable equilibrium; without one, that of a tenth of a radian or length */
+static fw_status fall(looker *k, double *way) {
+    fw_statics_equilibrium *w = &k->w;
+    const fw_multibody_model *m = w->model;
+    size_t n = (size_t)m->nq, pins = (size_t)w->mechanism->npin;
+    bool left = false;
+    *way = 0.1 / fw_statics_equilibrium_part(k->shape, fw_statics_equilibrium_mover(w, k->shape));
+    loads_of(k, k->t_s, k->piece_s);
+    memset(w->y, 0, (size_t)m->ny * sizeof *w->y);
+    memcpy(w->y, k->where, n * sizeof *w->y);
+    fw_status status = fw_statics_equilibrium_descend(w, &left);
+    if (status == FW_SOLVER) return FW_OK;
+    FW_TRY(status);
+    double *angle, *q;
+    FW_NEED(q = fw_arena_array(w->arena, double, n));
+    FW_NEED(k->out->angle_rad = angle = fw_arena_array(w->arena, double, pins));
+    fw_statics_equilibrium_pose(w, w->y, q, angle);
+    for (size_t i = 0; i < pins; i++)
+        if (k->out->pin == FW_NONE || fabs(angle[i]) > fabs(angle[k->out->pin]))
+            k->out->pin = (int)i;
+    for (size_t i = 0; i < n; i++)
+        w->step[i] = w->y[i] - k->where[i];
+    *way = sqrt(product(m, w->step, w->step));
+    return FW_OK;
+}
+
+/* of the loads, by the stiffness of the same mode without them */
+static fw_status share(looker *k) {
+    fw_statics_equilibrium *w = &k->w;
+    fw_multibody_model *m = w->model;
+    size_t n = (size_t)m->nq;
+    memset(m->constant, 0, n * sizeof *m->constant);
+    for (int i = 0; i < m->nload; i++)
+        m->load[i].fx = m->load[i].fy = 0;
+    m->actuation = m->drive = 0;
+    memset(w->y, 0, (size_t)m->ny * sizeof *w->y);
+    memcpy(w->y, k->where, n * sizeof *w->y);
+    fw_status status = fw_statics_equilibrium_evaluate(w);
+    if (status != FW_OK) return status == FW_SOLVER ? FW_OK : status;
+    double without = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            without += k->shape[i] * w->stiffness[i * n + j] * k->shape[j];
+    if (without > 0) k->out->share = without / (without - k->lowest);
+    return FW_OK;
+}
+
+/* ---- words ---- */
+
+static fw_status say(looker *k, fw_diags *diags) {
+    fw_statics_stability *out = k->out;
+    const fw_statics_equilibrium *w = &k->w;
+    const double degree = FW_DEG_PER_RAD;
+    char at[32], fold[32], turned[32];
+    fw_text text = fw_text_new(w->arena);
+    fw_text_printf(&text,
+                   "scene %s stays on an unstable equilibrium (at %s ms): body %s leaves it at the "
+                   "smallest disturbance, which grows e-fold every %s ms",
+                   fw_statics_equilibrium_scene_name(w),
+                   fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), out->body,
+                   fw_number_text(fold, sizeof fold, 1e3 / out->rate_per_s, 3));
+    if (out->pin != FW_NONE)
+        fw_text_printf(
+            &text, ", and moves to an equilibrium with joint %s turned by %s deg",
+            w->mechanism->pin[out->pin].id,
+            fw_number_text(turned, sizeof turned, degree * fabs(out->angle_rad[out->pin]), 4));
+    else if (!out->angle_rad)
+        fw_text_add(&text, ", and no stable equilibrium was found that it would move to");
+    fw_text_add(&text,
+                "; only the exact symmetry of the description keeps it there. Lower the load, "
+                "stiffen the joints, or apply the load with a small eccentricity to compute "
+                "that motion");
+    FW_TRY(fw_text_end(&text));
+    out->text = text.data;
+    fw_diag_warning(diags, 259, w->scene->place, "%s", out->text);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability **stability) {
+    double way;
+    FW_NEED(k->out = fw_arena_one(k->w.arena, fw_statics_stability));
+    k->out->pin = FW_NONE;
+    k->out->t_s = k->t_s;
+    k->out->rate_per_s = sqrt(-k->lowest) / k->w.model->scale.time_s;
+    k->out->growth = k->growth;
+    const char *id = k->w.mechanism->body[fw_statics_equilibrium_mover(&k->w, k->shape)].id;
+    k->out->body = id ? id : "(unnamed)";
+    FW_TRY(fall(k, &way));
+    if (travelled(k) >= fw_left * way) return FW_OK;
+    FW_TRY(share(k));
+    FW_TRY(say(k, diags));
+    *stability = k->out;
+    return FW_OK;
+}
+
+fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                    fw_diags *diags, const fw_statics_stability **stability) {
+    *stability = NULL;
+    if (!motion->loads || motion->ended || motion->nsample < 1 || mechanism->nbody == 0)
+        return FW_OK;
+    if (3 * mechanism->nbody > FW_STABILITY_MOST) {
+        fw_diag_note(diags, 259, scene->place,
+                     "the stability of scene %s was not examined: the mechanism has more than "
+                     "%d bodies",
+                     scene->name ? scene->name : "(unnamed)", FW_STABILITY_MOST / 3);
+        return diags->failed ? FW_NOMEM : FW_OK;
+    }
+    fw_diags silent = fw_diags_new(arena);
+    looker k = {.w = {.arena = arena, .mechanism = mechanism, .scene = scene, .diags = &silent},
+                .motion = motion};
+    fw_effects_loads loads = *motion->loads;
+    loads.nfriction = 0;
+    fw_status status = fw_statics_equilibrium_in_time(&k.w, &loads);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    if (status != FW_OK) return FW_OK; /* no model at rest: the motion itself says why */
+    size_t n = (size_t)k.w.model->nq;
+    FW_NEED(k.where = fw_arena_array(arena, double, n));
+    FW_NEED(k.shape = fw_arena_array(arena, double, n));
+    FW_TRY(find_pieces(&k, &loads));
+    FW_TRY(look_along(&k));
+    return k.growth >= fw_statics_stability_growth ? conclude(&k, diags, stability) : FW_OK;
+}

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A mechanism without time: loads and drivers at a load factor, equilibrium and tangent. Scaled
+   units. Private to statics/. */
+#ifndef FW_STATICS_STATICS_EQUILIBRIUM_H
+#define FW_STATICS_STATICS_EQUILIBRIUM_H
+#include "statics/reduced.h"
+#include "statics/modes.h"
+
+/* dense matrices of 3 nbody unknowns: more would take minutes */
+enum { FW_STATICS_MOST = 1200 };
+
+/* what goes with the load factor: everything that a scene puts on; that without the voltages of
+   comb drives, which are 0; these voltages squared alone, with all the rest in full */
+typedef enum fw_statics_lead { FW_LEAD_ALL, FW_LEAD_LOADS, FW_LEAD_DRIVES } fw_statics_lead;
+
+typedef struct fw_statics_equilibrium {
+    fw_arena *arena;
+    const fw_mechanism *mechanism;
+    const fw_device_scene *scene;
+    fw_diags *diags;
+    fw_effect_ledger ledger;
+    const fw_effects_loads
+        *loads; /* what was compiled, for the mechanism `plain`, before anything was
+                              done to it; NULL: not by fw_statics_equilibrium_new */
+    const fw_mechanism *plain;
+    fw_multibody_model *model;
+    fw_statics_reduced reduced;
+    double *q0;    /* (3 nbody) assembled, SI */
+    double *y;     /* (ny) state; u first, all else 0 */
+    double factor; /* s */
+    fw_statics_lead lead;
+    double drive_unit; /* squared voltages of comb drives per s */
+    double reach;      /* of paths: the displacement, scaled, that counts like s = 1 */
+    const struct fw_statics_pull_in *pull_in; /* NULL: none, or not looked for */
+    bool until_unstable;                      /* paths end where the first eigenvalue passes zero */
+    double *force;                            /* (n) Q */
+    double *slope;                            /* (n) dQ/ds */
+    double *follow;    /* (n) du/ds of least mass norm that the drivers force; 0 without them */
+    double *stiffness; /* (n x n) */
+    double *lambda;    /* (2 nblock) */
+    double *gradient;  /* (dof) force along each mode */
+    double *push;      /* (dof) along each mode: its derivative by s, drivers included */
+    double *noise;     /* (dof) round-off of the gradient */
+    /* what goes with s */
+    double *gravity, *load_acceleration; /* (n + 3) accelerations */
+    fw_multibody_model_load *load;       /* (nload) as at s = 1 */
+    double *start, *way; /* (nblock) driver values at s = 0 and from there to s = 1 */
+    double *psi, *trial, *step;
+    bool moving; /* some driver moves */
+    int iterations;
+    const fw_effects_force_element *invalid; /* its formula does not hold at the pose closed last */
+    const char *why;
+    double *away, *pull; /* (ny) (n) work of the potential of driven elements */
+    /* in time (in_time.c): laws are taken at t, scaled; `slope`, `follow` and `push` are then
+       derivatives by it */
+    double t;
+    const fw_effects_timed_load *timed; /* (ntimed) load[first_timed + i] is what i pushes with */
+    int ntimed, first_timed;
+    const fw_quantity_law **law; /* (nblock) of drivers */
+} fw_statics_equilibrium;
+
+/* model of the scene's end at the assembled pose, s = 0, not evaluated */
+fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                     const fw_device_scene *scene, const fw_effect_choice *effects,
+                                     fw_diags *diags, fw_statics_equilibrium *w);
+/* the same with effects that are compiled already; the ledger is then empty, and weight counts as a
+   load that goes with s */
+fw_status fw_statics_equilibrium_new_loads(fw_arena *arena, const fw_mechanism *mechanism,
+                                           const fw_device_scene *scene,
+                                           const fw_effects_loads *loads, fw_diags *diags,
+                                           fw_statics_equilibrium *w);
+/* statics.c, statics_modes.c: what their entries do with a new fw_statics_equilibrium */
+fw_status fw_statics_equilibrium_statics(fw_statics_equilibrium *w,
+                                         const fw_statics_static_options *options,
+                                         const fw_statics **statics);
+fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
+                                       const fw_statics_mode_options *options,
+                                       const fw_statics_modes **modes);
+/* the same scene, effects and factor with other loads (a level of hinges) */
+fw_status fw_statics_equilibrium_again(const fw_statics_equilibrium *w,
+                                       const fw_effects_loads *loads,
+                                       fw_statics_equilibrium *other);
+void fw_statics_equilibrium_factor(fw_statics_equilibrium *w, double s);
+/* in_time.c: a model of the scene whose loads and drivers follow their laws, and these at one time;
+   piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */
+fw_status fw_statics_equilibrium_in_time(fw_statics_equilibrium *w, const fw_effects_loads *loads);
+void fw_statics_equilibrium_at(fw_statics_equilibrium *w, double t_s, double piece_s);
+/* du/dt (n) along the equilibria, at an evaluated one, per scaled time */
+void fw_statics_equilibrium_rate(const fw_statics_equilibrium *w, double *rate);
+/* assembled pose, model and memory for both */
+fw_status fw_statics_equilibrium_build(fw_statics_equilibrium *w, const fw_effects_loads *loads);
+/* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */
+bool fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u);
+/* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
+   terms' sizes */
+double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size);
+/* potential.c: the part of driven elements; leaves the model posed at u with its switches */
+double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size);
+/* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
+   joints cannot close, or something is not finite */
+fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
+/* Newton step along the modes at an evaluated state: step (n), largest component returned */
+double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step);
+/* the forces along all modes are round-off: what a soft mode does then means nothing */
+bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w);
+/* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
+fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_unstable);
+/* the message that there is none, from where the descent ended */
+fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w);
+/* settle.c: from the assembled pose to the stable equilibrium at s = 1; says when there is none, or
+   that the drivers cannot be followed */
+fw_status fw_statics_equilibrium_settle(fw_statics_equilibrium *w, bool *left_unstable);
+/* statics_path.c: from the equilibrium at s = 0; ends there where the path ends */
+fw_status fw_statics_equilibrium_follow(fw_statics_equilibrium *w, int most_points,
+                                        fw_statics_path **path);
+
+/* SI: pose and joint angles; forces of pins (2 npin), joints (3 njoint) and drivers of an evaluated
+   state, as in fw_dynamics_motion */
+void fw_statics_equilibrium_pose(const fw_statics_equilibrium *w, const double *u, double *q,
+                                 double *angle);
+void fw_statics_equilibrium_reactions(const fw_statics_equilibrium *w, double *reaction,
+                                      double *joint, double *driver);
+fw_status fw_statics_equilibrium_rank(const fw_statics_equilibrium *w, fw_statics_row_rank *rank);
+/* names of the bodies that take part in a motion (n), the one that moves most first */
+fw_status fw_statics_equilibrium_bodies(const fw_statics_equilibrium *w, const double *shape,
+                                        const char **names);
+double fw_statics_equilibrium_part(const double *shape,
+                                   int body); /* how far it moves, scaled, or turns */
+int fw_statics_equilibrium_mover(const fw_statics_equilibrium *w, const double *shape);
+/* 1/s^2 per scaled eigenvalue */
+double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w);
+const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
+
+#endif

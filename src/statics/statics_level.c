@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One level up at one instant. At the pose q of the level used, under the loads of its time, forces
+   and joint forces leave M a (a = sum of modes times forces along them: 0 in an equilibrium, the
+   acceleration of the motion where it swings, less what goes with squared velocities). The next
+   level is put into equilibrium under the same loads and the dead forces -M a:
+
+     F_next(q', t) - M a + G'^T lambda' = 0,   Newton's method from q
+
+   and q' - q, the angles and the joint forces are what the level changes. So it is exact where the
+   loads are slow against the motion; where it swings it is what the hinges' law changes at that
+   instant, not what their frequencies add up to over many periods.
+   In: SI; out: SI. Error: round-off over the least stiffness. Cost: two models and 3 to 5
+   evaluations of 30 n^3, n = 3 nbody. Source: d'Alembert's principle. Test: test_hinge_models.c. */
+#include "statics/level.h"
+#include "statics/statics_equilibrium.h"
+#include <math.h>
+#include <string.h>
+
+/* unknowns: more would take longer than the motion itself */
+enum { FW_TRIES = 30, FW_LEVEL_MOST = 180 };
+static const double fw_farthest = 0.5; /* rad or scaled lengths: one step at most */
+
+/* ---- the next level's equilibrium ---- */
+
+static bool settle(fw_statics_equilibrium *w) {
+    double before = (double)INFINITY;
+    for (int i = 0; i < FW_TRIES; i++) {
+        if (fw_statics_equilibrium_evaluate(w) != FW_OK) return false;
+        double most = fw_statics_equilibrium_newton(w, w->step);
+        if (!isfinite(most)) return false;
+        double part = fmin(1, fw_farthest / fmax(most, 1e-300));
+        for (int k = 0; k < w->model->nq; k++)
+            w->y[k] += part * w->step[k];
+        if (most <= 1e-11 ||
+            (most > 0.5 * before && (most < 1e-9 || fw_statics_equilibrium_quiet(w))))
+            return fw_statics_equilibrium_evaluate(w) == FW_OK;
+        before = most;
+    }
+    return false;
+}
+
+static void place(const fw_statics_equilibrium *w, const double *q, double *y) {
+    memset(y, 0, (size_t)w->model->ny * sizeof *y);
+    for (int i = 0; i < w->model->nq; i++)
+        y[i] = (q[i] - w->q0[i]) / (i % 3 == 2 ? 1 : w->model->scale.length_m);
+}
+
+static fw_status read_state(const fw_statics_equilibrium *w, fw_statics_level_state *out) {
+    const fw_mechanism *m = w->mechanism;
+    double *joint, *driver;
+    FW_NEED(out->strain = fw_arena_array(w->arena, double, (size_t)m->nhinge));
+    for (int i = 0; i < m->nhinge; i++)
+        out->strain[i] = (double)NAN;
+    FW_NEED(out->q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    FW_NEED(out->angle_rad = fw_arena_array(w->arena, double, (size_t)m->npin));
+    FW_NEED(out->reaction_N = fw_arena_array(w->arena, double, 2 * (size_t)m->npin));
+    FW_NEED(joint = fw_arena_array(w->arena, double, 3 * (size_t)m->njoint));
+    FW_NEED(driver = fw_arena_array(w->arena, double, (size_t)m->ndriver));
+    fw_statics_equilibrium_pose(w, w->y, out->q, out->angle_rad);
+    fw_statics_equilibrium_reactions(w, out->reaction_N, joint, driver);
+    return FW_OK;
+}
+
+static void compare(const fw_mechanism *m, fw_statics_level_step *step) {
+    double largest = 0;
+    step->angle_rad = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        int pin = m->hinge[k].pin;
+        largest = fmax(largest, fabs(step->at.angle_rad[pin]));
+        step->angle_rad =
+            fmax(step->angle_rad, fabs(step->up.angle_rad[pin] - step->at.angle_rad[pin]));
+    }
+    step->relative = largest > 0 ? step->angle_rad / largest : 0;
+}
+
+/* after both are built: `low` evaluated at its pose, `high` under the same loads */
+static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high,
+                       fw_statics_level_step *step) {
+    FW_TRY(read_state(low, &step->at));
+    place(high, step->at.q, high->y);
+    if (!settle(high)) {
+        step->why_not = "no equilibrium was found at the next level";
+        return FW_OK;
+    }
+    FW_TRY(read_state(high, &step->up));
+    compare(low->mechanism, step);
+    return FW_OK;
+}
+
+/* ---- which level is next ---- */
+
+static bool acts(const fw_effect_ledger *ledger, const char *id) {
+    for (int i = 0; i < ledger->count; i++)
+        if (strcmp(ledger->item[i].id, id) == 0) return ledger->item[i].active;
+    return false;
+}
+
+static fw_statics_level_step *begin(fw_arena *arena, const fw_mechanism *m,
+                                    const fw_effect_ledger *ledger, double t_s) {
+    fw_statics_level_step *s = fw_arena_one(arena, fw_statics_level_step);
+    if (!s) return NULL;
+    *s = (fw_statics_level_step){.used = ledger->hinge.used,
+                                 .next = ledger->hinge.used,
+                                 .t_s = t_s,
+                                 .nbody = m->nbody,
+                                 .npin = m->npin,
+                                 .angle_rad = (double)NAN,
+                                 .relative = (double)NAN};
+    return s;
+}
+
+/* loads of the next level; step->why_not where there are none */
+static fw_status next_loads(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                            const fw_effect_ledger *ledger, const fw_effects_loads *loads,
+                            fw_effects_loads *up, fw_statics_level_step *step) {
+    FW_TRY(fw_effects_hinges_up(arena, m, scene, loads, step->used, up, &step->next));
+    up->nfriction = 0;
+    /* what they do to a flexure that gives is not in the loads of a pin */
+    bool warm = acts(ledger, "temperature") || acts(ledger, "residual-stress");
+    if (3 * m->nbody > FW_LEVEL_MOST)
+        step->why_not = "the mechanism is too large to be examined";
+    else if (step->next == step->used)
+        step->why_not = step->used == FW_HINGE_ELASTICA ? "exact beams are the highest level here"
+                                                        : "no hinge has a law of its own";
+    else if (step->used == FW_HINGE_REVOLUTE && warm)
+        step->why_not = "temperature and residual stress act on hinges that give in another way";
+    return FW_OK;
+}
+
+/* ---- an instant of a motion ---- */
+
+static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
+    double largest = -1, t = 0;
+    int best = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_dynamics_peak *p = &x->peak[m->hinge[k].pin];
+        if (fabs(p->angle_rad) > largest) largest = fabs(p->angle_rad), t = p->t_s;
+    }
+    for (int i = 1; i < x->nsample; i++)
+        if (fabs(x->t_s[i] - t) < fabs(x->t_s[best] - t)) best = i;
+    return best;
+}
+
+static fw_status in_time(fw_statics_equilibrium *w, fw_arena *arena, const fw_mechanism *m,
+                         const fw_device_scene *scene, const fw_effects_loads *loads,
+                         fw_diags *diags) {
+    *w = (fw_statics_equilibrium){.arena = arena, .mechanism = m, .scene = scene, .diags = diags};
+    return fw_statics_equilibrium_in_time(w, loads);
+}
+
+static void at_time(fw_statics_equilibrium *w, double t_s) {
+    fw_statics_equilibrium_at(w, t_s, t_s);
+    w->model->held_s = t_s;
+}
+
+/* the acceleration that `low` leaves goes to `high` as a constant one the other way */
+static void hand_inertia(const fw_statics_equilibrium *low, fw_statics_equilibrium *high) {
+    const fw_statics_reduced *r = &low->reduced;
+    const fw_multibody_scale *a = &low->model->scale, *b = &high->model->scale;
+    double time = b->time_s / a->time_s, size = time * time * a->length_m / b->length_m;
+    for (int i = 0; i < r->n; i++) {
+        double sum = 0;
+        for (int k = 0; k < r->dof; k++)
+            sum += low->gradient[k] * r->shape[(size_t)k * (size_t)r->n + (size_t)i];
+        high->gravity[i] -= sum * (i % 3 == 2 ? time * time : size);
+    }
+}
+
+fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
+                                     const fw_device_scene *scene, const fw_dynamics_motion *x,
+                                     const fw_statics_level_step **out) {
+    fw_diags own = fw_diags_new(arena);
+    fw_statics_equilibrium low, high;
+    fw_effects_loads loads = *x->loads, up;
+    *out = NULL;
+    if (m->nhinge == 0 || x->nsample < 1) return FW_OK;
+    int row = row_of_peak(m, x);
+    fw_statics_level_step *step = begin(arena, m, &x->ledger, x->t_s[row]);
+    FW_NEED(step);
+    *out = step;
+    loads.nfriction = 0;
+    FW_TRY(next_loads(arena, m, scene, &x->ledger, &loads, &up, step));
+    if (step->why_not) return FW_OK;
+    FW_TRY(in_time(&low, arena, m, scene, &loads, &own));
+    FW_TRY(in_time(&high, arena, m, scene, &up, &own));
+    at_time(&low, step->t_s);
+    place(&low, x->q + (size_t)row * 3 * (size_t)m->nbody, low.y);
+    fw_status status = fw_statics_equilibrium_evaluate(&low);
+    if (status == FW_SOLVER) {
+        step->why_not = "the pose of the peak could not be evaluated";
+        return FW_OK;
+    }
+    FW_TRY(status);
+    if (!x->loads->quasi_static) hand_inertia(&low, &high);
+    at_time(&high, step->t_s);
+    return climb(&low, &high, step);
+}
+
+/* ---- an equilibrium ---- */
+
+/* `high` as it is at s = 1 of what `w` was made from */
+static fw_status next_rest(fw_statics_equilibrium *w, fw_statics_level_step *step,
+                           fw_statics_equilibrium *high) {
+    fw_effects_loads up;
+    FW_TRY(next_loads(w->arena, w->plain, w->scene, &w->ledger, w->loads, &up, step));
+    if (step->why_not) return FW_OK;
+    return fw_statics_equilibrium_again(w, &up, high);
+}
+
+fw_status fw_statics_level_of_equilibrium(fw_statics_equilibrium *w,
+                                          const fw_statics_level_step **out) {
+    fw_statics_equilibrium high;
+    *out = NULL;
+    if (!w->loads || w->mechanism->nhinge == 0) return FW_OK;
+    fw_statics_level_step *step = begin(w->arena, w->mechanism, &w->ledger, (double)NAN);
+    FW_NEED(step);
+    *out = step;
+    FW_TRY(next_rest(w, step, &high));
+    return step->why_not ? FW_OK : climb(w, &high, step);
+}
+
+fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative) {
+    fw_statics_equilibrium high;
+    *relative = (double)NAN;
+    if (!w->loads || w->mechanism->nhinge == 0) return FW_OK;
+    fw_statics_level_step *step = begin(w->arena, w->mechanism, &w->ledger, (double)NAN);
+    FW_NEED(step);
+    FW_TRY(next_rest(w, step, &high));
+    if (step->why_not) return FW_OK;
+    double *q;
+    FW_NEED(q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    fw_statics_equilibrium_pose(w, w->y, q, NULL);
+    place(&high, q, high.y);
+    bool rests = w->factor == 0; /* about the assembled pose it is held as it is */
+    if (rests ? fw_statics_equilibrium_evaluate(&high) != FW_OK : !settle(&high)) return FW_OK;
+    const fw_statics_reduced *a = &w->reduced, *b = &high.reduced;
+    double worst = 0;
+    /* those that the mechanism has with pins: what hinges add is far above */
+    int own = b->dof - 2 * high.model->nreleased;
+    for (int k = 0; k < own && k < a->dof; k++) {
+        double x = a->value[k] * fw_statics_equilibrium_per_s2(w),
+               y = b->value[k] * fw_statics_equilibrium_per_s2(&high);
+        if (x <= 0 || y <= 0) return FW_OK;
+        worst = fmax(worst, fabs(sqrt(y / x) - 1));
+    }
+    *relative = worst;
+    return FW_OK;
+}
+
+bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
+                            const fw_effect_choice *asked, fw_effect_choice *choice) {
+    if (asked->hinge != FW_HINGE_AUTO || !step || step->why_not || step->relative < accuracy)
+        return false;
+    /* a list, or none: what was left out by hand stays out */
+    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
+    if (by_hand && step->used == FW_HINGE_REVOLUTE) return false;
+    choice->hinge = step->next;
+    choice->below = step->relative;
+    return true;
+}
+
+fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *step, double accuracy,
+                                const fw_effect_choice *asked, fw_effects_hinge_use *use) {
+    char by[32], wanted[32];
+    if (!step || step->why_not) return FW_OK;
+    use->error = step->relative;
+    if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
+    fw_percent_text(by, sizeof by, step->relative);
+    fw_percent_text(wanted, sizeof wanted, accuracy);
+    FW_NEED(use->why =
+                fw_arena_printf(arena,
+                                "%s; the cheapest that is good enough: %s is computed to "
+                                "change %s %%, below the accuracy wanted, %s %%",
+                                use->why, fw_effects_hinge_model_text(step->next), by, wanted));
+    return FW_OK;
+}
+
+fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
+                                 const char *why_not, fw_effects_hinge_use *use) {
+    char by[32];
+    fw_percent_text(by, sizeof by, step->relative);
+    FW_NEED(use->why = fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s",
+                                       use->why ? use->why : "",
+                                       fw_effects_hinge_model_text(step->next), by, why_not));
+    return FW_OK;
+}

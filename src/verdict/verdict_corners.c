@@ -1,0 +1,359 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A verdict for everything that a flow may make. Which corner of the ranges is worst differs by
+   hinge and scene: a given rotation strains a wide flexure more, a given load a thin one. Theory:
+   docs/theory/as-fabricated.md. */
+#include "verdict/corners.h"
+#include <math.h>
+#include <string.h>
+
+/* a first-order estimate that was off by more than this proves nothing: every corner is run */
+static const double fw_trusted = 0.3;
+/* below this an input does not decide which corner is the worst one */
+static const double fw_of_no_account = 2e-3;
+
+/* ---- first order ---- */
+
+static void nominal_point(const fw_verdict_variant_verdict *v, double *x) {
+    for (int i = 0; i < v->ninput; i++)
+        x[i] = v->input[i].nominal;
+}
+
+static void corner_point(const fw_verdict_variant_verdict *v, unsigned bits, double *x) {
+    for (int i = 0; i < v->ninput; i++)
+        x[i] = bits >> i & 1u ? v->input[i].high : v->input[i].low;
+}
+
+/* inputs that change nothing but edges have the same slopes, scaled */
+static bool edges_only(const fw_verdict_fabrication_input *in) {
+    return in->edge_m != 0.0 && in->flare_m == 0.0 && in->thickness == 0.0 && in->youngs == 0.0;
+}
+
+static int first_edge(const fw_verdict_variant_verdict *v) {
+    int i = 0;
+    while (!edges_only(&v->input[i]))
+        i++;
+    return i;
+}
+
+/* d ln U/dx by one run per input, at the low end of its range: thin flexures, where things change
+   fastest. A row that is not there at that end (a flexure gone) has no slope: NaN */
+static fw_status slopes(fw_verdict_search *s) {
+    const fw_verdict_variant_verdict *v = s->v;
+    double x[FW_FABRICATION_INPUTS];
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
+        for (int r = 0; like < i && r < s->nrow; r++)
+            s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
+        if (like < i) continue;
+        nominal_point(v, x);
+        x[i] = in->nominal > in->low ? in->low : in->high;
+        const double *at = s->ln + (size_t)s->fabricated->ncorner * (size_t)s->nrow;
+        FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
+        for (int r = 0; r < s->nrow; r++)
+            s->slope[r * n + i] = (at[r] - s->ln[r]) / (x[i] - in->nominal);
+    }
+    s->first = s->fabricated->ncorner;
+    return FW_OK;
+}
+
+static double estimate(const fw_verdict_search *s, int row, unsigned bits) {
+    const fw_verdict_variant_verdict *v = s->v;
+    double x[FW_FABRICATION_INPUTS], ln = s->ln[row];
+    corner_point(v, bits, x);
+    for (int i = 0; i < v->ninput; i++)
+        ln += s->slope[row * v->ninput + i] * (x[i] - v->input[i].nominal);
+    return ln;
+}
+
+/* the corner where the estimate is largest; inputs of no account are as in `like` */
+static unsigned worst_corner(const fw_verdict_search *s, int row, unsigned like) {
+    unsigned bits = 0;
+    for (int i = 0; i < s->v->ninput; i++) {
+        double slope = s->slope[row * s->v->ninput + i];
+        double size = fabs(slope) * (s->v->input[i].high - s->v->input[i].low);
+        bool high = size < fw_of_no_account ? like >> i & 1u : slope > 0.0;
+        bits |= high ? 1u << i : 0u;
+    }
+    return bits;
+}
+
+static int find_corner(const fw_verdict_search *s, unsigned bits) {
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] == bits) return p;
+    return FW_NONE;
+}
+
+/* the worst corner of a row, as one that was run where the difference is of no account */
+static unsigned choose(const fw_verdict_search *s, int row) {
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] != FW_NO_CORNER) {
+            unsigned bits = worst_corner(s, row, s->bits[p]);
+            if (bits == s->bits[p]) return bits;
+        }
+    return worst_corner(s, row, 0);
+}
+
+/* how far off the estimates of rows that may matter were at a corner that was run */
+static double estimate_error(const fw_verdict_search *s, int point) {
+    double error = 0.0;
+    for (int r = 0; r < s->nrow; r++) {
+        double got = s->ln[(size_t)point * (size_t)s->nrow + (size_t)r];
+        double want = estimate(s, r, s->bits[point]);
+        if (isnan(want) && isnan(got)) continue;        /* neither here nor there */
+        if (isnan(want) || isnan(got)) return HUGE_VAL; /* gone, or new */
+        if (fmax(got, want) < log(0.1)) continue;       /* far below every limit */
+        error = fmax(error, fabs(got - want));
+    }
+    return error;
+}
+
+static double largest_run(const fw_verdict_search *s) {
+    double most = -HUGE_VAL;
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        for (int r = 0; r < s->nrow; r++)
+            most = fmax(most, s->ln[(size_t)p * (size_t)s->nrow + (size_t)r]); /* NaN is passed */
+    return most;
+}
+
+/* a utilisation above this may be beyond its limit with the band of the model: wider for a required
+   pose, and outside the fitted range of fillets and arcs (10 % counted for every flexure) */
+static double near_limit(const fw_verdict_search *s, int row) {
+    int scenes = s->device->nscene + 1;
+    bool pose = row < s->v->nhinge * scenes && row % scenes == scenes - 1;
+    const fw_verdict_model_errors *e = &fw_verdict_model_error;
+    return 0.95 / (1.1 + e->strain + (pose ? e->workspace : e->motion));
+}
+
+/* runs the corner of the row whose estimate, with the error seen so far, is highest and either
+   above everything that was run or near a limit; false: there is none left */
+static fw_status run_next(fw_verdict_search *s, bool *ran) {
+    double largest = largest_run(s), highest = -HUGE_VAL;
+    unsigned next = FW_NO_CORNER;
+    for (int r = 0; r < s->nrow; r++) {
+        if (isnan(s->ln[r])) continue;
+        unsigned bits = choose(s, r);
+        double upper = estimate(s, r, bits) + s->fabricated->error;
+        double bar = fmin(largest, log(near_limit(s, r)));
+        bool first = s->fabricated->ncorner == s->first; /* one is run in any case */
+        if (!first && (find_corner(s, bits) != FW_NONE || !(upper > bar))) continue;
+        if (upper > highest) highest = upper, next = bits;
+    }
+    *ran = next != FW_NO_CORNER;
+    if (!*ran) return FW_OK;
+    double x[FW_FABRICATION_INPUTS];
+    corner_point(s->v, next, x);
+    FW_TRY(fw_verdict_search_run(s, x, next));
+    s->fabricated->error =
+        fmax(s->fabricated->error, estimate_error(s, s->fabricated->ncorner - 1));
+    return FW_OK;
+}
+
+static bool no_slope(const fw_verdict_search *s) {
+    for (int r = 0; r < s->nrow; r++)
+        for (int i = 0; !isnan(s->ln[r]) && i < s->v->ninput; i++)
+            if (isnan(s->slope[r * s->v->ninput + i])) return true;
+    return false;
+}
+
+static fw_status run_all(fw_verdict_search *s) {
+    double x[FW_FABRICATION_INPUTS];
+    s->fabricated->all = true;
+    for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
+        if (find_corner(s, bits) != FW_NONE) continue;
+        corner_point(s->v, bits, x);
+        FW_TRY(fw_verdict_search_run(s, x, bits));
+    }
+    return FW_OK;
+}
+
+/* the nominal device, its slopes, the corners that may govern; where first order is not to be
+   trusted, all of them */
+static fw_status search(fw_verdict_search *s) {
+    double x[FW_FABRICATION_INPUTS];
+    nominal_point(s->v, x);
+    FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
+    if (s->fabricated->corner[0].decision == FW_REJECT) return FW_OK;
+    FW_TRY(slopes(s));
+    if (no_slope(s)) return run_all(s);
+    for (bool ran = true; ran && s->fabricated->error <= fw_trusted;)
+        FW_TRY(run_next(s, &ran));
+    return s->fabricated->error > fw_trusted ? run_all(s) : FW_OK;
+}
+
+/* ---- what it says ---- */
+
+static void tightest(fw_verdict_search *s, int k) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    fw_verdict_fabricated_hinge *h = &fabricated->hinge[k];
+    for (int c = 1; c < fabricated->ncorner; c++) {
+        const fw_verdict_hinge_verdict *now = &fabricated->corner[c].hinge[k],
+                                       *worst = &fabricated->corner[h->corner].hinge[k];
+        if (now->scene && (!worst->scene || now->utilisation > worst->utilisation)) h->corner = c;
+    }
+    h->most = fabricated->corner[h->corner].hinge[k].utilisation +
+              fabricated->corner[h->corner].hinge[k].numeric;
+}
+
+/* sigma and what it is made of, from the row that governs the nominal device; the bound over all
+   corners from every row */
+static void first_order(fw_verdict_search *s, int k) {
+    fw_verdict_fabricated_hinge *h = &s->fabricated->hinge[k];
+    int rows = s->device->nscene + 1, row = FW_NONE, n = s->v->ninput;
+    double sum = 0.0;
+    for (int r = k * rows; r < (k + 1) * rows; r++) {
+        if (isnan(s->ln[r])) continue;
+        if (row == FW_NONE || s->ln[r] > s->ln[row]) row = r;
+        if (!s->fabricated->all)
+            h->most =
+                fmax(h->most, exp(estimate(s, r, worst_corner(s, r, 0)) + s->fabricated->error));
+    }
+    for (int i = 0; row != FW_NONE && i < n; i++) {
+        double slope = s->slope[row * n + i];
+        h->share[i] = isnan(slope) ? 0.0 : exp(s->ln[row]) * slope * s->v->input[i].sigma;
+        sum += h->share[i] * h->share[i];
+    }
+    h->sigma = sqrt(sum);
+}
+
+/* the worst of everything that was run, and the hinge that makes it so */
+static void govern(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    double most = -1.0;
+    fabricated->governing = FW_NONE;
+    fabricated->at = 0;
+    fw_verdict_decision worst = FW_ACCEPT;
+    for (int c = 0; c < fabricated->ncorner; c++) {
+        const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
+        if (corner->decision < worst) continue;
+        if (corner->decision > worst) most = -1.0, worst = corner->decision;
+        if (corner->why && most < 0.0)
+            fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
+        for (int k = 0; k < s->v->nhinge; k++)
+            if (corner->hinge[k].scene && corner->hinge[k].decision >= worst &&
+                corner->hinge[k].utilisation > most) {
+                most = corner->hinge[k].utilisation;
+                fabricated->at = c, fabricated->governing = k;
+            }
+    }
+    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
+                           : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
+                                                                         : FW_INCONCLUSIVE;
+}
+
+static fw_status explain(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    const fw_verdict_fabricated_corner *c = &fabricated->corner[fabricated->at];
+    const fw_verdict_hinge_verdict *h =
+        fabricated->governing == FW_NONE ? NULL : &c->hinge[fabricated->governing];
+    const char *flow = s->v->variant->flow ? s->v->variant->flow : "this flow";
+    bool nominal = fabricated->at == 0;
+    if (!h || c->why) {
+        FW_NEED(fabricated->reason =
+                    fw_arena_printf(s->arena, "as %s makes it (%s): %s", flow, c->what,
+                                    c->why ? c->why : "it is not accepted"));
+        return FW_OK;
+    }
+    char used[32], drawn[32];
+    fw_percent_text(used, sizeof used, h->utilisation);
+    fw_percent_text(drawn, sizeof drawn, s->v->hinge[fabricated->governing].utilisation);
+    FW_NEED(fabricated->reason = fw_arena_printf(
+                s->arena,
+                "as %s makes it%s (%s) hinge %s uses %s %% of its limit in %s, as drawn %s %%",
+                flow, nominal ? "" : " at worst", c->what, h->id, used, h->scene, drawn));
+    return FW_OK;
+}
+
+static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v) {
+    const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    const fw_verdict_fabricated_corner *c = &fabricated->corner[fabricated->at];
+    const fw_verdict_hinge_verdict *h =
+        fabricated->governing == FW_NONE ? NULL : &c->hinge[fabricated->governing];
+    double keep = h ? fmin(fmax(0.98 / h->utilisation_high, 1e-3), 0.99) : 0.5;
+    const char *text = fabricated->reason;
+    if (fabricated->control)
+        FW_NEED(text =
+                    fw_arena_printf(s->arena, "%s; %s", fabricated->reason, fabricated->control));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = h ? h->scene : "as made",
+                                                  .flow = v->variant->flow,
+                                                  .number = h ? 237 : 238,
+                                                  .decision = fabricated->decision,
+                                                  .keep = keep,
+                                                  .text = text};
+    return FW_OK;
+}
+
+static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_verdict_options *options, fw_verdict_variant_verdict *v,
+                            fw_verdict_search *s) {
+    size_t n = (size_t)v->ninput, h = (size_t)v->nhinge;
+    *s = (fw_verdict_search){.arena = arena,
+                             .device = device,
+                             .layout = layout,
+                             .options = *options,
+                             .v = v,
+                             .nrow = v->nhinge * (device->nscene + 1) + device->nscene};
+    s->options.with_advice = false;
+    s->options.motion.samples = 65; /* stability is looked at between them */
+    FW_NEED(s->fabricated = fw_arena_one(arena, fw_verdict_fabricated_verdict));
+    FW_NEED(s->fabricated->corner =
+                fw_arena_array(arena, fw_verdict_fabricated_corner, FW_MOST_POINTS));
+    FW_NEED(s->fabricated->hinge = fw_arena_array(arena, fw_verdict_fabricated_hinge, h));
+    FW_NEED(s->ln = fw_arena_array(arena, double, (size_t)FW_MOST_POINTS *(size_t)s->nrow));
+    FW_NEED(s->bits = fw_arena_array(arena, unsigned, FW_MOST_POINTS));
+    FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->nrow *n));
+    for (size_t k = 0; k < h; k++)
+        FW_NEED(s->fabricated->hinge[k].share = fw_arena_array(arena, double, n));
+    s->fabricated->held = FW_NONE;
+    s->fabricated->held_share = (double)NAN;
+    return FW_OK;
+}
+
+/* a trial's suspect decides alone where it is not accepted, or nothing else is asked for */
+static fw_status look_at_suspect(fw_verdict_search *s, bool *decided) {
+    *decided = false;
+    bool alone = s->options.corners == FW_CORNERS_SUSPECT;
+    if (!s->v->suspect || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
+    FW_TRY(fw_verdict_search_run(s, s->v->suspect, FW_NO_CORNER));
+    *decided = alone || s->fabricated->corner[0].decision != FW_ACCEPT;
+    if (*decided) return FW_OK;
+    fw_verdict_fabricated_corner *known =
+        fw_arena_one(s->arena, fw_verdict_fabricated_corner); /* the search may come to it */
+    double *ln = fw_arena_array(s->arena, double, (size_t)s->nrow);
+    FW_NEED(known && ln ? known : NULL);
+    *known = s->fabricated->corner[0];
+    memcpy(ln, s->ln, (size_t)s->nrow * sizeof *ln);
+    s->known = known;
+    s->known_ln = ln;
+    s->fabricated->ncorner = 0;
+    return FW_OK;
+}
+
+fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
+                                   const fw_layout *layout, const fw_verdict_options *options,
+                                   fw_verdict_variant_verdict *v) {
+    fw_verdict_search s;
+    bool decided, alone = options->corners == FW_CORNERS_SUSPECT;
+    bool quick = alone || options->corners == FW_CORNERS_FIRST;
+    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn != FW_ACCEPT)
+        return FW_OK;
+    if (alone && !v->suspect) return FW_OK;
+    FW_TRY(new_search(arena, device, layout, options, v, &s));
+    FW_TRY(look_at_suspect(&s, &decided));
+    if (!decided) FW_TRY(search(&s));
+    for (int k = 0; k < v->nhinge; k++) {
+        tightest(&s, k);
+        if (!decided && s.first > 0) first_order(&s, k);
+    }
+    govern(&s);
+    v->fabricated = s.fabricated;
+    if (s.fabricated->decision == FW_ACCEPT) return FW_OK;
+    if (quick) {
+        v->decision = FW_INCONCLUSIVE;
+        return FW_OK;
+    }
+    FW_TRY(explain(&s));
+    if (s.fabricated->decision == FW_INCONCLUSIVE) FW_TRY(fw_verdict_fabrication_control(&s));
+    if (s.fabricated->decision > v->decision) v->decision = s.fabricated->decision;
+    return add_reason(&s, v);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a flow makes of a device: independent inputs (an edge, an etch, a thickness, a modulus),
+   each with its range, and what they do to widths, gaps, sections and masses. Theory:
+   docs/theory/as-fabricated.md. */
+#ifndef FW_VERDICT_VERDICT_FABRICATION_H
+#define FW_VERDICT_VERDICT_FABRICATION_H
+#include "mechanism/mechanism.h"
+
+enum { FW_FABRICATION_INPUTS = 6 }; /* at most, of one flow: 64 corners */
+
+/* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
+     edge += edge_m (x - even), flare += flare_m (x - drawn), relative thickness and modulus
+   likewise
+ */
+typedef struct fw_verdict_fabrication_input {
+    const char *name; /* "printed edge" */
+    fw_quantity q;    /* unit, status, source and note of the range */
+    double drawn;     /* at which what stands is as drawn */
+    double even;      /* at which edges are where they are drawn: what the mask compensates */
+    double nominal, low, high, sigma; /* low <= nominal <= high; sigma: standard uncertainty */
+    double edge_m, flare_m, thickness, youngs; /* per unit of x */
+    const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
+                            NULL: it is known */
+} fw_verdict_fabrication_input;
+
+typedef struct fw_verdict_fabrication {
+    double edge_m;                        /* edges of the material stand out by this, mid-depth */
+    double flare_m;                       /* see fw_device_flexure */
+    double thickness_ratio, youngs_ratio; /* of the variant's own */
+} fw_verdict_fabrication;
+
+typedef struct fw_verdict_fabricated_device { /* copies; what they do not change is shared */
+    fw_device device;
+    fw_layout layout;
+    const fw_layout *drawn; /* &layout, or NULL without a drawing */
+    fw_mechanism_variant variant;
+    const char *gone; /* a sentence: a flexure is cut through, a gap closed; NULL */
+} fw_verdict_fabricated_device;
+
+fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
+                                                 int ninput, const double *x);
+/* In: the device as drawn (layout may be NULL) in a variant. Flexures: width + 2 edge, gap - 2
+   edge, concave fillets - edge, trapezoid section; stated stiffness by the ratio of the closed
+   forms, stated damping by its root; hinge points move with the centres of elastic weights; bodies:
+   mass and inertia with the area, A + P edge; gaps of combs and squeezed films - 2 edge. Thickness
+   and modulus scale what is stated as another flow would. */
+fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
+                                       const fw_layout *layout, const fw_mechanism_variant *variant,
+                                       const fw_verdict_fabrication *fabricated,
+                                       fw_verdict_fabricated_device *out);
+
+#endif

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/compare.h"
+#include "base/constants.h"
+#include <math.h>
+#include <string.h>
+
+static void unreachable(const fw_device *device, const fw_verdict_variant_verdict *v,
+                        fw_diags *diags) {
+    char x[32], y[32], phi[32];
+    fw_diag_warning(diags, 201, device->workspace[v->workspace.fail_box].place,
+                    "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
+                    "turned by %s deg; the design is rejected",
+                    fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
+                    fw_number_text(y, sizeof y, v->workspace.fail_y_m * 1e6, 4),
+                    fw_number_text(phi, sizeof phi, v->workspace.fail_phi_rad * 180 / FW_PI, 3));
+}
+
+static bool judged(const fw_verdict_variant_verdict *v, const fw_device *device) {
+    bool any = v->workspace.required || v->nreason > 0;
+    for (int i = 0; i < device->nscene; i++)
+        any = any || v->motion[i];
+    return any;
+}
+
+/* worst over the variants, joint by joint */
+static fw_status combine(fw_arena *arena, const fw_device *device, double accuracy_wanted,
+                         fw_verdict *verdict) {
+    size_t most = (size_t)device->nrevolute;
+    FW_NEED(verdict->hinge = fw_arena_array(arena, fw_verdict_hinge_verdict, most));
+    verdict->decision = FW_ACCEPT;
+    verdict->governing = FW_NONE;
+    verdict->accuracy_wanted = accuracy_wanted;
+    for (int j = 0; j < device->nrevolute; j++) {
+        fw_verdict_hinge_verdict *worst = &verdict->hinge[verdict->nhinge];
+        for (int i = 0; i < verdict->nvariant; i++)
+            for (int k = 0; k < verdict->variant[i].nhinge; k++) {
+                const fw_verdict_hinge_verdict *h = &verdict->variant[i].hinge[k];
+                if (h->joint == j && h->scene) fw_verdict_keep_worst(worst, h);
+            }
+        verdict->nhinge += worst->scene != NULL;
+    }
+    for (int k = 0; k < verdict->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &verdict->hinge[k];
+        if (verdict->governing == FW_NONE ||
+            fw_verdict_governs(h, &verdict->hinge[verdict->governing]))
+            verdict->governing = k;
+        if (h->peak_angle_rad != 0.0)
+            verdict->accuracy_estimated =
+                fmax(verdict->accuracy_estimated, h->angle_error_rad / fabs(h->peak_angle_rad));
+    }
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < device->nscene; k++)
+            if (verdict->variant[i].motion[k])
+                verdict->accuracy_left_out = fmax(verdict->accuracy_left_out,
+                                                  verdict->variant[i].motion[k]->ledger.left_out);
+    verdict->failure_probability = (double)NAN;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        if (v->decision > verdict->decision) verdict->decision = v->decision;
+        verdict->failure_probability = fmax(verdict->failure_probability, v->failure_probability);
+    }
+    return FW_OK;
+}
+
+static fw_place flow_place(const fw_device *device, const char *flow) {
+    for (int i = 0; flow && i < device->nflow; i++)
+        if (strcmp(device->flow[i].ref, flow) == 0) return device->flow[i].place;
+    return (fw_place){device->file, 1, 1};
+}
+
+static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict) {
+    fw_status status = FW_OK;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        fw_verdict_variant_verdict *v = &verdict->variant[i];
+        const fw_mechanism *m = NULL;
+        FW_TRY(fw_mechanism_build(arena, device, layout, v->variant, diags, &m));
+        if (m->nhinge == 0)
+            return fw_diag_error(diags, 203,
+                                 device->nrevolute ? device->revolute[0].place
+                                                   : (fw_place){device->file, 1, 1},
+                                 "no joint of the mechanism is a flexure, so there is no elastic "
+                                 "limit to judge: name a flexure on the joints");
+        FW_TRY(fw_verdict_check_closure(device, m, diags));
+        FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
+        if (!judged(v, device))
+            status = fw_diag_error(diags, 202, flow_place(device, v->variant->flow),
+                                   "nothing to judge in flow %s: add a <scene> or a <workspace> "
+                                   "that holds for it",
+                                   v->variant->flow ? v->variant->flow : "(none)");
+        if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
+    }
+    FW_TRY(status);
+    return combine(arena, device, options->motion.accuracy, verdict);
+}
+
+/* a device far from its limits is decided by a first look */
+static fw_status first_attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_verdict_options *options, fw_diags *diags,
+                               fw_verdict *verdict) {
+    fw_verdict_options coarse = *options;
+    const fw_verdict empty = {.variant = verdict->variant, .nvariant = verdict->nvariant};
+    bool looser = options->motion.rtol == 0 && options->motion.accuracy < fw_verdict_first_accuracy;
+    if (!options->coarse_first || !looser)
+        return attempt(arena, device, layout, options, diags, verdict);
+    coarse.motion.accuracy = fw_verdict_first_accuracy;
+    FW_TRY(attempt(arena, device, layout, &coarse, diags, verdict));
+    if (verdict->decision != FW_INCONCLUSIVE || options->at_a_glance) return FW_OK;
+    fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
+    *verdict = empty;
+    return attempt(arena, device, layout, options, &again, verdict);
+}
+
+/* the drawing, or NULL where the mechanics can be judged without it; its messages are then warnings
+ */
+static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                      const fw_layout **layout) {
+    fw_diags drawing = fw_diags_new(arena);
+    *layout = NULL;
+    fw_status status = fw_layout_build(arena, device, &drawing, layout);
+    bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
+    if (drawing.failed) return FW_NOMEM;
+    if (status != FW_OK && !impossible) return status;
+    if (impossible) *layout = NULL;
+    bool fatal = impossible && fw_device_needs_shapes(device);
+    for (size_t i = 0; i < drawing.count; i++) {
+        const fw_diag *d = &drawing.item[i];
+        if (d->severity == FW_ERROR && fatal)
+            fw_diag_error(diags, d->number, d->place, "%s", d->message);
+        else if (d->severity == FW_NOTE)
+            fw_diag_note(diags, d->number, d->place, "%s", d->message);
+        else
+            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+    }
+    return fatal ? status : FW_OK;
+}
+
+/* what the flows make of it; the drawn verdict stays in each variant */
+static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                               const fw_verdict_options *options, fw_verdict *verdict) {
+    verdict->drawn = verdict->decision;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        fw_verdict_variant_verdict *v = &verdict->variant[i];
+        FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));
+        if (v->decision > verdict->decision) verdict->decision = v->decision;
+    }
+    return FW_OK;
+}
+
+/* gaps of the drawing decide what an etch takes */
+static fw_status take_inputs(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict_fabricated_of *fabricated, fw_verdict *verdict) {
+    for (int i = 0; fabricated->fill && i < verdict->nvariant; i++)
+        FW_TRY(
+            fabricated->fill(fabricated->context, arena, device, layout, i, &verdict->variant[i]));
+    return FW_OK;
+}
+
+fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
+                         const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
+                         const fw_layout **layout) {
+    FW_TRY(draw(arena, device, diags, layout));
+    FW_TRY(take_inputs(arena, device, *layout, &options->fabricated_of, verdict));
+    int nvariant = verdict->nvariant;
+    fw_verdict_variant_verdict *variant = verdict->variant;
+    FW_TRY(first_attempt(arena, device, *layout, options, diags, verdict));
+
+    /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
+       less than better hinges, which then may not be needed */
+    for (fw_verdict_refinement last = FW_REFINE_NOTHING;
+         verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance;) {
+        fw_verdict_refinement refinement =
+            fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
+        if (refinement <= last) break;
+        last = refinement;
+        fw_verdict_options tight = fw_verdict_tighter(options, refinement);
+        fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
+        *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
+        FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));
+        verdict->accuracy_wanted = options->motion.accuracy;
+    }
+    verdict->layout = *layout;
+    FW_TRY(as_fabricated(arena, device, *layout, options, verdict));
+    if (verdict->decision == FW_ACCEPT) return FW_OK;
+    if (options->with_advice) return fw_verdict_advise(arena, device, options, verdict);
+    verdict->advice_note = "no change that would be accepted was searched for";
+    return FW_OK;
+}

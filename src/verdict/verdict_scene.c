@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Beside the bands of its hinges a scene is judged by whether it stays where the model holds:
+     - it ends where an element's formula does (electrodes touch): rejected, or inconclusive where
+       it does not with voltages lower by the model's own error,
+     - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
+       it would touch with voltages higher by what fringe fields can do: inconclusive,
+     - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
+       inconclusive.
+   Test: test_program.py. */
+#include "verdict/scene.h"
+#include "statics/stability.h"
+#include "statics/quasi.h"
+#include <math.h>
+
+/* below this many times the margin a sudden voltage may throw the rotor to the stator: half of the
+   static voltage does so in the worst case, a step without damping from 0.9 of it on */
+static const double fw_thrown = 2;
+/* an equilibrium that a disturbance of a thousandth reaches within the scene */
+static const double fw_workspace_reached = 6.9;
+
+static fw_status add(fw_verdict_variant_verdict *v, const fw_device_scene *scene, int number,
+                     fw_verdict_decision decision, double keep, const char *text) {
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene->name,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = decision,
+                                                  .keep = fmin(fmax(keep, 1e-3), 0.99),
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* ---- runs that end where a formula does ---- */
+
+static const fw_diag *formula_ended(const fw_diags *diags) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].severity == FW_ERROR && diags->item[i].number == 242)
+            return &diags->item[i];
+    return NULL;
+}
+
+/* ended: the error that said so, which is then no error of the whole verdict */
+static void take_messages(const fw_diags *from, const fw_diag *ended, fw_diags *diags) {
+    for (size_t i = 0; i < from->count; i++) {
+        const fw_diag *d = &from->item[i];
+        if (d->severity == FW_ERROR && d != ended)
+            fw_diag_error(diags, d->number, d->place, "%s", d->message);
+        else if (d->severity == FW_NOTE)
+            fw_diag_note(diags, d->number, d->place, "%s", d->message);
+        else
+            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+    }
+}
+
+/* does it touch with all voltages `by` times as high? Nobody looks at that run. */
+static fw_status touches(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                         double by, const fw_dynamics_motion_options *options, bool *does) {
+    fw_device_scene changed = *scene;
+    fw_dynamics_motion_options quiet = *options;
+    fw_diags own = fw_diags_new(arena);
+    const fw_dynamics_motion *motion;
+    fw_device_comb *comb;
+    FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
+    for (int i = 0; i < scene->ncomb; i++) {
+        comb[i] = scene->comb[i];
+        comb[i].voltage_V *= by;
+    }
+    changed.comb = comb;
+    quiet.observe = NULL;
+    quiet.samples = 2;
+    fw_status status = fw_statics_move_scene(arena, m, &changed, &quiet, &own, &motion);
+    *does = status == FW_SOLVER && formula_ended(&own);
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
+}
+
+/* share of the loads to try: force goes with the square of the voltage */
+static double share_for(const fw_statics_pull_in *p) {
+    double by = p ? p->margin / fw_statics_pull_in_margin(p) : 1;
+    return 0.98 * fmin(by * by, 0.87);
+}
+
+static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw_statics_pull_in *p,
+                         const fw_diag *ended, const fw_dynamics_motion_options *options,
+                         fw_verdict_variant_verdict *v) {
+    bool still = true;
+    if (p)
+        FW_TRY(touches(arena, v->mechanism, scene, 1 - fw_verdict_model_error.motion, options,
+                       &still));
+    const char *why = p ? fw_statics_pull_in_explain(arena, p) : "";
+    FW_NEED(why);
+    char less[32];
+    fw_number_text(less, sizeof less, 100 * fw_verdict_model_error.motion, 2);
+    char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
+                                 still ? "" : " (with voltages lower by the ", still ? "" : less,
+                                 still ? "" : " % that the model may be wrong by it holds)");
+    return add(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p), text);
+}
+
+/* ---- runs that end well, and may not ---- */
+
+static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_statics_pull_in *p,
+                        fw_verdict_variant_verdict *v) {
+    char at[32], asked[32], part[32];
+    fw_number_text(at, sizeof at, p->voltage_V, 4);
+    fw_number_text(asked, sizeof asked, p->largest_V, 4);
+    fw_number_text(part, sizeof part, 100 * p->fringe, 2);
+    v->beyond_pull_in = true;
+    const char *text =
+        p->margin < 1
+            ? fw_arena_printf(arena,
+                              "scene %s asks for up to %s V, beyond the pull-in voltage %s V of "
+                              "comb drive %s; it is over before the rotor has snapped, and whether "
+                              "that holds on a wafer is not known",
+                              scene->name, asked, at, p->comb)
+            : fw_arena_printf(arena,
+                              "scene %s asks for up to %s V: comb drive %s pulls in at %s V, less "
+                              "what fringe fields take, which add up to %s %% to its capacitance "
+                              "and are not counted",
+                              scene->name, asked, p->comb, at, part);
+    return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
+}
+
+/* thrown to the stator, were the fringe fields all there */
+static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
+                               const fw_statics_pull_in *p, const fw_dynamics_motion *motion,
+                               const fw_dynamics_motion_options *options, fw_diags *diags,
+                               fw_verdict_variant_verdict *v) {
+    bool does;
+    if (motion->loads->quasi_static || !(p->margin < fw_thrown * fw_statics_pull_in_margin(p)))
+        return FW_OK;
+    FW_TRY(touches(arena, v->mechanism, scene, fw_statics_pull_in_margin(p), options, &does));
+    if (!does) return FW_OK;
+    char part[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "scene %s may throw the rotor of comb drive %s to its stator (dynamic "
+        "pull-in): it does with the fringe fields that are not counted, up to %s %% "
+        "of the capacitance",
+        scene->name, p->comb, fw_number_text(part, sizeof part, 100 * p->fringe, 2));
+    FW_NEED(text);
+    fw_diag_warning(diags, 248, p->place, "%s", text);
+    v->beyond_pull_in = true;
+    return add(v, scene, 248, FW_INCONCLUSIVE, 0.98 / (1 + p->fringe), text);
+}
+
+static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
+                               const fw_statics_pull_in *p, const fw_dynamics_motion *motion,
+                               const fw_dynamics_motion_options *options, fw_diags *diags,
+                               fw_verdict_variant_verdict *v) {
+    if (!p) return FW_OK;
+    if (p->kind != FW_PULL_IN_NONE && p->margin < fw_statics_pull_in_margin(p))
+        return beyond(arena, scene, p, v);
+    return may_be_thrown(arena, scene, p, motion, options, diags, v);
+}
+
+static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene,
+                                 const fw_dynamics_motion *motion, fw_diags *diags,
+                                 fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_statics_stability *stability;
+    FW_TRY(fw_statics_stability_find(arena, m, scene, motion, diags, &stability));
+    if (!stability) return FW_OK;
+    double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain, used = 0;
+    for (int k = 0; stability->angle_rad && k < m->nhinge; k++) {
+        double limit = m->hinge[k].closed_form.limit_angle_rad;
+        used = fmax(used, fabs(stability->angle_rad[m->hinge[k].pin]) / limit);
+    }
+    bool beyond_limit = used * (1 - model) > 1 && stability->growth > fw_workspace_reached;
+    return add(v, scene, 259, beyond_limit ? FW_REJECT : FW_INCONCLUSIVE, 0.95 * stability->share,
+               stability->text);
+}
+
+fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
+                           const fw_dynamics_motion_options *options, fw_diags *diags,
+                           fw_verdict_variant_verdict *v) {
+    fw_diags own = fw_diags_new(arena);
+    const fw_statics_pull_in *p;
+    FW_TRY(fw_statics_pull_in_find(arena, v->mechanism, scene, &options->effects, diags,
+                                   &v->pull_in[i]));
+    p = v->pull_in[i];
+    fw_status status =
+        fw_statics_move_scene(arena, v->mechanism, scene, options, &own, &v->motion[i]);
+    const fw_diag *ended = status == FW_SOLVER ? formula_ended(&own) : NULL;
+    take_messages(&own, ended, diags);
+    if (diags->failed || own.failed) return FW_NOMEM;
+    if (ended) {
+        v->motion[i] = NULL;
+        return touched(arena, scene, p, ended, options, v);
+    }
+    FW_TRY(status);
+    FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
+    return judge_stability(arena, scene, v->motion[i], diags, v);
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lies on the plate besides dies: title and identification beside the wafer, a fiducial in
+   each corner of the plate, and the cell of an alignment site. All are pieces like those of a die,
+   so that bias, rules and flattening are those of the flow.
+
+   Beside the wafer nothing carries lettering, so its strokes are drawn on the layer of the frame:
+   the plate's tone then makes them readable. Within a place the cross is cut out of a block of that
+   layer, as the crosses of a die are cut out of its frame. */
+#include "layout/layout_text.h"
+#include "wafer/parts.h"
+#include <math.h>
+#include <string.h>
+
+static const double RIM_M = 5e-3;                    /* of the plate, kept free: it is held there */
+static const double BESIDE_M = 1e-3;                 /* from the wafer's edge to lettering */
+static const double ARM_M = 1.5e-3, HALF_M = 0.1e-3; /* of a fiducial */
+static const double LARGEST_STROKE_M = 300e-6, LEAST_STROKE_M = 50e-6;
+enum { HIGH = 9 };
+
+bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role) {
+    for (int k = 0; k < table->nlayer; k++)
+        if (table->layer[k].roles & 1u << role) return true;
+    return false;
+}
+
+fw_status fw_wafer_sheet_add(fw_wafer_sheet *sheet, fw_layout_role role, const char *label,
+                             const fw_geometry_vec2 *point, int n) {
+    fw_arena *arena = sheet->maker->arena;
+    fw_geometry_outline outline = {0};
+    for (int i = 0; i < n; i++) {
+        fw_geometry_vec2 at = {fw_layout_to_grid(point[i].x), fw_layout_to_grid(point[i].y)};
+        if (i == 0)
+            outline = fw_geometry_outline_start(arena, at);
+        else
+            fw_geometry_outline_line(&outline, at, 0);
+    }
+    fw_layout_piece item = {.role = role, .body = FW_NONE - 1, .joint = FW_NONE, .label = label};
+    FW_TRY(fw_geometry_outline_close(&outline, &item.contour));
+    return fw_layout_add(arena, item, &sheet->piece, &sheet->npiece, &sheet->capacity);
+}
+
+fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, const fw_mask **mask) {
+    fw_wafer_maker *m = sheet->maker;
+    fw_mask_options options = m->input->mask;
+    options.rejected = false; /* the device's own cells and the library say it */
+    options.note = NULL;
+    options.nnote = 0;
+    options.no_islands = false;
+    fw_layout layout = {.drawn = true, .piece = sheet->piece, .npiece = sheet->npiece};
+    /* such a cell is a part of a picture: what relates layers to each other holds where it lies */
+    fw_mask_table *alone = fw_arena_one(m->arena, fw_mask_table);
+    FW_NEED(alone);
+    *alone = *m->input->table;
+    alone->rule = NULL;
+    alone->nrule = 0;
+    return fw_mask_build(m->arena, &layout, alone, name, &options, m->diags, mask);
+}
+
+static fw_status add_cross(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_vec2 o, double a,
+                           double w) {
+    const fw_geometry_vec2 p[] = {{o.x + w, o.y - w}, {o.x + a, o.y - w}, {o.x + a, o.y + w},
+                                  {o.x + w, o.y + w}, {o.x + w, o.y + a}, {o.x - w, o.y + a},
+                                  {o.x - w, o.y + w}, {o.x - a, o.y + w}, {o.x - a, o.y - w},
+                                  {o.x - w, o.y - w}, {o.x - w, o.y - a}, {o.x + w, o.y - a}};
+    return fw_wafer_sheet_add(s, role, "cross", p, sizeof p / sizeof p[0]);
+}
+
+/* one line in the middle of a strip, in strokes that let it fit; false in *fits: even the least do
+   not, and then it ends in '+' */
+static fw_status add_line(fw_wafer_sheet *s, const char *text, double middle, double band,
+                          double length, bool *fits) {
+    fw_arena *arena = s->maker->arena;
+    double stroke = fmin(LARGEST_STROKE_M, floor(band / HIGH * 1e6) * 1e-6);
+    *fits = stroke >= LEAST_STROKE_M;
+    if (!*fits) return FW_OK;
+    while (stroke > LEAST_STROKE_M && fw_layout_text_width(text, HIGH * stroke, stroke) > length)
+        stroke -= 10e-6;
+    stroke = fw_layout_to_grid(stroke);
+    char *shown = fw_arena_strdup(arena, text);
+    FW_NEED(shown);
+    for (size_t n = strlen(shown);
+         n > 1 && fw_layout_text_width(shown, HIGH * stroke, stroke) > length; n--) {
+        *fits = false;
+        shown[n - 1] = '\0';
+        shown[n - 2] = '+';
+    }
+    double width = fw_layout_text_width(shown, HIGH * stroke, stroke);
+    return fw_layout_text(
+        arena, shown, (fw_geometry_vec2){-0.5 * width, middle - 0.5 * HIGH * stroke}, HIGH * stroke,
+        stroke, FW_ROLE_FRAME, "plate text", &s->piece, &s->npiece, &s->capacity);
+}
+
+static const char *identification(fw_wafer_maker *m) {
+    const fw_mask_table *t = m->input->table;
+    const char *tone = "";
+    for (int k = 0; k < t->nlayer; k++)
+        if (t->layer[k].roles & 1u << FW_ROLE_FRAME)
+            tone = t->layer[k].tone ? t->layer[k].tone : "";
+    return fw_arena_printf(m->arena, "%s  %s  %s  FLEXWRIGHT " FW_VERSION, t->flow, tone,
+                           t->reading);
+}
+
+fw_status fw_wafer_plate(fw_wafer_maker *m) {
+    fw_wafer *w = m->wafer;
+    if (!fw_wafer_draws(m->input->table, FW_ROLE_FRAME)) return FW_OK;
+    fw_wafer_sheet s = {.maker = m};
+    double half = 0.5 * w->form.plate_m, corner = half - RIM_M - ARM_M;
+    for (int k = 0; k < 4; k++)
+        FW_TRY(add_cross(&s, FW_ROLE_FRAME,
+                         (fw_geometry_vec2){k % 2 ? corner : -corner, k / 2 ? corner : -corner},
+                         ARM_M, HALF_M));
+    double inner = 0.5 * w->form.diameter_m + BESIDE_M, outer = half - RIM_M;
+    double length = 2 * (corner - ARM_M - BESIDE_M);
+    const char *title =
+        fw_arena_printf(m->arena, "%s%s", w->rejected ? "REJECTED  " : "", w->title);
+    const char *line = identification(m);
+    FW_NEED(title && line ? title : NULL);
+    bool above, below;
+    FW_TRY(add_line(&s, title, 0.5 * (inner + outer), outer - inner, length, &above));
+    FW_TRY(add_line(&s, line, -0.5 * (inner + outer), outer - inner, length, &below));
+    if (!above || !below)
+        fw_diag_warning(m->diags, 195, w->device->wafer.place,
+                        "<wafer>: the title of the plate does not fit whole beside the wafer");
+    return fw_wafer_sheet_mask(&s, "PLATE", &w->plate);
+}
+
+/* a block of 0.6 of the die, 2 mm at most, with a cross of five fine arms' lengths: coarse near the
+   middle to be found, fine at the tips to be lined up */
+static fw_status add_target(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_vec2 o, double q) {
+    fw_geometry_vec2 p[FW_LAYOUT_CROSS];
+    fw_layout_cross(o, q, 3 * q, 0.3 * q, 5 * q, p);
+    return fw_wafer_sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
+}
+
+fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {
+    const fw_wafer_grid *g = &m->wafer->grid;
+    fw_wafer_sheet s = {.maker = m};
+    bool cut = fw_wafer_draws(m->input->table, FW_ROLE_MARK);
+    *mask = NULL;
+    if (!fw_wafer_draws(m->input->table, FW_ROLE_FRAME)) return FW_OK;
+    double width = g->width * 1e-9, height = g->height * 1e-9;
+    double half = 0.5 * fmin(0.6 * fmin(width, height), 2e-3), q = half / 7;
+    if (0.6 * q < 5e-6) return FW_OK; /* finer than is printed */
+    fw_geometry_vec2 o = {0.5 * width, 0.5 * height};
+    const fw_geometry_vec2 block[] = {{o.x - half, o.y - half},
+                                      {o.x + half, o.y - half},
+                                      {o.x + half, o.y + half},
+                                      {o.x - half, o.y + half}};
+    if (cut) FW_TRY(fw_wafer_sheet_add(&s, FW_ROLE_FRAME, "alignment site", block, 4));
+    FW_TRY(add_target(&s, cut ? FW_ROLE_MARK : FW_ROLE_FRAME, o, q));
+    return fw_wafer_sheet_mask(&s, "ALIGNMENT_SITE", mask);
+}

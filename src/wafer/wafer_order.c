@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order sheet of the whole plate for people: ASCII, to be pasted into a shop's form. Places to
+   measure are those of the die nearest to the centre, in coordinates of the plate. */
+#include "mask/order.h"
+#include "geometry/segment.h"
+#include "wafer/wafer_notes.h"
+#include <stdio.h>
+
+static void row(fw_text *out, const char *what, const char *value) {
+    fw_text_printf(out, "%-22s %s\n", what, value);
+}
+
+static void lengths(fw_text *out, const char *what, double a_m, const char *between, double b_m) {
+    char a[32], b[32], line[160];
+    fw_number_text(a, sizeof a, a_m * 1e3, 9);
+    fw_number_text(b, sizeof b, b_m * 1e3, 9);
+    snprintf(line, sizeof line, "%s%s%s%s", a, between, b, " mm");
+    row(out, what, line);
+}
+
+static void micrometres(fw_text *out, const char *what, double value_m) {
+    char number[32], line[64];
+    snprintf(line, sizeof line, "%s um", fw_number_text(number, sizeof number, value_m * 1e6, 7));
+    row(out, what, isfinite(value_m) ? line : "none below 100 um");
+}
+
+static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
+    static const char *const mirror[] = {
+        "the reading does not say: ask before writing",
+        "no: with the chrome up the plate looks like the data",
+        "yes: with the chrome up the plate is the mirror image of the data (x becomes -x)"};
+    char line[200];
+    if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    fw_text_printf(out, "Order sheet of plate %s-%s (flexwright " FW_VERSION ")\n\n", w->top,
+                   w->flow);
+    row(out, "device", w->device->name);
+    row(out, "title", w->title);
+    row(out, "flow", w->flow);
+    row(out, "top cell", w->top);
+    lengths(out, "plate", w->form.plate_m, " mm x ", w->form.plate_m);
+    lengths(out, "wafer", w->form.diameter_m, " mm, in the plate's middle; edge exclusion ",
+            w->form.edge_m);
+    row(out, "layers on the plate",
+        w->table->plate ? w->table->plate : "not said: all layers drawn");
+    if (w->table->order) row(out, "", w->table->order);
+    snprintf(line, sizeof line, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
+             order->field ? order->field : "unknown");
+    row(out, "polygon tone", line);
+    row(out, "reading", w->table->reading);
+    row(out, "mirror", mirror[order->mirror + 1]);
+    row(out, "", "the data themselves are not mirrored");
+}
+
+static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask *any,
+                    const fw_wafer_sum *s, fw_text *out) {
+    double width = HUGE_VAL, space = HUGE_VAL, polygons = 0, vertices = 0;
+    char line[200], number[32];
+    for (int k = 0; k < w->table->nlayer; k++) {
+        if (!order->plate[k]) continue;
+        width = fmin(width, s[k].width_m);
+        space = fmin(space, s[k].space_m);
+        polygons += s[k].polygons;
+        vertices += s[k].vertices;
+    }
+    micrometres(out, "least feature", width);
+    micrometres(out, "least space", space);
+    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
+             fw_number_text(number, sizeof number, any->bias_m * 1e6, 6));
+    row(out, "process bias", line);
+    snprintf(line, sizeof line, "1 nm; arcs within %s nm",
+             fw_number_text(number, sizeof number, any->tolerance_m * 1e9, 6));
+    row(out, "grid", line);
+    fw_geometry_box b = fw_wafer_extent(w);
+    const double side[] = {b.x0, b.y0, b.x1, b.y1};
+    fw_text_printf(out, "%-22s ", "extent");
+    for (int i = 0; i < 4; i++) {
+        fw_text_add(out, i == 2 ? " to " : i ? ", " : "");
+        fw_text_fixed(out, side[i] * 1e6, 4);
+    }
+    fw_text_printf(out, " um\n%-22s %d dies, %d alignment sites, %d test dies\n", "places", w->dies,
+                   w->alignments, w->tests);
+    fw_text_printf(out, "%-22s %d, %d references\n", "cells", w->ncell + 1, w->nrun);
+    fw_text_printf(out, "%-22s ", "polygons, flat");
+    fw_text_number(out, polygons, 15);
+    fw_text_add(out, ", ");
+    fw_text_number(out, vertices, 15);
+    fw_text_add(out, " vertices\n");
+}
+
+/* the die whose middle is nearest to the wafer's */
+static const fw_wafer_site *middle_die(const fw_wafer *w) {
+    const fw_wafer_site *best = NULL;
+    double least = HUGE_VAL;
+    for (int i = 0; i < w->grid.nsite; i++) {
+        const fw_wafer_site *s = &w->grid.site[i];
+        double away = hypot(s->x + 0.5 * w->grid.width, s->y + 0.5 * w->grid.height);
+        if (s->kind != FW_WAFER_DIE || away >= least) continue;
+        least = away;
+        best = s;
+    }
+    return best;
+}
+
+static void sites(const fw_wafer *w, const fw_mask_order *order, const fw_wafer_site *die,
+                  fw_geometry_vec2 shift, fw_text *out) {
+    char name[2 * FW_WAFER_NAME];
+    fw_text_printf(out,
+                   "\nCD sites in die %s: centre of the chord from the plate's middle and its "
+                   "direction, um and degrees\n"
+                   "site  layer  kind        x            y       angle       CD  what\n",
+                   fw_wafer_site_name(w, die, name));
+    for (int i = 0; i < order->nsite; i++) {
+        const fw_mask_order_site *s = &order->site[i];
+        const fw_mask_layer *y = &w->table->layer[s->layer];
+        fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
+        char gds[32];
+        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
+        fw_text_printf(out, "%4d  %-5s  %-5s ", i + 1, gds, s->space ? "space" : "width");
+        fw_text_real(out, "%12.3f", (at.x + shift.x) * 1e6);
+        fw_text_real(out, " %12.3f", (at.y + shift.y) * 1e6);
+        fw_text_real(out, " %8.2f", atan2(along.y, along.x) * 180 / FW_PI);
+        fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
+        fw_text_printf(out, "  %s\n", s->what);
+    }
+}
+
+fw_status fw_wafer_write_order(const fw_wafer *w, const fw_output_file *file, int nfile,
+                               fw_text *out) {
+    const fw_wafer_site *die = middle_die(w);
+    if (!die) return FW_INTERNAL; /* test dies leave one */
+    const fw_wafer_variant *v = &w->variant[die->variant];
+    if (fw_wafer_stood_in(v)) v = &w->stand_in;
+    fw_mask_order order;
+    fw_wafer_sum *s;
+    int32_t dx, dy;
+    FW_TRY(fw_mask_order_gather(out->arena, v->mask, &order));
+    FW_TRY(fw_wafer_sums(w, out->arena, &s));
+    fw_wafer_origin(&w->grid, v->die, &dx, &dy);
+    head(w, &order, out);
+    content(w, &order, v->mask, s, out);
+    sites(w, &order, die, (fw_geometry_vec2){(die->x + dx) * 1e-9, (die->y + dy) * 1e-9}, out);
+    fw_text_add(out, "\nfiles: sha256, bytes, name\n");
+    for (int i = 0; i < nfile; i++)
+        fw_text_printf(out, "%s  %zu  %s\n", file[i].sha256, file[i].size, file[i].name);
+    return fw_text_end(out);
+}
