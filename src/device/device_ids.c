@@ -90,14 +90,14 @@ enum { SUGGESTIONS_MOST = 2000 }; /* ids that a misspelt one is compared with */
 static void report_dangling(fw_device_reader *r, const fw_xml_record *record,
                             const fw_xml_attribute_row *row, const fw_xml_attribute *a) {
     const fw_device *d = r->device;
-    size_t n = count_of(d, row->space);
+    size_t n = count_of(d, (fw_device_space)row->space);
     const char *kind = fw_device_table.space[row->space], *better = NULL;
     char label[FW_LABEL], list[200] = "";
     size_t used = 0;
     int least = 3;
     fw_place there = {0};
     for (size_t i = 0; i < n && i < SUGGESTIONS_MOST && !fw_xml_full(r->diags); i++) {
-        const named other = name_of(d, row->space, i);
+        const named other = name_of(d, (fw_device_space)row->space, i);
         const char *id = other.id;
         int distance = fw_edit_distance(a->value, id, 2);
         if (distance < least && (size_t)distance < strlen(id)) {
@@ -136,11 +136,11 @@ int fw_device_reference(fw_device_reader *r, const fw_xml_record *record, const 
                       fw_xml_label(record, label));
         return FW_NOWHERE;
     }
-    if (!enter(r, row->space)) {
+    if (!enter(r, (fw_device_space)row->space)) {
         r->diags->failed = 1; /* memory is short: every step ends with asking for this */
         return FW_NOWHERE;
     }
-    int found = *slot_of(r->device, row->space, &r->index[row->space], id);
+    int found = *slot_of(r->device, (fw_device_space)row->space, &r->index[row->space], id);
     if (found) return found - 1;
     if (!r->xml.broken[row->space]) report_dangling(r, record, row, cell->given);
     return FW_NOWHERE;

@@ -122,8 +122,8 @@ static fw_status start(const fw_continuum_external_room *room, const char *valgr
     argv[n++] = valgrind;
     argv[n++] = "--tool=callgrind";
     argv[n++] = "--collect-atstart=no";
-    argv[n++] = "--toggle-collect=fw_tradeoff_answer";
-    argv[n++] = "--dump-after=fw_tradeoff_answer";
+    argv[n++] = "--toggle-collect=fw_study_tradeoff_answer";
+    argv[n++] = "--dump-after=fw_study_tradeoff_answer";
     argv[n++] = file;
     int word = 0;
     while (word < PROGRAM_AND_COMMAND && program[word])

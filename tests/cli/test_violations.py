@@ -138,7 +138,7 @@ class Violations(unittest.TestCase):
                      env=self.data('<rule kind="widht" layer="device" min="4 um" source="s"/>'))
         self.assertEqual(result.returncode, 3)
         self.assertIn("[FW-D135]", result.stderr)
-        self.assertIn('did you mean "width"', result.stderr)
+        self.assertIn("did you mean 'width'", result.stderr)
 
 
 if __name__ == "__main__":
