@@ -19,6 +19,7 @@
 typedef double real;
 #define LANE(number, lane) (*((void)(lane), &(number)))
 typedef int64_t bits;
+typedef uint64_t unsigned_bits; /* shifts to the left lose bits on purpose */
 #define MASK(comparison) (-(bits)(comparison)) /* all bits where it holds */
 FW_INLINE bits bits_of(real a) {
     bits b;
@@ -40,6 +41,7 @@ FW_INLINE bool bits_any(bits mask) {
 typedef double real __attribute__((vector_size(8 * FW_W)));
 #define LANE(number, lane) ((number)[lane])
 typedef int64_t bits __attribute__((vector_size(8 * FW_W)));
+typedef uint64_t unsigned_bits __attribute__((vector_size(8 * FW_W)));
 #define MASK(comparison)   ((bits)(comparison))
 FW_INLINE bits bits_of(real a) {
     return (bits)a;
@@ -121,8 +123,8 @@ FW_INLINE void real_sincos(real x, real *sine, real *cosine) {
     real c = one + (((1 - one) - half) + (z2 * pc - r * tail));
 #endif
     bits other = -(q & 1) & (bits_of(s) ^ bits_of(c)); /* exchanges the two where n is odd */
-    *sine = real_from(bits_of(s) ^ other ^ ((q << 62) & INT64_MIN));
-    *cosine = real_from(bits_of(c) ^ other ^ (((q + 1) << 62) & INT64_MIN));
+    *sine = real_from(bits_of(s) ^ other ^ ((bits)((unsigned_bits)q << 62) & INT64_MIN));
+    *cosine = real_from(bits_of(c) ^ other ^ ((bits)((unsigned_bits)(q + 1) << 62) & INT64_MIN));
 }
 
 #endif
