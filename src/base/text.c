@@ -300,20 +300,6 @@ void fw_text_escaped(fw_text *text, const char *string) {
     }
 }
 
-void fw_text_json(fw_text *text, const char *string) {
-    fw_text_add(text, "\"");
-    for (const char *s = string; *s; s++) {
-        unsigned char c = (unsigned char)*s;
-        if (c == '"' || c == '\\')
-            fw_text_printf(text, "\\%c", c);
-        else if (c < 0x20)
-            fw_text_printf(text, "\\u%04x", c);
-        else
-            fw_text_bytes(text, s, 1);
-    }
-    fw_text_add(text, "\"");
-}
-
 fw_status fw_text_end(const fw_text *text) {
     return text->failed ? FW_NOMEM : FW_OK;
 }

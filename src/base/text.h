@@ -30,8 +30,6 @@ void fw_text_fixed(fw_text *text, double value, int decimals);
 void fw_text_real(fw_text *text, const char *conversion, double value);
 /* escape & < > " ' for XML and HTML; control characters become spaces */
 void fw_text_escaped(fw_text *text, const char *string);
-/* a JSON string with its quotes; UTF-8 stays as it is */
-void fw_text_json(fw_text *text, const char *string);
 fw_status fw_text_end(const fw_text *text); /* FW_OK or FW_NOMEM */
 
 /* the same fixed decimals (at most 17) into a buffer of FW_FIXED_BYTES; returns the end, where a
