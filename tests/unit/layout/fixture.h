@@ -64,7 +64,12 @@ static inline void fixture_finish(fixture *f, const char *name, int nbody, int n
                             .nflexure = njoint,
                             .thickness_m = 50e-6,
                             .safety_factor = 1.5,
-                            .die = {NONE, NONE, NONE, NONE, NONE, NULL, true, false}};
+                            .die = {.width_m = NONE,
+                                    .height_m = NONE,
+                                    .frame_m = NONE,
+                                    .lane_m = NONE,
+                                    .clearance_m = NONE,
+                                    .tethers = true}};
 }
 
 static inline void fixture_six_bar(fixture *f) {
