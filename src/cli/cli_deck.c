@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/cli_deck.h"
+#include "cli/session.h"
 #include "base/output.h"
 #include "continuum/device_deck.h"
 #include <math.h>

@@ -1,9 +1,157 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A command's line: its options by the rows of options.c, and at most one name. */
-#include "cli/option_rows.h"
+/* --help and the reference page, and the reader of a command line: all three from the rows of
+   commands.def and options.c. */
+#include "cli/options.h"
+#include "dynamics/dynamics.h"
+#include "mask/mask.h"
+#include "plan/ladder.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+/* ---- names that a table knows ---- */
+
+typedef struct name_list {
+    char text[600];
+    size_t n;
+} name_list;
+
+static void add_words(name_list *list, const char *between, const char *name, const char *words) {
+    if (list->n >= sizeof list->text) return;
+    list->n += (size_t)snprintf(list->text + list->n, sizeof list->text - list->n, "%s%s%s%s%s",
+                                list->n ? between : "", name, words ? " (" : "", words ? words : "",
+                                words ? ")" : "");
+}
+
+const char *fw_cli_mask_format_names(void) {
+    static name_list all;
+    const fw_mask_format *f;
+    all = (name_list){.n = 0};
+    for (size_t i = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (!f->beside) add_words(&all, ", ", f->name, NULL);
+    add_words(&all, " ", "with commas between, or all; default", NULL);
+    for (size_t i = 0, n = 0; (f = fw_mask_format_at(i)) != NULL; i++)
+        if (f->usual && !f->beside) add_words(&all, n++ ? "," : " ", f->name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_hinge_model_names(void) {
+    static name_list all;
+    all = (name_list){.n = 0};
+    const size_t count = fw_effects_hinge_model_count();
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ",
+                  fw_effects_hinge_model_text((fw_effects_hinge_model)i),
+                  fw_effects_hinge_model_summary((fw_effects_hinge_model)i));
+    return all.text;
+}
+
+const char *fw_cli_level_names(void) {
+    static name_list all;
+    size_t count;
+    const fw_plan_ladder_level *level = fw_plan_ladder_levels(&count);
+    all = (name_list){.n = 0};
+    for (size_t i = 0; i < count; i++)
+        add_words(&all, i + 1 < count ? ", " : " or ", level[i].name, NULL);
+    return all.text;
+}
+
+const char *fw_cli_option_help(const fw_cli_option_row *row) {
+    static const struct {
+        const char *option, *(*names)(void);
+    } named[] = {{"mask-format", fw_cli_mask_format_names},
+                 {"hinge-model", fw_cli_hinge_model_names},
+                 {"level", fw_cli_level_names}};
+    static char text[1400];
+    const char *mark = strstr(row->help, "{names}");
+    size_t i = 0;
+    if (!mark) return row->help;
+    while (strcmp(named[i].option, row->name) != 0)
+        i++;
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(mark - row->help), row->help, named[i].names(),
+             mark + strlen("{names}"));
+    return text;
+}
+
+static void print_options(unsigned groups, FILE *to) {
+    size_t count;
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!(table[i].group & groups)) continue;
+        char left[64];
+        snprintf(left, sizeof left, "%s%c%s--%s%s%s", table[i].letter ? "-" : " ",
+                 table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
+                 table[i].name, table[i].argument ? " " : "",
+                 table[i].argument ? table[i].argument : "");
+        fprintf(to, "  %-26s %s\n", left, fw_cli_option_help(&table[i]));
+    }
+}
+
+void fw_cli_help(void) {
+    size_t n;
+    const fw_cli_command *command = fw_cli_command_table(&n);
+    fputs(
+        "flexwright - from one description of a compliant micromanipulator to a verdict, masks "
+        "and\n"
+        "fabrication recipes\n\n"
+        "  flexwright plan device.xml -o out       everything, for every flow of the device\n"
+        "  flexwright check device.xml             only: does a hinge leave its elastic range?\n\n"
+        "Commands:\n",
+        stdout);
+    for (size_t i = 0; i < n; i++)
+        printf("  %-9s %s\n", command[i].name, command[i].summary);
+    fputs(
+        "\n  flexwright COMMAND --help              options of a command, with an example\n"
+        "  flexwright --version\n\n"
+        "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
+        "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
+        "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
+        "Results go to standard output, messages to standard error.\n\n"
+        "FLEXWRIGHT_DATA names the directory that holds processes/ and masks/ (then only that one\n"
+        "is used); NO_COLOR and FORCE_COLOR as usual. No other setting changes a result.\n",
+        stdout);
+}
+
+static void print_rows(const char *title, fw_multibody_method_row (*at)(size_t)) {
+    puts(title);
+    for (size_t i = 0; at(i).name; i++)
+        printf("  %-24s %s\n", at(i).name, at(i).summary);
+}
+
+void fw_cli_command_help(const fw_cli_command *command) {
+    printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
+           command->argument ? " " : "", command->argument ? command->argument : "",
+           command->example, command->text);
+    print_options(command->options, stdout);
+    if (command->options & FW_OPT_SIMULATE) {
+        print_rows("\nMethods:", fw_multibody_method_at);
+        print_rows("Integrators:", fw_dynamics_integrator_at);
+        print_rows("Stabilisation:", fw_dynamics_stabilisation_at);
+    }
+}
+
+void fw_cli_reference(fw_text *out) {
+    size_t n, count;
+    const fw_cli_command *command = fw_cli_command_table(&n);
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
+    fw_text_add(out, "# Command line\n\nGenerated from the option table; do not edit.\n");
+    for (size_t i = 0; i < n; i++) {
+        fw_text_printf(out, "\n## flexwright %s%s%s\n\n%s\n\n    %s\n\n%s\n\n", command[i].name,
+                       command[i].argument ? " " : "",
+                       command[i].argument ? command[i].argument : "", command[i].summary,
+                       command[i].example, command[i].text);
+        fw_text_add(out, "| option | meaning |\n|---|---|\n");
+        for (size_t k = 0; k < count; k++)
+            if (table[k].group & command[i].options)
+                fw_text_printf(
+                    out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
+                    table[k].letter ? 1 : 0, &table[k].letter, table[k].letter ? "`, `" : "",
+                    table[k].name, table[k].argument ? " " : "",
+                    table[k].argument ? table[k].argument : "", fw_cli_option_help(&table[k]));
+    }
+}
+
+/* ---- a command's line: its options by the rows of options.c, and at most one name ---- */
 
 enum { MOST_OPTIONS = 256 }; /* of one command, for what was probably meant */
 

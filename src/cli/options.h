@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The command line, parsed by one table that also feeds --help and the reference page. */
+/* The program: one row per command (commands.def) and per option (options.c), which also feed --help and
+   the reference page. Private to the room and its tests. */
 #ifndef FW_CLI_OPTIONS_H
 #define FW_CLI_OPTIONS_H
 #include "base/cancel.h"
@@ -56,8 +57,11 @@ enum { /* option groups */
        FW_OPT_VERDICT = 16384
 };
 
-/* fills options from argv[2..]; false: wrong usage, said on stderr */
-/* what it keeps of --set is freed by fw_cli_options_free, also where it failed */
+/* the program with its arguments: the exit status of the contract */
+int fw_cli_run(int argc, char **argv);
+
+/* fills options from argv[2..]; false: wrong usage, said on stderr. What it keeps of
+   --set is freed by fw_cli_options_free, also where it failed */
 bool fw_cli_parse(const fw_cli_command *command, int argc, char **argv, fw_cli_options *options);
 void fw_cli_options_free(fw_cli_options *options);
 void fw_cli_help(void); /* the program */
@@ -65,5 +69,23 @@ void fw_cli_command_help(const fw_cli_command *command);
 void fw_cli_reference(fw_text *out); /* docs/reference/command-line.md */
 /* says "flexwright: error: ... [FW-D230]" and returns exit status 2 */
 int fw_cli_usage(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* ---- the table of options, for the parser, --help and the reference page ---- */
+
+typedef struct fw_cli_option_row {
+    const char *name;     /* without the dashes */
+    char letter;          /* 0: none */
+    const char *argument; /* NULL: none */
+    const char *help;     /* {names}: of what may be named, from its table (fw_cli_option_help) */
+    unsigned group;
+    const char *(*take)(fw_cli_options *o, const char *value); /* NULL or what is wrong */
+} fw_cli_option_row;
+const fw_cli_option_row *fw_cli_option_rows(size_t *count);
+/* "gds, svg or dxf", from the tables; until the next call */
+const char *fw_cli_mask_format_names(void);
+const char *fw_cli_hinge_model_names(void);
+const char *fw_cli_level_names(void);
+/* the help of a row with these names filled in; until the next call */
+const char *fw_cli_option_help(const fw_cli_option_row *row);
 
 #endif

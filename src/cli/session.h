@@ -3,24 +3,12 @@
 #ifndef FW_CLI_SESSION_H
 #define FW_CLI_SESSION_H
 #include "cli/options.h"
+#include "plan/plan.h"
 
-int fw_cli_command_plan(fw_cli_options *options);
-int fw_cli_command_check(fw_cli_options *options);
-int fw_cli_command_simulate(fw_cli_options *options);
-int fw_cli_command_modes(fw_cli_options *options);
-int fw_cli_command_statics(fw_cli_options *options);
-int fw_cli_command_assemble(fw_cli_options *options);
-int fw_cli_command_mask(fw_cli_options *options);
-int fw_cli_command_recipe(fw_cli_options *options);
-int fw_cli_command_log(fw_cli_options *options);
-int fw_cli_command_workspace(fw_cli_options *options);
-int fw_cli_command_hinge(fw_cli_options *options);
-int fw_cli_command_tradeoff(fw_cli_options *options);
-int fw_cli_command_calibrate(fw_cli_options *options);
-int fw_cli_command_serve(fw_cli_options *options);
-int fw_cli_command_init(fw_cli_options *options);
-int fw_cli_command_explain(fw_cli_options *options);
-int fw_cli_command_doctor(fw_cli_options *options);
+#define COMMAND(name_, argument_, summary_, example_, text_, options_)                             \
+    int fw_cli_command_##name_(fw_cli_options *options);
+#include "cli/commands.def"
+#undef COMMAND
 
 /* a design that was read, or NULL with *exit_status set and everything said */
 fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status);
@@ -41,5 +29,15 @@ int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_s
                         size_t count);
 /* --csv - : the table has standard output for itself */
 bool fw_cli_session_file_on_stdout(const fw_cli_options *options);
+
+/* ---- cli_deck.c: input decks of the continuum level for a person's own solver ---- */
+
+/* Into DIRECTORY, made when it is not there, for every flow of the plan (the plan is loaded):
+   hinge-ID[-FLOW].inp       unit loads on each flexure
+   hinge-ID[-FLOW]-large.inp a quarter, half, three quarters and all of its limit angle
+   mechanism-SCENE[-FLOW].inp the whole mechanism under each scene's loads at its end; where it
+                             cannot be written a note (FW-D213) says why
+   each file whole or not at all. refinement 0: the default. *files counts them. */
+fw_status fw_cli_decks(fw_plan *plan, const char *directory, double refinement, int *files);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The public library: order of calls, arguments and ownership; the work is the plan's. */
-#include "plan/design_state.h"
+#include "plan/design.h"
 #include "plan/stages.h"
 #include <locale.h>
 #include <signal.h>
@@ -239,7 +239,7 @@ int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argum
 }
 
 void fw_plan_design_forget_documents(fw_design *d) {
-    for (int i = 0; i < NDOCUMENT; i++)
+    for (int i = 0; i < FW_DESIGN_DOCUMENTS; i++)
         d->document[i] = (fw_text){0};
 }
 
@@ -257,8 +257,8 @@ static int stage(fw_design *d, unsigned before, const char *missing, unsigned se
     clock_t before_work = clock();
     int status = fw_plan_design_run(d, work, NULL);
     if (status == FW_STATUS_OK) d->done |= self;
-    if (self == JUDGED) d->judge_s = seconds_since(before_work);
-    if (self == SIMULATED) d->simulate_s = seconds_since(before_work);
+    if (self == FW_DONE_JUDGED) d->judge_s = seconds_since(before_work);
+    if (self == FW_DONE_SIMULATED) d->simulate_s = seconds_since(before_work);
     fw_plan_design_forget_documents(d);
     return status;
 }
@@ -304,7 +304,7 @@ static int read_from(fw_design *d, fw_plan_bytes in) {
     clock_t start = clock();
     int status = fw_plan_design_run(d, read_work, &in);
     d->read_s = seconds_since(start);
-    if (status == FW_STATUS_OK) d->done |= READ;
+    if (status == FW_STATUS_OK) d->done |= FW_DONE_READ;
     return status;
 }
 
@@ -335,11 +335,12 @@ static fw_status judge_work(fw_design *d, void *argument) {
 }
 
 int fw_design_judge(fw_design *design) {
-    return stage(design, READ, "read a description before judging it", JUDGED, judge_work);
+    return stage(design, FW_DONE_READ, "read a description before judging it", FW_DONE_JUDGED,
+                 judge_work);
 }
 
 int fw_design_decision(const fw_design *design) {
-    if (!design || !(design->done & JUDGED)) return -1;
+    if (!design || !(design->done & FW_DONE_JUDGED)) return -1;
     const fw_plan *plan = design->plan;
     if (plan->verdict.decision == FW_REJECT) return 1;
     for (int i = 0; i < plan->nflow; i++)
@@ -353,7 +354,7 @@ static fw_status fabricate_work(fw_design *d, void *argument) {
 }
 
 int fw_design_fabricate(fw_design *design) {
-    return stage(design, JUDGED, "judge a design before masks are made", FABRICATED,
+    return stage(design, FW_DONE_JUDGED, "judge a design before masks are made", FW_DONE_FABRICATED,
                  fabricate_work);
 }
 
@@ -374,8 +375,8 @@ static fw_status modes_work(fw_design *d, void *argument) {
 }
 
 int fw_design_modes(fw_design *design) {
-    return stage(design, READ, "read a description before its modes are computed", MODES,
-                 modes_work);
+    return stage(design, FW_DONE_READ, "read a description before its modes are computed",
+                 FW_DONE_MODES, modes_work);
 }
 
 static fw_status statics_work(fw_design *d, void *argument) {
@@ -387,8 +388,8 @@ static fw_status statics_work(fw_design *d, void *argument) {
 }
 
 int fw_design_statics(fw_design *design) {
-    return stage(design, READ, "read a description before its equilibrium is computed", STATICS,
-                 statics_work);
+    return stage(design, FW_DONE_READ, "read a description before its equilibrium is computed",
+                 FW_DONE_STATICS, statics_work);
 }
 
 static fw_status simulate_work(fw_design *d, void *argument) {
@@ -400,7 +401,8 @@ static fw_status simulate_work(fw_design *d, void *argument) {
 }
 
 int fw_design_simulate(fw_design *design) {
-    return stage(design, READ, "read a description before simulating it", SIMULATED, simulate_work);
+    return stage(design, FW_DONE_READ, "read a description before simulating it", FW_DONE_SIMULATED,
+                 simulate_work);
 }
 
 static fw_status workspace_work(fw_design *d, void *argument) {
@@ -409,8 +411,8 @@ static fw_status workspace_work(fw_design *d, void *argument) {
 }
 
 int fw_design_workspace(fw_design *design) {
-    return stage(design, READ, "read a description before its workspace is computed", WORKSPACE,
-                 workspace_work);
+    return stage(design, FW_DONE_READ, "read a description before its workspace is computed",
+                 FW_DONE_WORKSPACE, workspace_work);
 }
 
 /* ---- assemble ---- */
@@ -421,9 +423,9 @@ static fw_status assemble_work(fw_design *d, void *argument) {
 }
 
 int fw_design_assemble(fw_design *design) {
-    int status =
-        stage(design, READ, "read a description before assembling it", ASSEMBLED, assemble_work);
-    if (design && design->assembly.assembly) design->done |= ASSEMBLY_TRIED;
+    int status = stage(design, FW_DONE_READ, "read a description before assembling it",
+                       FW_DONE_ASSEMBLED, assemble_work);
+    if (design && design->assembly.assembly) design->done |= FW_DONE_ASSEMBLY_TRIED;
     return status;
 }
 
@@ -446,9 +448,9 @@ int fw_design_write(fw_design *design, const char *directory, unsigned what) {
     if (what & ~(unsigned)FW_DESIGN_EVERYTHING)
         return (int)fw_plan_design_usage(design,
                                          "write knows the bits of FW_DESIGN_EVERYTHING only");
-    if (!(design->done & JUDGED))
+    if (!(design->done & FW_DONE_JUDGED))
         return (int)fw_plan_design_usage(design, "judge a design before writing it");
-    if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FABRICATED))
+    if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FW_DONE_FABRICATED))
         return (int)fw_plan_design_usage(design,
                                          "call fabricate before masks and recipes are written");
     return fw_plan_design_run(design, write_work, &(target){directory, what});

@@ -4,6 +4,7 @@
 #define FW_PLAN_DESIGN_H
 #include "plan/plan.h"
 #include <flexwright.h>
+#include <locale.h>
 
 /* what options may be, for those who ask for them in a form */
 #define FW_ACCURACY_LEAST 1e-12
@@ -18,5 +19,62 @@ void fw_plan_design_cancel_with(fw_design *design, const fw_cancel *above);
 fw_status fw_plan_table_json(fw_text *out);
 /* flexwright.preview/1 of what has been done with the design so far; *provisional as there */
 fw_status fw_plan_design_preview_json(fw_design *design, fw_text *out);
+
+/* ---- what a design holds: for design.c, design_documents.c, live_*.c and study/ ---- */
+
+enum { /* what was done with it */
+       FW_DONE_READ = 1,
+       FW_DONE_JUDGED = 2,
+       FW_DONE_FABRICATED = 4,
+       FW_DONE_SIMULATED = 8,
+       FW_DONE_MODES = 16,
+       FW_DONE_STATICS = 32,
+       FW_DONE_ASSEMBLED = 64,
+       FW_DONE_ASSEMBLY_TRIED = 128,
+       FW_DONE_WORKSPACE = 256,
+       FW_DONE_TRADEOFF = 512
+};
+enum { FW_DESIGN_DOCUMENTS = FW_DOCUMENT_TRADEOFF_SVG + 1 };
+enum { FW_TRADEOFF_DOCUMENTS = FW_DOCUMENT_TRADEOFF_SVG - FW_DOCUMENT_TRADEOFF_JSON + 1 };
+struct fw_study_tradeoff;
+
+struct fw_design {
+    fw_plan *plan;    /* its arena holds this struct too */
+    fw_cancel cancel; /* of this design; its arenas carry it */
+    locale_t locale;
+    unsigned done;
+    bool tried; /* a description was given, read or not */
+    fw_device_set *set;
+    int set_capacity;
+    const char *wrong_option; /* a sentence, or NULL */
+    const fw_dynamics_motion *motion;
+    const fw_statics_modes *modes;
+    const fw_statics *statics;
+    const fw_mechanism *mechanism; /* of `scene`, the same for all three */
+    const fw_device_scene *scene;
+    fw_plan_assembly assembly;
+    fw_report_workspace workspace;
+    const struct fw_study_tradeoff *tradeoff;
+    /* of a later room, which sets them with the result */
+    fw_status (*tradeoff_document[FW_TRADEOFF_DOCUMENTS])(const struct fw_study_tradeoff *t,
+                                                          fw_text *out);
+    fw_report_terminal_style style;
+    double read_s, judge_s, simulate_s;    /* CPU time of these stages */
+    fw_text document[FW_DESIGN_DOCUMENTS]; /* data NULL: not composed, or out of date */
+    fw_diagnostic *diagnostic;             /* (FW_DIAG_MOST) */
+};
+
+typedef struct fw_plan_bytes {
+    const char *name;
+    const void *data; /* NULL: the file `name` */
+    size_t n;
+} fw_plan_bytes;
+
+/* says what was called wrongly: FW_USAGE */
+fw_status fw_plan_design_usage(fw_design *d, const char *what);
+/* work in the "C" locale of this thread, so that the caller's cannot change a byte */
+int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument),
+                       void *argument);
+void fw_plan_design_forget_documents(fw_design *d);
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The documents of the public library: one row each, composed when first asked for. */
-#include "plan/design_state.h"
+#include "plan/design.h"
 #include "plan/stages.h"
-#include "report/report_json.h"
-#include "report/report_equilibrium.h"
+#include "report/report.h"
 #include <string.h>
 
 static fw_status verdict_json(fw_design *d, fw_text *out) {
@@ -165,40 +164,40 @@ static fw_status diagnostics_text(fw_design *d, fw_text *out) {
 static const struct {
     unsigned needs;
     fw_status (*compose)(fw_design *d, fw_text *out);
-} document_table[NDOCUMENT] = {
-    [FW_DOCUMENT_VERDICT_JSON] = {JUDGED, verdict_json},
-    [FW_DOCUMENT_VERDICT_TEXT] = {JUDGED, verdict_text},
-    [FW_DOCUMENT_SIMULATE_JSON] = {SIMULATED, simulate_json},
-    [FW_DOCUMENT_SIMULATE_TEXT] = {SIMULATED, simulate_text},
-    [FW_DOCUMENT_MOTION_CSV] = {SIMULATED, motion_csv},
-    [FW_DOCUMENT_FORCES_CSV] = {SIMULATED, forces_csv},
-    [FW_DOCUMENT_ANIMATION_SVG] = {SIMULATED, animation_svg},
-    [FW_DOCUMENT_MASKS_JSON] = {FABRICATED, masks_json},
-    [FW_DOCUMENT_RECIPES_JSON] = {FABRICATED, recipes_json},
-    [FW_DOCUMENT_DEVICE_SVG] = {JUDGED, device_svg},
-    [FW_DOCUMENT_REPORT_HTML] = {JUDGED, report_html},
+} document_table[FW_DESIGN_DOCUMENTS] = {
+    [FW_DOCUMENT_VERDICT_JSON] = {FW_DONE_JUDGED, verdict_json},
+    [FW_DOCUMENT_VERDICT_TEXT] = {FW_DONE_JUDGED, verdict_text},
+    [FW_DOCUMENT_SIMULATE_JSON] = {FW_DONE_SIMULATED, simulate_json},
+    [FW_DOCUMENT_SIMULATE_TEXT] = {FW_DONE_SIMULATED, simulate_text},
+    [FW_DOCUMENT_MOTION_CSV] = {FW_DONE_SIMULATED, motion_csv},
+    [FW_DOCUMENT_FORCES_CSV] = {FW_DONE_SIMULATED, forces_csv},
+    [FW_DOCUMENT_ANIMATION_SVG] = {FW_DONE_SIMULATED, animation_svg},
+    [FW_DOCUMENT_MASKS_JSON] = {FW_DONE_FABRICATED, masks_json},
+    [FW_DOCUMENT_RECIPES_JSON] = {FW_DONE_FABRICATED, recipes_json},
+    [FW_DOCUMENT_DEVICE_SVG] = {FW_DONE_JUDGED, device_svg},
+    [FW_DOCUMENT_REPORT_HTML] = {FW_DONE_JUDGED, report_html},
     [FW_DOCUMENT_DIAGNOSTICS_TEXT] = {0, diagnostics_text},
-    [FW_DOCUMENT_MODES_JSON] = {MODES, modes_json},
-    [FW_DOCUMENT_MODES_TEXT] = {MODES, modes_text},
-    [FW_DOCUMENT_MODES_SVG] = {MODES, modes_svg},
-    [FW_DOCUMENT_STATICS_JSON] = {STATICS, statics_json},
-    [FW_DOCUMENT_STATICS_TEXT] = {STATICS, statics_text},
-    [FW_DOCUMENT_STATICS_SVG] = {STATICS, statics_svg},
-    [FW_DOCUMENT_LOAD_PATH_CSV] = {STATICS, load_path_csv},
-    [FW_DOCUMENT_LOAD_PATH_SVG] = {STATICS, load_path_svg},
-    [FW_DOCUMENT_ASSEMBLE_JSON] = {ASSEMBLED, assemble_json},
-    [FW_DOCUMENT_ASSEMBLE_TEXT] = {ASSEMBLED, assemble_text},
-    [FW_DOCUMENT_ASSEMBLE_SVG] = {ASSEMBLY_TRIED, assemble_svg},
-    [FW_DOCUMENT_WORKSPACE_JSON] = {WORKSPACE, workspace_json},
-    [FW_DOCUMENT_WORKSPACE_TEXT] = {WORKSPACE, workspace_text},
-    [FW_DOCUMENT_WORKSPACE_SVG] = {WORKSPACE, workspace_svg},
-    [FW_DOCUMENT_CERTIFICATE_JSON] = {WORKSPACE, certificate_json},
+    [FW_DOCUMENT_MODES_JSON] = {FW_DONE_MODES, modes_json},
+    [FW_DOCUMENT_MODES_TEXT] = {FW_DONE_MODES, modes_text},
+    [FW_DOCUMENT_MODES_SVG] = {FW_DONE_MODES, modes_svg},
+    [FW_DOCUMENT_STATICS_JSON] = {FW_DONE_STATICS, statics_json},
+    [FW_DOCUMENT_STATICS_TEXT] = {FW_DONE_STATICS, statics_text},
+    [FW_DOCUMENT_STATICS_SVG] = {FW_DONE_STATICS, statics_svg},
+    [FW_DOCUMENT_LOAD_PATH_CSV] = {FW_DONE_STATICS, load_path_csv},
+    [FW_DOCUMENT_LOAD_PATH_SVG] = {FW_DONE_STATICS, load_path_svg},
+    [FW_DOCUMENT_ASSEMBLE_JSON] = {FW_DONE_ASSEMBLED, assemble_json},
+    [FW_DOCUMENT_ASSEMBLE_TEXT] = {FW_DONE_ASSEMBLED, assemble_text},
+    [FW_DOCUMENT_ASSEMBLE_SVG] = {FW_DONE_ASSEMBLY_TRIED, assemble_svg},
+    [FW_DOCUMENT_WORKSPACE_JSON] = {FW_DONE_WORKSPACE, workspace_json},
+    [FW_DOCUMENT_WORKSPACE_TEXT] = {FW_DONE_WORKSPACE, workspace_text},
+    [FW_DOCUMENT_WORKSPACE_SVG] = {FW_DONE_WORKSPACE, workspace_svg},
+    [FW_DOCUMENT_CERTIFICATE_JSON] = {FW_DONE_WORKSPACE, certificate_json},
     [FW_DOCUMENT_TABLE_JSON] = {0, table_json},
-    [FW_DOCUMENT_PREVIEW_JSON] = {READ, fw_plan_design_preview_json},
-    [FW_DOCUMENT_TRADEOFF_JSON] = {TRADEOFF, tradeoff_json},
-    [FW_DOCUMENT_TRADEOFF_TEXT] = {TRADEOFF, tradeoff_text},
-    [FW_DOCUMENT_TRADEOFF_CSV] = {TRADEOFF, tradeoff_csv},
-    [FW_DOCUMENT_TRADEOFF_SVG] = {TRADEOFF, tradeoff_svg},
+    [FW_DOCUMENT_PREVIEW_JSON] = {FW_DONE_READ, fw_plan_design_preview_json},
+    [FW_DOCUMENT_TRADEOFF_JSON] = {FW_DONE_TRADEOFF, tradeoff_json},
+    [FW_DOCUMENT_TRADEOFF_TEXT] = {FW_DONE_TRADEOFF, tradeoff_text},
+    [FW_DOCUMENT_TRADEOFF_CSV] = {FW_DONE_TRADEOFF, tradeoff_csv},
+    [FW_DOCUMENT_TRADEOFF_SVG] = {FW_DONE_TRADEOFF, tradeoff_svg},
 };
 
 static fw_status document_work(fw_design *d, void *argument) {
@@ -216,7 +215,7 @@ int fw_design_document(fw_design *design, int document, const char **text, size_
     if (length) *length = 0;
     if (!design) return FW_STATUS_USAGE;
     if (!text) return (int)fw_plan_design_usage(design, "document needs a place for the text");
-    if (document < 0 || document >= NDOCUMENT || !document_table[document].compose)
+    if (document < 0 || document >= FW_DESIGN_DOCUMENTS || !document_table[document].compose)
         return (int)fw_plan_design_usage(design, "no such document");
     unsigned needs = document_table[document].needs;
     if ((design->done & needs) != needs)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ladder of `flexwright hinge`: one hinge by models of growing fidelity and cost. A level is a
-   file with one function and a row in ladder.c. docs/theory/flexure-errors.md. */
+   function and a row of ladder_levels.c. docs/theory/flexure-errors.md. */
 #ifndef FW_PLAN_LADDER_H
 #define FW_PLAN_LADDER_H
 #include "flexure/drift.h"
@@ -21,7 +21,7 @@ typedef struct fw_plan_ladder_level {
     fw_status (*work)(const fw_plan_ladder_case *c, fw_report_level *row);
 } fw_plan_ladder_level;
 
-enum { FW_LADDER_LEVELS = 4 };
+enum { FW_LADDER_LEVELS_MOST = 8 };
 const fw_plan_ladder_level *fw_plan_ladder_levels(size_t *count);
 
 typedef enum fw_plan_ladder_wanted {
@@ -46,7 +46,7 @@ typedef struct fw_plan_ladder { /* of one hinge in one flow */
     const char *flow;
     const fw_mechanism *mechanism;
     const fw_mechanism_hinge *hinge;
-    fw_report_level row[FW_LADDER_LEVELS]; /* (rows) */
+    fw_report_level row[FW_LADDER_LEVELS_MOST]; /* (rows) */
     int rows;
     int picked;   /* cheapest row whose own error is below the accuracy; where none is, the best */
     bool reached; /* it is below */
@@ -67,27 +67,9 @@ fw_status fw_plan_ladders_run(fw_plan *plan, int wanted, fw_plan_ladders *out);
 fw_status fw_plan_report_hinges(fw_plan *plan, const fw_plan_ladders *all, fw_report_hinge **out);
 const char *fw_plan_ladder_id(const fw_plan_ladder *ladder);
 
-/* one level; measured: repeated until the clock can see it, at most for 2 ms */
+/* One level; measured: repeated until the clock can see it, at most for 2 ms. Visible because
+   callgrind counts what each call of it costs (tests/accuracy/levels.c). */
 fw_status fw_plan_ladder_climb(const fw_plan_ladder_case *c, const fw_plan_ladder_level *level,
                                bool measured, fw_report_level *row);
-/* hinge frame to world: where the pin + (along, across) is in the drawn pose; the pin is at W */
-void fw_plan_ladder_place(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
-                          const double at_m[2], double world_m[2]);
-bool fw_plan_ladder_alike(const fw_plan_ladder_case *a, const fw_plan_ladder_case *b);
-void fw_plan_ladder_pick(fw_plan_ladder *ladder, double accuracy);
-
-/* Of an arc of an isotropic material the levels show strain and limit of the printed closed form,
-   to its digits (converged solids: 8 % below to 4.3 % above it, below by 12 % where deeper than 10
-   t). Elsewhere, where solids are up to 15 % (leaves) and 43 % (silicon) above it, and in every
-   verdict, they are its upper bound over solids (strain_bound_per_rad). */
-void fw_plan_ladder_printed(const fw_flexure_input *in, fw_flexure_result *r);
-fw_status fw_plan_ladder_closed_form(const fw_plan_ladder_case *c, fw_report_level *row);
-fw_status fw_plan_ladder_compliance(const fw_plan_ladder_case *c, fw_report_level *row);
-fw_status fw_plan_ladder_elastica(const fw_plan_ladder_case *c, fw_report_level *row);
-fw_status fw_plan_ladder_continuum(const fw_plan_ladder_case *c, fw_report_level *row);
-
-/* ladder_drift.c: what the finite rotation does, on either side of rest */
-void fw_plan_ladder_drift_of(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
-                             fw_plan_ladder_drift *out);
 
 #endif

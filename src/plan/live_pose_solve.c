@@ -2,7 +2,7 @@
 /* Inverse kinematics for dragging: of a six-bar in closed form, of anything else by closing its
    joints about a body that hardly gives way. */
 #include "assembly/assembly.h"
-#include "plan/live_pose.h"
+#include "plan/live_request.h"
 #include "workspace/workspace.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The quick look: what has been done with a design so far, in one document. */
-#include "plan/design_state.h"
+#include "plan/design.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
 #include "report/preview.h"
@@ -89,7 +89,7 @@ static int leave_out(const fw_plan *plan, bool judged, fw_report_left_out *item)
 
 static fw_status verdict_of(fw_design *d, fw_report_preview *in) {
     fw_plan *plan = d->plan;
-    if (!(d->done & JUDGED)) return FW_OK;
+    if (!(d->done & FW_DONE_JUDGED)) return FW_OK;
     fw_text json = fw_text_new(plan->arena);
     FW_TRY(fw_plan_verdict_json(plan, &json));
     in->verdict_json = json.data;
@@ -115,7 +115,7 @@ static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
 
 /* the exit status of `check` for the same, and whether it may still become worse */
 static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
-    bool judged = d->done & JUDGED;
+    bool judged = d->done & FW_DONE_JUDGED;
     in->exit_status = judged ? fw_design_decision(d) : fw_status_exit(status);
     in->provisional = judged && d->plan->verdict.decision != FW_REJECT;
     bool could = false;
@@ -128,7 +128,7 @@ static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
 static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
     fw_plan *plan = d->plan;
     fw_report_left_out left_out[LEFT_OUT_MOST];
-    bool judged = d->done & JUDGED, moved = d->done & SIMULATED;
+    bool judged = d->done & FW_DONE_JUDGED, moved = d->done & FW_DONE_SIMULATED;
     fw_report_preview in = {.status = plan->device ? "ok" : "invalid",
                             .left_out = left_out,
                             .nleft_out = leave_out(plan, judged, left_out),
@@ -138,7 +138,7 @@ static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
                             .read_s = d->read_s,
                             .judge_s = d->judge_s,
                             .simulate_s = d->simulate_s};
-    if (!(d->done & READ)) in.device = NULL, in.status = "invalid";
+    if (!(d->done & FW_DONE_READ)) in.device = NULL, in.status = "invalid";
     if (in.device) {
         FW_TRY(flows_of(plan, judged, &in));
         FW_TRY(verdict_of(d, &in));

@@ -3,6 +3,7 @@
 #ifndef FW_PLAN_LIVE_REQUEST_H
 #define FW_PLAN_LIVE_REQUEST_H
 #include "device/edit.h"
+#include "mechanism/mechanism.h"
 #include "plan/design.h"
 #include "plan/live.h"
 #include <jansson.h>
@@ -32,10 +33,6 @@ typedef struct fw_plan_live_request {
     const char *wrong;     /* a sentence; NULL: nothing is */
 } fw_plan_live_request;
 
-/* takes the request apart; keys: those allowed beside "text", NULL at the end. FW_USAGE: `wrong` */
-fw_status fw_plan_live_request_read(fw_arena *arena, const char *json, size_t n,
-                                    const char *const *keys, fw_plan_live_request *request);
-void fw_plan_live_request_free(fw_plan_live_request *request);
 /* what is wrong: FW_USAGE */
 fw_status fw_plan_live_wrong(fw_plan_live_request *request, const char *what, const char *key);
 /* a design with the options and sets of the request, not read yet */
@@ -54,4 +51,27 @@ typedef fw_status (*fw_plan_live_work)(fw_plan_live *live, fw_plan_live_request 
                                        fw_text *out);
 fw_plan_live_answer fw_plan_live_call(fw_plan_live *live, const char *json, size_t n,
                                       const char *const *keys, fw_plan_live_work work);
+
+/* ---- where the bodies of a mechanism are when one of them is put somewhere ---- */
+
+typedef struct fw_plan_posed {
+    double *q;         /* (3 nbody) m, rad */
+    double *angle_rad; /* (npin) phi_b - phi_a - free angle */
+    double at[3];      /* displacement of the body from rest that q has: x m, y m, phi rad */
+    bool reachable;    /* that is the one that was asked for */
+    bool closed_form;
+    double share;       /* closed form: of the way from rest to what was asked for; else NaN */
+    const char *reason; /* why it is not reachable, a sentence; NULL */
+} fw_plan_posed;
+
+/* size of the mechanism at rest: larger extent of its pins and centres of mass, m */
+double fw_plan_pose_size(const fw_mechanism *mechanism);
+/* the body that is meant without a name: the platform, else the heaviest; FW_NONE: no bodies */
+int fw_plan_pose_body(const fw_mechanism *mechanism);
+/* asked: displacement of `body` from rest (x m, y m, phi rad), finite; phi NaN: any (of a
+   six-bar's platform: as drawn). from (3 nbody): poses of the
+   other bodies to start from, NULL: at rest. *posed is in `arena`. FW_SOLVER: no pose was found. */
+fw_status fw_plan_pose_solve(fw_arena *arena, const fw_mechanism *mechanism, int body,
+                             const double asked[3], const double *from, fw_plan_posed *posed);
+
 #endif

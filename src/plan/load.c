@@ -1,12 +1,84 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/hash.h"
+/* A description and the packs that it refers to, read: laboratory packs once, applied to every
+   flow. */
 #include "base/constants.h"
+#include "base/hash.h"
 #include "base/output.h"
 #include "plan/stages.h"
+#include "process/calibrate.h"
 #include <math.h>
 #include <string.h>
 
-enum { MOST_BYTES = 8 * 1024 * 1024 };
+enum { MOST_BYTES = 8 * 1024 * 1024, MOST_PACK_BYTES = 1024 * 1024, MOST_PACKS = 8 };
+
+struct fw_plan_lab {
+    const char *file, *xml;
+    size_t n;
+    bool used;
+};
+typedef struct fw_plan_lab fw_plan_lab_pack;
+
+static fw_status read_packs(fw_plan *plan) {
+    const char *at = plan->options.laboratory;
+    FW_NEED(plan->lab = fw_arena_array(plan->arena, fw_plan_lab_pack, MOST_PACKS));
+    while (*at) {
+        size_t n = strcspn(at, ",");
+        fw_plan_lab_pack *pack = &plan->lab[plan->nlab];
+        char *xml;
+        if (plan->nlab == MOST_PACKS)
+            return fw_diag_error(&plan->diags, 211, (fw_place){0}, "more than %d laboratory packs",
+                                 MOST_PACKS);
+        FW_NEED(pack->file = fw_arena_strndup(plan->arena, at, n));
+        FW_TRY(
+            fw_input_read(plan->arena, pack->file, MOST_PACK_BYTES, &plan->diags, &xml, &pack->n));
+        pack->xml = xml;
+        const char *slash = strrchr(pack->file, '/');
+        FW_TRY(fw_plan_remember(plan, slash ? slash + 1 : pack->file, xml, pack->n));
+        plan->nlab++;
+        at += n + (at[n] == ',');
+    }
+    return FW_OK;
+}
+
+/* the laboratory packs of the options, into one flow */
+static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
+    if (!plan->options.laboratory) return FW_OK;
+    if (!plan->lab) FW_TRY(read_packs(plan));
+    for (int i = 0; i < plan->nlab; i++) {
+        fw_plan_lab_pack *pack = &plan->lab[i];
+        int before = flow->noverride;
+        FW_TRY(
+            fw_process_lab_apply(plan->arena, pack->file, pack->xml, pack->n, flow, &plan->diags));
+        pack->used = pack->used || flow->noverride > before;
+    }
+    return FW_OK;
+}
+
+/* after all flows were read: warns of packs that no flow of the device took */
+static fw_status warn_of_unused_packs(fw_plan *plan) {
+    for (int i = 0; i < plan->nlab; i++)
+        if (!plan->lab[i].used)
+            fw_diag_warning(&plan->diags, 211, (fw_place){.file = plan->lab[i].file},
+                            "this laboratory pack has no effect: it is for a flow that is not "
+                            "planned here");
+    return plan->diags.failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_plan_lab_assumptions(fw_plan *plan) {
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_process_flow *flow = plan->flow[i].flow;
+        for (int k = 0; flow && k < flow->noverride; k++) {
+            const fw_process_override *o = &flow->override[k];
+            FW_TRY(fw_plan_assume(plan,
+                                  "Flow %s: the laboratory's %s = %s stands for %s of the process "
+                                  "pack. Source: %s.",
+                                  flow->id, o->id, o->is, o->was, o->source));
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- the description and its flows ---- */
 
 fw_plan_options fw_plan_options_default(void) {
     return (fw_plan_options){
@@ -59,11 +131,19 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
     return fw_plan_remember(plan, name, *data, *n);
 }
 
+static const char *material_names(fw_plan *plan) {
+    fw_text names = fw_text_new(plan->arena);
+    fw_text_add(&names, "choose one of");
+    for (int i = 0; i < plan->materials.count; i++)
+        if (!plan->materials.item[i].youngs.unknown)
+            fw_text_printf(&names, " %s", plan->materials.item[i].id);
+    return names.failed ? "" : names.data;
+}
+
 fw_status fw_plan_need_material(fw_plan *plan) {
     if (plan->device->material_ref) return FW_OK;
     return fw_diag_error(&plan->diags, 225, (fw_place){plan->device->file, 1, 1},
-                         "no <material>: add <material ref=\"...\"/>; %s",
-                         fw_plan_material_names(plan));
+                         "no <material>: add <material ref=\"...\"/>; %s", material_names(plan));
 }
 
 /* the variant of the description itself: what explicit masses and stiffnesses refer to */
@@ -73,15 +153,6 @@ static fw_status own_material(fw_plan *plan, fw_device_material *material) {
     const fw_device_material *found = fw_device_material_find(&plan->materials, d->material_ref);
     *material = fw_device_material_with(found, &d->material);
     return FW_OK;
-}
-
-const char *fw_plan_material_names(fw_plan *plan) {
-    fw_text names = fw_text_new(plan->arena);
-    fw_text_add(&names, "choose one of");
-    for (int i = 0; i < plan->materials.count; i++)
-        if (!plan->materials.item[i].youngs.unknown)
-            fw_text_printf(&names, " %s", plan->materials.item[i].id);
-    return names.failed ? "" : names.data;
 }
 
 static bool same(const char *a, const char *b) {
@@ -156,7 +227,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
             &plan->diags, 225, place,
             "material '%s' has no modulus, Poisson number, density or strength: it "
             "cannot be the device layer; %s",
-            m->id, fw_plan_material_names(plan));
+            m->id, material_names(plan));
     check_orientation(plan, use, m);
     if (pf->flow && pf->flow->material && !same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
@@ -206,7 +277,7 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
     FW_TRY(fw_process_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length,
                                 name, xml, n, &plan->diags, &pf->flow));
-    FW_TRY(fw_plan_lab(plan, pf->flow));
+    FW_TRY(apply_packs(plan, pf->flow));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
@@ -295,7 +366,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
     if (d->material_ref && !fw_device_material_find(&plan->materials, d->material_ref))
         status =
             fw_diag_error(&plan->diags, 225, d->material_place, "material '%s' is not in %s: %s",
-                          d->material_ref, plan->base_file, fw_plan_material_names(plan));
+                          d->material_ref, plan->base_file, material_names(plan));
     for (int i = 0; i < d->nflow; i++) {
         const fw_device_flow_use *use = &d->flow[i];
         const char *name =
@@ -311,7 +382,7 @@ static fw_status check_references(fw_plan *plan, const fw_device *d) {
         if (use->material && !fw_device_material_find(&plan->materials, use->material))
             status = fw_diag_error(&plan->diags, 225, use->material_place,
                                    "material '%s' is not in %s: %s", use->material, plan->base_file,
-                                   fw_plan_material_names(plan));
+                                   material_names(plan));
     }
     return status;
 }
@@ -342,5 +413,5 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     FW_TRY(references);
     plan->device = device;
     FW_TRY(load_flows(plan));
-    return fw_plan_lab_used(plan);
+    return warn_of_unused_packs(plan);
 }

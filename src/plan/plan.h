@@ -9,9 +9,7 @@
 #include "assembly/kinematics.h"
 #include "statics/modes.h"
 #include "wafer/wafer.h"
-#include "report/report_assembly.h"
-#include "report/terminal.h"
-#include "report/report_workspace.h"
+#include "report/report.h"
 #include "recipe/recipe.h"
 #include "schedule/schedule.h"
 

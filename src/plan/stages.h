@@ -5,15 +5,10 @@
 #include "base/output.h"
 #include "plan/plan.h"
 
-const char *fw_plan_material_names(fw_plan *plan);
 /* an input file, for the manifest */
 fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n);
-/* the laboratory packs of the options, into one flow */
-fw_status fw_plan_lab(fw_plan *plan, fw_process_flow *flow);
 /* a sentence for every value that they replace */
 fw_status fw_plan_lab_assumptions(fw_plan *plan);
-/* after all flows were read: warns of packs that no flow of the device took */
-fw_status fw_plan_lab_used(fw_plan *plan);
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not
  */
 fw_status fw_plan_need_material(fw_plan *plan);
@@ -27,31 +22,19 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
 fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);
 bool fw_plan_insulated(const fw_plan_flow *pf);
-/* what the plate of a wafer places, added to the facts of its die: exact areas and edges as drawn
- */
-fw_status fw_plan_wafer_facts(fw_arena *arena, const fw_wafer *wafer, fw_process_mask_facts *facts);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, const fw_mask_table *table,
                              bool insulated, fw_process_mask_facts *facts);
-/* facts of a flow, computed with them; the wafer's own where it is laid out */
-fw_status fw_plan_compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags);
-/* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
-fw_status fw_plan_drives(fw_arena *arena, const fw_device *device, const char *flow,
-                         fw_process_drive_facts **drive, int *n);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
 fw_status fw_plan_wafers(fw_plan *plan);
 /* plan->dies, from what <wafer> asks for */
 fw_status fw_plan_count_dies(fw_plan *plan);
-/* who does what when, of every flow that will be written */
-fw_status fw_plan_schedules(fw_plan *plan);
 fw_status fw_plan_hash(fw_plan *plan, const fw_text *text, const char **sha256);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);
-fw_status fw_plan_manifest(const fw_plan *plan, const fw_output_file *file, size_t count,
-                           fw_text *out);
 fw_report_input fw_plan_report_input(fw_plan *plan);
 /* the named scene, else the first one that holds in a flow of this plan; NULL: said why not */
 const fw_device_scene *fw_plan_scene(fw_plan *plan);
@@ -69,8 +52,5 @@ fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
 /* where the wafer of a flow whose mask is made is cut open: what the options ask for, else through
    the narrowest gap of a hinge; stays NULL where there is neither (plan_sections.c) */
 fw_status fw_plan_cut(fw_plan *plan, fw_plan_flow *pf);
-
-/* the test die of a flow whose mask is made (coupons.c) */
-fw_status fw_plan_coupons(fw_plan *plan, fw_plan_flow *pf);
 
 #endif

@@ -1,7 +1,212 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The documents that span the flows of a plan (those of one flow are composed in its own room), the
+   manifest, and the directory that holds them all. */
+#include "base/json.h"
+#include "plan/ladder.h"
 #include "plan/stages.h"
 #include "recipe/recipe.h"
+#include "report/report.h"
 #include <string.h>
+
+static fw_report_flow *report_flows(fw_plan *plan) {
+    fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
+    for (int i = 0; flow && i < plan->nflow; i++)
+        flow[i] =
+            (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow, plan->flow[i].mask,
+                             plan->flow[i].mask_error, plan->flow[i].violated};
+    return flow;
+}
+
+fw_report_input fw_plan_report_input(fw_plan *plan) {
+    return (fw_report_input){.device = plan->device,
+                             .layout = plan->layout,
+                             .verdict = &plan->verdict,
+                             .flow = report_flows(plan),
+                             .nflow = plan->nflow,
+                             .version = FW_VERSION,
+                             .assumption = plan->assumption,
+                             .nassumption = plan->nassumption,
+                             .diags = &plan->diags};
+}
+
+fw_status fw_plan_verdict_json(fw_plan *plan, fw_text *out) {
+    fw_report_input input = fw_plan_report_input(plan);
+    FW_NEED(input.flow);
+    return fw_report_verdict_json(&input, out);
+}
+
+fw_status fw_plan_verdict_text(fw_plan *plan, fw_report_terminal_style style, fw_text *out) {
+    fw_report_input input = fw_plan_report_input(plan);
+    FW_NEED(input.flow);
+    return fw_report_verdict_text(&input, style, out);
+}
+
+/* mechanisms are built again: what there is to say of them has been said by the verdict */
+static fw_status report_ladders(fw_plan *plan, fw_plan_ladders *ladders) {
+    fw_diags said = plan->diags;
+    plan->diags = fw_diags_new(plan->arena);
+    fw_status status = fw_plan_ladders_run(plan, FW_LADDER_ONCE, ladders);
+    plan->diags = said;
+    return status;
+}
+
+fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
+    FW_TRY(fw_plan_assumptions(plan));
+    fw_plan_ladders ladders;
+    fw_report_hinge *hinge;
+    fw_report_input input = fw_plan_report_input(plan);
+    FW_NEED(input.flow);
+    FW_TRY(report_ladders(plan, &ladders));
+    FW_TRY(fw_plan_report_hinges(plan, &ladders, &hinge));
+    input.hinge = hinge, input.nhinge = ladders.count;
+    return fw_report_write_html(plan->arena, &input, out);
+}
+
+fw_status fw_plan_masks_json(fw_plan *plan, fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.masks/1");
+    fw_json_list(&json, "masks");
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_plan_flow *f = &plan->flow[i];
+        if (!f->mask) continue;
+        FW_TRY(fw_mask_write_certificate(f->mask, f->mask_sha256, fw_json_value(&json, NULL)));
+    }
+    fw_json_end(&json);
+    fw_json_list(&json, "violations");
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].violated)
+            FW_TRY(fw_mask_write_findings(plan->flow[i].violated, fw_json_value(&json, NULL)));
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
+fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf) {
+    return (fw_recipe_header){.device = plan->device->name,
+                              .flow_sha256 = pf->flow_sha256,
+                              .mask_sha256 = pf->mask_sha256,
+                              .program_version = FW_VERSION,
+                              .rejected = plan->verdict.decision == FW_REJECT,
+                              .schedule = pf->schedule,
+                              .mask = pf->mask,
+                              .cut = pf->cut};
+}
+
+/* of a rejected device */
+static fw_status no_recipe(fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.recipe/1");
+    fw_json_null(&json, "flow");
+    fw_json_list(&json, "steps");
+    fw_json_end(&json);
+    fw_json_null(&json, "total_s");
+    fw_json_truth(&json, "rejected", true);
+    fw_json_text(&json, "banner", "REJECTED");
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
+static fw_status recipe(const fw_plan *plan, int flow, fw_text *out) {
+    fw_recipe_header header = fw_plan_recipe_header(plan, &plan->flow[flow]);
+    return fw_recipe_write_json(plan->flow[flow].flow, &header, out);
+}
+
+/* one flow: its recipe; several: a document that holds them all */
+fw_status fw_plan_recipes_json(fw_plan *plan, fw_text *out) {
+    bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
+    if (plan->nflow == 1)
+        return given && plan->flow[0].flow ? recipe(plan, 0, out) : no_recipe(out);
+    if (plan->nflow == 0) return no_recipe(out);
+    fw_json json = fw_json_new(out, FW_JSON_COMPACT);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.recipes/1");
+    fw_json_list(&json, "recipes");
+    for (int i = 0; given && i < plan->nflow; i++)
+        if (plan->flow[i].flow) FW_TRY(recipe(plan, i, fw_json_value(&json, NULL)));
+    fw_json_end(&json);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
+/* ---- the manifest ---- */
+
+static void file(fw_json *json, const char *name, size_t bytes, const char *sha256) {
+    fw_json_object(json, NULL);
+    fw_json_text(json, "name", name);
+    fw_json_whole(json, "bytes", (long long)bytes);
+    fw_json_text(json, "sha256", sha256);
+    fw_json_end(json);
+}
+
+static const char *effects_text(const fw_effect_choice *e) {
+    static const char *const mode[] = {"auto", "all", "none", "list"};
+    return e->mode == FW_EFFECTS_LIST && e->list ? e->list : mode[e->mode];
+}
+
+static void schedule(fw_json *json, const fw_schedule_options *c) {
+    fw_json_object(json, "schedule");
+    fw_json_whole(json, "wafers", c->wafers ? c->wafers : 1);
+    fw_json_whole(json, "operators", c->operators ? c->operators : 1);
+    fw_json_text(json, "day", c->day ? c->day : FW_WORKING_DAY);
+    fw_json_text(json, "planning_times", c->planned);
+    fw_json_end(json);
+}
+
+static void options(fw_json *json, const fw_plan_options *o) {
+    const fw_dynamics_motion_options *motion = &o->verdict.motion;
+    fw_json_object(json, "options");
+    fw_json_real(json, "mask_tolerance_nm",
+                 o->mask_tolerance_m > 0 ? o->mask_tolerance_m * 1e9 : 5.0);
+    fw_json_text(json, "mask_formats", o->mask_formats);
+    fw_json_whole(json, "mask_vertices", o->mask_vertices ? o->mask_vertices : 4094);
+    fw_json_real(json, "accuracy", motion->accuracy);
+    fw_json_text(json, "effects", effects_text(&motion->effects));
+    fw_json_text(json, "hinge_model", fw_effects_hinge_model_text(motion->effects.hinge));
+    fw_json_text(json, "flow", o->flow);
+    fw_json_truth(json, "force", o->force);
+    fw_json_text(json, "method", motion->method);
+    fw_json_text(json, "integrator", motion->integrator);
+    fw_json_text(json, "stabilise", motion->stabilise);
+    fw_json_list(json, "set");
+    for (int i = 0; i < o->nset; i++) {
+        fw_json_object(json, NULL);
+        fw_json_text(json, "path", o->set[i].path);
+        fw_json_text(json, "value", o->set[i].value);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    schedule(json, &o->schedule);
+    fw_json_text(json, "mask_flatten",
+                 o->mask_flatten && *o->mask_flatten ? o->mask_flatten : "inside");
+    fw_json_end(json);
+}
+
+/* hash of every input and output, the options, the version; no clock, no machine */
+static fw_status manifest_json(const fw_plan *plan, const fw_output_file *output, size_t count,
+                               fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_INDENTED_2);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "schema", "flexwright.manifest/1");
+    fw_json_text(&json, "program", "flexwright");
+    fw_json_text(&json, "version", FW_VERSION);
+    fw_json_text(&json, "device", plan->device->name);
+    options(&json, &plan->options);
+    fw_json_list(&json, "inputs");
+    for (int i = 0; i < plan->ninput; i++)
+        file(&json, plan->input[i].name, plan->input[i].size, plan->input[i].sha256);
+    fw_json_end(&json);
+    fw_json_list(&json, "outputs");
+    for (size_t i = 0; i < count; i++)
+        file(&json, output[i].name, output[i].size, output[i].sha256);
+    fw_json_end(&json);
+    if (plan->verdict.decision == FW_REJECT) fw_json_text(&json, "banner", "REJECTED");
+    fw_json_end(&json);
+    return fw_json_finish(&json, "\n");
+}
+
+/* ---- the directory ---- */
 
 typedef struct writer {
     fw_plan *plan;
@@ -242,7 +447,7 @@ static fw_status write_all(writer *w, unsigned what) {
     plan->files_written = (int)count;
     if (count == 0) return FW_OK; /* a rejected design has no masks: no directory either */
     fw_text manifest = fw_text_new(w->scratch);
-    FW_TRY(fw_plan_manifest(plan, file, count, &manifest));
+    FW_TRY(manifest_json(plan, file, count, &manifest));
     return put(w, "", "manifest", ".json", &manifest);
 }
 

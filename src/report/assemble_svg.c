@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Guess and assembled position side by side: every body in its own colour in both, open joints in
    red with their size. Bodies are their outlines where they are drawn, else as in figure.h. */
-#include "report/report_assembly.h"
+#include "report/report.h"
 #include "base/constants.h"
 #include "report/figure.h"
 #include <math.h>

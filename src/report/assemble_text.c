@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/report_assembly.h"
+#include "report/report.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>

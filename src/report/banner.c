@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The first sections of the page: decision, advice, what is made, and what the flows may make of it. */
+#include "report/report.h"
 #include "report/report_page.h"
 #include <math.h>
 #include <string.h>
@@ -194,4 +196,232 @@ fw_status fw_report_section_device(fw_report_page *page) {
     if (device->nparameter) fw_text_add(out, "</tbody></table>\n");
     fw_text_add(out, "</div></div>\n");
     return fw_text_end(out);
+}
+
+/* ---- what is made, with the numbers that the equations of motion are given ---- */
+
+/* What the equations of motion were given, per flow: masses, stiffnesses, dampings. */
+
+static void bodies(fw_text *out, const fw_mechanism *m) {
+    fw_text_add(
+        out, "<div class=\"wide\"><table><caption>Bodies</caption><thead><tr>"
+             "<th scope=\"col\">Body</th><th scope=\"col\" class=\"n\">Mass</th>"
+             "<th scope=\"col\" class=\"n\">Inertia (mg\u00b7mm\u00b2)</th>"
+             "<th scope=\"col\" class=\"n\">Centre of mass x, y (mm)</th></tr></thead><tbody>\n");
+    for (int i = 0; i < m->nbody; i++) {
+        const fw_mechanism_mass *b = &m->body[i];
+        fw_markup(out,
+                  "<tr><th scope=\"row\">{s}</th><td class=\"n\">{u}</td>"
+                  "<td class=\"n\">{n}</td><td class=\"n\">{n}, {n}</td></tr>\n",
+                  b->id, b->mass_kg * 1e3, "g", b->inertia_kg_m2 * 1e12, b->x_m * 1e3,
+                  b->y_m * 1e3);
+    }
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void hinges(fw_text *out, const fw_mechanism *m) {
+    fw_text_add(out, "<div class=\"wide\"><table><caption>Joints</caption><thead><tr>"
+                     "<th scope=\"col\">Joint</th><th scope=\"col\" class=\"n\">Stiffness used</th>"
+                     "<th scope=\"col\" class=\"n\">From the flexure's geometry</th>"
+                     "<th scope=\"col\" class=\"n\">Damping</th></tr></thead><tbody>\n");
+    for (int i = 0; i < m->npin; i++) {
+        const fw_mechanism_pin *p = &m->pin[i];
+        fw_markup(out, "<tr><th scope=\"row\">{s}</th><td class=\"n\">{u}</td><td class=\"n\">",
+                  p->id, p->stiffness_Nm_per_rad, "N\u00b7m/rad");
+        if (p->hinge >= 0)
+            fw_markup(out, "{u}", m->hinge[p->hinge].closed_form.stiffness_Nm_per_rad,
+                      "N\u00b7m/rad");
+        else
+            fw_text_add(out, "\u2013");
+        fw_markup(out, "</td><td class=\"n\">{u}</td></tr>\n", p->damping_Nms_per_rad,
+                  "N\u00b7m\u00b7s/rad");
+    }
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+void fw_report_mechanics(fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    fw_text *out = page->out;
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_mechanism *m = v->variant[i].mechanism;
+        const fw_mechanism_variant *a = v->variant[i].variant;
+        if (!m || !a) continue;
+        fw_markup(out, "<h3>Masses and stiffnesses used{r}{s}</h3>\n<p class=\"soft\">{s}{r}",
+                  a->flow ? ", " : "", a->flow,
+                  a->material.name ? a->material.name : a->material.id,
+                  a->material.name || a->material.id ? ", " : "");
+        fw_markup(out, "{u} thick.</p>\n", a->thickness_m, "m");
+        bodies(out, m);
+        hinges(out, m);
+    }
+}
+
+/* What the flows make of the device: in the terminal and on the page. */
+
+static double in_unit(const fw_verdict_fabrication_input *in, double x) {
+    fw_quantity q = in->q;
+    q.value = x;
+    return fw_quantity_in_unit(&q);
+}
+
+static const char *unit_of(const fw_verdict_fabrication_input *in) {
+    bool pure = !in->q.unit || (in->q.unit[0] == '1' && !in->q.unit[1]);
+    return pure ? "" : in->q.unit;
+}
+
+/* of the hinges of a flow the one that its corners strain most; FW_NONE: none was run */
+static int most_used(const fw_verdict_variant_verdict *v) {
+    int worst = FW_NONE;
+    double most = -1.0;
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h =
+            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
+        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
+    }
+    return worst;
+}
+
+/* ---- terminal ---- */
+
+static void assumed(fw_text *out, const fw_verdict_variant_verdict *v) {
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        if (!in->unknown) continue;
+        fw_text_printf(out, "  %s is not known (%s): ", in->name, in->unknown);
+        fw_text_number(out, in_unit(in, in->low), 4);
+        fw_text_add(out, " to ");
+        fw_text_number(out, in_unit(in, in->high), 4);
+        fw_text_printf(out, "%s%s is assumed, and the verdict holds there only\n",
+                       *unit_of(in) ? " " : "", unit_of(in));
+    }
+}
+
+void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        if (!v->fabricated) continue;
+        int k = most_used(v);
+        fw_text_printf(out, "\nas %s makes it: %s (as drawn: %s)\n", v->variant->flow,
+                       fw_verdict_decision_text(v->fabricated->decision),
+                       fw_verdict_decision_text(v->drawn));
+        if (k != FW_NONE) {
+            const fw_verdict_fabricated_hinge *m = &v->fabricated->hinge[k];
+            const fw_verdict_fabricated_corner *c = &v->fabricated->corner[m->corner];
+            const fw_verdict_hinge_verdict *h = &c->hinge[k];
+            fw_text_printf(out, "  tightest: hinge %s, ", h->id);
+            fw_text_real(out, "%.1f %% ", 100.0 * h->utilisation);
+            fw_text_real(out, "(%.1f..", 100.0 * h->utilisation_low);
+            fw_text_real(out, "%.1f) ", 100.0 * h->utilisation_high);
+            fw_text_printf(out, "in %s at %s; nominal ", h->scene, c->what);
+            fw_text_real(out, "%.1f", 100.0 * v->fabricated->corner[0].hinge[k].utilisation);
+            fw_text_real(out, " +- %.1f %%\n", 100.0 * m->sigma);
+        }
+        assumed(out, v);
+    }
+}
+
+/* ---- page ---- */
+
+static void ranges(fw_text *out, const fw_verdict_variant_verdict *v) {
+    fw_text_add(out, "<div class=\"wide\"><table><caption>What is not fabricated exactly as "
+                     "drawn</caption><thead><tr><th scope=\"col\">Input</th><th scope=\"col\" "
+                     "class=\"n\">Nominal</th><th scope=\"col\" class=\"n\">From</th><th "
+                     "scope=\"col\" class=\"n\">To</th><th scope=\"col\">Status</th><th "
+                     "scope=\"col\">Source</th></tr></thead><tbody>\n");
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        fw_markup(out,
+                  "<tr><th scope=\"row\">{s}</th><td class=\"n\">{n} {s}</td><td "
+                  "class=\"n\">{n}</td><td class=\"n\">{n}</td><td>{s}{s}{s}</td><td>{s}"
+                  "{s}{s}</td></tr>\n",
+                  in->name, in_unit(in, in->nominal), unit_of(in), in_unit(in, in->low),
+                  in_unit(in, in->high), fw_quantity_value_status_text(in->q.status),
+                  in->unknown ? ": not known, " : "", in->unknown, in->q.source,
+                  in->q.note ? "; " : "", in->q.note);
+    }
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void tightest_row(fw_text *out, const fw_verdict_variant_verdict *v, int k) {
+    const fw_verdict_fabricated_hinge *m = &v->fabricated->hinge[k];
+    const fw_verdict_fabricated_corner *c = &v->fabricated->corner[m->corner];
+    const fw_verdict_hinge_verdict *h = &c->hinge[k];
+    fw_markup(out,
+              "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{p}</td><td class=\"n\">{p}"
+              "</td><td class=\"n\">{p}</td><td class=\"n\">{p} to {p}</td><td class=\"n\">{p}"
+              "</td><td>{s}</td><td>{s}</td></tr>\n",
+              h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id, v->hinge[k].utilisation,
+              v->fabricated->corner[0].hinge[k].utilisation, h->utilisation, h->utilisation_low,
+              h->utilisation_high, m->most, h->scene, c->what);
+}
+
+static void tightest(fw_text *out, const fw_verdict_variant_verdict *v) {
+    fw_text_add(out,
+                "<div class=\"wide\"><table><caption>Tightest of the devices that were run, and "
+                "what no corner exceeds by first order</caption><thead><tr><th scope=\"col\">Hinge"
+                "</th><th scope=\"col\" class=\"n\">As drawn</th><th scope=\"col\" class=\"n\">"
+                "Nominal</th><th scope=\"col\" class=\"n\">Tightest</th><th scope=\"col\" "
+                "class=\"n\">Error band</th><th scope=\"col\" class=\"n\">At most</th><th "
+                "scope=\"col\">Scene</th><th scope=\"col\">Where</th></tr></thead><tbody>\n");
+    for (int k = 0; k < v->nhinge; k++)
+        if (v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k].scene)
+            tightest_row(out, v, k);
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void sigma_row(fw_text *out, const fw_verdict_variant_verdict *v, int k) {
+    const fw_verdict_fabricated_hinge *m = &v->fabricated->hinge[k];
+    fw_markup(out, "<tr><th scope=\"row\">{s}</th><td class=\"n\">", v->hinge[k].id);
+    fw_text_fixed(out, 100.0 * m->sigma, 2);
+    fw_text_add(out, "</td>");
+    for (int i = 0; i < v->ninput; i++) {
+        fw_text_add(out, "<td class=\"n\">");
+        fw_text_fixed(out, 100.0 * m->share[i], 2);
+        fw_text_add(out, "</td>");
+    }
+    fw_text_add(out, "</tr>\n");
+}
+
+static void sigmas(fw_text *out, const fw_verdict_variant_verdict *v) {
+    fw_text_add(out,
+                "<div class=\"wide\"><table><caption>Standard uncertainty of the nominal "
+                "utilisation, and what the inputs contribute, in per cent of the limit"
+                "</caption><thead><tr><th scope=\"col\">Hinge</th><th scope=\"col\" class=\"n\">"
+                "In all</th>");
+    for (int i = 0; i < v->ninput; i++)
+        fw_markup(out, "<th scope=\"col\" class=\"n\">{s}</th>", v->input[i].name);
+    fw_text_add(out, "</tr></thead><tbody>\n");
+    for (int k = 0; k < v->nhinge; k++)
+        sigma_row(out, v, k);
+    fw_text_add(out, "</tbody></table></div>\n");
+}
+
+static void one_flow(fw_text *out, const fw_verdict_variant_verdict *v) {
+    const fw_verdict_fabricated_verdict *m = v->fabricated;
+    fw_markup(out,
+              "<h3>{s}: {s}</h3>\n<p>As drawn: {s}. {i} devices within the ranges were run{s}"
+              "; first-order estimates were within {p} of them.</p>\n",
+              v->variant->flow, fw_verdict_decision_text(m->decision),
+              fw_verdict_decision_text(v->drawn), m->ncorner,
+              m->all ? ", every corner among them" : "", m->error);
+    if (m->reason)
+        fw_markup(out, "<p><strong>{s}</strong>{s}{s}.</p>\n", m->reason, m->control ? "; " : "",
+                  m->control);
+    ranges(out, v);
+    tightest(out, v);
+    sigmas(out, v);
+}
+
+fw_status fw_report_section_fabricated(fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    bool any = false;
+    for (int i = 0; i < v->nvariant; i++)
+        any = any || v->variant[i].fabricated;
+    if (!any)
+        fw_text_add(page->out, v->drawn != FW_ACCEPT
+                                   ? "<p>Not examined: the drawn geometry is not accepted.</p>\n"
+                                   : "<p>Only the drawn geometry was judged.</p>\n");
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].fabricated) one_flow(page->out, &v->variant[i]);
+    return fw_text_end(page->out);
 }

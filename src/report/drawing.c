@@ -9,18 +9,19 @@
 /* Okabe and Ito, Color Universal Design (2008). Colour never stands alone: every mark that uses it
    also carries a number or a word. */
 
-const fw_report_class fw_report_classes[FW_REPORT_CLASSES] = {
+/* last: no limit known */
+static const fw_report_class utilisation_class[FW_REPORT_CLASSES] = {
     {0.5, "#0072B2", "below 50 %"},          {0.8, "#009E73", "50 to 80 %"},
     {1.0, "#E69F00", "80 to 100 %"},         {HUGE_VAL, "#D55E00", "above the limit"},
     {HUGE_VAL, "#767676", "no limit known"},
 };
 
 const char *fw_report_utilisation_colour(double utilisation) {
-    if (isnan(utilisation)) return fw_report_classes[FW_REPORT_CLASSES - 1].colour;
+    if (isnan(utilisation)) return utilisation_class[FW_REPORT_CLASSES - 1].colour;
     int i = 0;
-    while (i < FW_REPORT_CLASSES - 2 && !(utilisation < fw_report_classes[i].below))
+    while (i < FW_REPORT_CLASSES - 2 && !(utilisation < utilisation_class[i].below))
         i++;
-    return fw_report_classes[i].colour;
+    return utilisation_class[i].colour;
 }
 
 static const struct {
@@ -170,12 +171,13 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
     return fw_report_view_fit(box, width, 0.0);
 }
 
-double fw_report_scale_bar(const fw_report_view *view) {
+/* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
+static double scale_bar_m(const fw_report_view *view) {
     return fw_svg_nice(0.1 * view->width / view->scale);
 }
 
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view) {
-    double length = fw_report_scale_bar(view), px = length * view->scale;
+    double length = scale_bar_m(view), px = length * view->scale;
     double x = view->width - 16.0 - px, y = view->height - 14.0;
     fw_svg_open(out, "g class='scale'");
     fw_svg_put(
@@ -329,7 +331,7 @@ static void hinge_labels(const fw_device *device, const fw_layout *layout,
              : side < 0.0 ? fmax(tx, room)
                           : fmax(0.6 * room, fmin(view->width - 0.6 * room, tx));
         double ty = fmax(14.0, fmin(view->height - 8.0, y + away * dy + 4.0));
-        double bar = fw_report_scale_bar(view) * view->scale + 32.0; /* the scale bar's corner */
+        double bar = scale_bar_m(view) * view->scale + 32.0; /* the scale bar's corner */
         if (tx + room > view->width - bar) ty = fmin(ty, view->height - 42.0);
         double u = fw_report_joint_utilisation(verdict, j);
         fw_svg_open(out,
@@ -380,9 +382,9 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
     double size = view->width / WIDTH;
     for (int i = 0; i < FW_REPORT_CLASSES; i++) {
         fw_svg_put(out, "rect x='{c}' y='{c}' width='12' height='12' rx='2' fill='{r}'",
-                   place[i] * size, view->height + 10.0, fw_report_classes[i].colour);
+                   place[i] * size, view->height + 10.0, utilisation_class[i].colour);
         fw_svg_put(out, "text x='{c}' y='{c}'>{r}\n", place[i] * size + 18.0, view->height + 20.0,
-                   fw_report_classes[i].label);
+                   utilisation_class[i].label);
     }
     fw_svg_close(out, "g\n");
     return FW_OK;

@@ -151,28 +151,7 @@ static fw_status one(fw_text *out, const fw_report_flow *f) {
     return FW_OK;
 }
 
-fw_status fw_report_section_masks(fw_report_page *page) {
-    fw_text *out = page->out;
-    for (int i = 0; i < page->in->nflow; i++) {
-        const fw_report_flow *f = &page->in->flow[i];
-        const char *flow = f->flow ? f->flow->id : f->mask ? f->mask->flow : NULL;
-        fw_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
-        if (f->mask)
-            FW_TRY(one(out, f));
-        else if (f->mask_error)
-            fw_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n", f->mask_error);
-        else
-            fw_markup(out, "<p>No mask{r}.</p>\n",
-                      page->in->verdict->decision == FW_REJECT
-                          ? ": a rejected design gets none unless it is forced"
-                          : " was made");
-        if (f->violated) fw_report_findings(out, f->violated);
-    }
-    if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
-    return fw_text_end(out);
-}
-
-/* Places where a mask breaks design rules. */
+/* ---- places where a mask breaks design rules ---- */
 
 enum { MOST_ROWS = 60 };
 
@@ -191,29 +170,6 @@ static void row(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
               0.5e6 * (f->at[0].x + f->at[1].x), 0.5e6 * (f->at[0].y + f->at[1].y),
               f->label[0] ? f->label[0] : "", f->label[1] ? ", " : "",
               f->label[1] ? f->label[1] : "", rule->source);
-}
-
-/* errors first */
-void fw_report_findings(fw_text *out, const fw_mask *mask) {
-    int rows = 0;
-    fw_text_add(out, "<div class=\"wide\"><table><caption>Where design rules are broken</caption>"
-                     "<thead><tr><th scope=\"col\">Rule</th><th scope=\"col\">Severity</th><th "
-                     "scope=\"col\">Layer</th><th scope=\"col\" class=\"n\">Found</th><th "
-                     "scope=\"col\" class=\"n\">Needed</th><th scope=\"col\" class=\"n\">At x, y "
-                     "(um)</th><th scope=\"col\">Pieces</th><th scope=\"col\">Reason</th></tr>"
-                     "</thead><tbody>\n");
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < mask->nfinding; i++) {
-            bool error = mask->finding[i].rule->severity == FW_ERROR;
-            if (error == (pass == 0) && rows++ < MOST_ROWS) row(out, mask, &mask->finding[i]);
-        }
-    fw_text_add(out, "</tbody></table></div>\n");
-    if (rows > MOST_ROWS) fw_markup(out, "<p>and {i} more.</p>\n", rows - MOST_ROWS);
-    fw_markup(out,
-              "<p class=\"soft small\">With chords and boxes in "
-              "masks/{s}.violations.json, as markers in masks/{s}.violations.gds, and in "
-              "masks/{s}.violations.lyrdb for KLayout.</p>\n",
-              mask->flow, mask->flow, mask->flow);
 }
 
 static void time_cells(fw_text *out, const fw_process_step *step) {
@@ -272,6 +228,52 @@ fw_status fw_report_section_recipes(fw_report_page *page) {
         else
             fw_text_add(out, "none is missing.</p>\n");
         steps(out, flow);
+    }
+    if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
+    return fw_text_end(out);
+}
+
+/* errors first */
+static void findings_table(fw_text *out, const fw_mask *mask) {
+    int rows = 0;
+    fw_text_add(out, "<div class=\"wide\"><table><caption>Where design rules are broken</caption>"
+                     "<thead><tr><th scope=\"col\">Rule</th><th scope=\"col\">Severity</th><th "
+                     "scope=\"col\">Layer</th><th scope=\"col\" class=\"n\">Found</th><th "
+                     "scope=\"col\" class=\"n\">Needed</th><th scope=\"col\" class=\"n\">At x, y "
+                     "(um)</th><th scope=\"col\">Pieces</th><th scope=\"col\">Reason</th></tr>"
+                     "</thead><tbody>\n");
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < mask->nfinding; i++) {
+            bool error = mask->finding[i].rule->severity == FW_ERROR;
+            if (error == (pass == 0) && rows++ < MOST_ROWS) row(out, mask, &mask->finding[i]);
+        }
+    fw_text_add(out, "</tbody></table></div>\n");
+    if (rows > MOST_ROWS) fw_markup(out, "<p>and {i} more.</p>\n", rows - MOST_ROWS);
+    fw_markup(out,
+              "<p class=\"soft small\">With chords and boxes in "
+              "masks/{s}.violations.json, as markers in masks/{s}.violations.gds, and in "
+              "masks/{s}.violations.lyrdb for KLayout.</p>\n",
+              mask->flow, mask->flow, mask->flow);
+}
+
+/* ---- masks ---- */
+
+fw_status fw_report_section_masks(fw_report_page *page) {
+    fw_text *out = page->out;
+    for (int i = 0; i < page->in->nflow; i++) {
+        const fw_report_flow *f = &page->in->flow[i];
+        const char *flow = f->flow ? f->flow->id : f->mask ? f->mask->flow : NULL;
+        fw_markup(out, "<h3>{s}</h3>\n", flow ? flow : "flow");
+        if (f->mask)
+            FW_TRY(one(out, f));
+        else if (f->mask_error)
+            fw_markup(out, "<p><strong class=\"no\">No mask:</strong> {s}</p>\n", f->mask_error);
+        else
+            fw_markup(out, "<p>No mask{r}.</p>\n",
+                      page->in->verdict->decision == FW_REJECT
+                          ? ": a rejected design gets none unless it is forced"
+                          : " was made");
+        if (f->violated) findings_table(out, f->violated);
     }
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");
     return fw_text_end(out);

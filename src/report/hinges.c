@@ -227,8 +227,9 @@ static fw_status picture(const fw_device *device, const fw_report_hinge *hinge, 
     return fw_text_end(out);
 }
 
-fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
-                                   fw_text *out) {
+/* hinges.c: the same picture as an element of the page */
+static fw_status hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
+                                fw_text *out) {
     return picture(device, hinge, count, false, out);
 }
 
@@ -282,7 +283,8 @@ static void rows(fw_text *out, const fw_report_hinge *h) {
     }
 }
 
-fw_status fw_report_ladder(fw_report_page *page) {
+/* hinges.c: table of the hinges by every model, and their picture; nothing without hinges */
+static fw_status ladder_section(fw_report_page *page) {
     const fw_report_input *in = page->in;
     fw_text *out = page->out;
     if (in->nhinge == 0) return FW_OK;
@@ -301,7 +303,7 @@ fw_status fw_report_ladder(fw_report_page *page) {
     for (int i = 0; i < in->nhinge; i++)
         rows(out, &in->hinge[i]);
     fw_text_add(out, "</tbody></table></div>\n<div class=\"wide\">");
-    FW_TRY(fw_report_hinges_picture(in->device, in->hinge, in->nhinge, out));
+    FW_TRY(hinges_picture(in->device, in->hinge, in->nhinge, out));
     fw_text_add(out, "</div>\n");
     return fw_text_end(out);
 }
@@ -398,5 +400,5 @@ fw_status fw_report_section_hinges(fw_report_page *page) {
         "The worst case of every hinge over all flows, scenes and required poses. "
         "The dashed line in the bar is the limit, safety factor included; the "
         "whisker is the error band.");
-    return fw_report_ladder(page);
+    return ladder_section(page);
 }

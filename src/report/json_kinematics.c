@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The assembled position with its branches, and the workspace with its certificate, as JSON. */
-#include "report/report_assembly.h"
+#include "report/report.h"
 #include "report/json_parts.h"
-#include "report/report_workspace.h"
 #include <stdio.h>
 
 /* ---- the assembled position ---- */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A motion, an equilibrium with its load path, and modes as JSON. */
-#include "report/report_json.h"
+#include "report/report.h"
 #include "report/json_parts.h"
-#include "report/report_equilibrium.h"
 
 /* ---- parts ---- */
 
@@ -17,8 +16,9 @@ void fw_report_json_reals(fw_json *json, const char *key, const double *value, i
     fw_json_end(json);
 }
 
-void fw_report_json_by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
-                            const double *triples) {
+/* {"BODY": [x, y, phi]} from 3 numbers per body */
+static void by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
+                    const double *triples) {
     fw_json_object(json, key);
     for (int b = 0; b < mechanism->nbody; b++)
         fw_report_json_reals(json, mechanism->body[b].id, triples + 3 * (size_t)b, 3);
@@ -241,9 +241,9 @@ static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_d
     size_t last = 3 * (size_t)m->nbody * (size_t)(m->nsample - 1);
     fw_json_object(json, "final");
     fw_json_real(json, "t_s", m->t_s[m->nsample - 1]);
-    fw_report_json_by_body(json, "q", mechanism, m->q + last);
-    fw_report_json_by_body(json, "v", mechanism, m->v + last);
-    fw_report_json_by_body(json, "a", mechanism, m->accel + last);
+    by_body(json, "q", mechanism, m->q + last);
+    by_body(json, "v", mechanism, m->v + last);
+    by_body(json, "a", mechanism, m->accel + last);
     fw_json_end(json);
 }
 
@@ -300,7 +300,7 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_stat
     fw_json_real(json, "stiffness_per_s2", m->stiffness_per_s2);
     fw_json_real(json, "modal_mass_kg_m2", m->modal_mass_kg_m2);
     fw_json_text(json, "bodies", m->bodies);
-    fw_report_json_by_body(json, "shape", mechanism, m->shape);
+    by_body(json, "shape", mechanism, m->shape);
     complex_shape(json, mechanism, m->damped);
     fw_json_end(json);
 }
@@ -315,7 +315,7 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
     fw_json_real(&json, "out_of_rest", modes->out_of_rest);
     fw_json_real(&json, "unit_length_m", modes->unit_length_m);
     rank(&json, &modes->rank);
-    fw_report_json_by_body(&json, "q", mechanism, modes->q);
+    by_body(&json, "q", mechanism, modes->q);
     fw_json_list(&json, "modes");
     for (int i = 0; i < modes->count; i++)
         one_mode(&json, mechanism, &modes->mode[i]);
@@ -392,7 +392,7 @@ static void path_events(fw_json *json, const fw_mechanism *m, const fw_statics *
         fw_json_text(json, "element", p->which[i] == FW_NONE ? NULL : s->active[p->which[i]].id);
         fw_json_real(json, "snaps_by_m", p->snap_m[i]);
         fw_json_real(json, "snaps_by_rad", p->snap_rad[i]);
-        fw_report_json_by_body(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
+        by_body(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -456,7 +456,7 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
     fw_json_real(&json, "residual", s->residual);
     fw_json_whole(&json, "iterations", s->iterations);
     rank(&json, &s->rank);
-    fw_report_json_by_body(&json, "q", mechanism, s->q);
+    by_body(&json, "q", mechanism, s->q);
     rest_hinges(&json, mechanism, s);
     rest_joints(&json, mechanism, s->joint_N);
     rest_drivers(&json, mechanism, s->driver_N);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of documents that several of them have. Each writes one value with its key (NULL in a
-   list).
-   Private to the room and study/. */
+/* Parts of JSON documents that several of them have. Each writes one value with its key (NULL in a
+   list). Private to the room. */
 #ifndef FW_REPORT_JSON_PARTS_H
 #define FW_REPORT_JSON_PARTS_H
 #include "base/json.h"
 #include "dynamics/dynamics.h"
+#include "report/preview.h"
 #include "statics/level.h"
 #include "statics/pull_in.h"
 
@@ -13,9 +13,6 @@
 void fw_report_json_pair(fw_json *json, const char *key, double a, double b);
 /* [a, b, ...] */
 void fw_report_json_reals(fw_json *json, const char *key, const double *value, int count);
-/* {"BODY": [x, y, phi]} from 3 numbers per body */
-void fw_report_json_by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
-                            const double *triples);
 /* one object per line of the ledger, into a list; scene and flow are added where they are given */
 void fw_report_json_effects(fw_json *json, const fw_effect_ledger *ledger, const char *scene,
                             const char *flow);
@@ -26,4 +23,25 @@ void fw_report_json_pull_in(fw_json *json, const fw_statics_pull_in *pull_in);
 void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *mechanism,
                                 const fw_effects_hinge_use *use,
                                 const fw_statics_level_step *level);
+
+/* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */
+
+void fw_report_preview_um(fw_json *out, const char *key, double metres);
+void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m); /* [x, y] */
+void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b); /* -1: the ground */
+/* what else joins bodies and what drives them: "joints", "springs", "loads" */
+void fw_report_preview_attached(const fw_report_preview *in, fw_json *out);
+/* "load_factor": of every load, in their order, its time law at the motion's instants */
+void fw_report_preview_factors(const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                               fw_json *out);
+/* "tension_N": of every tendon of the scene, at the motion's instants; empty: none acts */
+fw_status fw_report_preview_tensions(fw_arena *arena, const fw_mechanism *mechanism,
+                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
+                                     fw_json *out);
+/* the box, where it holds anything, with springs and joints; with cables and electrodes of a
+   scene */
+void fw_report_preview_attached_box(const fw_mechanism *mechanism, fw_geometry_box *box);
+void fw_report_preview_scene_box(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                 fw_geometry_box *box);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verdict as JSON: hinges as drawn and as the flows make them, flows, effects, advice. */
-#include "report/report_json.h"
+#include "report/report.h"
 #include "report/json_parts.h"
 #include <math.h>
 

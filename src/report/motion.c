@@ -226,8 +226,9 @@ static void controls(fw_text *out, int number) {
               number);
 }
 
-fw_status fw_report_player(fw_report_page *page, const fw_verdict_variant_verdict *variant,
-                           int scene, int number) {
+/* player of one motion: still picture at the worst instant, controls, data for the script */
+static fw_status player(fw_report_page *page, const fw_verdict_variant_verdict *variant, int scene,
+                        int number) {
     const fw_dynamics_motion *motion = variant->motion[scene];
     const fw_mechanism *mechanism = variant->mechanism;
     const fw_device_scene *s = &page->in->device->scene[scene];
@@ -346,7 +347,7 @@ static fw_status one(fw_report_page *page, const fw_verdict_variant_verdict *v, 
               number, s->name, flow ? ", " : "", flow);
     loads(out, device, s);
     fw_text_add(out, "</figcaption>\n<div class=\"both\"><div>\n");
-    FW_TRY(fw_report_player(page, v, scene, number));
+    FW_TRY(player(page, v, scene, number));
     fw_text_add(out, "</div>\n");
     const fw_dynamics_motion *motion = v->motion[scene];
     int panels = motion->npin < FW_REPORT_PANELS ? motion->npin : FW_REPORT_PANELS;

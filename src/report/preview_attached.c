@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "mechanism/mechanism.h"
 #include "report/report_page.h"
-#include "report/preview_parts.h"
+#include "report/json_parts.h"
 #include <math.h>
 #include <string.h>
 

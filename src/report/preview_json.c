@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
-#include "report/preview_parts.h"
+#include "report/json_parts.h"
 #include <math.h>
 #include <string.h>
 

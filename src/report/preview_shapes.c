@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "flexure/path.h"
 #include "report/figure.h"
-#include "report/preview_parts.h"
+#include "report/json_parts.h"
 #include <math.h>
 
 static const double UM = 1e6;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a person reads: the report page, plots, drawings, animations and preview pictures. All text
    is escaped, all numbers are finite, and the same input gives the same bytes: no clock, no locale,
-   no measured run time. JSON for programs is in report/report_json.h. */
+   no measured run time. Below: documents for programs, and those of the single computations. */
 #ifndef FW_REPORT_REPORT_H
 #define FW_REPORT_REPORT_H
+#include "assembly/assembly.h"
+#include "assembly/kinematics.h"
 #include "base/text.h"
 #include "device/device.h"
 #include "dynamics/dynamics.h"
@@ -13,7 +15,9 @@
 #include "mechanism/mechanism.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
+#include "statics/modes.h"
 #include "verdict/verdict.h"
+#include "workspace/map.h"
 
 typedef struct fw_report_flow { /* one process flow of the device */
     const fw_verdict_variant_verdict *variant;
@@ -101,4 +105,127 @@ typedef struct fw_report_hinge { /* one panel */
 /* every hinge as it is, and drift of its axis and gap of its surfaces against the angle */
 fw_status fw_report_hinges_svg(const fw_device *device, const fw_report_hinge *hinge, int count,
                                fw_text *out);
+
+/* ---- what a person reads in a terminal: the same bytes in every locale ---- */
+
+typedef struct fw_report_terminal_style {
+    int detail; /* -1: the answer only, 0: tables too, 1: every reason */
+    bool colour;
+} fw_report_terminal_style;
+
+/* decision, governing hinge, hinges, advice, flows */
+fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_terminal_style style,
+                                 fw_text *out);
+/* what each flow makes of the device, at its corners */
+void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
+/* peaks, statistics, effects of one scene; holds a measured CPU time */
+fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *mechanism,
+                                  const fw_dynamics_motion *motion, fw_text *out);
+
+/* ---- the unit in which a column of numbers reads best ---- */
+
+typedef enum fw_report_measure {
+    FW_MEASURE_LENGTH,
+    FW_MEASURE_FORCE,
+    FW_MEASURE_TIME
+} fw_report_measure;
+
+typedef struct fw_report_magnitude {
+    const char *unit;
+    double per_si; /* times the SI value */
+} fw_report_magnitude;
+
+/* the largest of um, mm, m, km (uN, mN, N, kN, MN; us, ms, s) in which `largest_si` is at least 1
+ */
+fw_report_magnitude fw_report_magnitude_of(fw_report_measure measure, double largest_si);
+
+/* ---- JSON for programs: 17 digits, keys in a fixed order, null where a number is not finite ---- */
+
+/* schema flexwright.verdict/1 (verdict.json) */
+fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out);
+/* schema flexwright.simulate/1 */
+fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                                  fw_text *out);
+/* schema flexwright.modes/1 */
+fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                               const fw_statics_modes *modes, fw_text *out);
+/* schema flexwright.statics/1 */
+fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                 const fw_statics *statics, fw_text *out);
+
+/* ---- equilibria and modes for people: text, tables, pictures ---- */
+
+/* "point", "limit point", "bifurcation", "switch", "end" */
+const char *fw_report_path_mark(fw_statics_path_mark mark);
+
+/* for a terminal */
+fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_modes *modes,
+                               fw_text *out);
+fw_status fw_report_statics_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                 const fw_statics *statics, fw_text *out);
+/* load_factor,lowest_per_s2,negative,mark,BODY.x_m,...,HINGE.angle_rad,...,TIE.fx_N,...,DRIVER
+   with 17 digits: a row per point of the path, or the equilibrium alone */
+fw_status fw_report_load_path_csv(const fw_mechanism *mechanism, const fw_statics *statics,
+                                  fw_text *out);
+
+/* every mode that has frames, moving, in one picture */
+fw_status fw_report_modes_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                              const fw_mechanism *mechanism, const fw_device_scene *scene,
+                              const fw_statics_modes *modes, fw_text *out);
+/* the equilibrium over the pose at rest, with the loads; with a path the way there, moving */
+fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                const fw_statics *statics, fw_text *out);
+/* load factor against the displacement of the platform, else of what turns or moves most. FW_USAGE
+   without a path. */
+fw_status fw_report_load_path_svg(fw_arena *arena, const fw_device *device,
+                                  const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                  const fw_statics *statics, fw_text *out);
+
+/* ---- the result of `assemble`: document, terminal text, picture of before and after ---- */
+
+typedef struct fw_report_assembly {
+    const fw_device *device;
+    const fw_layout *layout;       /* NULL or not drawn: bodies as lines between their joints */
+    const fw_mechanism *mechanism; /* stands in the guess */
+    const fw_device_scene *scene;  /* its loads; NULL: none */
+    const fw_assembly *assembly;
+    const fw_assembly_kinematics *kinematics; /* NULL: not computed */
+    bool motion;                              /* rates were given, or drivers move it */
+    bool closed;
+} fw_report_assembly;
+
+/* schema flexwright.assemble/1 */
+fw_status fw_report_assemble_json(const fw_report_assembly *input, fw_text *out);
+fw_status fw_report_assemble_text(const fw_report_assembly *input, fw_text *out);
+/* guess and assembled position side by side, open joints in red with their size */
+fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *input, fw_text *out);
+
+/* ---- the certified workspace: text, JSON, pictures, the certificate ---- */
+
+typedef struct fw_report_workspace_flow { /* one flow: a material and a thickness */
+    const char *flow;                     /* NULL: the device's own material */
+    const fw_mechanism *mechanism;
+    const fw_workspace_map *map;
+    const fw_workspace_result *required;
+    const fw_workspace_regularity *singular; /* (device->nworkspace) of the boxes that are proved */
+} fw_report_workspace_flow;
+
+typedef struct fw_report_workspace {
+    const fw_device *device;
+    const fw_report_workspace_flow *flow; /* (nflow) */
+    int nflow;
+} fw_report_workspace;
+
+fw_status fw_report_workspace_text(const fw_report_workspace *in, fw_text *out);
+/* schema flexwright.workspace/1 */
+fw_status fw_report_workspace_json(const fw_report_workspace *in, fw_text *out);
+/* schema flexwright.workspace-certificate/1: what tests/accept/check_certificate.py verifies */
+fw_status fw_report_certificate_json(const fw_report_workspace *in, fw_text *out);
+/* slices at constant rotation, their boundary coloured by the hinge that is at its limit */
+fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in, fw_text *out);
+/* the slices and shares of one flow as the inside of an <svg> of FW_SLICES_WIDTH, from `top` down;
+ *height 0: there is nothing to draw */
+enum { FW_SLICES_WIDTH = 910 };
+
 #endif

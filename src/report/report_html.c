@@ -4,7 +4,8 @@
 #include "report/report_page.h"
 #include <string.h>
 
-const char fw_report_style[] =
+/* style sheet of the page */
+static const char style_sheet[] =
     ":root{color-scheme:light;--ink:#1f2328;--soft:#57606a;--line:#d8dee4;--pale:#f6f8fa}\n"
     "*{box-sizing:border-box}\n"
     "body{margin:0;background:#fff;color:var(--ink);font:15px/1.5 system-ui,-apple-system,"
@@ -89,7 +90,8 @@ const char fw_report_style[] =
 /* The player: body poses between frames, flexures bent as in film.c, cursors in the plots. Neither
    '<' nor '&' occurs, so that the page is well-formed XML too. */
 
-const char fw_report_script[] =
+/* its player */
+static const char player_script[] =
     "(function(){'use strict';\n"
     "var RAD=Math.PI/180,CLASS=[[0.5,'#0072B2'],[0.8,'#009E73'],[1,'#E69F00'],[1/0,'#D55E00']];\n"
     "function all(root,what){return Array.prototype.slice.call(root.querySelectorAll(what));}\n"
@@ -160,7 +162,7 @@ static const char *file_of(fw_place place) {
     return option ? place.file : fw_place_file(place);
 }
 
-fw_status fw_report_section_messages(fw_report_page *page) {
+static fw_status messages_section(fw_report_page *page) {
     static const char *const word[] = {"note", "warning", "error"};
     const fw_diags *diags = page->in->diags;
     fw_text *out = page->out;
@@ -204,7 +206,7 @@ static const struct {
     {"effects", "Effects", fw_report_section_effects},
     {"accuracy", "Accuracy", fw_report_section_accuracy},
     {"assumptions", "Assumptions", fw_report_section_assumptions},
-    {"messages", "Messages", fw_report_section_messages},
+    {"messages", "Messages", messages_section},
 };
 
 enum { SECTIONS = sizeof sections / sizeof sections[0], DRAWING_WIDTH = 640 };
@@ -219,7 +221,7 @@ static void head(fw_report_page *page) {
               "<meta name=\"generator\" content=\"Flexwright {s}\"/>\n"
               "<title>{s}: {r}</title>\n<style>\n{r}</style>\n</head>\n<body>\n",
               page->in->version, page->in->device->name,
-              fw_report_decision_word(page->in->verdict->decision), fw_report_style);
+              fw_report_decision_word(page->in->verdict->decision), style_sheet);
 }
 
 static void navigation(fw_report_page *page) {
@@ -273,6 +275,6 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
               "</main>\n<footer><p>Flexwright {s}. The same input gives the same bytes: this "
               "page holds no date and no run time.</p></footer>\n"
               "<script>//<![CDATA[\n{r}//]]></script>\n</body>\n</html>\n",
-              input->version, fw_report_script);
+              input->version, player_script);
     return fw_text_end(out);
 }

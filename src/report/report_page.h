@@ -4,9 +4,7 @@
 #define FW_REPORT_REPORT_PAGE_H
 #include "base/svg.h"
 #include "report/report.h"
-
-extern const char fw_report_style[];  /* style sheet of the page */
-extern const char fw_report_script[]; /* its player */
+#include "statics/level.h"
 
 /* ---- drawing.c: colours; Okabe and Ito's, which colour-blind readers tell apart ---- */
 typedef struct fw_report_class {
@@ -14,7 +12,6 @@ typedef struct fw_report_class {
     const char *colour, *label;
 } fw_report_class;
 enum { FW_REPORT_CLASSES = 5 };
-extern const fw_report_class fw_report_classes[FW_REPORT_CLASSES]; /* last: no limit known */
 const char *fw_report_utilisation_colour(double utilisation);
 const char *fw_report_decision_colour(fw_verdict_decision decision);
 /* "REJECTED: " in front of the titles of files that may travel alone, else ""; NULL allowed */
@@ -41,8 +38,6 @@ fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *l
 fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
 bool fw_report_drawn(const fw_layout *layout);
 bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a shape of its own */
-/* length of a scale bar that fills about a fifth of the view: 1, 2 or 5 times a power of ten */
-double fw_report_scale_bar(const fw_report_view *view);
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
 
 /* ---- film.c: bodies and bending flexures at an instant ---- */
@@ -173,21 +168,18 @@ fw_status fw_report_section_motion(fw_report_page *page);
 fw_status fw_report_section_workspace(fw_report_page *page);
 fw_status fw_report_section_flows(fw_report_page *page);
 fw_status fw_report_section_masks(fw_report_page *page);
-void fw_report_findings(fw_text *out, const fw_mask *mask); /* what breaks design rules, a table */
 fw_status fw_report_section_recipes(fw_report_page *page);
 fw_status fw_report_section_effects(fw_report_page *page);
 fw_status fw_report_section_accuracy(fw_report_page *page);
 fw_status fw_report_section_assumptions(fw_report_page *page);
-fw_status fw_report_section_messages(fw_report_page *page);
-/* hinges.c: table of the hinges by every model, and their picture; nothing without hinges */
-fw_status fw_report_ladder(fw_report_page *page);
-/* hinges.c: the same picture as an element of the page */
-fw_status fw_report_hinges_picture(const fw_device *device, const fw_report_hinge *hinge, int count,
-                                   fw_text *out);
 /* table of hinge verdicts; `with_flow` adds the column */
 void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, int nhinge,
                            bool with_flow, const char *caption);
-/* player of one motion: still picture at the worst instant, controls, data for the script */
-fw_status fw_report_player(fw_report_page *page, const fw_verdict_variant_verdict *variant,
-                           int scene, int number);
+
+/* ---- ledger.c: how hinges were taken, and what the next level changes ---- */
+
+/* lines for a terminal; none without hinges */
+void fw_report_hinge_model(const fw_mechanism *mechanism, const fw_effects_hinge_use *use,
+                           const fw_statics_level_step *level, fw_text *out);
+
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/constants.h"
 #include "report/report_page.h"
-#include "report/report_workspace.h"
+#include "report/report.h"
 #include <math.h>
 
 /* Slices of the workspace at constant rotation. Pictures are drawn from sampled poses; the figures
@@ -253,8 +253,8 @@ static void shares(const slice *s) {
     }
 }
 
-fw_status fw_report_slices(fw_arena *arena, const fw_report_workspace_flow *flow, double top,
-                           double *height, fw_text *out) {
+static fw_status slices(fw_arena *arena, const fw_report_workspace_flow *flow, double top,
+                        double *height, fw_text *out) {
     const fw_workspace_map *map = flow->map;
     *height = 0.0;
     if (map->none || !(map->volume.value.lo > 0.0)) return FW_OK;
@@ -313,7 +313,7 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
             fw_text_add(&body, " \u00b5m\u00b2 rad, certified");
         }
         fw_svg_close(&body, "text\n");
-        FW_TRY(fw_report_slices(arena, f, top + 20.0, &height, &body));
+        FW_TRY(slices(arena, f, top + 20.0, &height, &body));
         top += 34.0 + height;
     }
     FW_TRY(fw_text_end(&body));
@@ -405,7 +405,7 @@ static fw_status reachable(fw_report_page *page, const fw_verdict_variant_verdic
                                            &v->workspace, NULL};
     fw_text picture = fw_text_new(page->arena);
     double height;
-    FW_TRY(fw_report_slices(page->arena, &flow, 0.0, &height, &picture));
+    FW_TRY(slices(page->arena, &flow, 0.0, &height, &picture));
     FW_TRY(fw_text_end(&picture));
     fw_markup(page->out,
               "<p>Reachable with every hinge inside its elastic limit: {n} to {n} "

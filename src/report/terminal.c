@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "report/terminal.h"
+#include "report/report.h"
 #include "base/constants.h"
-#include "report/hinge_model.h"
+#include "report/report_page.h"
 #include <math.h>
 #include <string.h>
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* To what a person opened the browser goes on by itself. When a file led here (the one of
-   cli/serve.c), the browser takes the whole chain for another page's and would keep the cookie
+   cli/cli_tools.c), the browser takes the whole chain for another page's and would keep the cookie
    back: then a page of ours leads on. */
 void fw_serve_route_entry(fw_serve_request *r) {
     const fw_serve_guard *guard = &r->server->guard;

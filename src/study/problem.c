@@ -1,9 +1,87 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Everything but the numbers, decided once: scene, closed joints, effects, how hinges are taken. */
+/* One device and one scene with everything but the numbers decided: what something will cost before it
+   is run, the problem itself, one answer.
+
+   The model of costs depends on counts alone, so that the same settings are run on every machine: how
+   large a part of the budget something takes, where nothing counts instructions. */
+#include "study/problem.h"
+#include "maths/ode.h"
 #include "plan/stages.h"
 #include "statics/quasi.h"
-#include "study/problem.h"
+#include "verdict/strain.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Instructions of an answer for the reference six-bar (five bodies, n = 15, m = 12) by dop853 at a
+   tolerance of 1e-7, over the right-hand sides of its finer run: projection, dense output, peaks
+   and the run that errors are estimated from included; and how that grows with the bodies. Counted
+   by this program, gcc -O2 (docs/theory/tradeoff.md). Dense factorisations grow with the cube of
+   the bodies, where small ones are mostly calls. */
+static const struct {
+    const char *method;
+    double six_bar, power;
+} cost_table[] = {
+    {"chain", 3700, 1},
+    {"minimal", 27000, 1},
+    {"augmented", 133000, 3},
+    {"coordinate-partitioning", 66000, 3},
+    {"udwadia-kalaba", 371000, 3},
+    {"svd", 376000, 3},
+    {"qr", 167000, 3},
+    {"schur", 291000, 3},
+    {"block-least-squares", 162000, 2},
+};
+
+/* hinges that give are springs, not constraints: without any constraint all methods are alike */
+static bool constrained(const fw_study_problem *p) {
+    const fw_mechanism *m = p->mechanism;
+    return m->npin - p->loads.nreleased + m->njoint + m->ndriver > 0;
+}
+
+double fw_study_cost_rhs(const fw_study_problem *p, const char *method) {
+    double effects = 0, times = (1 + p->mechanism->nbody) / 6.0;
+    for (int i = 0; i < p->ledger.count; i++)
+        if (p->ledger.item[i].active) effects += p->ledger.item[i].cost;
+    for (size_t i = 0; method && constrained(p) && i < sizeof cost_table / sizeof cost_table[0];
+         i++)
+        if (strcmp(cost_table[i].method, method) == 0)
+            return effects + cost_table[i].six_bar * pow(times, cost_table[i].power);
+    return effects + cost_table[0].six_bar * times;
+}
+
+static const fw_maths_stepper_row *stepper(const char *integrator) {
+    return integrator ? fw_maths_stepper_find(integrator) : NULL;
+}
+
+double fw_study_cost_answer(const fw_study_problem *p, const fw_study_tradeoff_point *point) {
+    double n = 3.0 * p->mechanism->nbody;
+    const fw_maths_stepper_row *row = stepper(point->integrator);
+    /* iterations evaluate more than they count, and GSL's extrapolation much more */
+    double lean = !row || !row->implicit ? 1 : row == fw_maths_stepper_find("gsl-bsimp") ? 5 : 2;
+    return lean * (double)point->rhs * fw_study_cost_rhs(p, point->method) +
+           (double)point->factorisations * (2.5 * n * n * n + 50 * n * n);
+}
+
+double fw_study_cost_step(const fw_study_problem *p, const char *method, const char *integrator) {
+    const fw_maths_stepper_row *row = stepper(integrator);
+    double n = 3.0 * p->mechanism->nbody, rhs = fw_study_cost_rhs(p, method);
+    /* strains are watched at so many instants of every step, each of which solves for the forces */
+    double looks = p->mechanism->nhinge > 0 ? FW_INSTANTS : 0;
+    /* GSL's extrapolation takes a Jacobian by differences and many small steps in each of its own
+     */
+    if (row && row == fw_maths_stepper_find("gsl-bsimp")) return 1000 * rhs;
+    if (row && row->implicit) return (20 + looks) * rhs + 2.5 * n * n * n + 50 * n * n;
+    return ((row && row->order < 6 ? 7 : 15) + looks) * rhs;
+}
+
+double fw_study_cost_digit(const char *integrator) {
+    const fw_maths_stepper_row *row = stepper(integrator);
+    double order = row ? row->order : 8;
+    return pow(10, 1 / fmin(order, 8)); /* those of variable order reach some 8 */
+}
+
+/* ---- everything but the numbers, decided once ---- */
 
 static const double fw_nominal_rate = 2.5e9; /* instructions a second of the budget */
 
@@ -65,4 +143,135 @@ fw_status fw_study_problem_at_level(fw_plan *plan, fw_effects_hinge_model level,
     FW_TRY(start(plan, p));
     p->effects.hinge = level;
     return fw_study_problem_compile(p);
+}
+
+/* ---- one answer: the motion by one setting, its peaks and what it uses of the hinges ---- */
+
+static fw_dynamics_motion_options options_of(const fw_study_problem *p,
+                                             const fw_study_tradeoff_setting *s) {
+    fw_dynamics_motion_options o = p->plan->options.verdict.motion;
+    o.method = s->method;
+    o.integrator = s->integrator;
+    o.rtol = s->rtol;
+    o.accuracy = p->accuracy;
+    o.samples = 2;
+    o.effects = p->effects;
+    o.moved_m = p->moved_m;
+    o.most_steps = s->most_steps;
+    return o;
+}
+
+static fw_status move(const fw_study_problem *p, const fw_study_tradeoff_setting *s,
+                      const fw_dynamics_motion_options *o, fw_diags *diags,
+                      const fw_dynamics_motion **motion) {
+    if (!s->row)
+        return fw_dynamics_simulate_compiled(p->arena, p->mechanism, p->scene, o, &p->ledger,
+                                             &p->loads, diags, motion);
+    const char *why;
+    fw_effects_loads resting = p->loads;
+    fw_dynamics_motion_options at = *o;
+    resting.quasi_static = true;
+    if (s->rtol > 0) at.accuracy = s->rtol; /* equilibria have no other tolerance */
+    at.rtol = 0;
+    return fw_statics_quasi_static_motion(p->arena, p->mechanism, p->scene, &at, &p->ledger,
+                                          &resting, diags, motion, &why);
+}
+
+__attribute__((noinline)) fw_status fw_study_tradeoff_answer(const fw_study_problem *p,
+                                                             const fw_study_tradeoff_setting *s,
+                                                             fw_diags *diags,
+                                                             const fw_dynamics_motion **motion) {
+    const fw_dynamics_motion_options o = options_of(p, s);
+    return move(p, s, &o, diags, motion);
+}
+
+/* ---- what it says ---- */
+
+static double largest_peak(const double *a, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, fabs(a[i]));
+    return most;
+}
+
+double fw_study_peaks_differ(const double *a, const double *ref, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, fabs(fabs(a[i]) - fabs(ref[i])));
+    return most / largest_peak(ref, n);
+}
+
+/* the larger of angle over limit angle and strain over limit strain, as the verdict has it */
+static double utilisation_of(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                             const void *monitor) {
+    const fw_verdict_strain_monitor *w = monitor;
+    double most = (double)NAN;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_flexure_result *c = &m->hinge[k].closed_form;
+        double angle = fabs(motion->peak[m->hinge[k].pin].angle_rad) / c->limit_angle_rad;
+        double strain = w ? w->hinge[k].strain / (c->limit_angle_rad * c->strain_per_rad) : 0;
+        if (isfinite(angle)) most = fmax(most, fmax(angle, strain)); /* fmax passes by NaN */
+    }
+    return most;
+}
+
+static void take(const fw_study_problem *p, const fw_dynamics_motion *x,
+                 const fw_verdict_strain_monitor *w, fw_study_tradeoff_point *point) {
+    double left_out = fw_dynamics_motion_left_out(x), error = 0;
+    for (int i = 0; i < x->npin; i++) {
+        point->peak_rad[i] = x->peak[i].angle_rad;
+        error = fmax(error, x->peak[i].error_rad - left_out);
+    }
+    point->method = x->method ? x->method : "equilibria";
+    point->integrator = x->integrator ? x->integrator : "none";
+    point->rtol = x->stats.rtol;
+    point->estimated = error / largest_peak(point->peak_rad, x->npin);
+    point->utilisation = utilisation_of(p->mechanism, x, w);
+    point->steps = x->stats.steps, point->rejected = x->stats.rejected, point->rhs = x->stats.rhs;
+    point->jacobians = x->stats.jacobians, point->factorisations = x->stats.factorisations;
+    point->instructions = fw_study_cost_answer(p, point);
+    point->by = FW_COUNT_MODEL;
+    point->state = FW_TRADEOFF_DONE;
+}
+
+/* the message of the last error, which outlives the arena that is given back */
+static void failed(const fw_diags *diags, fw_status status, char *buffer, size_t n,
+                   fw_study_tradeoff_point *point) {
+    const char *say = fw_status_text(status);
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].severity == FW_ERROR) say = diags->item[i].message;
+    strncpy(buffer, say, n - 1);
+    buffer[n - 1] = '\0';
+    point->state = status == FW_LIMIT ? FW_TRADEOFF_SKIPPED : FW_TRADEOFF_FAILED;
+}
+
+fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_setting *s,
+                               fw_study_tradeoff_point *point) {
+    char why[400] = "";
+    fw_dynamics_motion_options o = options_of(p, s);
+    fw_verdict_strain_monitor saw, looser;
+    const fw_dynamics_motion *motion = NULL;
+    if (!point->peak_rad) /* outlives the run */
+        FW_NEED(point->peak_rad = fw_arena_array(p->arena, double, (size_t)p->mechanism->npin));
+    point->error = point->utilisation_error = point->utilisation = (double)NAN;
+    point->estimated = point->instructions = (double)NAN;
+    point->method = s->method ? s->method : "auto";
+    point->integrator = s->integrator ? s->integrator : "auto";
+    point->rtol = s->rtol;
+    fw_mark mark = fw_arena_mark(p->arena);
+    fw_diags own = fw_diags_new(p->arena);
+    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, p->plan->layout, false, &saw));
+    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, p->plan->layout, false, &looser));
+    if (p->mechanism->nhinge > 0)
+        o.observe = fw_verdict_strain_monitor_record, o.context = &saw, o.other = &looser;
+    fw_status status = move(p, s, &o, &own, &motion);
+    if (status == FW_NOMEM || status == FW_CANCELLED || own.failed || saw.no_memory)
+        return status == FW_CANCELLED ? status : FW_NOMEM;
+    if (status == FW_OK)
+        take(p, motion, motion->observed ? motion->observed : &saw, point);
+    else
+        failed(&own, status, why, sizeof why, point);
+    fw_arena_rewind(p->arena, mark);
+    if (status == FW_OK) return FW_OK;
+    return (point->why = fw_arena_strdup(p->arena, why)) ? FW_OK : FW_NOMEM;
 }

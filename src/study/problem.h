@@ -27,7 +27,7 @@ fw_status fw_study_problem_at_level(fw_plan *plan, fw_effects_hinge_model level,
 /* compiles the effects as `p->effects` and the accuracy say */
 fw_status fw_study_problem_compile(fw_study_problem *p);
 
-/* answer.c: one answer of a setting. method, integrator NULL and rtol 0: as simulate would */
+/* problem.c: one answer of a setting. method, integrator NULL and rtol 0: as simulate would */
 typedef struct fw_study_tradeoff_setting {
     const char *method, *integrator;
     double rtol;
@@ -41,15 +41,10 @@ fw_status fw_study_tradeoff_answer(const fw_study_problem *p, const fw_study_tra
    FW_NOMEM and FW_CANCELLED. error is left to the reference */
 fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_setting *s,
                                fw_study_tradeoff_point *point);
-/* peaks and utilisation of any motion that `watch` (verdict/strain_monitor.h) saw; NULL: angles
-   only */
-double fw_study_problem_utilisation(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                                    const void *monitor);
 /* largest difference of the sizes of peaks, relative to the largest of `ref` */
 double fw_study_peaks_differ(const double *a, const double *ref, int n);
-double fw_study_peaks_largest(const double *a, int n);
 
-/* cost.c: the model of costs */
+/* problem.c: the model of costs */
 /* instructions of one right-hand side; good to a factor of 2 */
 double fw_study_cost_rhs(const fw_study_problem *p, const char *method);
 /* of one answer with these counts, its error estimate included */
@@ -59,7 +54,7 @@ double fw_study_cost_step(const fw_study_problem *p, const char *method, const c
 /* the same answer at a tenth of the tolerance over this one */
 double fw_study_cost_digit(const char *integrator);
 
-/* study_grid.c, study_reference.c, models.c, masks.c, count.c, timing.c, study_judge.c: parts of
+/* study_grid.c, study_grid.c, models.c, models.c, study_measure.c, study_measure.c, study_tradeoff.c: parts of
    the whole */
 fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t);
 fw_status fw_study_tradeoff_find_reference(fw_study_problem *p, fw_study_tradeoff *t);

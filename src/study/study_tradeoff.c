@@ -1,7 +1,104 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The whole comparison: its parts in order, and what the measured settings say together: errors, front,
+   orders, what a digit costs, honesty. */
+#include "base/sort.h"
+#include "plan/design.h"
 #include "plan/stages.h"
 #include "study/problem.h"
+#include "study/study_numbers.h"
+#include "study/tradeoff.h"
 #include <math.h>
+#include <stdlib.h>
+
+/* true errors below this many times the reference's own are not known well enough to be compared */
+static const double known = 3;
+
+void fw_study_tradeoff_errors(fw_study_tradeoff *t) {
+    const fw_study_tradeoff_point *ref = t->reference.run[0];
+    int n = t->mechanism->npin;
+    for (int i = 0; i < t->npoint; i++) {
+        fw_study_tradeoff_point *p = &t->point[i];
+        if (p->state != FW_TRADEOFF_DONE || !ref) continue;
+        p->error = fw_study_peaks_differ(p->peak_rad, ref->peak_rad, n);
+        p->utilisation_error = fabs(p->utilisation / ref->utilisation - 1);
+        p->floor = !(p->error > t->reference.error);
+    }
+}
+
+bool fw_study_tradeoff_good(const fw_study_tradeoff *t, const fw_study_tradeoff_point *p) {
+    const fw_study_tradeoff_point *ref = t->reference.run[0];
+    if (p->state != FW_TRADEOFF_DONE || !ref || !(p->error <= t->accuracy)) return false;
+    double used = fabs(p->utilisation - ref->utilisation);
+    return !(used > 10 * t->accuracy); /* NaN: no hinge has a limit */
+}
+
+/* estimated over true error, where the true one is known */
+static fw_status honesty(fw_arena *arena, fw_study_tradeoff *t) {
+    double *ratio;
+    double least = HUGE_VAL;
+    FW_NEED(ratio = fw_arena_array(arena, double, (size_t)t->npoint));
+    t->least_honest = FW_NONE;
+    for (int i = 0; i < t->npoint; i++) {
+        const fw_study_tradeoff_point *p = &t->point[i];
+        if (p->state != FW_TRADEOFF_DONE || !(p->error > known * t->reference.error)) continue;
+        if (i == 0 && t->row && !t->rows_only) continue; /* its error holds that of the model */
+        ratio[t->judged++] = p->estimated / p->error;
+        if (p->estimated / p->error < least) least = p->estimated / p->error, t->least_honest = i;
+        t->honest += p->estimated >= p->error;
+    }
+    if (t->judged == 0) return FW_OK;
+    fw_sort_doubles(ratio, (size_t)t->judged);
+    t->honesty[0] = ratio[0];
+    t->honesty[1] = 0.5 * (ratio[(t->judged - 1) / 2] + ratio[t->judged / 2]);
+    t->honesty[2] = ratio[t->judged - 1];
+    return FW_OK;
+}
+
+static void orders(fw_study_tradeoff *t) {
+    double work[FW_TRADEOFF_TOLERANCES], error[FW_TRADEOFF_TOLERANCES];
+    for (int i = 0; i < t->ncurve; i++) {
+        fw_study_tradeoff_curve *c = &t->curve[i];
+        for (int k = 0; k < c->count; k++) {
+            const fw_study_tradeoff_point *p = &t->point[c->first + k];
+            bool done = p->state == FW_TRADEOFF_DONE;
+            work[k] = done ? (double)p->rhs : (double)NAN;
+            error[k] = done ? p->error : (double)NAN;
+        }
+        c->order = fw_study_front_order(work, error, c->count, known * t->reference.error);
+    }
+}
+
+fw_status fw_study_tradeoff_judge(fw_arena *arena, fw_study_tradeoff *t) {
+    double *cost, *error;
+    bool *front;
+    size_t n = (size_t)t->npoint;
+    FW_NEED(cost = fw_arena_array(arena, double, n));
+    FW_NEED(error = fw_arena_array(arena, double, n));
+    FW_NEED(front = fw_arena_array(arena, bool, n));
+    t->cheapest = FW_NONE;
+    for (int i = 0; i < t->npoint; i++) {
+        const fw_study_tradeoff_point *p = &t->point[i];
+        bool done = p->state == FW_TRADEOFF_DONE;
+        /* what is only modelled is not set against what is counted */
+        bool comparable = t->instructions_why || p->by != FW_COUNT_MODEL;
+        cost[i] = done && comparable ? p->instructions : (double)NAN;
+        error[i] = done ? fmax(p->error, t->reference.error) : (double)NAN;
+        if (fw_study_tradeoff_good(t, p) && comparable &&
+            (t->cheapest < 0 || cost[i] < cost[t->cheapest]))
+            t->cheapest = i;
+    }
+    fw_study_front_mark(cost, error, t->npoint, front);
+    for (int i = 0; i < t->npoint; i++)
+        t->point[i].front = front[i];
+    t->digit_overall = fw_study_front_digit(cost, error, front, t->npoint);
+    t->digit_here = fw_study_front_cost(cost, error, front, t->npoint, 0.1 * error[0]) /
+                    fw_study_front_cost(cost, error, front, t->npoint, error[0]);
+    t->over_cheapest = t->cheapest < 0 ? (double)NAN : cost[0] / cost[t->cheapest];
+    orders(t);
+    return honesty(arena, t);
+}
+
+/* ---- the whole ---- */
 
 static const double usual_budget_s = 20;
 
@@ -79,4 +176,29 @@ fw_status fw_study_tradeoff_run(fw_plan *plan, const fw_study_tradeoff_options *
     say(&p, t);
     *out = t;
     return FW_OK;
+}
+
+/* ---- fw_design_tradeoff of the public library: the stage, and who composes its documents. ---- */
+
+static fw_status work(fw_design *d, void *argument) {
+    FW_TRY(fw_study_tradeoff_run(d->plan, argument, &d->tradeoff));
+    d->tradeoff_document[0] = fw_study_tradeoff_json;
+    d->tradeoff_document[1] = fw_study_tradeoff_text;
+    d->tradeoff_document[2] = fw_study_tradeoff_csv;
+    d->tradeoff_document[3] = fw_study_tradeoff_svg;
+    return FW_OK;
+}
+
+int fw_design_tradeoff(fw_design *design, double budget_s, int times) {
+    fw_study_tradeoff_options options = {.budget_s = budget_s, .times = times != 0};
+    if (!design) return FW_STATUS_USAGE;
+    if (!(budget_s == 0 || (budget_s >= 1 && budget_s <= 3600)))
+        return (int)fw_plan_design_usage(design, "the budget of tradeoff is 1 to 3600 s, or 0");
+    if (!(design->done & FW_DONE_READ))
+        return (int)fw_plan_design_usage(design, "read a description before its tradeoff");
+    if (design->done & FW_DONE_TRADEOFF) return FW_STATUS_OK;
+    int status = fw_plan_design_run(design, work, &options);
+    if (status == FW_STATUS_OK) design->done |= FW_DONE_TRADEOFF;
+    fw_plan_design_forget_documents(design);
+    return status;
 }

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Peak strain of a flexure under rotation and joint force. Private to the room and its tests. */
+/* Peak strain of a flexure under rotation and joint force, followed along a motion, and the fatigue
+   of one that is repeated. Private to the room, its tests and study/. */
 #ifndef FW_VERDICT_STRAIN_H
 #define FW_VERDICT_STRAIN_H
-#include "layout/layout.h"
+#include "dynamics/dynamics.h"
 #include "flexure/elastica.h"
+#include "flexure/limit.h"
+#include "layout/layout.h"
+#include "maths/rainflow.h"
 #include "mechanism/mechanism.h"
 
 typedef struct fw_verdict_hinge_load {
@@ -40,5 +44,66 @@ bool fw_verdict_exact_moments(fw_flexure_elastica *beam, double theta_rad, const
 /* largest |section moment| at the roots and inside the arc; see verdict_strain.c */
 void fw_verdict_arc_moments(const fw_device_flexure *flexure, double centre_m, double moment_Nm,
                             double fx_N, double fy_N, double *root_Nm, double *inside_Nm);
+
+/* ---- strain_monitor.c: the peak strain of every hinge, followed along the motion ---- */
+
+typedef struct fw_verdict_strain_peak {
+    double strain, t_s; /* largest so far, and when */
+    double between;     /* what the parabola added to the largest sample: the error of the search */
+    double t[2], s[2];  /* the last two instants */
+    int seen;
+} fw_verdict_strain_peak;
+
+typedef struct fw_verdict_strain_monitor { /* of one run */
+    const fw_mechanism *mechanism;
+    const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
+    fw_arena *arena;
+    fw_flexure_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
+    bool no_memory; /* for them: strains are those of the closed form, and the run has failed */
+    fw_verdict_strain_peak *hinge; /* (nhinge) */
+    fw_maths_turning (
+        *root)[2]; /* (nhinge) of the strain at either root; NULL: nobody counts cycles */
+} fw_verdict_strain_monitor;
+
+/* cycles: also keep the turning points that fatigue needs */
+fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                        const fw_layout *layout, bool cycles,
+                                        fw_verdict_strain_monitor *monitor);
+/* an fw_dynamics_observer; context is the monitor */
+void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *instant);
+/* Strains of which the numerical error is known from two runs. What stiff axes carry is known less
+   well than the rotation: peaks of forces that ride on them come nearer with a tighter tolerance,
+   but not at the order of the method. Error: twice what any hinge's largest strain differs by (1.1
+   times was seen, test_hard_verdict.c), times the margin of the two runs; the largest difference
+   of all hinges counts for each, since one alone may agree by chance. */
+double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *saw,
+                                       const fw_verdict_strain_monitor *looser, double margin);
+/* that over ten times the accuracy wanted of the lowest limit:
+   fw_dynamics_motion_options.unsettled */
+double fw_verdict_strain_monitor_unsettled(const void *saw, const void *looser, double margin,
+                                           double accuracy);
+/* one more instant of one hinge */
+void fw_verdict_strain_peak_add(fw_verdict_strain_peak *peak, double t_s, double strain);
+
+/* ---- strain_monitor.c: fatigue of a motion that is repeated ---- */
+
+typedef struct fw_verdict_fatigue {
+    double utilisation; /* factor on all stresses at which the repetitions would just be lasted, to
+                           the power -1; no safety factor */
+    double damage;      /* Miner's sum at the stresses as they are */
+    double cycles;      /* counted in one repetition */
+} fw_verdict_fatigue;
+
+/* Miner's sum of n cycles of stress (Pa), `times` over, all stresses times `factor` */
+double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle *cycle, size_t n,
+                        double times, double factor);
+/* x with fw_verdict_miner(..., 1/x) = 1; 0: nothing is stressed */
+double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
+                                      const fw_maths_cycle *cycle, size_t n, double times);
+/* the worse of both roots. root: turning points of their strain, ended here; Pa_per_strain: what
+   makes stresses of them */
+fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *law,
+                                fw_maths_turning root[2], double Pa_per_strain, double times,
+                                fw_verdict_fatigue *out);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/trial.h"
-#include "verdict/scene.h"
+#include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 

@@ -49,10 +49,4 @@ double fw_verdict_trial_excess(const fw_verdict_trial *trial);
 fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
                                        const fw_verdict_options *options, fw_verdict *out);
 
-/* changes.c: each tries to reach an accepted, drawn device by one kind of change. *done: it did,
-   and wrote its advice (lines into verdict->advice, or a sentence). */
-fw_status fw_verdict_change_lengths(fw_verdict_trial *trial, fw_verdict *out, bool *done);
-fw_status fw_verdict_change_widths(fw_verdict_trial *trial, fw_verdict *out, bool *done);
-fw_status fw_verdict_change_loads(fw_verdict_trial *trial, const char **sentence, bool *done);
-
 #endif

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/compare.h"
+#include "verdict/verdict_parts.h"
 #include "base/constants.h"
-#include "verdict/fatigue.h"
-#include "verdict/scene.h"
-#include "verdict/strain_monitor.h"
+#include "verdict/strain.h"
 #include <math.h>
 
 /* motion: largest difference of any hinge's peak section moment, joint force included, between

@@ -210,7 +210,7 @@ extern const fw_verdict_model_errors fw_verdict_model_error;
 extern const double fw_verdict_first_accuracy;
 
 /* what the hinges' level may be off by in a motion, relative to the largest strain: computed at its
-   peak where that is known (verdict_level.c), else fw_verdict_model_error.motion */
+   peak where that is known (verdict_strain.c), else fw_verdict_model_error.motion */
 double fw_verdict_motion_model_error(const fw_mechanism *mechanism,
                                      const fw_dynamics_motion *motion);
 /* the part of it that exact beams have too */

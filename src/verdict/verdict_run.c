@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/compare.h"
+/* The verdict on a device in all its flows: each judged as drawn, again more closely where that may
+   decide, and then as the flows make it. */
 #include "base/constants.h"
+#include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 
@@ -185,4 +187,138 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     if (options->with_advice) return fw_verdict_advise(arena, device, options, verdict);
     verdict->advice_note = "no change that would be accepted was searched for";
     return FW_OK;
+}
+
+/* ---- does the description close as it is drawn? ---- */
+
+/* the mask is drawn where the bodies are, so both must put a pin at the same place */
+static double pin_gap(const fw_mechanism *m, const fw_mechanism_pin *pin) {
+    fw_geometry_vec2 a = fw_mechanism_pin_place(m, pin, 0), b = fw_mechanism_pin_place(m, pin, 1);
+    return hypot(a.x - b.x, a.y - b.y);
+}
+
+static double turn_of(const fw_mechanism *m, int body) {
+    return body == FW_GROUND ? 0.0 : m->body[body].phi_rad;
+}
+
+static bool driven(const fw_mechanism *m, int joint) {
+    for (int i = 0; i < m->ndriver; i++)
+        if (m->driver[i].joint == joint) return true;
+    return false;
+}
+
+/* how far a joint is from holding as drawn: m, and rad beside it */
+static double joint_gap(const fw_mechanism *m, int i, double *angle_rad) {
+    const fw_device_joint *t = &m->joint[i];
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, t->body_a, t->ax_m, t->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, t->body_b, t->bx_m, t->by_m);
+    double dx = b.x - a.x, dy = b.y - a.y, axis = turn_of(m, t->body_a) + t->axis_rad;
+    *angle_rad = turn_of(m, t->body_b) - turn_of(m, t->body_a) - t->angle_rad;
+    switch (t->kind) {
+    case FW_JOINT_PRISMATIC:
+        return fabs(-sin(axis) * dx + cos(axis) * dy);
+    case FW_JOINT_DISTANCE: /* a driver gives another length, from the start on */
+        *angle_rad = 0;
+        return driven(m, i) ? 0 : fabs(hypot(dx, dy) - t->length_m);
+    case FW_JOINT_WELD:
+        break;
+    }
+    return hypot(dx, dy);
+}
+
+fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *m,
+                                   fw_diags *diags) {
+    const double grid = 10e-9, tilt_rad = 1e-5; /* 10 nm over 1 mm */
+    fw_status status = FW_OK;
+    for (int i = 0; i < m->npin + m->njoint; i++) {
+        bool pin = i < m->npin;
+        double tilt = 0, gap = pin ? pin_gap(m, &m->pin[i]) : joint_gap(m, i - m->npin, &tilt);
+        const char *id = pin ? m->pin[i].id : m->joint[i - m->npin].id;
+        char text[32];
+        if (gap > grid)
+            status = fw_diag_error(
+                diags, 206, pin ? device->revolute[i].place : m->joint[i - m->npin].place,
+                "joint %s does not close in the drawn position: its two bodies put it "
+                "%s um apart (10 nm is allowed); correct the body positions or its "
+                "coordinates, since masks are drawn there; `flexwright assemble` prints poses "
+                "that close",
+                id, fw_number_text(text, sizeof text, gap * 1e6, 4));
+        else if (fabs(tilt) > tilt_rad)
+            status = fw_diag_error(
+                diags, 206, m->joint[i - m->npin].place,
+                "joint %s does not close in the drawn position: its bodies are turned against "
+                "each other by %s deg more than its angle; correct the angle or the bodies, since "
+                "masks are drawn there",
+                id, fw_number_text(text, sizeof text, tilt * 180 / FW_PI, 4));
+    }
+    return status;
+}
+
+/* ---- refinement ---- */
+
+/* Whether a refined computation can decide an undecided device. A hinge uses U with the band
+     U (1 -+ m) -+ n,   m: model, n: numbers,
+   and of m a part l stays whatever is computed. What the refined computation finds lies within
+   n + U (m - l) of U, and its band is U' (1 -+ l); with tighter numbers alone within n, and
+   (1 -+ m). It pays where all undecided hinges may then be accepted, or one of them rejected.
+   Test: test_closer.c. */
+
+/* numbers that are known better than this decide nothing */
+static const double fw_known = 1e-5;
+const double fw_verdict_tightest = 1e-6;
+
+typedef struct reach { /* lowest upper end and highest lower end that a band may come to have */
+    double high, low;
+} reach;
+
+static reach reach_of(const fw_verdict_hinge_verdict *h, bool hinges) {
+    double u = h->utilisation, n = h->numeric;
+    if (!(u > 0)) return (reach){h->utilisation_high, h->utilisation_low};
+    double up = (h->utilisation_high - n) / u - 1, down = 1 - (h->utilisation_low + n) / u;
+    double stays_up = hinges ? fmin(up, h->lasting) : up;
+    double stays_down = hinges ? fmin(down, h->lasting) : down;
+    return (reach){(u - n - u * (up - stays_up)) * (1 + stays_up),
+                   (u + n + u * (down - stays_down)) * (1 - stays_down)};
+}
+
+/* with numbers (and hinges) as good as they get */
+static bool may_decide(const fw_verdict_hinge_verdict *hinge, int nhinge, bool hinges) {
+    bool accept = true, reject = false, any = false;
+    for (int k = 0; k < nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &hinge[k];
+        if (!h->scene || h->decision != FW_INCONCLUSIVE) continue;
+        reach r = reach_of(h, hinges);
+        accept = accept && !h->touches && r.high < 1;
+        reject = reject || r.low > 1;
+        any = any || hinges || h->numeric > fw_known;
+    }
+    return any && (accept || reject);
+}
+
+fw_verdict_refinement fw_verdict_refinement_of(const fw_verdict_hinge_verdict *hinge, int nhinge) {
+    if (may_decide(hinge, nhinge, false)) return FW_REFINE_NUMBERS;
+    return may_decide(hinge, nhinge, true) ? FW_REFINE_HINGES : FW_REFINE_NOTHING;
+}
+
+/* half of what lies between 1 and the nearer end of a band without numbers; these are taken to go
+   with the accuracy */
+double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, double accuracy) {
+    double share = 1;
+    for (int k = 0; k < nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &hinge[k];
+        if (!h->scene || h->decision != FW_INCONCLUSIVE || !(h->numeric > 0)) continue;
+        double n = h->numeric, high = h->utilisation_high - n, low = h->utilisation_low + n;
+        share = fmin(share, 0.5 * fmin(fabs(1 - high), fabs(1 - low)) / n);
+    }
+    return accuracy * share;
+}
+
+fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
+                                      fw_verdict_refinement refinement) {
+    fw_verdict_options tight = *options;
+    double asked = options->motion.accuracy > 0 ? options->motion.accuracy : 1e-3;
+    tight.motion.accuracy = fmin(asked, fw_verdict_tightest);
+    tight.motion.rtol = 0.0;
+    if (refinement == FW_REFINE_HINGES) tight.motion.hinge_accuracy = asked;
+    return tight;
 }

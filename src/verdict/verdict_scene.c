@@ -7,7 +7,7 @@
      - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
        inconclusive.
    Test: test_program.py. */
-#include "verdict/scene.h"
+#include "verdict/verdict_parts.h"
 #include "statics/stability.h"
 #include "statics/quasi.h"
 #include <math.h>

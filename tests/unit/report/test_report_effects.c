@@ -3,7 +3,7 @@
    the drawing and in the preview. */
 #include "test.h"
 #include "report/fixture.h"
-#include "report/terminal.h"
+#include "report/report.h"
 
 typedef struct whole { /* with fewer allocations than matter */
     fw_arena *arena;

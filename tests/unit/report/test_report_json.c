@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
 #include "report/fixture.h"
-#include "report/report_json.h"
+#include "report/report.h"
 #include <jansson.h>
 
 static json_t *verdict_json(fw_arena *arena, const fw_report_input *input) {

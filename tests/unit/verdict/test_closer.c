@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a closer look may decide, by every outcome that it may have: the utilisation moves by no
    more than the part of the band that goes away, and the band that stays is put about it again. */
-#include "verdict/compare.h"
+#include "verdict/verdict_parts.h"
 #include "test.h"
 #include <math.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/compare.h"
+#include "verdict/verdict_parts.h"
 #include "test.h"
 
 static const double none = (double)NAN;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/fatigue.h"
+#include "verdict/strain.h"
 #include "test.h"
 
 static const fw_flexure_strain_life basquin = {

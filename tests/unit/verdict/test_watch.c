@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "verdict/strain_monitor.h"
+#include "verdict/strain.h"
 #include "test.h"
 
 /* |A cos| seen at uneven instants: the height and the time of its largest value */

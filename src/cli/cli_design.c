@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands over a design: what they do is the library's; here is what each of them asks for and
+   shows. */
+#include "base/output.h"
+#include "cli/session.h"
+#include "plan/design.h"
+#include "study/tradeoff.h"
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* ---- verdict, masks and recipes: the exit status is the decision ---- */
+
+int fw_cli_command_check(fw_cli_options *options) {
+    int exit_status;
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
+    int status = fw_design_judge(design);
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
+    if (status == FW_STATUS_OK)
+        status = fw_cli_session_print(
+            design, options, options->json ? FW_DOCUMENT_VERDICT_JSON : FW_DOCUMENT_VERDICT_TEXT);
+    return fw_cli_session_close(design, options, status, fw_design_decision(design));
+}
+
+static int make(fw_design *design, const fw_cli_options *options, unsigned what,
+                const char *directory) {
+    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
+    int status = fw_design_judge(design);
+    if (status != FW_STATUS_OK) return status;
+    fw_cli_session_stage(options, "bias, masks and recipes");
+    status = fw_design_fabricate(design);
+    if (status != FW_STATUS_OK) return status;
+    fw_cli_session_stage(options, "writing");
+    return directory ? fw_design_write(design, directory, what) : FW_STATUS_OK;
+}
+
+/* plan, mask and recipe differ only in what is written and shown */
+static int fabricate(fw_cli_options *options, unsigned what, const char *kind, int json) {
+    int exit_status;
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    char by_name[4200]; /* a name has at most 4096 bytes */
+    snprintf(by_name, sizeof by_name, "out/%s%s", fw_design_name(design), kind);
+    const char *directory = options->output ? options->output : by_name;
+    /* with --json alone nothing is written unless -o asks for it; plan always writes */
+    if (options->json && !options->output && what != FW_DESIGN_EVERYTHING) directory = NULL;
+    int status = make(design, options, what, directory);
+    if (status == FW_STATUS_OK)
+        status =
+            fw_cli_session_print(design, options, options->json ? json : FW_DOCUMENT_VERDICT_TEXT);
+    if (status == FW_STATUS_OK && !options->json) {
+        if (fw_design_files_written(design) > 0)
+            printf("\nresults: %s/\n", directory);
+        else
+            printf("\nnothing was written: a rejected design gets no masks and no recipes (--force "
+                   "writes them, marked REJECTED)\n");
+    }
+    return fw_cli_session_close(design, options, status, fw_design_decision(design));
+}
+
+int fw_cli_command_plan(fw_cli_options *options) {
+    return fabricate(options, FW_DESIGN_EVERYTHING, "", FW_DOCUMENT_VERDICT_JSON);
+}
+
+int fw_cli_command_mask(fw_cli_options *options) {
+    return fabricate(options, FW_DESIGN_MASKS, "-masks", FW_DOCUMENT_MASKS_JSON);
+}
+
+int fw_cli_command_recipe(fw_cli_options *options) {
+    return fabricate(options, FW_DESIGN_RECIPES, "-recipes", FW_DOCUMENT_RECIPES_JSON);
+}
+
+/* ---- commands that compute one thing, whose exit status is that of the computation ---- */
+
+typedef int (*computation)(fw_design *design, const fw_cli_options *options);
+
+static int with_design(fw_cli_options *options, computation compute) {
+    int exit_status;
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    return fw_cli_session_close(design, options, compute(design, options), 0);
+}
+
+static int simulate(fw_design *design, const fw_cli_options *options) {
+    int status = fw_design_simulate(design);
+    if (status == FW_STATUS_OK && options->csv)
+        status = fw_design_save(design, FW_DOCUMENT_MOTION_CSV, options->csv);
+    if (status == FW_STATUS_OK && options->forces)
+        status = fw_design_save(design, FW_DOCUMENT_FORCES_CSV, options->forces);
+    if (status == FW_STATUS_OK && options->animate)
+        status = fw_design_save(design, FW_DOCUMENT_ANIMATION_SVG, options->animate);
+    static const fw_cli_session_file file[] = {{FW_DOCUMENT_MOTION_CSV, "motion.csv"},
+                                               {FW_DOCUMENT_FORCES_CSV, "forces.csv"},
+                                               {FW_DOCUMENT_ANIMATION_SVG, "motion.svg"}};
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_cli_session_save(design, options->output, file, 3);
+    if (status != FW_STATUS_OK) return status;
+    if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_SIMULATE_JSON);
+    if (options->quiet || fw_cli_session_file_on_stdout(options)) return FW_STATUS_OK;
+    return fw_cli_session_print(design, options, FW_DOCUMENT_SIMULATE_TEXT);
+}
+
+int fw_cli_command_simulate(fw_cli_options *options) {
+    return with_design(options, simulate);
+}
+
+static int modes(fw_design *design, const fw_cli_options *options) {
+    static const fw_cli_session_file file[] = {{FW_DOCUMENT_MODES_JSON, "modes.json"},
+                                               {FW_DOCUMENT_MODES_SVG, "modes.svg"}};
+    int status = fw_design_modes(design);
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_cli_session_save(design, options->output, file, 2);
+    if (status != FW_STATUS_OK) return status;
+    if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_MODES_JSON);
+    if (options->quiet) return FW_STATUS_OK;
+    return fw_cli_session_print(design, options, FW_DOCUMENT_MODES_TEXT);
+}
+
+int fw_cli_command_modes(fw_cli_options *options) {
+    return with_design(options, modes);
+}
+
+static int statics(fw_design *design, const fw_cli_options *options) {
+    static const fw_cli_session_file file[] = {{FW_DOCUMENT_STATICS_JSON, "statics.json"},
+                                               {FW_DOCUMENT_STATICS_SVG, "statics.svg"},
+                                               {FW_DOCUMENT_LOAD_PATH_CSV, "statics.csv"},
+                                               {FW_DOCUMENT_LOAD_PATH_SVG, "path.svg"}};
+    int status = fw_design_statics(design);
+    if (status == FW_STATUS_OK && options->csv)
+        status = fw_design_save(design, FW_DOCUMENT_LOAD_PATH_CSV, options->csv);
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_cli_session_save(design, options->output, file, options->design.path ? 4 : 3);
+    if (status != FW_STATUS_OK) return status;
+    if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_STATICS_JSON);
+    if (options->quiet || fw_cli_session_file_on_stdout(options)) return FW_STATUS_OK;
+    return fw_cli_session_print(design, options, FW_DOCUMENT_STATICS_TEXT);
+}
+
+int fw_cli_command_statics(fw_cli_options *options) {
+    return with_design(options, statics);
+}
+
+static int save_in(fw_design *design, const char *directory, const char *name, int document) {
+    char path[4200];
+    if (snprintf(path, sizeof path, "%s/%s", directory, name) >= (int)sizeof path)
+        return FW_STATUS_IO;
+    return fw_design_save(design, document, path);
+}
+
+/* the picture is worth most where the joints do not close: it is saved in any case */
+static int save_pictures(fw_design *design, const fw_cli_options *options, bool closed) {
+    int status = FW_STATUS_OK;
+    if (options->svg) status = fw_design_save(design, FW_DOCUMENT_ASSEMBLE_SVG, options->svg);
+    if (status != FW_STATUS_OK || !options->output) return status;
+    mkdir(options->output, 0777); /* what is wrong with it, saving will say */
+    status = save_in(design, options->output, "assemble.svg", FW_DOCUMENT_ASSEMBLE_SVG);
+    if (status != FW_STATUS_OK || !closed) return status;
+    return save_in(design, options->output, "assemble.json", FW_DOCUMENT_ASSEMBLE_JSON);
+}
+
+static int assemble(fw_design *design, const fw_cli_options *options) {
+    int status = fw_design_assemble(design);
+    if (status != FW_STATUS_OK && status != FW_STATUS_SOLVER) return status;
+    int saved = save_pictures(design, options, status == FW_STATUS_OK);
+    if (status != FW_STATUS_OK || saved != FW_STATUS_OK)
+        return status != FW_STATUS_OK ? status : saved;
+    if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_ASSEMBLE_JSON);
+    if (options->quiet || fw_cli_session_file_on_stdout(options)) return FW_STATUS_OK;
+    return fw_cli_session_print(design, options, FW_DOCUMENT_ASSEMBLE_TEXT);
+}
+
+int fw_cli_command_assemble(fw_cli_options *options) {
+    return with_design(options, assemble);
+}
+
+static int workspace(fw_design *design, const fw_cli_options *options) {
+    static const fw_cli_session_file file[] = {{FW_DOCUMENT_WORKSPACE_JSON, "workspace.json"},
+                                               {FW_DOCUMENT_WORKSPACE_SVG, "workspace.svg"},
+                                               {FW_DOCUMENT_CERTIFICATE_JSON, "certificate.json"}};
+    fw_cli_session_stage(options, "inverse kinematics, interval branch and bound");
+    int status = fw_design_workspace(design);
+    if (status == FW_STATUS_OK && options->output)
+        status = fw_cli_session_save(design, options->output, file, 3);
+    if (status != FW_STATUS_OK) return status;
+    if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_WORKSPACE_JSON);
+    if (options->quiet) return FW_STATUS_OK;
+    return fw_cli_session_print(design, options, FW_DOCUMENT_WORKSPACE_TEXT);
+}
+
+int fw_cli_command_workspace(fw_cli_options *options) {
+    return with_design(options, workspace);
+}
+
+/* ---- `flexwright tradeoff`: what accuracy costs, for one device and scene ---- */
+
+enum { MOST_WORDS = 280 };
+
+/* this program and its arguments; NULL: the device was standard input, which is gone */
+static const char *const *again(fw_plan *plan, const fw_cli_options *options) {
+    char path[4096];
+    ssize_t n = readlink("/proc/self/exe", path, sizeof path - 1);
+    const char **words = fw_arena_alloc(plan->arena, MOST_WORDS + 1, sizeof *words);
+    if (n <= 0 || !words || strcmp(options->device, "-") == 0) return NULL;
+    path[n] = '\0';
+    words[0] = fw_arena_strdup(plan->arena, path);
+    for (int i = 1; options->argv[i]; i++) {
+        if (i == MOST_WORDS) return NULL;
+        words[i] = options->argv[i];
+    }
+    return words[0] ? words : NULL;
+}
+
+static fw_status save(fw_plan *plan, const fw_study_tradeoff *t, const fw_text *json,
+                      const char *path) {
+    fw_text csv = fw_text_new(plan->arena), svg = fw_text_new(plan->arena);
+    fw_output *output;
+    FW_TRY(fw_study_tradeoff_csv(t, &csv));
+    FW_TRY(fw_study_tradeoff_svg(t, &svg));
+    FW_TRY(fw_output_open(plan->arena, path, &plan->diags, &output));
+    fw_status status = fw_output_write(output, "tradeoff.json", json->data, json->length);
+    if (status == FW_OK) status = fw_output_write(output, "tradeoff.csv", csv.data, csv.length);
+    if (status == FW_OK) status = fw_output_write(output, "tradeoff.svg", svg.data, svg.length);
+    if (status == FW_OK) status = fw_output_commit(output);
+    fw_output_abort(output);
+    return status;
+}
+
+static fw_status compare(fw_plan *plan, const fw_cli_options *options) {
+    const fw_study_tradeoff_options wanted = {.budget_s = options->budget_s,
+                                              .times = !options->no_time,
+                                              .count = !options->no_time,
+                                              .argv = again(plan, options)};
+    const fw_study_tradeoff *t;
+    fw_text json = fw_text_new(plan->arena), text = fw_text_new(plan->arena);
+    if (options->settings) return fw_study_tradeoff_settings(plan, options->settings);
+    fw_cli_session_stage(options, "running the scene by every method, integrator and tolerance");
+    FW_TRY(fw_study_tradeoff_run(plan, &wanted, &t));
+    if (options->json || options->output) FW_TRY(fw_study_tradeoff_json(t, &json));
+    if (options->output) FW_TRY(save(plan, t, &json, options->output));
+    if (!options->json && options->quiet) return FW_OK;
+    if (!options->json) FW_TRY(fw_study_tradeoff_text(t, &text));
+    fputs(options->json ? json.data : text.data, stdout);
+    return FW_OK;
+}
+
+int fw_cli_command_tradeoff(fw_cli_options *options) {
+    int exit_status;
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    fw_plan *plan = fw_plan_design_plan(design);
+    return fw_cli_session_close(design, options, (int)compare(plan, options), 0);
+}

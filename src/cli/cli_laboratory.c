@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands of the laboratory: measured coupons become a pack, what was done becomes a log. */
+#include "base/append.h"
+#include "base/hash.h"
+#include "base/output.h"
+#include "cli/session.h"
+#include "plan/design.h"
+#include "plan/stages.h"
+#include "process/calibrate.h"
+#include "recipe/asrun.h"
+#include <stdio.h>
+#include <string.h>
+
+/* ---- `flexwright calibrate`: measured coupons in, laboratory pack out ---- */
+
+enum { MOST_BYTES = 8 * 1024 * 1024 };
+
+typedef struct work {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_cli_options *options;
+    const char *text; /* of the table, for carets */
+    size_t n;
+} work;
+
+static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
+    const char *path;
+    FW_TRY(fw_data_path(w->arena, w->options->design.data_directory, name, &path));
+    if (!path)
+        return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
+                             "there is no such process pack: correct the name of the flow, or set "
+                             "FLEXWRIGHT_DATA to the directory that holds processes/");
+    return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
+}
+
+static fw_status read_flow(work *w, fw_process_flow **flow) {
+    char *base, *xml;
+    size_t nbase, n;
+    const char *name = fw_arena_printf(w->arena, "processes/%s.xml", w->options->design.flow);
+    FW_NEED(name);
+    FW_TRY(read_data(w, "processes/base.xml", &base, &nbase));
+    FW_TRY(read_data(w, name, &xml, &n));
+    return fw_process_flow_read(w->arena, "processes/base.xml", base, nbase, name, xml, n,
+                                &w->diags, flow);
+}
+
+static fw_status run(work *w) {
+    const char *file = w->options->device, *slash = strrchr(file, '/');
+    fw_process_flow *flow;
+    fw_process_measurement *row;
+    fw_process_calibration found;
+    char *text, hash[65];
+    int nrow;
+    FW_TRY(read_flow(w, &flow));
+    FW_TRY(fw_input_read(w->arena, file, MOST_BYTES, &w->diags, &text, &w->n));
+    w->text = text;
+    fw_sha256(text, w->n, hash);
+    FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
+    FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, &found));
+    fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
+    FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
+    FW_TRY(fw_process_calibration_text(flow, &found, &table));
+    const char *to = w->options->output ? w->options->output : "-";
+    FW_TRY(fw_output_single(w->arena, to, pack.data, pack.length, &w->diags));
+    if (!w->options->quiet) fputs(table.data, strcmp(to, "-") == 0 ? stderr : stdout);
+    return FW_OK;
+}
+
+int fw_cli_command_calibrate(fw_cli_options *options) {
+    if (!options->design.flow)
+        return fw_cli_usage("calibrate needs --flow NAME: the flow that the coupons went through");
+    if (strpbrk(options->design.flow, "/\\"))
+        return fw_cli_usage("--flow takes the name of a flow, not a path");
+    work w = {.arena = fw_arena_new(0), .options = options};
+    if (!w.arena) return fw_status_exit(FW_NOMEM);
+    w.diags = fw_diags_new(w.arena);
+    fw_status status = run(&w);
+    fw_text said = fw_text_new(w.arena);
+    fw_text_add(&said, "");
+    size_t kept = 0; /* notes of the pack are for plan -v */
+    for (size_t i = 0; i < w.diags.count; i++)
+        if (w.diags.item[i].severity > FW_NOTE || options->verbose)
+            w.diags.item[kept++] = w.diags.item[i];
+    w.diags.count = kept;
+    fw_diags_print(&w.diags, &said, options->device, w.text, w.n, 0);
+    if (!said.failed) fputs(said.data, stderr);
+    if (status != FW_OK && w.diags.errors == 0)
+        fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_text(status));
+    fw_arena_free(w.arena);
+    return fw_status_exit(status);
+}
+
+/* ---- the as-run log ---- */
+
+static const size_t LARGEST_LOG = 16u << 20;
+
+/* the one flow that the log is about */
+static fw_plan_flow *flow_of(fw_plan *plan) {
+    fw_plan_flow *found = NULL;
+    for (int i = 0; i < plan->nflow; i++) {
+        if (!plan->flow[i].flow) continue;
+        if (found) return NULL;
+        found = &plan->flow[i];
+    }
+    return found;
+}
+
+/* of recipes/FLOW.json, as the manifest has it */
+static fw_status hash_of(fw_plan *plan, const fw_plan_flow *pf, char hash[65]) {
+    fw_text text = fw_text_new(plan->arena);
+    fw_recipe_header header = fw_plan_recipe_header(plan, pf);
+    FW_TRY(fw_recipe_write_json(pf->flow, &header, &text));
+    fw_sha256(text.data, text.length, hash);
+    return FW_OK;
+}
+
+static fw_status show(fw_plan *plan, const fw_process_flow *flow, const fw_recipe_asrun *run,
+                      bool json) {
+    fw_text text = fw_text_new(plan->arena);
+    FW_TRY(json ? fw_recipe_asrun_write_json(flow, run, &text)
+                : fw_recipe_asrun_write_text(flow, run, &text));
+    fwrite(text.data, 1, text.length, stdout);
+    return FW_OK;
+}
+
+static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *hash,
+                          const fw_cli_options *options) {
+    char *text;
+    size_t n;
+    fw_recipe_asrun run;
+    FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
+    FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
+                                &run));
+    return show(plan, pf->flow, &run, options->json);
+}
+
+/* the file is locked from here to the end, so that two entries never have one line before them */
+static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, const char *hash,
+                        const fw_cli_options *options) {
+    fw_recipe_asrun run = {0};
+    const char *first = "", *line;
+    if (file->n == 0) {
+        FW_TRY(fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, &first));
+        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, first, strlen(first),
+                                    &plan->diags, &run));
+    } else {
+        FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, file->text, file->n,
+                                    &plan->diags, &run));
+    }
+    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, options->entry, &plan->diags, &line));
+    const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
+    FW_NEED(all);
+    FW_TRY(fw_append_text(file, all, strlen(all)));
+    if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry + 1);
+    return FW_OK;
+}
+
+static fw_status keep(fw_plan *plan, const fw_cli_options *options) {
+    fw_plan_flow *pf = flow_of(plan);
+    char hash[65];
+    if (!pf)
+        return fw_diag_error(&plan->diags, 230, (fw_place){0},
+                             "a log is about one flow: name it with --flow");
+    FW_TRY(hash_of(plan, pf, hash));
+    if (!options->entry) return read_log(plan, pf, hash, options);
+    fw_append file;
+    FW_TRY(fw_append_open(plan->arena, options->run, LARGEST_LOG, &plan->diags, &file));
+    fw_status status = add_to(&file, plan, pf, hash, options);
+    fw_append_close(&file);
+    return status;
+}
+
+int fw_cli_command_log(fw_cli_options *options) {
+    int exit_status;
+    if (!options->run) return fw_cli_usage("log needs --run FILE, the log");
+    fw_design *design = fw_cli_session_open(options, &exit_status);
+    if (!design) return exit_status;
+    int status = fw_design_judge(design);
+    if (status == FW_STATUS_OK) status = fw_design_fabricate(design);
+    fw_plan *plan = fw_plan_design_plan(design);
+    if (status == FW_STATUS_OK && plan->verdict.decision == FW_REJECT)
+        status = (int)fw_diag_error(&plan->diags, 281, (fw_place){0},
+                                    "the design is rejected: there is no recipe to run");
+    if (status == FW_STATUS_OK) status = (int)keep(plan, options);
+    return fw_cli_session_close(design, options, status, 0);
+}

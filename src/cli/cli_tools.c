@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Commands that need no design: the local page, a new device file, an explanation, what the program finds. */
+#include "base/output.h"
+#include "cli/session.h"
+#include "continuum/continuum.h"
+#include "serve/serve.h"
+#include <fcntl.h>
+#include <jansson.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static bool somebody_looks(void) {
+    const char *x = getenv("DISPLAY"), *wayland = getenv("WAYLAND_DISPLAY");
+    return isatty(STDOUT_FILENO) && ((x && *x) || (wayland && *wayland));
+}
+
+/* in the first of two processes: the second is nobody's child and outlives the server */
+static _Noreturn void let_go(const char *opener, const char *page) {
+    setsid();
+    int none = open("/dev/null", O_RDWR);
+    if (none < 0 || dup2(none, 0) < 0 || dup2(none, 1) < 0 || dup2(none, 2) < 0) _exit(1);
+    close_range(3, ~0U, 0);
+    signal(SIGPIPE, SIG_DFL);
+    pid_t second = fork();
+    if (second == 0) {
+        execl(opener, "xdg-open", page, (char *)NULL);
+        _exit(1);
+    }
+    _exit(second < 0);
+}
+
+static void open_browser(const char *page) {
+    fw_arena *arena = fw_arena_new(0);
+    const char *opener = arena ? fw_continuum_program(arena, "xdg-open") : NULL;
+    int status = 1;
+    pid_t first = opener ? fork() : -1;
+    if (first == 0) let_go(opener, page);
+    if (first < 0 || waitpid(first, &status, 0) != first || status != 0)
+        fputs("flexwright: note: the browser could not be opened; copy the address [FW-D285]\n",
+              stderr);
+    fw_arena_free(arena);
+}
+
+static void ready(const char *url, const char *page, void *context) {
+    const fw_cli_options *options = context;
+    printf("%s\n", url);
+    if (!options->quiet)
+        puts("The address opens once, on this machine only. Ctrl-C ends the server.");
+    fflush(stdout);
+    if (page && !options->no_browser && somebody_looks()) open_browser(page);
+}
+
+int fw_cli_command_serve(fw_cli_options *options) {
+    const fw_serve_options serve = {.device = options->device,
+                                    .data_directory = options->design.data_directory,
+                                    .port = options->port,
+                                    .ipv6 = options->ipv6,
+                                    .ready = ready,
+                                    .context = options,
+                                    .interrupted = options->interrupted};
+    return fw_serve_run(&serve);
+}
+
+/* ---- init ---- */
+
+/* a starter that every command accepts as it is; masses and stiffnesses come from the drawing */
+static const char starter[] =
+    "  <parameter name=\"arc\" value=\"240 deg\" min=\"140 deg\" max=\"260 deg\" doc=\"subtended "
+    "angle of every hinge arc\"/>\n"
+    "  <parameter name=\"t\" value=\"10 um\" min=\"6 um\" max=\"20 um\" doc=\"width of every "
+    "flexure\"/>\n"
+    "\n"
+    "  <material ref=\"silicon-100\" thickness=\"50 um\"/>\n"
+    "  <limits safety-factor=\"2\"/>\n"
+    "  <flow ref=\"al-masked-rie\"/>\n"
+    "\n"
+    "  <!-- circular-arc flexures with conjugate surfaces; radius may be given instead of length "
+    "-->\n"
+    "  <flexure id=\"leg\" kind=\"csfh\" length=\"360 um\" angle=\"arc\" width=\"t\" gap=\"8 "
+    "um\"/>\n"
+    "\n"
+    "  <!-- base FA, legs ABC and FED, platform CD -->\n"
+    "  <six-bar>\n"
+    "    <hinge at=\"A\" x=\"-0.7 mm\" y=\"-1.0 mm\" flexure=\"leg\"/>\n"
+    "    <hinge at=\"B\" x=\"-1.2 mm\" y=\"0 mm\" flexure=\"leg\"/>\n"
+    "    <hinge at=\"C\" x=\"-0.6 mm\" y=\"1.2 mm\" flexure=\"leg\"/>\n"
+    "    <hinge at=\"D\" x=\"0.6 mm\" y=\"1.2 mm\" flexure=\"leg\"/>\n"
+    "    <hinge at=\"E\" x=\"1.2 mm\" y=\"0 mm\" flexure=\"leg\"/>\n"
+    "    <hinge at=\"F\" x=\"0.7 mm\" y=\"-1.0 mm\" flexure=\"leg\"/>\n"
+    "    <link id=\"AB\" width=\"120 um\"/>\n"
+    "    <link id=\"BC\" width=\"120 um\"/>\n"
+    "    <platform id=\"CD\" width=\"1.2 mm\" height=\"0.4 mm\" x=\"0 mm\" y=\"1.4 mm\"/>\n"
+    "    <link id=\"DE\" width=\"120 um\"/>\n"
+    "    <link id=\"EF\" width=\"120 um\"/>\n"
+    "  </six-bar>\n"
+    "\n"
+    "  <scene name=\"push\" duration=\"10 ms\">\n"
+    "    <force on=\"CD\" fx=\"0.04 mN\" fy=\"0 mN\"/>\n"
+    "  </scene>\n"
+    "  <workspace x-min=\"-40 um\" x-max=\"40 um\" y-min=\"-20 um\" y-max=\"20 um\" phi-min=\"-0.5 "
+    "deg\" phi-max=\"0.5 deg\"/>\n"
+    "</device>\n";
+
+static int name_is_plain(const char *name) {
+    size_t n = strlen(name);
+    if (n == 0 || n > 64 || (name[0] >= '0' && name[0] <= '9') || name[0] == '-') return 0;
+    return strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == n;
+}
+
+int fw_cli_command_init(fw_cli_options *options) {
+    const char *name = options->device ? options->device : "my-device";
+    if (!name_is_plain(name))
+        return fw_cli_usage("a device is named with letters, digits, - and _, not '%s'", name);
+    printf("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+           "<device xmlns=\"urn:flexwright:device:1\" name=\"%s\">\n%s",
+           name, starter);
+    return 0;
+}
+
+/* ---- explain ---- */
+
+int fw_cli_command_explain(fw_cli_options *options) {
+    const char *code = options->device;
+    const char *digits = strncmp(code, "FW-D", 4) == 0 ? code + 4 : code;
+    double number;
+    const fw_diag_entry *entry = NULL;
+    if (fw_number_parse(digits, strlen(digits), &number) && number >= 0 && number < 1000)
+        entry = fw_diag_find((int)number);
+    if (!entry) return fw_cli_usage("no diagnostic '%s'; they look like FW-D041", code);
+    printf("FW-D%03d: %s\n\n%s\n", entry->number, entry->title, entry->text);
+    return 0;
+}
+
+/* ---- doctor ---- */
+
+int fw_cli_command_doctor(fw_cli_options *options) {
+    static const char *const needed[] = {"processes/base.xml", "processes/al-masked-rie.xml",
+                                         "processes/copper-on-porous-silicon.xml",
+                                         "masks/al-masked-rie.xml",
+                                         "masks/copper-on-porous-silicon.xml"};
+    fw_arena *arena = fw_arena_new(0);
+    if (!arena) return fw_status_exit(FW_NOMEM);
+    printf("flexwright %s\ncompiler %s\njansson %s\n", FW_VERSION, __VERSION__, JANSSON_VERSION);
+    int missing = 0;
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
+        const char *path = NULL;
+        if (fw_data_path(arena, options->design.data_directory, needed[i], &path) != FW_OK)
+            path = NULL;
+        printf("%-40s %s\n", needed[i], path ? path : "MISSING");
+        missing += !path;
+    }
+    const char *solver = fw_continuum_program(arena, "ccx"); /* no part of what must be there */
+    printf("%-40s %s\n", "ccx (continuum level of hinges)", solver ? solver : fw_continuum_install);
+#if defined(__x86_64__)
+    printf("processor: fma %s, avx2 %s\n", __builtin_cpu_supports("fma") ? "yes" : "no",
+           __builtin_cpu_supports("avx2") ? "yes" : "no");
+#endif
+    fw_arena_free(arena);
+    return missing ? fw_status_exit(FW_IO) : 0;
+}

@@ -1,0 +1,458 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Equilibria, modes and the certified workspace for a terminal. */
+#include "base/constants.h"
+#include "report/report.h"
+#include "report/report_page.h"
+#include "statics/pull_in.h"
+#include <math.h>
+
+static double degrees(double rad) {
+    return rad * 180.0 / FW_PI;
+}
+
+const char *fw_report_path_mark(fw_statics_path_mark mark) {
+    static const char *const text[] = {"point", "limit point", "bifurcation", "switch", "end"};
+    return text[mark];
+}
+
+/* eight decimals in a column; what rounds to zero has no sign */
+static void column(fw_text *out, double value) {
+    fw_text_real(out, " %14.8f", fabs(value) < 5e-9 ? 0.0 : value);
+}
+
+static void rank_line(fw_text *out, int dof, const fw_statics_row_rank *r) {
+    fw_text_printf(out, "%d degree%s of freedom; ", dof, dof == 1 ? "" : "s");
+    if (r->rows == 0) {
+        fw_text_add(out, "no joints\n");
+        return;
+    }
+    fw_text_printf(out, "%d of %d constraint rows are independent (singular values from 1 to ",
+                   r->rank, r->rows);
+    fw_text_number(out, r->kept, 2);
+    if (r->joints) {
+        fw_text_add(out, ", then ");
+        fw_text_number(out, r->dropped, 2);
+        fw_text_printf(out, ": %s repeat each other", r->joints);
+    }
+    fw_text_add(out, ")\n");
+}
+
+/* ---- modes ---- */
+
+static void mode_row(fw_text *out, int number, const fw_statics_mode *m) {
+    const double(*e)[2] = m->eigenvalue_per_s;
+    fw_text_printf(out, "  %4d ", number);
+    if (m->omega_rad_per_s > 0) {
+        fw_text_real(out, "%13.6g ", m->f_Hz);
+        fw_text_real(out, "%13.6g ", m->omega_rad_per_s);
+    } else
+        fw_text_printf(out, "%13s %13s ", m->kind == FW_MODE_FREE ? "0" : "-", "-");
+    if (isfinite(m->damping_ratio))
+        fw_text_real(out, "%10.4g %%  ", 100.0 * m->damping_ratio);
+    else
+        fw_text_printf(out, "%12s  ", "-");
+    fw_text_real(out, "%11.4g", e[0][0]);
+    if (e[0][1] > 0)
+        fw_text_real(out, " +- %.6g i", e[0][1]);
+    else
+        fw_text_real(out, ", %.4g", e[1][0]);
+    fw_text_printf(out, "   %s", m->bodies);
+    if (m->kind != FW_MODE_OSCILLATION)
+        fw_text_printf(out, "  (%s)", fw_statics_mode_kind_text(m->kind));
+    fw_text_add(out, "\n");
+}
+
+fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_modes *modes,
+                               fw_text *out) {
+    fw_text_printf(out, "scene %s, %s\n", scene->name ? scene->name : "(none)",
+                   modes->at_equilibrium ? "about the equilibrium under its loads"
+                                         : "about the assembled pose, without its loads");
+    rank_line(out, modes->count, &modes->rank);
+    if (modes->count == 0) return fw_text_end(out);
+    fw_text_add(out, "\n  mode          f Hz   omega rad/s       damping  eigenvalue 1/s"
+                     "             bodies\n");
+    for (int i = 0; i < modes->count; i++)
+        mode_row(out, i + 1, &modes->mode[i]);
+    if (modes->ledger.hinge.why) {
+        fw_text_printf(out, "\nhinges as %s: %s",
+                       fw_effects_hinge_model_text(modes->ledger.hinge.used),
+                       modes->ledger.hinge.why);
+        if (isfinite(modes->ledger.hinge.error)) {
+            char by[32];
+            fw_percent_text(by, sizeof by, modes->ledger.hinge.error);
+            fw_text_printf(out, "; frequencies off by up to %s %%", by);
+        }
+        fw_text_add(out, "\n");
+    }
+    return fw_text_end(out);
+}
+
+/* ---- statics ---- */
+
+static void stability(fw_text *out, const fw_statics *s) {
+    if (s->negative > 0)
+        fw_text_printf(out, "UNSTABLE against %d motion%s", s->negative,
+                       s->negative > 1 ? "s" : "");
+    else
+        fw_text_add(out, s->neutral > 0 ? "indifferent" : "stable");
+    if (s->dof > 0) {
+        fw_text_add(out, ", lowest stiffness over mass ");
+        fw_text_number(out, s->eigenvalue_per_s2[0], 4);
+        fw_text_add(out, " 1/s^2");
+    }
+    if (s->loose) fw_text_printf(out, "; nothing holds %s", s->loose);
+    if (s->left_unstable)
+        fw_text_add(out, "; the way there left an unstable equilibrium to one of its sides");
+    fw_text_add(out, "\n");
+}
+
+static void active(fw_text *out, const fw_statics *s) {
+    for (int i = 0; i < s->nactive; i++) {
+        const fw_statics_active *a = &s->active[i];
+        if (a->effect) {
+            fw_text_printf(out, "%s %s %s\n", a->effect, a->id ? a->id : "",
+                           a->on ? "acts" : "does not act");
+            continue;
+        }
+        fw_text_printf(out, "%s %s%s %s\n", a->side == 0 ? "cable" : "stop of", a->id ? a->id : "",
+                       a->side > 0   ? " at its largest angle"
+                       : a->side < 0 ? " at its smallest angle"
+                                     : "",
+                       a->side == 0 ? (a->on ? "is taut" : "is slack")
+                                    : (a->on ? "touches" : "is free"));
+    }
+}
+
+static void path_events(fw_text *out, const fw_statics *s) {
+    const fw_statics_path *p = s->path;
+    int shown = 0;
+    fw_text_printf(out, "\nload path: %d points, %s\n", p->count,
+                   p->complete ? "up to the full load" : "NOT up to the full load");
+    for (int i = 0; i < p->count; i++) {
+        if (p->mark[i] == FW_PATH_POINT || p->mark[i] == FW_PATH_END) continue;
+        if (shown++ == 0) fw_text_add(out, "  load factor      what\n");
+        fw_text_real(out, "  %14.10f   ", p->factor[i]);
+        fw_text_add(out, fw_report_path_mark(p->mark[i]));
+        if (p->which[i] != FW_NONE)
+            fw_text_printf(out, " of %s",
+                           s->active[p->which[i]].id ? s->active[p->which[i]].id : "");
+        if (isfinite(p->snap_m[i])) {
+            fw_text_real(out, ": snaps by up to %.4g um", p->snap_m[i] * 1e6);
+            fw_text_real(out, " and %.4g deg", degrees(p->snap_rad[i]));
+        }
+        fw_text_add(out, "\n");
+    }
+    if (shown == 0)
+        fw_text_add(out, "  no limit point, no bifurcation: the load only pushes further\n");
+}
+
+/* joints other than revolute, and drivers; torques about point b */
+static void joints(const fw_mechanism *m, const fw_statics *s, fw_report_magnitude force,
+                   fw_text *out) {
+    if (m->njoint > 0)
+        fw_text_printf(out, "\n  joint         force on b, x and y in %-2s       torque N m\n",
+                       force.unit);
+    for (int k = 0; k < m->njoint; k++) {
+        fw_text_printf(out, "  %-8s ", m->joint[k].id);
+        column(out, s->joint_N[3 * k] * force.per_si);
+        column(out, s->joint_N[3 * k + 1] * force.per_si);
+        fw_text_real(out, " %14.6g", s->joint_N[3 * k + 2]);
+        fw_text_add(out, "\n");
+    }
+    if (m->ndriver > 0) fw_text_add(out, "\n  driver          holds with\n");
+    for (int k = 0; k < m->ndriver; k++) {
+        bool turns = m->driver[k].revolute != FW_NONE;
+        fw_text_printf(out, "  %-8s ", m->driver[k].id);
+        fw_text_real(out, " %14.6g ", s->driver_N[k] * (turns ? 1 : force.per_si));
+        fw_text_printf(out, "%s\n", turns ? "N m" : force.unit);
+    }
+}
+
+static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
+    static const char *const how[] = {"", "snaps along the drive",
+                                      "moves aside between the fingers",
+                                      "tilts between the fingers"};
+    fw_text_add(out, "\npull-in: ");
+    if (p->kind == FW_PULL_IN_NONE && isinf(p->voltage_V))
+        fw_text_printf(out, "none, at whatever voltage: %s\n", p->why);
+    else if (p->kind == FW_PULL_IN_NONE) {
+        fw_text_number(out, p->voltage_V, 6);
+        fw_text_printf(out, " V at comb drive %s are stable, then %s\n", p->comb, p->why);
+    } else {
+        fw_text_number(out, p->voltage_V, 6);
+        fw_text_printf(out, " V at comb drive %s (%s): it %s", p->comb,
+                       fw_statics_pull_in_kind_text(p->kind), how[p->kind]);
+        fw_text_printf(out, ", body %s moves most\n", p->body ? p->body : "(unnamed)");
+    }
+    fw_text_add(out, "  the scene asks for up to ");
+    fw_text_number(out, p->largest_V, 6);
+    if (isfinite(p->margin)) {
+        fw_text_add(out, " V, margin ");
+        fw_text_number(out, p->margin, 4);
+    } else
+        fw_text_add(out, " V");
+    fw_text_add(out,
+                "; all drives grow together, slowly\n  fringe fields, not counted, add up to ");
+    fw_text_number(out, 100 * p->fringe, 2);
+    fw_text_add(out, " % of the capacitance and lower it by about half of that\n");
+}
+
+fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *scene,
+                                 const fw_statics *s, fw_text *out) {
+    fw_text_printf(out, "scene %s: equilibrium under its loads, ", scene->name);
+    stability(out, s);
+    rank_line(out, s->dof, &s->rank);
+    active(out, s);
+    double far = 0, strong = 0;
+    for (int i = 0; i < 3 * m->nbody; i++)
+        far = i % 3 == 2 ? far : fmax(far, fabs(s->q[i]));
+    for (int i = 0; i < 2 * m->npin; i++)
+        strong = fmax(strong, fabs(s->reaction_N[i]));
+    for (int i = 0; i < 3 * m->njoint; i++)
+        strong = i % 3 == 2 ? strong : fmax(strong, fabs(s->joint_N[i]));
+    for (int i = 0; i < m->ndriver; i++)
+        strong = m->driver[i].revolute != FW_NONE ? strong : fmax(strong, fabs(s->driver_N[i]));
+    const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
+    const fw_report_magnitude force = fw_report_magnitude_of(FW_MEASURE_FORCE, strong);
+    fw_text_printf(out, "\n  body              x %-2s           y %-2s        phi deg\n",
+                   length.unit, length.unit);
+    for (int b = 0; b < m->nbody; b++) {
+        fw_text_printf(out, "  %-8s ", m->body[b].id);
+        column(out, s->q[3 * b] * length.per_si);
+        column(out, s->q[3 * b + 1] * length.per_si);
+        column(out, degrees(s->q[3 * b + 2]));
+        fw_text_add(out, "\n");
+    }
+    if (m->npin > 0)
+        fw_text_printf(out, "\n  joint         angle deg     force on b, x and y in %s\n",
+                       force.unit);
+    for (int k = 0; k < m->npin; k++) {
+        fw_text_printf(out, "  %-8s ", m->pin[k].id);
+        column(out, degrees(s->angle_rad[k]));
+        column(out, s->reaction_N[2 * k] * force.per_si);
+        column(out, s->reaction_N[2 * k + 1] * force.per_si);
+        fw_text_add(out, "\n");
+    }
+    joints(m, s, force, out);
+    if (s->pull_in) pull_in(s->pull_in, out);
+    if (s->path) path_events(out, s);
+    fw_report_hinge_model(m, &s->ledger.hinge, s->level, out);
+    return fw_text_end(out);
+}
+
+/* ---- table ---- */
+
+static void header(const fw_mechanism *m, fw_text *out) {
+    fw_text_add(out, "load_factor,lowest_per_s2,negative,mark");
+    for (int b = 0; b < m->nbody; b++) {
+        const char *id = m->body[b].id;
+        fw_text_printf(out, ",%s.x_m,%s.y_m,%s.phi_rad", id, id, id);
+    }
+    for (int k = 0; k < m->npin; k++) {
+        const char *id = m->pin[k].id;
+        fw_text_printf(out, ",%s.angle_rad,%s.fx_N,%s.fy_N", id, id, id);
+    }
+    for (int k = 0; k < m->njoint; k++) {
+        const char *id = m->joint[k].id;
+        fw_text_printf(out, ",%s.fx_N,%s.fy_N,%s.torque_Nm", id, id, id);
+    }
+    for (int k = 0; k < m->ndriver; k++)
+        fw_text_printf(out, ",%s.drive_%s", m->driver[k].id,
+                       m->driver[k].revolute != FW_NONE ? "Nm" : "N");
+    fw_text_add(out, "\n");
+}
+
+static void cells(fw_text *out, const double *value, int count) {
+    for (int i = 0; i < count; i++) {
+        fw_text_add(out, ",");
+        fw_text_number(out, value[i], 17);
+    }
+}
+
+static void row(const fw_mechanism *m, const double *q, const double *angle, const double *force,
+                const double *joint, const double *driver, fw_text *out) {
+    cells(out, q, 3 * m->nbody);
+    for (int k = 0; k < m->npin; k++) {
+        const double value[3] = {angle[k], force[2 * k], force[2 * k + 1]};
+        cells(out, value, 3);
+    }
+    cells(out, joint, 3 * m->njoint);
+    cells(out, driver, m->ndriver);
+    fw_text_add(out, "\n");
+}
+
+static void lead(fw_text *out, double factor, double lowest, int negative,
+                 fw_statics_path_mark mark) {
+    fw_text_number(out, factor, 17);
+    fw_text_add(out, ",");
+    if (isfinite(lowest)) fw_text_number(out, lowest, 17);
+    fw_text_printf(out, ",%d,%s", negative, fw_report_path_mark(mark));
+}
+
+fw_status fw_report_load_path_csv(const fw_mechanism *m, const fw_statics *s, fw_text *out) {
+    header(m, out);
+    const fw_statics_path *p = s->path;
+    size_t n = 3 * (size_t)m->nbody, pins = (size_t)m->npin;
+    if (!p) {
+        lead(out, 1, s->dof > 0 ? s->eigenvalue_per_s2[0] : (double)NAN, s->negative, FW_PATH_END);
+        row(m, s->q, s->angle_rad, s->reaction_N, s->joint_N, s->driver_N, out);
+    }
+    for (size_t i = 0; p && i < (size_t)p->count; i++) {
+        lead(out, p->factor[i], p->lowest_per_s2[i], p->negative[i], p->mark[i]);
+        row(m, p->q + i * n, p->angle_rad + i * pins, p->reaction_N + 2 * i * pins,
+            p->joint_N + 3 * i * (size_t)m->njoint, p->driver_N + i * (size_t)m->ndriver, out);
+    }
+    return fw_text_end(out);
+}
+
+/* ---- the certified workspace ---- */
+
+static void range(fw_text *out, fw_maths_interval a, double factor, int digits) {
+    fw_text_number(out, a.lo * factor, digits);
+    fw_text_add(out, " to ");
+    fw_text_number(out, a.hi * factor, digits);
+}
+
+static void bracket(fw_text *out, fw_maths_interval a, double factor, int digits) {
+    fw_text_add(out, "[");
+    fw_text_number(out, a.lo * factor, digits);
+    fw_text_add(out, ", ");
+    fw_text_number(out, a.hi * factor, digits);
+    fw_text_add(out, "]");
+}
+
+static void pose(fw_text *out, const double at[3]) {
+    fw_text_add(out, "(");
+    fw_text_number(out, at[0] * 1e6, 4);
+    fw_text_add(out, " um, ");
+    fw_text_number(out, at[1] * 1e6, 4);
+    fw_text_add(out, " um, ");
+    fw_text_number(out, at[2] * FW_DEG_PER_RAD, 4);
+    fw_text_add(out, " deg)");
+}
+
+static void singularities(fw_text *out, const fw_mechanism *m, const fw_workspace_regularity *s) {
+    const fw_workspace_triangle *least = &s->passive[0];
+    int regular = 0, inside = 0;
+    for (int i = 0; i < FW_TRIANGLES; i++) {
+        const fw_workspace_triangle *t = &s->passive[i];
+        regular += t->regular;
+        inside += t->positive && t->negative;
+        if (t->length_m.lo < least->length_m.lo) least = t;
+    }
+    for (int side = 0; side < 2; side++) {
+        fw_text_printf(out, "  elbow %s: %s, sine ", m->pin[side ? 4 : 1].id,
+                       s->regular[side] ? "never stretched or folded (proved)"
+                                        : "NOT proved to stay bent");
+        range(out, s->sine[side], 1.0, 4);
+        fw_text_add(out, "\n");
+    }
+    fw_text_printf(out, "  %d of %d choices of three driven hinges are regular everywhere (proved)",
+                   regular, FW_TRIANGLES);
+    if (inside > 0) fw_text_printf(out, "; %d become singular inside", inside);
+    fw_text_printf(out, "\n  least favourable: %s, %s, %s passive, arm at least ",
+                   m->pin[least->hinge[0]].id, m->pin[least->hinge[1]].id,
+                   m->pin[least->hinge[2]].id);
+    fw_text_number(out, least->length_m.lo * 1e6, 3);
+    fw_text_add(out, " um, ");
+    fw_text_number(out, least->length_m.hi * 1e6, 3);
+    fw_text_add(out, " um at ");
+    pose(out, least->pose);
+    fw_text_add(out, "\n");
+}
+
+static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
+    const fw_workspace_map *map = f->map;
+    static const char *const unit[] = {"x (um)", "y (um)", "rotation (deg)"};
+    fw_text_add(out, "reachable within the elastic limits (certified by interval arithmetic)\n");
+    fw_text_add(out, "  volume ");
+    bracket(out, map->volume.value, 1e12, 8);
+    fw_text_add(out, " um2 rad = ");
+    bracket(out, map->volume.value, 1e12 * FW_DEG_PER_RAD, 8);
+    fw_text_printf(out, " um2 deg, %ld boxes\n", map->volume.boxes);
+    for (int c = 0; c < 3; c++) {
+        double factor = c < 2 ? 1e6 : FW_DEG_PER_RAD;
+        fw_text_printf(out, "  %-15s from ", unit[c]);
+        bracket(out, map->survey.least[c], factor, 6);
+        fw_text_add(out, " to ");
+        bracket(out, map->survey.most[c], factor, 6);
+        fw_text_add(out, "\n");
+    }
+    for (int i = 0; i < FW_SLICES; i++) {
+        fw_text_add(out, "  area at ");
+        fw_text_real(out, "%8.4f", map->slice[i].phi_rad * FW_DEG_PER_RAD);
+        fw_text_add(out, " deg  ");
+        bracket(out, map->slice[i].area.value, 1e12, 6);
+        fw_text_add(out, " um2\n");
+    }
+    fw_text_add(out, "  the boundary belongs to");
+    for (int i = 0; i < FW_SIX; i++) {
+        fw_text_printf(out, "%s %s ", i ? "," : "", f->mechanism->pin[i].id);
+        fw_text_real(out, "%.1f %%", 100.0 * map->survey.share[i]);
+    }
+    fw_text_add(out, "\n  volume grows with all limits to the power ");
+    fw_text_number(out, map->survey.exponent, 3);
+    fw_text_add(out, "\n");
+    singularities(out, f->mechanism, &map->survey.singular);
+}
+
+static void required(fw_text *out, const fw_device *d, const fw_report_workspace_flow *f, int k) {
+    const fw_device_workspace_box *b = &d->workspace[k];
+    const fw_workspace_proof *p = &f->required->proof[k];
+    fw_text_add(out, "required: x ");
+    range(out, (fw_maths_interval){b->x_min_m, b->x_max_m}, 1e6, 6);
+    fw_text_add(out, " um, y ");
+    range(out, (fw_maths_interval){b->y_min_m, b->y_max_m}, 1e6, 6);
+    fw_text_add(out, " um, rotation ");
+    range(out, (fw_maths_interval){b->phi_min_rad, b->phi_max_rad}, FW_DEG_PER_RAD, 6);
+    fw_text_add(out, " deg\n");
+    if (!f->required->box_reachable[k]) {
+        fw_text_add(out, "  NOT REACHABLE: the mechanism cannot be assembled at ");
+        const double at[3] = {f->required->fail_x_m, f->required->fail_y_m,
+                              f->required->fail_phi_rad};
+        if (f->required->fail_box == k)
+            pose(out, at);
+        else
+            fw_text_add(out, "a pose of it");
+        fw_text_add(out, "\n");
+        return;
+    }
+    if (!p->proved) {
+        fw_text_add(out, "  reachable at every sampled pose; NOT PROVED\n");
+        return;
+    }
+    fw_text_printf(out, "  every pose can be assembled on the drawn branch (proved, %ld boxes)\n",
+                   p->boxes);
+    for (int i = 0; i < FW_SIX; i++) {
+        fw_maths_interval a = p->angle_rad[i];
+        fw_text_printf(out, "  %-6s", f->mechanism->pin[i].id);
+        fw_text_real(out, " %9.4f to", a.lo * FW_DEG_PER_RAD);
+        fw_text_real(out, " %9.4f deg", a.hi * FW_DEG_PER_RAD);
+        if (!f->map->none) {
+            double limit = f->map->limit_rad[i], most = fmax(fabs(a.lo), fabs(a.hi));
+            bool beyond = p->most[i].angle_rad.lo > limit || p->least[i].angle_rad.hi < -limit;
+            fw_text_real(out, ", limit %.4f deg: ", limit * FW_DEG_PER_RAD);
+            fw_text_real(out, "%.1f %%, ", 100.0 * most / limit);
+            fw_text_add(out, most <= limit ? "within (proved)"
+                             : beyond      ? "BEYOND (proved)"
+                                           : "undecided");
+        }
+        fw_text_add(out, "\n");
+    }
+    singularities(out, f->mechanism, &f->singular[k]);
+}
+
+fw_status fw_report_workspace_text(const fw_report_workspace *in, fw_text *out) {
+    for (int i = 0; i < in->nflow; i++) {
+        const fw_report_workspace_flow *f = &in->flow[i];
+        if (i > 0) fw_text_add(out, "\n");
+        fw_text_printf(out, "%s\n", f->flow ? f->flow : f->mechanism->variant->material.id);
+        if (f->map->none)
+            fw_text_printf(out, "no reachable set: %s\n", f->map->none);
+        else
+            reachable(out, f);
+        for (int k = 0; k < in->device->nworkspace; k++)
+            if (f->required->asked && f->required->asked[k]) required(out, in->device, f, k);
+    }
+    return fw_text_end(out);
+}

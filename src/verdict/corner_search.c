@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One device at a point of the ranges of a flow: built, judged as closely as its decision needs,
+   and what of it is kept. Theory: docs/theory/as-fabricated.md. */
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+const char *fw_verdict_fabrication_value(fw_arena *arena, const fw_verdict_fabrication_input *input,
+                                         double x) {
+    fw_quantity q = input->q;
+    char text[32];
+    q.value = x;
+    fw_number_text(text, sizeof text, fw_quantity_in_unit(&q), 4);
+    bool unit = q.unit && strcmp(q.unit, "1") != 0;
+    return fw_arena_printf(arena, "%s%s%s", text, unit ? " " : "", unit ? q.unit : "");
+}
+
+static fw_status describe(fw_verdict_search *s, const double *x, const char **what) {
+    fw_text text = fw_text_new(s->arena);
+    for (int i = 0; i < s->v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &s->v->input[i];
+        if (x[i] == in->nominal) continue;
+        const char *value = fw_verdict_fabrication_value(s->arena, in, x[i]);
+        FW_NEED(value);
+        fw_text_printf(&text, "%s%s %s", text.length ? ", " : "", in->name, value);
+    }
+    if (text.length == 0) fw_text_add(&text, "nominal");
+    FW_TRY(fw_text_end(&text));
+    *what = text.data;
+    return FW_OK;
+}
+
+/* rows of one run: utilisation of each hinge in each scene, and how near pull-in is */
+static void take_rows(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                      double *ln) {
+    int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
+    for (int r = 0; r < hinges; r++)
+        ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
+    for (int i = 0; i < scenes; i++) {
+        const fw_statics_pull_in *p = now->pull_in[i];
+        bool near = p && p->kind != FW_PULL_IN_NONE && p->margin > 0.0;
+        ln[hinges + i] = near ? log(fw_statics_pull_in_margin(p) / p->margin) : (double)NAN;
+    }
+}
+
+/* the first reason beside the hinges */
+static fw_status take_reason(fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                             fw_verdict_fabricated_corner *corner) {
+    const char *why = NULL;
+    for (int i = 0; i < now->nreason && !why; i++) {
+        if (now->reason[i].decision == FW_ACCEPT) continue;
+        why = now->reason[i].text;
+        corner->scene = now->reason[i].scene;
+        corner->keep = now->reason[i].keep;
+    }
+    if (now->workspace.required && !now->workspace.reachable)
+        why = "part of the required workspace is out of reach";
+    if (why) FW_NEED(corner->why = fw_arena_strdup(s->arena, why));
+    return FW_OK;
+}
+
+static const char *last_error(const fw_diags *diags) {
+    for (size_t i = diags->count; i-- > 0;)
+        if (diags->item[i].severity == FW_ERROR) return diags->item[i].message;
+    return "it could not be run";
+}
+
+/* copies what stays: the run's own arena is given back */
+static fw_status take(fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                      fw_verdict_fabricated_corner *corner, double *ln) {
+    for (int k = 0; k < s->v->nhinge; k++) {
+        corner->hinge[k] = now->hinge[k];
+        corner->hinge[k].flow = s->v->variant->flow;
+    }
+    corner->decision = now->decision;
+    FW_TRY(take_reason(s, now, corner));
+    take_rows(s, now, ln);
+    return FW_OK;
+}
+
+static double wanted(const fw_verdict_options *o) {
+    return o->motion.accuracy > 0 ? o->motion.accuracy : 1e-3;
+}
+
+/* Options of the next look, where numbers may decide: what was asked for, then as much closer as
+   seems to be needed, then as close as it gets. false: there is none. */
+static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                   fw_verdict_options *options) {
+    double asked = wanted(&s->options), had = wanted(options);
+    bool own = s->options.motion.rtol == 0; /* else the accuracy says nothing of the numbers */
+    fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
+    if (options->at_a_glance || refinement != FW_REFINE_NUMBERS) return false;
+    if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
+    bool coarse = own && had > asked;
+    double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
+    *options = coarse ? s->options : fw_verdict_tighter(&s->options, refinement);
+    if (own && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
+    return true;
+}
+
+/* from coarse to as close as its decision needs: most points are far enough from the limit */
+static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
+                               const fw_verdict_fabricated_device *device, const fw_mechanism *m,
+                               fw_diags *diags, fw_verdict_variant_verdict *now) {
+    const fw_dynamics_motion *const *like = (const fw_dynamics_motion *const *)s->v->motion;
+    fw_verdict_options options = s->options;
+    fw_dynamics_motion_options *motion = &options.motion;
+    if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
+    do {
+        *now = (fw_verdict_variant_verdict){.variant = &device->variant, .like = like};
+        FW_TRY(
+            fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
+    } while (refine(s, now, &options));
+    return FW_OK;
+}
+
+/* what the flow makes may be just what was drawn, and that has been judged */
+static bool as_drawn(const fw_verdict_fabrication *fabricated) {
+    return fabricated->edge_m == 0.0 && fabricated->flare_m == 0.0 &&
+           fabricated->thickness_ratio == 1.0 && fabricated->youngs_ratio == 1.0;
+}
+
+static fw_status judge_point(fw_verdict_search *s, fw_arena *scratch, const double *x,
+                             fw_verdict_fabricated_corner *corner, double *ln) {
+    fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(s->v->input, s->v->ninput, x);
+    fw_verdict_fabricated_device *device = fw_arena_one(scratch, fw_verdict_fabricated_device);
+    fw_diags diags = fw_diags_new(scratch);
+    fw_verdict_variant_verdict now = {0};
+    const fw_mechanism *m = NULL;
+    FW_NEED(device);
+    if (as_drawn(&fabricated)) return take(s, s->v, corner, ln);
+    FW_TRY(fw_verdict_fabrication_build(scratch, s->device, s->layout, s->v->variant, &fabricated,
+                                        device));
+    corner->decision = FW_REJECT;
+    if (device->gone) {
+        FW_NEED(corner->why = fw_arena_strdup(s->arena, device->gone));
+        return FW_OK;
+    }
+    fw_status status =
+        fw_mechanism_build(scratch, &device->device, device->drawn, &device->variant, &diags, &m);
+    if (status == FW_OK) status = judge_closely(s, scratch, device, m, &diags, &now);
+    if (status == FW_OK) return take(s, &now, corner, ln);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    corner->decision = FW_INCONCLUSIVE;
+    FW_NEED(corner->why = fw_arena_strdup(s->arena, last_error(&diags)));
+    return FW_OK;
+}
+
+static fw_status run_point(fw_verdict_search *s, const double *x,
+                           fw_verdict_fabricated_corner *corner, double *ln) {
+    size_t n = (size_t)s->v->ninput, h = (size_t)s->v->nhinge;
+    double *kept;
+    *corner = (fw_verdict_fabricated_corner){0};
+    for (int r = 0; r < s->nrow; r++)
+        ln[r] = (double)NAN;
+    FW_NEED(kept = fw_arena_array(s->arena, double, n));
+    memcpy(kept, x, n * sizeof *kept);
+    corner->x = kept;
+    FW_NEED(corner->hinge = fw_arena_array(s->arena, fw_verdict_hinge_verdict, h));
+    FW_TRY(describe(s, x, &corner->what));
+    for (size_t k = 0; k < h; k++)
+        corner->hinge[k] = (fw_verdict_hinge_verdict){
+            .id = s->v->hinge[k].id, .joint = s->v->hinge[k].joint, .decision = FW_INCONCLUSIVE};
+    fw_arena *scratch = fw_arena_part(s->arena, 0); /* given back at once: there may be many */
+    FW_NEED(scratch);
+    fw_status status = judge_point(s, scratch, x, corner, ln);
+    fw_arena_free(scratch);
+    return status;
+}
+
+static bool is_known(const fw_verdict_search *s, const double *x) {
+    return s->known && memcmp(s->known->x, x, (size_t)s->v->ninput * sizeof *x) == 0;
+}
+
+fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits) {
+    fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    int point = fabricated->ncorner;
+    if (point >= FW_MOST_POINTS) return FW_OK;
+    double *ln = s->ln + (size_t)point * (size_t)s->nrow;
+    if (is_known(s, x)) {
+        fabricated->corner[point] = *s->known;
+        memcpy(ln, s->known_ln, (size_t)s->nrow * sizeof *ln);
+    } else {
+        FW_TRY(run_point(s, x, &fabricated->corner[point], ln));
+    }
+    s->bits[point] = bits;
+    fabricated->ncorner++;
+    return FW_OK;
+}
+
+fw_status fw_verdict_search_accepts(const fw_verdict_search *s, const double *x, bool *accepted) {
+    fw_verdict_search quiet = *s;
+    fw_verdict_fabricated_corner corner;
+    double *ln;
+    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->nrow));
+    FW_TRY(run_point(&quiet, x, &corner, ln));
+    *accepted = corner.decision == FW_ACCEPT;
+    return FW_OK;
+}
+
+/* ---- what would have to be held ----
+   What would have to be known or held better so that everything a flow may make is accepted: the
+   one input that does it alone, by how much; else the share of all ranges. */
+
+enum { HALVINGS = 8 };
+
+typedef struct box {
+    double low[FW_FABRICATION_INPUTS], high[FW_FABRICATION_INPUTS];
+} box;
+
+static box whole(const fw_verdict_variant_verdict *v) {
+    box b = {{0}, {0}};
+    for (int i = 0; i < v->ninput; i++)
+        b.low[i] = v->input[i].low, b.high[i] = v->input[i].high;
+    return b;
+}
+
+/* every device that was not accepted, moved to where the smaller box ends; the governing one first:
+   it is the likeliest to fail again */
+static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *accepted) {
+    const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    *accepted = true;
+    for (int turn = -1; turn < fabricated->ncorner && *accepted; turn++) {
+        int c = turn < 0 ? fabricated->at : turn;
+        if ((turn >= 0 && c == fabricated->at) || fabricated->corner[c].decision == FW_ACCEPT)
+            continue;
+        double x[FW_FABRICATION_INPUTS];
+        for (int i = 0; i < s->v->ninput; i++)
+            x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
+        FW_TRY(fw_verdict_search_accepts(s, x, accepted));
+    }
+    return FW_OK;
+}
+
+/* ---- one input alone ---- */
+
+static int governing_row(const fw_verdict_search *s) {
+    const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
+    int rows = s->device->nscene + 1, row = FW_NONE;
+    if (fabricated->governing == FW_NONE) return FW_NONE;
+    const double *ln = s->ln + (size_t)fabricated->at * (size_t)s->nrow;
+    for (int r = fabricated->governing * rows; r < (fabricated->governing + 1) * rows; r++)
+        if (!isnan(ln[r]) && (row == FW_NONE || ln[r] > ln[row])) row = r;
+    return row;
+}
+
+/* how much of the governing utilisation an input makes, ln, and at which end; without a row (a
+   flexure is gone) the end that the point is at */
+static double weight(const fw_verdict_search *s, int row, int i, bool *low_is_bad) {
+    const fw_verdict_fabrication_input *in = &s->v->input[i];
+    double range = in->high - in->low, x = s->fabricated->corner[s->fabricated->at].x[i];
+    double slope = row == FW_NONE ? (double)NAN : s->slope[row * s->v->ninput + i];
+    *low_is_bad = isnan(slope) || slope == 0.0 ? x < in->nominal : slope < 0.0;
+    if (isnan(slope)) return fabs(x - in->nominal) * fabs(in->edge_m) * 1e6; /* um: edges cut */
+    return fabs(slope) * range;
+}
+
+/* rounded towards the good end, to a hundredth of the range and better */
+static double rounded(double x, double range, bool up) {
+    double unit = pow(10.0, floor(log10(range)) - 2.0);
+    return unit * (up ? ceil(x / unit - 1e-9) : floor(x / unit + 1e-9));
+}
+
+static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *done) {
+    const fw_verdict_fabrication_input *in = &s->v->input[i];
+    double bad = low_is_bad ? in->low : in->high, good = low_is_bad ? in->high : in->low;
+    box b = whole(s->v);
+    double *end = low_is_bad ? &b.low[i] : &b.high[i];
+    *end = good;
+    FW_TRY(box_accepts(s, &b, done));
+    for (int k = 0; *done && k < HALVINGS; k++) {
+        bool accepted;
+        *end = 0.5 * (bad + good);
+        FW_TRY(box_accepts(s, &b, &accepted));
+        if (accepted)
+            good = *end;
+        else
+            bad = *end;
+    }
+    if (!*done) return FW_OK;
+    good = rounded(good, in->high - in->low, low_is_bad);
+    s->fabricated->held = i;
+    s->fabricated->held_low = low_is_bad ? fmin(good, in->high) : in->low;
+    s->fabricated->held_high = low_is_bad ? in->high : fmax(good, in->low);
+    return FW_OK;
+}
+
+static fw_status report_one(fw_verdict_search *s, bool low_is_bad) {
+    const fw_verdict_fabrication_input *in = &s->v->input[s->fabricated->held];
+    const char *at = fw_verdict_fabrication_value(
+        s->arena, in, low_is_bad ? s->fabricated->held_low : s->fabricated->held_high);
+    const char *low = fw_verdict_fabrication_value(s->arena, in, in->low),
+               *high = fw_verdict_fabrication_value(s->arena, in, in->high);
+    FW_NEED(at && low && high ? at : NULL);
+    FW_NEED(s->fabricated->control = fw_arena_printf(
+                s->arena, "accepted where %s is known to be %s %s (here %s to %s%s%s%s)", in->name,
+                low_is_bad ? "at least" : "at most", at, low, high,
+                in->unknown ? ", assumed: " : "", in->unknown ? in->unknown : "",
+                in->unknown ? " is not known" : ""));
+    return FW_OK;
+}
+
+/* ---- all of them ---- */
+
+static fw_status hold_all(fw_verdict_search *s) {
+    double bad = 1.0, good = 0.0;
+    if (s->fabricated->corner[0].decision != FW_ACCEPT) {
+        s->fabricated->control =
+            "no single input of the flow, held to its best, makes it accepted: give "
+            "the flexures more margin";
+        return FW_OK;
+    }
+    for (int k = 0; k < HALVINGS; k++) {
+        double share = 0.5 * (bad + good);
+        bool accepted;
+        box b;
+        for (int i = 0; i < s->v->ninput; i++) {
+            const fw_verdict_fabrication_input *in = &s->v->input[i];
+            b.low[i] = in->nominal + share * (in->low - in->nominal);
+            b.high[i] = in->nominal + share * (in->high - in->nominal);
+        }
+        FW_TRY(box_accepts(s, &b, &accepted));
+        if (accepted)
+            good = share;
+        else
+            bad = share;
+    }
+    char percent[32];
+    s->fabricated->held_share = 0.01 * floor(100.0 * good);
+    fw_number_text(percent, sizeof percent, 100.0 * s->fabricated->held_share, 3);
+    FW_NEED(s->fabricated->control = fw_arena_printf(
+                s->arena,
+                "no single input is enough; accepted where every range is %s %% as wide about its "
+                "nominal",
+                percent));
+    return FW_OK;
+}
+
+fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
+    int row = governing_row(s), n = s->v->ninput;
+    bool tried[FW_FABRICATION_INPUTS] = {false}, done = false;
+    for (int turn = 0; turn < n; turn++) {
+        int next = FW_NONE;
+        double most = -1.0;
+        bool low_is_bad, low = false;
+        for (int i = 0; i < n; i++) {
+            double w = weight(s, row, i, &low_is_bad);
+            if (!tried[i] && w > most) most = w, next = i, low = low_is_bad;
+        }
+        if (next == FW_NONE) break;
+        tried[next] = true;
+        FW_TRY(hold_one(s, next, low, &done));
+        if (done) return report_one(s, low);
+    }
+    return hold_all(s);
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which of two verdicts matters more, what a refined computation may decide, one scene, and the
+   search over what a flow may make. Private to the room and its tests. */
+#ifndef FW_VERDICT_VERDICT_PARTS_H
+#define FW_VERDICT_VERDICT_PARTS_H
+#include "verdict/verdict.h"
+
+/* ---- verdict_run.c and variant.c: which of two hinges matters more, what may still decide ---- */
+
+void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
+bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
+/* hinges of which some are inconclusive: what may decide them (verdict_run.c) */
+typedef enum fw_verdict_refinement {
+    FW_REFINE_NOTHING,
+    FW_REFINE_NUMBERS, /* tighter numbers alone */
+    FW_REFINE_HINGES   /* those, and a better model of the hinges */
+} fw_verdict_refinement;
+fw_verdict_refinement fw_verdict_refinement_of(const fw_verdict_hinge_verdict *hinge, int nhinge);
+/* accuracy at which numbers decide all that are inconclusive now, were nothing else to change */
+extern const double fw_verdict_tightest; /* accuracy of the closest look */
+double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, double accuracy);
+/* the same request, as close as that */
+fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
+                                      fw_verdict_refinement refinement);
+/* every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
+fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *mechanism,
+                                   fw_diags *diags);
+
+/* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
+
+enum { FW_REASONS = 3 }; /* of one scene at most */
+
+/* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
+   effect ends), pull_in[i], and reasons of v */
+fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
+                           const fw_dynamics_motion_options *options, fw_diags *diags,
+                           fw_verdict_variant_verdict *v);
+
+/* ---- verdict_corners.c, corner_search.c: devices at points of the ranges of a flow ---- */
+
+typedef struct fw_verdict_search {
+    fw_arena *arena; /* of the plan */
+    const fw_device *device;
+    const fw_layout *layout;
+    fw_verdict_options options;
+    const fw_verdict_variant_verdict *v; /* as drawn */
+    fw_verdict_fabricated_verdict *fabricated;
+    int nrow;   /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene */
+    double *ln; /* (points x nrow) ln of the utilisation at each point that was run; NaN: none */
+    unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
+    const fw_verdict_fabricated_corner *known; /* a point that was run before the others, or NULL */
+    const double *known_ln;                    /* (nrow) */
+    int first;     /* how many points there were when the slopes were known */
+    double *slope; /* (nrow x ninput) d ln U / dx about the nominal; NaN: none */
+} fw_verdict_search;
+
+enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };
+#define FW_NO_CORNER (~0u)
+
+/* runs the device at x and keeps it as the next corner of s->fabricated */
+fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
+/* the same without keeping: is it accepted? */
+fw_status fw_verdict_search_accepts(const fw_verdict_search *s, const double *x, bool *accepted);
+/* "12.5 um" of an input */
+const char *fw_verdict_fabrication_value(fw_arena *arena, const fw_verdict_fabrication_input *input,
+                                         double x);
+/* what would have to be held so that it accepts: fabricated->held and control */
+fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
+
+#endif
