@@ -8,7 +8,7 @@
 /* Linear theory says nothing beyond; and how much wider its bounds are made per unit of
    `nonlinearity`.
    None of 16 400 random bounds was too small with these; with 1.5 and 0 one of a stop was
-   (docs/theory/effects/README.md) */
+   (docs/theory/effects/envelope.md) */
 static const double nonlinearity_most = 0.8, widening = 4;
 
 double fw_effects_pin_deflection(const fw_mechanism *m, int i) {

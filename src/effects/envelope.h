@@ -3,7 +3,7 @@
    it: what the bounds of the effects are made of. Linear theory about the initial pose with the
    effects that the scene calls for, in modes; where that theory has nothing to say (free motions,
    drivers, stops, cables, large angles, redundant joints), `valid` is false and every effect stays.
-   Theory: docs/theory/effects/README.md. */
+   Theory: docs/theory/effects/envelope.md. */
 #ifndef FW_EFFECTS_ENVELOPE_H
 #define FW_EFFECTS_ENVELOPE_H
 #include "effects/effects.h"

@@ -241,7 +241,7 @@ def write(program):
         for r in rows:
             out.writerow([r["effect"], r["kind"], r["file"], r["scene"], f"{r['off']:.2f}", f"{r['on']:.2f}",
                           r["instances"], f"{r['each']:.2f}"])
-    lines = [f"The six-bar of `pins.xml` takes **{quick:.0f}** instructions on the fast kernel and **{general:.0f}** in the "
+    lines = [f"The six-bar of `pins.xml` takes **{quick:.0f}** instructions on the fast kernel and **{general:.0f}** in the",
              f"general code, {general / quick:.1f} times as many.", "", *table(rows), "",
              *[f"- {key}: {value}" for key, value in facts]]
     page = PAGE.read_text(encoding="utf-8")

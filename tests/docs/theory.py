@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every page of docs/theory has the sections that a reader needs, a picture that exists, no line above 120 characters, and a worked
-example whose numbers are computed here again from its inputs, in plain Python and, where a command gives them, by the program.
+"""Every page of docs/theory and docs/theory/effects has the sections that a reader needs, a picture that exists, no line above 120
+characters, and a worked example whose numbers are computed here again from its inputs, in plain Python and, where a command gives them, by the program.
 
     tests/docs/theory.py PROGRAM [--write]
 
@@ -14,7 +14,7 @@ An example is a fenced block:
     ```
 
 A printed number may be off by half a unit of its last digit. The functions that compute it have the page's name (theory_*.py beside
-this file): PAGE(given) for `found`, PAGE_program(run, given) for `program`, all in SI units. --write puts the computed numbers into
+this file): PAGE(given) for `found`, PAGE_program(run, given) for `program`, all in SI units; of the folder effects effect_PAGE. --write puts the computed numbers into
 the pages, with as many digits as stand there."""
 import json
 import pathlib
@@ -26,15 +26,19 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ROOT / "docs/theory"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import theory_effects  # noqa: E402
 import theory_fabrication  # noqa: E402
 import theory_flexures  # noqa: E402
 import theory_motion  # noqa: E402
 
 SECTIONS = ["Question", "Picture", "Equations", "Example", "Validity", "Proved and tested", "Sources"]
+# a page about an effect says besides when a scene has it, and what leaving it out changes at most
+EFFECT = [*SECTIONS[:3], "When it is called for", "Bound", *SECTIONS[3:]]
+NO_EFFECT = {"costs", "envelope"}  # pages of that folder about all effects together
 LONGEST = 120
 UNITS = {"": 1, "1": 1, "%": 1e-2, "m": 1, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "rad": 1, "deg": 0.017453292519943295, "kg": 1,
          "g": 1e-3, "ug": 1e-9, "s": 1, "ms": 1e-3, "min": 60, "h": 3600, "Hz": 1, "kHz": 1e3, "N": 1, "mN": 1e-3, "uN": 1e-6,
-         "Pa": 1, "MPa": 1e6, "GPa": 1e9, "A": 1, "mA": 1e-3, "C": 1, "cm": 1e-2, "mol": 1, "mg": 1e-6, "V": 1}
+         "Pa": 1, "MPa": 1e6, "GPa": 1e9, "A": 1, "mA": 1e-3, "C": 1, "cm": 1e-2, "mol": 1, "mg": 1e-6, "V": 1, "K": 1}
 LINE = re.compile(r"^(given|found|program)\s+(\w+)\s*=\s*(\S+)([^#]*?)(\s*#.*)?$")
 problems = []
 
@@ -82,9 +86,13 @@ class Runner:
         return self.kept[arguments]
 
 
-def functions(page):
-    name = page.replace("-", "_")
-    for module in (theory_flexures, theory_motion, theory_fabrication):
+def function_of(path):
+    """the name of what computes the example of a page"""
+    return ("effect_" if path.parent != PAGES else "") + path.stem.replace("-", "_")
+
+
+def functions(name):
+    for module in (theory_flexures, theory_motion, theory_fabrication, theory_effects):
         if hasattr(module, name):
             return getattr(module, name), getattr(module, name + "_program", None)
     return None, None
@@ -96,9 +104,9 @@ def example(path, text, run, write):
     if not block:
         problems.append(f"{short} has no example block")
         return text
-    compute, ask = functions(path.stem)
+    compute, ask = functions(function_of(path))
     if not compute:
-        problems.append(f"{short}: no function {path.stem.replace('-', '_')} computes its example")
+        problems.append(f"{short}: no function {function_of(path)} computes its example")
         return text
     lines, given = block.group(1).splitlines(), {}
     for line in lines:
@@ -132,10 +140,11 @@ def page(path, run, write):
     text = path.read_text(encoding="utf-8")
     short = path.name
     headings = re.findall(r"^## (.*)$", text, re.M)
-    if headings != SECTIONS:
-        problems.append(f"{short} has the sections {headings}, wanted are {SECTIONS}")
+    wanted = SECTIONS if path.parent == PAGES or path.stem in NO_EFFECT else EFFECT
+    if headings != wanted:
+        problems.append(f"{short} has the sections {headings}, wanted are {wanted}")
         return
-    parts = dict(zip(SECTIONS, re.split(r"^## .*\n", text, flags=re.M)[1:]))
+    parts = dict(zip(wanted, re.split(r"^## .*\n", text, flags=re.M)[1:]))
     for name, part in parts.items():
         if not part.strip():
             problems.append(f"{short}: the section {name} is empty")
@@ -156,8 +165,8 @@ def page(path, run, write):
 def main():
     write = "--write" in sys.argv[2:]
     run = Runner(sys.argv[1])
-    pages = sorted(p for p in PAGES.glob("*.md") if p.name != "README.md")
-    for path in [*pages, PAGES / "README.md"]:
+    pages = sorted(p for p in PAGES.rglob("*.md") if p.name != "README.md")
+    for path in [*pages, *PAGES.rglob("README.md")]:
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
             if len(line) > LONGEST:
                 problems.append(f"{path.name}:{number} has {len(line)} characters, {LONGEST} are allowed")
