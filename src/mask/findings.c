@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Findings as messages: the worst few of each rule, with their number. */
 #include "mask/rule.h"
-#include "mask/mask_rules.h"
+#include "mask/mask_polygons.h"
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_TOLD = 4 }; /* of one rule */
 
@@ -89,4 +91,232 @@ fw_status fw_mask_rules_tell(fw_mask_rules *r, fw_diags *diags, int *nbroken) {
         if (n > MOST_TOLD) tell_rest(r, rule, n - MOST_TOLD, diags);
     }
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* A mask to look at: what is drawn, and a rectangle for each finding on a layer that the table does
+   not use, with a data type for each kind of rule. A marker is the place itself where that is a
+   window, an island or a hole; else the shortest chord, edge or corner with its own length, at
+   least 1 um, on all sides. */
+
+enum { HIGHEST = 60 };
+static const double GRID_M = 1e-9, LEAST_M = 1e-6;
+
+int fw_mask_marker_layer(const fw_mask_table *table) {
+    for (int layer = HIGHEST; layer > 0; layer--) {
+        bool used = false;
+        for (int k = 0; k < table->nlayer; k++)
+            used = used || table->layer[k].layer == layer;
+        if (!used) return layer;
+    }
+    return HIGHEST;
+}
+
+fw_geometry_box fw_mask_marker(const fw_mask_finding *f) {
+    const fw_mask_rule_kind_row *kind = f->rule->kind;
+    if (kind->unit == FW_UNIT_SHARE || kind->unit == FW_UNIT_AREA) return f->box;
+    double more = fmax(LEAST_M, vec_distance(f->at[0], f->at[1]));
+    fw_geometry_box b = fw_mask_box_around(f->at[0], f->at[1]);
+    return (fw_geometry_box){b.x0 - more, b.y0 - more, b.x1 + more, b.y1 + more};
+}
+
+/* what lies beyond 2^30 nm is refused, but there can be findings all the same */
+static int32_t on_grid(double x_dbu) {
+    return (int32_t)fmax(-1073741823.0, fmin(1073741823.0, x_dbu));
+}
+
+static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_mask_shape *out) {
+    fw_geometry_box b = fw_mask_marker(f);
+    int32_t x0 = on_grid(floor(b.x0 / GRID_M)), x1 = on_grid(ceil(b.x1 / GRID_M));
+    int32_t y0 = on_grid(floor(b.y0 / GRID_M)), y1 = on_grid(ceil(b.y1 / GRID_M));
+    fw_layout_piece *piece = fw_arena_one(arena, fw_layout_piece);
+    FW_NEED(piece);
+    *piece = (fw_layout_piece){
+        .role = FW_ROLE_MARK, .body = FW_NONE, .joint = FW_NONE, .label = f->what};
+    fw_geometry_point *v = fw_arena_array(arena, fw_geometry_point, 4);
+    FW_NEED(v);
+    v[0] = (fw_geometry_point){x0, y0}, v[1] = (fw_geometry_point){x1, y0};
+    v[2] = (fw_geometry_point){x1, y1}, v[3] = (fw_geometry_point){x0, y1};
+    *out = (fw_mask_shape){.layer = layer, .piece = piece, .polygon = {v, 4}};
+    fw_geometry_box grid = {x0 * GRID_M, y0 * GRID_M, x1 * GRID_M, y1 * GRID_M};
+    return fw_geometry_contour_rectangle(arena, grid, &out->contour);
+}
+
+/* the table with a marker layer for each kind that was found; by[kind's marker]: its index */
+static fw_status marked_table(fw_arena *arena, const fw_mask *mask, int by[64],
+                              fw_mask_table *table) {
+    size_t kinds = 0;
+    while (fw_mask_rule_kind_at(kinds))
+        kinds++;
+    *table = *mask->table;
+    table->layer = fw_arena_array(arena, fw_mask_layer, (size_t)table->nlayer + kinds);
+    FW_NEED(table->layer);
+    memcpy(table->layer, mask->table->layer, (size_t)table->nlayer * sizeof *table->layer);
+    int number = fw_mask_marker_layer(mask->table);
+    for (size_t i = 0; i < kinds; i++) {
+        const fw_mask_rule_kind_row *kind = fw_mask_rule_kind_at(i);
+        by[kind->marker] = -1;
+        for (int k = 0; k < mask->nfinding && by[kind->marker] < 0; k++)
+            if (mask->finding[k].rule->kind == kind) by[kind->marker] = table->nlayer;
+        if (by[kind->marker] < 0) continue;
+        const char *name = fw_arena_printf(arena, "BAD_%s", kind->name);
+        FW_NEED(name);
+        table->layer[table->nlayer++] =
+            (fw_mask_layer){.layer = number,
+                            .datatype = kind->marker,
+                            .id = name,
+                            .name = name,
+                            .purpose = "places where this rule is broken, not on the plate",
+                            .tone = "data dark",
+                            .colour = "#d01020"};
+    }
+    return FW_OK;
+}
+
+fw_status fw_mask_marked(fw_arena *arena, const fw_mask *mask, const fw_mask **marked) {
+    fw_mask_table *table = fw_arena_one(arena, fw_mask_table);
+    fw_mask *m = fw_arena_one(arena, fw_mask);
+    int by[64];
+    FW_NEED(table);
+    FW_NEED(m);
+    FW_TRY(marked_table(arena, mask, by, table));
+    *m = *mask;
+    m->table = table;
+    m->measure = NULL; /* of what is drawn only */
+    m->nshape = 0;
+    m->shape = fw_arena_array(arena, fw_mask_shape, (size_t)(mask->nshape + mask->nfinding));
+    FW_NEED(m->shape);
+    for (int i = 0; i < mask->nshape; i++) /* one that could not be flattened has no polygon */
+        if (mask->shape[i].polygon.count > 0) m->shape[m->nshape++] = mask->shape[i];
+    for (int i = 0; i < mask->nfinding; i++) {
+        const fw_mask_finding *f = &mask->finding[i];
+        fw_mask_shape *shape = &m->shape[m->nshape++];
+        FW_TRY(mark(arena, f, by[f->rule->kind->marker], shape));
+        m->box = fw_box_join(m->box, fw_geometry_contour_box(&shape->contour));
+    }
+    *marked = m;
+    return FW_OK;
+}
+
+/* KLayout's report database, for its marker browser: a category for each rule that is broken, and
+   in it an item for each place, with the shortest chord as an edge, the whole place as a box (um),
+   and what it is. Texts are in apostrophes with \ before ' and \. Format: as KLayout 0.28 writes it
+   (class ReportDatabase of its reference); accepted by ReportDatabase#load, which
+   tests/cli/test_violations.py does. */
+
+static void xml(fw_text *out, const char *s) {
+    for (; *s; s++) {
+        const char *instead = *s == '&' ? "&amp;" : *s == '<' ? "&lt;" : *s == '>' ? "&gt;" : NULL;
+        if (instead)
+            fw_text_add(out, instead);
+        else
+            fw_text_bytes(out, s, 1);
+    }
+}
+
+static void text_value(fw_text *out, const char *name, const char *s) {
+    fw_text_add(out, "    <value>text: '");
+    xml(out, name);
+    for (const char *at = s; *at; at++) {
+        if (*at == '\'' || *at == '\\') fw_text_add(out, "\\");
+        char one[2] = {*at, '\0'};
+        xml(out, one);
+    }
+    fw_text_add(out, "'</value>\n");
+}
+
+static void numbers(fw_text *out, fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    fw_text_add(out, "(");
+    fw_text_number(out, p.x * 1e6, 12);
+    fw_text_add(out, ",");
+    fw_text_number(out, p.y * 1e6, 12);
+    fw_text_add(out, ";");
+    fw_text_number(out, q.x * 1e6, 12);
+    fw_text_add(out, ",");
+    fw_text_number(out, q.y * 1e6, 12);
+    fw_text_add(out, ")");
+}
+
+/* of a rule: "width 1/0", "enclosure 2/0 1/0 warning"; no two rules have the same */
+static void category_name(fw_text *out, const fw_mask *mask, const fw_mask_rule *rule) {
+    const fw_mask_layer *l = &mask->table->layer[rule->layer];
+    fw_text_printf(out, "%s %d/%d", rule->kind->name, l->layer, l->datatype);
+    if (rule->other >= 0) {
+        l = &mask->table->layer[rule->other];
+        fw_text_printf(out, " %d/%d", l->layer, l->datatype);
+    }
+    if (rule->of == FW_OF_POLYGON) fw_text_add(out, " polygon");
+    if (rule->of == FW_OF_ISLAND) fw_text_add(out, " island");
+    if (rule->of == FW_OF_HOLE) fw_text_add(out, " hole");
+    if (rule->kind->unit == FW_UNIT_SHARE) {
+        fw_text_add(out, " in ");
+        fw_text_number(out, rule->window_m * 1e6, 6);
+        fw_text_add(out, " um");
+    }
+    if (rule->severity != FW_ERROR) fw_text_add(out, " warning");
+}
+
+static void category(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
+    fw_text_add(out, "  <category>\n   <name>");
+    category_name(out, mask, f->rule);
+    fw_text_add(out, "</name>\n   <description>layer ");
+    xml(out, mask->table->layer[f->rule->layer].name);
+    fw_text_add(out, ": ");
+    xml(out, f->rule->kind->name);
+    fw_text_add(out, ", limit ");
+    fw_text_number(out, fw_mask_rule_row_shown(f->rule->kind, f->limit), 6);
+    fw_text_printf(out, " %s; ", fw_mask_rule_unit_name(f->rule->kind));
+    xml(out, f->rule->source);
+    fw_text_add(out, "</description>\n   <categories>\n   </categories>\n  </category>\n");
+}
+
+static void item(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
+    fw_text_add(out, "  <item>\n   <tags/>\n   <category>'");
+    category_name(out, mask, f->rule);
+    fw_text_printf(out,
+                   "'</category>\n   <cell>%s</cell>\n   <visited>false</visited>\n"
+                   "   <multiplicity>1</multiplicity>\n   <image/>\n   <values>\n",
+                   mask->cell);
+    fw_geometry_box b = fw_mask_marker(f);
+    fw_geometry_vec2 low = {b.x0, b.y0}, high = {b.x1, b.y1};
+    bool chord = !vec_same(f->at[0], f->at[1]) && f->rule->kind->unit == FW_UNIT_LENGTH;
+    fw_text_add(out, chord ? "    <value>edge: " : "    <value>box: ");
+    numbers(out, chord ? f->at[0] : low, chord ? f->at[1] : high);
+    fw_text_add(out, "</value>\n");
+    if (chord) {
+        fw_text_add(out, "    <value>box: ");
+        numbers(out, (fw_geometry_vec2){f->box.x0, f->box.y0},
+                (fw_geometry_vec2){f->box.x1, f->box.y1});
+        fw_text_add(out, "</value>\n");
+    }
+    char value[32];
+    fw_number_text(value, sizeof value, fw_mask_rule_row_shown(f->rule->kind, f->value), 9);
+    text_value(out, f->what, "");
+    fw_text_printf(out, "    <value>float: %s</value>\n", value);
+    for (int i = 0; i < 2 && f->label[i]; i++)
+        text_value(out, "piece: ", f->label[i]);
+    fw_text_add(out, "   </values>\n  </item>\n");
+}
+
+fw_status fw_mask_write_lyrdb(const fw_mask *mask, fw_text *out) {
+    fw_text_add(out, "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<report-database>\n "
+                     "<description>Design rules of flow ");
+    xml(out, mask->flow);
+    fw_text_add(out, ", device ");
+    xml(out, mask->device);
+    fw_text_printf(out,
+                   "</description>\n <original-file>%s.violations.gds</original-file>\n "
+                   "<generator>flexwright " FW_VERSION "</generator>\n "
+                   "<top-cell>%s</top-cell>\n <tags>\n </tags>\n <categories>\n",
+                   mask->flow, mask->cell);
+    for (int i = 0; i < mask->nfinding; i++) /* those of one rule follow each other */
+        if (i == 0 || mask->finding[i].rule != mask->finding[i - 1].rule)
+            category(out, mask, &mask->finding[i]);
+    fw_text_printf(out,
+                   " </categories>\n <cells>\n  <cell>\n   <name>%s</name>\n   <variant/>\n"
+                   "   <references>\n   </references>\n  </cell>\n </cells>\n <items>\n",
+                   mask->cell);
+    for (int i = 0; i < mask->nfinding; i++)
+        item(out, mask, &mask->finding[i]);
+    fw_text_add(out, " </items>\n</report-database>\n");
+    return fw_text_end(out);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Masks: layers from masks/FLOW.xml, exact biased outlines, polygons on the 1 nm grid, writers. */
-#ifndef FW_MASK_MASK_H
-#define FW_MASK_MASK_H
+#ifndef FW_MASK_MASK
+#define FW_MASK_MASK
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"
@@ -197,19 +197,12 @@ fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,
                                 const fw_output_file *file, int nfile, fw_text *out);
 
-/* writers: same mask, same bytes */
-fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
-fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out);
-/* as drawn, mask, as fabricated over each other: a picture (outlines.h) */
-fw_status fw_mask_write_outlines(const fw_mask *mask, fw_text *out);
-fw_status fw_mask_write_lyp(const fw_mask *mask, fw_text *out);
-fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out);
+/* writers: same mask, same bytes; one for each line of formats.def */
+#define FW_MASK_FORMAT(name, ...) fw_status fw_mask_write_##name(const fw_mask *mask, fw_text *out);
+#include "mask/formats.def"
+#undef FW_MASK_FORMAT
 /* name of layer k in DXF; NULL: out of memory */
 const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
-fw_status fw_mask_write_dxf(const fw_mask *mask, fw_text *out);
-/* the solid of the biased layers, walls vertical; pieces are one where they share an edge */
-fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out);
-fw_status fw_mask_write_lyt(const fw_mask *mask, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of formats.def */
     const char *name, *ending;  /* as the user says it; of the file */
@@ -247,5 +240,61 @@ fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, i
                               fw_text *out);
 fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
                                    fw_text *out);
+
+/* ---- what the order sheet says, gathered once for its two forms and the wafer's ---- */
+typedef struct fw_mask_order_site { /* where the shop, and later the laboratory, measures */
+    int layer;                      /* index into the table */
+    const char *what;               /* "least width", "least space", or the label of a flexure */
+    bool space;                     /* between polygons, not through one */
+    fw_geometry_vec2 from, to;      /* ends of the chord, on the exact outlines */
+} fw_mask_order_site;
+
+typedef struct fw_mask_order {
+    const char *name;  /* of the mask */
+    const char *tone;  /* of the plate's polygons: "data clear", "data dark"; NULL: not said */
+    const char *field; /* "dark" or "clear": what is where there are no polygons */
+    int mirror;        /* 1: seen with the chrome up the plate is the data's mirror image; 0: not;
+                          -1: the table's reading does not say */
+    double width_m, space_m;  /* least ones on the plate's layers; INFINITY: none below 100 um */
+    bool *plate;              /* (nlayer of the table): is it on the plate? */
+    fw_mask_order_site *site; /* (nsite) */
+    int nsite;
+    int polygons, vertices; /* of the plate's layers in the GDSII file */
+} fw_mask_order;
+
+fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
+fw_status fw_mask_order_sites(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
+
+/* boundaries of one layer in the GDSII file */
+void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices);
+
+/* "1/0 NOT 2/0": terms "LAYER/DATATYPE" with AND, OR, NOT, XOR between them, applied from the left.
+   Marks the layers named (NULL: does not) and says which comes first, -1 where nothing is said;
+   false: not of this form, or a layer is not in the table (*wrong is where) */
+bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong);
+
+/* ---- three outlines of one shape: as drawn, on the mask, as it stands in the end ----
+   The last is the mask's outline taken back by what the flow loses at its edges, at the top and at
+   the bottom face: fw_mask_edges. */
+/* contours of one shape of a biased layer; count 0: not asked for, or nothing of it is left */
+typedef struct fw_mask_outline {
+    const fw_mask_shape *shape;      /* piece->contour is as drawn, contour is on the mask */
+    fw_geometry_contour top, bottom; /* as fabricated, known part */
+    fw_geometry_contour least, most; /* of the top face, at the ends of what is assumed */
+} fw_mask_outline;
+
+typedef struct fw_mask_outlines {
+    fw_mask_outline *outline; /* (n) */
+    int n;
+    int gone_top, gone_bottom, gone_least; /* shapes of which that face has nothing left */
+} fw_mask_outlines;
+
+/* In: a mask with its edges. FW_OK with n = 0 where it has none. A shape that cannot be taken back
+   so far without changing what hangs together has count 0 and is counted. Exact: lines and arcs as
+   fw_geometry_contour_offset makes them; taking back what was added gives the drawn outline to
+   1e-12 m. */
+fw_status fw_mask_outlines_of(fw_arena *arena, const fw_mask *mask, fw_mask_outlines *out);
+/* the picture of fw_mask_write_outlines as a part of an HTML document: ids begin with the flow */
+fw_status fw_mask_outlines_part(const fw_mask *mask, fw_text *out);
 
 #endif

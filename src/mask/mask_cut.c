@@ -1,8 +1,150 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_cut.h"
-#include "mask/cut_tree.h"
+/* How far a straight cut stays from everything else of a polygon. Private to the room. */
+#include "geometry/tessellate.h"
+#include "mask/mask_polygons.h"
 #include <math.h>
 #include <string.h>
+
+typedef struct cut_box { /* dbu */
+    double x0, y0, x1, y1;
+} cut_box;
+
+typedef struct cut_tree { /* boxes of runs of edges: node k holds nodes 2k and 2k + 1 */
+    const fw_geometry_polygon *polygon;
+    cut_box *box; /* (2 leaves), from 1 on */
+    int leaves;   /* a power of two */
+} cut_tree;
+
+fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree);
+
+/* Least distance (dbu) from the segment between vertices i and j to any other vertex, at most
+   `most`; -1 where it meets an edge that ends at neither. As soon as it is known to be no more than
+   `least`, any such number. */
+double cut_clearance(const cut_tree *tree, int i, int j, double least, double most);
+
+/* the same of one point and the segment from a to b */
+double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c);
+/* twice the area of a triangle: exact, |coordinate| < 2^30 */
+int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c);
+
+enum { RUN = 8 }; /* edges of a leaf */
+
+int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+    return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
+           ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
+}
+
+double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+    double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
+    double u = (double)c.x_dbu - a.x_dbu, w = (double)c.y_dbu - a.y_dbu;
+    double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
+    double dx = u - t * x, dy = w - t * y;
+    return sqrt(dx * dx + dy * dy);
+}
+
+static cut_box join(cut_box a, cut_box b) {
+    return (cut_box){fmin(a.x0, b.x0), fmin(a.y0, b.y0), fmax(a.x1, b.x1), fmax(a.y1, b.y1)};
+}
+
+fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree) {
+    int n = polygon->count, leaves = 1;
+    while (leaves * RUN < n)
+        leaves *= 2;
+    *tree = (cut_tree){.polygon = polygon, .leaves = leaves};
+    FW_NEED(tree->box = fw_arena_array(arena, cut_box, 2 * (size_t)leaves));
+    for (int k = 0; k < leaves; k++) {
+        cut_box *b = &tree->box[leaves + k];
+        *b = (cut_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+        for (int e = k * RUN; e <= (k + 1) * RUN && e <= n && k * RUN < n; e++) {
+            fw_geometry_point v = polygon->vertex[e < n ? e : 0];
+            *b = join(*b, (cut_box){v.x_dbu, v.y_dbu, v.x_dbu, v.y_dbu});
+        }
+    }
+    for (int k = leaves - 1; k > 0; k--)
+        tree->box[k] = join(tree->box[2 * k], tree->box[2 * k + 1]);
+    return FW_OK;
+}
+
+typedef struct query {
+    const cut_tree *tree;
+    int i, j;
+    fw_geometry_point a, b;
+    cut_box box;         /* of the segment */
+    double x, y, length; /* its direction, not normed */
+    double least, now;   /* what need not be undercut; what was found so far */
+} query;
+
+/* no more than the distance between the segment and a box: that of their boxes along an axis, and
+   that of the box from the line */
+static double at_least(const query *q, cut_box b) {
+    double gap_x = fmax(b.x0 - q->box.x1, q->box.x0 - b.x1);
+    double gap_y = fmax(b.y0 - q->box.y1, q->box.y0 - b.y1);
+    double cx = 0.5 * (b.x0 + b.x1) - q->a.x_dbu, cy = 0.5 * (b.y0 + b.y1) - q->a.y_dbu;
+    double reach = 0.5 * ((b.x1 - b.x0) * fabs(q->y) + (b.y1 - b.y0) * fabs(q->x));
+    double beside = (fabs(q->x * cy - q->y * cx) - reach) / q->length;
+    return fmax(beside, fmax(gap_x, gap_y));
+}
+
+static bool between(fw_geometry_point a, fw_geometry_point b,
+                    fw_geometry_point c) { /* c on the line through a and b */
+    int64_t dot = ((int64_t)c.x_dbu - a.x_dbu) * ((int64_t)c.x_dbu - b.x_dbu);
+    int64_t more = ((int64_t)c.y_dbu - a.y_dbu) * ((int64_t)c.y_dbu - b.y_dbu);
+    return dot <= 0 && more <= 0;
+}
+
+static bool meet(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c,
+                 fw_geometry_point d) {
+    int64_t abc = cut_cross(a, b, c), abd = cut_cross(a, b, d);
+    if ((abc > 0 && abd > 0) || (abc < 0 && abd < 0)) return false;
+    int64_t cda = cut_cross(c, d, a), cdb = cut_cross(c, d, b);
+    if (((abc > 0) != (abd > 0)) && ((cda > 0) != (cdb > 0)) && abc && abd && cda && cdb)
+        return true;
+    return (abc == 0 && between(a, b, c)) || (abd == 0 && between(a, b, d)) ||
+           (cda == 0 && between(c, d, a)) || (cdb == 0 && between(c, d, b));
+}
+
+static void leaf(query *q, int run) {
+    const fw_geometry_polygon *p = q->tree->polygon;
+    for (int k = run * RUN; k < (run + 1) * RUN && k < p->count; k++) {
+        int next = k + 1 < p->count ? k + 1 : 0;
+        bool own = k == q->i || k == q->j, next_own = next == q->i || next == q->j;
+        if (!own) q->now = fmin(q->now, cut_distance(q->a, q->b, p->vertex[k]));
+        if (!own && !next_own && meet(q->a, q->b, p->vertex[k], p->vertex[next])) q->now = -1;
+        if (q->now <= q->least) return;
+    }
+}
+
+static void visit(query *q, int node) {
+    if (at_least(q, q->tree->box[node]) > q->now) return;
+    if (node >= q->tree->leaves) {
+        leaf(q, node - q->tree->leaves);
+        return;
+    }
+    for (int side = 0; side < 2 && q->now > q->least; side++)
+        visit(q, 2 * node + side);
+}
+
+/* Search down a tree of boxes (Guttman 1984, "R-trees", here over runs of a chain). In: a polygon
+   and two of its vertices (dbu). Out: the distance (dbu). Error: whether edges meet is exact;
+   distances have some ulp of the coordinates. Cost: about ln n boxes where little is near. Test:
+   test_polygon_cut.c, against all vertices. */
+double cut_clearance(const cut_tree *tree, int i, int j, double least, double most) {
+    fw_geometry_point a = tree->polygon->vertex[i], b = tree->polygon->vertex[j];
+    query q = {.tree = tree,
+               .i = i,
+               .j = j,
+               .a = a,
+               .b = b,
+               .box = join((cut_box){a.x_dbu, a.y_dbu, a.x_dbu, a.y_dbu},
+                           (cut_box){b.x_dbu, b.y_dbu, b.x_dbu, b.y_dbu}),
+               .x = (double)b.x_dbu - a.x_dbu,
+               .y = (double)b.y_dbu - a.y_dbu,
+               .least = least,
+               .now = most};
+    q.length = hypot(q.x, q.y);
+    if (q.length > 0) visit(&q, 1);
+    return q.now;
+}
 
 /* Nothing below is worth asking for: a quarter of the spot of a fine laser writer. */
 static const double CLEAR_DBU = 50;
@@ -10,7 +152,7 @@ enum { SAMPLES = 1024 };
 
 typedef struct search {
     const fw_geometry_polygon *p;
-    fw_mask_cut_tree tree;
+    cut_tree tree;
     const int *sample; /* (nsample) vertices at which cuts may end, in order */
     int nsample;
     double wanted_dbu;        /* distance from all other vertices; 0: the larger, the better */
@@ -32,10 +174,8 @@ static double length2(fw_geometry_point a, fw_geometry_point b) {
 /* does the line from vertex i to q leave into the polygon? */
 static bool enters(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
     fw_geometry_point v = at(p, i), before = at(p, i - 1), after = at(p, i + 1);
-    bool left_of_out = fw_mask_cut_cross(v, after, q) > 0,
-         left_of_in = fw_mask_cut_cross(before, v, q) > 0;
-    return fw_mask_cut_cross(before, v, after) > 0 ? left_of_out && left_of_in
-                                                   : left_of_out || left_of_in;
+    bool left_of_out = cut_cross(v, after, q) > 0, left_of_in = cut_cross(before, v, q) > 0;
+    return cut_cross(before, v, after) > 0 ? left_of_out && left_of_in : left_of_out || left_of_in;
 }
 
 /* does the line from vertex i to q run over one of the edges there? */
@@ -44,7 +184,7 @@ static bool along(const fw_geometry_polygon *p, int i, fw_geometry_point q) {
         fw_geometry_point v = at(p, i), w = at(p, i + side);
         int64_t x = ((int64_t)w.x_dbu - v.x_dbu) * ((int64_t)q.x_dbu - v.x_dbu);
         int64_t y = ((int64_t)w.y_dbu - v.y_dbu) * ((int64_t)q.y_dbu - v.y_dbu);
-        if (fw_mask_cut_cross(v, w, q) == 0 && x >= 0 && y >= 0) return true;
+        if (cut_cross(v, w, q) == 0 && x >= 0 && y >= 0) return true;
     }
     return false;
 }
@@ -59,11 +199,11 @@ static double clearance(const search *s, int i, int j, double least, double most
     double clear = most;
     const int beside[4] = {i - 1, i + 1, j - 1, j + 1};
     for (int k = 0; k < 4; k++) {
-        clear = fmin(clear, fw_mask_cut_distance(a, b, at(p, beside[k])));
+        clear = fmin(clear, cut_distance(a, b, at(p, beside[k])));
         if (clear <= least) return clear;
     }
     if (along(p, i, b) || along(p, j, a)) return -1;
-    return fw_mask_cut_clearance(&s->tree, i, j, least, clear);
+    return cut_clearance(&s->tree, i, j, least, clear);
 }
 
 /* the shortest cut that keeps the distance wanted; where none is, that of the largest distance */
@@ -97,7 +237,7 @@ static void look(search *s) {
 static bool is_end(const fw_geometry_polygon *p, int i) {
     fw_geometry_point v = at(p, i), before = at(p, i - 1), after = at(p, i + 1);
     double in2 = length2(before, v), out2 = length2(v, after);
-    double turn = (double)fw_mask_cut_cross(before, v, after);
+    double turn = (double)cut_cross(before, v, after);
     return in2 > 2.25 * out2 || out2 > 2.25 * in2 || turn * turn > 0.25 * in2 * out2;
 }
 
@@ -159,7 +299,7 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         {false, false, 2}, {false, false, 8}, {false, true, 1},
     };
     *s = (search){.p = p, .i = -1, .j = -1};
-    FW_TRY(fw_mask_cut_tree_new(arena, p, &s->tree));
+    FW_TRY(cut_tree_new(arena, p, &s->tree));
     FW_TRY(sample(arena, p, s));
     for (size_t k = 0; k < sizeof rounds / sizeof *rounds && s->i < 0; k++) {
         if (rounds[k].all) FW_TRY(all(arena, p, s));

@@ -1,12 +1,68 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Records of GDSII: length u16, type u8, data type u8, payload, all big-endian, strings padded to
+   even length. Source: Calma, GDSII Stream Format Manual, release 6.0. Private to the room. */
+#include "base/text.h"
+#include "mask/mask_writers.h"
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { /* type and data type */
+       FW_GDS_HEADER = 0x0002,
+       FW_GDS_BGNLIB = 0x0102,
+       FW_GDS_LIBNAME = 0x0206,
+       FW_GDS_UNITS = 0x0305,
+       FW_GDS_ENDLIB = 0x0400,
+       FW_GDS_BGNSTR = 0x0502,
+       FW_GDS_STRNAME = 0x0606,
+       FW_GDS_ENDSTR = 0x0700,
+       FW_GDS_BOUNDARY = 0x0800,
+       FW_GDS_SREF = 0x0a00,
+       FW_GDS_AREF = 0x0b00,
+       FW_GDS_TEXT = 0x0c00,
+       FW_GDS_LAYER = 0x0d02,
+       FW_GDS_DATATYPE = 0x0e02,
+       FW_GDS_XY = 0x1003,
+       FW_GDS_ENDEL = 0x1100,
+       FW_GDS_SNAME = 0x1206,
+       FW_GDS_COLROW = 0x1302,
+       FW_GDS_TEXTTYPE = 0x1602,
+       FW_GDS_STRING = 0x1906,
+};
+
+static inline void gds_u16(fw_text *out, unsigned value) {
+    unsigned char b[2] = {(unsigned char)(value >> 8 & 0xff), (unsigned char)(value & 0xff)};
+    fw_text_bytes(out, b, sizeof b);
+}
+
+static inline void gds_record(fw_text *out, unsigned type, size_t payload) {
+    gds_u16(out, (unsigned)(payload + 4));
+    gds_u16(out, type);
+}
+
+static inline void gds_number(fw_text *out, unsigned type, int value) {
+    gds_record(out, type, 2);
+    gds_u16(out, (unsigned)value & 0xffff);
+}
+
+static inline void gds_string(fw_text *out, unsigned type, const char *s) {
+    size_t n = strlen(s), odd = n & 1;
+    gds_record(out, type, n + odd);
+    fw_text_bytes(out, s, n);
+    fw_text_bytes(out, "", odd);
+}
+
+static inline void gds_point(fw_text *out, int32_t x, int32_t y) {
+    const uint32_t value[] = {(uint32_t)x, (uint32_t)y};
+    for (int i = 0; i < 2; i++) {
+        gds_u16(out, value[i] >> 16);
+        gds_u16(out, value[i] & 0xffff);
+    }
+}
+
 /* GDSII stream, restricted to what every reader takes in silence: one cell, closed boundaries in
    one XY record, texts, all dates zero. Record = length u16, type u8, data type u8, payload,
    big-endian (Calma GDSII Stream Format Manual, release 6). */
-#include "mask/mask_notes.h"
-#include "mask/records.h"
-#include "mask/stream.h"
-#include <math.h>
-#include <string.h>
 
 enum { VERSION = 600, LINE_PITCH_DBU = 60000 };
 
@@ -28,9 +84,9 @@ static void real8(fw_text *out, double value) {
 }
 
 static void zero_dates(fw_text *out, unsigned type) {
-    fw_gds_record(out, type, 24);
+    gds_record(out, type, 24);
     for (int i = 0; i < 12; i++)
-        fw_gds_u16(out, 0);
+        gds_u16(out, 0);
 }
 
 /* Both numbers of a point at once: the eight bytes turned round, and their halves exchanged. */
@@ -47,23 +103,23 @@ static unsigned char *put_points(unsigned char *at, const fw_geometry_point *p, 
 
 void fw_mask_gds_boundary(fw_text *out, const fw_mask_layer *layer,
                           const fw_geometry_polygon *polygon) {
-    fw_gds_record(out, FW_GDS_BOUNDARY, 0);
-    fw_gds_number(out, FW_GDS_LAYER, layer->layer);
-    fw_gds_number(out, FW_GDS_DATATYPE, layer->datatype);
-    fw_gds_record(out, FW_GDS_XY, 8 * ((size_t)polygon->count + 1));
+    gds_record(out, FW_GDS_BOUNDARY, 0);
+    gds_number(out, FW_GDS_LAYER, layer->layer);
+    gds_number(out, FW_GDS_DATATYPE, layer->datatype);
+    gds_record(out, FW_GDS_XY, 8 * ((size_t)polygon->count + 1));
     unsigned char *at = fw_text_room(out, 8 * ((size_t)polygon->count + 1));
     if (at) put_points(put_points(at, polygon->vertex, (size_t)polygon->count), polygon->vertex, 1);
-    fw_gds_record(out, FW_GDS_ENDEL, 0);
+    gds_record(out, FW_GDS_ENDEL, 0);
 }
 
 static void text(fw_text *out, const fw_mask_layer *layer, int32_t x, int32_t y, const char *line) {
-    fw_gds_record(out, FW_GDS_TEXT, 0);
-    fw_gds_number(out, FW_GDS_LAYER, layer->layer);
-    fw_gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);
-    fw_gds_record(out, FW_GDS_XY, 8);
-    fw_gds_point(out, x, y);
-    fw_gds_string(out, FW_GDS_STRING, line);
-    fw_gds_record(out, FW_GDS_ENDEL, 0);
+    gds_record(out, FW_GDS_TEXT, 0);
+    gds_number(out, FW_GDS_LAYER, layer->layer);
+    gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);
+    gds_record(out, FW_GDS_XY, 8);
+    gds_point(out, x, y);
+    gds_string(out, FW_GDS_STRING, line);
+    gds_record(out, FW_GDS_ENDEL, 0);
 }
 
 static fw_status texts(const fw_mask *mask, fw_text *out) {
@@ -83,17 +139,17 @@ static fw_status texts(const fw_mask *mask, fw_text *out) {
 /* ---- a library of several cells ---- */
 
 void fw_mask_gds_begin(fw_text *out, const char *library) {
-    fw_gds_number(out, FW_GDS_HEADER, VERSION);
+    gds_number(out, FW_GDS_HEADER, VERSION);
     zero_dates(out, FW_GDS_BGNLIB);
-    fw_gds_string(out, FW_GDS_LIBNAME, library);
-    fw_gds_record(out, FW_GDS_UNITS, 16);
+    gds_string(out, FW_GDS_LIBNAME, library);
+    gds_record(out, FW_GDS_UNITS, 16);
     real8(out, 1e-3); /* user unit 1 um */
     real8(out, 1e-9);
 }
 
 void fw_mask_gds_cell_begin(fw_text *out, const char *name) {
     zero_dates(out, FW_GDS_BGNSTR);
-    fw_gds_string(out, FW_GDS_STRNAME, name);
+    gds_string(out, FW_GDS_STRNAME, name);
 }
 
 void fw_mask_gds_shapes(fw_text *out, const fw_mask *mask) {
@@ -106,11 +162,11 @@ void fw_mask_gds_shapes(fw_text *out, const fw_mask *mask) {
 }
 
 void fw_mask_gds_cell_end(fw_text *out) {
-    fw_gds_record(out, FW_GDS_ENDSTR, 0);
+    gds_record(out, FW_GDS_ENDSTR, 0);
 }
 
 void fw_mask_gds_end(fw_text *out) {
-    fw_gds_record(out, FW_GDS_ENDLIB, 0);
+    gds_record(out, FW_GDS_ENDLIB, 0);
 }
 
 fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
@@ -125,4 +181,36 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     fw_mask_gds_cell_end(out);
     fw_mask_gds_end(out);
     return fw_text_end(out);
+}
+
+/* References to cells, and notes. */
+
+void fw_mask_gds_array(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
+                       fw_geometry_point step) {
+    bool one = columns == 1 && rows == 1;
+    gds_record(out, one ? FW_GDS_SREF : FW_GDS_AREF, 0);
+    gds_string(out, FW_GDS_SNAME, cell);
+    if (!one) {
+        gds_record(out, FW_GDS_COLROW, 4);
+        gds_u16(out, (unsigned)columns);
+        gds_u16(out, (unsigned)rows);
+    }
+    gds_record(out, FW_GDS_XY, one ? 8 : 24);
+    gds_point(out, at.x_dbu, at.y_dbu);
+    if (!one) {
+        gds_point(out, at.x_dbu + columns * step.x_dbu, at.y_dbu);
+        gds_point(out, at.x_dbu, at.y_dbu + rows * step.y_dbu);
+    }
+    gds_record(out, FW_GDS_ENDEL, 0);
+}
+
+void fw_mask_gds_note(fw_text *out, const fw_mask_layer *layer, fw_geometry_point at,
+                      const char *line) {
+    gds_record(out, FW_GDS_TEXT, 0);
+    gds_number(out, FW_GDS_LAYER, layer->layer);
+    gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);
+    gds_record(out, FW_GDS_XY, 8);
+    gds_point(out, at.x_dbu, at.y_dbu);
+    gds_string(out, FW_GDS_STRING, line);
+    gds_record(out, FW_GDS_ENDEL, 0);
 }

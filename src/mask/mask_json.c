@@ -5,11 +5,10 @@
 #include "base/json.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "mask/findings.h"
-#include "mask/mask_flatten.h"
-#include "mask/mask_notes.h"
-#include "mask/order.h"
 #include "mask/rule.h"
+#include "mask/mask_polygons.h"
+#include "mask/mask_writers.h"
+#include "mask/mask.h"
 #include <math.h>
 
 static double degrees(double rad) {

@@ -1,9 +1,78 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which layers make the plate: "1/0 NOT 2/0 NOT 3/0". */
+#include "mask/mask.h"
+#include "geometry/segment.h"
+#include "mask/mask_polygons.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int layer_named(const fw_mask_table *table, const char *s, char **end) {
+    if (*s < '0' || *s > '9') return -1;
+    long layer = strtol(s, end, 10), datatype = -1;
+    if (**end != '/' || (*end)[1] < '0' || (*end)[1] > '9') return -1;
+    datatype = strtol(*end + 1, end, 10);
+    for (int k = 0; k < table->nlayer; k++)
+        if (table->layer[k].layer == layer && table->layer[k].datatype == datatype) return k;
+    return -1;
+}
+
+/* behind "AND " and so on, or NULL */
+static const char *behind_operator(const char *s) {
+    static const char *const word[] = {" AND ", " OR ", " NOT ", " XOR "};
+    for (int i = 0; i < 4; i++)
+        if (strncmp(s, word[i], strlen(word[i])) == 0) return s + strlen(word[i]);
+    return NULL;
+}
+
+bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong) {
+    const char *s = table->plate;
+    *first = -1;
+    while (s) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        *wrong = s;
+        if (k < 0) return false;
+        if (*first < 0) *first = k;
+        if (named) named[k] = true;
+        s = *end ? behind_operator(end) : NULL;
+        *wrong = end;
+        if (*end && !s) return false;
+    }
+    return true;
+}
+
+/* the operator before `s` */
+static fw_geometry_set_rule rule_before(const char *s) {
+    static const struct {
+        const char *word;
+        fw_geometry_set_rule rule;
+    } known[] = {{" AND ", FW_SET_AND}, {" NOT ", FW_SET_NOT}, {" XOR ", FW_SET_XOR}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (strncmp(s - strlen(known[i].word), known[i].word, strlen(known[i].word)) == 0)
+            return known[i].rule;
+    return FW_SET_OR;
+}
+
+fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
+                              fw_mask_plate_term **term, int *n) {
+    *n = 0;
+    size_t most = table->plate ? strlen(table->plate) / 3 + 1 : (size_t)table->nlayer;
+    FW_NEED(*term = fw_arena_array(arena, fw_mask_plate_term, most));
+    for (int k = 0; !table->plate && k < table->nlayer; k++)
+        if (table->layer[k].biased) (*term)[(*n)++] = (fw_mask_plate_term){k, FW_SET_OR};
+    for (const char *s = table->plate; s;) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        if (k < 0) return FW_INPUT; /* cannot be: the table was read */
+        (*term)[(*n)++] = (fw_mask_plate_term){k, s == table->plate ? FW_SET_OR : rule_before(s)};
+        s = *end ? behind_operator(end) : NULL;
+    }
+    return FW_OK;
+}
+
 /* What a mask shop asks for beside the data: which layers make the plate, tone, reading, sizes, and
    where to measure. docs/theory/mask-files.md says where the terms come from. */
-#include "mask/order.h"
-#include "mask/mask_flatten.h"
-#include <string.h>
 
 void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices) {
     *polygons = *vertices = 0;
@@ -77,4 +146,109 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_ord
         order->space_m = fmin(order->space_m, mask->measure[k].space_m);
     }
     return fw_mask_order_sites(arena, mask, order);
+}
+
+/* The order sheet for people: ASCII, to be pasted into a shop's form. */
+
+static void sheet_line(fw_text *out, const char *what, const char *value) {
+    fw_text_printf(out, "%-22s %s\n", what, value);
+}
+
+static const char *micrometres(char *text, size_t n, double value_m) {
+    char number[32];
+    if (isfinite(value_m))
+        snprintf(text, n, "%s um", fw_number_text(number, sizeof number, value_m * 1e6, 7));
+    else
+        snprintf(text, n, "none below %s um",
+                 fw_number_text(number, sizeof number, FW_MASK_LOOK_M * 1e6, 7));
+    return text;
+}
+
+static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
+    char line[200], number[32];
+    if (mask->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    fw_text_printf(out, "Order sheet of mask %s (flexwright " FW_VERSION ")\n\n", order->name);
+    sheet_line(out, "device", mask->device);
+    sheet_line(out, "flow", mask->flow);
+    sheet_line(out, "top cell", mask->cell);
+    sheet_line(out, "plate",
+               mask->table->plate ? mask->table->plate : "not said: all layers drawn");
+    if (mask->table->order) sheet_line(out, "", mask->table->order);
+    snprintf(line, sizeof line, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
+             order->field ? order->field : "unknown");
+    sheet_line(out, "polygon tone", line);
+    sheet_line(out, "reading", mask->table->reading);
+    static const char *const mirror[] = {
+        "the reading does not say: ask before writing",
+        "no: with the chrome up the plate looks like the data",
+        "yes: with the chrome up the plate is the mirror image of the data (x becomes -x)"};
+    sheet_line(out, "mirror", mirror[order->mirror + 1]);
+    sheet_line(out, "", "the data themselves are not mirrored");
+    sheet_line(out, "least feature", micrometres(line, sizeof line, order->width_m));
+    sheet_line(out, "least space", micrometres(line, sizeof line, order->space_m));
+    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
+             fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
+    sheet_line(out, "process bias", line);
+    snprintf(line, sizeof line, "1 nm; arcs within %s nm",
+             fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
+    sheet_line(out, "grid", line);
+}
+
+static void box(const fw_mask *mask, fw_text *out) {
+    const double side[] = {mask->box.x0, mask->box.y0, mask->box.x1, mask->box.y1};
+    fw_text_printf(out, "%-22s ", "extent");
+    for (int i = 0; i < 4; i++) {
+        fw_text_add(out, i == 2 ? " to " : i ? ", " : "");
+        fw_text_fixed(out, side[i] * 1e6, 4);
+    }
+    fw_text_add(out, " um\n");
+}
+
+static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
+    fw_text_add(out, "\nlayer  name                 tone        on plate  polygons  vertices\n");
+    for (int k = 0; k < mask->table->nlayer; k++) {
+        const fw_mask_layer *y = &mask->table->layer[k];
+        int polygons, vertices;
+        char gds[32];
+        fw_mask_order_count(mask, k, &polygons, &vertices);
+        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
+        fw_text_printf(out, "%-6s %-20s %-11s %-9s %8d  %8d\n", gds, y->name,
+                       y->documentation ? "-" : y->tone, order->plate[k] ? "yes" : "no", polygons,
+                       vertices);
+    }
+}
+
+static void sites(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
+    fw_text_add(out, "\nCD sites: centre of the chord and its direction, um and degrees\n"
+                     "site  layer  kind        x            y       angle       CD  what\n");
+    for (int i = 0; i < order->nsite; i++) {
+        const fw_mask_order_site *s = &order->site[i];
+        const fw_mask_layer *y = &mask->table->layer[s->layer];
+        fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
+        char gds[32];
+        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
+        double degrees = atan2(along.y, along.x) * 180 / FW_PI;
+        fw_text_printf(out, "%4d  %-5s  %-5s ", i + 1, gds, s->space ? "space" : "width");
+        fw_text_real(out, "%12.3f", at.x * 1e6);
+        fw_text_real(out, " %12.3f", at.y * 1e6);
+        fw_text_real(out, " %8.2f", degrees);
+        fw_text_real(out, " %8.3f", vec_length(along) * 1e6);
+        fw_text_printf(out, "  %s\n", s->what);
+    }
+}
+
+fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
+                                   fw_text *out) {
+    fw_mask_order order;
+    FW_TRY(fw_mask_order_gather(out->arena, mask, &order));
+    head(mask, &order, out);
+    box(mask, out);
+    fw_text_printf(out, "%-22s %d, %d vertices, at most %d each\n", "polygons on the plate",
+                   order.polygons, order.vertices, mask->vertex_limit);
+    layers(mask, &order, out);
+    sites(mask, &order, out);
+    fw_text_add(out, "\nfiles: sha256, bytes, name\n");
+    for (int i = 0; i < nfile; i++)
+        fw_text_printf(out, "%s  %zu  %s\n", file[i].sha256, file[i].size, file[i].name);
+    return fw_text_end(out);
 }

@@ -2,7 +2,7 @@
 /* All rules of one mask. The union of pieces that share joints is bounded by their other segments,
    with the material on the left. So width and space of the union need no boolean: every two
    boundary edges that are near enough are looked at, and the side on which the chord leaves tells
-   material from empty space. Edges: rules_edges.c; which pairs: rules_search.c; a pair:
+   material from empty space. Edges: rules_search.c; which pairs: rules_search.c; a pair:
    rules_pair.c; places: rules_places.c. What a rule makes of it: rule_*.c. */
 #include "mask/rule.h"
 #include <stdlib.h>

@@ -10,7 +10,7 @@
    In: two edges, m. Error: a few ulp of the coordinates. Cost O(1), but O(parts) near edges that
    break a rule. Source: Euclidian width and space with a 90 deg limit, as KLayout has it. Test:
    test_mask_rules.c, test_rules_search.c. */
-#include "mask/rules_search.h"
+#include "mask/rule.h"
 
 static const double FACING = -1e-6;       /* normals more than 90 deg apart */
 static const double NEAR_CORNER_M = 1e-7; /* contacts there are the corner itself */

@@ -11,7 +11,7 @@
    box of all of it. Error: places less than half a limit apart become one; none is lost, and no
    length is changed. Cost O(n log n + edge / limit for each stretch + neighbours). Test:
    test_rule_seeded.c, test_rules_search.c. */
-#include "mask/rules_search.h"
+#include "mask/rule.h"
 #include <stdlib.h>
 
 enum { MOST_STEPS = 8192 };

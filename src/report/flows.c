@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is made of each flow: its own section, masks, what breaks design rules, recipes. */
-#include "mask/outlines.h"
+#include "mask/mask.h"
 #include "report/report_page.h"
 #include <math.h>
 

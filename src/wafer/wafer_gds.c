@@ -2,9 +2,7 @@
 /* The plate as one GDSII library: every different die once, one array per evenly spaced run of
    equal dies, the top cell last. No reader warns: names of at most 32 letters, digits and _, no
    rotation, array corners that divide exactly, dates zero (docs/theory/mask-files.md). */
-#include "mask/mask_notes.h"
-#include "mask/references.h"
-#include "mask/stream.h"
+#include "mask/mask_writers.h"
 #include "wafer/wafer_notes.h"
 #include <math.h>
 

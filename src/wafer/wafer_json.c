@@ -3,7 +3,7 @@
  */
 #include "base/json.h"
 #include "geometry/tessellate.h"
-#include "mask/order.h"
+#include "mask/mask.h"
 #include "wafer/wafer_notes.h"
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "wafer/wafer_notes.h"
-#include "mask/mask_notes.h"
+#include "mask/mask_writers.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plate as one OASIS file: the cells and arrays of its GDSII library, and no other. */
-#include "mask/oasis.h"
-#include "mask/mask_notes.h"
+#include "mask/mask_writers.h"
 #include "wafer/wafer_notes.h"
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The order sheet of the whole plate for people: ASCII, to be pasted into a shop's form. Places to
    measure are those of the die nearest to the centre, in coordinates of the plate. */
-#include "mask/order.h"
+#include "mask/mask.h"
 #include "geometry/segment.h"
 #include "wafer/wafer_notes.h"
 #include <stdio.h>

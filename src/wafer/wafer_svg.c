@@ -3,7 +3,7 @@
    1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is used and
    not a <symbol>, which some importers clip at its own box. */
 #include "base/svg.h"
-#include "mask/stream.h"
+#include "mask/mask_writers.h"
 #include "wafer/wafer_notes.h"
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STL: read back, closed, with the Euler number and the volume that they must have. */
-#include "mask/solid.h"
+#include "mask/mask.h"
 #include "scene.h"
 #include <stdlib.h>
 

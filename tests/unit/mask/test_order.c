@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/order.h"
+#include "mask/mask.h"
 #include "geometry/segment.h"
 #include "scene.h"
 #include <jansson.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* As drawn, on the mask, as fabricated. */
-#include "mask/outlines.h"
+#include "mask/mask.h"
 #include "xml/xml.h"
 #include "scene.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Design rules on single cases: shapes of one layer in, across and outside of another, windows that
    cut outlines, many findings at once, and outputs of findings. */
-#include "mask/findings.h"
+#include "mask/rule.h"
 #include "rule_field.h"
 
 /* what lies in, across or outside of another layer: one finding with the value 0 */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rules with pairs passed over, and concentric arcs in closed form, against every pair of parts:
    the same findings and measures on random layers of bars, discs, hinges and sharp corners. */
-#include "mask/rules_search.h"
+#include "mask/rule.h"
 #include "scene.h"
 
 static void bar(scene *s, uint64_t *seed, fw_geometry_vec2 at) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mask, recipe, verdict and outlines of whole devices have the same edges. */
-#include "mask/outlines.h"
+#include "mask/mask.h"
 #include "plan/plan.h"
 #include "test.h"
 #include <math.h>

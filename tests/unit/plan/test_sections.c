@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cut of whole devices: what the section measures is what mask and certificate say. */
-#include "mask/outlines.h"
+#include "mask/mask.h"
 #include "plan/plan.h"
 #include "recipe/recipe_profile.h"
 #include "test.h"
