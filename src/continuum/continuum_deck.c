@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "continuum/continuum_deck.h"
+#include "continuum/mesh.h"
 #include <math.h>
 
 void fw_continuum_deck_number(fw_text *deck, double value) {

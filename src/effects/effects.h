@@ -168,7 +168,7 @@ typedef struct fw_effects_load_scaling {
 } fw_effects_load_scaling;
 void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load);
 
-/* What a mechanism made of solids (continuum/device_shape.c) does with an effect that the scene
+/* What a mechanism made of solids (continuum/device_deck.c) does with an effect that the scene
    calls for */
 typedef enum fw_effects_solid {
     FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another

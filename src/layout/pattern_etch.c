@@ -64,7 +64,7 @@ const fw_layout_pattern_kind fw_layout_pattern_ladder = {
    of a slot of width w_i after the time t follows from the transport of the etchant into it,
    dd/dt = R0/(1 + S (1/K(d/w) - 1)); two widths give rate and lag without a fit:
        S = (d2 - d1)/(J1 - J2),   R0 = (d1 + S J1)/t,   J_i = integral of (1/K - 1) over the depth
-   (knowledge and test of K: process/law_arde.c). To be measured before the etch goes through.
+   (knowledge and test of K: process/law_etch.c). To be measured before the etch goes through.
    In: sizes, wall, length, m. Out: one slot per size, width exact on the 1 nm grid.
    Validity: length at least five widths, else the open end counts. Test: test_patterns.c. */
 

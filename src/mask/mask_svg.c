@@ -251,11 +251,11 @@ static void head(const page *p, const fw_mask *mask) {
 /* about what the outlines take, so that the text is not copied while it grows: by some of their
    segments, since to read all of them takes as long as to write them */
 static size_t expected_bytes(const fw_mask *mask) {
-    enum { HEAD = 4096, SHAPE = 100, LINE = 20, ARC = 90, SAMPLES = 32 };
+    enum { HEAD = 4096, SHAPE = 100, LINE = 20, ARC = 90, LEAST_SAMPLED = 32 };
     size_t n = HEAD;
     for (int k = 0; k < mask->nshape; k++) {
         const fw_geometry_contour *c = &mask->shape[k].contour;
-        int step = c->count / SAMPLES + 1;
+        int step = c->count / LEAST_SAMPLED + 1;
         n += SHAPE;
         for (int i = 0; i < c->count; i += step)
             n += (size_t)step * (c->segment[i].kind == FW_ARC ? ARC : LINE);

@@ -2,7 +2,7 @@
 /* What is asked of a design beside its verdict: positions and kinematics, equilibria and modes, the
    workspace. */
 #include "plan/stages.h"
-#include "workspace/map.h"
+#include "workspace/survey.h"
 #include <math.h>
 #include <string.h>
 

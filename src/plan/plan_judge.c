@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
-#include "process/process_fabrication.h"
+#include "process/process.h"
 #include "statics/stability.h"
 #include "statics/quasi.h"
 #include <math.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/films.h"
 #include "base/sort.h"
-#include "process/lint.h"
-#include "process/wear.h"
+#include "process/pack.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -406,7 +405,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
 
 /* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
    the
-   device's walls where it is a liquid (wear.h) */
+   device's walls where it is a liquid (films.h) */
 static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};

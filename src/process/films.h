@@ -1,4 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The wafer's layers after a step: drawn not to scale (stacks), as films with heights and walls,
+   and what wet steps take of the device itself. */
+#ifndef FW_PROCESS_FILMS
+#define FW_PROCESS_FILMS
+#include "process/process.h"
+
+/* ---- stacks! ---- */
+/* The wafer's layers after a step, as the <change> elements make them: two columns, one through the
+   structure and one through the field beside it. Heights are drawn heights, not to scale. */
+
+typedef struct fw_process_cell {
+    const char *material;
+    double thickness_m;    /* NaN: unknown */
+    double bottom, height; /* drawn, in units of about a millimetre on paper */
+    bool exposed;          /* latent image in resist */
+} fw_process_cell;
+
+enum { FW_STACK_STRUCTURE, FW_STACK_FIELD, FW_STACK_COLUMNS };
+
+typedef struct fw_process_stack {
+    fw_process_cell *cell[FW_STACK_COLUMNS]; /* (n), bottom to top; removed ones are gone */
+    int n[FW_STACK_COLUMNS], capacity;
+} fw_process_stack;
+
+/* layers after step `index` (-1: before the first). *absent (may be NULL) is the first change that
+   touches a material which is not there, else NULL. */
+fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
+                                fw_process_stack *stack, const fw_process_change **absent);
+
+/* does `material` lie open anywhere: on top of a column, below films that have holes, or at its
+   side, where it stands above the top of the other column */
+bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
+                           const char *material);
+
+/* ---- wear ---- */
+/* What wet steps take of the device itself when it stands: the removal of a seed, for example,
+   takes copper from every open face. Private to process/. */
+
+typedef struct fw_process_wear {
+    double loss_m, uncertainty_m; /* of every open face, all such steps: the known part */
+    const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
+    const fw_process_step *step; /* the first of them; NULL: there is none */
+    const fw_process_exposed *exposed;
+} fw_process_wear;
+
+/* does the step's chemical attack walls as it attacks tops? */
+bool fw_process_step_is_wet(const fw_process_step *step);
+/* pure: from the pack's own quantities, whether or not steps were computed */
+fw_process_wear fw_process_flow_wear(const fw_process_flow *flow);
+
 /* The wafer after a step, as films with heights and walls: what the <change>s of the pack make of
    it, with what the fixed point knows of edges, depths and lags. Where the walls lie on the wafer
    follows from the mask (recipe/recipe_profile.h). Call after fw_process_flow_compute.
@@ -7,9 +57,6 @@
    the field around it. Where it is in one only, its wall stands beside the drawn edge by a known
    amount, at its bottom and at its top. Theory: docs/theory/films.md.
  */
-#ifndef FW_PROCESS_FILMS_H
-#define FW_PROCESS_FILMS_H
-#include "process/stack.h"
 
 typedef struct fw_process_film {
     const char *material;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/fixed_point.h"
 #include "process/process_law.h"
-#include "process/wear.h"
+#include "process/films.h"
 #include <math.h>
 #include <string.h>
 
@@ -169,7 +169,7 @@ static double reference_m(const fw_process_fixed_point *p) {
 
 /* ---- one etch ---- */
 
-/* S J(w, D) or c D^2/(2 w), from t = (D + lag)/R: see law_arde.c for formula, source and error.
+/* S J(w, D) or c D^2/(2 w), from t = (D + lag)/R: see law_etch.c for formula, source and error.
    w, D m, result m; 0 at w = INFINITY, NaN where S or c is not known. Test: test_law.c, arde. */
 double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m) {
     if (cut->lag == FW_LAG_NONE) return 0.0;

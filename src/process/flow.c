@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
 #include "process/process_law.h"
-#include "process/lint.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Can this flow make this device? Private to process/. */
-#ifndef FW_PROCESS_JUDGE_H
-#define FW_PROCESS_JUDGE_H
+#ifndef FW_PROCESS_JUDGE
+#define FW_PROCESS_JUDGE
 #include "base/diag.h"
 #include "process/process.h"
 
@@ -34,5 +34,20 @@ fw_status fw_process_judge_etching(fw_process_judge *j);
 /* fills bias_note, manufacturable and reason. Edges and steps must have been computed. */
 fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts, fw_diags *diags);
+
+/* What lateral etching does to a flexure, and how fine a mould can be printed. */
+
+/* widths at the top and the bottom of a beam after an etch that lasts T = depth_equivalent/R */
+void fw_process_undercut_widths(double width_m, double anisotropy, double depth_m, double etched_m,
+                                double *top_m, double *bottom_m);
+/* k/k0 of a trapezoidal section against a rectangle of width w0, bending in the wafer plane */
+double fw_process_undercut_stiffness(double top_m, double bottom_m, double w0_m);
+/* anisotropy at which the top edge of a beam is just cut through */
+double fw_process_undercut_cut(double width_m, double etched_m);
+/* smallest anisotropy that keeps k/k0 >= 1 - tolerance; straight: full undercut over the depth */
+double fw_process_undercut_needed(double width_m, double depth_m, double etched_m, double tolerance,
+                                  int straight);
+/* smallest line or space, contact or proximity printing */
+double fw_process_print_limit(double wavelength_m, double gap_m, double resist_m);
 
 #endif

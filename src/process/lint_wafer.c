@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer's layers, step by step: what a step needs there, and what else it does to them. */
-#include "process/lint.h"
+#include "process/pack.h"
 #include "base/constants.h"
-#include "process/stack.h"
+#include "process/films.h"
 #include <string.h>
 
 fw_status fw_process_lint_absent(fw_process_pack *pack) {

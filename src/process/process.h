@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Process packs (XML in processes/), time laws and the computed flow. A number that is not known is
    `unknown`, and what needs it is NOT COMPUTABLE with the name of what is missing. */
-#ifndef FW_PROCESS_PROCESS_H
-#define FW_PROCESS_PROCESS_H
+#ifndef FW_PROCESS_PROCESS
+#define FW_PROCESS_PROCESS
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
+#include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
 
 typedef struct fw_process_source {
@@ -143,8 +144,8 @@ typedef enum fw_process_corner_of { /* <corner of>: what a flow does not make ex
                                     FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
                                     FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device
                                                              layer */
-                                    FW_CORNER_THICKNESS, /* m: of the device layer */
-                                    FW_CORNER_YOUNGS     /* of the material as it is */
+                                    FW_CORNER_THICKNESS,  /* m: of the device layer */
+                                    FW_CORNER_YOUNGS      /* of the material as it is */
 } fw_process_corner_of;
 
 typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */
@@ -251,5 +252,15 @@ const fw_process_material *fw_process_flow_material(const fw_process_flow *flow,
                                                     const char *id); /* or NULL */
 const char *fw_process_flow_material_name(const fw_process_flow *flow,
                                           const char *id); /* the id when unknown */
+
+/* ---- what a flow makes of a device, for the verdict ---- */
+
+/* the flow's <corner>s as independent inputs of a variant; those without any range are left out.
+   What an etch takes sideways is that of the fixed point with these facts of the mask (NULL:
+   nothing drawn), the same that fw_process_flow_compute gives the mask and the recipe. */
+fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_process_mask_facts *facts,
+                                     const fw_mechanism_variant *variant,
+                                     const fw_verdict_fabrication_input **input, int *ninput);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Corners of a flow: read from the pack, and handed to the verdict as independent inputs. */
-#include "process/process_fabrication.h"
+#include "process/process.h"
 #include "process/pack.h"
-#include "process/wear.h"
+#include "process/films.h"
 #include <math.h>
 #include <string.h>
 

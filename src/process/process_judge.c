@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
-#include "process/undercut.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

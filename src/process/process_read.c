@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/hash.h"
-#include "process/lint.h"
+#include "process/pack.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* Pictures of layers: colours and names of films, their legend, the stack not to scale, and the
    exact section along a cut. */
 #include "base/svg.h"
-#include "process/stack.h"
+#include "process/films.h"
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe_words.h"
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef FW_RECIPE_RECIPE_WORDS_H
 #define FW_RECIPE_RECIPE_WORDS_H
 #include "recipe/recipe.h"
-#include "schedule/schedule_words.h"
+#include "schedule/schedule.h"
 
 /* a row of a step: a setting, an input of the time law or a derived value */
 typedef struct fw_recipe_row {

@@ -17,7 +17,7 @@
 #include "recipe/recipe.h"
 #include "statics/modes.h"
 #include "verdict/verdict.h"
-#include "workspace/map.h"
+#include "workspace/survey.h"
 
 typedef struct fw_report_flow { /* one process flow of the device */
     const fw_verdict_variant_verdict *variant;

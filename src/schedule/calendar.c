@@ -56,3 +56,20 @@ bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {
     at = clock_of(at, &c->close_s);
     return at && *at == '\0' && c->open_s < c->close_s;
 }
+
+void fw_schedule_put_duration(fw_text *out, double seconds) {
+    if (seconds < 99.5) {
+        fw_text_number(out, seconds, seconds < 9.95 ? 2 : 3);
+        fw_text_add(out, " s");
+        return;
+    }
+    long total = lround(fmin(seconds, 1e9));
+    if (total < 7200) {
+        fw_text_printf(out, "%ld min", total / 60);
+        if (total % 60) fw_text_printf(out, " %ld s", total % 60);
+        return;
+    }
+    total = (total + 30) / 60;
+    fw_text_printf(out, "%ld h", total / 60);
+    if (total % 60) fw_text_printf(out, " %ld min", total % 60);
+}

@@ -4,7 +4,6 @@
    start_j >= start_i + w. A least pause is an arc forwards, a longest one an arc backwards of
    negative weight. The network can be kept exactly when no cycle has a positive weight. */
 #include "schedule/schedule.h"
-#include "schedule/schedule_words.h"
 #include <math.h>
 
 typedef struct arc {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One schedule from one order: serial generation. Private to schedule/. */
-#ifndef FW_SCHEDULE_PLACE_H
-#define FW_SCHEDULE_PLACE_H
+#ifndef FW_SCHEDULE_PLACE
+#define FW_SCHEDULE_PLACE
 #include "schedule/schedule.h"
 
 #define FW_TIE_S (4.0 * 3600.0) /* windows that are usually placed at once */
@@ -57,5 +57,18 @@ fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
                                   fw_schedule_placing *p);
 /* false: no schedule was found with this order (and no smaller loads) */
 bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
+
+/* ---- what occupies a machine or the operators ---- */
+
+double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);
+void fw_schedule_line_add(fw_schedule_line *line, double start,
+                          double end); /* nothing for an empty span */
+void fw_schedule_line_remove(fw_schedule_line *line, double start, double end); /* what was added */
+
+/* ---- lower bounds of the end of all schedules ---- */
+
+/* earliest_s (ntask) of a wafer alone, from fw_schedule_network_earliest with start_s */
+void fw_schedule_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
+                        fw_schedule_bound *bound);
 
 #endif

@@ -3,8 +3,9 @@
    operators and a working day. Hold windows are a temporal network; a schedule keeps all of them.
    What a step without a known time takes is not guessed: it is counted with the time that somebody
    must stand there, and marked. */
-#ifndef FW_SCHEDULE_SCHEDULE_H
-#define FW_SCHEDULE_SCHEDULE_H
+#ifndef FW_SCHEDULE_SCHEDULE
+#define FW_SCHEDULE_SCHEDULE
+#include "base/text.h"
 #include "process/process.h"
 
 typedef struct
@@ -134,5 +135,10 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *calendar, double fro
 double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double from_s,
                                    double work_s);
 bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
+
+/* ---- durations in words ---- */
+
+/* "45 s", "16 min 40 s", "1 h 30 min" */
+void fw_schedule_put_duration(fw_text *out, double seconds);
 
 #endif

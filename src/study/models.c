@@ -2,7 +2,7 @@
 /* What no tolerance takes away: how hinges are taken, effects that are left out, solids, and what
    the flow may make of the device. All by the program's own numbers, whose error is far below. */
 #include "plan/stages.h"
-#include "process/process_fabrication.h"
+#include "process/process.h"
 #include "study/problem.h"
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,7 @@
    written behind each. Exactly repeatable, and the same whatever else the machine does. */
 #include "base/sort.h"
 #include "continuum/continuum.h"
-#include "continuum/external.h"
+#include "continuum/solver.h"
 #include "study/problem.h"
 #include "study/study_numbers.h"
 #include <math.h>

@@ -11,7 +11,7 @@
 
 enum { FW_WAFER_MOST_DIES = 20000 };
 
-/* ---- the wafer as a shape: form.c ---- */
+/* ---- the wafer as a shape: wafer_grid.c ---- */
 typedef struct fw_wafer_form {
     double diameter_m, flat_m, notch_m; /* flat: length of the chord; 0: none. notch: depth */
     double edge_m;
@@ -28,7 +28,7 @@ fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
 /* do all points of the rectangle lie in the usable area? exact */
 bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
 
-/* ---- places: wafer_grid.c, assign.c ---- */
+/* ---- places: wafer_grid.c, wafer_grid.c ---- */
 typedef enum fw_wafer_kind { FW_WAFER_DIE, FW_WAFER_ALIGNMENT, FW_WAFER_TEST } fw_wafer_kind;
 
 typedef struct fw_wafer_site {

@@ -3,7 +3,7 @@
    equal dies, the top cell last. No reader warns: names of at most 32 letters, digits and _, no
    rotation, array corners that divide exactly, dates zero (docs/theory/mask-files.md). */
 #include "mask/mask_writers.h"
-#include "wafer/wafer_notes.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 
 enum { LINE_PITCH_DBU = 1000000 };

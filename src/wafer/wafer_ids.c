@@ -9,7 +9,7 @@
    strokes. Decided on boxes of segments, which only errs to the safe side. Cost: places x shapes.
    Test: test_wafer_build.c. */
 #include "layout/layout_text.h"
-#include "wafer/parts.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 #include <string.h>
 

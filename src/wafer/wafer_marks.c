@@ -7,7 +7,7 @@
    the plate's tone then makes them readable. Within a place the cross is cut out of a block of that
    layer, as the crosses of a die are cut out of its frame. */
 #include "layout/layout_text.h"
-#include "wafer/parts.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plate as one OASIS file: the cells and arrays of its GDSII library, and no other. */
 #include "mask/mask_writers.h"
-#include "wafer/wafer_notes.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 
 enum { LINE_PITCH_DBU = 1000000 };

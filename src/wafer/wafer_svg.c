@@ -4,7 +4,7 @@
    not a <symbol>, which some importers clip at its own box. */
 #include "base/svg.h"
 #include "mask/mask_writers.h"
-#include "wafer/wafer_notes.h"
+#include "wafer/wafer_parts.h"
 #include <math.h>
 
 /* layers in the order of the table; ids stay those of the table in the top cell only. The mask goes

@@ -1,4 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The closed loop of the six-bar: its angles for a pose, with bounds over boxes of poses, the proof
+   that every pose of a box is reached, and the volume a plane cuts of a box. */
+#ifndef FW_WORKSPACE_LOOP
+#define FW_WORKSPACE_LOOP
+#include "maths/centred.h"
+#include "maths/maths_interval.h"
+#include "workspace/workspace.h"
+
+/* ---- angles for a pose! ---- */
+/* The six-bar as two dyads, set up once per mechanism. Private to the room and its tests. */
+
+typedef struct fw_workspace_dyad {
+    fw_geometry_vec2 base;        /* A or F, m */
+    double l_m, m_m;              /* link lengths, from the base outward */
+    double alpha0_rad, beta0_rad; /* direction of the first link, elbow angle, as drawn */
+    double sign;                  /* assembly branch: sign of the elbow angle */
+} fw_workspace_dyad;
+
+typedef struct fw_workspace_six_bar {
+    fw_workspace_dyad left, right; /* A-B-C and F-E-D */
+    fw_geometry_vec2 centre;       /* platform's centre of mass as drawn */
+    fw_geometry_vec2 to_c, to_d;   /* from it to C and D */
+    double start_rad[FW_SIX];      /* joint angles as drawn */
+} fw_workspace_six_bar;
+
+bool fw_workspace_six_bar_set_up(const fw_mechanism *mechanism, fw_workspace_six_bar *out);
+bool fw_workspace_six_bar_solve(const fw_workspace_six_bar *six_bar, double x_m, double y_m,
+                                double phi_rad, double angle_rad[FW_SIX], int *leg);
+/* id of the joint or driver that takes freedom from the platform, NULL when there is none */
+fw_status fw_workspace_six_bar_foreign_joint(fw_arena *arena, const fw_mechanism *mechanism,
+                                             const char **id);
+
+/* ---- over boxes of poses ---- */
 /* The six-bar over a whole box of poses or of joint rotations, with proved bounds. Private to the
    room, to its tests and to what writes its certificate.
 
@@ -6,10 +39,6 @@
    convention, from the ground up: A, B, C of the left leg and D, E, F of the right one, where the
    joint angle of the engine is sense[i] psi_i + start_i, sense +1 for A, B, C and -1 for D, E, F.
  */
-#ifndef FW_WORKSPACE_LOOP_H
-#define FW_WORKSPACE_LOOP_H
-#include "maths/centred.h"
-#include "workspace/inverse.h"
 
 typedef struct fw_workspace_centred2 {
     fw_maths_centred x, y;
@@ -115,5 +144,22 @@ static inline double fw_box3_middle(const fw_workspace_box3 *box, int axis, doub
     *half = fw_up(up > down ? up : down);
     return c;
 }
+
+/* ---- every pose of a box ---- */
+
+typedef enum fw_workspace_proof_end { FW_PROVED, FW_REFUTED, FW_UNDECIDED } fw_workspace_proof_end;
+
+/* FW_REFUTED: the mechanism cannot be assembled at `pose`. Ends of ranges are within `relative` of
+   the truth. FW_UNDECIDED: more than `most` boxes, or boxes that cannot be halved any more. */
+fw_status fw_workspace_certify_box(fw_arena *arena, const fw_workspace_loop *loop,
+                                   const fw_workspace_box3 *box, double relative, long most,
+                                   fw_workspace_proof *proof, double pose[3],
+                                   fw_workspace_proof_end *end);
+
+/* ---- the part of a box on one side of a plane ---- */
+
+/* share of the box |d_i| <= 1 with p[0] d_0 + p[1] d_1 + p[2] d_2 <= t; p >= 0, in any order; p = 0
+   stands for a dimension less. The interval holds the exact share. */
+fw_maths_interval fw_workspace_cut_share(const double p[3], double t);
 
 #endif

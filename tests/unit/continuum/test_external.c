@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* External programs: private, limited, cleaned up; and reading what the solver writes. */
 #include "base/cancel.h"
-#include "continuum/external.h"
-#include "continuum/results.h"
+#include "continuum/solver.h"
 #include "test.h"
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Corners of the packs as inputs of the verdict. */
 #include "pack_fixture.h"
-#include "process/process_fabrication.h"
-#include "process/undercut.h"
+#include "process/process.h"
+#include "process/judge.h"
 
 static fw_mechanism_variant variant_of(double thickness_m, double youngs_u) {
     return (fw_mechanism_variant){

@@ -2,7 +2,7 @@
 /* The films of the wafer step by step. */
 #include "pack_fixture.h"
 #include "process/films.h"
-#include "process/lint.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
 

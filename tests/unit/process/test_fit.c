@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Least squares against their definition: no other parameter gives a smaller chi square, and the
    uncertainty is where it has risen by 1. Chi square against tables. */
-#include "process/fit.h"
+#include "process/coupon.h"
 #include "test.h"
 
 static uint64_t seed = 3;

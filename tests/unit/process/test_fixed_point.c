@@ -2,8 +2,8 @@
 /* Bias, time and gap: reference values, plain iteration, the fold, what reads the result. */
 #include "pack_fixture.h"
 #include "process/process_law.h"
-#include "process/process_fabrication.h"
-#include "process/undercut.h"
+#include "process/process.h"
+#include "process/judge.h"
 
 static fw_process_flow *flow_of(const char *name) {
     fw_process_flow *f = read_pack(arena, name, NULL, NULL, &diags);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pack_fixture.h"
 #include "process/process_law.h"
-#include "process/stack.h"
+#include "process/films.h"
 
 static fw_process_flow *computed(const char *name, const char *from, const char *to,
                                  const fw_process_mask_facts *facts) {

@@ -3,8 +3,7 @@
  */
 #include "pack_fixture.h"
 #include "process/films.h"
-#include "process/process_fabrication.h"
-#include "process/wear.h"
+#include "process/process.h"
 
 static fw_process_flow *copper(double seed_m, double rate) {
     fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);

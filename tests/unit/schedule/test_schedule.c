@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schedules: an independent greedy schedule of both flows, every rule of a schedule on random
    shops, small shops against all schedules there are. */
-#include "schedule/line.h"
+#include "schedule/place.h"
 #include "shops.h"
 
 static fw_arena *arena;

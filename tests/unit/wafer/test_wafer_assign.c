@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which place is what: every rule of assign.c by itself. */
+/* Which place is what: every rule of wafer_grid.c by itself. */
 #include "mask/scene.h"
 #include "wafer/wafer.h"
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* A six-bar mechanism from six hinge points, for tests of the workspace. */
 #ifndef FW_TEST_SIX_BAR_FIXTURE_H
 #define FW_TEST_SIX_BAR_FIXTURE_H
-#include "workspace/inverse.h"
+#include "workspace/loop.h"
 
 typedef struct six_bar_fixture {
     fw_device device;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/workspace_cut.h"
+#include "workspace/loop.h"
 #include "test.h"
 
 static uint64_t seed = 5;

@@ -2,7 +2,7 @@
 #include "base/arena.h"
 #include "six_bar_fixture.h"
 #include "test.h"
-#include "workspace/inverse.h"
+#include "workspace/loop.h"
 
 static fw_workspace_result run(six_bar_fixture *f, double x, double y, double phi) {
     fw_arena *arena = fw_arena_new(0);

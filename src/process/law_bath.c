@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Time laws of baths: plating by charge, rinsing by dilution. */
 #include "process/process_law.h"
 #include "base/constants.h"
 #include <math.h>
@@ -12,9 +13,9 @@ static double or_one(double x) {
 /* t = d rho P n F/(eta J M). d m, rho kg/m3, J A/m2, M kg/mol, eta and P 1; t s.
    P is 1 for a dense deposit and the porosity when silicon is dissolved to pores.
    The supply sets I = J A: an area that is wrong by 1 % makes J, and so t, wrong by 1 %. Therefore
-   the area enters the uncertainty with slope t/A although the value does not depend on it.
+   the area enters the uncertainty with faraday_slope t/A although the value does not depend on it.
    Source: Faraday's law; Lehmann, Electrochemistry of Silicon. Test: test_law.c, faraday. */
-static fw_status evaluate(fw_process_law_call *call, const double *x, double *result) {
+static fw_status faraday_time(fw_process_law_call *call, const double *x, double *result) {
     if (x[CURRENT_DENSITY] <= 0.0 || x[MOLAR_MASS] <= 0.0 || or_one(x[EFFICIENCY]) <= 0.0) {
         call->why = "current density, molar mass and efficiency must be above zero";
         return FW_INPUT;
@@ -24,7 +25,7 @@ static fw_status evaluate(fw_process_law_call *call, const double *x, double *re
     return FW_OK;
 }
 
-static void slope(const double *x, double result, double *dx) {
+static void faraday_slope(const double *x, double result, double *dx) {
     static const int power[] = {
         [THICKNESS] = 1,   [DENSITY] = 1,     [CURRENT_DENSITY] = -1, [VALENCE] = 1,
         [MOLAR_MASS] = -1, [EFFICIENCY] = -1, [POROSITY] = 1,         [AREA] = 1};
@@ -33,8 +34,8 @@ static void slope(const double *x, double result, double *dx) {
 }
 
 /* I = J A, Q = I t, m = rho P d A; the errors of area and current stay in the time */
-static fw_status derive(fw_arena *arena, const fw_process_law_use *use,
-                        const fw_process_law_answer *answer, fw_process_step *step) {
+static fw_status faraday_derive(fw_arena *arena, const fw_process_law_use *use,
+                                const fw_process_law_answer *answer, fw_process_step *step) {
     const fw_quantity *J = fw_process_law_input(use, "current_density"),
                       *A = fw_process_law_input(use, "area"),
                       *d = fw_process_law_input(use, "thickness"),
@@ -67,7 +68,7 @@ static fw_status derive(fw_arena *arena, const fw_process_law_use *use,
                                   answer->status, source);
 }
 
-static const fw_process_law_argument argument[] = {
+static const fw_process_law_argument faraday_argument[] = {
     [THICKNESS] = {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     [DENSITY] = {"density", FW_DIM_DENSITY, FW_LAW_REQUIRED, false, NULL},
     [CURRENT_DENSITY] = {"current_density", FW_DIM_CURRENT_DENSITY, FW_LAW_REQUIRED, false, NULL},
@@ -76,5 +77,26 @@ static const fw_process_law_argument argument[] = {
     [EFFICIENCY] = {"efficiency", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
-const fw_process_law fw_process_law_faraday = {
-    "faraday", "t = d rho P n F/(eta J M)", argument, 8, evaluate, slope, derive, NULL};
+const fw_process_law fw_process_law_faraday = {"faraday",        "t = d rho P n F/(eta J M)",
+                                               faraday_argument, 8,
+                                               faraday_time,     faraday_slope,
+                                               faraday_derive,   NULL};
+
+/* t = (V/Q) ln(c0/c): rinsing in a stirred overflow bath. V m3, Q m3/s, c0/c 1; t s.
+   Test: test_law.c, dilution. */
+static fw_status dilution_time(fw_process_law_call *call, const double *x, double *result) {
+    if (x[2] < 1.0) {
+        call->why = "the dilution must be 1 or more";
+        return FW_INPUT;
+    }
+    *result = x[0] / x[1] * log(x[2]);
+    return FW_OK;
+}
+
+static const fw_process_law_argument dilution_argument[] = {
+    {"volume", FW_DIM_VOLUME, FW_LAW_REQUIRED, false, NULL},
+    {"flow", FW_DIM_FLOW, FW_LAW_REQUIRED, false, NULL},
+    {"dilution", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL}};
+const fw_process_law fw_process_law_dilution = {
+    "dilution", "t = (volume/flow) ln(dilution)", dilution_argument, 3, dilution_time, NULL, NULL,
+    NULL};
