@@ -19,12 +19,13 @@ static fw_status refused(fw_diags *diags, fw_place place, const char *why) {
 static fw_status effects_fit(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                              fw_diags *diags) {
     size_t count;
-    const fw_effect_row *const *row = fw_effect_rows(&count);
+    const fw_effect_row *const *effect = fw_effect_rows(&count);
     const fw_effect_case asked = {.arena = arena, .mechanism = m, .scene = s};
     for (size_t i = 0; i < count; i++) {
-        if (row[i]->solid != FW_EFFECTS_SOLID_REFUSED || !row[i]->called_for(&asked)) continue;
+        if (effect[i]->solid != FW_EFFECTS_SOLID_REFUSED || !effect[i]->called_for(&asked))
+            continue;
         const char *why = fw_arena_printf(arena, "the scene has %s (%s), which solids do not have",
-                                          row[i]->id, row[i]->summary);
+                                          effect[i]->id, effect[i]->summary);
         FW_NEED(why);
         return refused(diags, s->place, why);
     }

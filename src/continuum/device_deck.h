@@ -20,8 +20,8 @@ typedef struct fw_continuum_solid_body {
     double rotation_rad, moment_Nm;
 } fw_continuum_solid_body;
 
-typedef struct
-    fw_continuum_solid_force { /* at a point of a body, drawn position; keeps its direction */
+/* at a point of a body, drawn position; keeps its direction */
+typedef struct fw_continuum_solid_force {
     int body;
     double x_m, y_m, fx_N, fy_N;
 } fw_continuum_solid_force;
@@ -37,8 +37,8 @@ typedef struct fw_continuum_solid_device {
 typedef struct fw_continuum_solid_options {
     double refinement; /* as of one hinge; 0: 0.5 */
     bool plane_stress;
-    int increments;   /* equal parts of the load to begin with; 0: 20, what free bodies
-                           need; 4 do where all rotations that matter are driven */
+    int increments;   /* equal parts of the load to begin with; 0: 20, what free bodies need; 4 do
+                         where all rotations that matter are driven */
     double timeout_s; /* 0: 600 */
 } fw_continuum_solid_options;
 

@@ -7,13 +7,13 @@
 
 typedef struct
     fw_continuum_profile_frame { /* on the centre line: point, unit tangent; left normal (-ty, tx)
-                                   */
+                                    */
     double x, y, tx, ty;
 } fw_continuum_profile_frame;
 
-typedef struct
-    fw_continuum_profile_fillet { /* seen along the way out of the strip into the block */
-    double before_m;              /* of its start from the root, along the centre line */
+/* seen along the way out of the strip into the block */
+typedef struct fw_continuum_profile_fillet {
+    double before_m; /* of its start from the root, along the centre line */
     fw_geometry_vec2 centre;
     double from_rad, sweep_rad; /* from the edge of the strip to the face of the root */
 } fw_continuum_profile_fillet;
@@ -115,8 +115,8 @@ void fw_continuum_deck_set(fw_text *deck, const fw_continuum_mesh *mesh, int fir
                            fw_continuum_deck_take take);
 bool fw_continuum_deck_root_first(const fw_continuum_mesh *mesh, int i, int j, int k);
 bool fw_continuum_deck_root_second(const fw_continuum_mesh *mesh, int i, int j, int k);
-bool fw_continuum_deck_middle(const fw_continuum_mesh *mesh, int i, int j,
-                              int k); /* but no rigid face */
+/* but no rigid face */
+bool fw_continuum_deck_middle(const fw_continuum_mesh *mesh, int i, int j, int k);
 bool fw_continuum_deck_field(const fw_continuum_mesh *mesh, int i, int j, int k);
 
 /* ---- one hinge ---- */

@@ -34,8 +34,8 @@ typedef struct fw_continuum_external_run {
 
 /* below $TMPDIR or /tmp; FW_IO */
 fw_status fw_continuum_external_room_open(const fw_arena *work, fw_continuum_external_room *room);
-void fw_continuum_external_room_close(
-    fw_continuum_external_room *room); /* removes it and all that is in it */
+/* removes it and all that is in it */
+void fw_continuum_external_room_close(fw_continuum_external_room *room);
 fw_status fw_continuum_external_write(const fw_continuum_external_room *room, const char *name,
                                       const char *data, size_t n);
 /* argv[0] is an absolute path; output and error go to `log` in the room, input is empty; one

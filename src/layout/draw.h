@@ -56,9 +56,10 @@ void fw_layout_sketch_line(fw_layout_sketch *sketch, fw_geometry_vec2 to, unsign
 void fw_layout_sketch_arc(fw_layout_sketch *sketch, fw_geometry_vec2 centre, double sweep_rad,
                           fw_geometry_vec2 to);
 fw_status fw_layout_sketch_close(fw_layout_sketch *sketch, fw_geometry_contour *contour);
+/* joint: index of a JOINT edge or -1 */
 fw_status fw_layout_polygon(fw_arena *arena, const fw_layout_local *local,
                             const fw_geometry_vec2 *p, int n, int joint,
-                            fw_geometry_contour *contour); /* joint: index of a JOINT edge or -1 */
+                            fw_geometry_contour *contour);
 
 /* ---- hinges ---- */
 /* Flexure and its root at the upper body, in the hinge frame: W at the origin, bulge along +x. The
@@ -111,8 +112,8 @@ typedef struct fw_layout_side { /* one body at one hinge */
     double own_rad;             /* the same in its own (mirrored) hinge frame, from the bulge */
     double half_width_m;        /* of the bar */
     double ring_in_m, ring_out_m, ring_end_rad;
-    const fw_device_body
-        *plate; /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
+    /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
+    const fw_device_body *plate;
     double plate_at_m;
     double neck_m;     /* half width of the neck between ring and bar */
     double far_m;      /* the same on the side away from the bulge */
@@ -134,13 +135,13 @@ typedef struct fw_layout_hinge_plan {
 
 /* ---- the whole drawing ---- */
 typedef enum fw_layout_window_side { FW_LEFT, FW_RIGHT, FW_BOTTOM, FW_TOP } fw_layout_window_side;
-typedef struct
-    fw_layout_attachment { /* what meets the frame, from `low` to `high` along the side */
+/* what meets the frame, from `low` to `high` along the side */
+typedef struct fw_layout_attachment {
     int body;
     fw_layout_window_side side;
     double low_m, high_m, stub_m;
-    fw_geometry_contour
-        finger; /* the way of a tether, from inside the body; count 0 for the base */
+    /* the way of a tether, from inside the body; count 0 for the base */
+    fw_geometry_contour finger;
     fw_geometry_contour tether; /* from the neck to the frame; count 0 for the base */
 } fw_layout_attachment;
 
@@ -159,8 +160,8 @@ typedef struct fw_layout_eyelet_plan { /* one ring; several tendons and scenes m
 typedef struct fw_layout_comb_plan { /* one drive; several scenes may use it */
     const fw_device_comb *comb;
     double width_m, length_m;
-    fw_layout_local
-        local; /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
+    /* middle of the overlap, or of the rotor's face; x where the rotor is pulled */
+    fw_layout_local local;
     bool off;
     fw_geometry_contour rotor,
         stator;         /* rotor: before it is united with its body; stator: with pad */
@@ -178,10 +179,10 @@ typedef struct fw_layout_drawing {
     double lane_m;
     fw_layout_hinge_plan *hinge; /* (njoint) */
     fw_geometry_contour *raw;   /* (nslot) united, not rounded: bodies, then one base for all ground
-                             hinges, or one for each when there are more than two */
+                                   hinges, or one for each when there are more than two */
     fw_geometry_contour *plain; /* (nslot) rounded, without tethers */
-    fw_geometry_contour
-        *held;        /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
+    /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
+    fw_geometry_contour *held;
     double *corner_m; /* (nslot) radius of the rounded corners */
     bool *beside;     /* (nbody) the hub stands beside the hinges; NULL: nowhere */
     int nslot;
@@ -199,8 +200,8 @@ typedef struct fw_layout_drawing {
 
 /* index into raw, plain and held; the joint tells bases apart */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
-const fw_geometry_contour *fw_layout_drawing_outline(const fw_layout_drawing *d,
-                                                     int slot);   /* held, else plain */
+/* held, else plain */
+const fw_geometry_contour *fw_layout_drawing_outline(const fw_layout_drawing *d, int slot);
 const char *fw_layout_body_label(fw_layout_drawing *d, int body); /* NULL: out of memory */
 fw_place fw_layout_body_place(const fw_layout_drawing *d, int body);
 fw_geometry_vec2 fw_layout_joint_point(const fw_device *device, int joint);
@@ -222,8 +223,8 @@ fw_status fw_layout_strip_draw(fw_layout_drawing *d, fw_layout_window_side side,
                                fw_layout_attachment *out);
 fw_status fw_layout_attachment_add(fw_layout_drawing *d, const fw_layout_attachment *item);
 
-fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d,
-                                    int body); /* of a body with more than two hinges */
+/* of a body with more than two hinges */
+fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d, int body);
 fw_status fw_layout_hinges_plan(fw_layout_drawing *d);
 fw_status fw_layout_flexure_draw(fw_arena *arena, const fw_device_flexure *flexure,
                                  fw_layout_hinge_plan *plan);

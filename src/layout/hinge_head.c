@@ -9,11 +9,10 @@
    with another edge of the body, the united outline has a step, a tooth or a slit that no mask can
    show. At which dimensions that happens is known only afterwards, and they are isolated: there is
    no largest size that fits to bisect for, but almost any other place in the ranges of
-   layout_rules.h is
-   good. Further attempts are therefore the points of a Kronecker sequence, x_i = frac(k alpha_i)
-   with alpha_i = g^-i and g^5 = g + 1: in all four dimensions, and in each alone, every point is
-   far from all before it. Whoever tries counts; what is still wrong at the end is said (FW-D138).
- */
+   layout_rules.h is good. Further attempts are therefore the points of a Kronecker sequence, x_i =
+   frac(k alpha_i) with alpha_i = g^-i and g^5 = g + 1: in all four dimensions, and in each alone,
+   every point is far from all before it. Whoever tries counts; what is still wrong at the end is
+   said (FW-D138). */
 fw_layout_head_shape fw_layout_head_form(int attempt) {
     static const double alpha[4] = {0.85667488385450291, 0.73389185662709607, 0.62870672103780872,
                                     0.53859725722361010};

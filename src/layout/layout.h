@@ -9,16 +9,17 @@
 #include "device/device.h"
 #include "geometry/contour.h"
 
-typedef enum fw_layout_role {                    /* what a piece is; masks/ maps roles to layers */
-                              FW_ROLE_STRUCTURE, /* links, platform, base: what is left standing */
-                              FW_ROLE_FLEXURE, /* thin parts; the same material as the structure */
-                              FW_ROLE_FRAME,   /* die frame */
-                              FW_ROLE_TETHER,  /* broken before use */
-                              FW_ROLE_TEXT,    /* title and parameters, polygons */
-                              FW_ROLE_MARK,    /* alignment marks */
-                              FW_ROLE_DICING,  /* lane */
-                              FW_ROLE_BACK,    /* marks of the back side, as seen from the front */
-                              FW_ROLE_COUNT
+/* what a piece is; masks/ maps roles to layers */
+typedef enum fw_layout_role {
+    FW_ROLE_STRUCTURE, /* links, platform, base: what is left standing */
+    FW_ROLE_FLEXURE,   /* thin parts; the same material as the structure */
+    FW_ROLE_FRAME,     /* die frame */
+    FW_ROLE_TETHER,    /* broken before use */
+    FW_ROLE_TEXT,      /* title and parameters, polygons */
+    FW_ROLE_MARK,      /* alignment marks */
+    FW_ROLE_DICING,    /* lane */
+    FW_ROLE_BACK,      /* marks of the back side, as seen from the front */
+    FW_ROLE_COUNT
 } fw_layout_role;
 
 /* body of a piece that stands on the carrier by itself, insulated from the rest: stators with their

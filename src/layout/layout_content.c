@@ -94,12 +94,12 @@ fw_status fw_layout_content_fill(fw_layout_bench *b) {
                              "rule; choose a smaller density or larger squares");
     b->content->fill_density = (s * s + stem * gap) / ((s + gap) * (s + gap));
     for (int k = 0; k < b->nshelf; k++) {
-        const fw_layout_shelf *row = &b->shelf[k];
-        int count = (int)floor((row->height_m + 1e-12) / (s + gap));
-        double from = b->start_m + row->used_m + (row->used_m > 0 ? b->keep_m : 0);
+        const fw_layout_shelf *shelf = &b->shelf[k];
+        int count = (int)floor((shelf->height_m + 1e-12) / (s + gap));
+        double from = b->start_m + shelf->used_m + (shelf->used_m > 0 ? b->keep_m : 0);
         int chains = (int)floor((b->end_m - from + gap) / (s + gap));
         for (int i = 0; i < chains && count > 0; i++)
-            FW_TRY(add_chain(b, fw_layout_to_grid(from + i * (s + gap)), row->top_m, gap, count));
+            FW_TRY(add_chain(b, fw_layout_to_grid(from + i * (s + gap)), shelf->top_m, gap, count));
     }
     return FW_OK;
 }

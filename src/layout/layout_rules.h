@@ -9,29 +9,29 @@
 typedef struct fw_layout_rules {
     /* ---- what every mask can show ---- */
     double least_space_m;  /* between parts that move apart, unless a gap is set smaller: etching
-                             widens either part by up to 1.1 um, and dust of 5 um must not wedge */
+                              widens either part by up to 1.1 um, and dust of 5 um must not wedge */
     double corner_m;       /* radius of rounded corners: no sharp notch where a crack begins */
     double own_width_m;    /* within one outline, a mask rule of 4 um and a bias of 1.1 um per edge
-                             leave: width, */
+                              leave: width, */
     double own_space_m;    /* space, */
     double own_hollow_m;   /* hollow radius, */
     double own_bend_m;     /* the same where an arc turns by more than 45 degrees: its two ends face
-                             each other across it, */
+                              each other across it, */
     double own_tip_m;      /* and convex radius there */
-    double least_corner_m; /* corners that do not fit are halved, not below this: smaller ones
-                                   are lost in the resolution of a mask (0.5 um) */
+    double least_corner_m; /* corners that do not fit are halved, not below this: smaller ones are
+                              lost in the resolution of a mask (0.5 um) */
     double least_head_corner_m; /* the same inside a hinge's head, which the body rounds again */
 
     /* ---- root blocks ---- */
     double block_depth_m;      /* of a root block inside the centre line of the flexure: as the ring
-                                   is thick, so that the block is no softer than the ring */
+                                  is thick, so that the block is no softer than the ring */
     double block_depth_widths; /* and at least as many flexure widths: a clamp as in the formulas */
     double block_depth_radii;  /* but no farther than half-way to the centre of an arc */
     double half_space_share;   /* of the least space, from a block to the hinge's axis: one half,
-                                   and 5 % for the rounding of the two corners */
+                                  and 5 % for the rounding of the two corners */
     double root_flat_m;        /* of the root's face beside a fillet: the fillet ends on a line */
     double fillet_radii;       /* the largest fillet in inner radii of an arc: beyond it the cut
-                                   would be nearer to the middle of the arc than to its root */
+                                  would be nearer to the middle of the arc than to its root */
     double fillet_lengths;     /* and in lengths of a straight leaf: half of it stays uniform */
     double fillet_least_widths; /* a smaller fillet is none: stress concentration as of a notch */
     double fillet_step;         /* factor between the radii that are tried at the ends of a path */
@@ -48,8 +48,8 @@ typedef struct fw_layout_rules {
     double block_least_widths;  /* and where the block's far side gives way to the other block */
 
     /* ---- rings about the hinge point ---- */
-    double free_rad;         /* rotation that rings and blocks leave free where they can: more
-                                   than any flexure of silicon bears */
+    double free_rad;         /* rotation that rings and blocks leave free where they can: more than
+                                any flexure of silicon bears */
     double ring_m;           /* thickness of a ring that carries a conjugate surface, */
     double ring_least_m;     /* of the smallest hinges, */
     double ring_sizes;       /* in between as a share of the flexure's size, */
@@ -58,15 +58,15 @@ typedef struct fw_layout_rules {
     double ring_free_most_m; /* of the largest: an etch must reach in, more is only larger, */
     double ring_free_sizes;  /* in between as a share of the flexure's size */
     double beside_ring_m;    /* free width around the outer ring */
-    double ring_past_rad;    /* how far a ring may run on past the bulge: 100 degrees, a third of
-                                   a turn less than the closed ring that could not be assembled */
+    double ring_past_rad;    /* how far a ring may run on past the bulge: 100 degrees, a third of a
+                                turn less than the closed ring that could not be assembled */
     double ring_from_face_m; /* arc length that stays free between a ring's end and the block, */
     double ring_from_neck_m; /* and the neck: a slit of two least widths of the mask */
     double facing_least_rad; /* of two conjugate surfaces: below 20 degrees they guide nothing */
 
     /* ---- necks, from the outer ring to a bar or a plate ---- */
     double neck_rings;        /* greatest half width in outer radii of its ring: at one half the
-                                   neck would leave the ring as a tangent */
+                                 neck would leave the ring as a tangent */
     double neck_inset_m;      /* of the neck's edge from the bar's, so that they cannot coincide */
     double neck_beyond_m;     /* from the keep-out disc to the neck's end, in a bar, */
     double neck_into_plate_m; /* and from the edge of the plate or of the disc cut out of it */
@@ -88,8 +88,8 @@ typedef struct fw_layout_rules {
     double solid_ring_share;    /* of the ring's thickness: there a neck begins to be whole, */
     double solid_past_m;        /* and so far beyond where the block's far side leaves it */
     double form_neck_least;   /* ranges of the free dimensions of a head (hinge_head.c): least share
-                                   of the neck's half width, at which it is still twice as stiff as
-                                   the flexure's root; */
+                                 of the neck's half width, at which it is still twice as stiff as
+                                 the flexure's root; */
     double form_behind_least; /* block behind the root, in flexure widths: clamped at 1.6, */
     double form_behind_most;  /* and beyond 7.5 in the way of the neck */
     double form_longer_m;     /* neck: two corners and a step longer at most */
@@ -99,27 +99,27 @@ typedef struct fw_layout_rules {
     double far_side_least_m;   /* shortest edge of a block's far side */
     double far_side_ahead_m;   /* an edge that meets the far side nearer than this meets nothing */
     double opposite_norm;      /* directions to the two bodies whose sum is shorter than this are
-                                   opposite: their bisector would be an accident of rounding */
+                                  opposite: their bisector would be an accident of rounding */
 
     /* ---- bars and hubs ---- */
     double bar_overlap_m;      /* length on which a bar lies inside the neck that it starts in, */
     double bar_inset_m;        /* it starts inside the neck's edge by this */
     double bar_rise_m;         /* and rises by this on that length: the two edges cross at about 5
-                                   degrees, so that no step is left wherever they cross */
+                                  degrees, so that no step is left wherever they cross */
     double bar_steepest;       /* slope of the shoulder beyond the neck where the gentle one does
-                                   not reach the stated width: 45 degrees keep clear of the disc */
+                                  not reach the stated width: 45 degrees keep clear of the disc */
     double bar_full_share;     /* of the bar between neck and middle that has its full width */
     double hub_clear_m;        /* a hub beside its hinges: a flexure's length and this away */
     double hub_radii;          /* of the disc under the bars that meet, in half widths of a bar */
     double base_width_m;       /* bar between the ground hinges, or two widths of the widest body */
     double pedestal_share;     /* of the way to the frame where the pedestal of a single ground
-                                   hinge begins; */
+                                  hinge begins; */
     double pedestal_reach;     /* the hinge's own bar runs on to twice that, inside of it */
     double pedestal_widths;    /* its half width in half widths of that bar */
     double pedestal_bar_share; /* half width in the distance of the two hinges of a base */
     double pedestal_clear_m;   /* of its edge from the keep-out discs of those hinges */
-    double lug_near_m;         /* an unsound place this near to an eyelet of the platform is laid
-                                   to the eyelet, which then moves; else to the nearest hinge */
+    double lug_near_m;         /* an unsound place this near to an eyelet of the platform is laid to
+                                  the eyelet, which then moves; else to the nearest hinge */
     double lug_shift_m;        /* by multiples of this: more than the least space and the corner */
 
     /* ---- eyelets of platforms whose tendons the file does not place ---- */
@@ -132,7 +132,7 @@ typedef struct fw_layout_rules {
     double eye_open_rad;      /* and is narrower than the wire's hook is long */
     double eye_clear_m;       /* from the keep-out disc of any hinge */
     double eye_far_share;     /* of the plate's half width: places on the edge away from the
-                                   mechanism, */
+                                 mechanism, */
     double eye_near_share;    /* on the opposite edge, where hinges are, */
     double eye_between_share; /* and what either pair leaves to the plate's corner */
     double eye_pair_m;        /* half the free width between the two of a pair, beside the eyes */

@@ -13,11 +13,9 @@
 /* width of the line of text, m; 0 for "" and for sizes that fw_layout_text refuses */
 double fw_layout_text_width(const char *string, double height_m, double stroke_m);
 
-/* appends the letters as pieces with body FW_NONE - 1; `origin` is the lower left corner.
-   Cells
-   are height / 9, rounded down to 1 nm. FW_GEOMETRY unless stroke >= 1 nm and height >= 9 stroke,
-   all finite and below 1 m. The three last arguments are a growing array: *npiece used of
-   *capacity. */
+/* appends the letters as pieces with body FW_NONE - 1; `origin` is the lower left corner. Cells are
+   height / 9, rounded down to 1 nm. FW_GEOMETRY unless stroke >= 1 nm and height >= 9 stroke, all
+   finite and below 1 m. The three last arguments are a growing array: *npiece used of *capacity. */
 fw_status fw_layout_text(fw_arena *arena, const char *string, fw_geometry_vec2 origin,
                          double height_m, double stroke_m, fw_layout_role role, const char *label,
                          fw_layout_piece **piece, int *npiece, int *capacity);

@@ -182,12 +182,12 @@ static fw_status add_strip(fw_layout_pen *pen, const plate *p, double side, int 
 }
 
 static fw_status draw_holes(fw_layout_pen *pen) {
-    const fw_layout_pattern *row = pen->pattern;
+    const fw_layout_pattern *pattern = pen->pattern;
     double hole = fw_layout_pen_value(pen, HOLE), x = 0;
     bool round = fw_layout_pen_value(pen, ROUND) != 0;
     int count = (int)fw_layout_pen_value(pen, COUNT);
-    for (int i = 0; i < row->nsize; i++) {
-        double pitch = row->size_m[i], rim = fw_layout_to_grid(0.5 * (pitch - hole));
+    for (int i = 0; i < pattern->nsize; i++) {
+        double pitch = pattern->size_m[i], rim = fw_layout_to_grid(0.5 * (pitch - hole));
         if (pitch < hole + 2 * pen->width_rule_m || rim < pen->width_rule_m) return FW_GEOMETRY;
         double side = (count - 1) * pitch + hole + 2 * rim;
         plate p = {x, STEM_HIGH_M, pitch, hole, rim, count, round};
@@ -228,9 +228,8 @@ const fw_layout_pattern_kind fw_layout_pattern_holes = {
 /* cantilevers: beams of rising length, free at one end. A gradient G of stress through the
    thickness curls a beam that came free to the radius E/G, so that the tip of one of length L
    stands h = G L^2/(2 E) above its root (small slopes; E/(1 - nu) for beams much wider than thick).
-   In: sizes (lengths), width, space, m. Source: beam with constant initial curvature,
-   h = L^2/(2 R). Test: test_patterns.c. Holds where the root does: the bar must be wider than
-   twice what the
+   In: sizes (lengths), width, space, m. Source: beam with constant initial curvature, h = L^2/(2
+   R). Test: test_patterns.c. Holds where the root does: the bar must be wider than twice what the
    release reaches. */
 
 enum { CANTILEVERS_WIDTH, CANTILEVERS_SPACE };

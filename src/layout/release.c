@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Release holes: what is dissolved below a body has to be reached from an opening. Round holes of
-   diameter D in a square grid of pitch p leave no point between four of them farther than
-   p/sqrt 2 - D/2 from one (fw_layout_holes_reach_m); a body nowhere farther than that from its own
-   edge
-   gets none.
+   diameter D in a square grid of pitch p leave no point between four of them farther than p/sqrt 2
+   - D/2 from one (fw_layout_holes_reach_m); a body nowhere farther than that from its own edge gets
+   none.
 
    The grid lies along the body: on its plate, else on the line between its first two hinges. A hole
    keeps (p - D)/2 and at least 10 um from edges, and away from what belongs to hinges. An outline
@@ -80,8 +79,8 @@ typedef struct column {
     int n;                  /* holes, from the one at the edge inwards */
     fw_geometry_vec2 first; /* middle of that one */
     fw_geometry_vec2 out, left;
-    fw_geometry_vec2
-        p[2]; /* where the cut leaves through the edge, right and left of it seen outwards */
+    /* where the cut leaves through the edge, right and left of it seen outwards */
+    fw_geometry_vec2 p[2];
     int edge; /* segment of the outline */
 } column;
 

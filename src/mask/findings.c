@@ -17,8 +17,8 @@ static double badness(const fw_mask_finding *f) {
 static int by_badness(const void *left, const void *right) {
     const fw_mask_finding *p = *(const fw_mask_finding *const *)left,
                           *q = *(const fw_mask_finding *const *)right;
-    double a = badness(p), b = badness(q);
-    return a != b ? (a < b ? -1 : 1) : (p > q) - (p < q);
+    int order = fw_order_doubles(badness(p), badness(q));
+    return order ? order : (p > q) - (p < q); /* of one array */
 }
 
 static const char *piece(fw_arena *arena, const char *label, int edge) {

@@ -22,11 +22,12 @@ typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
 
 /* ---- design rules: rows of the table, and what breaks them ---- */
 struct fw_mask_rule_kind_row; /* a kind of rule: rule.h */
-enum {                        /* what a rule looks at, where it can look at several things */
-       FW_OF_OUTLINE = 1,     /* exact lines and arcs */
-       FW_OF_POLYGON = 2,     /* what is written */
-       FW_OF_ISLAND = 4,
-       FW_OF_HOLE = 8,
+/* what a rule looks at, where it can look at several things */
+enum {
+    FW_OF_OUTLINE = 1, /* exact lines and arcs */
+    FW_OF_POLYGON = 2, /* what is written */
+    FW_OF_ISLAND = 4,
+    FW_OF_HOLE = 8,
 };
 typedef struct fw_mask_rule {
     const struct fw_mask_rule_kind_row *kind;
@@ -43,8 +44,8 @@ typedef struct fw_mask_rule {
 typedef struct fw_mask_finding { /* one place where a rule is broken */
     const fw_mask_rule *rule;
     const char *what; /* "width", "space", "corner", ... */
-    fw_geometry_vec2
-        at[2]; /* the two ends of the worst chord or edge; twice the same point of a corner */
+    /* the two ends of the worst chord or edge; twice the same point of a corner */
+    fw_geometry_vec2 at[2];
     fw_geometry_box box;  /* all of the place, m */
     double value;         /* in the rule's unit */
     double limit;         /* what the rule says */
@@ -94,7 +95,7 @@ typedef struct fw_mask_measure { /* per layer */
     double area_m2, polygon_area_m2, bound_m2; /* exact contours, flattened, proven difference */
     double perimeter_m;                        /* of the union: joints are not counted */
     double width_m, space_m; /* least exact ones, square on edges or at corners, below
-                                             FW_MASK_LOOK_M; INFINITY beyond */
+                                FW_MASK_LOOK_M; INFINITY beyond */
     fw_geometry_vec2 width_at[2], space_at[2];        /* ends of these chords */
     double shortest_edge_m, sharpest_rad;             /* of the polygons; INFINITY without any */
     double sharpest_material_rad, sharpest_space_rad; /* its two sides */
@@ -137,8 +138,8 @@ typedef struct fw_mask {
     bool whole;  /* every polygon is there and proven */
 } fw_mask;
 
-typedef struct
-    fw_mask_plate_term { /* a layer, and how it joins what stands before it; the first: OR */
+/* a layer, and how it joins what stands before it; the first: OR */
+typedef struct fw_mask_plate_term {
     int layer;
     fw_geometry_set_rule rule;
 } fw_mask_plate_term;

@@ -207,7 +207,7 @@ static double clearance(const search *s, int i, int j, double least, double most
 }
 
 /* the shortest cut that keeps the distance wanted; where none is, that of the largest distance */
-static void look(search *s) {
+static void search_cut(search *s) {
     int n = s->p->count, least = s->least;
     for (int k = 0, far = 0; k < s->nsample; k++) {
         int i = s->sample[k];
@@ -311,7 +311,7 @@ static fw_status find(fw_arena *arena, const fw_geometry_polygon *p, double want
         s->wanted_dbu = rounds[k].wanted ? wanted_dbu : 0;
         s->least2 = HUGE_VAL;
         s->clear_dbu = -1;
-        look(s);
+        search_cut(s);
     }
     return s->i >= 0 ? FW_OK : FW_GEOMETRY;
 }

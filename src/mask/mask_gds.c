@@ -7,27 +7,28 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { /* type and data type */
-       FW_GDS_HEADER = 0x0002,
-       FW_GDS_BGNLIB = 0x0102,
-       FW_GDS_LIBNAME = 0x0206,
-       FW_GDS_UNITS = 0x0305,
-       FW_GDS_ENDLIB = 0x0400,
-       FW_GDS_BGNSTR = 0x0502,
-       FW_GDS_STRNAME = 0x0606,
-       FW_GDS_ENDSTR = 0x0700,
-       FW_GDS_BOUNDARY = 0x0800,
-       FW_GDS_SREF = 0x0a00,
-       FW_GDS_AREF = 0x0b00,
-       FW_GDS_TEXT = 0x0c00,
-       FW_GDS_LAYER = 0x0d02,
-       FW_GDS_DATATYPE = 0x0e02,
-       FW_GDS_XY = 0x1003,
-       FW_GDS_ENDEL = 0x1100,
-       FW_GDS_SNAME = 0x1206,
-       FW_GDS_COLROW = 0x1302,
-       FW_GDS_TEXTTYPE = 0x1602,
-       FW_GDS_STRING = 0x1906,
+/* type and data type */
+enum {
+    FW_GDS_HEADER = 0x0002,
+    FW_GDS_BGNLIB = 0x0102,
+    FW_GDS_LIBNAME = 0x0206,
+    FW_GDS_UNITS = 0x0305,
+    FW_GDS_ENDLIB = 0x0400,
+    FW_GDS_BGNSTR = 0x0502,
+    FW_GDS_STRNAME = 0x0606,
+    FW_GDS_ENDSTR = 0x0700,
+    FW_GDS_BOUNDARY = 0x0800,
+    FW_GDS_SREF = 0x0a00,
+    FW_GDS_AREF = 0x0b00,
+    FW_GDS_TEXT = 0x0c00,
+    FW_GDS_LAYER = 0x0d02,
+    FW_GDS_DATATYPE = 0x0e02,
+    FW_GDS_XY = 0x1003,
+    FW_GDS_ENDEL = 0x1100,
+    FW_GDS_SNAME = 0x1206,
+    FW_GDS_COLROW = 0x1302,
+    FW_GDS_TEXTTYPE = 0x1602,
+    FW_GDS_STRING = 0x1906,
 };
 
 static inline void gds_u16(fw_text *out, unsigned value) {

@@ -6,6 +6,7 @@
    Same mask, same zlib, same bytes: no dates, fixed order. */
 #include "mask/mask_writers.h"
 #include "mask/octets.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,8 +106,8 @@ static fw_status make_groups(fw_arena *arena, const fw_mask *mask, group **out, 
 /* ---- repetitions ---- */
 static int by_row(const void *left, const void *right) {
     const fw_geometry_point *a = left, *b = right;
-    if (a->y_dbu != b->y_dbu) return a->y_dbu < b->y_dbu ? -1 : 1;
-    return (a->x_dbu > b->x_dbu) - (a->x_dbu < b->x_dbu);
+    int order = fw_order_wholes(a->y_dbu, b->y_dbu);
+    return order ? order : fw_order_wholes(a->x_dbu, b->x_dbu);
 }
 
 /* columns of a full grid of places with equal steps, sorted by rows; 0: it is none */

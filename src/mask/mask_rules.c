@@ -14,8 +14,8 @@ static void add_rule(fw_mask_rules *r, const fw_mask_rule_kind_row *kind, int la
     const fw_mask_layer *l = &r->table->layer[layer];
     if (!kind->built_in && !(least_m > 0)) return;
     for (int i = 0; i < r->table->nrule; i++) { /* it stands there as a row, with its own reason */
-        const fw_mask_rule *row = &r->table->rule[i];
-        if (row->kind == kind && row->layer == layer && row->severity == FW_ERROR) return;
+        const fw_mask_rule *rule = &r->table->rule[i];
+        if (rule->kind == kind && rule->layer == layer && rule->severity == FW_ERROR) return;
     }
     r->rule[r->nrule++] = (fw_mask_rule){.kind = kind,
                                          .layer = layer,
@@ -201,9 +201,9 @@ typedef struct seam { /* a joint, its lesser end first */
 
 static int by_ends(const void *left, const void *right) {
     const seam *p = left, *q = right;
-    if (!vec_same(p->a, q->a)) return vec_before(p->a, q->a) ? -1 : 1;
-    if (!vec_same(p->b, q->b)) return vec_before(p->b, q->b) ? -1 : 1;
-    return p->shape - q->shape;
+    int order = fw_mask_order_places(p->a, q->a);
+    if (!order) order = fw_mask_order_places(p->b, q->b);
+    return order ? order : fw_order_wholes(p->shape, q->shape);
 }
 
 static int first_of(int *group, int i) {

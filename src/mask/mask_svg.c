@@ -3,6 +3,7 @@
 #include "mask/mask_writers.h"
 #include "base/constants.h"
 #include "geometry/geometry_svg.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,8 +76,8 @@ static bool pays(const fw_geometry_contour *c) {
 
 static int by_hash(const void *left, const void *right) {
     const entry *a = left, *b = right;
-    if (a->hash != b->hash) return a->hash < b->hash ? -1 : 1;
-    return (a->shape > b->shape) - (a->shape < b->shape);
+    int order = (a->hash > b->hash) - (a->hash < b->hash); /* of 64 bits without a sign */
+    return order ? order : fw_order_wholes(a->shape, b->shape);
 }
 
 /* For every shape of a layer the first one that it repeats: itself where others repeat it, -1 where

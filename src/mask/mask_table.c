@@ -382,16 +382,16 @@ static fw_status read_pattern(fw_xml_reader *r, const fw_xml_record *e, fw_layou
 
 fw_status fw_mask_patterns_build(fw_xml_reader *r, fw_mask_table *table) {
     const fw_xml_record *root = r->record;
-    fw_layout_pattern *row =
+    fw_layout_pattern *pattern =
         fw_arena_array(r->arena, fw_layout_pattern, (size_t)fw_xml_children(root, "pattern"));
-    FW_NEED(row);
-    table->pattern = row;
+    FW_NEED(pattern);
+    table->pattern = pattern;
     for (const fw_xml_record *e = root->first_child; e; e = e->next) {
         if (!fw_xml_is(e, "pattern")) continue;
-        fw_layout_pattern *p = &row[table->npattern];
+        fw_layout_pattern *p = &pattern[table->npattern];
         FW_TRY(read_pattern(r, e, p));
         for (int i = 0; i < table->npattern; i++)
-            if (strcmp(row[i].id, p->id) == 0)
+            if (strcmp(pattern[i].id, p->id) == 0)
                 fw_diag_error(r->diags, 185, p->place,
                               "two test patterns have the id \"%s\"; measured values name it",
                               p->id);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading of layer tables: mask_table.c has the rows of <mask-table> and <layer>; those of <rule>
-   and
-   <pattern> depend on their kind. Private to the room. */
+   and <pattern> depend on their kind. Private to the room. */
 #ifndef FW_MASK_MASK_TABLE_H
 #define FW_MASK_MASK_TABLE_H
 #include "mask/mask.h"

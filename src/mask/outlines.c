@@ -246,8 +246,8 @@ static void sample(const page *p, double y, const char *style) {
                MARGIN_UM + 4 * p->font, middle, middle, style);
 }
 
-static void entry(const page *p, int *row, const char *style, const char *text) {
-    double y = p->tall + (1.5 + 1.4 * (*row)++) * p->font;
+static void entry(const page *p, int *line, const char *style, const char *text) {
+    double y = p->tall + (1.5 + 1.4 * (*line)++) * p->font;
     if (style) sample(p, y, style);
     words(p, style ? MARGIN_UM + 5 * p->font : MARGIN_UM, y, p->font, text);
 }
@@ -259,17 +259,17 @@ static int parts_of(const char *range) {
     return n;
 }
 
-/* one row for each of the parts between semicolons */
-static fw_status range_entries(const page *p, int *row) {
+/* one line for each of the parts between semicolons */
+static fw_status range_entries(const page *p, int *line) {
     const char *s = p->mask->edges->range, *lead = "where the top edge may stand: ";
     for (int i = 0; i < parts_of(p->mask->edges->range); i++) {
         int n = (int)strcspn(s, ";");
         const char *text = fw_arena_printf(p->out->arena, "%s%.*s", lead, n, s);
         FW_NEED(text);
         if (i == 0)
-            entry(p, row, "stroke=\"#f4a340\" stroke-width=\"36\"", text);
+            entry(p, line, "stroke=\"#f4a340\" stroke-width=\"36\"", text);
         else
-            words(p, MARGIN_UM + 6 * p->font, p->tall + (1.5 + 1.4 * (*row)++) * p->font, p->font,
+            words(p, MARGIN_UM + 6 * p->font, p->tall + (1.5 + 1.4 * (*line)++) * p->font, p->font,
                   text);
         s += n + (s[n] == ';');
         s += *s == ' ';
@@ -278,7 +278,7 @@ static fw_status range_entries(const page *p, int *row) {
     return FW_OK;
 }
 
-static fw_status gone_entry(const page *p, int *row) {
+static fw_status gone_entry(const page *p, int *line) {
     const fw_mask_outlines *l = &p->lines;
     const char *text;
     if (l->gone_top + l->gone_bottom + l->gone_least == 0) return FW_OK;
@@ -288,7 +288,7 @@ static fw_status gone_entry(const page *p, int *row) {
             "Not drawn, because nothing is left of them or edges meet: %d shapes at the top, %d "
             "at the bottom, %d at the worse end of the range.",
             l->gone_top, l->gone_bottom, l->gone_least));
-    entry(p, row, NULL, text);
+    entry(p, line, NULL, text);
     return FW_OK;
 }
 
@@ -312,15 +312,15 @@ static fw_status legend(const page *p) {
                    fw_arena_printf(arena, "as fabricated, bottom face: %s um %s the drawn edge",
                                    um(t[2], fabs(e->bottom_m)), side(e->bottom_m));
     FW_NEED(mask && top && bottom ? mask : NULL);
-    int row = 0;
-    entry(p, &row, "stroke=\"#000000\" stroke-width=\"6\" stroke-dasharray=\"36 24\"", "as drawn");
-    entry(p, &row, "stroke=\"#1f5fbf\" stroke-width=\"6\"", mask);
-    if (p->made) entry(p, &row, "stroke=\"#187a2f\" stroke-width=\"12\"", top);
+    int line = 0;
+    entry(p, &line, "stroke=\"#000000\" stroke-width=\"6\" stroke-dasharray=\"36 24\"", "as drawn");
+    entry(p, &line, "stroke=\"#1f5fbf\" stroke-width=\"6\"", mask);
+    if (p->made) entry(p, &line, "stroke=\"#187a2f\" stroke-width=\"12\"", top);
     if (p->tapered)
-        entry(p, &row, "stroke=\"#187a2f\" stroke-width=\"6\" stroke-dasharray=\"12 18\"", bottom);
-    if (p->banded) FW_TRY(range_entries(p, &row));
-    FW_TRY(gone_entry(p, &row));
-    if (e->note) entry(p, &row, NULL, e->note);
+        entry(p, &line, "stroke=\"#187a2f\" stroke-width=\"6\" stroke-dasharray=\"12 18\"", bottom);
+    if (p->banded) FW_TRY(range_entries(p, &line));
+    FW_TRY(gone_entry(p, &line));
+    if (e->note) entry(p, &line, NULL, e->note);
     return FW_OK;
 }
 

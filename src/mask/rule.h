@@ -6,6 +6,7 @@
 #include "geometry/segment.h"
 #include "mask/mask.h"
 #include "mask/mask_polygons.h"
+#include "base/sort.h"
 
 /* ---- edges, and what is found between them! ---- */
 /* Edges of one layer and what is found between them. Private to the room and its tests. */
@@ -69,8 +70,8 @@ void fw_mask_rule_search_run(fw_mask_rule_search *in);
 void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q);
 void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e);
 void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f);
-void fw_mask_rule_report(fw_mask_rule_search *in,
-                         fw_mask_rule_finding f); /* the same, the lesser shape first */
+/* the same, the lesser shape first */
+void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f);
 /* rules_places.c: the chords of one kind that are below a limit, as places: the shortest chord of
    each, in the order of shapes. Sorts `list`. */
 fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,
@@ -80,7 +81,7 @@ double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind
 /* beyond this a chord of that kind changes nothing */
 double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind);
 
-/* ---- kinds: each has its row where its check stands, rule_NAME.c, and one line in rule_kinds.c ---- */
+/* ---- kinds: each has its check and its row in a file rule_*.c, and one line in rule_kinds.c ---- */
 
 typedef enum fw_mask_rule_unit_kind {
     FW_UNIT_LENGTH,
@@ -89,13 +90,14 @@ typedef enum fw_mask_rule_unit_kind {
     FW_UNIT_SHARE
 } fw_mask_rule_unit_kind;
 
-enum { /* attributes of <rule> beside kind, layer, min, source and severity */
-       FW_TAKES_INSIDE = 1,
-       FW_TAKES_FROM = 2,
-       FW_TAKES_OF = 4,
-       FW_TAKES_MAX = 8,
-       FW_TAKES_WINDOW = 16,
-       FW_TAKES_PRINT = 32, /* wavelength, gap, resist: names for the formula of min */
+/* attributes of <rule> beside kind, layer, min, source and severity */
+enum {
+    FW_TAKES_INSIDE = 1,
+    FW_TAKES_FROM = 2,
+    FW_TAKES_OF = 4,
+    FW_TAKES_MAX = 8,
+    FW_TAKES_WINDOW = 16,
+    FW_TAKES_PRINT = 32, /* wavelength, gap, resist: names for the formula of min */
 };
 
 typedef struct fw_mask_rules { /* one mask while it is checked */
@@ -157,6 +159,11 @@ bool fw_mask_rules_first(const fw_mask_rules *rules, const fw_mask_rule_edge *ed
 /* connected pieces of a layer: group[shape] is the least shape joined to it; -1: other layer */
 fw_status fw_mask_rules_islands(const fw_mask_rules *rules, int layer, int **group);
 fw_geometry_box fw_mask_box_around(fw_geometry_vec2 p, fw_geometry_vec2 q);
+/* -1, 0, 1: p left of, at, right of q; below, at, above it where both are at one x */
+static inline int fw_mask_order_places(fw_geometry_vec2 p, fw_geometry_vec2 q) {
+    int order = fw_order_doubles(p.x, q.x);
+    return order ? order : fw_order_doubles(p.y, q.y);
+}
 
 /* ---- the whole (mask_rules.c) ---- */
 fw_status fw_mask_rules_start(fw_mask_rules *rules, fw_mask_measure *measure);

@@ -74,9 +74,8 @@ const fw_mask_rule_kind_row fw_mask_kind_notch = {
    formula of the table over the rule's own wavelength, gap and resist thickness; for a shadow
    printer 1.5 sqrt(wavelength (gap + resist / 2)), the Fresnel shadow of a mask edge in the middle
    of the resist (textbook, e.g. Madou, Fundamentals of Microfabrication; the same as
-   fw_process_print_limit
-   of process/). It judges widths and spaces, whatever other rules say of them. Chords, error, cost:
-   rules_pair.c. Test: test_rule_seeded.c, test_mask_table.c. */
+   fw_process_print_limit of process/). It judges widths and spaces, whatever other rules say of
+   them. Chords, error, cost: rules_pair.c. Test: test_rule_seeded.c, test_mask_table.c. */
 
 static fw_status check_feature(fw_mask_rules *rules, const fw_mask_rule *rule) {
     FW_TRY(fw_mask_rules_chords(rules, rule, FW_RULE_WIDTH, NULL, NULL));

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges of one layer near edges of another: the least distance of every two that are nearer than a
    limit, 0 where they meet, whatever way they face (fw_geometry_segment_distance, closed form,
-   error a few
-   ulp of the coordinates). Which pairs: shapes by a sweep along x over the boxes of both layers,
-   then edges by theirs. Cost O(n log n + pairs of neighbours). Test: test_rule_seeded.c. */
+   error a few ulp of the coordinates). Which pairs: shapes by a sweep along x over the boxes of
+   both layers, then edges by theirs. Cost O(n log n + pairs of neighbours). Test:
+   test_rule_seeded.c. */
 #include "mask/rule.h"
 #include "base/sort.h"
 #include <stdlib.h>
@@ -233,16 +233,16 @@ const fw_mask_rule_kind_row fw_mask_kind_separation = {
 /* Pieces of one layer that meet without a shared joint, or lie in each other: built in, because
    area and width of the union would be wrong. One finding for every two pieces. Points where edges
    meet: fw_geometry_segment_intersect, a few ulp; nesting: one point of a piece against the others
-   whose box
-   holds it. Test: test_mask_rules.c, test_rule_seeded.c. */
+   whose box holds it. Test: test_mask_rules.c, test_rule_seeded.c. */
 
 static int by_shapes(const void *left, const void *right) {
     const fw_mask_rule_finding *p = left, *q = right;
-    for (int k = 0; k < 2; k++)
-        if (p->shape[k] != q->shape[k]) return p->shape[k] - q->shape[k];
-    for (int k = 0; k < 2; k++)
-        if (p->segment[k] != q->segment[k]) return p->segment[k] - q->segment[k];
-    return vec_same(p->at[0], q->at[0]) ? 0 : vec_before(p->at[0], q->at[0]) ? -1 : 1;
+    int order = 0;
+    for (int k = 0; k < 2 && !order; k++)
+        order = fw_order_wholes(p->shape[k], q->shape[k]);
+    for (int k = 0; k < 2 && !order; k++)
+        order = fw_order_wholes(p->segment[k], q->segment[k]);
+    return order ? order : fw_mask_order_places(p->at[0], q->at[0]);
 }
 
 static fw_status check_overlap(fw_mask_rules *rules, const fw_mask_rule *rule) {

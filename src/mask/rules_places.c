@@ -25,13 +25,15 @@ typedef struct stretch { /* of both edges */
 
 static int in_order(const void *left, const void *right) {
     const fw_mask_rule_finding *p = left, *q = right;
-    for (int k = 0; k < 2; k++)
-        if (p->shape[k] != q->shape[k]) return p->shape[k] - q->shape[k];
-    for (int k = 0; k < 2; k++) /* of one array each: the order is the same every time */
-        if (p->edge[k] != q->edge[k]) return p->edge[k] < q->edge[k] ? -1 : 1;
-    if (p->value_m != q->value_m) return p->value_m < q->value_m ? -1 : 1;
-    if (!vec_same(p->at[0], q->at[0])) return vec_before(p->at[0], q->at[0]) ? -1 : 1;
-    return vec_same(p->at[1], q->at[1]) ? 0 : vec_before(p->at[1], q->at[1]) ? -1 : 1;
+    int order = 0;
+    for (int k = 0; k < 2 && !order; k++)
+        order = fw_order_wholes(p->shape[k], q->shape[k]);
+    for (int k = 0; k < 2 && !order; k++) /* of one array each: the order is the same every time */
+        order = (p->edge[k] > q->edge[k]) - (p->edge[k] < q->edge[k]);
+    if (!order) order = fw_order_doubles(p->value_m, q->value_m);
+    for (int k = 0; k < 2 && !order; k++)
+        order = fw_mask_order_places(p->at[k], q->at[k]);
+    return order;
 }
 
 static bool same_edges(const fw_mask_rule_finding *f, const fw_mask_rule_finding *g) {
@@ -137,8 +139,8 @@ static int root(const stretch *list, int i) {
 
 static int by_box(const void *left, const void *right) {
     const stretch *p = *(const stretch *const *)left, *q = *(const stretch *const *)right;
-    if (p->box.x0 != q->box.x0) return p->box.x0 < q->box.x0 ? -1 : 1;
-    return (p > q) - (p < q);
+    int order = fw_order_doubles(p->box.x0, q->box.x0);
+    return order ? order : (p > q) - (p < q); /* of one array */
 }
 
 /* marks with each stretch the first one of its place */

@@ -261,7 +261,7 @@ static void look_between(fw_mask_rule_search *in, const fw_mask_rule_range *r,
     }
 }
 
-static void look(fw_mask_rule_search *in) {
+static void search_pairs(fw_mask_rule_search *in) {
     for (int i = 0; i < in->nrange; i++) /* first: what a shape measures bounds the rest */
         look_inside(in, &in->range[i]);
     for (int i = 0; i < in->nrange; i++)
@@ -281,7 +281,7 @@ void fw_mask_rule_search_run(fw_mask_rule_search *in) {
         in->cap_m = fw_lesser(cap_m, FW_MASK_LOOK_M);
         in->measure->width_m = in->measure->space_m = HUGE_VAL;
         in->nfound = 0;
-        look(in);
+        search_pairs(in);
         double found_m = fw_greater(in->measure->width_m, in->measure->space_m);
         if (in->everything || found_m <= in->cap_m || in->cap_m >= FW_MASK_LOOK_M) return;
         cap_m = isinf(found_m) ? 3 * cap_m : found_m;

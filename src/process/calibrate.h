@@ -31,12 +31,12 @@ typedef struct fw_process_calibration {
 /* CSV with the header coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit (docs/theory/
    calibrate.md); lines that start with # are comments. All mistakes in diags: FW-D211. */
 fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
-                                       size_t n, fw_diags *diags, fw_process_measurement **row,
-                                       int *nrow);
+                                       size_t n, fw_diags *diags,
+                                       fw_process_measurement **measurement, int *nmeasurement);
 /* every coupon of the table. FW_INPUT with FW-D211 (a row that does not fit its coupon) or FW-D212
    (the data contradict the law, or each other). */
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
-                               const fw_process_measurement *row, int nrow, fw_diags *diags,
+                               const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration);
 /* the laboratory pack: <process flow="..."> with a <q status="measured"> for each */
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,

@@ -124,8 +124,8 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
     *r = (fw_process_measurement){
         .coupon = cell[COUPON], .feature = cell[FEATURE], .place = t->place};
     /* a line of the ladder that is gone or stands was looked at, not measured */
-    bool seen = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
-    if (seen && !*cell[MEASURED])
+    bool counted = strcmp(cell[FEATURE], "gone") == 0 || strcmp(cell[FEATURE], "stands") == 0;
+    if (counted && !*cell[MEASURED])
         *r = (fw_process_measurement){.coupon = cell[COUPON],
                                       .feature = cell[FEATURE],
                                       .place = t->place,
@@ -133,10 +133,10 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
                                       .dimension = {.m = 1}};
     *good = number(t, cell[DRAWN], DRAWN, &r->drawn_m);
     r->drawn_m *= 1e-6;
-    if (!(seen && !*cell[MEASURED]))
+    if (!(counted && !*cell[MEASURED]))
         *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
     *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
-    if (*good && !seen && isnan(r->value)) {
+    if (*good && !counted && isnan(r->value)) {
         fw_diag_error(t->diags, 211, t->place, "a row needs measured, u and unit");
         *good = false;
     }
@@ -148,13 +148,13 @@ static bool blank(const char *line) {
 }
 
 fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
-                                       size_t n, fw_diags *diags, fw_process_measurement **row,
-                                       int *nrow) {
+                                       size_t n, fw_diags *diags,
+                                       fw_process_measurement **measurement, int *nmeasurement) {
     table t = {.arena = arena, .diags = diags, .place = {.file = file}};
     size_t before = diags->errors, lines = 1;
     bool headed = false;
     const char *end = text + n, *at = text;
-    *nrow = 0;
+    *nmeasurement = 0;
     if (memchr(text, '\0', n))
         return fw_diag_error(diags, 211, t.place, "a NUL byte: this is not a table of text");
     if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) at += 3; /* a spreadsheet's mark of UTF-8 */
@@ -162,7 +162,7 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
         lines += *c == '\n';
     if (lines > MOST_ROWS)
         return fw_diag_error(diags, 211, t.place, "more than %d lines", MOST_ROWS);
-    FW_NEED(*row = fw_arena_array(arena, fw_process_measurement, lines));
+    FW_NEED(*measurement = fw_arena_array(arena, fw_process_measurement, lines));
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));
         size_t length = (size_t)((stop ? stop : end) - at);
@@ -179,8 +179,8 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
             continue;
         }
         bool good;
-        FW_TRY(one_row(&t, line, &(*row)[*nrow], &good));
-        *nrow += good;
+        FW_TRY(one_row(&t, line, &(*measurement)[*nmeasurement], &good));
+        *nmeasurement += good;
     }
     if (diags->failed) return FW_NOMEM;
     return diags->errors > before ? FW_INPUT : FW_OK;

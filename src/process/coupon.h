@@ -29,8 +29,8 @@ enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64 };
 typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     fw_arena *arena;
     const fw_process_flow *flow;
-    const fw_process_measurement *row[FW_COUPON_ROWS]; /* (nrow) of this kind */
-    int nrow;
+    const fw_process_measurement *measurement[FW_COUPON_ROWS]; /* (n) of this kind */
+    int n;
     const fw_process_calibrated *known; /* (nknown) of the kinds before it */
     int nknown;
     fw_process_calibrated *out; /* (nout) room for FW_COUPON_RESULTS in all */
@@ -55,7 +55,7 @@ extern const fw_process_coupon fw_process_coupon_cd_lines, fw_process_coupon_etc
 fw_status fw_process_coupon_give(fw_process_coupon_work *work, const char *id, double value,
                                  double uncertainty, const fw_process_fit *fit, const char *note);
 /* FW-D211 at the row */
-fw_status fw_process_coupon_wrong(fw_process_coupon_work *work, const fw_process_measurement *row,
+fw_status fw_process_coupon_wrong(fw_process_coupon_work *work, const fw_process_measurement *at,
                                   const char *format, ...) __attribute__((format(printf, 3, 4)));
 /* what a kind before this one found, else the flow's own; false: neither is known */
 bool fw_process_coupon_value(const fw_process_coupon_work *work, const char *id, double *value,

@@ -11,8 +11,8 @@
 static int collect(const fw_process_coupon_work *w, const char *feature, double *y, double *sy,
                    double *x, double *sx) {
     int n = 0;
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (strcmp(r->feature, feature) != 0) continue;
         y[n] = r->value, sy[n] = r->uncertainty;
         x[n] = r->at, sx[n++] = r->at_uncertainty;
@@ -22,7 +22,7 @@ static int collect(const fw_process_coupon_work *w, const char *feature, double 
 
 static bool first_of(const fw_process_coupon_work *w, int i) {
     for (int k = 0; k < i; k++)
-        if (strcmp(w->row[k]->feature, w->row[i]->feature) == 0) return false;
+        if (strcmp(w->measurement[k]->feature, w->measurement[i]->feature) == 0) return false;
     return true;
 }
 
@@ -30,8 +30,8 @@ static bool first_of(const fw_process_coupon_work *w, int i) {
    the id of the rate in the pack: pan.R, rie.R, al.R, seed.R, release.R. d m, t s, R m/s. Test:
    test_calibrate.c. */
 static fw_status rates(fw_process_coupon_work *w) {
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         const fw_quantity *q = fw_process_flow_quantity(w->flow, r->feature);
         if (!q || !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
             return fw_process_coupon_wrong(
@@ -56,8 +56,8 @@ static fw_status rates(fw_process_coupon_work *w) {
    origin as a = D/S_m. D, a m. Test: test_calibrate.c. */
 static fw_status selectivity(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS];
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (!fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_LENGTH) ||
             !(r->at > 0.0))
             return fw_process_coupon_wrong(
@@ -66,10 +66,10 @@ static fw_status selectivity(fw_process_coupon_work *w) {
                 "at_unit");
         y[i] = r->value, sy[i] = r->uncertainty, x[i] = r->at, sx[i] = r->at_uncertainty;
     }
-    fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->nrow);
+    fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
     double loss = f.value[0], u = f.uncertainty[0];
     if (!(loss > 3.0 * u))
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the loss of the mask is not above its uncertainty: no "
                                        "selectivity comes of it");
     return fw_process_coupon_give(w, "rie.selectivity", 1.0 / loss, u / (loss * loss), &f,
@@ -88,8 +88,8 @@ const fw_process_coupon fw_process_coupon_step = {"al-step", FW_DIM_LENGTH, fals
 static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, int *n) {
     double gone = -1.0, stands = (double)INFINITY;
     const fw_process_measurement *of = NULL;
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (strcmp(r->feature, "width") == 0) {
             y[*n] = r->drawn_m - r->value;
             s[(*n)++] = r->uncertainty;
@@ -122,26 +122,26 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
 /* Lines of width w on the mask, not compensated; the mask layer lost L at every edge (what the flow
    plans less made.al-edge), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
    E: the depth that wide openings have reached, or rate times the time, over-etch included. All m;
-   A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/calibrate.md.
-   Test: test_calibrate.c.
- */
+   A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/calibrate.md. Test:
+   test_calibrate.c. */
 static fw_status fit_ladder(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], E, u_E, edge = 0.0, u_edge = 0.0;
     int n = 0;
-    bool timed =
-        fw_quantity_dimension_equal(w->row[0]->at_dimension, (fw_quantity_dimension)FW_DIM_TIME);
-    FW_TRY(fw_process_coupon_condition(w, w->row[0]->at_dimension, "what was etched", &E, &u_E));
+    bool timed = fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
+                                             (fw_quantity_dimension)FW_DIM_TIME);
+    FW_TRY(fw_process_coupon_condition(w, w->measurement[0]->at_dimension, "what was etched", &E,
+                                       &u_E));
     if (timed) {
         double R, u_R;
         if (!fw_process_coupon_value(w, "rie.R", &R, &u_R))
-            return fw_process_coupon_wrong(w, w->row[0],
+            return fw_process_coupon_wrong(w, w->measurement[0],
                                            "the rate rie.R is not known; give the depth in wide "
                                            "openings in the column at");
         u_E = hypot(R * u_E, E * u_R);
         E *= R;
-    } else if (!fw_quantity_dimension_equal(w->row[0]->at_dimension,
+    } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
                                             (fw_quantity_dimension)FW_DIM_LENGTH))
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the column at of undercut-ladder is a depth or a time");
     FW_TRY(ladder_losses(w, y, s, &n));
     fw_process_coupon_value(w, "made.al-edge", &edge, &u_edge);
@@ -149,7 +149,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     double u = 0.5 * f.value[0] - (fw_process_coupon_loss(w->flow) - edge);
     double A = 1.0 - u / E, u_A = hypot(hypot(0.5 * f.uncertainty[0], u_edge), u / E * u_E) / E;
     if (!(A > 0.0) || !(A < 1.0 + 2.0 * u_A))
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "an anisotropy that is not between 0 and 1 comes of it: "
                                        "check widths, edge of the aluminium and depth");
     const char *note = fw_arena_printf(
@@ -185,38 +185,39 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS], t, u_t;
     FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
                                        &u_t));
-    if (w->nrow < 2)
-        return fw_process_coupon_wrong(w, w->row[0], "arde-slots needs two widths or more");
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    if (w->n < 2)
+        return fw_process_coupon_wrong(w, w->measurement[0], "arde-slots needs two widths or more");
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (!(r->value > 0.0) || r->value / r->drawn_m > 1000.0)
             return fw_process_coupon_wrong(
                 w, r, "the depth of a slot is above zero and below 1000 widths");
         y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
         q[i] = -fw_process_arde_integral(r->drawn_m, r->value, false);
     }
-    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->nrow);
+    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->n);
     double travelled = f.value[0], S = f.value[1];
     if (!isfinite(S))
-        return fw_process_coupon_wrong(w, w->row[0], "all slots of arde-slots are equally wide");
+        return fw_process_coupon_wrong(w, w->measurement[0],
+                                       "all slots of arde-slots are equally wide");
     for (int round = 0; round < 8 && S > -0.5; round++) {
-        for (int i = 0; i < w->nrow; i++) {
-            double width = w->row[i]->drawn_m, D = depth_of(width, travelled, S);
+        for (int i = 0; i < w->n; i++) {
+            double width = w->measurement[i]->drawn_m, D = depth_of(width, travelled, S);
             double slope = 1.0 + S * (1.0 / fw_process_knudsen_slot(D / width) - 1.0);
             p[i] = 1.0 / slope;
             q[i] = -fw_process_arde_integral(width, D, false) / slope;
-            y[i] = w->row[i]->value - D + p[i] * travelled + q[i] * S;
+            y[i] = w->measurement[i]->value - D + p[i] * travelled + q[i] * S;
         }
-        f = fw_process_fit_plane(y, s, p, q, w->nrow);
+        f = fw_process_fit_plane(y, s, p, q, w->n);
         travelled = f.value[0], S = f.value[1];
     }
     if (!(S > -2.0 * f.uncertainty[1]))
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
     double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
     const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
-                                       w->nrow, (int)lround(100.0 * f.correlation));
+                                       w->n, (int)lround(100.0 * f.correlation));
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, "rie.R", R, u, &f, note));
     return fw_process_coupon_give(w, "rie.S", fmax(S, 0.0), f.uncertainty[1], &f, note);

@@ -14,8 +14,8 @@
    litho.edge. Weighted mean; residuals are tested. Source: geometry. Test: test_calibrate.c. */
 static fw_status fit_lines(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], loss = fw_process_coupon_loss(w->flow);
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         bool space = strcmp(r->feature, "space") == 0;
         if (!space && strcmp(r->feature, "line") != 0)
             return fw_process_coupon_wrong(
@@ -23,7 +23,7 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
         y[i] = (space ? -0.5 : 0.5) * (r->value - r->drawn_m);
         s[i] = 0.5 * r->uncertainty;
     }
-    fw_process_fit f = fw_process_fit_mean(y, s, w->nrow);
+    fw_process_fit f = fw_process_fit_mean(y, s, w->n);
     bool etched = fw_process_coupon_has(w->flow, "made.al-edge");
     return fw_process_coupon_give(
         w, etched ? "made.al-edge" : "litho.edge", f.value[0] + (etched ? loss : 0.0),
@@ -44,11 +44,11 @@ const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH,
 static fw_status fit_spin(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], one[FW_COUPON_ROWS], x[FW_COUPON_ROWS], w0, u0;
     if (!fw_process_coupon_value(w, "resist.w0", &w0, &u0))
-        return fw_process_coupon_wrong(w, w->row[0], "resist.w0 is not known in this flow");
+        return fw_process_coupon_wrong(w, w->measurement[0], "resist.w0 is not known in this flow");
     fw_process_fit f = {.value = {0.0, 0.5}};
     for (int round = 0; round < 6; round++) {
-        for (int i = 0; i < w->nrow; i++) {
-            const fw_process_measurement *r = w->row[i];
+        for (int i = 0; i < w->n; i++) {
+            const fw_process_measurement *r = w->measurement[i];
             if (!fw_quantity_dimension_equal(r->at_dimension,
                                              (fw_quantity_dimension)FW_DIM_ROTATION) ||
                 !(r->at > 0.0) || !(r->value > 0.0))
@@ -59,18 +59,18 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
             y[i] = log(r->value), one[i] = 1.0, x[i] = -log(r->at / w0);
             s[i] = hypot(r->uncertainty / r->value, f.value[1] * r->at_uncertainty / r->at);
         }
-        f = fw_process_fit_plane(y, s, one, x, w->nrow);
-        if (w->nrow < 2 || !isfinite(f.value[1]))
-            return fw_process_coupon_wrong(w, w->row[0], "spin needs two speeds or more");
+        f = fw_process_fit_plane(y, s, one, x, w->n);
+        if (w->n < 2 || !isfinite(f.value[1]))
+            return fw_process_coupon_wrong(w, w->measurement[0], "spin needs two speeds or more");
     }
     if (!(f.value[1] > 0.0))
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the resist is thicker at higher speed: check the rows");
     double d0 = exp(f.value[0]);
     const char *note = fw_arena_printf(w->arena,
                                        "from %d coats; correlation of thickness and exponent "
                                        "%d %%",
-                                       w->nrow, (int)lround(100.0 * f.correlation));
+                                       w->n, (int)lround(100.0 * f.correlation));
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, "resist.d0", d0, d0 * f.uncertainty[0], &f, note));
     return fw_process_coupon_give(w, "resist.a", f.value[1], f.uncertainty[1], &f, note);
@@ -84,7 +84,7 @@ const fw_process_coupon fw_process_coupon_spin = {"spin", FW_DIM_LENGTH, false,
 static fw_status need(fw_process_coupon_work *w, const char *id, double *value) {
     double u;
     if (fw_process_coupon_value(w, id, value, &u)) return FW_OK;
-    return fw_process_coupon_wrong(w, w->row[0], "%s is not known in this flow", id);
+    return fw_process_coupon_wrong(w, w->measurement[0], "%s is not known in this flow", id);
 }
 
 /* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. m
@@ -93,8 +93,8 @@ static fw_status by_mass(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS], n, M;
     FW_TRY(need(w, "cu.n", &n));
     FW_TRY(need(w, "cu.M", &M));
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (!fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_CHARGE) ||
             !(r->at > 0.0))
             return fw_process_coupon_wrong(
@@ -105,9 +105,9 @@ static fw_status by_mass(fw_process_coupon_work *w) {
         sy[i] = r->uncertainty * n * FW_FARADAY_C_PER_mol / M;
         x[i] = r->at, sx[i] = r->at_uncertainty;
     }
-    fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->nrow);
+    fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
     if (f.value[0] > 1.0 + 3.0 * f.uncertainty[0])
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "more copper than the charge can deposit: check mass, "
                                        "charge and units");
     return fw_process_coupon_give(w, "cu.eta", f.value[0], f.uncertainty[0], &f,
@@ -118,8 +118,8 @@ static fw_status by_mass(fw_process_coupon_work *w) {
 static int pads_of(const fw_process_coupon_work *w, bool wide, double size_m, double *y,
                    double *s) {
     int n = 0;
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (wide ? r->drawn_m < size_m : r->drawn_m > size_m) continue;
         y[n] = r->value, s[n++] = r->uncertainty;
     }
@@ -138,13 +138,13 @@ static fw_status by_pads(fw_process_coupon_work *w) {
     FW_TRY(need(w, "cu.rho", &rho));
     FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0),
                                        "the charge per area", &q, &u_q));
-    for (int i = 0; i < w->nrow; i++)
-        widest = fmax(widest, w->row[i]->drawn_m);
+    for (int i = 0; i < w->n; i++)
+        widest = fmax(widest, w->measurement[i]->drawn_m);
     fw_process_fit wide = fw_process_fit_mean(y, s, pads_of(w, true, widest * (1.0 - 1e-9), y, s));
     double eta = wide.value[0] * n * FW_FARADAY_C_PER_mol * rho / (M * q);
     double u_wide = wide.uncertainty[0] / wide.value[0], u = eta * hypot(u_wide, u_q / q);
     if (eta > 1.0 + 3.0 * u)
-        return fw_process_coupon_wrong(w, w->row[0],
+        return fw_process_coupon_wrong(w, w->measurement[0],
                                        "more copper than the charge can deposit: check "
                                        "thickness, charge per area and units");
     FW_TRY(fw_process_coupon_give(w, "cu.eta", eta, u, &wide,

@@ -404,8 +404,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
 }
 
 /* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
-   the
-   device's walls where it is a liquid (films.h) */
+   the device's walls where it is a liquid (films.h) */
 static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};

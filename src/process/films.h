@@ -55,8 +55,7 @@ fw_process_wear fw_process_flow_wear(const fw_process_flow *flow);
 
    A film lies in one of two columns, or in both: the structure, which is what the plate draws, and
    the field around it. Where it is in one only, its wall stands beside the drawn edge by a known
-   amount, at its bottom and at its top. Theory: docs/theory/films.md.
- */
+   amount, at its bottom and at its top. Theory: docs/theory/films.md. */
 
 typedef struct fw_process_film {
     const char *material;
@@ -66,9 +65,8 @@ typedef struct fw_process_film {
     bool shortened;         /* drawn thinner than it is: far from everything that is made */
     bool exposed;           /* latent image in resist */
     double foot_m, head_m;  /* the structure's wall at bottom and top, outside the drawn edge */
-    const fw_process_cut
-        *cut;           /* of the field: etched by this; what the lag leaves is its floor. In the
-                           structure: its foot follows the width of the opening beside it */
+    /* of the field: etched by this; what the lag leaves is its floor. In the structure: its foot follows the width of the opening beside it */
+    const fw_process_cut *cut;
     double mask_edge_m; /* with a cut: edge of what masked it */
     double reach_m;     /* above 0: an etch from every opening has taken the film so far
                            sideways, out of the field and from below the structure */

@@ -14,11 +14,12 @@ struct fw_process_flow;
 struct fw_process_step;
 struct fw_process_mask_facts;
 
-typedef enum fw_process_gap_kind { /* of openings in the drawn layout */
-                                   FW_GAP_FIELD,
-                                   FW_GAP_SLOT,
-                                   FW_GAP_HINGE,
-                                   FW_GAP_COMB
+/* of openings in the drawn layout */
+typedef enum fw_process_gap_kind {
+    FW_GAP_FIELD,
+    FW_GAP_SLOT,
+    FW_GAP_HINGE,
+    FW_GAP_COMB
 } fw_process_gap_kind;
 
 typedef struct fw_process_mask_gap { /* an opening of the drawing, between edges of the material */

@@ -278,7 +278,7 @@ static void forget_derived(fw_process_flow *flow) {
             if (flow->step[i].derive[j].q) flow->step[i].derive[j].q->unknown = true;
 }
 
-static bool seen(const fw_quantity **list, int n, const fw_quantity *q) {
+static bool listed(const fw_quantity **list, int n, const fw_quantity *q) {
     for (int i = 0; i < n; i++)
         if (list[i] == q) return true;
     return false;
@@ -286,7 +286,7 @@ static bool seen(const fw_quantity **list, int n, const fw_quantity *q) {
 
 static void count_one(fw_process_flow *flow, const fw_quantity **list, int *n,
                       const fw_quantity *q) {
-    if (seen(list, *n, q)) return;
+    if (listed(list, *n, q)) return;
     list[(*n)++] = q;
     if (q->unknown)
         flow->unknown++;

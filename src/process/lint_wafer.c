@@ -117,8 +117,8 @@ static void lint_hot(fw_process_pack *pack, const fw_process_step *s, const fw_p
 
 fw_status fw_process_lint_heat(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
-        fw_process_stack
-            stack; /* what is on the wafer when the step begins, and what it puts there */
+        /* what is on the wafer when the step begins, and what it puts there */
+        fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(pack->arena, pack->flow, i - 1, &stack, NULL));
         for (int k = 0; k < pack->flow->step[i].nsetting; k++)
             lint_hot(pack, &pack->flow->step[i], &stack, &pack->flow->step[i].setting[k]);

@@ -43,8 +43,8 @@ void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attrib
                            fw_process_id_kind kind);
 const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name);
 const char *fw_process_pack_text(const fw_xml_record *e, const char *name); /* "" when absent */
-double fw_process_pack_number(const fw_xml_record *e, const char *name,
-                              double absent); /* or wrong */
+/* or wrong */
+double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
 fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* <corner>s of the flow; mistakes are FW-D260 */
@@ -72,8 +72,7 @@ double fw_process_exposed_loss(const fw_process_step *step, const fw_process_exp
                                double *most_m);
 
 /* after fw_process_flow_judge: adds to its reasons what the steps' times do to the layers, and
-   derived
-   values above their limits (FW-D270, FW-D273, FW-D279) */
+   derived values above their limits (FW-D270, FW-D273, FW-D279) */
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);
 
 #endif

@@ -63,12 +63,12 @@ typedef struct fw_process_change {
     fw_place place;
 } fw_process_change;
 
-typedef struct
-    fw_process_exposed { /* a material that the step's chemistry takes along, by either */
+/* a material that the step's chemistry takes along, by either */
+typedef struct fw_process_exposed {
     const char *material;
     const fw_quantity *rate; /* m/s; may be unknown, NULL */
-    const fw_quantity
-        *selectivity; /* 1, of the etched material to this one; may be unknown, NULL */
+    /* 1, of the etched material to this one; may be unknown, NULL */
+    const fw_quantity *selectivity;
     fw_place place;
 } fw_process_exposed;
 
@@ -87,8 +87,8 @@ typedef struct fw_process_lag {
     fw_place place;
 } fw_process_lag;
 
-typedef struct
-    fw_process_derive { /* <derive>: another law on the way, for orientation or as an input */
+/* <derive>: another law on the way, for orientation or as an input */
+typedef struct fw_process_derive {
     const char *name, *unit, *law, *shape, *expression;
     fw_process_argument *argument; /* (nargument) */
     int nargument;
@@ -132,20 +132,20 @@ typedef struct fw_process_step {
     int nderived;
     fw_place place;
     const char *shape; /* of the law: "slot", "cylinder", "linear" or "" */
-    fw_process_argument
-        *need; /* (nneed) inputs that must be known although the law does not take them */
+    /* (nneed) inputs that must be known although the law does not take them */
+    fw_process_argument *need;
     fw_process_derive *derive; /* (nderive) */
     int nneed, nderive;
     double attended_s; /* somebody must be there for this long; 0: unattended */
 } fw_process_step;
 
-typedef enum fw_process_corner_of { /* <corner of>: what a flow does not make exactly as drawn */
-                                    FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
-                                    FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
-                                    FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device
-                                                             layer */
-                                    FW_CORNER_THICKNESS,  /* m: of the device layer */
-                                    FW_CORNER_YOUNGS      /* of the material as it is */
+/* <corner of>: what a flow does not make exactly as drawn */
+typedef enum fw_process_corner_of {
+    FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
+    FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
+    FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
+    FW_CORNER_THICKNESS,  /* m: of the device layer */
+    FW_CORNER_YOUNGS      /* of the material as it is */
 } fw_process_corner_of;
 
 typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */
@@ -203,9 +203,8 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
-    const fw_process_mask_gap
-        *gap; /* (ngap) openings by name, as drawn; the narrowest slot need not be
-                                  among them */
+    /* (ngap) openings by name, as drawn; the narrowest slot need not be among them */
+    const fw_process_mask_gap *gap;
     int ngap;
 } fw_process_mask_facts;
 
@@ -234,9 +233,8 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
 fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
                                   const fw_process_mask_facts *facts, fw_diags *diags);
 /* after fw_process_flow_compute: adds to the judgement whether rotor and stator of the drives (n)
-   are
-   insulated from each other (the pack's carrier, or the device's own) and their gaps can be made.
-   Warns with FW-D207 and FW-D208. */
+   are insulated from each other (the pack's carrier, or the device's own) and their gaps can be
+   made. Warns with FW-D207 and FW-D208. */
 fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
                                        bool insulating_carrier, const fw_process_drive_facts *drive,
                                        int n, fw_diags *diags);
@@ -248,10 +246,10 @@ fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
-const fw_process_material *fw_process_flow_material(const fw_process_flow *flow,
-                                                    const char *id); /* or NULL */
-const char *fw_process_flow_material_name(const fw_process_flow *flow,
-                                          const char *id); /* the id when unknown */
+/* or NULL */
+const fw_process_material *fw_process_flow_material(const fw_process_flow *flow, const char *id);
+/* the id when unknown */
+const char *fw_process_flow_material_name(const fw_process_flow *flow, const char *id);
 
 /* ---- what a flow makes of a device, for the verdict ---- */
 

@@ -117,14 +117,14 @@ const char *fw_process_coupon_name(int i) {
 
 /* ---- what kinds share ---- */
 
-fw_status fw_process_coupon_wrong(fw_process_coupon_work *w, const fw_process_measurement *row,
+fw_status fw_process_coupon_wrong(fw_process_coupon_work *w, const fw_process_measurement *at,
                                   const char *format, ...) {
     char text[400];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return fw_diag_error(w->diags, 211, row->place, "%s", text);
+    return fw_diag_error(w->diags, 211, at->place, "%s", text);
 }
 
 bool fw_process_coupon_has(const fw_process_flow *flow, const char *id) {
@@ -148,11 +148,11 @@ bool fw_process_coupon_value(const fw_process_coupon_work *w, const char *id, do
 
 fw_status fw_process_coupon_condition(fw_process_coupon_work *w, fw_quantity_dimension d,
                                       const char *what, double *value, double *uncertainty) {
-    const fw_process_measurement *first = w->row[0];
+    const fw_process_measurement *first = w->measurement[0];
     *value = first->at;
     *uncertainty = first->at_uncertainty;
-    for (int i = 0; i < w->nrow; i++) {
-        const fw_process_measurement *r = w->row[i];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
         if (!fw_quantity_dimension_equal(r->at_dimension, d) || !(r->at > 0.0))
             return fw_process_coupon_wrong(w, r, "%s needs %s in the columns at, u_at and at_unit",
                                            r->coupon, what);
@@ -185,23 +185,25 @@ static const char *number(char text[32], double value, int digits) {
 fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, double value,
                                  double uncertainty, const fw_process_fit *fit, const char *note) {
     double p = fw_process_chi_square_above(fit->chi_square, fit->freedom);
-    const char *coupon = w->row[0]->coupon;
+    const char *coupon = w->measurement[0]->coupon;
     char a[32], b[32];
     if (!fw_process_coupon_has(w->flow, id))
-        return fw_process_coupon_wrong(w, w->row[0], "%s gives %s, which flow '%s' does not have",
-                                       coupon, id, w->flow->id);
+        return fw_process_coupon_wrong(w, w->measurement[0],
+                                       "%s gives %s, which flow '%s' does not have", coupon, id,
+                                       w->flow->id);
     if (p < least_probability)
-        return fw_diag_error(w->diags, 212, w->row[0]->place,
+        return fw_diag_error(w->diags, 212, w->measurement[0]->place,
                              "the values of %s scatter more around their model than their "
                              "uncertainties allow: chi square %s with %d degrees of freedom has "
                              "a probability of %s; %s is not calibrated from it",
                              coupon, number(a, fit->chi_square, 4), fit->freedom, number(b, p, 2),
                              id);
     if (!(uncertainty > 0.0) || !isfinite(value) || !isfinite(uncertainty))
-        return fw_process_coupon_wrong(w, w->row[0], "%s gives no finite value of %s", coupon, id);
+        return fw_process_coupon_wrong(w, w->measurement[0], "%s gives no finite value of %s",
+                                       coupon, id);
     if (w->nout == FW_COUPON_RESULTS) return FW_LIMIT;
     w->out[w->nout++] = (fw_process_calibrated){
-        id, value, uncertainty, coupon, note, fit->chi_square, p, w->nrow, fit->freedom};
+        id, value, uncertainty, coupon, note, fit->chi_square, p, w->n, fit->freedom};
     return FW_OK;
 }
 
@@ -213,17 +215,17 @@ static const fw_process_coupon *kind_of(const char *name) {
     return NULL;
 }
 
-static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *row) {
+static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of) {
     const char *names[KINDS];
     for (int i = 0; i < KINDS; i++)
         names[i] = table[i]->name;
-    const char *best = fw_did_you_mean(row->coupon, names, KINDS);
+    const char *best = fw_did_you_mean(of->coupon, names, KINDS);
     fw_text list = fw_text_new(diags->arena);
     for (int i = 0; i < KINDS; i++)
         fw_text_printf(&list, "%s%s", i ? ", " : "", names[i]);
     FW_TRY(fw_text_end(&list));
-    return fw_diag_error(diags, 211, row->place, "there is no coupon '%s'%s%s%s; known are %s",
-                         row->coupon, best ? "; did you mean '" : "", best ? best : "",
+    return fw_diag_error(diags, 211, of->place, "there is no coupon '%s'%s%s%s; known are %s",
+                         of->coupon, best ? "; did you mean '" : "", best ? best : "",
                          best ? "'?" : "", list.data);
 }
 
@@ -276,7 +278,7 @@ static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *l
 }
 
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
-                               const fw_process_measurement *row, int nrow, fw_diags *diags,
+                               const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration) {
     fw_status status = FW_OK;
     fw_process_calibrated *out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS);
@@ -284,24 +286,23 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     FW_NEED(out ? w : NULL);
     *w = (fw_process_coupon_work){
         .arena = arena, .flow = flow, .known = out, .out = out, .diags = diags};
-    for (int i = 0; i < nrow; i++) {
-        fw_status of_row = check_row(diags, &row[i]);
+    for (int i = 0; i < n; i++) {
+        fw_status of_row = check_row(diags, &measurement[i]);
         if (of_row == FW_NOMEM) return of_row;
         if (of_row != FW_OK) status = of_row;
     }
-    if (nrow == 0)
-        return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
+    if (n == 0) return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
     FW_TRY(status);
     for (int k = 0; k < KINDS; k++) {
-        w->nrow = 0;
-        for (int i = 0; i < nrow; i++) {
-            if (kind_of(row[i].coupon) != table[k]) continue;
-            if (w->nrow == FW_COUPON_ROWS)
-                return fw_process_coupon_wrong(w, &row[i], "more than %d rows of one coupon",
-                                               FW_COUPON_ROWS);
-            w->row[w->nrow++] = &row[i];
+        w->n = 0;
+        for (int i = 0; i < n; i++) {
+            if (kind_of(measurement[i].coupon) != table[k]) continue;
+            if (w->n == FW_COUPON_ROWS)
+                return fw_process_coupon_wrong(w, &measurement[i],
+                                               "more than %d rows of one coupon", FW_COUPON_ROWS);
+            w->measurement[w->n++] = &measurement[i];
         }
-        if (w->nrow == 0) continue;
+        if (w->n == 0) continue;
         fw_status of_kind = table[k]->fit(w);
         if (of_kind == FW_OK) of_kind = join(arena, diags, out, &w->nout);
         if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time laws: one file and one row in process_law.c each. A law is a function of named arguments
-   with
-   dimensions; the evaluator adds uncertainty, status, window and what is missing. */
+   with dimensions; the evaluator adds uncertainty, status, window and what is missing. */
 #ifndef FW_PROCESS_PROCESS_LAW_H
 #define FW_PROCESS_PROCESS_LAW_H
 #include "process/process.h"
@@ -67,8 +66,8 @@ typedef struct fw_process_law_use { /* a law with what it is applied to */
     fw_quantity_dimension wanted;
     const fw_process_argument *argument;
     int nargument;
-    const fw_process_argument
-        *need; /* inputs that must be known although the law does not take them */
+    /* inputs that must be known although the law does not take them */
+    const fw_process_argument *need;
     int nneed;
     const fw_process_setting *setting; /* gives missing inputs the name that the run sheet uses */
     int nsetting;

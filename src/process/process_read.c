@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/hash.h"
 #include "process/pack.h"
+#include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,8 +23,8 @@ double fw_process_pack_number(const fw_xml_record *e, const char *name, double a
 static int by_id(const void *a, const void *b) {
     const fw_process_id *s = a, *t = b;
     int order = strcmp(s->id, t->id);
-    if (order == 0) order = (s->base ? 1 : 0) - (t->base ? 1 : 0);
-    return order ? order : s->order - t->order;
+    if (!order) order = fw_order_wholes(s->base, t->base);
+    return order ? order : fw_order_wholes(s->order, t->order);
 }
 
 /* the flow's own one wins over the shared one */

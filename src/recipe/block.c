@@ -91,7 +91,7 @@ typedef struct span { /* of a wall, seen from the eye */
     double from, to, depth_from, depth_to;
 } span;
 
-static span seen(const fw_recipe_wall *w, double tx, double ty) {
+static span visible_span(const fw_recipe_wall *w, double tx, double ty) {
     double xa = -ty * w->a.x + tx * w->a.y, xb = -ty * w->b.x + tx * w->b.y; /* to the right */
     double da = tx * w->a.x + ty * w->a.y, db = tx * w->b.x + ty * w->b.y;
     return xa <= xb ? (span){xa, xb, da, db} : (span){xb, xa, db, da};
@@ -123,7 +123,7 @@ fw_status fw_recipe_walls_sort(fw_arena *arena, fw_recipe_wall *wall, int n, dou
     fw_recipe_wall *sorted = fw_arena_array(arena, fw_recipe_wall, (size_t)n);
     FW_NEED(s && waits && done && sorted);
     for (int i = 0; i < n; i++)
-        s[i] = seen(&wall[i], toward_x, toward_y);
+        s[i] = visible_span(&wall[i], toward_x, toward_y);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
             waits[i] += i != k && before(&s[k], &s[i]);

@@ -234,8 +234,7 @@ static fw_status put_between(fw_recipe_slicer *slicer, fw_recipe_cross_section *
 
 /* Feet beside narrow openings stand farther out than beside the open field, by (1 - A) times what
    the lag leaves less of the over-etch: fw_process_fixed_point_edge. In: the intervals of the foot
-   beside
-   the open field. To first order in the shift over the radius of the wall. */
+   beside the open field. To first order in the shift over the radius of the wall. */
 double fw_recipe_foot_more(const fw_process_flow *flow, const fw_process_cut *cut, double w_m) {
     const fw_process_fixed_point *e = &flow->edges;
     if (isnan(cut->anisotropy) || isnan(cut->etched_m) || cut->anisotropy >= 1.0) return 0.0;
@@ -342,10 +341,9 @@ static fw_status put_field(fw_recipe_slicer *slicer, fw_recipe_cross_section *p,
 
 /* Every film along the cut. In: the flow as computed. Out: trapezia, clipped to the window. Exact
    where outlines are (fw_geometry_contour_offset, fw_geometry_contour_slice: 1e-12 m); floors and
-   feet of narrow
-   openings as the fixed point has them for their width. Cost: one offset and one slice of the
-   shapes near the cut for each wall that occurs, kept over all steps. Test: test_profile.c: gaps
-   against the certificate's, volumes, depths. */
+   feet of narrow openings as the fixed point has them for their width. Cost: one offset and one
+   slice of the shapes near the cut for each wall that occurs, kept over all steps. Test:
+   test_profile.c: gaps against the certificate's, volumes, depths. */
 fw_status fw_recipe_cross_section_of(fw_recipe_slicer *slicer, const fw_process_flow *flow,
                                      int index, fw_recipe_cross_section *profile) {
     *profile = (fw_recipe_cross_section){0};

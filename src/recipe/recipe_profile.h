@@ -6,9 +6,9 @@
 #include "process/films.h"
 #include "recipe/recipe.h"
 
-typedef struct
-    fw_recipe_outline_at { /* the plate's shapes near the cut, moved; one edge of the cache */
-    double edge_m;         /* outside the drawn edge */
+/* the plate's shapes near the cut, moved; one edge of the cache */
+typedef struct fw_recipe_outline_at {
+    double edge_m;                /* outside the drawn edge */
     fw_geometry_contour *contour; /* (nshape) of the slicer; count 0: nothing is left of it */
     fw_geometry_slices inside;    /* along the line: the structure */
     fw_geometry_slices gap;       /* openings before, between and behind it; ends at infinity */
@@ -123,8 +123,8 @@ fw_status fw_recipe_section_page(const fw_text *body, double height, const char 
 /* ---- the outlines behind a cut as polygons in its own frame, clipped to the block that is shown,
    and the walls that stand on them: block.c ---- */
 
-typedef struct
-    fw_recipe_spot { /* of an outline in the frame of the cut: x along it, y behind it; m */
+/* of an outline in the frame of the cut: x along it, y behind it; m */
+typedef struct fw_recipe_spot {
     double x, y;
     bool open; /* the edge that ends here is no wall: the block's own side, or a joint of pieces */
 } fw_recipe_spot;
@@ -135,8 +135,8 @@ typedef struct fw_recipe_ring {
 } fw_recipe_ring;
 
 typedef struct fw_recipe_rings {
-    fw_recipe_ring
-        *ring; /* (n) pieces, and holes in them: inside where the number of rings is odd */
+    /* (n) pieces, and holes in them: inside where the number of rings is odd */
+    fw_recipe_ring *ring;
     int n;
 } fw_recipe_rings;
 

@@ -26,8 +26,8 @@ void fw_recipe_put_uncertainty(fw_text *out, double value);
 void fw_recipe_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_recipe_put_unit(fw_text *out, const char *unit);
-const char *fw_recipe_missing_list(fw_arena *arena,
-                                   const fw_process_time *time); /* NULL: no memory */
+/* NULL: no memory */
+const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time);
 
 void fw_recipe_put_csv(fw_text *out, const char *text);              /* quoted where needed */
 void fw_recipe_put_moment(fw_text *out, double seconds);             /* "day 2, 13:05" */

@@ -6,15 +6,15 @@
 
 #define FW_TIE_S (4.0 * 3600.0) /* windows that are usually placed at once */
 
-typedef enum fw_schedule_rule {                            /* which unit is placed next */
-                                FW_RULE_EARLIEST_ADVANCED, /* starts first; of those the one
-                                                              furthest on */
-                                FW_RULE_EARLIEST_BEHIND,
-                                FW_RULE_EARLIEST_END,
-                                FW_RULE_EARLIEST_LONG,
-                                FW_RULE_WAFER, /* wafer by wafer */
-                                FW_RULE_STEP,  /* step by step */
-                                FW_RULE_LIST   /* least priority first */
+/* which unit is placed next */
+typedef enum fw_schedule_rule {
+    FW_RULE_EARLIEST_ADVANCED, /* starts first; of those the one furthest on */
+    FW_RULE_EARLIEST_BEHIND,
+    FW_RULE_EARLIEST_END,
+    FW_RULE_EARLIEST_LONG,
+    FW_RULE_WAFER, /* wafer by wafer */
+    FW_RULE_STEP,  /* step by step */
+    FW_RULE_LIST   /* least priority first */
 } fw_schedule_rule;
 enum { FW_RULES = FW_RULE_LIST };
 const char *fw_schedule_rule_text(fw_schedule_rule rule);
@@ -61,8 +61,8 @@ bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 /* ---- what occupies a machine or the operators ---- */
 
 double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);
-void fw_schedule_line_add(fw_schedule_line *line, double start,
-                          double end); /* nothing for an empty span */
+/* nothing for an empty span */
+void fw_schedule_line_add(fw_schedule_line *line, double start, double end);
 void fw_schedule_line_remove(fw_schedule_line *line, double start, double end); /* what was added */
 
 /* ---- lower bounds of the end of all schedules ---- */

@@ -8,8 +8,8 @@
 #include "base/text.h"
 #include "process/process.h"
 
-typedef struct
-    fw_schedule_calendar {  /* when people are there, in seconds of a day that starts at 0:00 */
+/* when people are there, in seconds of a day that starts at 0:00 */
+typedef struct fw_schedule_calendar {
     double open_s, close_s; /* 0 <= open < close <= 86400; 0 and 86400: round the clock */
     bool weekends;          /* people come on days 6 and 7 too; day 1 is a Monday */
 } fw_schedule_calendar;
@@ -48,13 +48,14 @@ typedef struct fw_schedule_shop { /* the problem */
     fw_schedule_calendar calendar;
 } fw_schedule_shop;
 
-typedef enum fw_schedule_wait { /* what a run waited for last */
-                                FW_WAIT_NOTHING,
-                                FW_WAIT_FLOW,     /* the step before, or a hold's least time */
-                                FW_WAIT_MACHINE,  /* another load */
-                                FW_WAIT_OPERATOR, /* all were busy */
-                                FW_WAIT_DAY,      /* the working day */
-                                FW_WAIT_HOLD      /* it would have opened a window too early */
+/* what a run waited for last */
+typedef enum fw_schedule_wait {
+    FW_WAIT_NOTHING,
+    FW_WAIT_FLOW,     /* the step before, or a hold's least time */
+    FW_WAIT_MACHINE,  /* another load */
+    FW_WAIT_OPERATOR, /* all were busy */
+    FW_WAIT_DAY,      /* the working day */
+    FW_WAIT_HOLD      /* it would have opened a window too early */
 } fw_schedule_wait;
 const char *fw_schedule_wait_text(fw_schedule_wait wait);
 

@@ -103,7 +103,7 @@ fw_status fw_wafer_notes(fw_arena *arena, const fw_wafer *w, const char ***line,
 /* The order sheet of the whole plate for people: ASCII, to be pasted into a shop's form. Places to
    measure are those of the die nearest to the centre, in coordinates of the plate. */
 
-static void row(fw_text *out, const char *what, const char *value) {
+static void sheet_line(fw_text *out, const char *what, const char *value) {
     fw_text_printf(out, "%-22s %s\n", what, value);
 }
 
@@ -112,13 +112,13 @@ static void lengths(fw_text *out, const char *what, double a_m, const char *betw
     fw_number_text(a, sizeof a, a_m * 1e3, 9);
     fw_number_text(b, sizeof b, b_m * 1e3, 9);
     snprintf(line, sizeof line, "%s%s%s%s", a, between, b, " mm");
-    row(out, what, line);
+    sheet_line(out, what, line);
 }
 
 static void micrometres(fw_text *out, const char *what, double value_m) {
     char number[32], line[64];
     snprintf(line, sizeof line, "%s um", fw_number_text(number, sizeof number, value_m * 1e6, 7));
-    row(out, what, isfinite(value_m) ? line : "none below 100 um");
+    sheet_line(out, what, isfinite(value_m) ? line : "none below 100 um");
 }
 
 static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
@@ -130,22 +130,22 @@ static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
     if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
     fw_text_printf(out, "Order sheet of plate %s-%s (flexwright " FW_VERSION ")\n\n", w->top,
                    w->flow);
-    row(out, "device", w->device->name);
-    row(out, "title", w->title);
-    row(out, "flow", w->flow);
-    row(out, "top cell", w->top);
+    sheet_line(out, "device", w->device->name);
+    sheet_line(out, "title", w->title);
+    sheet_line(out, "flow", w->flow);
+    sheet_line(out, "top cell", w->top);
     lengths(out, "plate", w->form.plate_m, " mm x ", w->form.plate_m);
     lengths(out, "wafer", w->form.diameter_m, " mm, in the plate's middle; edge exclusion ",
             w->form.edge_m);
-    row(out, "layers on the plate",
-        w->table->plate ? w->table->plate : "not said: all layers drawn");
-    if (w->table->order) row(out, "", w->table->order);
+    sheet_line(out, "layers on the plate",
+               w->table->plate ? w->table->plate : "not said: all layers drawn");
+    if (w->table->order) sheet_line(out, "", w->table->order);
     snprintf(line, sizeof line, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
              order->field ? order->field : "unknown");
-    row(out, "polygon tone", line);
-    row(out, "reading", w->table->reading);
-    row(out, "mirror", mirror[order->mirror + 1]);
-    row(out, "", "the data themselves are not mirrored");
+    sheet_line(out, "polygon tone", line);
+    sheet_line(out, "reading", w->table->reading);
+    sheet_line(out, "mirror", mirror[order->mirror + 1]);
+    sheet_line(out, "", "the data themselves are not mirrored");
 }
 
 static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask *any,
@@ -163,10 +163,10 @@ static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask
     micrometres(out, "least space", space);
     snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
              fw_number_text(number, sizeof number, any->bias_m * 1e6, 6));
-    row(out, "process bias", line);
+    sheet_line(out, "process bias", line);
     snprintf(line, sizeof line, "1 nm; arcs within %s nm",
              fw_number_text(number, sizeof number, any->tolerance_m * 1e9, 6));
-    row(out, "grid", line);
+    sheet_line(out, "grid", line);
     fw_geometry_box b = fw_wafer_extent(w);
     const double side[] = {b.x0, b.y0, b.x1, b.y1};
     fw_text_printf(out, "%-22s ", "extent");

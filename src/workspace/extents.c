@@ -86,12 +86,12 @@ static double dual(const double g[3], const double half[3], const planes *p, con
 
 /* multipliers that make g - sum lambda a vanish in n of the coordinates */
 static double from_coordinates(const double g[3], const double half[3], const planes *p,
-                               const int *use, const int *row, int n) {
+                               const int *unknown, const int *equation, int n) {
     double a[3][4], lambda[3];
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
-            a[i][j] = p->a[use[j]][row[i]];
-        a[i][n] = g[row[i]];
+            a[i][j] = p->a[unknown[j]][equation[i]];
+        a[i][n] = g[equation[i]];
     }
     for (int i = 0; i < n; i++) { /* elimination; a bad pivot only gives a bad bound */
         for (int j = i + 1; j < n; j++)
@@ -111,7 +111,7 @@ static double from_coordinates(const double g[3], const double half[3], const pl
             lambda[i] -= a[i][j] * lambda[j];
         lambda[i] /= a[i][i];
     }
-    double bound = dual(g, half, p, use, lambda, n);
+    double bound = dual(g, half, p, unknown, lambda, n);
     return bound == bound ? bound : (double)INFINITY;
 }
 
@@ -196,7 +196,7 @@ static open_box take(end *e) {
 }
 
 /* bounds a box and keeps it when it may lead farther than what is found, by more than the slack */
-static void look(end *e, const fw_workspace_box3 *box, double far) {
+static void bound_box(end *e, const fw_workspace_box3 *box, double far) {
     fw_workspace_loop_box known;
     fw_maths_interval share;
     double half[3];
@@ -217,7 +217,7 @@ static void look(end *e, const fw_workspace_box3 *box, double far) {
    duality). Done when no box leads farther than a pose that is proved to be inside, within the
    slack; when boxes run out before, what is left bounds the end. */
 static fw_status search(end *e, long most) {
-    look(e, &e->whole, (double)INFINITY);
+    bound_box(e, &e->whole, (double)INFINITY);
     while (e->open > 0) {
         if (fw_arena_cancelled(e->arena)) return FW_CANCELLED;
         double far = e->heap[0].far, near = fmin(e->slack, e->relative * fabs(e->found));
@@ -230,8 +230,8 @@ static fw_status search(end *e, long most) {
         double middle = 0.5 * (next.box.lo[axis] + next.box.hi[axis]);
         fw_workspace_box3 lower = next.box, upper = next.box;
         lower.hi[axis] = upper.lo[axis] = middle;
-        look(e, &lower, next.far);
-        look(e, &upper, next.far);
+        bound_box(e, &lower, next.far);
+        bound_box(e, &upper, next.far);
     }
     e->bound = fmax(e->bound, e->found);
     return FW_OK;

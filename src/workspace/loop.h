@@ -44,8 +44,8 @@ typedef struct fw_workspace_centred2 {
     fw_maths_centred x, y;
 } fw_workspace_centred2;
 
-typedef struct
-    fw_workspace_leg { /* from the ground up, as drawn; the mechanism is what these doubles say */
+/* from the ground up, as drawn; the mechanism is what these doubles say */
+typedef struct fw_workspace_leg {
     fw_geometry_vec2 base;   /* A or F, m */
     fw_geometry_vec2 a, b;   /* base to elbow, elbow to platform hinge, m */
     fw_geometry_vec2 to;     /* from the platform's centre of mass to that hinge, m */
@@ -63,8 +63,8 @@ typedef struct fw_workspace_box3 {
     double lo[3], hi[3];
 } fw_workspace_box3;
 
-typedef struct
-    fw_workspace_form { /* value at the middle + grad.d within +- rest, for every d of the box */
+/* value at the middle + grad.d within +- rest, for every d of the box */
+typedef struct fw_workspace_form {
     fw_maths_interval at;
     double grad[3], rest;
 } fw_workspace_form;

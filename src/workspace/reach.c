@@ -381,8 +381,8 @@ static bool count_inside(search *s, const fw_workspace_box3 *box) {
 }
 
 /* looks at one box; keeps it when it is neither inside nor outside */
-static fw_status look(search *s, const fw_workspace_box3 *box, const unsigned short at[3],
-                      int level, unsigned open) {
+static fw_status examine(search *s, const fw_workspace_box3 *box, const unsigned short at[3],
+                         int level, unsigned open) {
     fw_workspace_loop_box known;
     fw_maths_interval share;
     s->boxes++;
@@ -425,7 +425,7 @@ static fw_status split(search *s) {
         }
         if (parent.outside >> child & 1) continue;
         if (parent.inside >> child & 1 && count_inside(s, &box)) continue;
-        FW_TRY(look(s, &box, at, level, parent.open));
+        FW_TRY(examine(s, &box, at, level, parent.open));
     }
     return FW_OK;
 }
@@ -464,7 +464,7 @@ static fw_status measured(search *s, fw_workspace_proof_effort effort, fw_worksp
             return FW_OK;
         }
     const unsigned short first[3] = {0};
-    FW_TRY(look(s, &s->whole, first, 0, FW_WANT_LIMITS));
+    FW_TRY(examine(s, &s->whole, first, 0, FW_WANT_LIMITS));
     sum_up(s, effort.relative, out);
     if (out->reached) return FW_OK;
     const long children = 1 << s->dimensions;

@@ -5,8 +5,8 @@
 #define FW_WORKSPACE_REACH_H
 #include "workspace/loop.h"
 
-typedef struct
-    fw_workspace_reach_limits { /* of the joint angle A..F, the free angle taken off; rad */
+/* of the joint angle A..F, the free angle taken off; rad */
+typedef struct fw_workspace_reach_limits {
     double low_rad[FW_SIX], high_rad[FW_SIX];
 } fw_workspace_reach_limits;
 
@@ -14,8 +14,8 @@ typedef struct fw_workspace_bound { /* a range whose ends are known within round
     fw_maths_interval low, high;
 } fw_workspace_bound;
 
-typedef struct
-    fw_workspace_allowed { /* what the limits say of the rotations psi, and of the right elbow */
+/* what the limits say of the rotations psi, and of the right elbow */
+typedef struct fw_workspace_allowed {
     fw_workspace_bound psi[FW_SIX]; /* rad */
     fw_workspace_bound d2; /* squared reach of the right leg, m2: the same as that of its elbow */
 } fw_workspace_allowed;

@@ -19,8 +19,8 @@ typedef struct fw_workspace_triangle {
 } fw_workspace_triangle;
 
 typedef struct fw_workspace_regularity {
-    fw_maths_interval
-        sine[2]; /* of the elbow's angle, left and right leg: 0 is a serial singularity */
+    /* of the elbow's angle, left and right leg: 0 is a serial singularity */
+    fw_maths_interval sine[2];
     bool regular[2];
     fw_workspace_triangle passive[FW_TRIANGLES];
     long boxes;
@@ -71,8 +71,8 @@ typedef struct fw_workspace_map {
     fw_workspace_reach_limits limits;
     fw_workspace_measure volume; /* m2 rad */
     fw_workspace_survey survey;
-    fw_workspace_slice
-        slice[FW_SLICES]; /* at 0 and at a third and two thirds of the way to the ends */
+    /* at 0 and at a third and two thirds of the way to the ends */
+    fw_workspace_slice slice[FW_SLICES];
 } fw_workspace_map;
 
 typedef struct fw_workspace_effort {
