@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The profile of a flexure: centre line of lines and arcs, edges, fillets, blocks. Private. */
-#ifndef FW_CONTINUUM_MESH
-#define FW_CONTINUUM_MESH
+#ifndef FW_CONTINUUM_MESH_H
+#define FW_CONTINUUM_MESH_H
 #include "continuum/continuum.h"
 #include "geometry/contour.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* CalculiX: a program that runs in a directory of its own, what it wrote, and one run from deck to
    numbers. docs/decisions/0012-continuum.md */
-#ifndef FW_CONTINUUM_SOLVER
-#define FW_CONTINUUM_SOLVER
+#ifndef FW_CONTINUUM_SOLVER_H
+#define FW_CONTINUUM_SOLVER_H
 #include "base/status.h"
 #include "continuum/continuum.h"
 #include "continuum/mesh.h"

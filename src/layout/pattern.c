@@ -5,17 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+#define FW_LAYOUT_PATTERN(name) &fw_layout_pattern_##name,
 static const fw_layout_pattern_kind *const kinds[] = {
-    &fw_layout_pattern_ladder,       &fw_layout_pattern_slots,
-    &fw_layout_pattern_pads,         &fw_layout_pattern_pointer,
-    &fw_layout_pattern_holes,        &fw_layout_pattern_cantilevers,
-    &fw_layout_pattern_van_der_pauw, &fw_layout_pattern_cd_lines,
-    &fw_layout_pattern_vernier,      &fw_layout_pattern_resolution,
-    &fw_layout_pattern_back_mark,    &fw_layout_pattern_contact,
-    &fw_layout_pattern_thief,        &fw_layout_pattern_fill,
-    &fw_layout_pattern_frame_mark,   &fw_layout_pattern_frame_vernier,
-    &fw_layout_pattern_window_thief, &fw_layout_pattern_window_fill,
+#include "layout/patterns.def"
 };
+#undef FW_LAYOUT_PATTERN
 enum { NKIND = sizeof kinds / sizeof kinds[0] };
 
 const char FW_PEN_SIZE[] = "size";

@@ -107,13 +107,9 @@ void fw_layout_pen_figure(fw_layout_pen *pen, const char *name, double value, co
 double fw_layout_pen_value(const fw_layout_pen *pen, int parameter);
 
 /* one row per kind: pattern_etch.c, pattern_plating.c, pattern_print.c */
-extern const fw_layout_pattern_kind fw_layout_pattern_ladder, fw_layout_pattern_slots,
-    fw_layout_pattern_pads, fw_layout_pattern_pointer, fw_layout_pattern_cantilevers,
-    fw_layout_pattern_van_der_pauw, fw_layout_pattern_cd_lines, fw_layout_pattern_resolution,
-    fw_layout_pattern_vernier, fw_layout_pattern_back_mark, fw_layout_pattern_contact,
-    fw_layout_pattern_thief, fw_layout_pattern_fill, fw_layout_pattern_holes,
-    fw_layout_pattern_frame_mark, fw_layout_pattern_frame_vernier, fw_layout_pattern_window_thief,
-    fw_layout_pattern_window_fill;
+#define FW_LAYOUT_PATTERN(name) extern const fw_layout_pattern_kind fw_layout_pattern_##name;
+#include "layout/patterns.def"
+#undef FW_LAYOUT_PATTERN
 /* shared by kinds of the test die and of the frame */
 fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame);
 fw_status fw_layout_back_cross_draw(fw_layout_pen *pen, double middle_m, double cross_m,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Masks: layers from masks/FLOW.xml, exact biased outlines, polygons on the 1 nm grid, writers. */
-#ifndef FW_MASK_MASK
-#define FW_MASK_MASK
+#ifndef FW_MASK_MASK_H
+#define FW_MASK_MASK_H
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"

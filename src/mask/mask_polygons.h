@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From exact outlines to polygons: joints between pieces, necks, flattening, bounds, corners, cuts.
    Private to the room and its tests. */
-#ifndef FW_MASK_MASK_POLYGONS
-#define FW_MASK_MASK_POLYGONS
+#ifndef FW_MASK_MASK_POLYGONS_H
+#define FW_MASK_MASK_POLYGONS_H
 #include "geometry/segment.h"
 #include "geometry/tessellate.h"
 #include "mask/mask.h"

@@ -1,11 +1,54 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of design rules: one line each, in the order of docs/theory/masks.md. */
+#include "mask/rule.h"
+#include <stdlib.h>
+
+#define FW_MASK_RULE(name) &fw_mask_kind_##name,
+static const fw_mask_rule_kind_row *const kinds[] = {
+#include "mask/rules.def"
+};
+#undef FW_MASK_RULE
+
+const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i) {
+    return i < sizeof kinds / sizeof kinds[0] ? kinds[i] : NULL;
+}
+
+const char *fw_mask_rule_name(const fw_mask_rule *rule) {
+    return rule->kind->name;
+}
+
+double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value) {
+    switch (kind->unit) {
+    case FW_UNIT_LENGTH:
+        return value * 1e6;
+    case FW_UNIT_ANGLE:
+        return value * 180 / FW_PI;
+    case FW_UNIT_AREA:
+        return value * 1e12;
+    case FW_UNIT_SHARE:
+        return value;
+    }
+    return value;
+}
+
+const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind) {
+    static const char *const name[] = {"um", "deg", "um2", "of the window"};
+    return name[kind->unit];
+}
+
+double fw_mask_rule_shown(const fw_mask_rule *rule, double value) {
+    return fw_mask_rule_row_shown(rule->kind, value);
+}
+
+const char *fw_mask_rule_unit(const fw_mask_rule *rule) {
+    return rule->kind->unit == FW_UNIT_SHARE ? "" : fw_mask_rule_unit_name(rule->kind);
+}
+
 /* All rules of one mask. The union of pieces that share joints is bounded by their other segments,
    with the material on the left. So width and space of the union need no boolean: every two
    boundary edges that are near enough are looked at, and the side on which the chord leaves tells
    material from empty space. Edges: rules_search.c; which pairs: rules_search.c; a pair:
    rules_pair.c; places: rules_places.c. What a rule makes of it: rule_*.c. */
-#include "mask/rule.h"
-#include <stdlib.h>
 
 /* ---- the rules: rows of the table, and what layers say in a word ---- */
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the writers of files have for files of several cells, as a wafer's, and for programs that
    write more polygons than they hold. */
-#ifndef FW_MASK_MASK_WRITERS
-#define FW_MASK_MASK_WRITERS
+#ifndef FW_MASK_MASK_WRITERS_H
+#define FW_MASK_MASK_WRITERS_H
 #include "mask/mask.h"
 
 /* ---- GDSII and SVG in parts ---- */

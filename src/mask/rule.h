@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Design rules: edges of one layer and what is found between them, the kinds of rules, the check of
    a mask, and its findings in the room's outputs. Private to the room and its tests. */
-#ifndef FW_MASK_RULE
-#define FW_MASK_RULE
+#ifndef FW_MASK_RULE_H
+#define FW_MASK_RULE_H
 #include "geometry/segment.h"
 #include "mask/mask.h"
 #include "mask/mask_polygons.h"
@@ -81,7 +81,7 @@ double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind
 /* beyond this a chord of that kind changes nothing */
 double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind);
 
-/* ---- kinds: each has its check and its row in a file rule_*.c, and one line in rule_kinds.c ---- */
+/* ---- kinds: each has its check and its row in a file rule_*.c, and one line in rules.def ---- */
 
 typedef enum fw_mask_rule_unit_kind {
     FW_UNIT_LENGTH,
@@ -126,9 +126,9 @@ typedef struct fw_mask_rule_kind_row {
     fw_status (*check)(fw_mask_rules *rules, const fw_mask_rule *rule);
 } fw_mask_rule_kind_row;
 
-extern const fw_mask_rule_kind_row fw_mask_kind_width, fw_mask_kind_space, fw_mask_kind_notch,
-    fw_mask_kind_feature, fw_mask_kind_enclosure, fw_mask_kind_separation, fw_mask_kind_angle,
-    fw_mask_kind_edge, fw_mask_kind_area, fw_mask_kind_density, fw_mask_kind_overlap;
+#define FW_MASK_RULE(name) extern const fw_mask_rule_kind_row fw_mask_kind_##name;
+#include "mask/rules.def"
+#undef FW_MASK_RULE
 const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i); /* NULL behind the last row */
 
 /* length in um, angle in degrees, area in um2 */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Weighted least squares of one or two parameters in closed form. Private to process/. */
-#ifndef FW_PROCESS_COUPON
-#define FW_PROCESS_COUPON
+#ifndef FW_PROCESS_COUPON_H
+#define FW_PROCESS_COUPON_H
 #include "process/calibrate.h"
 #include "process/process_law.h"
 
@@ -46,9 +46,9 @@ typedef struct fw_process_coupon {
     fw_status (*fit)(fw_process_coupon_work *work);
 } fw_process_coupon;
 
-extern const fw_process_coupon fw_process_coupon_cd_lines, fw_process_coupon_etch_rate,
-    fw_process_coupon_slots, fw_process_coupon_ladder, fw_process_coupon_step,
-    fw_process_coupon_mass, fw_process_coupon_pads, fw_process_coupon_spin;
+#define FW_PROCESS_COUPON(name) extern const fw_process_coupon fw_process_coupon_##name;
+#include "process/coupons.def"
+#undef FW_PROCESS_COUPON
 
 /* a result, tested: FW-D212 and FW_INPUT where chi square is too large. Several kinds may give the
    same id: they are joined afterwards. freedom and chi_square of `fit`. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer's layers after a step: drawn not to scale (stacks), as films with heights and walls,
    and what wet steps take of the device itself. */
-#ifndef FW_PROCESS_FILMS
-#define FW_PROCESS_FILMS
+#ifndef FW_PROCESS_FILMS_H
+#define FW_PROCESS_FILMS_H
 #include "process/process.h"
 
 /* ---- stacks! ---- */

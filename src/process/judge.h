@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Can this flow make this device? Private to process/. */
-#ifndef FW_PROCESS_JUDGE
-#define FW_PROCESS_JUDGE
+#ifndef FW_PROCESS_JUDGE_H
+#define FW_PROCESS_JUDGE_H
 #include "base/diag.h"
 #include "process/process.h"
 

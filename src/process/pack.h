@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading a pack; private to process/. */
-#ifndef FW_PROCESS_PACK
-#define FW_PROCESS_PACK
+#ifndef FW_PROCESS_PACK_H
+#define FW_PROCESS_PACK_H
 #include "process/process_law.h"
 #include "xml/xml_quantity.h"
 #include "xml/xml_reader.h"

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Process packs (XML in processes/), time laws and the computed flow. A number that is not known is
    `unknown`, and what needs it is NOT COMPUTABLE with the name of what is missing. */
-#ifndef FW_PROCESS_PROCESS
-#define FW_PROCESS_PROCESS
+#ifndef FW_PROCESS_PROCESS_H
+#define FW_PROCESS_PROCESS_H
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"

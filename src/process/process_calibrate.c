@@ -102,10 +102,11 @@ double fw_process_chi_square_above(double x, int n) {
 }
 
 /* in the order in which one needs another: edges before the ladder, rates before depths by time */
+#define FW_PROCESS_COUPON(name) &fw_process_coupon_##name,
 static const fw_process_coupon *const table[] = {
-    &fw_process_coupon_cd_lines, &fw_process_coupon_etch_rate, &fw_process_coupon_slots,
-    &fw_process_coupon_ladder,   &fw_process_coupon_step,      &fw_process_coupon_mass,
-    &fw_process_coupon_pads,     &fw_process_coupon_spin};
+#include "process/coupons.def"
+};
+#undef FW_PROCESS_COUPON
 enum { KINDS = sizeof table / sizeof table[0] };
 
 static const double least_probability =

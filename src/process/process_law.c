@@ -5,12 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define FW_PROCESS_LAW(name) &fw_process_law_##name,
 static const fw_process_law *const table[] = {
-    &fw_process_law_const,     &fw_process_law_rate,     &fw_process_law_arrhenius,
-    &fw_process_law_faraday,   &fw_process_law_dose,     &fw_process_law_spin,
-    &fw_process_law_diffusion, &fw_process_law_dilution, &fw_process_law_lab_table,
-    &fw_process_law_arde,      &fw_process_law_loading,  &fw_process_law_duty,
-    &fw_process_law_expr};
+#include "process/time_laws.def"
+};
+#undef FW_PROCESS_LAW
 enum { LAW_COUNT = sizeof table / sizeof table[0] };
 
 const fw_process_law *fw_process_law_find(const char *name) {

@@ -109,10 +109,9 @@ fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const c
                                  const char *unit, fw_quantity_value_status status,
                                  const char *source);
 
-extern const fw_process_law fw_process_law_const, fw_process_law_rate, fw_process_law_arrhenius,
-    fw_process_law_faraday, fw_process_law_dose, fw_process_law_spin, fw_process_law_diffusion,
-    fw_process_law_dilution, fw_process_law_lab_table, fw_process_law_arde, fw_process_law_loading,
-    fw_process_law_duty, fw_process_law_expr;
+#define FW_PROCESS_LAW(name) extern const fw_process_law fw_process_law_##name;
+#include "process/time_laws.def"
+#undef FW_PROCESS_LAW
 
 /* probability that a particle crosses a slot of depth/width x, or a cylinder of length/radius l */
 double fw_process_knudsen_slot(double x);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One schedule from one order: serial generation. Private to schedule/. */
-#ifndef FW_SCHEDULE_PLACE
-#define FW_SCHEDULE_PLACE
+#ifndef FW_SCHEDULE_PLACE_H
+#define FW_SCHEDULE_PLACE_H
 #include "schedule/schedule.h"
 
 #define FW_TIE_S (4.0 * 3600.0) /* windows that are usually placed at once */

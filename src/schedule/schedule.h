@@ -3,8 +3,8 @@
    operators and a working day. Hold windows are a temporal network; a schedule keeps all of them.
    What a step without a known time takes is not guessed: it is counted with the time that somebody
    must stand there, and marked. */
-#ifndef FW_SCHEDULE_SCHEDULE
-#define FW_SCHEDULE_SCHEDULE
+#ifndef FW_SCHEDULE_SCHEDULE_H
+#define FW_SCHEDULE_SCHEDULE_H
 #include "base/text.h"
 #include "process/process.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells of a wafer that no device file describes, the lists they go into, and what its files say of
    it in words. Private to the room. */
-#ifndef FW_WAFER_WAFER_PARTS
-#define FW_WAFER_WAFER_PARTS
+#ifndef FW_WAFER_WAFER_PARTS_H
+#define FW_WAFER_WAFER_PARTS_H
 #include "wafer/wafer.h"
 
 typedef struct fw_wafer_maker {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The closed loop of the six-bar: its angles for a pose, with bounds over boxes of poses, the proof
    that every pose of a box is reached, and the volume a plane cuts of a box. */
-#ifndef FW_WORKSPACE_LOOP
-#define FW_WORKSPACE_LOOP
+#ifndef FW_WORKSPACE_LOOP_H
+#define FW_WORKSPACE_LOOP_H
 #include "maths/centred.h"
 #include "maths/maths_interval.h"
 #include "workspace/workspace.h"

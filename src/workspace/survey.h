@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What else is said of a workspace: singular poses, extents, which hinge bounds it. */
-#ifndef FW_WORKSPACE_SURVEY
-#define FW_WORKSPACE_SURVEY
+#ifndef FW_WORKSPACE_SURVEY_H
+#define FW_WORKSPACE_SURVEY_H
 #include "workspace/reach.h"
 
 enum { FW_TRIANGLES = 20 };
