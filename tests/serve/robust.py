@@ -425,13 +425,18 @@ def file(program, directory):
 
 
 def words(program, directory):
-    """what is no UTF-8 (a file's name, a line that was cut) does not break the JSON of an answer"""
+    """what is no UTF-8 (a file's name, its text, a line that was cut) does not break the JSON of an answer"""
     odd = os.path.join(os.fsencode(directory), b"d\xff\xc3.xml")
-    pathlib.Path(os.fsdecode(odd)).write_text("<device name='" + "ä" * 3000 + "'/>")
+    file = pathlib.Path(os.fsdecode(odd))
+    file.write_bytes(b"<device name='\xff'/>")
     with Server(program, directory, device=os.fsdecode(odd)) as server:
         server.enter()
         assert server.json("GET", "/api/session")["file"] == "d??.xml"
         assert server.ask("GET", "/api/file")[0] == 422
+        long = "<device name='" + "ä" * 3000 + "'/>"
+        file.write_text(long, encoding="utf-8")
+        answer = server.json("GET", "/api/file")
+        assert answer["name"] == "d??.xml" and answer["text"] == long, answer["name"]
         for text in ("<device name='" + "ä" * 3000 + "'/>", "<" + "ü" * 5000 + ">", "<device a='" + "x" + "ö" * 2500 + "'"):
             job = server.job({"kind": "check", "text": text})
             assert job["state"] == "failed" and job["messages"], job
