@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 . tools/setup.sh
 configure_and_build build-asan -DFW_SANITIZE=ON -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1"
 ctest --test-dir build-asan -L quick --output-on-failure -j 2
-FW_HARD_QUICK=1 FW_BOUNDS_COUNT=40 ctest --test-dir build-asan -L hard -LE quick -E valgrind --output-on-failure -j 2
+FW_TEST_QUICK=1 FW_BOUNDS_COUNT=40 ctest --test-dir build-asan -L hard -LE quick -E valgrind --output-on-failure -j 2
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 for device in docs/gallery/*/device.xml; do

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The hard suite, shortened by FW_HARD_QUICK, under valgrind: reads of what was never written, reads
+# The hard suite, shortened by FW_TEST_QUICK, under valgrind: reads of what was never written, reads
 # and writes beyond what was allocated, leaks. valgrind.sh DIRECTORY-OF-PROGRAMS [case ...]
 set -eu
 cd "$(dirname "$0")/../.."
@@ -13,7 +13,7 @@ shift
 # some forty times slower than alone: the cases that take it longer than fifteen seconds (flat, impacts,
 # memory, redundant; windows, dead_centre, masses, numbers, periods) run when they are named
 [ $# -gt 0 ] || set -- assembly pendulum snap squeezer start stiffness units
-export FW_HARD_QUICK=1
+export FW_TEST_QUICK=1
 status=0
 for name in "$@"; do
     log=$(mktemp)

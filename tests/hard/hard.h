@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the hard suite shares: runs that keep their error, further joints, laws from text, and runs
    of the bare model with a method made here (for ablations). Every case prints the figures it
-   judges. FW_HARD_QUICK=1 leaves out what takes long, for sanitizers and valgrind. */
+   judges. FW_TEST_QUICK=1 leaves out what takes long, for sanitizers and valgrind. */
 #ifndef FW_TEST_HARD_H
 #define FW_TEST_HARD_H
 #include "quantity/law_kind.h"
@@ -14,7 +14,7 @@
 static const double HARD_PI = 3.14159265358979323846;
 
 static inline bool hard_quick(void) {
-    return getenv("FW_HARD_QUICK") != NULL;
+    return test_cases(0, 1);
 }
 
 /* ---- runs ---- */

@@ -9,8 +9,16 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
+
+/* How much of something repeated is done: all of it, or its first part where FW_TEST_QUICK is set.
+   What asks here is registered twice (tests/CMakeLists.txt): the quick run does the part, the whole
+   one everything. */
+static inline int test_cases(int whole, int quick) {
+    return getenv("FW_TEST_QUICK") ? quick : whole;
+}
 
 /* |got - want| <= tol, absolute */
 #define assert_near(got, want, tol)                                                                \

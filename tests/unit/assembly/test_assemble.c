@@ -171,7 +171,7 @@ static void test_hard_guesses(void **state) {
     for (int kind = 0; kind < 10; kind++)
         for (int how = 0; how < 3; how++) {
             uint64_t seed = 1000 + (uint64_t)(10 * kind + how);
-            int good = 0, runs = kind == 6 ? 10 : 50;
+            int good = 0, runs = (kind == 6 ? 10 : 50) / test_cases(1, 5);
             for (int run = 0; run < runs; run++) {
                 fw_arena *arena = fw_arena_new(0);
                 fw_diags diags = fw_diags_new(arena);
@@ -582,7 +582,7 @@ static void test_one_unit(void **state) {
 static void test_always_refused(void **state) {
     (void)state;
     uint64_t seed = 77;
-    int refused = 0, runs = 60;
+    int refused = 0, runs = test_cases(60, 15);
     for (int run = 0; run < runs; run++) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);

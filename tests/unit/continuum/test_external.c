@@ -44,6 +44,7 @@ static void ends(void **state) {
     fw_continuum_external_room_close(&room);
     assert_int_not_equal(access(path, F_OK), 0);
     fw_continuum_external_room_close(&room); /* twice does no harm */
+    fw_arena_free(work);
 }
 
 /* the environment is ours, the directory too */
@@ -67,6 +68,7 @@ static void surroundings(void **state) {
     assert_int_equal(fw_continuum_external_write(&room, "a", "b", 1),
                      FW_IO); /* nothing is written over */
     fw_continuum_external_room_close(&room);
+    fw_arena_free(work);
 }
 
 static void found(void **state) {

@@ -85,7 +85,7 @@ static void test_random_mechanisms(void **state) {
     (void)state;
     tally t = {0};
     const double rtol[] = {1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
-    for (uint64_t seed = 1; seed <= 120; seed++) {
+    for (uint64_t seed = 1; seed <= (uint64_t)test_cases(120, 30); seed++) {
         fw_arena *arena = fw_arena_new(0);
         fw_diags diags = fw_diags_new(arena);
         rig r = rig_any(arena, seed);

@@ -108,7 +108,7 @@ static void discs_and_rings(void **state) {
     static const int limit[3] = {199, 4094, 8190};
     fw_arena *arena = fw_arena_new(0);
     fw_geometry_contour c;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k += test_cases(1, 2)) {
         assert_int_equal(fw_geometry_contour_disc(arena, (fw_geometry_vec2){1e-3, 0}, 20e-3, &c),
                          FW_OK);
         fw_geometry_polygon p = flat(arena, &c, 2e-9);
@@ -144,7 +144,7 @@ static void necks_are_preferred(void **state) {
 static void random_outlines(void **state) {
     (void)state;
     uint64_t seed = 5;
-    for (int run = 0; run < 60; run++) {
+    for (int run = 0; run < test_cases(60, 20); run++) {
         fw_arena *arena = fw_arena_new(0);
         int n = 20 + (int)(700 * random01(&seed)), size = run % 3 ? 100000 : 3000;
         fw_geometry_point *v = fw_arena_array(arena, fw_geometry_point, (size_t)n);
@@ -177,7 +177,7 @@ static void combs(void **state) {
     v[n - 2] = (fw_geometry_point){20 * TEETH - 10, 600};
     v[n - 1] = (fw_geometry_point){0, 600};
     fw_geometry_polygon p = {v, n};
-    for (int most = 8; most < 200; most += 37)
+    for (int most = 8; most < 200; most += 37 * test_cases(1, 2))
         cut_and_check(arena, &p, most, n);
     fw_arena_free(arena);
 }

@@ -101,7 +101,7 @@ static void run_both(worker pair[2], double after_s) {
 static void one_is_cancelled_and_the_other_is_not(void **state) {
     (void)state;
     const char *asked = getenv("FW_CANCEL_MOMENTS");
-    const int moments = asked ? atoi(asked) : 8;
+    const int moments = asked ? atoi(asked) : test_cases(8, 1);
     fw_design *first = fresh(cancelled_file), *second = fresh(other_file);
     assert_non_null(first);
     assert_non_null(second);

@@ -292,6 +292,7 @@ static void *work(void *argument) { /* no cmocka in here: it is not made for thr
 
 static void designs_in_parallel(void **state) {
     (void)state;
+    const int threads = test_cases(4, 2);
     fw_design *alone[2];
     worker w[4] = {0};
     pthread_t thread[4];
@@ -300,12 +301,12 @@ static void designs_in_parallel(void **state) {
         assert_int_equal(fw_design_read(alone[i], i ? OTHER : GALLERY), FW_STATUS_OK);
         assert_int_equal(fw_design_judge(alone[i]), FW_STATUS_OK);
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < threads; i++) {
         w[i] =
             (worker){i % 2 ? OTHER : GALLERY, text_of(alone[i % 2], FW_DOCUMENT_VERDICT_JSON), 0};
         assert_int_equal(pthread_create(&thread[i], NULL, work, &w[i]), 0);
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < threads; i++) {
         assert_int_equal(pthread_join(thread[i], NULL), 0);
         assert_int_equal(w[i].wrong, 0);
     }
@@ -520,7 +521,8 @@ static void memory_runs_out(void **state) {
     assert_int_equal(life(want, &same), FW_STATUS_OK);
     assert_true(same);
     long all = fw_arena_count(), nomem = 0;
-    for (long i = 0; i < 60; i++) /* dense where the library itself allocates, then over all */
+    for (long i = 0; i < 60;
+         i += test_cases(1, 4)) /* dense where the library itself allocates, then over all */
         for (int ever = 0; ever < 2; ever++) {
             long n = i < 30 ? i + 1 : all - (i - 30) * (all / 30);
             fw_arena_fail_at(n, ever);
@@ -531,7 +533,7 @@ static void memory_runs_out(void **state) {
                 fail_msg("allocation %ld of %ld%s: status %d", n, all, ever ? " and later" : "",
                          status);
         }
-    assert_true(nomem > 30);
+    assert_true(nomem > 30 / test_cases(1, 4));
     fw_design_free(design);
 }
 

@@ -102,7 +102,7 @@ static void memory_runs_out(void **state) {
     fw_arena_fail_at(0, 0);
     assert_int_equal(life(), FW_STATUS_OK);
     long all = fw_arena_count();
-    for (long n = 1; n <= all; n += 3)
+    for (long n = 1; n <= all; n += test_cases(3, 17))
         for (int ever = 0; ever < 2; ever++) {
             fw_arena_fail_at(n, ever);
             int status = life();

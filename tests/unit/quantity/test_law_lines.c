@@ -107,7 +107,7 @@ static void largest(void **state) {
                  {200, 300, 40, 32, 1.06}, {1000, 1100, 5, 64, 1.06}, {5, 80, 100, 32, 1.35},
                  {40, 40, 2, 1, 1.02},     {1, 1e4, 1e-3, 100, 1.02}};
     for (size_t i = 0; i < sizeof scene / sizeof scene[0]; i++)
-        for (unsigned seed = 1; seed < 5; seed++) {
+        for (unsigned seed = 1; seed <= (unsigned)test_cases(4, 1); seed++) {
             const fw_quantity_law law = noise(scene[i].f0, scene[i].f1, scene[i].lines, seed);
             double bound = fw_quantity_law_largest(&law, scene[i].end_s), seen = 0;
             int looks = (int)(scene[i].end_s * scene[i].f1 * 20) + 50;

@@ -341,12 +341,13 @@ static void out_of_memory_is_said(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fixture *f = fixture_new(arena, 0.05);
+    const int thinner = test_cases(100, 8);
     for (int w = 0; w < WRITERS; w++)
         for (int ever_after = 0; ever_after < 2; ever_after++) {
             long failures = 0;
-            /* the first hundred one by one, then ever fewer: the whole workspace is found each
+            /* the first one by one, then ever fewer: the whole workspace is found each
                time */
-            for (long n = 1;; n += 1 + n / 100) {
+            for (long n = 1;; n += 1 + n / thinner) {
                 fw_arena *scratch = fw_arena_new(0);
                 assert_non_null(scratch);
                 fw_text out = fw_text_new(scratch);

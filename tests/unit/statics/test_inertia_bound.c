@@ -84,7 +84,7 @@ static void honest(void **state) {
     (void)state;
     score s = {.least = (double)INFINITY};
     const char *many = getenv("FW_BOUNDS");
-    int count = many ? atoi(many) : 200;
+    int count = many ? atoi(many) : test_cases(200, 40);
     for (int i = 0; i < count; i++)
         try(7000 + (uint64_t)i, &s);
     print_message(
