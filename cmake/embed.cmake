@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Run at build time: cmake -D FROM=<directory> -D TO=<file.c> -P embed.cmake
-# The files below FROM as one table of C (src/serve/serve_page.h): path, type, bytes, and the SHA-256 as the
+# The files below FROM as one table of C (src/serve/server.h): path, type, bytes, and the SHA-256 as the
 # strong entity tag. "index.html" is "/". Sorted by path, so that the same files give the same bytes.
 cmake_minimum_required(VERSION 3.22)
 string(REPEAT "." 120 line) # 24 bytes
@@ -38,6 +38,6 @@ foreach(file ${files})
     string(APPEND rows "    {\"${path}\", \"${type_${ending}}\", \"\\\"${hash}\\\"\", file_${count}, sizeof file_${count} - 1},\n")
     math(EXPR count "${count} + 1")
 endforeach()
-file(WRITE ${TO}.new "/* made by cmake/embed.cmake */\n#include \"serve/serve_page.h\"\n${bytes}const fw_serve_page_file fw_serve_page_files[] = {\n${rows}};\nconst size_t fw_serve_page_count = ${count};\n")
+file(WRITE ${TO}.new "/* made by cmake/embed.cmake */\n#include \"serve/server.h\"\n${bytes}const fw_serve_page_file fw_serve_page_files[] = {\n${rows}};\nconst size_t fw_serve_page_count = ${count};\n")
 file(COPY_FILE ${TO}.new ${TO} ONLY_IF_DIFFERENT)
 file(REMOVE ${TO}.new)

@@ -1,14 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is serve_guard.c's, what
-   is
+/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is serve_guard.c's, what is
    answered the rows' of routes.c. Never more than one thread: the daemons have none, server.c runs
    them. */
-#include "serve/defence.h"
-#include "serve/events.h"
-#include "serve/jobs.h"
-#include "serve/reply.h"
-#include "serve/scratch.h"
-#include "serve/worker.h"
+#include "serve/server.h"
 #include <arpa/inet.h>
 #include <errno.h>
 #include <netinet/in.h>
@@ -132,7 +126,7 @@ static void admit(fw_serve_request *r, struct MHD_Connection *mhd, const char *p
     r->declared = fw_serve_guard_body(&facts);
     r->body = fw_arena_array(r->arena, char, r->declared + 1);
     if (!r->path || !r->body) {
-        fw_serve_reply_error(r, 503, NULL, "out of memory");
+        fw_serve_reply_no_memory(r);
         return;
     }
     r->foreign = facts.fetch_site && strcmp(facts.fetch_site, "same-origin") != 0 &&
@@ -176,13 +170,6 @@ static enum MHD_Result on_request(void *context, struct MHD_Connection *mhd, con
     return MHD_YES;
 }
 
-void fw_serve_request_answer(fw_serve_request *r) {
-    r->answered = true;
-    if (!r->suspended) return;
-    r->suspended = false;
-    MHD_resume_connection(r->connection->mhd);
-}
-
 static void on_completed(void *context, struct MHD_Connection *mhd, void **state,
                          enum MHD_RequestTerminationCode why) {
     (void)context, (void)mhd, (void)why;
@@ -190,7 +177,7 @@ static void on_completed(void *context, struct MHD_Connection *mhd, void **state
     if (!r) return;
     *state = NULL;
     fw_serve_pool_forget(r->server->pool, r);
-    fw_serve_jobs_forget(r->server->jobs, r);
+    fw_serve_jobs_forget(r);
     fw_serve_events_close(r);
     if (r->connection) {
         r->connection->request = NULL;
@@ -240,7 +227,7 @@ static void notice_gone(fw_serve_connection *slot) {
     if (!r || !r->suspended || r->gone || !went_away(slot)) return;
     r->gone = true;
     fw_serve_pool_forget(r->server->pool, r);
-    fw_serve_jobs_forget(r->server->jobs, r);
+    fw_serve_jobs_forget(r);
     if (!r->stream) fw_serve_reply_error(r, 400, NULL, "the client went away");
     fw_serve_request_answer(r);
 }

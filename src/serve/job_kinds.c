@@ -143,17 +143,23 @@ static const kind_row *kind_named(const char *name) {
     return NULL;
 }
 
+static fw_status no_such_kind(fw_arena *arena, const char **why) {
+    size_t count = sizeof kinds / sizeof kinds[0];
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "\"kind\" must be ");
+    for (size_t i = 0; i < count; i++)
+        fw_text_printf(&text, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " or ", kinds[i].name);
+    FW_TRY(fw_text_end(&text));
+    *why = text.data;
+    return FW_INPUT;
+}
+
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
                                const char **kind, const char *const **argv, const char **why) {
     command c = {.arena = arena, .argv = fw_arena_array(arena, const char *, MOST_ARGUMENTS + 8)};
     FW_NEED(c.argv);
     const kind_row *row = kind_named(json_string_value(json_object_get(json, "kind")));
-    if (!row) {
-        *why =
-            "\"kind\" must be plan, check, workspace, modes, statics, assemble, tradeoff, hinge, "
-            "recipe, mask or simulate";
-        return FW_INPUT;
-    }
+    if (!row) return no_such_kind(arena, why);
     *kind = row->name;
     c.argv[c.n++] = "flexwright";
     c.argv[c.n++] = row->name;

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The life of a job: queued, running in its process, finished; and of the process that packs its
-   archive. What is asked by HTTP is in route_jobs.c. */
+   archive. What is asked by HTTP is in routes.c. */
 #include "serve/jobs.h"
-#include "base/json.h"
-#include "serve/child.h"
-#include "serve/events.h"
-#include "serve/jobs_table.h"
-#include "serve/scratch.h"
+#include "serve/serve.h"
 #include <errno.h>
 #include <fcntl.h>
-#include <jansson.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,6 +28,13 @@ static const fw_serve_child_limits limits = {.memory_bytes = (uint64_t)MEMORY_GI
                                              .files = FILES,
                                              .nice = NICE};
 
+struct fw_serve_jobs {
+    fw_serve_scratch *scratch;
+    fw_serve_events *events;
+    fw_serve_job job[FW_JOBS_KEPT];
+    unsigned last_id;
+};
+
 const char *fw_serve_job_state_name(fw_serve_job_state state) {
     static const char *const name[] = {"queued", "running", "done", "failed", "cancelled"};
     return name[state];
@@ -44,7 +46,7 @@ double fw_serve_job_seconds(const fw_serve_job *job) {
     return (double)(end - job->began_ms) / 1000.0;
 }
 
-static void tell(fw_serve_server *server, fw_serve_job *job) {
+static void tell(const fw_serve_jobs *jobs, fw_serve_job *job) {
     fw_text text = fw_text_new(job->arena);
     fw_mark mark = fw_arena_mark(job->arena);
     fw_json json = fw_json_new(&text, FW_JSON_SPACED);
@@ -55,7 +57,7 @@ static void tell(fw_serve_server *server, fw_serve_job *job) {
     fw_json_text(&json, "stage", job->stage);
     fw_json_number(&json, "seconds", fw_serve_job_seconds(job), 4);
     fw_json_end(&json);
-    if (fw_json_finish(&json, "") == FW_OK) fw_serve_events_send(server, "job", "%s", text.data);
+    if (fw_json_finish(&json, "") == FW_OK) fw_serve_events_send(jobs->events, "job", text.data);
     fw_arena_rewind(job->arena, mark);
 }
 
@@ -74,16 +76,16 @@ static bool write_device(const fw_serve_job *job, const char *text, size_t n) {
     return close(fd) == 0 && n == 0;
 }
 
-fw_status fw_serve_job_prepare(fw_serve_server *server, fw_serve_job *job, const char *text,
-                               size_t n) {
+/* its directory with the description in it; FW_IO when that cannot be */
+static fw_status prepare(fw_serve_jobs *jobs, fw_serve_job *job, const char *text, size_t n) {
     job->directory = fw_arena_printf(job->arena, "job-%u", job->id);
     job->message = fw_arena_array(job->arena, const char *, FW_JOB_MOST_LINES);
     FW_NEED(job->message);
     FW_NEED(job->directory);
-    FW_NEED(job->path = fw_serve_scratch_path(job->arena, server->scratch, job->directory));
-    job->fd = fw_serve_scratch_make(server->scratch, job->directory);
+    FW_NEED(job->path = fw_serve_scratch_path(job->arena, jobs->scratch, job->directory));
+    job->fd = fw_serve_scratch_make(jobs->scratch, job->directory);
     if (job->fd < 0 || !write_device(job, text, n)) return FW_IO;
-    tell(server, job);
+    tell(jobs, job);
     return FW_OK;
 }
 
@@ -114,7 +116,7 @@ static bool start(fw_serve_job *job) {
 /* ---- what it says ---- */
 
 /* a line with -v is "flexwright: what it does now"; others are for the person */
-static void one_line(fw_serve_server *server, fw_serve_job *job) {
+static void one_line(fw_serve_jobs *jobs, fw_serve_job *job) {
     static const char ours[] = "flexwright: ";
     job->line[job->line_length] = '\0';
     job->line_length = 0;
@@ -123,7 +125,7 @@ static void one_line(fw_serve_server *server, fw_serve_job *job) {
     if (strncmp(job->line, ours, sizeof ours - 1) == 0 && strncmp(text, "error", 5) != 0) {
         snprintf(job->stage, sizeof job->stage, "%.119s", text);
         fw_serve_reply_clean(job->stage);
-        tell(server, job);
+        tell(jobs, job);
     } else if (job->line[0] && job->messages < FW_JOB_MOST_LINES) {
         const char *copy = fw_arena_strdup(job->arena, job->line);
         if (copy) job->message[job->messages++] = copy;
@@ -131,7 +133,7 @@ static void one_line(fw_serve_server *server, fw_serve_job *job) {
 }
 
 /* everything that its standard error holds; a line that is too long is cut */
-static void hear(fw_serve_server *server, fw_serve_job *job) {
+static void hear(fw_serve_jobs *jobs, fw_serve_job *job) {
     char buffer[4096];
     for (;;) {
         ssize_t got = job->err >= 0 ? read(job->err, buffer, sizeof buffer) : 0;
@@ -145,11 +147,80 @@ static void hear(fw_serve_server *server, fw_serve_job *job) {
         }
         for (ssize_t i = 0; i < got; i++) {
             if (buffer[i] == '\n')
-                one_line(server, job);
+                one_line(jobs, job);
             else if (job->line_length < FW_JOB_MOST_LINE)
                 job->line[job->line_length++] = buffer[i];
         }
     }
+}
+
+/* ---- the archive ---- */
+
+/* begins it, unless it has begun */
+static bool pack(fw_serve_job *job) {
+    static const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "archive", NULL};
+    if (job->packer || job->packed) return true;
+    fw_serve_child_plan plan = {.argv = argv,
+                                .directory = job->fd,
+                                .temporary = job->path,
+                                .in = -1,
+                                .out = -1,
+                                .err = -1,
+                                .channel = -1,
+                                .limits = limits};
+    job->packer = fw_serve_child_start(&plan);
+    if (job->packer < 0) job->packer = 0;
+    return job->packer > 0;
+}
+
+static void reply_archive(fw_serve_request *r, const fw_serve_job *job) {
+    int fd = job->packed ? openat(job->fd, "archive.zip", O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
+    struct stat info;
+    if (fd < 0 || fstat(fd, &info) != 0) {
+        if (fd >= 0) close(fd);
+        fw_serve_reply_error(r, 500, "FW-D222", "the archive could not be made");
+        return;
+    }
+    r->reply.status = 200;
+    r->reply.type = "application/zip";
+    r->reply.file = true;
+    r->reply.fd = fd;
+    r->reply.n = (size_t)info.st_size;
+    r->reply.disposition =
+        fw_arena_printf(r->arena, "attachment; filename=\"%s-%u.zip\"", job->kind, job->id);
+}
+
+static void answer_waiting(fw_serve_job *job) {
+    while (job->waiting) {
+        fw_serve_request *r = job->waiting;
+        job->waiting = r->next;
+        r->job = NULL;
+        reply_archive(r, job);
+        fw_serve_request_answer(r);
+    }
+}
+
+void fw_serve_job_archive(fw_serve_job *job, fw_serve_request *r) {
+    if (job->packed)
+        reply_archive(r, job);
+    else if (job->state != FW_JOB_DONE || job->files == 0)
+        fw_serve_reply_error(r, 404, NULL, "this job has no files");
+    else if (!pack(job))
+        fw_serve_reply_error(r, 503, NULL, "the archive could not be made");
+    else {
+        r->job = job;
+        r->next = job->waiting;
+        job->waiting = r;
+    }
+}
+
+void fw_serve_jobs_forget(fw_serve_request *r) {
+    for (fw_serve_request **at = r->job ? &r->job->waiting : NULL; at && *at; at = &(*at)->next)
+        if (*at == r) {
+            *at = r->next;
+            break;
+        }
+    r->job = NULL;
 }
 
 /* ---- the end ---- */
@@ -169,9 +240,9 @@ static const char *printed(fw_serve_job *job) {
     return whole ? text : NULL;
 }
 
-static void finish(fw_serve_server *server, fw_serve_job *job, int status) {
-    hear(server, job);
-    if (job->line_length) one_line(server, job);
+static void finish(fw_serve_jobs *jobs, fw_serve_job *job, int status) {
+    hear(jobs, job);
+    if (job->line_length) one_line(jobs, job);
     if (job->err >= 0) close(job->err);
     job->err = -1;
     kill(-job->pid, SIGKILL); /* what it may have left behind */
@@ -187,103 +258,94 @@ static void finish(fw_serve_server *server, fw_serve_job *job, int status) {
     job->state = e == 0 || e == 1 || e == 4 ? FW_JOB_DONE : FW_JOB_FAILED;
     job->result = printed(job);
     if (fw_serve_job_list(job) != FW_OK) job->files = 0;
-    tell(server, job);
+    tell(jobs, job);
 }
 
-void fw_serve_job_cancel(fw_serve_server *server, fw_serve_job *job) {
+void fw_serve_job_cancel(fw_serve_jobs *jobs, fw_serve_job *job) {
     fw_serve_child_kill(job->pid);
     if (job->err >= 0) close(job->err);
     job->pid = 0;
     job->err = -1;
     if (job->fd >= 0) close(job->fd);
     job->fd = -1;
-    fw_serve_scratch_remove(server->scratch, job->directory);
+    fw_serve_scratch_remove(jobs->scratch, job->directory);
     if (job->began_ms) job->ended_ms = fw_serve_now_ms();
     job->state = FW_JOB_CANCELLED;
-    tell(server, job);
+    tell(jobs, job);
 }
 
-static void answer_waiting(fw_serve_server *server, const fw_serve_job *job);
-
-void fw_serve_job_forget(fw_serve_server *server, fw_serve_job *job) {
+void fw_serve_job_forget(fw_serve_jobs *jobs, fw_serve_job *job) {
     fw_serve_child_kill(job->pid);
     fw_serve_child_kill(job->packer);
     job->packer = 0;
     job->packed = false;
-    answer_waiting(server, job);
+    answer_waiting(job);
     if (job->err >= 0) close(job->err);
     if (job->fd >= 0) close(job->fd);
-    if (job->directory) fw_serve_scratch_remove(server->scratch, job->directory);
+    if (job->directory) fw_serve_scratch_remove(jobs->scratch, job->directory);
     fw_arena_free(job->arena);
     *job = (fw_serve_job){0};
 }
 
-/* ---- the archive ---- */
-
-bool fw_serve_job_pack(fw_serve_job *job) {
-    static const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "archive", NULL};
-    if (job->packer || job->packed) return true;
-    fw_serve_child_plan plan = {.argv = argv,
-                                .directory = job->fd,
-                                .temporary = job->path,
-                                .in = -1,
-                                .out = -1,
-                                .err = -1,
-                                .channel = -1,
-                                .limits = limits};
-    job->packer = fw_serve_child_start(&plan);
-    if (job->packer < 0) job->packer = 0;
-    return job->packer > 0;
-}
-
-void fw_serve_job_reply_archive(fw_serve_request *r, const fw_serve_job *job) {
-    int fd = job->packed ? openat(job->fd, "archive.zip", O_RDONLY | O_NOFOLLOW | O_CLOEXEC) : -1;
-    struct stat info;
-    if (fd < 0 || fstat(fd, &info) != 0) {
-        if (fd >= 0) close(fd);
-        fw_serve_reply_error(r, 500, "FW-D222", "the archive could not be made");
-        return;
-    }
-    r->reply.status = 200;
-    r->reply.type = "application/zip";
-    r->reply.file = true;
-    r->reply.fd = fd;
-    r->reply.n = (size_t)info.st_size;
-    r->reply.disposition =
-        fw_arena_printf(r->arena, "attachment; filename=\"%s-%u.zip\"", job->kind, job->id);
-}
-
-static void answer_waiting(fw_serve_server *server, const fw_serve_job *job) {
-    for (size_t i = 0; i < sizeof server->connection / sizeof *server->connection; i++) {
-        fw_serve_request *r = server->connection[i].fd >= 0 ? server->connection[i].request : NULL;
-        if (!r || r->job != job) continue;
-        r->job = NULL;
-        fw_serve_job_reply_archive(r, job);
-        fw_serve_request_answer(r);
-    }
-}
-
-void fw_serve_jobs_forget(fw_serve_jobs *jobs, fw_serve_request *r) {
-    (void)jobs;
-    r->job = NULL; /* the archive is made all the same: it will be asked for again */
-}
-
 /* ---- the table ---- */
 
-fw_status fw_serve_jobs_open(fw_serve_server *server) {
-    FW_NEED(server->jobs = fw_arena_one(server->arena, fw_serve_jobs));
+fw_status fw_serve_jobs_open(fw_arena *arena, fw_serve_scratch *scratch, fw_serve_events *events,
+                             fw_serve_jobs **jobs) {
+    FW_NEED(*jobs = fw_arena_one(arena, fw_serve_jobs));
+    (*jobs)->scratch = scratch;
+    (*jobs)->events = events;
     return FW_OK;
 }
 
-void fw_serve_jobs_close(fw_serve_server *server) {
-    for (int i = 0; server->jobs && i < FW_JOBS_KEPT; i++)
-        if (server->jobs->job[i].id) fw_serve_job_forget(server, &server->jobs->job[i]);
+void fw_serve_jobs_close(fw_serve_jobs *jobs) {
+    for (int i = 0; jobs && i < FW_JOBS_KEPT; i++)
+        if (jobs->job[i].id) fw_serve_job_forget(jobs, &jobs->job[i]);
 }
 
 fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id) {
     for (int i = 0; id && i < FW_JOBS_KEPT; i++)
         if (jobs->job[i].id == id) return &jobs->job[i];
     return NULL;
+}
+
+/* a free slot; of those that are finished the oldest makes room. NULL: too many wait */
+static fw_serve_job *slot(fw_serve_jobs *jobs) {
+    fw_serve_job *oldest = NULL, *empty = NULL;
+    int waiting = 0;
+    for (int i = 0; i < FW_JOBS_KEPT; i++) {
+        fw_serve_job *job = &jobs->job[i];
+        if (!job->id)
+            empty = job;
+        else if (job->state == FW_JOB_QUEUED)
+            waiting++;
+        else if (job->state != FW_JOB_RUNNING && (!oldest || job->id < oldest->id))
+            oldest = job;
+    }
+    if (waiting >= FW_JOBS_QUEUED) return NULL;
+    if (empty) return empty;
+    fw_serve_job_forget(jobs, oldest); /* 16 slots, 5 at most wait or run */
+    return oldest;
+}
+
+fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
+                            const fw_serve_job **out) {
+    fw_serve_job *job = slot(jobs);
+    const char *why = "";
+    if (!job) return FW_LIMIT;
+    *job = (fw_serve_job){.id = jobs->last_id + 1, .fd = -1, .err = -1, .exit_status = -1};
+    job->arena = fw_arena_new(0);
+    job->name = job->arena ? fw_arena_strdup(job->arena, order->file) : NULL;
+    fw_status status = job->name ? fw_serve_job_command(job->arena, order->request, job->name,
+                                                        &job->kind, &job->argv, &why)
+                                 : FW_NOMEM;
+    if (status == FW_OK) {
+        jobs->last_id++;
+        status = prepare(jobs, job, order->text, order->n);
+    }
+    if (status == FW_INPUT) snprintf(order->why, sizeof order->why, "%s", why);
+    if (status != FW_OK) fw_serve_job_forget(jobs, job);
+    *out = job;
+    return status;
 }
 
 static fw_serve_job *first_in(fw_serve_jobs *jobs, fw_serve_job_state state) {
@@ -301,28 +363,27 @@ bool fw_serve_jobs_busy(const fw_serve_jobs *jobs) {
     return false;
 }
 
-static void run_one(fw_serve_server *server, fw_serve_job *job, int64_t now) {
+static void run_one(fw_serve_jobs *jobs, fw_serve_job *job, int64_t now) {
     int status;
     if (job->packer && fw_serve_child_ended(job->packer, &status)) {
         job->packer = 0;
         job->packed = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-        answer_waiting(server, job);
+        answer_waiting(job);
     }
     if (job->state != FW_JOB_RUNNING) return;
-    hear(server, job);
+    hear(jobs, job);
     if (fw_serve_child_ended(job->pid, &status))
-        finish(server, job, status);
+        finish(jobs, job, status);
     else if (now - job->began_ms > JOB_MS)
         kill(-job->pid, SIGKILL);
     else if (now - job->told_ms > TELL_MS)
-        tell(server, job);
+        tell(jobs, job);
 }
 
-void fw_serve_jobs_run(fw_serve_server *server) {
-    fw_serve_jobs *jobs = server->jobs;
+void fw_serve_jobs_run(fw_serve_jobs *jobs) {
     int64_t now = fw_serve_now_ms();
     for (int i = 0; i < FW_JOBS_KEPT; i++)
-        if (jobs->job[i].id) run_one(server, &jobs->job[i], now);
+        if (jobs->job[i].id) run_one(jobs, &jobs->job[i], now);
     fw_serve_job *next = first_in(jobs, FW_JOB_RUNNING) ? NULL : first_in(jobs, FW_JOB_QUEUED);
     if (!next) return;
     next->began_ms = now;
@@ -332,7 +393,7 @@ void fw_serve_jobs_run(fw_serve_server *server) {
         next->ended_ms = now;
         next->why = "it could not be started";
     }
-    tell(server, next);
+    tell(jobs, next);
 }
 
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most) {

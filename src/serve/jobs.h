@@ -3,7 +3,9 @@
    directory of its own. Private to the room. */
 #ifndef FW_SERVE_JOBS_H
 #define FW_SERVE_JOBS_H
-#include "serve/server.h"
+#include "serve/child.h"
+#include "serve/request.h"
+#include <jansson.h>
 #include <poll.h>
 
 typedef struct fw_serve_jobs fw_serve_jobs;
@@ -16,6 +18,7 @@ typedef enum fw_serve_job_state {
 } fw_serve_job_state;
 
 enum {
+    FW_JOBS_QUEUED = 4,      /* that wait */
     FW_JOBS_KEPT = 16,       /* with the finished ones, of which the oldest is forgotten */
     FW_JOB_MOST_LINES = 400, /* of messages */
     FW_JOB_MOST_LINE = 2000, /* bytes */
@@ -31,8 +34,8 @@ typedef struct fw_serve_job_file {
 typedef struct fw_serve_job {
     unsigned id; /* 0: the slot is free */
     fw_arena *arena;
-    const char *kind, *name, *directory,
-        *path; /* directory: below the scratch; path: from the root */
+    const char *kind, *name;
+    const char *directory, *path; /* below the scratch; from the root */
     const char *const *argv;
     fw_serve_job_state state;
     pid_t pid;
@@ -50,15 +53,39 @@ typedef struct fw_serve_job {
     size_t files;
     pid_t packer; /* of the archive, 0: none */
     bool packed;
+    fw_serve_request *waiting; /* for the archive, chained by `next` */
 } fw_serve_job;
 
-fw_status fw_serve_jobs_open(fw_serve_server *server);
-void fw_serve_jobs_close(fw_serve_server *server);
-void fw_serve_jobs_run(fw_serve_server *server);
+/* directories of jobs are made in `scratch`; what happens to them goes out as events */
+fw_status fw_serve_jobs_open(fw_arena *arena, fw_serve_scratch *scratch, fw_serve_events *events,
+                             fw_serve_jobs **jobs);
+void fw_serve_jobs_close(fw_serve_jobs *jobs); /* NULL allowed */
+void fw_serve_jobs_run(fw_serve_jobs *jobs);
 bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
-void fw_serve_jobs_forget(fw_serve_jobs *jobs, fw_serve_request *request);
+typedef struct fw_serve_job_order { /* what is asked for */
+    const json_t *request;          /* {"kind", "set", "options"} */
+    const char *file, *text;        /* name and (n) bytes of the description */
+    size_t n;
+    char why[240]; /* what is wrong with it; "": nothing */
+} fw_serve_job_order;
+/* Queues the job. FW_LIMIT: FW_JOBS_QUEUED wait already; FW_INPUT: order->why; else there is no
+   memory, or no room on the disk. */
+fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
+                            const fw_serve_job **job);
 fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id);
+
+/* one that waits or runs: its process and files go, what it said stays */
+void fw_serve_job_cancel(fw_serve_jobs *jobs, fw_serve_job *job);
+/* in any state; its files go */
+void fw_serve_job_forget(fw_serve_jobs *jobs, fw_serve_job *job);
+const char *fw_serve_job_state_name(fw_serve_job_state state);
+/* since it began; of a finished one: how long it took */
+double fw_serve_job_seconds(const fw_serve_job *job);
+/* The archive of a finished job: at once, or as soon as it is made. */
+void fw_serve_job_archive(fw_serve_job *job, fw_serve_request *request);
+/* nobody waits any more; the archive is made all the same: it will be asked for again */
+void fw_serve_jobs_forget(fw_serve_request *request);
 
 /* ---- job_kinds.c: from the request to a command line ---- */
 /* argv of the program for {"kind", "set", "options"}; FW_INPUT: *why says what is wrong */
@@ -70,9 +97,6 @@ fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *fi
 fw_status fw_serve_job_list(fw_serve_job *job);
 /* a file of the list: its descriptor, or -1 */
 int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file);
-const char *fw_serve_job_type(const char *path);
-
-/* ---- archive.c ---- */
 /* in a process of its own, in the job's directory: archive.zip of out/ */
 int fw_serve_archive_main(void);
 

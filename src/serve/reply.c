@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "serve/reply.h"
-#include "base/json.h"
-#include "serve/events.h"
+/* What all answers have in common. */
+#include "serve/request.h"
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 /* Nothing but the page's own files; pictures may be made on the spot. No script or style stands in
@@ -12,6 +12,19 @@ static const char page_policy[] =
     "default-src 'self'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
+
+int64_t fw_serve_now_ms(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+void fw_serve_request_answer(fw_serve_request *r) {
+    r->answered = true;
+    if (!r->suspended) return;
+    r->suspended = false;
+    MHD_resume_connection(r->connection->mhd);
+}
 
 /* bytes of the UTF-8 sequence at `s`, 0 where none begins (RFC 3629: no long forms, no surrogates)
  */
@@ -45,17 +58,21 @@ void fw_serve_reply_json(fw_serve_request *r, unsigned status, const char *text,
     r->reply.n = n;
 }
 
-void fw_serve_reply_text(fw_serve_request *r, unsigned status, const fw_text *text) {
-    if (fw_text_end(text) == FW_OK)
+void fw_serve_reply_no_memory(fw_serve_request *r) {
+    static const char text[] = "{\"error\": {\"message\": \"out of memory\", \"code\": null}}\n";
+    fw_serve_reply_json(r, 503, text, sizeof text - 1);
+}
+
+void fw_serve_reply_document(fw_serve_request *r, unsigned status, fw_json *json,
+                             const fw_text *text) {
+    if (fw_json_finish(json, "\n") == FW_OK)
         fw_serve_reply_json(r, status, text->data, text->length);
     else
-        fw_serve_reply_error(r, 503, NULL, "out of memory");
+        fw_serve_reply_no_memory(r);
 }
 
 void fw_serve_reply_error(fw_serve_request *r, unsigned status, const char *code,
                           const char *format, ...) {
-    static const char short_of_memory[] =
-        "{\"error\": {\"message\": \"out of memory\", \"code\": null}}\n";
     char message[600];
     va_list arguments;
     va_start(arguments, format);
@@ -70,15 +87,12 @@ void fw_serve_reply_error(fw_serve_request *r, unsigned status, const char *code
     fw_json_text(&json, "code", code);
     fw_json_end(&json);
     fw_json_end(&json);
-    if (fw_json_finish(&json, "\n") == FW_OK)
-        fw_serve_reply_json(r, status, text.data, text.length);
-    else
-        fw_serve_reply_json(r, 503, short_of_memory, sizeof short_of_memory - 1);
+    fw_serve_reply_document(r, status, &json, &text);
 }
 
 static struct MHD_Response *response_of(fw_serve_request *r) {
     fw_serve_reply *reply = &r->reply;
-    if (r->stream) return fw_serve_events_response(r);
+    if (reply->made) return reply->made;
     if (!reply->file) /* the arena lives until the request is completed, which is after sending */
         return MHD_create_response_from_buffer(reply->n, (void *)(uintptr_t)reply->data,
                                                MHD_RESPMEM_PERSISTENT);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "serve/scratch.h"
+#include "serve/child.h"
 #include "base/output.h"
 #include <dirent.h>
 #include <errno.h>

@@ -1,34 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "serve/events.h"
-#include "serve/watch.h"
+#include "serve/request.h"
 #include <stdio.h>
 #include <string.h>
 
 enum { WAITING_BYTES = 64 * 1024, KEEP_ALIVE_MS = 10000 };
-
-void fw_serve_route_events(fw_serve_request *r) {
-    fw_serve_server *server = r->server;
-    for (int i = 0; i < FW_SERVE_STREAMS; i++) {
-        fw_serve_stream *stream = &server->stream[i];
-        if (stream->request) continue;
-        char *room = fw_arena_array(r->arena, char, WAITING_BYTES);
-        if (!room) break;
-        *stream = (fw_serve_stream){.request = r, .waiting = room, .last_ms = fw_serve_now_ms()};
-        stream->length = (size_t)snprintf(room, WAITING_BYTES, ": flexwright\nretry: 1000\n\n");
-        const char *version =
-            fw_serve_file_watch_version(server->watch); /* it may have missed a change */
-        if (version)
-            stream->length +=
-                (size_t)snprintf(room + stream->length, WAITING_BYTES - stream->length,
-                                 "event: file\ndata: {\"version\": \"%s\"}\n\n", version);
-        r->stream = stream;
-        r->reply.status = 200;
-        r->reply.type = "text/event-stream";
-        return;
-    }
-    fw_serve_reply_error(r, 429, NULL, "there are %d pages already that listen",
-                         (int)FW_SERVE_STREAMS);
-}
 
 void fw_serve_events_close(fw_serve_request *r) {
     if (r->stream) r->stream->request = NULL;
@@ -53,10 +28,6 @@ static ssize_t take(void *context, uint64_t position, char *to, size_t most) {
     return (ssize_t)n;
 }
 
-struct MHD_Response *fw_serve_events_response(fw_serve_request *r) {
-    return MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 4096, take, r->stream, NULL);
-}
-
 /* a page that does not read its events loses the stream, and asks anew */
 static void append(fw_serve_stream *s, const char *text, size_t n) {
     if (n > WAITING_BYTES - s->length)
@@ -69,22 +40,41 @@ static void append(fw_serve_stream *s, const char *text, size_t n) {
     fw_serve_request_answer(s->request);
 }
 
-void fw_serve_events_send(fw_serve_server *server, const char *event, const char *format, ...) {
-    char text[2048];
-    int head = snprintf(text, sizeof text, "event: %s\ndata: ", event);
-    va_list arguments;
-    va_start(arguments, format);
-    int data = vsnprintf(text + head, sizeof text - (size_t)head - 2, format, arguments);
-    va_end(arguments);
-    if (data < 0 || (size_t)(head + data) + 3 > sizeof text) return; /* ours are all short */
-    memcpy(text + head + data, "\n\n", 3);
-    for (int i = 0; i < FW_SERVE_STREAMS; i++)
-        if (server->stream[i].request) append(&server->stream[i], text, (size_t)(head + data) + 2);
+bool fw_serve_events_open(fw_serve_events *events, fw_serve_request *r) {
+    static const char hello[] = ": flexwright\nretry: 1000\n\n";
+    fw_serve_stream *s = NULL;
+    for (int i = 0; i < FW_SERVE_STREAMS && !s; i++)
+        if (!events->stream[i].request) s = &events->stream[i];
+    char *room = s ? fw_arena_array(r->arena, char, WAITING_BYTES) : NULL;
+    if (!room) return false;
+    *s = (fw_serve_stream){.request = r, .waiting = room, .last_ms = fw_serve_now_ms()};
+    r->reply.made = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 4096, take, s, NULL);
+    if (!r->reply.made) {
+        s->request = NULL;
+        return false;
+    }
+    r->stream = s;
+    r->reply.status = 200;
+    r->reply.type = "text/event-stream";
+    append(s, hello, sizeof hello - 1);
+    return true;
 }
 
-void fw_serve_events_run(fw_serve_server *server) {
+void fw_serve_stream_send(fw_serve_stream *s, const char *event, const char *json) {
+    char text[2048]; /* ours are all short */
+    int n = snprintf(text, sizeof text, "event: %s\ndata: %s\n\n", event, json);
+    if (n > 0 && (size_t)n < sizeof text) append(s, text, (size_t)n);
+}
+
+void fw_serve_events_send(fw_serve_events *events, const char *event, const char *json) {
+    for (int i = 0; i < FW_SERVE_STREAMS; i++)
+        if (events->stream[i].request) fw_serve_stream_send(&events->stream[i], event, json);
+}
+
+void fw_serve_events_run(fw_serve_events *events) {
+    static const char still_here[] = ": still here\n\n";
     int64_t now = fw_serve_now_ms();
     for (int i = 0; i < FW_SERVE_STREAMS; i++)
-        if (server->stream[i].request && now - server->stream[i].last_ms > KEEP_ALIVE_MS)
-            append(&server->stream[i], ": still here\n\n", 14);
+        if (events->stream[i].request && now - events->stream[i].last_ms > KEEP_ALIVE_MS)
+            append(&events->stream[i], still_here, sizeof still_here - 1);
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "serve/serve_guard.h"
-#include "serve/defence.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>

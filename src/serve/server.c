@@ -2,25 +2,16 @@
 /* The loop: sockets, workers, jobs, the file, and the signals that end it. */
 #include "serve/server.h"
 #include "base/cancel.h"
-#include "serve/events.h"
-#include "serve/jobs.h"
-#include "serve/scratch.h"
-#include "serve/watch.h"
-#include "serve/worker.h"
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+
+_Static_assert((int)FW_SERVE_MOST_QUESTION >= (int)FW_SERVE_MOST_BODY,
+               "a worker takes every body that the guard lets through");
 
 enum { TICK_MS = 50, REST_MS = 500, MOST_POLLED = 64 };
-
-int64_t fw_serve_now_ms(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
 
 /* ---- one round ---- */
 
@@ -61,10 +52,10 @@ static void round_once(fw_serve_server *server) {
     poll(at, n, server->asked ? 0 : wait_ms);
     run_http(server);
     server->asked = false;
-    fw_serve_pool_run(server);
-    fw_serve_jobs_run(server);
-    fw_serve_file_watch_run(server);
-    fw_serve_events_run(server);
+    fw_serve_pool_run(server->pool);
+    fw_serve_jobs_run(server->jobs);
+    fw_serve_file_watch_run(server->watch);
+    fw_serve_events_run(&server->events);
     fw_serve_http_reap(server);
     run_http(server); /* what was answered just now goes out at once */
 }
@@ -72,10 +63,12 @@ static void round_once(fw_serve_server *server) {
 /* ---- start and end ---- */
 
 static fw_status prepare(fw_serve_server *server, fw_diags *diags) {
-    FW_TRY(fw_serve_file_watch_open(server->arena, server->options.device, diags, &server->watch));
-    FW_TRY(fw_serve_scratch_open(server->arena, diags, &server->scratch));
-    FW_TRY(fw_serve_jobs_open(server));
-    FW_TRY(fw_serve_pool_open(server));
+    fw_arena *arena = server->arena;
+    FW_TRY(fw_serve_file_watch_open(arena, server->options.device, FW_SERVE_MOST_BODY,
+                                    &server->events, diags, &server->watch));
+    FW_TRY(fw_serve_scratch_open(arena, diags, &server->scratch));
+    FW_TRY(fw_serve_jobs_open(arena, server->scratch, &server->events, &server->jobs));
+    FW_TRY(fw_serve_pool_open(arena, server->options.data_directory, &server->pool));
     if (!fw_serve_http_start(server, diags)) return FW_IO;
     return fw_serve_guard_new(&server->guard, server->port, server->options.ipv6) ? FW_OK : FW_IO;
 }
@@ -127,7 +120,7 @@ static fw_status serve(fw_serve_server *server) {
     } else if (!diags.count)
         fprintf(stderr, "flexwright: error: %s\n", fw_status_text(status));
     fw_serve_http_stop(server);
-    fw_serve_jobs_close(server);
+    fw_serve_jobs_close(server->jobs);
     fw_serve_pool_close(server->pool);
     fw_serve_file_watch_close(server->watch);
     fw_serve_scratch_close(server->scratch);

@@ -2,13 +2,10 @@
 /* inotify on the directory, because editors put a new file in place of the old one; and a look
    every second, because network file systems tell nobody. */
 #include "serve/watch.h"
-#include "base/json.h"
 #include "base/hash.h"
 #include "base/output.h"
-#include "serve/events.h"
 #include <errno.h>
 #include <fcntl.h>
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/inotify.h>
@@ -19,9 +16,10 @@ enum { LOOK_MS = 1000 };
 
 struct fw_serve_file_watch {
     const char *path, *directory, *name;
+    size_t most_bytes;
+    fw_serve_events *events;
     int fd;
     int64_t looked_ms;
-    bool changed;
     char version[65]; /* of what was seen last; "": it could not be read */
 };
 
@@ -41,34 +39,38 @@ static fw_status resolve(fw_arena *arena, fw_serve_file_watch *w, const char *pa
     return FW_OK;
 }
 
-/* text and version of the file as it is now, in `arena` */
-static fw_status look(fw_arena *arena, const fw_serve_file_watch *w, fw_diags *diags, char **text,
-                      size_t *n, char version[65]) {
-    version[0] = '\0';
-    FW_TRY(fw_input_read(arena, w->path, FW_SERVE_MOST_BODY, diags, text, n));
-    fw_sha256(*text, *n, version);
+fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *w, fw_diags *diags,
+                                   fw_serve_file_state *now) {
+    *now = (fw_serve_file_state){.writable =
+                                     access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0};
+    char *text;
+    FW_TRY(fw_input_read(arena, w->path, w->most_bytes, diags, &text, &now->n));
+    now->text = text;
+    fw_sha256(now->text, now->n, now->version);
     return FW_OK;
 }
 
-fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, fw_diags *diags,
+fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, size_t most_bytes,
+                                   fw_serve_events *events, fw_diags *diags,
                                    fw_serve_file_watch **watch) {
     *watch = NULL;
     if (!path) return FW_OK;
     fw_serve_file_watch *w = fw_arena_one(arena, fw_serve_file_watch);
     FW_NEED(w);
-    *w = (fw_serve_file_watch){.fd = -1};
+    *w = (fw_serve_file_watch){.fd = -1, .most_bytes = most_bytes, .events = events};
     FW_TRY(resolve(arena, w, path, diags));
     fw_output_remove_leftovers(arena, w->path); /* of a server that was killed while it saved */
     fw_arena *scratch = fw_arena_new(0);
     FW_NEED(scratch);
-    char *text;
-    size_t n;
+    fw_serve_file_state now;
     fw_diags here = fw_diags_new(arena);
-    fw_status status = look(scratch, w, &here, &text, &n, w->version);
+    fw_status status = fw_serve_file_watch_read(scratch, w, &here, &now);
+    memcpy(w->version, now.version, sizeof w->version);
     fw_arena_free(scratch);
     if (status != FW_OK) {
         fw_diag_error(diags, 220, (fw_place){.file = path},
-                      "cannot be read, or is larger than 1 MiB");
+                      "cannot be read, or is larger than %zu KiB, the most that the page takes",
+                      most_bytes >> 10);
         return status;
     }
     w->fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
@@ -81,10 +83,6 @@ fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, fw_diags *
 
 void fw_serve_file_watch_close(fw_serve_file_watch *w) {
     if (w && w->fd >= 0) close(w->fd);
-}
-
-const char *fw_serve_file_watch_version(const fw_serve_file_watch *w) {
-    return w && w->version[0] ? w->version : NULL;
 }
 
 const char *fw_serve_file_watch_name(const fw_serve_file_watch *w) {
@@ -115,112 +113,63 @@ static bool told(fw_serve_file_watch *w) {
     }
 }
 
-static void tell(fw_serve_server *server, const char *version) {
-    fw_serve_events_send(server, "file", "{\"version\": \"%s\"}", version);
+/* {"version": "..."} */
+static fw_status version_json(const char *version, fw_text *out) {
+    fw_json json = fw_json_new(out, FW_JSON_SPACED);
+    fw_json_object(&json, NULL);
+    fw_json_text(&json, "version", version);
+    fw_json_end(&json);
+    return fw_json_finish(&json, "");
 }
 
-void fw_serve_file_watch_run(fw_serve_server *server) {
-    fw_serve_file_watch *w = server->watch;
+static void tell_all(fw_arena *arena, const fw_serve_file_watch *w) {
+    fw_text text = fw_text_new(arena);
+    if (version_json(w->version, &text) == FW_OK)
+        fw_serve_events_send(w->events, "file", text.data);
+}
+
+void fw_serve_file_watch_run(fw_serve_file_watch *w) {
     if (!w) return;
-    int64_t now = fw_serve_now_ms();
+    int64_t now_ms = fw_serve_now_ms();
     bool event = told(w);
-    if (!event && now - w->looked_ms < LOOK_MS) return;
-    w->looked_ms = now;
+    if (!event && now_ms - w->looked_ms < LOOK_MS) return;
+    w->looked_ms = now_ms;
     fw_arena *arena = fw_arena_new(0);
     if (!arena) return;
     fw_diags diags = fw_diags_new(arena);
-    char *text, version[65];
-    size_t n;
+    fw_serve_file_state now;
     /* a file that is gone for the moment is waited for */
-    if (look(arena, w, &diags, &text, &n, version) == FW_OK && strcmp(version, w->version) != 0) {
-        memcpy(w->version, version, sizeof version);
-        tell(server, version);
+    if (fw_serve_file_watch_read(arena, w, &diags, &now) == FW_OK &&
+        strcmp(now.version, w->version) != 0) {
+        memcpy(w->version, now.version, sizeof w->version);
+        tell_all(arena, w);
     }
     fw_arena_free(arena);
 }
 
-/* ---- what the page asks ---- */
-
-static void reply_file(fw_serve_request *r, unsigned status, const fw_serve_file_watch *w,
-                       const char *text, size_t n, const char *version) {
-    fw_text body = fw_text_new(r->arena);
-    fw_json json = fw_json_new(&body, FW_JSON_SPACED);
-    if (!fw_json_is_text(text, n)) {
-        fw_serve_reply_error(r, 422, NULL, "%s is not UTF-8 text", w->name);
-        return;
-    }
-    fw_json_object(&json, NULL);
-    fw_json_text(&json, "schema", "flexwright.file/1");
-    fw_json_text(&json, "name", w->name);
-    fw_json_text(&json, "text", text);
-    fw_json_text(&json, "version", version);
-    fw_json_truth(&json, "writable", access(w->path, W_OK) == 0 && access(w->directory, W_OK) == 0);
-    fw_json_end(&json);
-    if (fw_json_finish(&json, "") == FW_OK)
-        fw_serve_reply_json(r, status, body.data, body.length);
-    else
-        fw_serve_reply_error(r, 503, NULL, "out of memory");
+void fw_serve_file_watch_tell(const fw_serve_file_watch *w, fw_serve_stream *stream) {
+    if (!w || !w->version[0]) return;
+    fw_text text = fw_text_new(stream->request->arena);
+    if (version_json(w->version, &text) == FW_OK) fw_serve_stream_send(stream, "file", text.data);
 }
 
-static const char *first_message(const fw_diags *diags) {
-    return diags->count ? diags->item[0].message : "out of memory";
-}
-
-void fw_serve_route_file(fw_serve_request *r) {
-    fw_serve_file_watch *w = r->server->watch;
-    if (!w) {
-        fw_serve_reply_error(r, 404, NULL, "the server was started without a device file");
-        return;
-    }
-    fw_diags diags = fw_diags_new(r->arena);
-    char *text, version[65];
-    size_t n;
-    if (look(r->arena, w, &diags, &text, &n, version) != FW_OK)
-        fw_serve_reply_error(r, 404, "FW-D220", "%s %s", w->name, first_message(&diags));
-    else
-        reply_file(r, 200, w, text, n, version);
-}
-
-/* whole or not at all, with the permissions that the file has */
-static fw_status save(fw_serve_request *r, const fw_serve_file_watch *w, const char *text, size_t n,
-                      fw_diags *diags) {
+fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *w, const char *text,
+                                   size_t n, const char *version, fw_diags *diags,
+                                   fw_serve_file_state *now) {
+    fw_diags reading = fw_diags_new(arena);
+    if (fw_serve_file_watch_read(arena, w, &reading, now) == FW_OK &&
+        strcmp(now->version, version) != 0)
+        return FW_CANCELLED;
     struct stat info;
     mode_t mode = stat(w->path, &info) == 0 ? info.st_mode & 0777 : 0666;
     mode_t before = umask(~mode & 0777);
-    fw_status status = fw_output_single(r->arena, w->path, text, n, diags);
+    fw_status status = fw_output_single(arena, w->path, text, n, diags);
     umask(before);
-    return status;
-}
-
-static void save_if_unchanged(fw_serve_request *r, fw_serve_file_watch *w, const char *text,
-                              size_t n, const char *version) {
-    fw_diags diags = fw_diags_new(r->arena);
-    char *now_text, now[65];
-    size_t now_n;
-    if (look(r->arena, w, &diags, &now_text, &now_n, now) == FW_OK && strcmp(now, version) != 0) {
-        reply_file(r, 409, w, now_text, now_n, now);
-        return;
-    }
-    diags = fw_diags_new(r->arena);
-    if (save(r, w, text, n, &diags) != FW_OK) {
-        fw_serve_reply_error(r, 500, "FW-D222", "%s", first_message(&diags));
-        return;
-    }
-    fw_sha256(text, n, w->version);
-    tell(r->server, w->version);
-    reply_file(r, 200, w, text, n, w->version);
-}
-
-void fw_serve_route_save(fw_serve_request *r) {
-    fw_serve_file_watch *w = r->server->watch;
-    json_t *body = json_loadb(r->body, r->received, 0, NULL);
-    const json_t *text = json_object_get(body, "text"), *version = json_object_get(body, "version");
-    if (!w)
-        fw_serve_reply_error(r, 404, NULL, "the server was started without a device file");
-    else if (!json_is_string(text) || !json_is_string(version))
-        fw_serve_reply_error(r, 400, NULL, "a file to be saved needs \"text\" and \"version\"");
-    else
-        save_if_unchanged(r, w, json_string_value(text), json_string_length(text),
-                          json_string_value(version));
-    json_decref(body);
+    FW_TRY(status);
+    now->text = text;
+    now->n = n;
+    fw_sha256(text, n, now->version);
+    memcpy(w->version, now->version, sizeof w->version);
+    tell_all(arena, w);
+    return FW_OK;
 }

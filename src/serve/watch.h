@@ -2,21 +2,39 @@
 /* The one file that the server shows, watches and saves. Private to the room. */
 #ifndef FW_SERVE_WATCH_H
 #define FW_SERVE_WATCH_H
-#include "serve/server.h"
+#include "base/diag.h"
+#include "serve/request.h"
 
 typedef struct fw_serve_file_watch fw_serve_file_watch;
 
-/* `path` NULL: there is no file, and NULL is returned for both. Errors are diagnostics. */
-fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, fw_diags *diags,
+/* `path` NULL: there is no file, and *watch is NULL. A file larger than most_bytes is not read;
+   changes of it go out as events. Errors are diagnostics. */
+fw_status fw_serve_file_watch_open(fw_arena *arena, const char *path, size_t most_bytes,
+                                   fw_serve_events *events, fw_diags *diags,
                                    fw_serve_file_watch **watch);
 void fw_serve_file_watch_close(fw_serve_file_watch *watch);
-const char *
-fw_serve_file_watch_name(const fw_serve_file_watch *watch); /* without directories; NULL: no file */
-const char *
-fw_serve_file_watch_version(const fw_serve_file_watch *watch); /* as last seen; NULL: none */
-int fw_serve_file_watch_fd(const fw_serve_file_watch *watch);  /* to be polled; -1: there is none */
+/* without directories; NULL: no file */
+const char *fw_serve_file_watch_name(const fw_serve_file_watch *watch);
+int fw_serve_file_watch_fd(const fw_serve_file_watch *watch); /* to be polled; -1: there is none */
 /* looks at the file when the system says that it changed, and every second in any case: tells the
    pages when its content is another */
-void fw_serve_file_watch_run(fw_serve_server *server);
+void fw_serve_file_watch_run(fw_serve_file_watch *watch);
+/* tells one page which version was seen last: it may have missed a change */
+void fw_serve_file_watch_tell(const fw_serve_file_watch *watch, fw_serve_stream *stream);
+
+/* ---- the file as it is now ---- */
+typedef struct fw_serve_file_state {
+    const char *text; /* (n) in the caller's arena, or what was to be saved */
+    size_t n;
+    char version[65]; /* hash of the text; "": it could not be read */
+    bool writable;
+} fw_serve_file_state;
+fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *watch,
+                                   fw_diags *diags, fw_serve_file_state *state);
+/* Saves n bytes, whole or not at all, with the permissions that the file has; state is then what was
+   saved. FW_CANCELLED: the file is not at `version` any more, state says what it is. */
+fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *watch, const char *text,
+                                   size_t n, const char *version, fw_diags *diags,
+                                   fw_serve_file_state *state);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "serve/worker.h"
 #include "serve/child.h"
+#include "serve/serve.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -30,15 +31,15 @@ typedef struct fw_serve_worker {
 } fw_serve_worker;
 
 struct fw_serve_pool {
+    const char *data_directory; /* "": as installed */
     fw_serve_worker worker[FW_SERVE_WORKERS];
     fw_serve_request *first; /* waiting */
 };
 
-static bool start(fw_serve_server *server, fw_serve_worker *w) {
+static bool start(const fw_serve_pool *pool, fw_serve_worker *w) {
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) return false;
-    const char *data = server->options.data_directory ? server->options.data_directory : "";
-    const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "worker", data, NULL};
+    const char *const argv[] = {"flexwright", FW_SERVE_CHILD, "worker", pool->data_directory, NULL};
     fw_serve_child_plan plan = {
         .argv = argv,
         .directory = -1,
@@ -58,10 +59,11 @@ static bool start(fw_serve_server *server, fw_serve_worker *w) {
     return true;
 }
 
-fw_status fw_serve_pool_open(fw_serve_server *server) {
-    FW_NEED(server->pool = fw_arena_one(server->arena, fw_serve_pool));
+fw_status fw_serve_pool_open(fw_arena *arena, const char *data_directory, fw_serve_pool **pool) {
+    FW_NEED(*pool = fw_arena_one(arena, fw_serve_pool));
+    (*pool)->data_directory = data_directory ? data_directory : "";
     for (int i = 0; i < FW_SERVE_WORKERS; i++)
-        if (!start(server, &server->pool->worker[i])) return FW_IO;
+        if (!start(*pool, &(*pool)->worker[i])) return FW_IO;
     return FW_OK;
 }
 
@@ -80,26 +82,13 @@ void fw_serve_pool_close(fw_serve_pool *pool) {
 
 /* ---- requests ---- */
 
-void fw_serve_pool_ask(fw_serve_request *r, fw_serve_compute what) {
-    fw_serve_request **at = &r->server->pool->first;
+void fw_serve_pool_ask(fw_serve_pool *pool, fw_serve_request *r, fw_serve_compute what) {
+    fw_serve_request **at = &pool->first;
     while (*at)
         at = &(*at)->next;
     r->compute = what;
     r->next = NULL;
     *at = r;
-}
-
-void fw_serve_route_table(fw_serve_request *r) {
-    fw_serve_pool_ask(r, FW_COMPUTE_TABLE);
-}
-void fw_serve_route_preview(fw_serve_request *r) {
-    fw_serve_pool_ask(r, FW_COMPUTE_PREVIEW);
-}
-void fw_serve_route_pose(fw_serve_request *r) {
-    fw_serve_pool_ask(r, FW_COMPUTE_POSE);
-}
-void fw_serve_route_edit(fw_serve_request *r) {
-    fw_serve_pool_ask(r, FW_COMPUTE_EDIT);
 }
 
 /* nobody waits any more: a worker that has begun is asked to stop */
@@ -217,9 +206,9 @@ static fw_serve_worker *free_worker(fw_serve_pool *pool, unsigned what) {
     return NULL;
 }
 
-static void run_worker(fw_serve_server *server, fw_serve_worker *w, int64_t now) {
+static void run_worker(const fw_serve_pool *pool, fw_serve_worker *w, int64_t now) {
     if (!w->pid) {
-        if (now - w->started_ms >= RESTART_MS || now - w->started_ms < 0) start(server, w);
+        if (now - w->started_ms >= RESTART_MS || now - w->started_ms < 0) start(pool, w);
         return;
     }
     int status;
@@ -243,11 +232,10 @@ static void run_worker(fw_serve_server *server, fw_serve_worker *w, int64_t now)
         fail(w, "the computation took longer than 20 s and was ended");
 }
 
-void fw_serve_pool_run(fw_serve_server *server) {
-    fw_serve_pool *pool = server->pool;
+void fw_serve_pool_run(fw_serve_pool *pool) {
     int64_t now = fw_serve_now_ms();
     for (int i = 0; i < FW_SERVE_WORKERS; i++)
-        run_worker(server, &pool->worker[i], now);
+        run_worker(pool, &pool->worker[i], now);
     while (pool->first) {
         fw_serve_worker *w = free_worker(pool, pool->first->compute);
         if (!w) return;

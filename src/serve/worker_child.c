@@ -98,7 +98,7 @@ static bool compute(fw_plan_live *live, uint32_t what, const char *request, size
 
 static bool one(void *state) {
     fw_serve_worker_head head;
-    if (!read_all(&head, sizeof head) || head.n > FW_SERVE_MOST_BODY) return false;
+    if (!read_all(&head, sizeof head) || head.n > FW_SERVE_MOST_QUESTION) return false;
     fw_arena *arena = fw_arena_new(0);
     char *request = arena ? fw_arena_array(arena, char, (size_t)head.n + 1) : NULL;
     bool ok = request && read_all(request, head.n);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts of other programs in answers, against jansson's own reading of UTF-8. */
-#include "serve/server.h"
+#include "serve/request.h"
 #include "test.h"
 #include <jansson.h>
 
