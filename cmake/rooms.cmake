@@ -22,11 +22,6 @@ set(FW_EXTERN_report PkgConfig::CAIRO)
 set(FW_EXTERN_serve PkgConfig::MICROHTTPD PkgConfig::ZIP)
 set(FW_EXTERN_base PkgConfig::JANSSON m)
 
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four_avx.c PROPERTIES COMPILE_OPTIONS
-                                "-mavx;-Wno-psabi")
-# vectors wider than the registers never cross a call: gcc's note on how they would is of no use
-set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/csfh_four.c PROPERTIES COMPILE_OPTIONS "-Wno-psabi")
-
 # The rooms without some effects: their files are not compiled and they have no row. A scene's elements of
 # such an effect are then not looked at, so that such a build is good for counting only (target
 # effect_cost; docs/theory/effects/costs.md).

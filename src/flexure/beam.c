@@ -3,7 +3,7 @@
 #include "base/constants.h"
 #include "flexure/gauss.h"
 #include "flexure/kinds.h"
-#include "flexure/section_core.h"
+#include "flexure/section.h"
 #include <math.h>
 
 static double sinc(double x) {
@@ -189,7 +189,7 @@ void fw_flexure_beam_compliance(const fw_flexure_beam *b, fw_flexure_beam_linear
 /* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
    off the polar angle, which cos 4 psi does not feel. The two roots give as
    fw_flexure_root_m_per_Pa has
-   it, the ends take away what fw_end_loss_of says, spread as it is found there */
+   it, the ends take away what fw_flexure_end_loss_of says, spread as it is found there */
 static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                        fw_flexure_beam *out) {
     const fw_flexure_crystal *k = &in->crystal;
@@ -205,7 +205,7 @@ static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *clos
     double h = in->depth_m, L = in->length_m, t = in->width_m, E = closed_form->youngs_Pa, f = 1;
     if (in->kind == FW_FLEXURE_CSFH)
         f = fw_flexure_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
-    const fw_flexure_end_loss loss = fw_end_loss_of(k->reach, h, f, L, shape.root_block_m);
+    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(k, h, f, L, shape.root_block_m);
     double far = exp(-L / loss.reach_m);
     out->lost_m = loss.reach_m;
     out->lost_per_Pa = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));

@@ -24,7 +24,7 @@ typedef struct fw_flexure_input {
 } fw_flexure_input;
 
 /* What the closed form may be off by, against 3-D finite elements with real roots: a bound of what
-   was found on 23 shapes, of this shape; wider outside of what was compared (error.c) */
+   was found on 23 shapes, of this shape; wider outside of what was compared (flexure_errors.c) */
 typedef struct fw_flexure_error {
     double stiffness, kx, ky, strain; /* relative */
     double centre_m;                  /* of W, on and across the axis */
@@ -59,7 +59,7 @@ typedef struct fw_flexure_result {
 /* relative standard uncertainty of the peak strain inside the fitted range: half of the 2.9 % by
    which held-out finite elements were off. The verdict's model error holds it already. */
 #define FW_FLEXURE_STRAIN_UNCERTAINTY 0.015
-/* What follows from the outline alone: worked out once where material, depth or load vary */
+/* What follows from the outline alone */
 typedef struct fw_flexure_shape {
     fw_device_flexure_kind kind;
     double length_m, radius_m, width_m, fillet_m, half_angle_rad;
@@ -70,36 +70,25 @@ typedef struct fw_flexure_shape {
     double root_block_m;           /* of dL what the block adds; the rest, below 0, is the fillet */
     double fillet_concentration;   /* Kt */
     double centre_m;               /* W of a uniform modulus */
-    double curved, per_rt;         /* t/3r, 1/(r t) */
-    double per_length, per_whole, per_eccentric, per_section; /* 1/L, 1/(L + 2 dL), 1/e, 12/t^2 */
-    double widening;        /* of the errors: 1 inside of what was compared */
-    double fillet_ratio;    /* rho/t within [0.1, 2]; ideal ends: 0 */
-    bool sharp;             /* fillet below t/10 */
-    bool beyond_fit;        /* of the root's concentration */
-    fw_flexure_error error; /* of a path, isotropic and not too deep */
-    fw_geometry_pose start; /* of a path: first end and its tangent */
+    double curved;                 /* t/3r */
+    double widening;               /* of the errors: 1 inside of what was compared */
+    bool sharp;                    /* fillet below t/10 */
+    bool beyond_fit;               /* of the root's concentration */
+    fw_flexure_error error;        /* of a path, isotropic and not too deep */
+    fw_geometry_pose start;        /* of a path: first end and its tangent */
 } fw_flexure_shape;
 
-typedef struct fw_flexure_model { /* one row per kind: adding a hinge kind is one file and one row
-                                   */
+typedef struct fw_flexure_model { /* a row per kind: adding a hinge kind is one file and one row */
     fw_device_flexure_kind kind;
     const char *name, *summary;
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
                         fw_flexure_result *out);
-    void (*at_once)(const fw_flexure_input *in, fw_flexure_result *out); /* both; or NULL */
 } fw_flexure_model;
 const fw_flexure_model *fw_flexure_models(size_t *count);
-/* 48 ns, of a crystal 97; leaves 36 and 48; errors included (tests/bench/bench_hinge_closed.c) */
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
-/* the same of many, in: (n), out: (n), bit by bit: arcs in a row that are as most are go four at
-   once, where the processor has AVX for less than half of the cost */
-void fw_flexure_closed_forms(const fw_flexure_input *const in[], fw_flexure_result *const out[],
-                             size_t n);
-/* the same in two steps: outline once, then everything else (arcs: 39 and 86 ns) */
+/* the first half of it, the outline alone */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
-void fw_flexure_closed_form_at(const fw_flexure_shape *shape, const fw_flexure_input *in,
-                               fw_flexure_result *out);
 /* what is to be asked of a flexure as described; material, depth and limits are left 0 */
 fw_flexure_input fw_flexure_input_of(const fw_device_flexure *flexure, double fillet_m);
 /* not one arc or line of one width: the rows of `path` serve it, whatever its kind */

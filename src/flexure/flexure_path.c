@@ -215,9 +215,6 @@ void fw_flexure_path_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
                             .golovin = 1,
                             .root_length_m = dL,
                             .whole_m = length + 2 * dL,
-                            .per_length = 1 / length,
-                            .per_whole = 1 / (length + 2 * dL),
-                            .per_section = 12 / (least * least),
                             .fillet_concentration = fmax(p.concentration[0], p.concentration[1]),
                             .centre_m = W[0],
                             .beyond_fit = beyond(&p, in->fillet_m),
@@ -380,7 +377,7 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
     double fit;
-    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh_crystal.c) */
+    double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh.c) */
     out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / rooted;
     out->strain_fit_per_rad = fit / rooted;
 }

@@ -1,14 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flexure/section.h"
 #include "flexure/kinds.h"
-#include "flexure/section_core.h"
+#include <math.h>
 
+/* ---- roots ---- */
+
+/* dL of a fillet that has no radius, over t: what the block behind the root gives way */
+static const double block_length = 0.4192;
+/* (t/rho)^(2/3) and rho/t of the sharpest fillet that the peak strain was fitted to, rho = t/10 */
+static const double sharpest = 0.1, sharpest_notch = 4.641588833612779;
+
+/* x = rho/t in the range of the laws of the root */
+static double fitted_ratio(double width_m, double fillet_m) {
+    return fmin(fmax(fillet_m / width_m, 0.05), 2.0);
+}
+
+/* dL = t (0.4192 - 0.5972 x - 0.1167 x^2), x = rho/t
+   in: m, x clamped to [0.05, 2]; out: m added per root, negative above x = 0.63
+   fitted to plane-stress finite elements of three geometries and two materials, x up to 1, blocks
+   of 5 t and more behind the root; error 0.005 t there, beyond x = 1 extrapolated
+   docs/theory/flexure.md eq. 6; test_flexure.c root_law_matches_finite_elements */
 double fw_flexure_root_length_m(double width_m, double fillet_m) {
     if (fillet_m < 0) return 0; /* ideal ends */
-    return width_m * fw_root_law(fw_fitted_ratio(fillet_m / width_m));
+    double x = fitted_ratio(width_m, fillet_m);
+    return width_m * (block_length - 0.5972 * x - 0.1167 * x * x);
 }
 
 double fw_flexure_root_block_m(double width_m, double fillet_m) {
-    return fillet_m < 0 ? 0 : fw_root_block_law * width_m;
+    return fillet_m < 0 ? 0 : block_length * width_m;
 }
 
 /* The root of a crystal: what gives way in the block is stressed in all directions and has the mean
@@ -23,27 +42,85 @@ double fw_flexure_root_m_per_Pa(const fw_flexure_shape *f, const fw_flexure_crys
            (f->root_length_m - f->root_block_m) * k->a1_per_Pa * cos4;
 }
 
-double fw_flexure_neutral_offset(double r, double u) {
-    return r * u * u * fw_neutral_series(u);
+/* Kt = 0.944 + 0.2113 (t/rho)^(2/3), without the curved-beam factor 1 + t/3r
+   valid as above; within 1 % of the finite elements it was fitted to, -0.2..+2.9 % on held-out ones
+   docs/theory/root-strain.md eq. 7; test_flexure.c concentration_matches_finite_elements */
+double fw_flexure_fillet_concentration(double width_m, double fillet_m) {
+    if (fillet_m < 0) return 1;
+    return 0.944 + 0.2113 * pow(fitted_ratio(width_m, fillet_m), -2 / 3.0);
 }
 
-/* (atanh u - u)/(u^2 atanh u), the numerator by its series u^3 (1/3 + u^2/5 + ...) as long as it is
-   small beside u. Test: test_quick.c random_hinges */
-double fw_flexure_neutral_thick(double u) {
-    double z = u * u, power = u, sum = 0;
-    if (!(u < 0.5)) return (1 - u / atanh(u)) / z;
-    for (int n = 3; n < 60; n += 2, power *= z)
+/* ---- curvature ---- */
+
+/* e = r - rn = r (1 - u/atanh u) (Winkler), where the difference would cancel by the series
+     atanh u - u = u^3 (1/3 + u^2/5 + u^4/7 + ...)
+   Test: test_csfh.c random_hinges */
+double fw_flexure_neutral_offset(double r, double u) {
+    if (!(u < 0.5)) return r * (1 - u / atanh(u));
+    double square = u * u, power = u * square, sum = 0;
+    for (int n = 3; n < 60 && power > 1e-18 * sum; n += 2, power *= square)
         sum += power / n;
-    return sum / atanh(u);
+    return r * sum / atanh(u);
 }
 
 double fw_flexure_golovin(double u) {
-    return fw_golovin_law(u);
+    double u2 = u * u;
+    return 1.0 - 2.0 / 15.0 * u2 - u2 * u2 / 21.0;
 }
 
-double fw_flexure_fillet_concentration(double width_m, double fillet_m) {
-    if (fillet_m < 0) return 1;
-    return fw_concentration_law(fw_fitted_ratio(fillet_m / width_m));
+/* ---- depth ---- */
+
+/* quotients of the sums of hyperbolic and circular functions, each 1 or a number as x -> 0 */
+typedef struct strip_functions {
+    double bow;   /* f = (2/x)(cosh x - cos x)/(sinh x + sin x) */
+    double inner; /* (cosh X sin X - sinh X cos X)/(X^2 (sinh x + sin x)), X = x/2 */
+    double outer; /* (sinh x - sin x)/(x^2 (sinh x + sin x)) */
+} strip_functions;
+
+/* below x = 1 all three by Taylor's series in x^4, where the differences would cancel (rest 2e-20);
+   beyond x = 80 by what is left of them, 2/x, 0 and 1/x^2, before the hyperbolic functions
+   overflow */
+static strip_functions strip_functions_at(double x) {
+    double x2 = x * x, X = 0.5 * x;
+    if (!(x < 80)) return (strip_functions){2 / x, 0, 1 / x2};
+    if (x > 1) {
+        double sum = sinh(x) + sin(x);
+        return (strip_functions){2 / x * (cosh(x) - cos(x)) / sum,
+                                 (cosh(X) * sin(X) - sinh(X) * cos(X)) / (X * X * sum),
+                                 (sinh(x) - sin(x)) / (x2 * sum)};
+    }
+    double z = x2 * x2, power = 1, turned = 1, factorial = 1, sum = 0, bow = 0, in = 0, out = 0;
+    for (int k = 0; k < 5; k++) { /* of (4k + 1)!, (4k + 2)! and (4k + 3)! */
+        sum += power / factorial;
+        bow += power / (factorial * (4 * k + 2));
+        out += power / (factorial * (4 * k + 2) * (4 * k + 3));
+        in += turned / (factorial * (4 * k + 2) * (4 * k + 3));
+        factorial *= (4 * k + 2) * (4.0 * k + 3) * (4 * k + 4) * (4 * k + 5);
+        power *= z, turned *= -0.25 * z;
+    }
+    return (strip_functions){2 * bow / sum, in / sum, out / sum};
+}
+
+/* cylindrical strip of depth h bent about the wafer normal, free edges z = +-h/2:
+     x = h [3 (1-nu^2)]^(1/4) / sqrt(r t),  f = (2/x)(cosh x - cos x)/(sinh x + sin x)
+     EI_eff/EI = (1 - nu^2 f)/(1 - nu^2)
+   hoop strain: inner fibre at mid-depth 1 - C1/(rt/2), outer fibre at the edge
+     1 + (C1 ch c + C2 sh s)/(rt/2) = 1 + k (4/x^2) (sinh x - sin x)/(sinh x + sin x),
+   C1, C2 at X = x/2, C1/(rt/2) = k (8/x^2) (sinh X cos X - cosh X sin X)/(sinh x + sin x),
+   k = nu h^2/(4 r t).
+     in: deep = h/sqrt(r t); nu; squares: nu^2; unlike: 1 (of a crystal see below); out: factors;
+   x -> 0 plane stress, x -> infinity plane strain; error below 0.3 % against 3-D finite elements
+   (rigid ends), 0.5 % with real roots. docs/theory/flexure.md eq. 8, docs/theory/root-strain.md
+   eq. 9-10; test_flexure.c depth_factor_limits_and_reference, test_csfh.c depth_factors */
+static fw_flexure_depth depth_of(double deep, double poisson, double squares, double unlike) {
+    double x = deep * sqrt(sqrt(3 * (1 - squares) * unlike)), lift = poisson * (deep * deep);
+    const strip_functions at = strip_functions_at(x);
+    double plain = 1 - squares, bowed = 1 - squares * at.bow;
+    return (fw_flexure_depth){.stiffness = bowed / plain,
+                              .softness = plain / bowed,
+                              .bow = at.bow,
+                              .inner = 1 + 0.5 * lift * at.inner,
+                              .outer = 1 + lift * at.outer};
 }
 
 fw_flexure_depth fw_flexure_depth_factors(double radius_m, double width_m, double depth_m,
@@ -52,42 +129,153 @@ fw_flexure_depth fw_flexure_depth_factors(double radius_m, double width_m, doubl
 }
 
 fw_flexure_depth fw_flexure_depth_at(double deep, double poisson) {
-    const fw_flexure_depth_start start = fw_depth_start_of(deep * deep, poisson);
-    return fw_depth_law(&start);
+    return depth_of(deep, poisson, poisson * poisson, 1);
 }
 
-fw_flexure_depth fw_flexure_depth_crystal(double deep, const fw_flexure_crystal *k,
-                                          double youngs_Pa) {
-    const fw_flexure_depth_start start = fw_depth_start_crystal(deep * deep, k, youngs_Pa);
-    return fw_depth_law(&start);
+/* The same of a crystal's strip. Plate and hoop energy per length of a section that bows by c,
+   E' c^2 t^3/12 (its bending across) + E c^2 t h^4/(720 r^2) (its hoop strain), have E' = 1/s11 in
+   one and E of the strip in the other: an affinity in z with (E/E')^(1/4) makes them those of an
+   isotropic strip (Lekhnitskii, Anisotropic Plates, ch. on affine transformation) of
+     nu^2 -> n^2 = nu nu' = s12^2 E/s11,  x^4 -> 3 (1 - n^2) (E/E') (h^2/(r t))^2
+   and leave nu h^2, hence the hoop strain's k, as it is. With one nu D of silicon is 0.3 to 0.6 %
+   too high for h >= 9 t, r <= 20 t.
+   in: deep = h/sqrt(r t), E Pa of the mean 1/E. Test: test_crystal.c ends_of_silicon */
+fw_flexure_depth fw_flexure_depth_crystal(double deep, const fw_flexure_crystal *k, double E) {
+    return depth_of(deep, -k->s12_per_Pa * E, k->bow_per_Pa * E, (k->a0_per_Pa + k->a1_per_Pa) * E);
 }
 
-/* by their own functions, both parts of the quotients times exp(-2 X), so that nothing overflows.
-   Cost 25 ns. Test: test_quick.c depth_factors, over the seams */
-fw_flexure_depth fw_flexure_depth_deep(fw_flexure_depth_start from) {
-    double x2 = sqrt(from.z), x = sqrt(x2), X = 0.5 * x, unit = 4 * from.lift / x2;
-    if (!(x <= 80)) return fw_depth_by(&from, 2, x, 0, x * unit, 1);
-    double d = fw_quick_exp_minus(X), p = d * d, H = 0.5 - 0.5 * p, G = 0.5 + 0.5 * p, s, c;
-    fw_quick_sincos_near(X, &s, &c); /* H, G: sh, ch times d */
-    double turn = s * c * p, stand = H * G;
-    return fw_depth_by(&from, H * H + s * s * p, (stand + turn) * X, X * d * (H * c - G * s),
-                       X * (stand - turn), unit);
+/* ---- ends of a crystal ---- */
+
+/* What an end takes away, because it keeps its section straight that would bow across by nu/R as
+   the strip bends (R of the bending), by f of that in a strip that is curved. Bow c0 f (1 - b(s)):
+   the energy per length of an orthotropic plate under a given moment, (E'/f) (b c0 f)^2 against
+   bowing and G h^2/3 (b' c0 f)^2 against the twist that goes with a bow that changes, is least for
+     b = B exp(-s/l),  l = h f (G/(3 E'))^(1/2)
+   and the strip bends by n^2 f b less. The block gives to the moments across as it does to those
+   along, by 0.4192 t of strip: B = l/(l + 0.4192 t). So an end is as if there were less strip by
+     d = n^2 f B l = n^2 f l^2/(l + 0.4192 t),  in the middle at l from the end, inwards
+   with the energy's own l h f^(1/2) replaced by h f, since a deep strip bows (f < 1) at its two
+   edges apart, over (r t)^(1/2) each, and as far along. n^2/E = s12^2/s11 of a crystal is the same
+   in all directions: d is counted in 1/Pa m. No number in it is fitted.
+     in: h, L, block = 0.4192 t (rigid end: 0) m; f; out: m. l no more than L/3, where both ends
+   would meet (outside of what was compared). Error: K of 144 solids of silicon arcs (x 0.1 to 1.25,
+   h/t 0.5 to 30, t/r to 0.15) is then -0.27 to 0.26 % off, 0.08 % rms (without: 0.42 %, 1.25 % at
+   most), W of others 0.1 um.
+   source: docs/theory/flexure-silicon.md eq. 13a; test_crystal.c ends_of_silicon */
+fw_flexure_end_loss fw_flexure_end_loss_of(const fw_flexure_crystal *k, double depth_m, double bow,
+                                           double length_m, double block_m) {
+    double l = fmin(depth_m * k->reach * bow, length_m / 3.0);
+    return (fw_flexure_end_loss){.reach_m = l, .length_m = bow * (l * l) / (l + block_m)};
+}
+
+/* ---- peak strain at a root ---- */
+
+/* what the laws of the peak go by */
+typedef struct root_section {
+    double x, q; /* rho/t within [0.1, 2], (t/rho)^(2/3) of it */
+    double p;    /* h/(h + 4 t) */
+    double nu, n, u;
+} root_section;
+
+/* What a solid has at a root over what (5) says without its depth factors, as an upper bound:
+     q = (t/rho)^(2/3),  x = rho/t,  p = h/(h + 4 t),  u = t/3R (0: straight)
+     n = nu f, f as above (straight: nu): what the strip bows across as it bends, over its bending
+     peak strain = M t/2/(EI D) Kt (1 + u) G
+     G = 1.0312 + n p (1.8208 p^2 - 0.7838) + nu p^2 (q (0.8824 - 1.069 p) - 0.0907 x p)
+         + u (0.316 p + 3.092 n x - 0.2066 q)
+   n: a block keeps its end of the strip from bowing, so that the middle of the depth carries more
+   of the moment than the faces, the more of it the wider the strip; nu q: a notch is in plane
+   strain in the middle, where its concentration differs; u: the fillets of an arc are not mirror
+   images.
+   in: x clamped to [0.1, 2], q of that x, h, t m, nu, n, u >= 0; out: 1. Fitted (Chebyshev) to 262
+   solids, arcs and leaves: x 0.1 to 2, h/t 0.5 to 30, t/r 0.025 to 0.15, nu 0.1 to 0.36, so that it
+   is above all of them: by 0.3 to 3.5 %, deeper than 10 t by 0.1 to 4.3 %; the solids' own error is
+   0.3 %.
+   source: docs/theory/root-strain.md eq. 11a; solids and fit: tools/solids;
+   test_root_strain.c */
+static double root_rise(const root_section *at) {
+    double x = at->x, q = at->q, p = at->p, p2 = p * p, nu = at->nu, n = at->n, u = at->u;
+    return 1.0312 + n * p * (1.8208 * p2 - 0.7838) +
+           nu * p2 * (q * (0.8824 - 1.069 * p) - 0.0907 * x * p) +
+           u * (0.316 * p + 3.092 * n * x - 0.2066 * q);
+}
+
+/* The same of a crystal's stress, over M t/2/(I D) Kt, as an upper bound:
+     G = max((1 + u)(A + B c + D u s + C s)(H + u V), (1 - u)(A + B c + D u s - C s)(H - u V))
+     A = a0 + a1 x + a2 q + a3 q^2,  B = b0 + b1 x + b2 q,  C = c0 + c1 x + c2 q + c3 q^2
+     H = 1 + n p (h1 p^2 + h2 p + h3) + nu p^2 x (h4 + h5 p),  V = v1 p + n (v2 x + v3) + v4 q
+   (the numbers are below). c, s: cosine and sine of 4 psi', psi' the direction of the strip from
+   [100] 1.35 rho/R before the root. s > 0: the fillet on the inside of the arc turns towards the
+   stiff <110>, the other one away from it; a straight strip has one on either side. What the
+   curvature does to the inner fillet it does to the outer one with the other sign. Of an unknown
+   direction the worst.
+     in: cosine and sine of 4 psi at the root, the sine such that s is as above; share: a1/a0 over
+   silicon's, by which B, C and D go for other crystals (not compared); x, q, p, n, u as above, p of
+   no more than h = 30 t, nu out of the plane, of the mean modulus; out: 1. Fitted (Chebyshev) to
+   285 solids of silicon, x 0.1 to 2, h/t 0.5 to 30: above all of them by 0.3 to 3.6 %, deeper than
+   10 t by 0.1 to 4.4 %; fitted to 70 % of them it is -1.3 to 4.9 % above the others.
+   source: docs/theory/flexure-silicon.md eq. 14; tools/solids; test_root_strain.c, test_crystal.c
+   peak_stress_of_silicon */
+typedef struct root_crystal {
+    double even, along, across, lean; /* A, B, C, D u */
+} root_crystal;
+
+typedef struct root_fillets { /* (1 + u)(A + ...) of the inner, (1 - u)(A + ...) of the outer */
+    double inner, outer;
+} root_fillets;
+
+static root_crystal root_crystal_of(double share, const root_section *at) {
+    double x = at->x, q = at->q, u = at->u;
+    return (root_crystal){.even = 1.0721 + 0.02 * x + q * (0.0172 + 0.0039 * q),
+                          .along = share * (-0.1134 + 0.0261 * x + 0.0305 * q),
+                          .across = share * (-0.077 + 0.0061 * x + q * (0.1783 - 0.0305 * q)),
+                          .lean = share * 0.394 * u};
+}
+
+/* 4 psi is turned back by 16.2 x u = 5.4 rho/R, of which sine and cosine stand as their Taylor
+   series, 2e-4 of 1 off at 1 rad, with which the laws were fitted */
+static root_fillets fillets_at(const root_crystal *r, const root_section *at, double four_psi) {
+    double x = at->x, u = at->u, cosine = cos(four_psi), sine = sin(four_psi);
+    double e = 16.2 * x * u, z = e * e;
+    double S = e * (1 - z * (1 / 6.0 - z * (1 / 120.0)));
+    double C = 1 - z * (0.5 - z * (1 / 24.0 - z * (1 / 720.0)));
+    double c = cosine * C + sine * S, s = sine * C - cosine * S;
+    double both = r->even + r->along * c + r->lean * s;
+    return (root_fillets){(1 + u) * (both + r->across * s), (1 - u) * (both - r->across * s)};
+}
+
+/* the worst direction */
+static root_fillets fillets_any(const root_crystal *r, const root_section *at) {
+    return (root_fillets){(1 + at->u) * (r->even + hypot(r->along, r->lean + r->across)),
+                          (1 - at->u) * (r->even + hypot(r->along, r->lean - r->across))};
+}
+
+/* G of both fillets */
+static double root_crystal_rise(const root_fillets *of, const root_section *at) {
+    double x = at->x, q = at->q, nu = at->nu, n = at->n, u = at->u;
+    double p = fmin(at->p, 15 / 17.0), p2 = p * p;
+    double level =
+        1 + n * p * (-4.4563 * p2 + 6.5109 * p - 2.0268) + nu * p2 * x * (-1.3063 + 1.6285 * p);
+    double tilt = u * (1.5231 * p + n * (0.3433 * x + 2.1208) - 0.4898 * q);
+    return fmax(of->inner * (level + tilt), of->outer * (level - tilt));
 }
 
 double fw_flexure_root_peak(const fw_flexure_root_case *r, const fw_flexure_crystal *k) {
-    if (r->fillet_m < 0) return 1 + fabs(r->curved);
-    double t = r->width_m, h = r->depth_m, u = fabs(r->curved), nu = r->poisson, n = nu * r->bow;
-    double x = fw_fitted_ratio(r->fillet_m / t), Kt = fw_concentration_law(x), p = h / (h + 4 * t);
-    double q = fw_notch_of(Kt);
-    x = fw_larger(x, 0.1);
-    if (!k || !k->known) return Kt * (1 + u) * fw_root_rise(x, q, p, nu, n, u);
-    const fw_flexure_root_crystal root = fw_root_crystal_of(k->share, x, q, u);
-    fw_flexure_root_worst worst = fw_root_crystal_any(&root);
-    if (k->aligned) {
-        double c = cos(4 * r->angle_rad), s = sin(4 * r->angle_rad);
-        double inner = r->curved < 0 ? -r->end : r->end; /* mirrored where it turns right */
-        double cosine = k->cos4 * c - k->sin4 * s, sine = inner * (k->sin4 * c + k->cos4 * s);
-        worst = fw_root_crystal_at(&root, 1, 0, cosine, sine);
+    double t = r->width_m, h = r->depth_m, u = fabs(r->curved);
+    if (r->fillet_m < 0) return 1 + u;
+    double Kt = fw_flexure_fillet_concentration(t, r->fillet_m);
+    const root_section at = {.x = fmax(fitted_ratio(t, r->fillet_m), sharpest),
+                             .q = fmin((Kt - 0.944) / 0.2113, sharpest_notch),
+                             .p = h / (h + 4 * t),
+                             .nu = r->poisson,
+                             .n = r->poisson * r->bow,
+                             .u = u};
+    if (!k || !k->known) return Kt * (1 + u) * root_rise(&at);
+    const root_crystal root = root_crystal_of(k->share, &at);
+    root_fillets of = fillets_any(&root, &at);
+    if (k->aligned) { /* of an arc that turns right and of the first end the mirror image */
+        double sense = r->curved < 0 ? -r->end : r->end;
+        of = fillets_at(&root, &at, sense * (atan2(k->sin4, k->cos4) + 4 * r->angle_rad));
     }
-    return Kt * fw_root_crystal_peak(&root, &worst, p, nu, n);
+    return Kt * root_crystal_rise(&of, &at);
 }

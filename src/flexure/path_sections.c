@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/path_sections.h"
 #include "flexure/gauss.h"
-#include "flexure/section_core.h"
+#include "flexure/section.h"
 #include <math.h>
 
 static double per_youngs(const fw_flexure_path_stuff *m, double psi_rad) {
@@ -77,7 +77,7 @@ void fw_flexure_path_end_loss(const fw_flexure_course *p, const fw_flexure_path_
     double h = m->end_depth_m, inwards = end ? -1 : 1, psi = at->pose.angle_rad;
     double block = p->concentration[end] == 1 ? 0 : fw_flexure_root_block_m(t, 0);
     if (k != 0) f = depth_at(m, h * sqrt(fabs(k) / t)).bow;
-    const fw_flexure_end_loss loss = fw_end_loss_of(m->crystal->reach, h, f, length, block);
+    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(m->crystal, h, f, length, block);
     double q = loss.reach_m * k, far = loss.reach_m / (1 + q * q); /* N: to the left times k */
     at->neutral_x_m = at->pose.x_m + far * (inwards * cos(psi) - q * sin(psi));
     at->neutral_y_m = at->pose.y_m + far * (inwards * sin(psi) + q * cos(psi));

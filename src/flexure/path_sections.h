@@ -29,7 +29,7 @@ void fw_flexure_path_section_at(const fw_flexure_course *path, const fw_flexure_
 /* dL/(EI) of an end without and with depth: per N m */
 void fw_flexure_path_root(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
                           int end, fw_flexure_path_section *at, double *root_m);
-/* of the second kind: d of fw_end_loss_of; neutral_*: where it counts */
+/* of the second kind: d of fw_flexure_end_loss_of; neutral_*: where it counts */
 void fw_flexure_path_end_loss(const fw_flexure_course *path, const fw_flexure_path_stuff *stuff,
                               int end, fw_flexure_path_section *at, double *loss_m);
 fw_flexure_path_stuff fw_flexure_path_stuff_of(const fw_flexure_course *path,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What arcs and leaves share: root compliance, fillet concentration, depth. Private to the room. */
+/* The laws that arcs, leaves and paths share: root compliance, fillet concentration, depth factor,
+   what the ends of a crystal lose, peak strain at a root. Private to the room. */
 #ifndef FW_FLEXURE_SECTION_H
 #define FW_FLEXURE_SECTION_H
 #include "flexure/crystal.h"
@@ -14,7 +15,6 @@ double fw_flexure_fillet_concentration(double width_m, double fillet_m);
 /* e = R - rn of a strip of width t bent to radius R, u = t/2R; exact stiffness of it over the thin
    one (Golovin) */
 double fw_flexure_neutral_offset(double radius_m, double u);
-double fw_flexure_neutral_thick(double u); /* e/(R u^2), u >= 0.1 */
 double fw_flexure_golovin(double u);
 
 typedef struct fw_flexure_depth {
@@ -26,14 +26,17 @@ typedef struct fw_flexure_depth {
 } fw_flexure_depth;
 fw_flexure_depth fw_flexure_depth_factors(double radius_m, double width_m, double depth_m,
                                           double poisson);
-
 fw_flexure_depth fw_flexure_depth_at(double depth_over_root_of_radius_and_width, double poisson);
 /* of a crystal's strip, E of its mean compliance */
 fw_flexure_depth fw_flexure_depth_crystal(double depth_over_root_of_radius_and_width,
                                           const fw_flexure_crystal *crystal, double youngs_Pa);
-struct fw_flexure_depth_start;
-fw_flexure_depth
-fw_flexure_depth_deep(struct fw_flexure_depth_start from); /* x > 16; section_core.h */
+
+typedef struct fw_flexure_end_loss {
+    double reach_m, length_m; /* l; f l^2/(l + 0.4192 t) */
+} fw_flexure_end_loss;
+/* bow: f of the depth factor, 1 of a straight strip; block: fw_flexure_root_block_m */
+fw_flexure_end_loss fw_flexure_end_loss_of(const fw_flexure_crystal *crystal, double depth_m,
+                                           double bow, double length_m, double block_m);
 
 /* peak strain (of a crystal: stress) at a root over that of the beam there, Kt and curvature
    included, on the safe side of solids. curved: t/3R, signed to the left; end: -1 the first, 1 the

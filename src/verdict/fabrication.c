@@ -30,7 +30,7 @@ static void change_variant(fw_mechanism_variant *v, const fw_verdict_fabrication
 /* ---- flexures and their joints ---- */
 
 /* Fillets up to here, over the width, were compared with solids closely; beyond, the law holds to
-   twice the width with a wider band (fw_shape_marks). */
+   twice the width with a wider band (fw_flexure_shape_marks). */
 static const double compared_fillet = 1.25;
 
 /* A concave fillet shrinks where the material grows, and grows where it recedes. One that leaves
@@ -111,8 +111,8 @@ static void change_joint(const fw_device *was, const fw_layout *drawn,
     const fw_flexure_input then = fw_mechanism_flexure(was, drawn, &out->variant, j),
                            fabricated = fw_mechanism_flexure(d, out->drawn, &out->variant, j);
     fw_flexure_result before, now;
-    fw_flexure_closed_forms((const fw_flexure_input *const[]){&then, &fabricated},
-                            (fw_flexure_result *const[]){&before, &now}, 2);
+    fw_flexure_closed_form(&then, &before);
+    fw_flexure_closed_form(&fabricated, &now);
     fw_flexure_flare(&then, was->flexure[joint->flexure].flare_m, &before);
     fw_flexure_flare(&fabricated, d->flexure[joint->flexure].flare_m, &now);
     double ratio = now.stiffness_Nm_per_rad / before.stiffness_Nm_per_rad;

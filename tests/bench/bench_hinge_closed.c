@@ -3,11 +3,9 @@
    rounds. Two figures of every closed form:
      in a row   every evaluation waits for the one before: its result enters the next one's input
      in a list  64 hinges that do not wait for each other, as when all of a mechanism are judged
-     by one call  the same 64 by fw_flexure_closed_forms, which takes four arcs at once
    Inputs vary, so that branches are taken as they come. All of a result is worked out, the estimate
    of its error too. A crystal is prepared once (fw_flexure_crystal_cubic: its moduli and the
-   direction of
-   the hinge in it), as all hinges of a material and direction share it.
+   direction of the hinge in it), as all hinges of a material and direction share it.
    `bench_hinge_closed CASE COUNT` evaluates one case (from 0) so many times and
    says nothing: what valgrind counts for two counts gives the instructions of one evaluation. */
 #include "flexure/finite.h"
@@ -74,36 +72,6 @@ static double list(int kind) {
     return out[0].stiffness_Nm_per_rad;
 }
 
-static double many(int kind) {
-    enum { MANY = 64 };
-    static fw_flexure_input in[MANY];
-    static fw_flexure_result out[MANY];
-    const fw_flexure_input *from[MANY];
-    fw_flexure_result *to[MANY];
-    for (int i = 0; i < MANY; i++) {
-        in[i] = hinge_of(kind);
-        in[i].width_m = 8e-6 + 4e-12 * i;
-        from[i] = &in[i], to[i] = &out[i];
-    }
-    for (int i = 0; i < repeat; i += MANY)
-        fw_flexure_closed_forms(from, to, MANY);
-    return out[0].stiffness_Nm_per_rad;
-}
-
-static double part(int kind) {
-    fw_flexure_input in = hinge_of(kind);
-    fw_flexure_shape shape;
-    fw_flexure_shape_of(&in, &shape);
-    double carry = 0;
-    for (int i = 0; i < repeat; i++) {
-        fw_flexure_result out;
-        in.depth_m = h1.depth_m + 1e-12 * (i & 255) + 1e-30 * carry;
-        fw_flexure_closed_form_at(&shape, &in, &out);
-        carry = out.stiffness_Nm_per_rad;
-    }
-    return carry;
-}
-
 static double law(int what) {
     fw_flexure_result out;
     fw_flexure_hinge_law l;
@@ -138,10 +106,6 @@ static const struct bench_case {
     {"arc of a crystal, in a row", row, ARC_CRYSTAL},
     {"arc, in a list", list, ARC},
     {"arc of a crystal, in a list", list, ARC_CRYSTAL},
-    {"arc, 64 by one call", many, ARC},
-    {"arc of a crystal, 64 by one call", many, ARC_CRYSTAL},
-    {"arc, outline at hand, in a row", part, ARC},
-    {"arc of a crystal, outline at hand, in a row", part, ARC_CRYSTAL},
     {"arc deeper than 10 t, in a row", row, DEEP_ARC},
     {"leaf, in a row", row, LEAF},
     {"leaf of a crystal, in a row", row, LEAF_CRYSTAL},

@@ -12,7 +12,7 @@ from scipy.optimize import linprog
 
 
 class Fit:
-    """columns: see section_core.h"""
+    """columns: see flexure_section.c"""
 
     def __init__(self, rows, margin):
         def column(name):
@@ -77,7 +77,7 @@ class Silicon(Fit):
         self.direction, self.bend = np.array(direction), np.array(bend)
 
     def heading(self, root, turned):
-        """cosine and sine of 4 psi where the bound takes it, as fw_root_crystal_at has them"""
+        """cosine and sine of 4 psi where the bound takes it, as fillets_at of flexure_section.c has them"""
         at = 4 * (self.axis + np.where(self.leaf, 0, root * self.half_angle))
         cos, sin = np.cos(at), np.where(self.leaf, 1, root) * np.sin(at)
         z = turned * turned
@@ -178,6 +178,6 @@ def silicon_text(c, shift):
             f".along = share * ({first(a[3])} {more(a[4])} * x {more(a[5])} * q)",
             f".across = share * ({first(a[6])} {more(a[7])} * x + q * ({first(a[8])} {more(a[10])} * q))",
             f".lean = share * {first(10 * a[11])} * u",
-            f"double e = {12 * shift:g} * r->x * r->u",
-            f"level = 1 + n * p * ({first(h[0])} * p2 {more(h[5])} * p {more(h[1])}) + nu * p2 * r->x * ({first(h[2])} {more(h[3])} * p);",
-            f"tilt = r->u * ({first(h[6])} * p + n * ({first(h[7])} * r->x {more(h[8])}) {more(h[4])} * r->q);"]
+            f"double e = {12 * shift:g} * x * u",
+            f"level = 1 + n * p * ({first(h[0])} * p2 {more(h[5])} * p {more(h[1])}) + nu * p2 * x * ({first(h[2])} {more(h[3])} * p);",
+            f"tilt = u * ({first(h[6])} * p + n * ({first(h[7])} * x {more(h[8])}) {more(h[4])} * q);"]

@@ -67,6 +67,14 @@ static void pole_stands_still(void **state) {
     assert_relative(fw_flexure_drift_at(&law, &s, th).pole_m, first, 1e-3);
     assert_relative(fw_flexure_drift_at(&law, &s, 1e-6).pole_m, first * 1e-3, 1e-5);
     assert_near(fw_flexure_drift_at(&law, &s, 0).pole_m, 0, 1e-18);
+    /* of one sign and one slope where the formula changes over to two terms of it; above, the drift
+       is a difference of lengths, known to eps L = 8e-20 m of 2e-15 */
+    for (int sense = -1; sense <= 1; sense += 2) {
+        double low = fw_flexure_drift_at(&law, &s, 0.999e-5 * sense).pole_m,
+               high = fw_flexure_drift_at(&law, &s, 1.001e-5 * sense).pole_m;
+        assert_relative(low / 0.999, sense * first * 1e-2, 1e-5);
+        assert_relative(high / 1.001, sense * first * 1e-2, 4e-5);
+    }
 }
 
 /* table of the exact beam, th = 5 deg, H1: ux, uy; and silicon closes 2 um by 220 or 438 uN */

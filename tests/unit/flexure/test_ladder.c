@@ -313,23 +313,6 @@ static void estimates_widen(void **state) {
     assert_near(form(&far[0]).limit_uncertainty, 0.065, 1e-15);
 }
 
-/* with the outline at hand the same bits come out */
-static void two_steps_are_one(void **state) {
-    (void)state;
-    fw_flexure_input in = hinge(H2, 3e-6, 50e-6);
-    fw_flexure_shape f;
-    fw_flexure_shape_of(&in, &f);
-    for (int i = 0; i < 20; i++) {
-        in.depth_m = (1 + 3 * i) * 1e-6, in.youngs_Pa = (100 + i) * 1e9;
-        fw_flexure_result a = form(&in), b;
-        memset(&b, 0xff, sizeof b);
-        fw_flexure_closed_form_at(&f, &in, &b);
-        assert_relative(a.stiffness_Nm_per_rad, b.stiffness_Nm_per_rad, 1e-15);
-        assert_relative(a.ky_N_per_m, b.ky_N_per_m, 1e-15);
-        assert_relative(a.limit_angle_rad, b.limit_angle_rad, 1e-15);
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ratios_of_thin_arcs),
@@ -340,7 +323,6 @@ int main(void) {
         cmocka_unit_test(three_dimensional_real_roots),
         cmocka_unit_test(compliance_is_one),
         cmocka_unit_test(estimates_widen),
-        cmocka_unit_test(two_steps_are_one),
     };
     return cmocka_run_group_tests_name("ladder", tests, NULL, NULL);
 }

@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the closed form does not know, as a figure of each shape. */
+#include "flexure/kinds.h"
+#include <math.h>
+
+/* the factors by which a shape outside of those compared widens its errors: times 2 for each of
+   fillet outside [0.05, 1.25] t, arc thicker than t/r = 0.15, strip shorter than 16 t (depth above
+   10 t: fw_flexure_errors); times 10 in all above t/r = 0.3. A path has its own mark for what is
+   beyond the fit */
+void fw_flexure_shape_marks(fw_flexure_shape *f) {
+    const double above = 1.0 + 1e-9;
+    double t = f->width_m, rho = f->fillet_m, wide = 1;
+    double thick = f->kind == FW_FLEXURE_CSFH ? t / f->radius_m : 0;
+    bool ideal = !(rho >= 0), unlike = !ideal && (rho < 0.05 * t || rho > 1.25 * above * t);
+    f->sharp = !ideal && rho < 0.1 * t * (1.0 - 1e-9);
+    f->beyond_fit = unlike || thick > 0.3;
+    if (unlike) wide *= 2;
+    if (thick > 0.15 * above) wide *= 2;
+    if (f->length_m < 16 * t) wide *= 2;
+    if (thick > 0.3) wide = fmax(wide, 10);
+    f->widening = f->kind == FW_FLEXURE_PATH ? 1 : wide;
+}
+
+typedef struct root_lever { /* of a root, about W */
+    double along, across, sine, cosine;
+} root_lever;
+
+static root_lever root_lever_of(const fw_flexure_shape *f) {
+    if (f->kind == FW_FLEXURE_LEAF) return (root_lever){0, 0.5 * f->length_m, 0, 1};
+    return (root_lever){f->radius_m * f->cosine - f->centre_m, f->radius_m * f->sine, f->sine,
+                        f->cosine};
+}
+
+/* Five causes, each with the factor that bounds continuum figures of 23 shapes (theory, table):
+     ends   the blocks keep the section from its anticlastic bow: shorter by up to
+            0.35 h nu^2 f at either end, nu^2 f = 1 - (1 - nu^2) D of the depth factor (leaf 0.4 h)
+     roots  the law of dL: 0.006 t, and in thick arcs with wide fillets 2.3 t (t/r)^2 (rho/t)^2
+     place  the fillet takes strip away up to rho from the end, where the form has it at the end:
+            first moment 0.15 rho^2 (the block's own flexibility beside it)
+     rest   0.1 % of a long thin beam; 0.002 r or 0.01 t of W across
+     axial  a block gives along the strip as up to 1.6 t of it would, which the form leaves out
+   With e = 2 length/L of the first two: K e, kx e y^2 L/(EI C_xx), ky e x^2 L/(EI C_yy), W e |x|,
+   (x, y) the root from W. Strain: it is 0 to 4 % above converged solids (fw_flexure_root_peak); of
+   a solid whose strains are extrapolated to nodes they scatter by 1 to 2 % with its mesh.
+
+   in: shape, result with D, C, Kt (SI); out: relative errors, of W in m.
+   source: docs/theory/flexure-errors.md; test_error.c, test_ladder.c */
+static fw_flexure_error isotropic_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
+                                         const fw_flexure_result *r, double wide) {
+    bool arc = f->kind == FW_FLEXURE_CSFH;
+    double t = f->width_m, L = f->length_m, nu2 = r->poisson * r->poisson;
+    double EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
+    double rho = fmax(fmin(f->fillet_m, t), 0), place = 0.6 * rho * rho;
+    double bow = fmax(1 - (1 - nu2) * r->depth_factor, 0); /* twice what either end loses: */
+    double lost = (arc ? 0.7 : 0.8) * in->depth_m * bow + 0.012 * t;
+    if (arc) lost += 4.6 * 9 * (f->curved * f->curved) * (rho * rho) / t;
+    double give = f->fillet_m < 0 ? 0 : 3.2 * t * t * t / 12; /* 1/EA over 1/EI: t^2/12 */
+    const root_lever at = root_lever_of(f);
+    double x = fabs(at.along), y = fabs(at.across), c = at.cosine, n = at.sine;
+    double along = y * (lost * y + place * fabs(c)) + give * (n * n);
+    double across = x * (lost * x + place * fabs(n)) + give * (c * c);
+    double centre = arc ? (lost * x + place) / L + 2e-4 * f->radius_m : 0.01 * t;
+    return (fw_flexure_error){
+        .stiffness = wide * (0.001 + lost / L),
+        .kx = wide * (0.002 + r->kx_N_per_m * along / EI),
+        .ky = wide * (0.002 + r->ky_N_per_m * across / EI),
+        .strain = wide * ((arc ? 0.04 : 0.05) + (f->sharp ? 0.03 : 0)),
+        .centre_m = wide * centre,
+    };
+}
+
+/* A crystal: K 1.4 %, kx 1 %, ky 1.6 % more (linear finite elements of two arcs, three directions
+   each, ideal ends, beside a closed form that did not know what ends lose: three times what is left
+   since), W twice, strain 3 % more; where its direction is not known the spread over
+   all of them. source: docs/theory/flexure-silicon.md; test_crystal.c */
+static void add_crystal_errors(const fw_flexure_shape *f, const fw_flexure_crystal *k, double wide,
+                               fw_flexure_error *e) {
+    bool arc = f->kind == FW_FLEXURE_CSFH;
+    double spread = k->aligned ? 0 : fabs(k->a1_per_Pa / k->a0_per_Pa);
+    e->stiffness += wide * (0.014 + (arc ? 0 : spread));
+    e->kx += wide * (0.010 + (arc ? 0.1 * spread : spread));
+    e->ky += wide * (0.016 + spread);
+    e->strain += wide * 0.03;
+    e->centre_m += e->centre_m;
+    if (arc) e->centre_m += wide * ((0.001 + 0.2 * spread) * f->radius_m);
+}
+
+static fw_flexure_error widened(const fw_flexure_error *e, double wide) {
+    return (fw_flexure_error){.stiffness = wide * e->stiffness,
+                              .kx = wide * e->kx,
+                              .ky = wide * e->ky,
+                              .strain = wide * e->strain,
+                              .centre_m = wide * e->centre_m};
+}
+
+fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
+                                   const fw_flexure_result *r) {
+    bool path = f->kind == FW_FLEXURE_PATH, deep = in->depth_m > 10 * f->width_m * (1.0 + 1e-9);
+    double wide = deep ? 2 * f->widening : f->widening;
+    fw_flexure_error e = path ? widened(&f->error, wide) : isotropic_errors(f, in, r, wide);
+    if (in->crystal.known) add_crystal_errors(f, &in->crystal, wide, &e);
+    e.outside = wide > 1 || (path && f->error.outside);
+    return e;
+}
