@@ -217,8 +217,8 @@ static fw_status bar_parts(fw_layout_drawing *d, int body, const int *joint, int
 }
 
 /* one simple outline, or FW_GEOMETRY */
-fw_status fw_layout_body_unite(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
-                               int npart, fw_geometry_contour *out) {
+static fw_status unite_parts(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                             int npart, fw_geometry_contour *out) {
     fw_geometry_region region = {(fw_geometry_contour *)part, 1};
     for (int i = 1; i < npart; i++) {
         fw_geometry_region next = {(fw_geometry_contour *)&part[i], 1}, both;
@@ -282,7 +282,7 @@ static fw_status unite_all(fw_layout_drawing *d, const work *w) {
         all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
     for (int i = 0; i < w->nextra; i++)
         all->item[all->count++] = w->extra[i];
-    FW_TRY(fw_layout_body_unite(d, w->body, all->item, all->count, &d->raw[w->slot]));
+    FW_TRY(unite_parts(d, w->body, all->item, all->count, &d->raw[w->slot]));
     d->nlug = w->first_lug;
     if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
     static const double shift[] = {0.0, 1.0, -1.0, 2.0, -2.0}; /* nearest first */
@@ -292,7 +292,7 @@ static fw_status unite_all(fw_layout_drawing *d, const work *w) {
                                    lug, &nlug));
     for (int i = 0; i < nlug; i++) {
         fw_geometry_contour pair[2] = {d->raw[w->slot], lug[i]};
-        FW_TRY(fw_layout_body_unite(d, w->body, pair, 2, &d->raw[w->slot]));
+        FW_TRY(unite_parts(d, w->body, pair, 2, &d->raw[w->slot]));
     }
     return FW_OK;
 }

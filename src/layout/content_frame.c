@@ -11,7 +11,6 @@
 
 static const double CLEAR_M = 12e-6, BESIDE_M = 40e-6; /* of edges; of other marks */
 static const double STEP_M = 20e-6;
-static const double STROKE_M = 5e-6, HIGH_M = 45e-6, LINE_M = 65e-6;
 
 typedef struct sheet {
     fw_arena *arena;
@@ -62,9 +61,9 @@ static fw_status find_boxes(sheet *s) {
     return FW_OK;
 }
 
-/* lower left corner of a free place in an upright; from the top or from below */
-static fw_status find_place(sheet *s, bool right, bool from_top, double width, double height,
-                            fw_geometry_vec2 *at, bool *found) {
+/* lower left corner of a free place in an upright, from the top */
+static fw_status find_place(sheet *s, bool right, double width, double height, fw_geometry_vec2 *at,
+                            bool *found) {
     const fw_layout *d = s->device;
     double lane = HUGE_VAL; /* the frame begins where the lane ends */
     FW_TRY(find_boxes(s));
@@ -76,7 +75,7 @@ static fw_status find_place(sheet *s, bool right, bool from_top, double width, d
     int steps = (int)floor((d->window.y1 - d->window.y0 - height) / STEP_M);
     *found = false;
     for (int i = 0; i <= steps && !*found && x - x0 >= CLEAR_M; i++) {
-        double y = from_top ? d->window.y1 - height - i * STEP_M : d->window.y0 + i * STEP_M;
+        double y = d->window.y1 - height - i * STEP_M;
         *at = (fw_geometry_vec2){x, fw_layout_to_grid(y)};
         fw_geometry_contour place;
         fw_mark mark = fw_arena_mark(s->arena);
@@ -103,86 +102,6 @@ static fw_status add_mark(sheet *s, const fw_layout_coupon *c, fw_geometry_vec2 
                                       fw_layout_to_grid(e->b.y + at.y)};
         }
         FW_TRY(fw_layout_add(s->arena, piece, &s->piece, &s->npiece, &s->capacity));
-    }
-    return FW_OK;
-}
-
-fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
-                                     const fw_layout_pattern *pattern, int npattern,
-                                     double width_rule_m, double space_rule_m,
-                                     const fw_layout **out, int *left_out) {
-    int n = 0;
-    *out = device;
-    *left_out = 0;
-    for (int i = 0; i < npattern; i++)
-        n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
-    if (n == 0 || !device->drawn) return FW_OK;
-    fw_layout *l = fw_arena_one(arena, fw_layout);
-    sheet s = {
-        .arena = arena, .device = device, .npiece = device->npiece, .capacity = device->npiece + 8};
-    FW_NEED(l);
-    FW_NEED(s.piece = fw_arena_grow(arena, device->piece, (size_t)device->npiece,
-                                    (size_t)s.capacity, sizeof *s.piece));
-    for (int i = 0; i < npattern; i++) {
-        fw_layout_coupon c;
-        if (!pattern[i].kind->on_frame) continue;
-        FW_TRY(fw_layout_pattern_draw(arena, &pattern[i], width_rule_m, space_rule_m, 0, &c));
-        for (int k = 0; k < pattern[i].kind->on_frame; k++) {
-            fw_geometry_vec2 at;
-            bool found;
-            FW_TRY(find_place(&s, k == 1, true, c.width_m, c.height_m, &at, &found));
-            if (found)
-                FW_TRY(add_mark(&s, &c, at));
-            else
-                ++*left_out;
-        }
-    }
-    if (device->fill)
-        FW_TRY(fw_layout_content_in_window(arena, device, pattern, npattern, s.piece, s.npiece));
-    *l = *device;
-    l->piece = s.piece;
-    l->npiece = s.npiece;
-    *out = l;
-    return FW_OK;
-}
-
-fw_status fw_layout_content_die_id(fw_arena *arena, const fw_layout *device, const char *id,
-                                   fw_layout_piece **piece, int *npiece, int *capacity) {
-    sheet s = {.arena = arena,
-               .device = device,
-               .piece = device->piece,
-               .npiece = device->npiece,
-               .capacity = device->npiece};
-    double room = 0;
-    for (int i = 0; i < device->npiece; i++)
-        if (device->piece[i].role == FW_ROLE_FRAME)
-            room = fmax(room,
-                        device->window.x0 - fw_geometry_contour_box(&device->piece[i].contour).x0);
-    room -= 2 * CLEAR_M;
-    size_t total = strlen(id), per = total;
-    char line[40];
-    if (total == 0 || total >= sizeof line) return FW_OK;
-    double width = HUGE_VAL;
-    for (; per > 0; per--) { /* as many characters as the widest line bears */
-        width = 0;
-        for (size_t k = 0; k < total; k += per) {
-            snprintf(line, sizeof line, "%.*s", (int)per, id + k);
-            width = fmax(width, fw_layout_text_width(line, HIGH_M, STROKE_M));
-        }
-        if (width <= room) break;
-    }
-    if (per == 0) return FW_OK;
-    size_t lines = (total + per - 1) / per;
-    fw_geometry_vec2 at;
-    bool found;
-    double height = (double)(lines - 1) * LINE_M + HIGH_M;
-    FW_TRY(find_place(&s, false, false, width, height, &at, &found));
-    for (size_t k = 0; found && k < lines; k++) {
-        snprintf(line, sizeof line, "%.*s", (int)per, id + k * per);
-        fw_geometry_vec2 origin = {at.x,
-                                   fw_layout_to_grid(at.y + (double)(lines - 1 - k) * LINE_M)};
-        FW_TRY(fw_layout_text(arena, line, origin, HIGH_M, STROKE_M, FW_ROLE_TEXT, "die id", piece,
-                              npiece, capacity));
     }
     return FW_OK;
 }
@@ -408,18 +327,59 @@ static fw_status grow(window *w, fw_layout_piece *piece, add_to add, const fw_la
     return FW_OK;
 }
 
-fw_status fw_layout_content_in_window(fw_arena *arena, const fw_layout *device,
-                                      const fw_layout_pattern *pattern, int npattern,
-                                      fw_layout_piece *piece, int npiece) {
+/* thief and fill (kinds with in_window) on the frame's pieces, whose outlines are made anew; the
+   layout's own are left alone */
+static fw_status in_window(fw_arena *arena, const fw_layout *device,
+                           const fw_layout_pattern *pattern, int npattern, fw_layout_piece *piece,
+                           int npiece) {
     window w = {.arena = arena, .device = device, .piece = piece, .npiece = npiece};
     for (int round = 0; round < 2; round++) /* the fill stands on the thief, whatever their order */
         for (int k = 0; k < npattern; k++) {
-            bool thief = pattern[k].kind == &fw_layout_pattern_window_thief;
-            if (!pattern[k].kind->in_window || thief != (round == 0)) continue;
+            fw_layout_growth growth = pattern[k].kind->in_window;
+            bool thief = growth == FW_GROWS_ALONG_EDGES;
+            if (growth == FW_GROWS_NOT || thief != (round == 0)) continue;
             for (int i = 0; i < npiece; i++)
                 if (is_frame(&piece[i]))
                     FW_TRY(grow(&w, &piece[i], thief ? add_thief : add_fill, &pattern[k]));
             if (thief) w.thief_m = fw_layout_to_grid(pattern[k].value[0]);
         }
+    return FW_OK;
+}
+
+fw_status fw_layout_content_on_frame(fw_arena *arena, const fw_layout *device,
+                                     const fw_layout_pattern *pattern, int npattern,
+                                     double width_rule_m, double space_rule_m,
+                                     const fw_layout **out, int *left_out) {
+    int n = 0;
+    *out = device;
+    *left_out = 0;
+    for (int i = 0; i < npattern; i++)
+        n += pattern[i].kind->on_frame + (device->fill && pattern[i].kind->in_window);
+    if (n == 0 || !device->drawn) return FW_OK;
+    fw_layout *l = fw_arena_one(arena, fw_layout);
+    sheet s = {
+        .arena = arena, .device = device, .npiece = device->npiece, .capacity = device->npiece + 8};
+    FW_NEED(l);
+    FW_NEED(s.piece = fw_arena_grow(arena, device->piece, (size_t)device->npiece,
+                                    (size_t)s.capacity, sizeof *s.piece));
+    for (int i = 0; i < npattern; i++) {
+        fw_layout_coupon c;
+        if (!pattern[i].kind->on_frame) continue;
+        FW_TRY(fw_layout_pattern_draw(arena, &pattern[i], width_rule_m, space_rule_m, 0, &c));
+        for (int k = 0; k < pattern[i].kind->on_frame; k++) {
+            fw_geometry_vec2 at;
+            bool found;
+            FW_TRY(find_place(&s, k == 1, c.width_m, c.height_m, &at, &found));
+            if (found)
+                FW_TRY(add_mark(&s, &c, at));
+            else
+                ++*left_out;
+        }
+    }
+    if (device->fill) FW_TRY(in_window(arena, device, pattern, npattern, s.piece, s.npiece));
+    *l = *device;
+    l->piece = s.piece;
+    l->npiece = s.npiece;
+    *out = l;
     return FW_OK;
 }

@@ -93,8 +93,6 @@ bool fw_layout_hinge_shape_leaf(const fw_device_flexure *flexure, fw_layout_hing
 /* both roots of a flexure that varies: [0] in the lower body's own (mirrored) frame */
 bool fw_layout_hinge_shape_path(const fw_device_flexure *flexure, double fillet_m,
                                 fw_layout_hinge_shape shape[2]);
-/* elastic centre from O, by the same function as the mechanics use */
-double fw_layout_hinge_centre(const fw_device_flexure *flexure, double fillet_m);
 
 /* dimensions of a head that are free within limits */
 typedef struct fw_layout_head_shape {
@@ -248,8 +246,6 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
                                fw_geometry_contour *out, double *radius_m, fw_geometry_vec2 *where);
 /* how far an outline is from what a mask can show; >= 1 is good, else *where */
 double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where);
-fw_status fw_layout_body_unite(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
-                               int npart, fw_geometry_contour *out);
 /* shift_m: of the places along their edges */
 fw_status fw_layout_platform_lugs(fw_layout_drawing *d, int body, double shift_m,
                                   fw_geometry_contour *lug, int *nlug);
@@ -291,18 +287,6 @@ fw_status fw_layout_eyelet_ring(fw_layout_drawing *d, const fw_layout_eyelet_pla
 fw_status fw_layout_eyelet_hole(fw_layout_drawing *d, const fw_layout_eyelet_plan *e,
                                 const fw_geometry_contour *raw, fw_geometry_contour *out,
                                 fw_geometry_contour *cap, const char **why);
-/* Ring and hole on an outline; *why set: they cannot be there. Where a ring's edge nearly coincides
-   with another the outline would get a step that no mask can show; then the ring is made wider.
-   slot -1: a half of the frame. `least`: soundness of the outline before. */
-fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                               double least, fw_geometry_contour *raw, const char **why);
-/* the same; where it cannot be, the eyelet is given up and that is said */
-fw_status fw_layout_eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                               fw_geometry_contour *raw);
-void fw_layout_eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why);
-/* soundness of a half of the frame as it will be rounded; 0: it cannot be */
-fw_status fw_layout_frame_soundness(fw_layout_drawing *d, const fw_geometry_contour *raw,
-                                    double *sound);
 fw_status fw_layout_window_choose(fw_layout_drawing *d);
 /* from the hinge of a base of its own straight to its cut at the frame */
 double fw_layout_base_reach(const fw_layout_drawing *d, int joint);

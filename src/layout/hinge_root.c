@@ -7,7 +7,8 @@
 #include "layout/draw.h"
 #include <math.h>
 
-double fw_layout_hinge_centre(const fw_device_flexure *flexure, double fillet_m) {
+/* elastic centre from O, by the same function as the mechanics use */
+static double hinge_centre(const fw_device_flexure *flexure, double fillet_m) {
     /* of a uniform modulus: one drawing serves every flow; what a crystal moves is the mechanism's
        business (fw_flexure_result.offset_m) */
     const fw_flexure_input in = fw_flexure_input_of(flexure, fillet_m);
@@ -45,7 +46,7 @@ bool fw_layout_hinge_shape_csfh(const fw_device_flexure *flexure, fw_layout_hing
     double inner = asin(rho / (ri - rho)), outer = asin(rho / (ro + rho)), cut = a - inner;
     if (!(cut > rule->cut_least_rad)) return false;
     double far_end = sqrt((ro + rho) * (ro + rho) - rho * rho);
-    fw_geometry_vec2 o = fw_v(-fw_layout_hinge_centre(flexure, rho), 0.0), e = fw_v(ca, sa);
+    fw_geometry_vec2 o = fw_v(-hinge_centre(flexure, rho), 0.0), e = fw_v(ca, sa);
 
     shape->arc_centre = o;
     shape->strip_sweep_rad = 2.0 * cut;
@@ -117,7 +118,7 @@ enum { PLACES = 48 };
 /* the strip in the hinge frame, W at the origin */
 static void lay(const fw_device_flexure *f, double fillet_m, fw_flexure_course *p) {
     const fw_flexure_input in = fw_flexure_input_of(f, fillet_m);
-    double centre = fw_layout_hinge_centre(f, fillet_m);
+    double centre = hinge_centre(f, fillet_m);
     fw_flexure_path_of(&in, p);
     for (int i = 0; i <= p->n; i++)
         p->start[i].x_m -= centre;
@@ -307,7 +308,7 @@ bool fw_layout_hinge_shape_path(const fw_device_flexure *f, double fillet_m,
     for (int i = 0; i < 2; i++) {
         shape[i].reach_m = reach;
         shape[i].size_m = size;
-        shape[i].arc_centre = fw_v(-fw_layout_hinge_centre(f, rho), 0);
+        shape[i].arc_centre = fw_v(-hinge_centre(f, rho), 0);
     }
     return true;
 }

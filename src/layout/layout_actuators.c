@@ -81,7 +81,7 @@ bool fw_layout_eyelets_on(const fw_layout_drawing *d, int body) {
 
 /* ---- saying ---- */
 
-void fw_layout_eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
+static void eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const char *why) {
     char x[32], y[32];
     e->off = true;
     e->cap.count = 0;
@@ -226,8 +226,9 @@ static double soundness_now(const fw_layout_drawing *d, int slot) {
     return fmin(1.0, fw_layout_body_soundness(&d->plain[slot], &where));
 }
 
-fw_status fw_layout_frame_soundness(fw_layout_drawing *d, const fw_geometry_contour *raw,
-                                    double *sound) {
+/* soundness of a half of the frame as it will be rounded; 0: it cannot be */
+static fw_status frame_soundness(fw_layout_drawing *d, const fw_geometry_contour *raw,
+                                 double *sound) {
     fw_geometry_contour round;
     fw_geometry_vec2 where;
     fw_status status =
@@ -239,8 +240,11 @@ fw_status fw_layout_frame_soundness(fw_layout_drawing *d, const fw_geometry_cont
     return status == FW_GEOMETRY ? FW_OK : status;
 }
 
-fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                               double least, fw_geometry_contour *raw, const char **why) {
+/* Ring and hole on an outline; *why set: they cannot be there. Where a ring's edge nearly coincides
+   with another the outline would get a step that no mask can show; then the ring is made wider.
+   slot -1: a half of the frame. `least`: soundness of the outline before. */
+static fw_status eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                            double least, fw_geometry_contour *raw, const char **why) {
     static const double wider_m[] = {0.0, 6e-6, 12e-6, 18e-6, 25e-6};
     const char *first = NULL;
     for (; e->wider < (int)(sizeof wider_m / sizeof wider_m[0]); e->wider++) {
@@ -255,7 +259,7 @@ fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layo
             *why = "its ring would cover the cut between two pieces";
         if (!*why && slot >= 0) FW_TRY(rounds(d, slot, body, &open, least, &good));
         if (!*why && slot < 0) {
-            FW_TRY(fw_layout_frame_soundness(d, &open, &sound));
+            FW_TRY(frame_soundness(d, &open, &sound));
             good = sound > 0.95 * least;
         }
         if (good) {
@@ -271,11 +275,12 @@ fw_status fw_layout_eyelet_fit(fw_layout_drawing *d, int slot, int body, fw_layo
     return FW_OK;
 }
 
-fw_status fw_layout_eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
-                               fw_geometry_contour *raw) {
+/* the same; where it cannot be, the eyelet is given up and that is said */
+static fw_status eyelet_add(fw_layout_drawing *d, int slot, int body, fw_layout_eyelet_plan *e,
+                            fw_geometry_contour *raw) {
     const char *why;
-    FW_TRY(fw_layout_eyelet_fit(d, slot, body, e, soundness_now(d, slot), raw, &why));
-    if (why) fw_layout_eyelet_off(d, e, why);
+    FW_TRY(eyelet_fit(d, slot, body, e, soundness_now(d, slot), raw, &why));
+    if (why) eyelet_off(d, e, why);
     return FW_OK;
 }
 
@@ -302,7 +307,7 @@ static fw_status dress(fw_layout_drawing *d, int body) {
     }
     for (int i = 0; i < d->neyelet; i++)
         if (!d->eyelet[i].off && d->eyelet[i].eyelet->body == body)
-            FW_TRY(fw_layout_eyelet_add(d, body, body, &d->eyelet[i], &raw));
+            FW_TRY(eyelet_add(d, body, body, &d->eyelet[i], &raw));
     d->raw[body] = raw;
     return rounds(d, body, body, &raw, 0.0, &good);
 }
@@ -451,10 +456,10 @@ fw_status fw_layout_actuators_on_base(fw_layout_drawing *d) {
         e->on_frame = e->eyelet->body == FW_GROUND && slot < 0;
         if (slot >= 0 &&
             to_frame(d, e->at) < 0.5 * e->hole_m + e->ring_m + fw_layout_rule.least_space_m) {
-            fw_layout_eyelet_off(d, e, across);
+            eyelet_off(d, e, across);
             continue;
         }
-        if (slot >= 0) FW_TRY(fw_layout_eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
+        if (slot >= 0) FW_TRY(eyelet_add(d, slot, FW_GROUND, e, &d->raw[slot]));
     }
     for (int i = 0; i < d->ncomb; i++)
         if (!d->comb[i].off) FW_TRY(avoid(d, &d->comb[i].stator));
@@ -475,21 +480,21 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
         fw_layout_eyelet_plan *e = &d->eyelet[i];
         if (e->off || !e->on_frame || e->cap.count > 0) continue;
         if (outside(d, e)) {
-            fw_layout_eyelet_off(d, e, "it lies outside of the frame");
+            eyelet_off(d, e, "it lies outside of the frame");
             continue;
         }
         if (e->at.y < half.y0 || e->at.y > half.y1) continue;
         if (near_base(d, e)) {
-            fw_layout_eyelet_off(d, e, across);
+            eyelet_off(d, e, across);
             continue;
         }
         fw_geometry_contour open = *raw;
         const char *why;
         double before;
-        FW_TRY(fw_layout_frame_soundness(d, raw, &before));
-        FW_TRY(fw_layout_eyelet_fit(d, -1, FW_GROUND, e, before, &open, &why));
+        FW_TRY(frame_soundness(d, raw, &before));
+        FW_TRY(eyelet_fit(d, -1, FW_GROUND, e, before, &open, &why));
         if (why)
-            fw_layout_eyelet_off(d, e, why);
+            eyelet_off(d, e, why);
         else
             *raw = open;
     }

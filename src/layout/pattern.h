@@ -66,16 +66,23 @@ typedef struct fw_layout_pen { /* what a kind draws with */
     int nbox, box_room;
 } fw_layout_pen;
 
-typedef struct fw_layout_pattern_kind { /* a row of pattern.c */
+/* what a kind adds to the frame of the device's own die, where the device asks for fill */
+typedef enum fw_layout_growth {
+    FW_GROWS_NOT,
+    FW_GROWS_ALONG_EDGES, /* a strip along every edge, as wide as the kind's first parameter */
+    FW_GROWS_IN_CELLS     /* squares on stems, on top of the strips */
+} fw_layout_growth;
+
+typedef struct fw_layout_pattern_kind { /* a row: one for each line of patterns.def */
     const char *name, *what;
     fw_layout_pattern_parameter parameter[FW_PATTERN_PARAMETERS];
     int nparameter;
     const char *sizes; /* what the list of lengths is; NULL: takes none */
     /* FW_GEOMETRY: cannot be drawn with these numbers */
     fw_status (*draw)(fw_layout_pen *pen);
-    int on_frame;   /* on the frame of every die, so often; 0: on the test die */
-    bool fills;     /* takes what the others leave of a row: drawn by layout_content.c */
-    bool in_window; /* of the device's own die, where it asks for fill: content_frame.c */
+    int on_frame; /* on the frame of every die, so often; 0: on the test die */
+    bool fills;   /* takes what the others leave of a row: drawn by layout_content.c */
+    fw_layout_growth in_window; /* on the device's own die: content_frame.c */
 } fw_layout_pattern_kind;
 
 const fw_layout_pattern_kind *fw_layout_pattern_kind_at(size_t i); /* NULL behind the last row */
@@ -110,10 +117,6 @@ double fw_layout_pen_value(const fw_layout_pen *pen, int parameter);
 #define FW_LAYOUT_PATTERN(name) extern const fw_layout_pattern_kind fw_layout_pattern_##name;
 #include "layout/patterns.def"
 #undef FW_LAYOUT_PATTERN
-/* shared by kinds of the test die and of the frame */
-fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame);
-fw_status fw_layout_back_cross_draw(fw_layout_pen *pen, double middle_m, double cross_m,
-                                    double arm_m, double window_m);
 
 /* ---- closed forms of what the patterns tell; each beside its drawing ---- */
 /* turn of the rotating pointer per strain, 1 (pattern_etch.c) */

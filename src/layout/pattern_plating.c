@@ -188,7 +188,7 @@ const fw_layout_pattern_kind fw_layout_pattern_window_thief = {
     .parameter = {{"width", 60e-6, 10e-6, 1e-3, false}, {"keep-out", 150e-6, 20e-6, 2e-3, false}},
     .nparameter = 2,
     .draw = draw_window,
-    .in_window = true,
+    .in_window = FW_GROWS_ALONG_EDGES,
 };
 
 const fw_layout_pattern_kind fw_layout_pattern_window_fill = {
@@ -200,5 +200,5 @@ const fw_layout_pattern_kind fw_layout_pattern_window_fill = {
                   {"keep-out", 150e-6, 20e-6, 2e-3, false}},
     .nparameter = 4,
     .draw = draw_window,
-    .in_window = true,
+    .in_window = FW_GROWS_IN_CELLS,
 };

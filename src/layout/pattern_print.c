@@ -181,7 +181,7 @@ static fw_status pair(fw_layout_pen *pen, const scale *s, double step) {
 }
 
 /* side by side on a bar, above each other on a frame */
-fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame) {
+static fw_status vernier_draw(fw_layout_pen *pen, bool frame) {
     double pitch = fw_layout_pen_value(pen, PITCH), step = fw_layout_pen_value(pen, STEP);
     int count = (int)fw_layout_pen_value(pen, TEETH), side = count / 2;
     if (count % 2 == 0 || pitch - step < 2 * TOOTH_M) return FW_GEOMETRY;
@@ -206,7 +206,7 @@ fw_status fw_layout_vernier_draw(fw_layout_pen *pen, bool frame) {
 }
 
 static fw_status draw_vernier(fw_layout_pen *pen) {
-    return fw_layout_vernier_draw(pen, false);
+    return vernier_draw(pen, false);
 }
 
 const fw_layout_pattern_kind fw_layout_pattern_vernier = {
@@ -230,8 +230,8 @@ const fw_layout_pattern_kind fw_layout_pattern_vernier = {
 enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM };
 static const double RIM_M = 40e-6;
 
-fw_status fw_layout_back_cross_draw(fw_layout_pen *pen, double m, double cross, double arm,
-                                    double window) {
+static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, double arm,
+                                 double window) {
     if (cross > window - 2 * pen->space_rule_m || arm > 0.5 * cross) return FW_GEOMETRY;
     FW_TRY(fw_layout_pen_box(pen, m - 0.5 * cross, m - 0.5 * arm, m + 0.5 * cross, m + 0.5 * arm));
     FW_TRY(fw_layout_pen_box(pen, m - 0.5 * arm, m - 0.5 * cross, m + 0.5 * arm, m + 0.5 * cross));
@@ -248,8 +248,8 @@ static fw_status draw_back_mark(fw_layout_pen *pen) {
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M,
                              RIM_M + window, RIM_M + window));
-    return fw_layout_back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
-                                     fw_layout_pen_value(pen, BACK_MARK_ARM), window);
+    return back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
+                           fw_layout_pen_value(pen, BACK_MARK_ARM), window);
 }
 
 const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
@@ -273,8 +273,8 @@ enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM };
 static fw_status draw_frame_mark(fw_layout_pen *pen) {
     double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW);
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", 0, 0, window, window));
-    return fw_layout_back_cross_draw(pen, 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
-                                     fw_layout_pen_value(pen, FRAME_MARK_ARM), window);
+    return back_cross_draw(pen, 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
+                           fw_layout_pen_value(pen, FRAME_MARK_ARM), window);
 }
 
 const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
@@ -294,7 +294,7 @@ const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
    numbers and test as there. */
 
 static fw_status draw_frame_vernier(fw_layout_pen *pen) {
-    return fw_layout_vernier_draw(pen, true);
+    return vernier_draw(pen, true);
 }
 
 const fw_layout_pattern_kind fw_layout_pattern_frame_vernier = {

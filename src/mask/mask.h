@@ -264,7 +264,6 @@ typedef struct fw_mask_order {
 } fw_mask_order;
 
 fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
-fw_status fw_mask_order_sites(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
 
 /* boundaries of one layer in the GDSII file */
 void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices);

@@ -15,26 +15,16 @@ typedef struct cut_tree { /* boxes of runs of edges: node k holds nodes 2k and 2
     int leaves;   /* a power of two */
 } cut_tree;
 
-fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree);
-
-/* Least distance (dbu) from the segment between vertices i and j to any other vertex, at most
-   `most`; -1 where it meets an edge that ends at neither. As soon as it is known to be no more than
-   `least`, any such number. */
-double cut_clearance(const cut_tree *tree, int i, int j, double least, double most);
-
-/* the same of one point and the segment from a to b */
-double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c);
-/* twice the area of a triangle: exact, |coordinate| < 2^30 */
-int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c);
-
 enum { RUN = 8 }; /* edges of a leaf */
 
-int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+/* twice the area of a triangle: exact, |coordinate| < 2^30 */
+static int64_t cut_cross(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     return ((int64_t)b.x_dbu - a.x_dbu) * ((int64_t)c.y_dbu - a.y_dbu) -
            ((int64_t)b.y_dbu - a.y_dbu) * ((int64_t)c.x_dbu - a.x_dbu);
 }
 
-double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
+/* from the segment between a and b to c */
+static double cut_distance(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     double x = (double)b.x_dbu - a.x_dbu, y = (double)b.y_dbu - a.y_dbu;
     double u = (double)c.x_dbu - a.x_dbu, w = (double)c.y_dbu - a.y_dbu;
     double t = fmin(1, fmax(0, (x * u + y * w) / (x * x + y * y)));
@@ -46,7 +36,7 @@ static cut_box join(cut_box a, cut_box b) {
     return (cut_box){fmin(a.x0, b.x0), fmin(a.y0, b.y0), fmax(a.x1, b.x1), fmax(a.y1, b.y1)};
 }
 
-fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree) {
+static fw_status cut_tree_new(fw_arena *arena, const fw_geometry_polygon *polygon, cut_tree *tree) {
     int n = polygon->count, leaves = 1;
     while (leaves * RUN < n)
         leaves *= 2;
@@ -128,7 +118,7 @@ static void visit(query *q, int node) {
    and two of its vertices (dbu). Out: the distance (dbu). Error: whether edges meet is exact;
    distances have some ulp of the coordinates. Cost: about ln n boxes where little is near. Test:
    test_polygon_cut.c, against all vertices. */
-double cut_clearance(const cut_tree *tree, int i, int j, double least, double most) {
+static double cut_clearance(const cut_tree *tree, int i, int j, double least, double most) {
     fw_geometry_point a = tree->polygon->vertex[i], b = tree->polygon->vertex[j];
     query q = {.tree = tree,
                .i = i,

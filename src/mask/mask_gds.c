@@ -102,8 +102,7 @@ static unsigned char *put_points(unsigned char *at, const fw_geometry_point *p, 
     return at;
 }
 
-void fw_mask_gds_boundary(fw_text *out, const fw_mask_layer *layer,
-                          const fw_geometry_polygon *polygon) {
+static void boundary(fw_text *out, const fw_mask_layer *layer, const fw_geometry_polygon *polygon) {
     gds_record(out, FW_GDS_BOUNDARY, 0);
     gds_number(out, FW_GDS_LAYER, layer->layer);
     gds_number(out, FW_GDS_DATATYPE, layer->datatype);
@@ -156,9 +155,9 @@ void fw_mask_gds_cell_begin(fw_text *out, const char *name) {
 void fw_mask_gds_shapes(fw_text *out, const fw_mask *mask) {
     for (int i = 0; i < mask->nshape; i++) {
         const fw_mask_shape *s = &mask->shape[i];
-        if (s->npart == 0) fw_mask_gds_boundary(out, &mask->table->layer[s->layer], &s->polygon);
+        if (s->npart == 0) boundary(out, &mask->table->layer[s->layer], &s->polygon);
         for (int k = 0; k < s->npart; k++)
-            fw_mask_gds_boundary(out, &mask->table->layer[s->layer], &s->part[k]);
+            boundary(out, &mask->table->layer[s->layer], &s->part[k]);
     }
 }
 

@@ -97,7 +97,7 @@ static void add_site(fw_mask_order *order, fw_mask_order_site site) {
     order->site[order->nsite++] = site;
 }
 
-fw_status fw_mask_order_sites(fw_arena *arena, const fw_mask *mask, fw_mask_order *order) {
+static fw_status order_sites(fw_arena *arena, const fw_mask *mask, fw_mask_order *order) {
     size_t most = 2 * (size_t)mask->table->nlayer + (size_t)mask->nshape;
     FW_NEED(order->site = fw_arena_array(arena, fw_mask_order_site, most));
     for (int k = 0; k < mask->table->nlayer; k++) {
@@ -145,7 +145,7 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_ord
         order->width_m = fmin(order->width_m, mask->measure[k].width_m);
         order->space_m = fmin(order->space_m, mask->measure[k].space_m);
     }
-    return fw_mask_order_sites(arena, mask, order);
+    return order_sites(arena, mask, order);
 }
 
 /* The order sheet for people: ASCII, to be pasted into a shop's form. */

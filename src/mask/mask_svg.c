@@ -83,8 +83,8 @@ static int by_hash(const void *left, const void *right) {
 /* For every shape of a layer the first one that it repeats: itself where others repeat it, -1 where
    none does. In: outlines (m), as they are rounded in the file (1 pm). Out: of (nshape). Cost: O(n
    log n) hashes, then each against the first of its hash. Test: test_svg_repeat.c. */
-fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer,
-                              fw_geometry_vec2 upper_left, int **out) {
+static fw_status repeats_of(fw_arena *arena, const fw_mask *mask, int layer,
+                            fw_geometry_vec2 upper_left, int **out) {
     int n = 0, *of = fw_arena_array(arena, int, (size_t)mask->nshape);
     entry *list = fw_arena_array(arena, entry, (size_t)mask->nshape);
     FW_NEED(of);
@@ -188,7 +188,7 @@ static void shape(const page *p, const fw_mask *mask, const fw_mask_shape *s, in
 void fw_mask_svg_paths(const fw_mask *mask, int layer, fw_geometry_vec2 upper_left, fw_text *out) {
     page p = {.out = out, .x0 = upper_left.x, .y1 = upper_left.y};
     int *of;
-    if (fw_mask_svg_repeats(out->arena, mask, layer, upper_left, &of) != FW_OK) {
+    if (repeats_of(out->arena, mask, layer, upper_left, &of) != FW_OK) {
         out->failed = 1;
         return;
     }

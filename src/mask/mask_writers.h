@@ -13,8 +13,6 @@
 
 void fw_mask_gds_begin(fw_text *out, const char *library);
 void fw_mask_gds_cell_begin(fw_text *out, const char *name);
-void fw_mask_gds_boundary(fw_text *out, const fw_mask_layer *layer,
-                          const fw_geometry_polygon *polygon);
 void fw_mask_gds_shapes(fw_text *out, const fw_mask *mask);
 void fw_mask_gds_cell_end(fw_text *out);
 void fw_mask_gds_end(fw_text *out);
@@ -22,9 +20,6 @@ void fw_mask_gds_end(fw_text *out);
 /* the outlines of one layer as <path>s, um, y downwards from `upper_left` (m); one that is another
    one moved as a <use> of it */
 void fw_mask_svg_paths(const fw_mask *mask, int layer, fw_geometry_vec2 upper_left, fw_text *out);
-/* (nshape) the first shape that each one of the layer repeats, -1: none */
-fw_status fw_mask_svg_repeats(fw_arena *arena, const fw_mask *mask, int layer,
-                              fw_geometry_vec2 upper_left, int **out);
 
 /* References to other cells and lines of text, for GDSII libraries of several cells (mask_writers.h). */
 

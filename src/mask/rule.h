@@ -3,10 +3,11 @@
    a mask, and its findings in the room's outputs. Private to the room and its tests. */
 #ifndef FW_MASK_RULE_H
 #define FW_MASK_RULE_H
+#include "base/sort.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
 #include "mask/mask_polygons.h"
-#include "base/sort.h"
+#include "xml/xml_reader.h"
 
 /* ---- edges, and what is found between them! ---- */
 /* Edges of one layer and what is found between them. Private to the room and its tests. */
@@ -178,5 +179,27 @@ fw_status fw_mask_rules_tell(fw_mask_rules *rules, fw_diags *diags, int *nbroken
 int fw_mask_marker_layer(const fw_mask_table *table);
 /* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */
 fw_geometry_box fw_mask_marker(const fw_mask_finding *finding);
+
+/* ---- rows of a layer table: of <rule> and what is shared with the others ---- */
+
+#define FW_MASK_ROWS(a) .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
+/* text that goes into files of masks, which some readers take in plain ASCII only */
+#define FW_MASK_PLAIN                                                                              \
+    .kind = FW_KIND_FORM, .form = fw_mask_is_plain,                                                \
+    .reason = "plain ASCII of 1 to 400 characters: some mask readers refuse all else"
+#define FW_MASK_YES_NO .kind = FW_KIND_WORD, .words = fw_mask_yes_no, .fallback = "no"
+#define FW_MASK_LENGTH .kind = FW_KIND_NUMBER, .dimension = {.m = 1}, .unit = "um"
+
+extern const char *const fw_mask_yes_no[];
+bool fw_mask_is_plain(const char *text);
+bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word);
+
+/* the row for one <rule> by its kind; *row NULL: there is no such kind, which is told */
+fw_status fw_mask_rule_row(fw_xml_reader *r, const fw_xml_element *e,
+                           const fw_xml_element_row **row);
+extern const fw_xml_numbers fw_mask_rule_numbers;
+
+/* what was read, once all layers are known */
+fw_status fw_mask_rules_build(fw_xml_reader *r, fw_mask_table *table);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The solid that the polygons of the biased layers stand for: each drawn up from z = 0 to the
-   device's thickness. Private to the room: stl.c. */
+/* Binary STL: 80 bytes of text, the number of triangles, and 50 bytes for each: normal and three
+   corners as floats, two bytes of nothing; little-endian. 1 unit = 1 um. Source: 3D Systems,
+   StereoLithography Interface Specification, 1989. */
 #include "mask/mask.h"
 #include "base/sort.h"
 #include <math.h>
@@ -8,22 +9,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct fw_mask_solid_piece {
+/* the solid that the polygons of the biased layers stand for: each drawn up from z = 0 to the
+   device's thickness */
+typedef struct solid_piece {
     const fw_mask_shape *shape;
     fw_geometry_polygon polygon;            /* of the shape, or one of its parts */
     fw_geometry_polygon_triangle *triangle; /* (polygon.count - 2) of its top */
     bool *wall; /* (polygon.count) from vertex i to the next one: false where another
                    piece goes on */
-} fw_mask_solid_piece;
+} solid_piece;
 
-typedef struct fw_mask_solid {
-    fw_mask_solid_piece *piece; /* (npiece) */
+typedef struct solid_body {
+    solid_piece *piece; /* (npiece) */
     int npiece;
     long triangles; /* of both faces and the walls */
     double thickness_m;
-} fw_mask_solid;
-
-fw_status fw_mask_solid_build(fw_arena *arena, const fw_mask *mask, fw_mask_solid *solid);
+} solid_body;
 
 static const double UNKNOWN_M = 1e-6; /* where nobody said how thick the device is */
 
@@ -34,8 +35,8 @@ typedef struct side { /* an edge of a polygon, from its smaller end */
 } side;
 
 static int by_point(fw_geometry_point p, fw_geometry_point q) {
-    if (p.x_dbu != q.x_dbu) return p.x_dbu < q.x_dbu ? -1 : 1;
-    return (p.y_dbu > q.y_dbu) - (p.y_dbu < q.y_dbu);
+    int order = fw_order_wholes(p.x_dbu, q.x_dbu);
+    return order ? order : fw_order_wholes(p.y_dbu, q.y_dbu);
 }
 
 static int by_place(const void *left, const void *right) {
@@ -47,7 +48,7 @@ static int by_place(const void *left, const void *right) {
     return order ? order : fw_order_wholes(a->edge, b->edge);
 }
 
-static side side_of(const fw_mask_solid *solid, int piece, int edge) {
+static side side_of(const solid_body *solid, int piece, int edge) {
     const fw_geometry_polygon *p = &solid->piece[piece].polygon;
     fw_geometry_point a = p->vertex[edge], b = p->vertex[edge + 1 < p->count ? edge + 1 : 0];
     bool forward = by_point(a, b) < 0;
@@ -58,7 +59,7 @@ static side side_of(const fw_mask_solid *solid, int piece, int edge) {
 /* Walls between pieces go: two edges of one layer with the same ends that run opposite ways. In:
    pieces with all walls. Cost O(n log n) over all edges. Exact: grid points. Test:
    test_mask_solid.c. */
-static fw_status open_joints(fw_arena *arena, fw_mask_solid *solid) {
+static fw_status open_joints(fw_arena *arena, solid_body *solid) {
     size_t n = 0, k = 0;
     for (int i = 0; i < solid->npiece; i++)
         n += (size_t)solid->piece[i].polygon.count;
@@ -81,11 +82,11 @@ static fw_status open_joints(fw_arena *arena, fw_mask_solid *solid) {
     return FW_OK;
 }
 
-static fw_status add_piece(fw_arena *arena, fw_mask_solid *solid, const fw_mask_shape *shape,
+static fw_status add_piece(fw_arena *arena, solid_body *solid, const fw_mask_shape *shape,
                            const fw_geometry_polygon *polygon) {
-    fw_mask_solid_piece *p = &solid->piece[solid->npiece++];
+    solid_piece *p = &solid->piece[solid->npiece++];
     size_t n = (size_t)polygon->count;
-    *p = (fw_mask_solid_piece){.shape = shape, .polygon = *polygon};
+    *p = (solid_piece){.shape = shape, .polygon = *polygon};
     FW_NEED(p->triangle = fw_arena_array(arena, fw_geometry_polygon_triangle, n));
     FW_NEED(p->wall = fw_arena_array(arena, bool, n));
     for (size_t i = 0; i < n; i++)
@@ -93,12 +94,12 @@ static fw_status add_piece(fw_arena *arena, fw_mask_solid *solid, const fw_mask_
     return fw_geometry_polygon_triangulate(arena, polygon, p->triangle);
 }
 
-fw_status fw_mask_solid_build(fw_arena *arena, const fw_mask *mask, fw_mask_solid *solid) {
+static fw_status build_solid(fw_arena *arena, const fw_mask *mask, solid_body *solid) {
     size_t most = 0;
     for (int i = 0; i < mask->nshape; i++)
         most += 1 + (size_t)mask->shape[i].npart;
-    *solid = (fw_mask_solid){.piece = fw_arena_array(arena, fw_mask_solid_piece, most),
-                             .thickness_m = mask->thickness_m > 0 ? mask->thickness_m : UNKNOWN_M};
+    *solid = (solid_body){.piece = fw_arena_array(arena, solid_piece, most),
+                          .thickness_m = mask->thickness_m > 0 ? mask->thickness_m : UNKNOWN_M};
     FW_NEED(solid->piece);
     for (int i = 0; i < mask->nshape; i++) {
         const fw_mask_shape *s = &mask->shape[i];
@@ -109,17 +110,13 @@ fw_status fw_mask_solid_build(fw_arena *arena, const fw_mask *mask, fw_mask_soli
     }
     FW_TRY(open_joints(arena, solid));
     for (int i = 0; i < solid->npiece; i++) {
-        const fw_mask_solid_piece *p = &solid->piece[i];
+        const solid_piece *p = &solid->piece[i];
         solid->triangles += 2 * (p->polygon.count - 2);
         for (int e = 0; e < p->polygon.count; e++)
             solid->triangles += p->wall[e] ? 2 : 0;
     }
     return FW_OK;
 }
-
-/* Binary STL: 80 bytes of text, the number of triangles, and 50 bytes for each: normal and three
-   corners as floats, two bytes of nothing; little-endian. 1 unit = 1 um. Source: 3D Systems,
-   StereoLithography Interface Specification, 1989. */
 
 enum { HEAD = 80, FACET = 50 };
 
@@ -158,7 +155,7 @@ static unsigned char *facet(unsigned char *at, corner a, corner b, corner c) {
     return at + 2;
 }
 
-static unsigned char *piece(unsigned char *at, const fw_mask_solid_piece *s, double top_um) {
+static unsigned char *piece(unsigned char *at, const solid_piece *s, double top_um) {
     const fw_geometry_polygon *p = &s->polygon;
     for (int i = 0; i < p->count - 2; i++) {
         const int *v = s->triangle[i].vertex;
@@ -176,8 +173,8 @@ static unsigned char *piece(unsigned char *at, const fw_mask_solid_piece *s, dou
 }
 
 fw_status fw_mask_write_stl(const fw_mask *mask, fw_text *out) {
-    fw_mask_solid solid;
-    FW_TRY(fw_mask_solid_build(out->arena, mask, &solid));
+    solid_body solid;
+    FW_TRY(build_solid(out->arena, mask, &solid));
     unsigned char *at = fw_text_room(out, HEAD + 4 + FACET * (size_t)solid.triangles);
     if (!at) return FW_NOMEM;
     memset(at, ' ', HEAD);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows <rule> of a layer table; docs/theory/masks.md lists the kinds and their attributes. */
 #include "mask/rule.h"
-#include "mask/mask_table.h"
 #include <string.h>
 
 const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,

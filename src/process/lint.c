@@ -75,30 +75,6 @@ static fw_status lint_plausible(fw_process_pack *pack) {
     return FW_OK;
 }
 
-static const struct {
-    const char *asks;
-    fw_status (*check)(fw_process_pack *pack);
-} rules[] = {
-    {"does every value that claims to be stated name a publication?", lint_stated},
-    {"do hazards name hazards and materials that exist?", lint_names},
-    {"do waiting times count from earlier steps?", lint_order},
-    {"do replaced values keep dimension and range?", lint_plausible},
-    {"is nobody alone with what is dangerous, and is there first aid?", fw_process_lint_people},
-    {"do chemicals stay apart that must not meet?", fw_process_lint_chemicals},
-    {"is what a step changes on the wafer?", fw_process_lint_absent},
-    {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure},
-    {"does something cover what an etch shall leave?", fw_process_lint_masking},
-    {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked},
-    {"does every layer bear the temperature?", fw_process_lint_heat},
-    {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination},
-};
-
-fw_status fw_process_pack_lint(fw_process_pack *pack) {
-    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
-        FW_TRY(rules[i].check(pack));
-    return FW_OK;
-}
-
 /* a hazard that speaks of hydrofluoric acid and does not say whether it may be handled alone */
 static void lint_acid(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
@@ -140,7 +116,8 @@ static void lint_step(fw_process_pack *pack, const fw_process_step *s) {
     }
 }
 
-fw_status fw_process_lint_people(fw_process_pack *pack) {
+/* people and chemicals (FW-D174, FW-D175) */
+static fw_status lint_people(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++)
         lint_step(pack, &pack->flow->step[i]);
     lint_acid(pack);
@@ -185,9 +162,33 @@ static void lint_waste(fw_process_pack *pack) {
         }
 }
 
-fw_status fw_process_lint_chemicals(fw_process_pack *pack) {
+static fw_status lint_chemicals(fw_process_pack *pack) {
     lint_bench(pack, pack->flow);
     lint_waste(pack);
+    return FW_OK;
+}
+
+static const struct {
+    const char *asks;
+    fw_status (*check)(fw_process_pack *pack);
+} rules[] = {
+    {"does every value that claims to be stated name a publication?", lint_stated},
+    {"do hazards name hazards and materials that exist?", lint_names},
+    {"do waiting times count from earlier steps?", lint_order},
+    {"do replaced values keep dimension and range?", lint_plausible},
+    {"is nobody alone with what is dangerous, and is there first aid?", lint_people},
+    {"do chemicals stay apart that must not meet?", lint_chemicals},
+    {"is what a step changes on the wafer?", fw_process_lint_absent},
+    {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure},
+    {"does something cover what an etch shall leave?", fw_process_lint_masking},
+    {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked},
+    {"does every layer bear the temperature?", fw_process_lint_heat},
+    {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination},
+};
+
+fw_status fw_process_pack_lint(fw_process_pack *pack) {
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        FW_TRY(rules[i].check(pack));
     return FW_OK;
 }
 

@@ -55,9 +55,6 @@ void fw_process_pack_corners(fw_process_pack *pack);
 
 fw_status fw_process_pack_lint(fw_process_pack *pack);
 
-/* people and chemicals (FW-D174, FW-D175) */
-fw_status fw_process_lint_people(fw_process_pack *pack);
-fw_status fw_process_lint_chemicals(fw_process_pack *pack);
 /* layers of the wafer, step by step (FW-D172, FW-D269, FW-D271 to FW-D275) */
 fw_status fw_process_lint_absent(fw_process_pack *pack);
 fw_status fw_process_lint_attacked(fw_process_pack *pack);

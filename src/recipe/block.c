@@ -67,8 +67,9 @@ static fw_status clip_side(fw_arena *arena, const fw_recipe_cut *cut, int side,
     return FW_OK;
 }
 
-fw_status fw_recipe_block_rings(fw_recipe_slicer *slicer, double edge_m, double tolerance_m,
-                                fw_recipe_rings *rings) {
+/* the structure with its edges so far outside the drawn ones, arcs within tolerance_m */
+static fw_status block_rings(fw_recipe_slicer *slicer, double edge_m, double tolerance_m,
+                             fw_recipe_rings *rings) {
     const fw_recipe_outline_at *at;
     FW_TRY(fw_recipe_slicer_at(slicer, edge_m, &at));
     *rings = (fw_recipe_rings){
@@ -260,7 +261,7 @@ static fw_status draw_walls(fw_recipe_slicer *slicer, const view *v, const layer
             fw_recipe_rings rings;
             fw_recipe_wall *wall;
             if (!f->in[column] || !fills_layer(l, f)) continue;
-            FW_TRY(fw_recipe_block_rings(slicer, edge_of(f), tolerance_m, &rings));
+            FW_TRY(block_rings(slicer, edge_of(f), tolerance_m, &rings));
             FW_TRY(count_walls(&rings, slicer->arena, &wall));
             int n = walls_of(&rings, column == FW_STACK_FIELD, i, tx, ty, wall);
             FW_TRY(fw_recipe_walls_sort(slicer->arena, wall, n, tx, ty));
@@ -312,7 +313,7 @@ static fw_status draw_ceiling(fw_recipe_slicer *slicer, const view *v, const fw_
                               double tolerance_m) {
     fw_recipe_rings rings = {0};
     bool both = f->in[0] && f->in[1];
-    if (!both) FW_TRY(fw_recipe_block_rings(slicer, f->head_m, tolerance_m, &rings));
+    if (!both) FW_TRY(block_rings(slicer, f->head_m, tolerance_m, &rings));
     char ink[8];
     fw_svg_path(v->out, "fill-rule='evenodd' fill='{r}'",
                 shaded(ink, fw_recipe_paint_fill(f->material, f->exposed), 1.07));

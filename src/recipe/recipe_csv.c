@@ -4,7 +4,7 @@
 
 /* RFC 4180: quoted where needed; what a spreadsheet would take for a formula gets a quote in front
  */
-void fw_recipe_put_csv(fw_text *out, const char *text) {
+static void put_csv(fw_text *out, const char *text) {
     bool formula = text[0] && strchr("=+-@\t", text[0]) != NULL;
     if (!formula && !strpbrk(text, ",\"\r\n")) {
         fw_text_add(out, text);
@@ -17,11 +17,11 @@ void fw_recipe_put_csv(fw_text *out, const char *text) {
 }
 
 static void head(fw_text *out, const fw_process_step *s, const char *name) {
-    fw_recipe_put_csv(out, s->id);
+    put_csv(out, s->id);
     fw_text_add(out, ",");
-    fw_recipe_put_csv(out, s->title);
+    put_csv(out, s->title);
     fw_text_add(out, ",");
-    fw_recipe_put_csv(out, name);
+    put_csv(out, name);
     fw_text_add(out, ",");
 }
 
@@ -30,13 +30,13 @@ static void quantity_row(fw_text *out, const fw_process_step *s, const fw_recipe
     head(out, s, row->name);
     if (!q->unknown) fw_recipe_put_plain(out, fw_quantity_in_unit(q));
     fw_text_add(out, ",");
-    fw_recipe_put_csv(out, q->unit);
+    put_csv(out, q->unit);
     fw_text_add(out, ",");
     if (!q->unknown) fw_recipe_put_uncertainty(out, fw_recipe_row_uncertainty(q));
     fw_text_add(out, ",");
-    fw_recipe_put_csv(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
+    put_csv(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     fw_text_add(out, ",");
-    fw_recipe_put_csv(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
+    put_csv(out, q->unknown && q->note ? q->note : q->source ? q->source : "");
     fw_text_add(out, "\n");
 }
 
@@ -56,7 +56,7 @@ static fw_status time_rows(fw_text *out, const fw_process_step *s) {
         FW_NEED(text);
         head(out, s, "time, nominal");
         fw_text_add(out, ",s,,NOT COMPUTABLE,");
-        fw_recipe_put_csv(out, text);
+        put_csv(out, text);
         fw_text_add(out, "\n");
         return FW_OK;
     }
@@ -105,13 +105,13 @@ fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_rec
     for (int i = 0; s && i < s->nrun; i++) {
         const fw_schedule_run *r = &s->run[i];
         const fw_schedule_task *t = &s->shop->task[r->task];
-        fw_recipe_put_csv(out, t->id);
+        put_csv(out, t->id);
         fw_text_add(out, ",");
-        fw_recipe_put_csv(out, t->title);
+        put_csv(out, t->title);
         fw_text_add(out, ",");
         fw_recipe_put_wafers(out, r);
         fw_text_add(out, ",");
-        fw_recipe_put_csv(out, s->shop->machine[t->machine].title);
+        put_csv(out, s->shop->machine[t->machine].title);
         fw_text_add(out, ",");
         if (r->operator_ >= 0) fw_text_printf(out, "%d", r->operator_ + 1);
         fw_text_add(out, ",\"");

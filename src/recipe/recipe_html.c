@@ -10,7 +10,8 @@ static void cell(fw_text *out, const char *text) {
     fw_text_add(out, "</td>");
 }
 
-void fw_recipe_html_overrides(const fw_process_flow *flow, fw_text *out) {
+/* the table of values that a laboratory replaced; nothing without */
+static void overrides_table(const fw_process_flow *flow, fw_text *out) {
     if (flow->noverride == 0) return;
     fw_text_printf(out,
                    "<h3>Values of the laboratory: %d</h3>\n<table class=\"small\"><thead><tr>"
@@ -236,7 +237,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
                     "fabricate.</div>\n");
     front(flow, header, out);
     judgement(flow, out);
-    fw_recipe_html_overrides(flow, out);
+    overrides_table(flow, out);
     summary(flow, out);
     fw_recipe_html_schedule(header, out);
     fw_recipe_slicer slicer;

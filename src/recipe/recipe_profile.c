@@ -128,8 +128,9 @@ fw_status fw_recipe_slicer_at(fw_recipe_slicer *slicer, double edge_m,
     return FW_OK;
 }
 
-double fw_recipe_slicer_distance(const fw_recipe_slicer *slicer, const fw_recipe_outline_at *at,
-                                 double s_m) {
+/* from a point of the cut to the nearest edge of the structure; m, HUGE_VAL beyond FW_NEAR_M */
+static double slicer_distance(const fw_recipe_slicer *slicer, const fw_recipe_outline_at *at,
+                              double s_m) {
     fw_geometry_vec2 from = vec_along(slicer->cut->line.at, s_m, slicer->cut->line.along), on;
     fw_geometry_box here = {from.x, from.y, from.x, from.y};
     double best = HUGE_VAL, t;
@@ -155,24 +156,23 @@ static double widest(const fw_recipe_slicer *slicer, const fw_recipe_outline_at 
     const double golden = 0.61803398874989485;
     double best = 0.0, step = (to - from) / (PLACES + 1), middle = from;
     for (int i = 1; i <= PLACES; i++) {
-        double d = fw_recipe_slicer_distance(slicer, at, from + step * i);
+        double d = slicer_distance(slicer, at, from + step * i);
         if (d <= best) continue;
         best = d;
         middle = from + step * i;
     }
     double a = middle - step, b = middle + step, p = b - golden * (b - a), q = a + golden * (b - a);
-    double at_p = fw_recipe_slicer_distance(slicer, at, p),
-           at_q = fw_recipe_slicer_distance(slicer, at, q);
+    double at_p = slicer_distance(slicer, at, p), at_q = slicer_distance(slicer, at, q);
     for (int i = 0; i < STEPS; i++) {
         best = fmax(best, fmax(at_p, at_q));
         if (at_p > at_q) {
             b = q, q = p, at_q = at_p;
             p = b - golden * (b - a);
-            at_p = fw_recipe_slicer_distance(slicer, at, p);
+            at_p = slicer_distance(slicer, at, p);
         } else {
             a = p, p = q, at_p = at_q;
             q = a + golden * (b - a);
-            at_q = fw_recipe_slicer_distance(slicer, at, q);
+            at_q = slicer_distance(slicer, at, q);
         }
     }
     return fmin(2.0 * best, to - from);
@@ -276,7 +276,7 @@ static fw_status put_left(fw_recipe_slicer *slicer, fw_recipe_cross_section *p,
         double s = fmax(inside.item[i].from_m, 0.0), to = fmin(inside.item[i].to_m, end);
         double start = (double)NAN;
         while (s < to) {
-            double more = fw_recipe_slicer_distance(slicer, edges, s) - f->reach_m;
+            double more = slicer_distance(slicer, edges, s) - f->reach_m;
             if (more > 0.0 && isnan(start)) start = s;
             bool ends = more <= 0.0 && !isnan(start);
             double next = fmin(to, s + fmax(fabs(more), least));

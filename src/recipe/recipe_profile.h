@@ -45,9 +45,6 @@ fw_status fw_recipe_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_
 /* the structure with its edges so far outside the drawn ones */
 fw_status fw_recipe_slicer_at(fw_recipe_slicer *slicer, double edge_m,
                               const fw_recipe_outline_at **at);
-/* from a point of the cut to the nearest edge of the structure; m, HUGE_VAL beyond FW_NEAR_M */
-double fw_recipe_slicer_distance(const fw_recipe_slicer *slicer, const fw_recipe_outline_at *at,
-                                 double s_m);
 /* width of opening g: the largest circle in it with its middle on the cut. So a slot that is cut
    askew has its own width. INFINITY where it has no end. */
 double fw_recipe_slicer_opening(const fw_recipe_slicer *slicer, const fw_recipe_outline_at *at,
@@ -63,8 +60,6 @@ fw_status fw_recipe_cross_section_of(fw_recipe_slicer *slicer, const fw_process_
 
 /* ---- how it is painted: recipe_section.c ---- */
 const char *fw_recipe_paint_fill(const char *material, bool exposed);
-/* "silicon (100)" of "silicon (100), single crystal"; at most 26 bytes, ends of UTF-8 kept */
-const char *fw_recipe_paint_name(const fw_process_flow *flow, const char *material, char shown[32]);
 
 /* one scale for all pictures of a flow */
 typedef struct fw_recipe_section_scale {
@@ -113,13 +108,6 @@ typedef struct fw_recipe_section_plan {
 fw_status fw_recipe_section_plan_of(fw_recipe_slicer *slicer, const fw_process_flow *flow,
                                     fw_recipe_section_plan *plan);
 
-/* title, device, cut and REJECTED; 40 high */
-void fw_recipe_section_head(const fw_process_flow *flow, const fw_recipe_header *header,
-                            const char *what, fw_text *out);
-/* a page 860 wide around a body 800 wide */
-fw_status fw_recipe_section_page(const fw_text *body, double height, const char *title,
-                                 fw_text *out);
-
 /* ---- the outlines behind a cut as polygons in its own frame, clipped to the block that is shown,
    and the walls that stand on them: block.c ---- */
 
@@ -139,10 +127,6 @@ typedef struct fw_recipe_rings {
     fw_recipe_ring *ring;
     int n;
 } fw_recipe_rings;
-
-/* the structure with its edges so far outside the drawn ones, arcs within tolerance_m */
-fw_status fw_recipe_block_rings(fw_recipe_slicer *slicer, double edge_m, double tolerance_m,
-                                fw_recipe_rings *rings);
 
 typedef struct fw_recipe_wall { /* from a to b, material on its left; m */
     fw_recipe_spot a, b;

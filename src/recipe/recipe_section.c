@@ -29,8 +29,8 @@ const char *fw_recipe_paint_fill(const char *material, bool exposed) {
     return others[sum % 4];
 }
 
-const char *fw_recipe_paint_name(const fw_process_flow *flow, const char *material,
-                                 char shown[32]) {
+/* "silicon (100)" of "silicon (100), single crystal"; at most 26 bytes, ends of UTF-8 kept */
+static const char *paint_name(const fw_process_flow *flow, const char *material, char shown[32]) {
     enum { MOST = 26 };
     const char *name = fw_process_flow_material_name(flow, material);
     size_t n = strcspn(name, ",(");
@@ -187,7 +187,7 @@ static void label(fw_text *out, const fw_process_flow *flow, const legend_entry 
                SECTION + 10, y, fw_recipe_paint_fill(l->material, l->exposed));
     fw_svg_open(out, "text x='{i}' y='{i}'", SECTION + 23, y + 8);
     char shown[32];
-    fw_text_escaped(out, l->exposed ? l->material : fw_recipe_paint_name(flow, l->material, shown));
+    fw_text_escaped(out, l->exposed ? l->material : paint_name(flow, l->material, shown));
     fw_text_add(out, l->exposed ? ", exposed" : "");
     if (l->unknown)
         fw_text_add(out, " ?");
@@ -409,7 +409,7 @@ static void legend(const fw_process_flow *flow, const legend_entry *e, double x,
     char shown[32];
     swatch(out, e, x, y);
     fw_svg_open(out, "text x='{1}' y='{1}'", x + 13.0, y + 8.0);
-    fw_text_escaped(out, e->exposed ? e->material : fw_recipe_paint_name(flow, e->material, shown));
+    fw_text_escaped(out, e->exposed ? e->material : paint_name(flow, e->material, shown));
     fw_text_add(out, e->exposed ? ", exposed" : "");
     if (e->reach_m > 0.0) {
         fw_text_add(out, " beyond ");

@@ -223,8 +223,9 @@ static void cut_text(const fw_recipe_cut *cut, fw_text *out) {
     fw_text_add(out, ") µm");
 }
 
-void fw_recipe_section_head(const fw_process_flow *flow, const fw_recipe_header *header,
-                            const char *what, fw_text *out) {
+/* title, device, cut and REJECTED; 40 high */
+static void section_head(const fw_process_flow *flow, const fw_recipe_header *header,
+                         const char *what, fw_text *out) {
     fw_svg_put(out, "text x='0' y='20' font-size='16' font-weight='bold'>{s}: {s}, {r}\n",
                header->device, flow->title, what);
     fw_svg_open(out, "text x='0' y='38'");
@@ -238,8 +239,7 @@ void fw_recipe_section_head(const fw_process_flow *flow, const fw_recipe_header 
 }
 
 /* body in a page of WIDTH, `height` high */
-fw_status fw_recipe_section_page(const fw_text *body, double height, const char *title,
-                                 fw_text *out) {
+static fw_status section_page(const fw_text *body, double height, const char *title, fw_text *out) {
     FW_TRY(fw_text_end(body));
     double whole = ceil(height + 2.0 * MARGIN);
     fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
@@ -266,14 +266,14 @@ fw_status fw_recipe_write_sections_svg(const fw_process_flow *flow, const fw_rec
     FW_TRY(fw_recipe_section_scale_of(out->arena, flow, header->cut, &scale));
     FW_TRY(fw_recipe_section_plan_of(&slicer, flow, &plan));
     fw_text body = fw_text_new(out->arena);
-    fw_recipe_section_head(flow, header, "section after every step", &body);
+    section_head(flow, header, "section after every step", &body);
     double y = 44.0;
     fw_recipe_section_scale_bar(&scale, width, y, &body);
     fw_svg_open(&body, "g transform='translate(0 62)'\n");
     y = 62.0 + parts(&plan, &scale, width, &body) + 4.0;
     fw_svg_close(&body, "g\n");
     FW_TRY(steps(&slicer, flow, &scale, width, &y, &body));
-    return fw_recipe_section_page(&body, y, "section after every step", out);
+    return section_page(&body, y, "section after every step", out);
 }
 
 /* The block behind the cut after every step that changes the wafer: two in a row. */
@@ -287,7 +287,7 @@ fw_status fw_recipe_write_stack_svg(const fw_process_flow *flow, const fw_recipe
     FW_TRY(fw_recipe_slicer_start(out->arena, header->mask, header->cut, &slicer));
     FW_TRY(fw_recipe_section_scale_of(out->arena, flow, header->cut, &scale));
     fw_text body = fw_text_new(out->arena);
-    fw_recipe_section_head(flow, header, "what stands behind the cut", &body);
+    section_head(flow, header, "what stands behind the cut", &body);
     fw_recipe_section_scale_bar(&scale, own * cos(0.5), 44.0, &body);
     double y = 70.0, row = 0.0;
     int column = 0;
@@ -311,5 +311,5 @@ fw_status fw_recipe_write_stack_svg(const fw_process_flow *flow, const fw_recipe
         y += row;
         row = 0.0;
     }
-    return fw_recipe_section_page(&body, y + row, "what stands behind the cut", out);
+    return section_page(&body, y + row, "what stands behind the cut", out);
 }

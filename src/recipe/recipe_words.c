@@ -192,7 +192,8 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
     }
 }
 
-void fw_recipe_put_stops(fw_text *out, const fw_schedule *s) {
+/* "safe stopping points" of the flow, with the longest pause at each; escaped */
+static void put_stops(fw_text *out, const fw_schedule *s) {
     const fw_schedule_shop *shop = s->shop;
     const double night_s = 86400.0 - (shop->calendar.close_s - shop->calendar.open_s);
     int started = 0;
@@ -234,7 +235,7 @@ void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
     if (!s->pause_s) return;
     fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where no hold window of the "
                      "process file is running: ");
-    fw_recipe_put_stops(out, s);
+    put_stops(out, s);
     fw_text_add(out, " (longest pause that the windows allow).</p>\n");
     if (!s->feasible) return;
     fw_text_add(out, "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end "

@@ -29,15 +29,10 @@ void fw_recipe_put_unit(fw_text *out, const char *unit);
 /* NULL: no memory */
 const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time);
 
-void fw_recipe_put_csv(fw_text *out, const char *text);              /* quoted where needed */
 void fw_recipe_put_moment(fw_text *out, double seconds);             /* "day 2, 13:05" */
 void fw_recipe_put_wafers(fw_text *out, const fw_schedule_run *run); /* "3" or "1-6" */
 /* sentences about a schedule: how long, how good, what is not known; escaped for XML and HTML */
 void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s);
-/* "safe stopping points" of the flow, with the longest pause at each; escaped */
-void fw_recipe_put_stops(fw_text *out, const fw_schedule *s);
-/* the table of values that a laboratory replaced; nothing without */
-void fw_recipe_html_overrides(const fw_process_flow *flow, fw_text *out);
 /* the section about it in the run sheet; nothing without a schedule */
 void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out);
 

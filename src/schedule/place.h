@@ -63,12 +63,7 @@ bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);
 /* nothing for an empty span */
 void fw_schedule_line_add(fw_schedule_line *line, double start, double end);
-void fw_schedule_line_remove(fw_schedule_line *line, double start, double end); /* what was added */
 
 /* ---- lower bounds of the end of all schedules ---- */
-
-/* earliest_s (ntask) of a wafer alone, from fw_schedule_network_earliest with start_s */
-void fw_schedule_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
-                        fw_schedule_bound *bound);
 
 #endif

@@ -72,7 +72,8 @@ void fw_schedule_line_add(fw_schedule_line *line, double start, double end) {
     line->n++;
 }
 
-void fw_schedule_line_remove(fw_schedule_line *line, double start, double end) {
+/* what was added */
+static void line_remove(fw_schedule_line *line, double start, double end) {
     if (end <= start) return;
     int at = starting(line, start);
     while (at < line->n && line->end_s[at] != end)
@@ -209,8 +210,8 @@ static void undo_to(fw_schedule_placing *p, int nrun) {
     while (p->nrun > nrun) {
         const fw_schedule_run *r = &p->run[--p->nrun];
         const fw_schedule_task *t = &p->shop->task[r->task];
-        fw_schedule_line_remove(&p->machine[t->machine], r->start_s, r->end_s);
-        fw_schedule_line_remove(&p->people, r->start_s, r->start_s + t->attended_s);
+        line_remove(&p->machine[t->machine], r->start_s, r->end_s);
+        line_remove(&p->people, r->start_s, r->start_s + t->attended_s);
     }
 }
 

@@ -68,8 +68,8 @@ static double operator_bound(const fw_schedule_shop *shop, const double *earlies
 /* Each bound holds for every schedule, windows and days included: people and machines only delay a
    wafer alone, fitting into the day never makes a later start earlier, and where a window forbids
    loads that are counted here, the truth is later still. Test: test_schedule.c, brute_force. */
-void fw_schedule_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
-                        fw_schedule_bound *b) {
+static void lower_bounds(const fw_schedule_shop *shop, const double *earliest_s, double start_s,
+                         fw_schedule_bound *b) {
     int last = shop->ntask - 1;
     *b = (fw_schedule_bound){.path_s = earliest_s[last] + shop->task[last].duration_s - start_s};
     for (int m = 0; m < shop->nmachine; m++) {
@@ -299,6 +299,6 @@ fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int e
                     shop->task[failing].id, shop->task[failing].title));
         return FW_OK;
     }
-    fw_schedule_bounds(shop, earliest_s, out->start_s, &out->bound);
+    lower_bounds(shop, earliest_s, out->start_s, &out->bound);
     return solve(arena, shop, effort, out);
 }

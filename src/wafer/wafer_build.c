@@ -77,7 +77,8 @@ static fw_status add_run_from(fw_wafer_maker *m, const int *cell_of, bool *done,
                                               .step_y = g->pitch_y});
 }
 
-fw_status fw_wafer_add_rows(fw_wafer_maker *m, const int *cell_of) {
+/* arrays of equal cells in every row; cell_of[i]: of site i, -1: none */
+static fw_status add_rows(fw_wafer_maker *m, const int *cell_of) {
     const fw_wafer_grid *g = &m->wafer->grid;
     bool *done = fw_arena_array(m->arena, bool, (size_t)g->nsite);
     FW_NEED(done);
@@ -239,7 +240,7 @@ static fw_status place(fw_wafer_maker *m) {
                      : s->kind == FW_WAFER_TEST && own_test ? test
                                                             : marks;
     }
-    FW_TRY(fw_wafer_add_rows(m, of_site));
+    FW_TRY(add_rows(m, of_site));
     return fw_wafer_ids(m);
 }
 

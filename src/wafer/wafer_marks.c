@@ -23,8 +23,8 @@ bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role) {
     return false;
 }
 
-fw_status fw_wafer_sheet_add(fw_wafer_sheet *sheet, fw_layout_role role, const char *label,
-                             const fw_geometry_vec2 *point, int n) {
+static fw_status sheet_add(fw_wafer_sheet *sheet, fw_layout_role role, const char *label,
+                           const fw_geometry_vec2 *point, int n) {
     fw_arena *arena = sheet->maker->arena;
     fw_geometry_outline outline = {0};
     for (int i = 0; i < n; i++) {
@@ -62,7 +62,7 @@ static fw_status add_cross(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_v
                                   {o.x + w, o.y + w}, {o.x + w, o.y + a}, {o.x - w, o.y + a},
                                   {o.x - w, o.y + w}, {o.x - a, o.y + w}, {o.x - a, o.y - w},
                                   {o.x - w, o.y - w}, {o.x - w, o.y - a}, {o.x + w, o.y - a}};
-    return fw_wafer_sheet_add(s, role, "cross", p, sizeof p / sizeof p[0]);
+    return sheet_add(s, role, "cross", p, sizeof p / sizeof p[0]);
 }
 
 /* one line in the middle of a strip, in strokes that let it fit; false in *fits: even the least do
@@ -129,7 +129,7 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
 static fw_status add_target(fw_wafer_sheet *s, fw_layout_role role, fw_geometry_vec2 o, double q) {
     fw_geometry_vec2 p[FW_LAYOUT_CROSS];
     fw_layout_cross(o, q, 3 * q, 0.3 * q, 5 * q, p);
-    return fw_wafer_sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
+    return sheet_add(s, role, "alignment site", p, FW_LAYOUT_CROSS);
 }
 
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {
@@ -146,7 +146,7 @@ fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask) {
                                       {o.x + half, o.y - half},
                                       {o.x + half, o.y + half},
                                       {o.x - half, o.y + half}};
-    if (cut) FW_TRY(fw_wafer_sheet_add(&s, FW_ROLE_FRAME, "alignment site", block, 4));
+    if (cut) FW_TRY(sheet_add(&s, FW_ROLE_FRAME, "alignment site", block, 4));
     FW_TRY(add_target(&s, cut ? FW_ROLE_MARK : FW_ROLE_FRAME, o, q));
     return fw_wafer_sheet_mask(&s, "ALIGNMENT_SITE", mask);
 }

@@ -20,16 +20,12 @@ typedef struct fw_wafer_sheet {
     int npiece, capacity;
 } fw_wafer_sheet;
 fw_status fw_wafer_sheet_mask(fw_wafer_sheet *sheet, const char *name, const fw_mask **mask);
-fw_status fw_wafer_sheet_add(fw_wafer_sheet *sheet, fw_layout_role role, const char *label,
-                             const fw_geometry_vec2 *point, int n);
 bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role);
 
 /* wafer_build.c */
 fw_status fw_wafer_add_cell(fw_wafer_maker *m, const char *name, const fw_mask *mask, int32_t dx,
                             int32_t dy, int *cell);
 fw_status fw_wafer_add_run(fw_wafer_maker *m, fw_wafer_run run);
-/* arrays of equal cells in every row; cell_of[i]: of site i, -1: none */
-fw_status fw_wafer_add_rows(fw_wafer_maker *m, const int *cell_of);
 
 /* wafer_marks.c, wafer_ids.c */
 fw_status fw_wafer_plate(fw_wafer_maker *m);

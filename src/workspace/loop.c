@@ -49,8 +49,8 @@ static fw_workspace_leg leg_of(fw_geometry_vec2 o, fw_geometry_vec2 elbow, fw_ge
     return leg;
 }
 
-bool fw_workspace_loop_make(const fw_geometry_vec2 p[FW_SIX], fw_geometry_vec2 centre,
-                            const double start_rad[FW_SIX], fw_workspace_loop *out) {
+static bool loop_make(const fw_geometry_vec2 p[FW_SIX], fw_geometry_vec2 centre,
+                      const double start_rad[FW_SIX], fw_workspace_loop *out) {
     *out = (fw_workspace_loop){
         .leg = {leg_of(p[0], p[1], p[2], centre), leg_of(p[5], p[4], p[3], centre)},
         .centre = centre};
@@ -65,7 +65,7 @@ bool fw_workspace_loop_set_up(const fw_mechanism *m, fw_workspace_loop *out) {
     fw_geometry_vec2 p[FW_SIX];
     for (int i = 0; i < FW_SIX; i++)
         p[i] = fw_mechanism_pin_place(m, &m->pin[i], 0);
-    return fw_workspace_loop_make(p, k.centre, k.start_rad, out);
+    return loop_make(p, k.centre, k.start_rad, out);
 }
 
 static double sense(int hinge) {

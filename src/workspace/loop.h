@@ -89,8 +89,6 @@ typedef struct fw_workspace_loop_box {   /* what is known of a box */
 
 /* false: the drawn pose has no branch (a leg stretched or folded) or it is no six-bar */
 bool fw_workspace_loop_set_up(const fw_mechanism *mechanism, fw_workspace_loop *loop);
-bool fw_workspace_loop_make(const fw_geometry_vec2 hinge[FW_SIX], fw_geometry_vec2 centre,
-                            const double start_rad[FW_SIX], fw_workspace_loop *loop);
 
 /* range of psi_i for a range of the engine's joint angle */
 fw_maths_interval fw_workspace_loop_psi_range(const fw_workspace_loop *loop, int hinge,

@@ -49,12 +49,6 @@ fw_status fw_workspace_reach_extents(fw_arena *arena, const fw_workspace_loop *l
                                      const fw_workspace_reach_limits *limits, double relative,
                                      long most, fw_workspace_survey *survey);
 
-void fw_workspace_regularity_start(fw_workspace_regularity *singular);
-/* known: of a box that is not outside; `inside`: its middle is proved to belong to the set */
-void fw_workspace_regularity_add(const fw_workspace_loop *loop, fw_workspace_regularity *singular,
-                                 const fw_workspace_loop_box *known, bool inside);
-void fw_workspace_regularity_end(fw_workspace_regularity *singular);
-
 /* Everything that is said of a six-bar's workspace under the elastic limits of one flow. */
 
 enum { FW_SLICES = 5 };

@@ -386,41 +386,6 @@ static void marks_on_the_frame(void **state) {
     fw_arena_free(d->arena);
 }
 
-static void die_ids(void **state) {
-    (void)state;
-    fw_arena *arena = fw_arena_new(0);
-    static const struct {
-        const char *id;
-        double bar_um, high_um; /* of the lettering; 0: none */
-    } ids[] = {{"R2C3", 250, 45},
-               {"R12C123", 250, 110},
-               {"R2C3", 130, 110},
-               {"R2C3", 50, 0},
-               {"", 250, 0}};
-    for (size_t k = 0; k < sizeof ids / sizeof ids[0]; k++) {
-        framed f;
-        fw_layout_piece *piece = NULL;
-        int n = 0, room = 0;
-        frame_of(arena, ids[k].bar_um, &f);
-        assert_int_equal(fw_layout_content_die_id(arena, &f.layout, ids[k].id, &piece, &n, &room),
-                         FW_OK);
-        fw_geometry_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        for (int i = 0; i < n; i++) {
-            fw_geometry_box b = fw_geometry_contour_box(&piece[i].contour);
-            all = (fw_geometry_box){fmin(all.x0, b.x0), fmin(all.y0, b.y0), fmax(all.x1, b.x1),
-                                    fmax(all.y1, b.y1)};
-            assert_int_equal(piece[i].role, FW_ROLE_TEXT);
-        }
-        if (ids[k].high_um == 0) {
-            assert_int_equal(n, 0);
-            continue;
-        }
-        assert_near(all.y1 - all.y0, ids[k].high_um * UM, 1e-12);
-        assert_true(all.x0 >= (-ids[k].bar_um + 12) * UM && all.x1 <= -12 * UM && all.y0 >= 0);
-    }
-    fw_arena_free(arena);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dies_of_both_flows),
@@ -433,7 +398,6 @@ int main(void) {
         cmocka_unit_test(rows_that_are_wrong),
         cmocka_unit_test(own_rule_holds),
         cmocka_unit_test(marks_on_the_frame),
-        cmocka_unit_test(die_ids),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
