@@ -205,9 +205,43 @@ fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_
 /* name of layer k in DXF; NULL: out of memory */
 const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
 
+/* ---- a plate: dies on their places, as the formats that have cells and arrays write it ---- */
+typedef struct fw_mask_plate_cell {
+    const char *name;
+    const fw_mask *mask;
+} fw_mask_plate_cell;
+
+typedef struct fw_mask_plate_place { /* of a cell, once or as an equally spaced array; dbu */
+    int cell;
+    int32_t x, y; /* of the cell's origin, from the plate's middle */
+    int columns, rows;
+    int32_t step_x, step_y; /* > 0 where there are several */
+} fw_mask_plate_place;
+
+typedef struct fw_mask_plate {
+    const fw_mask_table *table;
+    const char *top, *title, *flow;
+    bool rejected;
+    double edge_m; /* of the square */
+    const fw_mask_plate_cell
+        *cell; /* (ncell) each different die once; all have layers of `table` */
+    int ncell;
+    const fw_mask_plate_place *place; /* (nplace) in the top cell */
+    int nplace;
+    const fw_mask *drawn; /* what the top cell draws itself; NULL: nothing */
+    const char **note; /* (nnote) lines on the documentation layer, from (note_x, note_y) by step */
+    int nnote;
+    int32_t note_x, note_y, note_step; /* dbu */
+} fw_mask_plate;
+fw_status fw_mask_plate_gds(const fw_mask_plate *plate, fw_text *out);
+fw_status fw_mask_plate_svg(const fw_mask_plate *plate, fw_text *out);
+fw_status fw_mask_plate_oasis(const fw_mask_plate *plate, fw_text *out);
+
 typedef struct fw_mask_format { /* a row of formats.def */
     const char *name, *ending;  /* as the user says it; of the file */
     fw_status (*write)(const fw_mask *mask, fw_text *out);
+    /* the same for a whole plate; NULL: the format has no cells, and no plate is written in it */
+    fw_status (*plate)(const fw_mask_plate *plate, fw_text *out);
     bool always, usual; /* whatever is asked for; when nothing is asked for */
     bool beside;        /* goes with GDSII and need not be named */
     bool picture;       /* to look at: the order sheet does not name it */

@@ -102,7 +102,8 @@ static unsigned char *put_points(unsigned char *at, const fw_geometry_point *p, 
     return at;
 }
 
-static void boundary(fw_text *out, const fw_mask_layer *layer, const fw_geometry_polygon *polygon) {
+void fw_mask_gds_boundary(fw_text *out, const fw_mask_layer *layer,
+                          const fw_geometry_polygon *polygon) {
     gds_record(out, FW_GDS_BOUNDARY, 0);
     gds_number(out, FW_GDS_LAYER, layer->layer);
     gds_number(out, FW_GDS_DATATYPE, layer->datatype);
@@ -152,12 +153,12 @@ void fw_mask_gds_cell_begin(fw_text *out, const char *name) {
     gds_string(out, FW_GDS_STRNAME, name);
 }
 
-void fw_mask_gds_shapes(fw_text *out, const fw_mask *mask) {
+static void shapes(fw_text *out, const fw_mask *mask) {
     for (int i = 0; i < mask->nshape; i++) {
         const fw_mask_shape *s = &mask->shape[i];
-        if (s->npart == 0) boundary(out, &mask->table->layer[s->layer], &s->polygon);
+        if (s->npart == 0) fw_mask_gds_boundary(out, &mask->table->layer[s->layer], &s->polygon);
         for (int k = 0; k < s->npart; k++)
-            boundary(out, &mask->table->layer[s->layer], &s->part[k]);
+            fw_mask_gds_boundary(out, &mask->table->layer[s->layer], &s->part[k]);
     }
 }
 
@@ -176,17 +177,17 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     fw_text_reserve(out, total);
     fw_mask_gds_begin(out, mask->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
     fw_mask_gds_cell_begin(out, mask->cell);
-    fw_mask_gds_shapes(out, mask);
+    shapes(out, mask);
     FW_TRY(texts(mask, out));
     fw_mask_gds_cell_end(out);
     fw_mask_gds_end(out);
     return fw_text_end(out);
 }
 
-/* References to cells, and notes. */
-
-void fw_mask_gds_array(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
-                       fw_geometry_point step) {
+/* columns and rows at most 32767; both 1: a plain reference (SREF), else an array (AREF) whose corners
+   divide by columns and rows exactly */
+static void reference(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
+                      fw_geometry_point step) {
     bool one = columns == 1 && rows == 1;
     gds_record(out, one ? FW_GDS_SREF : FW_GDS_AREF, 0);
     gds_string(out, FW_GDS_SNAME, cell);
@@ -204,13 +205,37 @@ void fw_mask_gds_array(fw_text *out, const char *cell, fw_geometry_point at, int
     gds_record(out, FW_GDS_ENDEL, 0);
 }
 
-void fw_mask_gds_note(fw_text *out, const fw_mask_layer *layer, fw_geometry_point at,
-                      const char *line) {
-    gds_record(out, FW_GDS_TEXT, 0);
-    gds_number(out, FW_GDS_LAYER, layer->layer);
-    gds_number(out, FW_GDS_TEXTTYPE, layer->datatype);
-    gds_record(out, FW_GDS_XY, 8);
-    gds_point(out, at.x_dbu, at.y_dbu);
-    gds_string(out, FW_GDS_STRING, line);
-    gds_record(out, FW_GDS_ENDEL, 0);
+/* ---- the plate: every different die once, one array per evenly spaced run of equal dies, the top
+   cell last. No reader warns: names of at most 32 letters, digits and _, no rotation, array corners
+   that divide exactly, dates zero (docs/theory/mask-files.md). ---- */
+
+static size_t plate_bytes(const fw_mask_plate *p) {
+    size_t n = 16384 + 96 * (size_t)p->nplace;
+    for (int c = 0; c < p->ncell; c++)
+        for (int i = 0; i < p->cell[c].mask->nshape; i++)
+            n += 64 + 8 * (size_t)p->cell[c].mask->shape[i].polygon.count;
+    return n;
+}
+
+fw_status fw_mask_plate_gds(const fw_mask_plate *p, fw_text *out) {
+    fw_text_reserve(out, plate_bytes(p));
+    fw_mask_gds_begin(out, p->rejected ? "FLEXWRIGHT_REJECTED" : "FLEXWRIGHT");
+    for (int c = 0; c < p->ncell; c++) {
+        fw_mask_gds_cell_begin(out, p->cell[c].name);
+        shapes(out, p->cell[c].mask);
+        fw_mask_gds_cell_end(out);
+    }
+    fw_mask_gds_cell_begin(out, p->top);
+    if (p->drawn) shapes(out, p->drawn);
+    for (int i = 0; i < p->nplace; i++) {
+        const fw_mask_plate_place *at = &p->place[i];
+        reference(out, p->cell[at->cell].name, (fw_geometry_point){at->x, at->y}, at->columns,
+                  at->rows, (fw_geometry_point){at->step_x, at->step_y});
+    }
+    int k = fw_mask_notes_layer(p->table);
+    for (int i = 0; k >= 0 && i < p->nnote; i++)
+        text(out, &p->table->layer[k], p->note_x, p->note_y + i * p->note_step, p->note[i]);
+    fw_mask_gds_cell_end(out);
+    fw_mask_gds_end(out);
+    return fw_text_end(out);
 }

@@ -12,6 +12,17 @@
 #include <string.h>
 #include <zlib.h>
 
+/* children before parents, the top cell last; all masks have the layers of one table */
+typedef struct oasis_cell {
+    const char *name;
+    const fw_mask *mask;              /* its polygons; NULL: none of its own */
+    const fw_mask_plate_place *place; /* (nplace) of cells that stand before this one */
+    int nplace;
+    const char **note; /* (nnote) lines of text on the documentation layer, from (x, y) by step */
+    int nnote;
+    int64_t note_x, note_y, note_step; /* dbu */
+} oasis_cell;
+
 enum {
     START = 1,
     END = 2,
@@ -184,7 +195,7 @@ static fw_status polygons(writer *w, fw_arena *arena, const group *g, const int 
 }
 
 /* arrays of at least two are repetitions of type 1, 2 or 3 */
-static void placement(fw_mask_octets *o, const fw_mask_oasis_place *p) {
+static void placement(fw_mask_octets *o, const fw_mask_plate_place *p) {
     enum { BY_NUMBER = 0xc0, PX = 0x20, PY = 0x10, PR = 0x08 };
     bool several = p->columns > 1 || p->rows > 1;
     fw_mask_octets_number(o, PLACEMENT);
@@ -202,7 +213,7 @@ static void placement(fw_mask_octets *o, const fw_mask_oasis_place *p) {
 }
 
 /* lines on the documentation layer, as in GDSII */
-static void texts(writer *w, const fw_mask_oasis_cell *c) {
+static void texts(writer *w, const oasis_cell *c) {
     enum { TL = 1, TT = 2, TY = 8, TX = 16, BY_NUMBER = 0x60 };
     int k = fw_mask_notes_layer(w->table);
     if (k < 0) return;
@@ -256,7 +267,7 @@ static fw_status compressed(fw_arena *arena, fw_mask_octets *file, const fw_mask
 }
 
 /* ---- tables and the END record ---- */
-static uint64_t cell_table(writer *w, const fw_mask_oasis_cell *cell, int ncell) {
+static uint64_t cell_table(writer *w, const oasis_cell *cell, int ncell) {
     uint64_t at = w->file.length;
     for (int i = 0; i < ncell; i++) {
         fw_mask_octets_number(&w->file, CELLNAME);
@@ -265,7 +276,7 @@ static uint64_t cell_table(writer *w, const fw_mask_oasis_cell *cell, int ncell)
     return at;
 }
 
-static uint64_t text_table(writer *w, const fw_mask_oasis_cell *cell, int ncell) {
+static uint64_t text_table(writer *w, const oasis_cell *cell, int ncell) {
     if (w->ntext == 0) return 0;
     uint64_t at = w->file.length;
     for (int k = 0; k < ncell; k++)
@@ -321,7 +332,7 @@ static void end(writer *w, uint64_t cells_at, uint64_t texts_at, uint64_t layers
 }
 
 /* what a reader holds as current is forgotten at every cell (P39, 10) */
-static fw_status write_cell(writer *w, fw_arena *arena, const fw_mask_oasis_cell *c, int number) {
+static fw_status write_cell(writer *w, fw_arena *arena, const oasis_cell *c, int number) {
     fw_mask_octets_number(&w->file, CELL);
     fw_mask_octets_number(&w->file, (uint64_t)number);
     w->cell = (fw_mask_octets){.arena = arena};
@@ -341,7 +352,7 @@ static fw_status write_cell(writer *w, fw_arena *arena, const fw_mask_oasis_cell
     return w->cell.length ? compressed(arena, &w->file, &w->cell) : FW_OK;
 }
 
-static fw_status write_file(writer *w, fw_arena *arena, const fw_mask_oasis_cell *cell, int ncell) {
+static fw_status write_file(writer *w, fw_arena *arena, const oasis_cell *cell, int ncell) {
     fw_mask_octets_bytes(&w->file, "%SEMI-OASIS\r\n", 13);
     fw_mask_octets_number(&w->file, START);
     fw_mask_octets_string(&w->file, "1.0");
@@ -357,8 +368,8 @@ static fw_status write_file(writer *w, fw_arena *arena, const fw_mask_oasis_cell
     return w->file.failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_mask_oasis_write(const fw_mask_table *table, bool rejected,
-                              const fw_mask_oasis_cell *cell, int ncell, fw_text *out) {
+static fw_status write_cells(const fw_mask_table *table, bool rejected, const oasis_cell *cell,
+                             int ncell, fw_text *out) {
     writer w = {.table = table, .rejected = rejected, .file = {.arena = out->arena}};
     FW_TRY(write_file(&w, out->arena, cell, ncell));
     fw_text_bytes(out, w.file.data, w.file.length);
@@ -367,13 +378,31 @@ fw_status fw_mask_oasis_write(const fw_mask_table *table, bool rejected,
 
 /* the lines stand in a column above the die */
 fw_status fw_mask_write_oasis(const fw_mask *mask, fw_text *out) {
-    fw_mask_oasis_cell cell = {.name = mask->cell,
-                               .mask = mask,
-                               .note_x = lround(mask->box.x0 * 1e9),
-                               .note_step = -LINE_PITCH_DBU};
+    oasis_cell cell = {.name = mask->cell,
+                       .mask = mask,
+                       .note_x = lround(mask->box.x0 * 1e9),
+                       .note_step = -LINE_PITCH_DBU};
     if (fw_mask_notes_layer(mask->table) >= 0)
         FW_TRY(fw_mask_notes(out->arena, mask, &cell.note, &cell.nnote));
     cell.note_y = lround(mask->box.y1 * 1e9) + LINE_PITCH_DBU / 2 +
                   (int64_t)(cell.nnote - 1) * LINE_PITCH_DBU;
-    return fw_mask_oasis_write(mask->table, mask->rejected, &cell, 1, out);
+    return write_cells(mask->table, mask->rejected, &cell, 1, out);
+}
+
+/* the cells and arrays of the plate's GDSII library, and no other; texts stand where those do */
+fw_status fw_mask_plate_oasis(const fw_mask_plate *p, fw_text *out) {
+    oasis_cell *cell = fw_arena_array(out->arena, oasis_cell, (size_t)p->ncell + 1);
+    FW_NEED(cell);
+    for (int c = 0; c < p->ncell; c++)
+        cell[c] = (oasis_cell){.name = p->cell[c].name, .mask = p->cell[c].mask};
+    cell[p->ncell] = (oasis_cell){.name = p->top,
+                                  .mask = p->drawn,
+                                  .place = p->place,
+                                  .nplace = p->nplace,
+                                  .note = p->note,
+                                  .nnote = p->nnote,
+                                  .note_x = p->note_x,
+                                  .note_y = p->note_y,
+                                  .note_step = p->note_step};
+    return write_cells(p->table, p->rejected, cell, p->ncell + 1, out);
 }

@@ -8,12 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SAMPLES = 16,
-    LINE_BYTES = 20,
-    ARC_BYTES = 90,
-    LEAST_BYTES = 160
-};                                /* a reference takes some 60 */
+/* bytes: a reference takes some 60 */
+enum { SAMPLES = 16, LINE_BYTES = 20, ARC_BYTES = 90, LEAST_BYTES = 160 };
 static const double PER_M = 1e12; /* as written: 1 pm */
 static const double SAME_RAD = 1e-9;
 
@@ -185,7 +181,9 @@ static void shape(const page *p, const fw_mask *mask, const fw_mask_shape *s, in
     fw_svg_close(p->out, "path\n");
 }
 
-void fw_mask_svg_paths(const fw_mask *mask, int layer, fw_geometry_vec2 upper_left, fw_text *out) {
+/* the outlines of one layer as <path>s, um, y downwards from `upper_left` (m); one that is another
+   one moved as a <use> of it */
+static void paths(const fw_mask *mask, int layer, fw_geometry_vec2 upper_left, fw_text *out) {
     page p = {.out = out, .x0 = upper_left.x, .y1 = upper_left.y};
     int *of;
     if (repeats_of(out->arena, mask, layer, upper_left, &of) != FW_OK) {
@@ -206,7 +204,7 @@ static void layer(const page *p, const fw_mask *mask, int k) {
     fw_svg_open(p->out, "g id='{r}' data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'", y->id,
                 y->layer, y->datatype, y->colour);
     fw_svg_title(p->out, "{s}: {s} ({r})", y->name, y->purpose, y->tone);
-    fw_mask_svg_paths(mask, k, (fw_geometry_vec2){p->x0, p->y1}, p->out);
+    paths(mask, k, (fw_geometry_vec2){p->x0, p->y1}, p->out);
     fw_svg_close(p->out, "g\n");
 }
 
@@ -277,6 +275,96 @@ fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out) {
     if (mask->rejected)
         fw_svg_put(out, "text id='rejected' x='50%' y='50%' text-anchor='middle' "
                         "font-family='sans-serif' font-size='500' fill='#c00000' "
+                        "fill-opacity='0.6'>REJECTED\n");
+    fw_svg_end(out);
+    return fw_text_end(out);
+}
+
+/* ---- the plate as exact outlines: every cell once in <defs>, with true arcs, and <use> for each
+   place. 1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is used
+   and not a <symbol>, which some importers clip at its own box. ---- */
+
+/* layers in the order of the table; ids stay those of the table in the top cell only. The mask goes
+   by the name of its cell here: steps of a sweep have the same name of their own, and ids of a
+   document must differ */
+static void plate_layers(const fw_mask_plate *plate, const fw_mask *of, const char *name,
+                         fw_geometry_vec2 upper_left, bool top, fw_text *out) {
+    fw_mask named = *of;
+    const fw_mask *mask = &named;
+    named.cell = name;
+    for (int k = 0; k < plate->table->nlayer; k++) {
+        const fw_mask_layer *y = &plate->table->layer[k];
+        bool any = false;
+        for (int i = 0; i < mask->nshape && !any; i++)
+            any = mask->shape[i].layer == k;
+        if (!any) continue;
+        if (top)
+            fw_svg_open(out, "g id='{r}' data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'\n", y->id,
+                        y->layer, y->datatype, y->colour);
+        else
+            fw_svg_open(out, "g data-gds='{i}/{i}' fill='{r}' fill-opacity='0.8'\n", y->layer,
+                        y->datatype, y->colour);
+        paths(mask, k, upper_left, out);
+        fw_svg_close(out, "g\n");
+    }
+}
+
+static void plate_head(const fw_mask_plate *plate, fw_text *out) {
+    double size = plate->edge_m * 1e6;
+    fw_svg_begin(out, &(fw_svg_frame){.width = size,
+                                      .height = size,
+                                      .decimals = 6,
+                                      .size = FW_SVG_SIZE_BEFORE,
+                                      .unit_mm = 1e-3,
+                                      .mm_decimals = 9,
+                                      .file = true,
+                                      .links = true,
+                                      .lead = "version='1.1'"});
+    fw_svg_title(out, "{r}{s}, {s}, whole plate", plate->rejected ? "REJECTED: " : "", plate->title,
+                 plate->flow);
+    fw_svg_put(out, "desc>1 unit = 1 um; {s}; flexwright " FW_VERSION "\n", plate->table->reading);
+}
+
+static void use(const fw_mask_plate *plate, const fw_mask_plate_place *at, double half_um,
+                fw_text *out) {
+    for (int j = 0; j < at->rows; j++)
+        for (int i = 0; i < at->columns; i++)
+            fw_svg_put(out, "use xlink:href='#{r}' x='{3}' y='{3}'\n", plate->cell[at->cell].name,
+                       half_um + 1e-3 * (at->x + i * at->step_x),
+                       half_um - 1e-3 * (at->y + j * at->step_y));
+}
+
+static size_t plate_bytes(const fw_mask_plate *plate) {
+    size_t n = 16384;
+    for (int i = 0; i < plate->nplace; i++)
+        n += 96 * (size_t)plate->place[i].columns * (size_t)plate->place[i].rows;
+    for (int c = 0; c < plate->ncell; c++) {
+        for (int i = 0; i < plate->cell[c].mask->nshape; i++)
+            n += 100 + 90 * (size_t)plate->cell[c].mask->shape[i].contour.count;
+    }
+    return n;
+}
+
+fw_status fw_mask_plate_svg(const fw_mask_plate *plate, fw_text *out) {
+    double half_um = 0.5 * plate->edge_m * 1e6;
+    fw_text_reserve(out, plate_bytes(plate));
+    plate_head(plate, out);
+    fw_svg_open(out, "defs\n");
+    for (int c = 0; c < plate->ncell; c++) {
+        fw_svg_open(out, "g id='{r}'\n", plate->cell[c].name);
+        plate_layers(plate, plate->cell[c].mask, plate->cell[c].name, (fw_geometry_vec2){0, 0},
+                     false, out);
+        fw_svg_close(out, "g\n");
+    }
+    fw_svg_close(out, "defs\n");
+    if (plate->drawn)
+        plate_layers(plate, plate->drawn, plate->top,
+                     (fw_geometry_vec2){-0.5 * plate->edge_m, 0.5 * plate->edge_m}, true, out);
+    for (int i = 0; i < plate->nplace; i++)
+        use(plate, &plate->place[i], half_um, out);
+    if (plate->rejected)
+        fw_svg_put(out, "text id='rejected' x='50%' y='50%' text-anchor='middle' "
+                        "font-family='sans-serif' font-size='15000' fill='#c00000' "
                         "fill-opacity='0.6'>REJECTED\n");
     fw_svg_end(out);
     return fw_text_end(out);

@@ -322,15 +322,12 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
     const char *name = fw_arena_printf(w->plan->arena, "%s-wafer", pf->use->ref);
     FW_NEED(name);
-    FW_TRY(put(w, "masks/", name, ".gds", &pf->wafer_gds));
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
-        fw_status (*write)(const fw_wafer *wafer, fw_text *out) = NULL;
-        if (set & 1u << i && format->write == fw_mask_write_svg) write = fw_wafer_write_svg;
-        if (set & 1u << i && format->write == fw_mask_write_oasis) write = fw_wafer_write_oasis;
-        if (!write) continue;
-        fw_text text = fw_text_new(w->scratch);
-        FW_TRY(write(pf->wafer, &text));
+        if (!(set & 1u << i) || !format->plate) continue;
+        bool composed = format->write == fw_mask_write_gds; /* for its hash */
+        fw_text text = composed ? pf->wafer_gds : fw_text_new(w->scratch);
+        if (!composed) FW_TRY(fw_wafer_write_format(pf->wafer, format, &text));
         FW_TRY(put(w, "masks/", name, format->ending, &text));
     }
     fw_text csv = fw_text_new(w->scratch);

@@ -47,8 +47,6 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
 fw_status fw_process_calibration_text(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration, fw_text *out);
 
-/* name and what it is, of the i-th kind of coupon; NULL after the last */
-const char *fw_process_coupon_name(int i);
 
 /* ---- laboratory packs ---- */
 

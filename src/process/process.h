@@ -218,11 +218,6 @@ typedef struct fw_process_drive_facts { /* a comb drive of a scene that holds in
     fw_place place;
 } fw_process_drive_facts;
 
-/* processes/process.rng and laboratory.rng: what flows and laboratory packs may hold */
-fw_status fw_process_schema(fw_text *out);
-fw_status fw_process_laboratory_schema(fw_text *out);
-fw_status fw_process_reference_markdown(fw_text *out); /* docs/reference/process.md */
-
 /* reads base.xml and FLOW.xml; all mistakes in diags */
 fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
                                size_t base_n, const char *file, const char *xml, size_t n,

@@ -109,12 +109,8 @@ static const fw_process_coupon *const table[] = {
 #undef FW_PROCESS_COUPON
 enum { KINDS = sizeof table / sizeof table[0] };
 
-static const double least_probability =
-    0.001; /* of a larger chi square: below, the data contradict */
-
-const char *fw_process_coupon_name(int i) {
-    return i >= 0 && i < KINDS ? table[i]->name : NULL;
-}
+/* of a larger chi square: below, the data contradict */
+static const double least_probability = 0.001;
 
 /* ---- what kinds share ---- */
 

@@ -100,10 +100,6 @@ typedef struct fw_schedule_options {
 
 /* "08:00-18:00" or "none"; false: it is neither */
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
-/* the shop of a computed flow. FW_USAGE with FW-D199 for options that do not fit */
-fw_status fw_schedule_shop_of(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_schedule_options *options, fw_diags *diags,
-                              const fw_schedule_shop **shop);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                             fw_schedule *schedule);

@@ -129,9 +129,10 @@ static fw_status make_holds(making *m, fw_schedule_hold **list) {
     return FW_OK;
 }
 
-fw_status fw_schedule_shop_of(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_schedule_options *options, fw_diags *diags,
-                              const fw_schedule_shop **shop) {
+/* the shop of a computed flow. FW_USAGE with FW-D199 for options that do not fit */
+static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
+                         const fw_schedule_options *options, fw_diags *diags,
+                         const fw_schedule_shop **shop) {
     making m = {.arena = arena, .flow = flow, .diags = diags};
     fw_schedule_hold *hold;
     FW_NEED(m.shop = fw_arena_one(arena, fw_schedule_shop));
@@ -165,7 +166,7 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
     fw_schedule *s = fw_arena_one(arena, fw_schedule);
     FW_NEED(s);
     *schedule = s;
-    FW_TRY(fw_schedule_shop_of(arena, flow, options, diags, &shop));
+    FW_TRY(shop_of(arena, flow, options, diags, &shop));
     FW_TRY(fw_schedule_solve(arena, shop, options->effort, s));
     if (!s->feasible && !s->pause_s)
         fw_diag_warning(diags, 196, flow->place, "flow '%s' cannot be run as it is written: %s",

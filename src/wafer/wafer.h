@@ -123,8 +123,8 @@ fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags 
 
 /* same wafer, same bytes */
 fw_status fw_wafer_write_gds(const fw_wafer *wafer, fw_text *out);
-fw_status fw_wafer_write_svg(const fw_wafer *wafer, fw_text *out);
-fw_status fw_wafer_write_oasis(const fw_wafer *wafer, fw_text *out);
+/* in a format that has plates: format->plate is not NULL */
+fw_status fw_wafer_write_format(const fw_wafer *wafer, const fw_mask_format *format, fw_text *out);
 fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line per place */
 fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
 fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);

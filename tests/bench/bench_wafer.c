@@ -84,8 +84,15 @@ static fw_status json(const fw_wafer *wafer, fw_text *out) {
     return fw_wafer_write_json(wafer, "", out);
 }
 
+static fw_status svg(const fw_wafer *wafer, fw_text *out) {
+    const fw_mask_format *format = fw_mask_format_at(0);
+    for (size_t i = 0; format && format->plate != fw_mask_plate_svg; i++)
+        format = fw_mask_format_at(i);
+    return fw_wafer_write_format(wafer, format, out);
+}
+
 static fw_status (*const writer[])(const fw_wafer *, fw_text *) = {
-    fw_wafer_write_gds, fw_wafer_write_svg, fw_wafer_write_csv, fw_wafer_write_map, json};
+    fw_wafer_write_gds, svg, fw_wafer_write_csv, fw_wafer_write_map, json};
 enum { WRITERS = sizeof writer / sizeof writer[0], LAYOUT = WRITERS, ALL };
 
 static fw_status run(work *w) {
