@@ -53,7 +53,7 @@ static fw_status usable(const fw_continuum_material *material, const fw_continuu
                         fw_place place, fw_diags *diags) {
     FW_TRY(fw_continuum_usable(material, o->refinement, place, diags));
     if (o->nangle >= 0 && o->nangle <= FW_CONTINUUM_ANGLES) return FW_OK;
-    fw_diag_error(diags, 213, place, "%d angles are more than the %d that one run reaches",
+    fw_diag_error(diags, 213, place, "%d angles are more than the %d of one run; ask for fewer",
                   o->nangle, FW_CONTINUUM_ANGLES);
     return FW_USAGE;
 }

@@ -266,9 +266,10 @@ static fw_status draw_fill(bench *b) {
     double s = b->fill->value[FILL_SQUARE], stem = b->fill->value[FILL_STEM];
     double gap = fw_layout_to_grid(fw_layout_fill_gap_m(s, stem, b->fill->value[FILL_DENSITY]));
     if (!(gap >= b->options->space_rule_m) || stem < b->options->width_rule_m || stem >= s)
-        return fw_diag_error(b->diags, 187, b->fill->place,
-                             "fill of this density, square and stem would break the layer's own "
-                             "rule; choose a smaller density or larger squares");
+        return fw_diag_error(
+            b->diags, 187, b->fill->place,
+            "the fill with this density, square and stem has spaces or stems below the layer's own "
+            "rule; choose a smaller density, larger squares or a wider stem");
     b->content->fill_density = (s * s + stem * gap) / ((s + gap) * (s + gap));
     for (int k = 0; k < b->nshelf; k++) {
         const shelf *level = &b->shelf[k];
@@ -413,7 +414,7 @@ static fw_status draw_all(bench *b, const fw_layout_pattern *pattern, int npatte
         if (status == FW_GEOMETRY)
             fw_diag_error(b->diags, 187, pattern[i].place,
                           "the test pattern %s (%s) cannot be drawn: its sizes do not go together "
-                          "or fall below the layer's own rule",
+                          "or fall below the layer's own rule; change them in the layer table",
                           pattern[i].id, pattern[i].kind->name);
         FW_TRY(status);
     }
@@ -440,7 +441,8 @@ fw_status fw_layout_content_build(fw_arena *arena, const fw_layout_pattern *patt
     if (!prepare(b)) {
         char w[32], h[32];
         fw_diag_error(diags, 188, (fw_place){options->file, 0, 0},
-                      "a die of %s um x %s um has no room for test patterns inside its frame",
+                      "a die of %s um x %s um has no room for test patterns inside its frame; make "
+                      "the die larger or its frame narrower",
                       fw_layout_um(w, options->die.x1 - options->die.x0),
                       fw_layout_um(h, options->die.y1 - options->die.y0));
         return FW_GEOMETRY;

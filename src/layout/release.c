@@ -303,11 +303,11 @@ static fw_status do_body(fw_layout_drawing *d, int body, double pitch, double ho
     for (int i = -ALONG; i <= ALONG; i++)
         FW_TRY(do_column(&g, i));
     if (g.dropped > 0 && !d->said)
-        fw_diag_warning(
-            d->diags, 189, fw_layout_body_place(d, body),
-            "%s: %d of %d release holes reach no straight edge from which they could be "
-            "opened, and are left out; it comes free later there",
-            g.label, g.dropped, g.dropped + g.nhole);
+        fw_diag_warning(d->diags, 189, fw_layout_body_place(d, body),
+                        "%s: %d of %d release holes reach no straight edge from which they could "
+                        "be opened, and are left out; it comes free later there: allow for that in "
+                        "the time of the release, or make the body narrower",
+                        g.label, g.dropped, g.dropped + g.nhole);
     if (g.nhole == 0) return FW_OK;
     take_out(&g);
     d->held[body] = g.outline;

@@ -158,8 +158,8 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
     if (fabs(flat - shape->area_m2) <= shape->bound_m2) return FW_OK;
     char got[32], want[32];
     return fw_diag_error(diags, 150, nowhere,
-                         "%s: area %s um2 after flattening, %s um2 before; this is an error of the "
-                         "program",
+                         "%s: area %s um2 after flattening, %s um2 before, which is more than "
+                         "flattening can change; this is an error of the program, please report it",
                          name, fw_number_text(got, sizeof got, flat * 1e12, 12),
                          fw_number_text(want, sizeof want, shape->area_m2 * 1e12, 12));
 }
@@ -200,7 +200,8 @@ static fw_status check_options(const fw_mask_options *options, double tolerance_
                                fw_diags *diags) {
     char number[32];
     if (!(fabs(options->bias_m) <= 1e-3))
-        return fw_diag_error(diags, 143, nowhere, "the bias of %s m per edge is not below 1 mm",
+        return fw_diag_error(diags, 143, nowhere,
+                             "the bias of %s m per edge is not below 1 mm; check its unit",
                              fw_number_text(number, sizeof number, options->bias_m, 6));
     if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12) && tolerance_m <= 1e-6))
         return fw_diag_error(diags, 147, nowhere,
@@ -263,7 +264,9 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     m->nnote = options->nnote;
     FW_TRY(pick_shapes(arena, layout, table, options->no_islands, &m->shape, &m->nshape));
     if (m->nshape == 0)
-        return fw_diag_error(diags, 151, nowhere, "no layer of flow %s draws any of the %d pieces",
+        return fw_diag_error(diags, 151, nowhere,
+                             "no layer of flow %s draws any of the %d pieces; give a layer of its "
+                             "table the roles of these pieces",
                              table->flow, layout->npiece);
     m->flattening = options->flattening;
     m->thickness_m = options->thickness_m;

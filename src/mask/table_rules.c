@@ -68,7 +68,8 @@ static const fw_mask_rule_kind_row *kind_named(fw_xml_reader *r, const fw_xml_el
     const char *names[32];
     size_t n = 0;
     if (!a) {
-        fw_diag_error(r->diags, 135, e->place, "<rule> needs kind=\"...\": What is looked at.");
+        fw_diag_error(r->diags, 135, e->place,
+                      "<rule> needs kind=\"...\", which says what is looked at");
         return NULL;
     }
     const fw_mask_rule_kind_row *row;
@@ -155,8 +156,9 @@ static void read_layers(reader *r, const fw_xml_record *e) {
     if (a) rule->layer = layer_named(r, a);
     if (other) rule->other = layer_named(r, other);
     if (a && other && rule->layer >= 0 && rule->layer == rule->other)
-        fw_diag_error(r->r->diags, 135, other->place, "%s=\"%s\" is the rule's own layer",
-                      other->name, other->value);
+        fw_diag_error(r->r->diags, 135, other->place,
+                      "%s=\"%s\" is the rule's own layer; name another one", other->name,
+                      other->value);
 }
 
 static double value_of(const fw_xml_record *e, const char *name, double absent) {

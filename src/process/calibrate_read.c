@@ -137,7 +137,8 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
         *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
     *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
     if (*good && !counted && isnan(r->value)) {
-        fw_diag_error(t->diags, 211, t->place, "a row needs measured, u and unit");
+        fw_diag_error(t->diags, 211, t->place,
+                      "this row lacks measured, u or unit; it needs all three");
         *good = false;
     }
     return FW_OK;
@@ -156,12 +157,16 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
     const char *end = text + n, *at = text;
     *nmeasurement = 0;
     if (memchr(text, '\0', n))
-        return fw_diag_error(diags, 211, t.place, "a NUL byte: this is not a table of text");
+        return fw_diag_error(
+            diags, 211, t.place,
+            "the file holds a byte that is zero, so that it is no text; save the table as CSV");
     if (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) at += 3; /* a spreadsheet's mark of UTF-8 */
     for (const char *c = at; c < end; c++)
         lines += *c == '\n';
     if (lines > MOST_ROWS)
-        return fw_diag_error(diags, 211, t.place, "more than %d lines", MOST_ROWS);
+        return fw_diag_error(diags, 211, t.place,
+                             "the table has more than the %d lines that are read; divide it",
+                             MOST_ROWS);
     FW_NEED(*measurement = fw_arena_array(arena, fw_process_measurement, lines));
     while (at < end) {
         const char *stop = memchr(at, '\n', (size_t)(end - at));

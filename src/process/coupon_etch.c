@@ -69,9 +69,10 @@ static fw_status selectivity(fw_process_coupon_work *w) {
     fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
     double loss = f.value[0], u = f.uncertainty[0];
     if (!(loss > 3.0 * u))
-        return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "the loss of the mask is not above its uncertainty: no "
-                                       "selectivity comes of it");
+        return fw_process_coupon_wrong(
+            w, w->measurement[0],
+            "the loss of the mask is not above its uncertainty, so that no selectivity follows; "
+            "etch longer, or measure it more exactly");
     return fw_process_coupon_give(w, "rie.selectivity", 1.0 / loss, u / (loss * loss), &f,
                                   "etched depth over the loss of the mask");
 }
@@ -112,8 +113,9 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
                                        "undercut-ladder needs the widest line that is gone and the "
                                        "narrowest that stands, both");
     if (!(gone < stands))
-        return fw_process_coupon_wrong(w, of,
-                                       "a line stands that is narrower than one that is gone");
+        return fw_process_coupon_wrong(
+            w, of,
+            "a line stands that is narrower than one that is gone; check the rows gone and stands");
     y[*n] = 0.5 * (gone + stands);
     s[(*n)++] = (stands - gone) / sqrt(12.0);
     return FW_OK;
@@ -142,7 +144,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
                                             (fw_quantity_dimension)FW_DIM_LENGTH))
         return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "the column at of undercut-ladder is a depth or a time");
+                                       "the column at of undercut-ladder takes a depth or a time");
     FW_TRY(ladder_losses(w, y, s, &n));
     fw_process_coupon_value(w, "made.al-edge", &edge, &u_edge);
     fw_process_fit f = fw_process_fit_mean(y, s, n);
@@ -150,8 +152,8 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     double A = 1.0 - u / E, u_A = hypot(hypot(0.5 * f.uncertainty[0], u_edge), u / E * u_E) / E;
     if (!(A > 0.0) || !(A < 1.0 + 2.0 * u_A))
         return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "an anisotropy that is not between 0 and 1 comes of it: "
-                                       "check widths, edge of the aluminium and depth");
+                                       "the anisotropy that follows is not between 0 and 1: check "
+                                       "the widths, the edge of the aluminium and the depth");
     const char *note = fw_arena_printf(
         w->arena, "undercut at the top over the depth of wide openings, %d lines", n);
     FW_NEED(note);
@@ -191,7 +193,7 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         const fw_process_measurement *r = w->measurement[i];
         if (!(r->value > 0.0) || r->value / r->drawn_m > 1000.0)
             return fw_process_coupon_wrong(
-                w, r, "the depth of a slot is above zero and below 1000 widths");
+                w, r, "the depth of a slot must be above zero and below 1000 times its width");
         y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
         q[i] = -fw_process_arde_integral(r->drawn_m, r->value, false);
     }
@@ -199,7 +201,8 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     double travelled = f.value[0], S = f.value[1];
     if (!isfinite(S))
         return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "all slots of arde-slots are equally wide");
+                                       "all slots of arde-slots are equally wide; the lag follows "
+                                       "from slots of different widths");
     for (int round = 0; round < 8 && S > -0.5; round++) {
         for (int i = 0; i < w->n; i++) {
             double width = w->measurement[i]->drawn_m, D = depth_of(width, travelled, S);

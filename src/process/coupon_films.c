@@ -44,7 +44,9 @@ const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH,
 static fw_status fit_spin(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], one[FW_COUPON_ROWS], x[FW_COUPON_ROWS], w0, u0;
     if (!fw_process_coupon_value(w, "resist.w0", &w0, &u0))
-        return fw_process_coupon_wrong(w, w->measurement[0], "resist.w0 is not known in this flow");
+        return fw_process_coupon_wrong(
+            w, w->measurement[0],
+            "resist.w0 is not known in this flow; enter it in a laboratory pack");
     fw_process_fit f = {.value = {0.0, 0.5}};
     for (int round = 0; round < 6; round++) {
         for (int i = 0; i < w->n; i++) {
@@ -84,7 +86,8 @@ const fw_process_coupon fw_process_coupon_spin = {"spin", FW_DIM_LENGTH, false,
 static fw_status need(fw_process_coupon_work *w, const char *id, double *value) {
     double u;
     if (fw_process_coupon_value(w, id, value, &u)) return FW_OK;
-    return fw_process_coupon_wrong(w, w->measurement[0], "%s is not known in this flow", id);
+    return fw_process_coupon_wrong(
+        w, w->measurement[0], "%s is not known in this flow; enter it in a laboratory pack", id);
 }
 
 /* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. m

@@ -58,8 +58,10 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
         const char *is = fw_quantity_dimension_text(arena, new->dimension),
                    *want = fw_quantity_dimension_text(arena, old->dimension);
         FW_NEED(is ? want : NULL);
-        return fw_diag_error(diags, 211, id->place, "'%s' is %s in the process pack, not %s",
-                             id->value, want, is);
+        return fw_diag_error(
+            diags, 211, id->place,
+            "'%s' is %s in the process pack, and not %s; write it in a unit of that kind",
+            id->value, want, is);
     }
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));

@@ -66,8 +66,9 @@ static fw_status lint_plausible(fw_process_pack *pack) {
             if (!q->id || !first->id || strcmp(q->id, first->id) != 0) continue;
             if (!fw_quantity_dimension_equal(q->dimension, first->dimension))
                 fw_diag_error(pack->diags, 169, q->place,
-                              "'%s' replaces a quantity of another dimension, in line %d", q->id,
-                              first->place.line);
+                              "'%s' replaces the quantity of line %d, which has another dimension; "
+                              "give it a unit of that dimension, or another id",
+                              q->id, first->place.line);
             else
                 fw_xml_quantity_check_range(q, first, pack->diags);
         }
@@ -111,8 +112,8 @@ static void lint_step(fw_process_pack *pack, const fw_process_step *s) {
                           "second-signature=\"yes\"",
                           s->id, s->hazard[i]->id);
         if (!s->hazard[i]->first_aid[0])
-            fw_diag_error(pack->diags, 174, s->hazard[i]->place, "hazard '%s' has no first aid",
-                          s->hazard[i]->id);
+            fw_diag_error(pack->diags, 174, s->hazard[i]->place,
+                          "hazard '%s' has no first aid; add a <firstaid>", s->hazard[i]->id);
     }
 }
 

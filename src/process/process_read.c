@@ -125,7 +125,7 @@ static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
         if (status != FW_OK && status != FW_INPUT) return status;
         if (!fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
             fw_diag_error(pack->diags, 169, c->element->place,
-                          "highest-temperature is not a temperature");
+                          "highest-temperature is not a temperature; write it in Cel or K");
         m->highest_K = q;
     }
     return FW_OK;
@@ -290,7 +290,8 @@ static void read_head(fw_process_pack *pack) {
     f->thickness = fw_process_pack_find(pack, thickness, FW_ID_QUANTITY);
     if (f->thickness &&
         !fw_quantity_dimension_equal(f->thickness->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, thickness->place, "'%s' is not a length", thickness->value);
+        fw_diag_error(pack->diags, 169, thickness->place,
+                      "'%s' is not a length; write it in um or nm", thickness->value);
 }
 
 /* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be

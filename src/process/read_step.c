@@ -37,7 +37,7 @@ static fw_status read_arguments(fw_process_pack *pack, const fw_xml_record *e, c
         if (q) (*list)[(*n)++] = (fw_process_argument){name, q};
     }
     if (*n > FW_LAW_ARGUMENTS) {
-        fw_diag_error(pack->diags, 171, e->element->place, "more than %d arguments",
+        fw_diag_error(pack->diags, 171, e->element->place, "a law takes at most %d arguments",
                       FW_LAW_ARGUMENTS);
         *n = FW_LAW_ARGUMENTS;
     }
@@ -162,15 +162,19 @@ static fw_status read_derive(fw_process_pack *pack, const fw_xml_record *e, fw_p
     d->most = quantity_of(pack, e, "most");
     if (d->most && !fw_quantity_dimension_equal(d->most->dimension, d->dimension))
         fw_diag_error(pack->diags, 169, e->element->place,
-                      "most='%s' is no limit for something in '%s'", d->most->id, d->unit);
+                      "most='%s' cannot be the limit of a value in '%s'; name a quantity of the "
+                      "same dimension",
+                      d->most->id, d->unit);
     FW_TRY(read_arguments(pack, e, "arg", &d->argument, &d->nargument));
     if (!law) return FW_OK;
     d->law = law->name;
     if (law->argument) {
         FW_TRY(check_arguments(pack, e, law));
         if (!fw_quantity_dimension_equal(d->dimension, (fw_quantity_dimension)FW_DIM_TIME))
-            fw_diag_error(pack->diags, 169, e->element->place,
-                          "law '%s' gives a time; unit='%s' is none", law->name, d->unit);
+            fw_diag_error(
+                pack->diags, 169, e->element->place,
+                "law '%s' gives a time, and unit='%s' is no unit of time; write s, min or h",
+                law->name, d->unit);
     }
     return read_expression(pack, e, law, d->argument, d->nargument, d->dimension, &d->expression);
 }
@@ -206,10 +210,11 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
     if (c->thickness &&
         !fw_quantity_dimension_equal(c->thickness->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->element->place,
-                      "the thickness of <change> is not a length");
+                      "the thickness of <change> is not a length; write it in um or nm");
     if (c->reach &&
         !fw_quantity_dimension_equal(c->reach->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->element->place, "the reach of <change> is not a length");
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "the reach of <change> is not a length; write it in um or nm");
     if (c->reach && strcmp(c->kind, "remove") != 0)
         fw_diag_error(pack->diags, 161, e->element->place,
                       "reach is how far a removal goes sideways: it belongs to kind='remove' only");
@@ -230,12 +235,13 @@ static void read_exposed(fw_process_pack *pack, const fw_xml_record *e, fw_proce
             "<exposed> needs either 'rate' or 'selectivity'; the quantity may be unknown");
     if (x->rate &&
         !fw_quantity_dimension_equal(x->rate->dimension, (fw_quantity_dimension){.m = 1, .s = -1}))
-        fw_diag_error(pack->diags, 169, e->element->place,
-                      "the rate of <exposed> is not a length per time");
+        fw_diag_error(
+            pack->diags, 169, e->element->place,
+            "the rate of <exposed> is not a length per time; write it in nm/min or um/min");
     if (x->selectivity &&
         !fw_quantity_dimension_equal(x->selectivity->dimension, (fw_quantity_dimension){0}))
         fw_diag_error(pack->diags, 169, e->element->place,
-                      "the selectivity of <exposed> has a dimension");
+                      "the selectivity of <exposed> is a ratio of two rates and has no unit");
 }
 
 static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_lag *lag) {
@@ -252,7 +258,8 @@ static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_l
     lag->max_s = fw_process_pack_number(e, "max", (double)NAN) * parsed.factor;
     if (from) fw_process_pack_find(pack, from, FW_ID_STEP);
     if (lag->min_s > lag->max_s)
-        fw_diag_error(pack->diags, 171, e->element->place, "<lag>: min is longer than max");
+        fw_diag_error(pack->diags, 171, e->element->place,
+                      "<lag>: min is longer than max; exchange them, or make max longer");
 }
 
 static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {

@@ -176,7 +176,9 @@ static fw_status read_entry(const reader *r, const char *words, size_t n, char s
         *equal = '\0';
         FW_TRY(read_word(r, e, word, equal + 1));
     }
-    if (!e->step) return fw_diag_error(r->diags, 282, r->place, "the entry names no step");
+    if (!e->step)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "the entry names no step; add step= with its id");
     return check_entry(r, e);
 }
 
@@ -283,7 +285,8 @@ static void ask(const reader *r, const fw_recipe_asrun *run, const fw_recipe_asr
     for (int i = 0; i < run->nentry && !before; i++)
         before = run->entry[i].step == e->step - 1;
     if (!before)
-        fw_diag_warning(r->diags, 283, r->place, "step %s before it is not in the log",
+        fw_diag_warning(r->diags, 283, r->place,
+                        "step %s, which comes before it, is not in the log",
                         r->flow->step[index - 1].id);
     if (last && e->start_s < last->start_s)
         fw_diag_warning(r->diags, 283, r->place,
@@ -291,7 +294,7 @@ static void ask(const reader *r, const fw_recipe_asrun *run, const fw_recipe_asr
                         last->step->id);
     if (e->nmeasured < e->step->naccept)
         fw_diag_warning(r->diags, 283, r->place,
-                        "%d of the %d things that step %s measures are given", e->nmeasured,
+                        "the entry gives %d of the %d values that step %s measures", e->nmeasured,
                         e->step->naccept, e->step->id);
 }
 

@@ -138,9 +138,11 @@ static void count(fw_wafer_maker *m) {
         w->rejected = w->rejected || (w->variant[v].dies > 0 && mask->rejected);
     }
     if (without > 0)
-        fw_diag_warning(m->diags, 195, w->device->wafer.place,
-                        "<wafer>: %d of %d steps have no die; the wafer has %d columns and %d rows",
-                        without, w->nvariant, w->grid.columns, w->grid.rows);
+        fw_diag_warning(
+            m->diags, 195, w->device->wafer.place,
+            "<wafer>: %d of %d steps of the sweeps get no die, because the wafer has only %d "
+            "columns and %d rows of dies; ask for fewer steps, or make the pitch smaller",
+            without, w->nvariant, w->grid.columns, w->grid.rows);
 }
 
 /* ---- spaces between neighbours ---- */

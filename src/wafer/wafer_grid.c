@@ -265,7 +265,8 @@ static void align(const fw_device_wafer_asked *asked, fw_diags *diags, fw_wafer_
         }
     if (last - first < 2) {
         fw_diag_warning(diags, 192, asked->place,
-                        "<wafer>: the middle row has %d dies, too few to give two to alignment",
+                        "<wafer>: the middle row has %d dies, too few to give two to alignment, so "
+                        "that the plate has no alignment sites; make the pitch smaller",
                         last - first + 1);
         return;
     }
@@ -310,7 +311,8 @@ static void give_tests(const fw_wafer_form *form, const fw_device_wafer_asked *a
     }
     if (given < asked->tests)
         fw_diag_warning(diags, 192, asked->place,
-                        "<wafer>: %d test dies are asked for, and there are %d dies; %d are given",
+                        "<wafer>: %d test dies are asked for, but only %d dies are left and one of "
+                        "them stays a device; the wafer gets %d",
                         asked->tests, left, given);
 }
 

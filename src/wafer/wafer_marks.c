@@ -119,8 +119,10 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
     FW_TRY(add_line(&s, title, 0.5 * (inner + outer), outer - inner, length, &above));
     FW_TRY(add_line(&s, line, -0.5 * (inner + outer), outer - inner, length, &below));
     if (!above || !below)
-        fw_diag_warning(m->diags, 195, w->device->wafer.place,
-                        "<wafer>: the title of the plate does not fit whole beside the wafer");
+        fw_diag_warning(
+            m->diags, 195, w->device->wafer.place,
+            "<wafer>: the title of the plate does not fit whole beside the wafer, where "
+            "it is cut or left out; shorten it");
     return fw_wafer_sheet_mask(&s, "PLATE", &w->plate);
 }
 
