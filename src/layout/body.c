@@ -252,14 +252,15 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
         *radius_m = radius;
         if (status != FW_GEOMETRY) return status;
     }
-    char x[32], y[32];
+    char x[32], y[32], least[32];
     const char *label = fw_layout_body_label(d, body);
     FW_NEED(label);
     fw_diag_error(d->diags, 126, fw_layout_body_place(d, body),
                   "%s has a corner at (%s, %s) um where edges of two parts nearly coincide, so "
-                  "that it cannot be rounded by even 1.25 um, the least radius of the layout: "
+                  "that it cannot be rounded by even %s um, the least radius of the layout: "
                   "change a width or a position nearby by a few micrometres",
-                  label, fw_layout_um(x, where->x), fw_layout_um(y, where->y));
+                  label, fw_layout_um(x, where->x), fw_layout_um(y, where->y),
+                  fw_layout_um(least, *radius_m));
     return FW_GEOMETRY;
 }
 
@@ -454,7 +455,7 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
         FW_TRY(heads);
         FW_TRY(quiet_attempt(d, w, &sound, &where));
         if (sound >= 1.0) return FW_OK;
-        if (sound > 1.05 * most) {
+        if (sound > fw_layout_rule.sounder_share * most) {
             most = sound;
             best_shift = w->lug_shift;
             for (int i = 0; i < w->njoint; i++)

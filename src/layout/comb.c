@@ -15,6 +15,8 @@ static const double STROKE_M = 5e-6;  /* of the letters on it */
 static const double MARGIN_M = 10e-6; /* around them */
 static const double FREE_M = 60e-6;   /* of lead and pad from what moves, where there is room */
 static const double LEAST_M = 20e-6;  /* and where there is less */
+static const double LONGER_M = 10e-6; /* a stator's plate at either end, beyond the gap */
+static const double BASE_M = 40e-6;   /* the base may be so much wider than its rule */
 enum { FINGERS_MOST = 100, LETTERS = 6 };
 
 /* Fingers along +x from a bar behind them, in the frame of the drive:
@@ -60,7 +62,7 @@ fw_status fw_layout_comb_rotor(fw_arena *arena, const fw_layout_comb_plan *p,
     return draw_plate(arena, &p->local, 0.0, 0.5 * p->length_m, rotor);
 }
 
-/* the stator's face is longer than the rotor's by a gap and 10 um at either end, so that their
+/* the stator's face is longer than the rotor's by a gap and LONGER_M at either end, so that their
    force has no part across (docs/theory/effects/comb-drive.md) */
 fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *p,
                                 fw_geometry_contour *stator) {
@@ -68,7 +70,7 @@ fw_status fw_layout_comb_stator(fw_arena *arena, const fw_layout_comb_plan *p,
     double g = p->comb->gap_m;
     if (p->comb->kind == FW_ELECTRODES_COMB)
         return draw_fingers(arena, &other, p, p->comb->fingers + 1, stator);
-    return draw_plate(arena, &other, -g, 0.5 * p->length_m + g + 10e-6, stator);
+    return draw_plate(arena, &other, -g, 0.5 * p->length_m + g + LONGER_M, stator);
 }
 
 /* ---- what is in the way ---- */
@@ -159,7 +161,7 @@ static fw_status stator_crosses(fw_layout_drawing *d, const fw_geometry_contour 
         fw_geometry_contour bar;
         FW_TRY(fw_geometry_contour_bar(d->arena, fw_layout_joint_point(d->device, joint[0]),
                                        fw_layout_joint_point(d->device, joint[1]),
-                                       fw_layout_rule.base_width_m + 40e-6, &bar));
+                                       fw_layout_rule.base_width_m + BASE_M, &bar));
         if (close_by(c, &bar, LEAST_M, &at)) FW_TRY(name(d, at, "", "the base", what));
     }
     return FW_OK;
@@ -267,7 +269,7 @@ static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
     int n = p->comb->fingers;
     double half = p->comb->kind == FW_ELECTRODES_COMB
                       ? n * (p->width_m + p->comb->gap_m) + 0.5 * p->width_m
-                      : 0.5 * p->length_m + p->comb->gap_m + 10e-6;
+                      : 0.5 * p->length_m + p->comb->gap_m + LONGER_M;
     const char *number = fw_arena_printf(d->arena, "V%d", (int)(p - d->comb) + 1),
                *id = p->comb->id;
     FW_NEED(number);

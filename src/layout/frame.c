@@ -5,11 +5,12 @@
 
 static fw_status clear_of_all(const fw_layout_drawing *d, const fw_geometry_contour *strip,
                               bool *clear) {
+    const double space = fw_layout_rule.strip_clear_m, beside = fw_layout_rule.strip_disc_m;
     *clear = false;
     for (int b = 0; b < d->device->nbody; b++)
-        if (fw_geometry_contour_distance_below(strip, &d->plain[b], 20e-6, NULL, NULL) < 20e-6)
+        if (fw_geometry_contour_distance_below(strip, &d->plain[b], space, NULL, NULL) < space)
             return FW_OK;
-    if (fw_layout_near_stator(d, strip, 20e-6)) return FW_OK;
+    if (fw_layout_near_stator(d, strip, space)) return FW_OK;
     for (int j = 0; j < d->device->nrevolute; j++) {
         const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         fw_geometry_contour disc;
@@ -17,7 +18,7 @@ static fw_status clear_of_all(const fw_layout_drawing *d, const fw_geometry_cont
         fw_status status = fw_geometry_contour_disc(d->arena, h->centre, h->keep_out_m, &disc);
         if (status == FW_NOMEM) return status; /* not a reason to go to another side */
         if (status != FW_OK ||
-            fw_geometry_contour_distance_below(strip, &disc, 10e-6, NULL, NULL) < 10e-6)
+            fw_geometry_contour_distance_below(strip, &disc, beside, NULL, NULL) < beside)
             return FW_OK;
     }
     *clear = true;
@@ -291,21 +292,22 @@ static void walk_side(const fw_layout_drawing *d, fw_geometry_outline *o,
     fw_geometry_outline_line(o, fw_layout_window_point(d->layout, side, to, 0.0), 0);
 }
 
-/* the cut across an upright bar: as near to the middle as the stubs leave 80 um */
+/* the cut across an upright bar: as near to the middle as the stubs leave room */
 static double cut_height(const fw_layout_drawing *d, fw_layout_window_side side) {
     const fw_geometry_box *w = &d->layout->window;
     double middle = fw_layout_to_grid(0.5 * (w->y0 + w->y1));
-    for (int step = 0; step < 200; step++)
+    const double free_m = fw_layout_rule.frame_cut_clear_m;
+    for (int step = 0; step < fw_layout_rule.frame_cut_steps; step++)
         for (int sign = -1; sign <= 1; sign += 2) {
-            double y = middle + sign * step * 20e-6;
-            bool clear = y > w->y0 + 80e-6 && y < w->y1 - 80e-6;
+            double y = middle + sign * step * fw_layout_rule.frame_cut_step_m;
+            bool clear = y > w->y0 + free_m && y < w->y1 - free_m;
             for (int i = 0; i < d->nattachment && clear; i++)
-                if (d->attachment[i].side == side && y > d->attachment[i].low_m - 80e-6 &&
-                    y < d->attachment[i].high_m + 80e-6)
+                if (d->attachment[i].side == side && y > d->attachment[i].low_m - free_m &&
+                    y < d->attachment[i].high_m + free_m)
                     clear = false;
             for (int i = 0; i < d->neyelet && clear; i++) {
                 const fw_layout_eyelet_plan *e = &d->eyelet[i];
-                clear = e->off || fabs(y - e->at.y) > 0.5 * e->hole_m + e->ring_m + 80e-6;
+                clear = e->off || fabs(y - e->at.y) > 0.5 * e->hole_m + e->ring_m + free_m;
             }
             if (clear) return fw_layout_to_grid(y);
         }

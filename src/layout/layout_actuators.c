@@ -10,6 +10,10 @@
 
 enum { SETTLING = 20 };
 static const double SETTLED_M = 1e-12;
+static const double STEM_MOST_M = 1e-3, STEM_STEP_M = 5e-6; /* behind an electrode, to its body */
+static const double STEM_INSIDE_M = 20e-6;                  /* at both of its ends */
+static const double RING_CLEAR_M = 10e-6;                   /* of letters from an eyelet's hole */
+static const double LETTER_M = 45e-6, STROKE_M = 5e-6;      /* on bond pads, as on the frame */
 
 /* ---- collecting ---- */
 
@@ -199,11 +203,11 @@ static fw_status add_rotor(fw_layout_drawing *d, fw_layout_comb_plan *p, fw_geom
     }
     add = (fw_geometry_region){&p->rotor, 1};
     fw_status status = fw_geometry_region_boolean(d->arena, &all, &add, FW_UNION, &both);
-    for (double s = 0.0; status == FW_OK && both.count != 1 && s < 1e-3; s += 5e-6) {
+    for (double s = 0.0; status == FW_OK && both.count != 1 && s < STEM_MOST_M; s += STEM_STEP_M) {
         fw_geometry_contour stem;
-        back = fw_add(p->local.origin, -root - 20e-6, u);
+        back = fw_add(p->local.origin, -root - STEM_INSIDE_M, u);
         if (!fw_geometry_contour_contains(raw, fw_add(back, -s, u))) continue;
-        FW_TRY(fw_geometry_contour_bar(d->arena, back, fw_add(back, -s - 20e-6, u),
+        FW_TRY(fw_geometry_contour_bar(d->arena, back, fw_add(back, -s - STEM_INSIDE_M, u),
                                        fw_layout_rule.neck_width_m, &stem));
         FW_TRY(fw_layout_actuator_crosses(d, &stem, p->comb->body_b, fw_layout_rule.least_space_m,
                                           (int)(p - d->comb), &what));
@@ -552,7 +556,7 @@ fw_status fw_layout_actuators_letters(fw_layout_drawing *d) {
     fw_layout *l = d->layout;
     for (int i = 0; i < d->neyelet; i++) {
         const fw_layout_eyelet_plan *e = &d->eyelet[i];
-        double r = 0.5 * e->hole_m + 10e-6;
+        double r = 0.5 * e->hole_m + RING_CLEAR_M;
         fw_geometry_box box = {e->at.x - r, e->at.y - r, e->at.x + r, e->at.y + r};
         int kept = 0, gone = 0;
         if (e->off || e->eyelet->body != FW_GROUND || e->cap.count == 0) continue;
@@ -578,7 +582,7 @@ fw_status fw_layout_actuators_letters(fw_layout_drawing *d) {
         const fw_layout_comb_plan *p = &d->comb[i];
         if (p->off) continue;
         int first = l->npiece;
-        FW_TRY(fw_layout_text(d->arena, p->letter, p->letter_at, 45e-6, 5e-6, FW_ROLE_TEXT,
+        FW_TRY(fw_layout_text(d->arena, p->letter, p->letter_at, LETTER_M, STROKE_M, FW_ROLE_TEXT,
                               "lettering of a bond pad", &l->piece, &l->npiece, &d->capacity));
         for (int k = first; k < l->npiece; k++)
             l->piece[k].body = FW_ISLAND;

@@ -187,7 +187,8 @@ static fw_status try_ground(fw_layout_drawing *d, fw_status *base, const char **
         if (*base == FW_GEOMETRY && stators) *why = "its stator is in the way of the base";
     }
     for (int s = d->device->nbody; s < d->nslot && status == FW_OK && stators && !*why; s++)
-        if (d->plain[s].count > 0 && fw_layout_near_stator(d, &d->plain[s], 20e-6))
+        if (d->plain[s].count > 0 &&
+            fw_layout_near_stator(d, &d->plain[s], fw_layout_rule.strip_clear_m))
             *why = "its stator would cross or nearly touch the base";
     d->diags = said;
     return *why ? FW_OK : status;

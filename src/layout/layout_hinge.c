@@ -190,19 +190,25 @@ static fw_status refuse(fw_layout_drawing *d, int joint, int number, const char 
 static bool fillet_fits(fw_layout_drawing *d, int joint, double most_m) {
     const fw_device_revolute *j = &d->device->revolute[joint];
     const fw_device_flexure *f = &d->device->flexure[j->flexure];
-    char wanted[32], most[32];
+    char wanted[32], most[32], share[32], flat[32];
     if (isnan(f->fillet_m) || !(most_m < (1.0 - FILLET_SAME) * f->fillet_m)) return true;
     for (int i = 0; i < joint; i++)
         if (d->device->revolute[i].flexure == j->flexure) return false;
+    const char *rule =
+        f->kind == FW_FLEXURE_LEAF
+            ? fw_arena_printf(d->arena, "at most %s of a leaf's length",
+                              fw_number_text(share, sizeof share, fw_layout_rule.fillet_lengths, 3))
+            : fw_arena_printf(
+                  d->arena, "at most %s of the inner radius, with %s um of the root face left flat",
+                  fw_number_text(share, sizeof share, fw_layout_rule.fillet_radii, 3),
+                  fw_layout_um(flat, fw_layout_rule.root_flat_m));
+    if (!rule) return false;
     fw_diag_error(d->diags, 129, f->fillet_place,
                   "flexure %s: a fillet of %s um does not fit: the roots of this flexure have room "
                   "for %s um (layout rule: %s); write %s um or less, leave the fillet out, or make "
                   "the flexure longer",
                   f->id ? f->id : "", fw_layout_um(wanted, f->fillet_m), fw_layout_um(most, most_m),
-                  f->kind == FW_FLEXURE_LEAF ? "at most a quarter of a leaf's length"
-                                             : "at most 0.3 of the inner radius, with 1 um of the "
-                                               "root face left flat",
-                  most);
+                  rule, most);
     return false;
 }
 

@@ -20,6 +20,7 @@ typedef struct fw_layout_rules {
     double own_tip_m;      /* and convex radius there */
     double least_corner_m; /* corners that do not fit are halved, not below this: smaller ones are
                               lost in the resolution of a mask (0.5 um) */
+    double sounder_share;  /* an outline is preferred to an earlier attempt that is so much worse */
     double least_head_corner_m; /* the same inside a hinge's head, which the body rounds again */
 
     /* ---- root blocks ---- */
@@ -147,6 +148,20 @@ typedef struct fw_layout_rules {
     double tether_m;          /* width of a finger */
     double tether_neck_m;     /* at the body, where it breaks */
     double tether_stub_m;     /* of the frame; longer than its rounded corners, as at the base */
+    double strip_clear_m;     /* of pedestals, fingers and stators from other parts: they may stand
+                                 anywhere, so that they keep more than the least space */
+    double strip_disc_m;      /* and from a hinge's keep-out disc, which is free of parts already */
+    double fingers_apart_m;   /* between two tethers: a needle breaks one and leaves the other */
+    double finger_beside_m;   /* on either side of a finger its own body keeps the least space */
+    double finger_step_m;     /* of the search along it */
+    double finger_least_m;    /* from the window's edge to the cut: stub, finger and neck fit */
+    double tether_cut_m;      /* the cut lies at most this far outside the body: else its edge there
+                                 is not straight */
+    double neck_straight_m;   /* beyond the rounded corners, so that the cut is square */
+    double neck_long_m;       /* of the narrow part, before it widens to the finger */
+    double frame_cut_clear_m; /* of the cut across a frame bar from stubs, eyelets and corners */
+    double frame_cut_step_m;  /* of the search for it, from the middle of the bar, */
+    int frame_cut_steps;      /* so many to either side */
 } fw_layout_rules;
 
 extern const fw_layout_rules fw_layout_rule; /* layout_rules.c */

@@ -8,18 +8,19 @@
 
 static bool finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contour *finger,
                             int body) {
+    const double space = fw_layout_rule.strip_clear_m, between = fw_layout_rule.fingers_apart_m;
     for (int s = 0; s < d->nslot; s++) {
         if (s == body || d->plain[s].count == 0) continue;
-        if (fw_geometry_contour_distance_below(finger, &d->plain[s], 20e-6, NULL, NULL) < 20e-6)
+        if (fw_geometry_contour_distance_below(finger, &d->plain[s], space, NULL, NULL) < space)
             return false;
     }
     for (int i = 0; i < d->nlug; i++)
-        if (fw_geometry_contour_distance_below(finger, &d->lug[i], 20e-6, NULL, NULL) < 20e-6)
+        if (fw_geometry_contour_distance_below(finger, &d->lug[i], space, NULL, NULL) < space)
             return false;
     for (int i = 0; i < d->nattachment; i++) {
         const fw_layout_attachment *a = &d->attachment[i];
         if (a->finger.count > 0 &&
-            fw_geometry_contour_distance_below(finger, &a->finger, 60e-6, NULL, NULL) < 60e-6)
+            fw_geometry_contour_distance_below(finger, &a->finger, between, NULL, NULL) < between)
             return false;
     }
     fw_geometry_box box =
@@ -28,7 +29,7 @@ static bool finger_is_clear(const fw_layout_drawing *d, const fw_geometry_contou
         const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         double x = fmax(fmax(box.x0 - h->centre.x, h->centre.x - box.x1), 0.0);
         double y = fmax(fmax(box.y0 - h->centre.y, h->centre.y - box.y1), 0.0);
-        if (hypot(x, y) < h->keep_out_m + 10e-6) return false;
+        if (hypot(x, y) < h->keep_out_m + fw_layout_rule.strip_disc_m) return false;
     }
     return true;
 }
@@ -61,13 +62,13 @@ static bool leaves_once(const fw_layout_drawing *d, const fw_layout_attachment *
     fw_geometry_box box = fw_geometry_contour_box(body), own[FEW];
     for (int i = 0; i < body->count && i < FEW; i++)
         own[i] = fw_segment_box(&body->segment[i]);
+    const double beside = 0.5 * fw_layout_rule.tether_m + fw_layout_rule.finger_beside_m;
     for (int edge = -1; edge <= 1; edge++) {
         bool inside = true;
         double known = -1.0; /* up to there nothing changes */
-        for (double s = 0.0; s < length; s += 2e-6) {
+        for (double s = 0.0; s < length; s += fw_layout_rule.finger_step_m) {
             if (s < known) continue;
-            fw_geometry_vec2 p =
-                fw_add(fw_add(from, s, out), edge * (0.5 * fw_layout_rule.tether_m + 8e-6), side);
+            fw_geometry_vec2 p = fw_add(fw_add(from, s, out), edge * beside, side);
             bool in = p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1 &&
                       fw_geometry_contour_contains(body, p);
             if (in && !inside) return false;
@@ -99,26 +100,28 @@ static double edge_depth(const fw_layout_drawing *d, const fw_layout_attachment 
 }
 
 /* Depth of the neck's cut. The stub's corners at a body's edge of slope m (against the side) are
-   rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. 2 um more
-   stay straight, so that the cut is square. Exact for a straight edge. test_layout.c
+   rounded by r; the farther one ends r sqrt(1 + m2) outside the edge at r from the stub. A little
+   more stays straight, so that the cut is square. Exact for a straight edge. test_layout.c
    tethers_break_at_the_body */
 static double neck_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double at,
                          double deep) {
     double r = d->corner_m[a->body], far = 0.5 * fw_layout_rule.tether_neck_m + r;
     double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
     double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
-    double cut = fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - 2e-6;
-    return middle - cut < 50e-6 ? fw_layout_to_grid(cut) : -1.0; /* else: no straight edge */
+    double cut =
+        fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - fw_layout_rule.neck_straight_m;
+    return middle - cut < fw_layout_rule.tether_cut_m ? fw_layout_to_grid(cut)
+                                                      : -1.0; /* else: no straight edge */
 }
 
-/* the tether's own outline: 4 um of neck, widened to the finger on 12 um, to the frame's stub */
+/* the tether's own outline: the neck, widened to the finger, to the frame's stub */
 static fw_status draw_tether(fw_layout_drawing *d, double at, double cut, fw_layout_attachment *a) {
     const fw_layout_local world = {{0.0, 0.0}, 1.0, 0.0, false};
-    double neck = 0.5 * fw_layout_rule.tether_neck_m,
-           wide = cut - 4e-6 - (fw_layout_rule.tether_m - fw_layout_rule.tether_neck_m);
+    double neck = 0.5 * fw_layout_rule.tether_neck_m, narrow = cut - fw_layout_rule.neck_long_m,
+           wide = narrow - (fw_layout_rule.tether_m - fw_layout_rule.tether_neck_m);
     double along[8] = {at - neck, at - neck, a->low_m,  a->low_m,
                        a->high_m, a->high_m, at + neck, at + neck};
-    double depth[8] = {cut, cut - 4e-6, wide, a->stub_m, a->stub_m, wide, cut - 4e-6, cut};
+    double depth[8] = {cut, narrow, wide, a->stub_m, a->stub_m, wide, narrow, cut};
     fw_layout_sketch sketch = {.local = &world};
     fw_geometry_contour sharp;
     fw_geometry_vec2 where;
@@ -171,7 +174,8 @@ static fw_status try_finger(fw_layout_drawing *d, int body, fw_layout_window_sid
     fw_geometry_vec2 edge = fw_layout_window_point(d->layout, side, along, 0.0);
     double at = fw_layout_to_grid(along), deep = fw_norm(fw_sub(edge, from));
     double cut = neck_depth(d, &a, at, deep);
-    if (cut < 50e-6) return FW_OK; /* no length for neck, finger and the frame's stub */
+    if (cut < fw_layout_rule.finger_least_m)
+        return FW_OK; /* no length for neck, finger and the frame's stub */
     FW_TRY(add_stub(d, body, at, cut, deep, side, done));
     if (!*done) return FW_OK;
     FW_TRY(draw_tether(d, at, cut, &a));
