@@ -47,7 +47,7 @@ static void mistakes_of_a_flow(void **state) {
         {SILICON, "<exposed material=\"aluminium\" rate=\"develop.al\"/>",
          "<exposed material=\"aluminium\" rate=\"develop.t\"/>", 169, "length per time"},
         {SILICON, "<exposed material=\"aluminium\" selectivity=\"rie.selectivity\"/>",
-         "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has a dimension"},
+         "<exposed material=\"aluminium\" selectivity=\"rie.R\"/>", 169, "has no unit"},
         /* resist that was not stripped meets the plasma */
         {SILICON, "<change kind=\"remove\" material=\"resist\"/>", "", 269, "'resist'"},
         {SILICON, "<q id=\"hard.T\" value=\"115\"", "<q id=\"hard.T\" value=\"131\"", 271,
@@ -260,7 +260,7 @@ static void bath(void **state) {
     /* a limit of another kind */
     diags = fw_diags_new(arena);
     assert_null(read_pack(arena, COPPER, "most=\"cu.bath-fall\"", "most=\"cu.bath-V\"", &diags));
-    expect(169, "is no limit");
+    expect(169, "cannot be the limit");
 }
 
 int main(void) {
