@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What pages and comments refer to is there: tests and source files by name, headings behind '#', diagnostics by number,
-commands of the program, and every page, decision and gallery device from its index."""
+commands of the program, every page, decision and gallery device from its index, and every term of the glossary on its page."""
 import pathlib
 import re
 import sys
@@ -60,6 +60,19 @@ indexed(DOCS / "gallery/README.md", sorted(f"{p.parent.name}/device.xml" for p i
 indexed(DOCS / "theory/README.md",
         sorted([p.name for p in (DOCS / "theory").glob("*.md") if p.name != "README.md"] + ["effects/README.md"]))
 indexed(DOCS / "index.md", sorted(f"reference/{p.name}" for p in (DOCS / "reference").iterdir()))
+
+indexed(DOCS / "theory/effects/README.md", sorted(p.name for p in (DOCS / "theory/effects").glob("*.md") if p.name != "README.md"))
+
+# a term of the glossary is used where the glossary says that it is explained
+glossary = (DOCS / "glossary.md").read_text().partition("## ")[0]
+terms = re.findall(r"^\| ([^|]+) \| [^|]+ \| \[[^]]*\]\(([^)#]+)[^)]*\) \|$", glossary, re.M)
+if len(terms) < 20:
+    problems.append("this test cannot read the glossary")
+for row, target in terms:
+    there = " ".join((DOCS / target).read_text().lower().replace("**", "").split())
+    for term in row.split(", "):
+        if term.lower() not in there:
+            problems.append(f"docs/glossary.md sends the reader of '{term}' to {target}, which does not use it")
 
 print("\n".join(dict.fromkeys(problems)) or f"{len(pages)} pages and {len(sources)} sources refer to what is there")
 sys.exit(1 if problems else 0)
