@@ -8,8 +8,8 @@ effects.py absent BUILD       an absent effect costs nothing: a program without 
                               every effect, with a table that does not name it
 effects.py costs PROGRAM      what every effect costs when it is on, against what its row states (25 %,
                               because compilers differ); PROGRAM is tests/bench/effect_cost
-effects.py write PROGRAM      the same, into docs/data/effect-costs.csv and docs/theory/effects/costs.md;
-                              says which rows state another cost
+effects.py write PROGRAM      the same, into docs/data/effect-costs.csv, docs/theory/effects/costs.md and its
+                              picture; says which rows state another cost
 
 To add an effect: a row in COSTS. To prove more scenes free of it: a row in SCENES."""
 import concurrent.futures
@@ -19,9 +19,10 @@ import re
 import subprocess
 import sys
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[1] / folder) for folder in ("bench", "docs")]
 sys.dont_write_bytecode = True
 import callgrind  # noqa: E402
+import effect_costs_picture  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 DATA = ROOT / "tests/data/effect-costs"
@@ -248,6 +249,7 @@ def write(program):
     begin, end = "<!-- measured: begin -->", "<!-- measured: end -->"
     head, tail = page.split(begin)[0], page.split(end)[1]
     PAGE.write_text(head + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + tail, encoding="utf-8")
+    effect_costs_picture.PICTURE.write_text(effect_costs_picture.draw(), encoding="utf-8")
     if judge(stated):
         print("the table is written; the ledger states these rows' costs until they are set and built again")
     return 0
