@@ -56,7 +56,8 @@ const char *fw_cli_level_names(void) {
     return all.text;
 }
 
-const char *fw_cli_option_help(const fw_cli_option_row *row) {
+/* the help of a row with these names filled in; until the next call */
+static const char *option_help(const fw_cli_option_row *row) {
     static const struct {
         const char *option, *(*names)(void);
     } named[] = {{"mask-format", fw_cli_mask_format_names},
@@ -83,7 +84,7 @@ static void print_options(unsigned groups, FILE *to) {
                  table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
                  table[i].name, table[i].argument ? " " : "",
                  table[i].argument ? table[i].argument : "");
-        fprintf(to, "  %-26s %s\n", left, fw_cli_option_help(&table[i]));
+        fprintf(to, "  %-26s %s\n", left, option_help(&table[i]));
     }
 }
 
@@ -143,11 +144,11 @@ void fw_cli_reference(fw_text *out) {
         fw_text_add(out, "| option | meaning |\n|---|---|\n");
         for (size_t k = 0; k < count; k++)
             if (table[k].group & command[i].options)
-                fw_text_printf(
-                    out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
-                    table[k].letter ? 1 : 0, &table[k].letter, table[k].letter ? "`, `" : "",
-                    table[k].name, table[k].argument ? " " : "",
-                    table[k].argument ? table[k].argument : "", fw_cli_option_help(&table[k]));
+                fw_text_printf(out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
+                               table[k].letter ? 1 : 0, &table[k].letter,
+                               table[k].letter ? "`, `" : "", table[k].name,
+                               table[k].argument ? " " : "",
+                               table[k].argument ? table[k].argument : "", option_help(&table[k]));
     }
 }
 
@@ -206,7 +207,7 @@ static bool one_option(const fw_cli_command *command, int argc, char **argv, int
     if (!row || (!row->argument && value)) return unknown_option(command, argument);
     if (row->argument && !value) {
         if (*i + 1 >= argc) {
-            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, fw_cli_option_help(row));
+            fw_cli_usage("--%s needs %s: %s", row->name, row->argument, option_help(row));
             return false;
         }
         value = argv[++*i];

@@ -76,7 +76,7 @@ typedef struct fw_cli_option_row {
     const char *name;     /* without the dashes */
     char letter;          /* 0: none */
     const char *argument; /* NULL: none */
-    const char *help;     /* {names}: of what may be named, from its table (fw_cli_option_help) */
+    const char *help;     /* {names}: of what may be named, from its table (option_help) */
     unsigned group;
     const char *(*take)(fw_cli_options *o, const char *value); /* NULL or what is wrong */
 } fw_cli_option_row;
@@ -85,7 +85,5 @@ const fw_cli_option_row *fw_cli_option_rows(size_t *count);
 const char *fw_cli_mask_format_names(void);
 const char *fw_cli_hinge_model_names(void);
 const char *fw_cli_level_names(void);
-/* the help of a row with these names filled in; until the next call */
-const char *fw_cli_option_help(const fw_cli_option_row *row);
 
 #endif

@@ -15,7 +15,8 @@ static void rest_of(const fw_mechanism *m, double *q) {
     }
 }
 
-double fw_plan_pose_size(const fw_mechanism *m) {
+/* size of the mechanism at rest: larger extent of its pins and centres of mass, m */
+static double size_of(const fw_mechanism *m) {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     for (int i = -m->nbody; i < m->npin; i++) {
         fw_geometry_vec2 p =
@@ -186,7 +187,7 @@ static fw_status closing(fw_arena *arena, const fw_mechanism *m, int body, const
                          const double *from, fw_plan_posed *out) {
     enum { STEPS_MOST = 40 };
     fw_mechanism free_mechanism;
-    double size = fw_plan_pose_size(m), *rest, target[3], start[3];
+    double size = size_of(m), *rest, target[3], start[3];
     size_t n = 3 * (size_t)m->nbody;
     FW_NEED(rest = fw_arena_array(arena, double, n));
     rest_of(m, rest);

@@ -64,8 +64,6 @@ typedef struct fw_plan_posed {
     const char *reason; /* why it is not reachable, a sentence; NULL */
 } fw_plan_posed;
 
-/* size of the mechanism at rest: larger extent of its pins and centres of mass, m */
-double fw_plan_pose_size(const fw_mechanism *mechanism);
 /* the body that is meant without a name: the platform, else the heaviest; FW_NONE: no bodies */
 int fw_plan_pose_body(const fw_mechanism *mechanism);
 /* asked: displacement of `body` from rest (x m, y m, phi rad), finite; phi NaN: any (of a

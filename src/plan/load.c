@@ -18,6 +18,18 @@ struct fw_plan_lab {
 };
 typedef struct fw_plan_lab fw_plan_lab_pack;
 
+/* an input file, for the manifest */
+static fw_status remember_input(fw_plan *plan, const char *name, const char *data, size_t n) {
+    if (plan->ninput == (int)(sizeof plan->input / sizeof plan->input[0])) return FW_OK;
+    char hash[65];
+    fw_sha256(data, n, hash);
+    fw_plan_input_file *input = &plan->input[plan->ninput];
+    *input = (fw_plan_input_file){name, fw_arena_strdup(plan->arena, hash), n};
+    FW_NEED(input->sha256);
+    plan->ninput++;
+    return FW_OK;
+}
+
 static fw_status read_packs(fw_plan *plan) {
     const char *at = plan->options.laboratory;
     FW_NEED(plan->lab = fw_arena_array(plan->arena, fw_plan_lab_pack, MOST_PACKS));
@@ -33,7 +45,7 @@ static fw_status read_packs(fw_plan *plan) {
             fw_input_read(plan->arena, pack->file, MOST_PACK_BYTES, &plan->diags, &xml, &pack->n));
         pack->xml = xml;
         const char *slash = strrchr(pack->file, '/');
-        FW_TRY(fw_plan_remember(plan, slash ? slash + 1 : pack->file, xml, pack->n));
+        FW_TRY(remember_input(plan, slash ? slash + 1 : pack->file, xml, pack->n));
         plan->nlab++;
         at += n + (at[n] == ',');
     }
@@ -104,17 +116,6 @@ void fw_plan_free(fw_plan *plan) {
     fw_arena_free(plan->arena);
 }
 
-fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n) {
-    if (plan->ninput == (int)(sizeof plan->input / sizeof plan->input[0])) return FW_OK;
-    char hash[65];
-    fw_sha256(data, n, hash);
-    fw_plan_input_file *input = &plan->input[plan->ninput];
-    *input = (fw_plan_input_file){name, fw_arena_strdup(plan->arena, hash), n};
-    FW_NEED(input->sha256);
-    plan->ninput++;
-    return FW_OK;
-}
-
 /* a file below the data directory; its name in messages and the manifest is the relative one */
 static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char **data,
                            size_t *n) {
@@ -128,7 +129,7 @@ static fw_status read_data(fw_plan *plan, const char *name, fw_place asked, char
         return FW_INPUT;
     }
     FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, data, n));
-    return fw_plan_remember(plan, name, *data, *n);
+    return remember_input(plan, name, *data, *n);
 }
 
 static const char *material_names(fw_plan *plan) {
@@ -396,7 +397,7 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     plan->source = xml;
     plan->source_length = n;
     const char *base = strrchr(file, '/');
-    FW_TRY(fw_plan_remember(plan, base ? base + 1 : file, xml, n));
+    FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
     const fw_device *device = NULL;
     fw_status read = fw_device_read(plan->arena, file, xml, n, plan->options.set,
                                     plan->options.nset, &plan->diags, &device);

@@ -5,8 +5,6 @@
 #include "base/output.h"
 #include "plan/plan.h"
 
-/* an input file, for the manifest */
-fw_status fw_plan_remember(fw_plan *plan, const char *name, const char *data, size_t n);
 /* a sentence for every value that they replace */
 fw_status fw_plan_lab_assumptions(fw_plan *plan);
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not

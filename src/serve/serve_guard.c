@@ -24,7 +24,8 @@ bool fw_serve_guard_new(fw_serve_guard *g, unsigned port, bool ipv6) {
     return secret(g->cookie) && secret(g->header) && secret(g->entry);
 }
 
-bool fw_serve_guard_equal(const char *a, const char *b) {
+/* equal texts? takes the same time wherever they differ */
+static bool equal_in_time(const char *a, const char *b) {
     size_t n = strlen(a);
     if (n != strlen(b)) return false;
     unsigned char difference = 0;
@@ -166,17 +167,16 @@ static fw_serve_refusal identity(const fw_serve_guard *g, const fw_serve_guard_f
         if (FW_DEFENDED(ONE_TIME) && g->entry_used)
             REFUSE(403, "this address was used already; it opens the page once. Start flexwright "
                         "serve again for a new one");
-        if (!fw_serve_guard_equal(f->entry, g->entry))
+        if (!equal_in_time(f->entry, g->entry))
             REFUSE(403, "this is not the address that flexwright serve printed");
         PASS;
     }
     char value[FW_SERVE_SECRET];
-    bool known =
-        f->cookie && our_cookie(g, f->cookie, value) && fw_serve_guard_equal(value, g->cookie);
+    bool known = f->cookie && our_cookie(g, f->cookie, value) && equal_in_time(value, g->cookie);
     if (FW_DEFENDED(COOKIE) && !known)
         REFUSE(401, "open the address that flexwright serve printed; without it nothing is shown");
     if (FW_DEFENDED(HEADER_TOKEN) && !is_get(f) &&
-        (!f->token || !fw_serve_guard_equal(f->token, g->header)))
+        (!f->token || !equal_in_time(f->token, g->header)))
         REFUSE(403, "the header X-Flexwright-Token is missing or wrong");
     PASS;
 }

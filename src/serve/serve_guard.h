@@ -50,8 +50,6 @@ fw_serve_refusal fw_serve_guard_check(const fw_serve_guard *guard,
 bool fw_serve_guard_is_entry(const fw_serve_guard_facts *facts);
 /* the bytes of a declared body; only after the check */
 size_t fw_serve_guard_body(const fw_serve_guard_facts *facts);
-/* equal texts? takes the same time wherever they differ */
-bool fw_serve_guard_equal(const char *a, const char *b);
 
 /* ---- the defences by name ----
    All are on. A test builds the program once for each with FW_SERVE_WITHOUT=FW_DEFENCE_..., and must

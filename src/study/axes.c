@@ -137,7 +137,8 @@ void fw_study_labels_add(fw_study_labels *l, const char *text, double x, double 
     l->item[at].style = style;
 }
 
-void fw_study_labels_spread(fw_study_labels *l, double top, double bottom, double room) {
+/* moves labels apart so that none covers another: from `top` to `bottom`, `room` each */
+static void spread(fw_study_labels *l, double top, double bottom, double room) {
     for (int i = 0; i < l->n; i++)
         l->item[i].at = fmax(l->item[i].y, i ? l->item[i - 1].at + room : top);
     for (int i = l->n - 1; i >= 0; i--)
@@ -146,7 +147,7 @@ void fw_study_labels_spread(fw_study_labels *l, double top, double bottom, doubl
 
 void fw_study_labels_draw(fw_study_labels *l, const fw_study_panel *p, fw_text *out) {
     double x = p->x + p->width + 12;
-    fw_study_labels_spread(l, p->y + 6, p->y + p->height - 4, 16);
+    spread(l, p->y + 6, p->y + p->height - 4, 16);
     for (int i = 0; i < l->n; i++) {
         const char *ink = colour[l->item[i].style % COLOURS];
         fw_svg_put(out,

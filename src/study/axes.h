@@ -38,8 +38,6 @@ typedef struct fw_study_labels {
     int n;
 } fw_study_labels;
 void fw_study_labels_add(fw_study_labels *l, const char *text, double x, double y, int style);
-/* moves labels apart so that none covers another: from `top` to `bottom`, `room` each */
-void fw_study_labels_spread(fw_study_labels *l, double top, double bottom, double room);
 void fw_study_labels_draw(fw_study_labels *l, const fw_study_panel *p, fw_text *out);
 
 #endif

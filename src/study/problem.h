@@ -64,8 +64,5 @@ fw_status fw_study_tradeoff_count(fw_study_problem *p, const fw_study_tradeoff_o
                                   fw_study_tradeoff *t);
 fw_status fw_study_tradeoff_times(fw_study_problem *p, const fw_study_tradeoff_options *o,
                                   fw_study_tradeoff *t);
-/* errors by the reference; and with costs known front, digits, honesty, what is drawn */
-void fw_study_tradeoff_errors(fw_study_tradeoff *t);
-fw_status fw_study_tradeoff_judge(fw_arena *arena, fw_study_tradeoff *t);
 
 #endif

@@ -68,7 +68,8 @@ double fw_study_front_order(const double *work, const double *error, int n, doub
 
 /* ---- medians ---- */
 
-int fw_study_median_rank(int n) {
+/* rank k of that interval, from 1; 0: n is too small */
+static int interval_rank(int n) {
     double term = pow(0.5, n), below = 0; /* P(fewer than k of n samples lie below the median) */
     int k = 0;
     while (k < n / 2 && below + term <= 0.025) {
@@ -84,7 +85,7 @@ fw_study_median fw_study_median_of(double *sample, int n) {
     if (n < 1) return m;
     fw_sort_doubles(sample, (size_t)n);
     m.value = 0.5 * (sample[(n - 1) / 2] + sample[n / 2]);
-    int k = fw_study_median_rank(n);
+    int k = interval_rank(n);
     if (k < 1) return m;
     m.low = sample[k - 1];
     m.high = sample[n - k];

@@ -13,7 +13,8 @@
 /* true errors below this many times the reference's own are not known well enough to be compared */
 static const double known = 3;
 
-void fw_study_tradeoff_errors(fw_study_tradeoff *t) {
+/* errors by the reference; and with costs known front, digits, honesty, what is drawn */
+static void find_errors(fw_study_tradeoff *t) {
     const fw_study_tradeoff_point *ref = t->reference.run[0];
     int n = t->mechanism->npin;
     for (int i = 0; i < t->npoint; i++) {
@@ -68,7 +69,7 @@ static void orders(fw_study_tradeoff *t) {
     }
 }
 
-fw_status fw_study_tradeoff_judge(fw_arena *arena, fw_study_tradeoff *t) {
+static fw_status judge_settings(fw_arena *arena, fw_study_tradeoff *t) {
     double *cost, *error;
     bool *front;
     size_t n = (size_t)t->npoint;
@@ -166,12 +167,12 @@ fw_status fw_study_tradeoff_run(fw_plan *plan, const fw_study_tradeoff_options *
     FW_TRY(own(&p, t));
     FW_TRY(fw_study_tradeoff_find_reference(&p, t));
     if (!t->rows_only) FW_TRY(fw_study_tradeoff_grid(&p, t));
-    fw_study_tradeoff_errors(t);
+    find_errors(t);
     FW_TRY(fw_plan_compute_flows(plan));
     FW_TRY(fw_study_tradeoff_models(&p, t));
     FW_TRY(fw_study_tradeoff_masks(&p, t));
     FW_TRY(fw_study_tradeoff_count(&p, options, t));
-    FW_TRY(fw_study_tradeoff_judge(plan->arena, t));
+    FW_TRY(judge_settings(plan->arena, t));
     FW_TRY(fw_study_tradeoff_times(&p, options, t));
     say(&p, t);
     *out = t;

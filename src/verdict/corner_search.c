@@ -5,8 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-const char *fw_verdict_fabrication_value(fw_arena *arena, const fw_verdict_fabrication_input *input,
-                                         double x) {
+/* "12.5 um" of an input */
+static const char *value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
+                              double x) {
     fw_quantity q = input->q;
     char text[32];
     q.value = x;
@@ -20,7 +21,7 @@ static fw_status describe(fw_verdict_search *s, const double *x, const char **wh
     for (int i = 0; i < s->v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &s->v->input[i];
         if (x[i] == in->nominal) continue;
-        const char *value = fw_verdict_fabrication_value(s->arena, in, x[i]);
+        const char *value = value_text(s->arena, in, x[i]);
         FW_NEED(value);
         fw_text_printf(&text, "%s%s %s", text.length ? ", " : "", in->name, value);
     }
@@ -188,7 +189,8 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     return FW_OK;
 }
 
-fw_status fw_verdict_search_accepts(const fw_verdict_search *s, const double *x, bool *accepted) {
+/* the same without keeping: is it accepted? */
+static fw_status point_accepts(const fw_verdict_search *s, const double *x, bool *accepted) {
     fw_verdict_search quiet = *s;
     fw_verdict_fabricated_corner corner;
     double *ln;
@@ -227,7 +229,7 @@ static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *acc
         double x[FW_FABRICATION_INPUTS];
         for (int i = 0; i < s->v->ninput; i++)
             x[i] = fmin(fmax(fabricated->corner[c].x[i], b->low[i]), b->high[i]);
-        FW_TRY(fw_verdict_search_accepts(s, x, accepted));
+        FW_TRY(point_accepts(s, x, accepted));
     }
     return FW_OK;
 }
@@ -287,10 +289,9 @@ static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *do
 
 static fw_status report_one(fw_verdict_search *s, bool low_is_bad) {
     const fw_verdict_fabrication_input *in = &s->v->input[s->fabricated->held];
-    const char *at = fw_verdict_fabrication_value(
-        s->arena, in, low_is_bad ? s->fabricated->held_low : s->fabricated->held_high);
-    const char *low = fw_verdict_fabrication_value(s->arena, in, in->low),
-               *high = fw_verdict_fabrication_value(s->arena, in, in->high);
+    const char *at =
+        value_text(s->arena, in, low_is_bad ? s->fabricated->held_low : s->fabricated->held_high);
+    const char *low = value_text(s->arena, in, in->low), *high = value_text(s->arena, in, in->high);
     FW_NEED(at && low && high ? at : NULL);
     FW_NEED(s->fabricated->control = fw_arena_printf(
                 s->arena, "accepted where %s is known to be %s %s (here %s to %s%s%s%s)", in->name,

@@ -16,11 +16,6 @@ typedef struct fw_verdict_hinge_load {
     double frame_rad;  /* half the sum of both bodies' rotations since the drawn pose */
 } fw_verdict_hinge_load;
 
-/* largest |strain|, fillets included */
-double fw_verdict_hinge_strain(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
-                               const fw_layout_hinge_layout *drawn,
-                               const fw_verdict_hinge_load *load);
-
 /* strain at the fillets of the roots at polar angle -a and +a, signed, without what the force pulls
    along: bending alone, since its sign is what makes cycles */
 void fw_verdict_hinge_root_strains(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,

@@ -59,11 +59,6 @@ enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS)
 
 /* runs the device at x and keeps it as the next corner of s->fabricated */
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
-/* the same without keeping: is it accepted? */
-fw_status fw_verdict_search_accepts(const fw_verdict_search *s, const double *x, bool *accepted);
-/* "12.5 um" of an input */
-const char *fw_verdict_fabrication_value(fw_arena *arena, const fw_verdict_fabrication_input *input,
-                                         double x);
 /* what would have to be held so that it accepts: fabricated->held and control */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
 

@@ -69,9 +69,10 @@ static double varying_strain(const fw_mechanism_hinge *hinge, const fw_layout_hi
         (const double[3]){sign * moment, cs * fx + sn * fy, -sn * fx + cs * fy});
 }
 
-double fw_verdict_hinge_strain(const fw_mechanism *m, const fw_mechanism_hinge *hinge,
-                               const fw_layout_hinge_layout *drawn,
-                               const fw_verdict_hinge_load *load) {
+/* largest |strain|, fillets included */
+static double closed_form_strain(const fw_mechanism *m, const fw_mechanism_hinge *hinge,
+                                 const fw_layout_hinge_layout *drawn,
+                                 const fw_verdict_hinge_load *load) {
     const fw_mechanism_pin *pin = &m->pin[hinge->pin];
     const fw_device_flexure *f = &m->device->flexure[hinge->flexure];
     const fw_flexure_result *c = &hinge->closed_form;
@@ -226,7 +227,7 @@ double fw_verdict_hinge_strain_exact(const fw_mechanism *m, const fw_mechanism_h
     const double along[2] = {cs * fx + sn * fy, cs * fy - sn * fx};
     double kt = fmax(1, c->concentration);
     if (!beam || !fw_verdict_exact_moments(beam, theta, along, kt, &root, &inside))
-        return fw_verdict_hinge_strain(m, hinge, drawn, load);
+        return closed_form_strain(m, hinge, drawn, load);
     return c->strain_per_rad / c->stiffness_Nm_per_rad * fmax(root, inside / kt) +
            force / (m->variant->material.youngs.value * f->width_m * m->variant->thickness_m);
 }

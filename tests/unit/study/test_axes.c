@@ -31,11 +31,14 @@ static void labels(void **state) {
     (void)state;
     static const double y[][5] = {
         {50, 50, 50, 50, 50}, {10, 11, 12, 190, 191}, {198, 199, 199, 199, 199}, {3, 1, 2, 1, 0}};
+    const fw_study_panel panel = {.x = 0, .y = -1, .width = 100, .height = 200};
+    fw_arena *arena = fw_arena_new(0);
     for (int k = 0; k < 4; k++) {
         fw_study_labels l = {0};
         for (int i = 0; i < 5; i++)
             fw_study_labels_add(&l, "x", 0, y[k][i], i);
-        fw_study_labels_spread(&l, 5, 195, 16);
+        fw_text out = fw_text_new(arena);
+        fw_study_labels_draw(&l, &panel, &out); /* which keeps them between 5 and 195, 16 apart */
         for (int i = 0; i < 5; i++) {
             assert_true(l.item[i].at >= 5 - 1e-9 && l.item[i].at <= 195 + 1e-9);
             if (i > 0) {
@@ -44,6 +47,7 @@ static void labels(void **state) {
             }
         }
     }
+    fw_arena_free(arena);
 }
 
 int main(void) {
