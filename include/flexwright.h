@@ -94,8 +94,10 @@ typedef struct fw_design_options {
     const char *independent, *rates, *accelerations;
     const char *corners; /* "auto" (default): the verdict holds at the corners of each flow, too;
                             "none": for the drawn geometry only */
-    const char *hinge_model;  /* how flexures enter the mechanism: "auto" (default, by accuracy),
-                                 "revolute", "compliance" or "elastica" */
+    /* How flexures enter the mechanism, by a name of the program's table of hinge models (`flexwright
+       simulate --help` prints it with what each is, tests/unit/cli compares): "auto" (default, by
+       accuracy), "revolute", "compliance" or "elastica" */
+    const char *hinge_model;
     const char *mask_formats; /* "gds,svg" (default), with oasis, dxf and stl where named, or
                                  "all"; GDSII and KLayout's files are always written */
     int32_t mask_vertices;    /* most of one GDSII boundary: 199, 4094 (default) or 8190; larger

@@ -79,7 +79,7 @@ int fw_cli_command_calibrate(fw_cli_options *options) {
     fw_text_add(&said, "");
     size_t kept = 0; /* notes of the pack are for plan -v */
     for (size_t i = 0; i < w.diags.count; i++)
-        if (w.diags.item[i].severity > FW_NOTE || options->verbose)
+        if (w.diags.item[i].severity != FW_NOTE || options->verbose)
             w.diags.item[kept++] = w.diags.item[i];
     w.diags.count = kept;
     fw_diags_print(&w.diags, &said, options->device, w.text, w.n, 0);

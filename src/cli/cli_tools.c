@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that need no design: the local page, a new device file, an explanation, what the program finds. */
+/* Commands that need no design: the local page, a new device file, an explanation, what the program
+   finds. */
 #include "base/output.h"
 #include "cli/session.h"
 #include "continuum/continuum.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program: one row per command (commands.def) and per option (options.c), which also feed --help and
-   the reference page. Private to the room and its tests. */
+/* The program: one row per command (commands.def) and per option (options.c), which also feed
+   --help and the reference page. Private to the room and its tests. */
 #ifndef FW_CLI_OPTIONS_H
 #define FW_CLI_OPTIONS_H
 #include "base/cancel.h"

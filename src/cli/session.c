@@ -65,8 +65,8 @@ static int save_aside(fw_design *design, const char *directory, const fw_cli_ses
     return fw_design_save(design, file->document, aside);
 }
 
-/* all of them or none: composed first, then written under other names, which they lose at the end
- */
+/* all of them or none: composed first, then written under other names, which they lose at the
+   end */
 int fw_cli_session_save(fw_design *design, const char *directory, const fw_cli_session_file *file,
                         size_t count) {
     static file_path aside[FILES_MOST], path[FILES_MOST];

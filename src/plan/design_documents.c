@@ -147,6 +147,18 @@ static fw_status report_html(fw_design *d, fw_text *out) {
 }
 
 /* those serious enough for the style; notes of a quiet run are not lost, only not shown */
+static bool wanted(fw_severity severity, int detail) {
+    switch (severity) {
+    case FW_NOTE:
+        return detail > 0;
+    case FW_WARNING:
+        return detail >= 0;
+    case FW_ERROR:
+        break;
+    }
+    return true;
+}
+
 static fw_status diagnostics_text(fw_design *d, fw_text *out) {
     const fw_plan *p = d->plan;
     fw_diag item[FW_DIAG_MOST];
@@ -154,7 +166,7 @@ static fw_status diagnostics_text(fw_design *d, fw_text *out) {
     shown.item = item;
     shown.count = 0;
     for (size_t i = 0; i < p->diags.count; i++)
-        if ((int)p->diags.item[i].severity >= (int)FW_WARNING - d->style.detail)
+        if (wanted(p->diags.item[i].severity, d->style.detail))
             item[shown.count++] = p->diags.item[i];
     fw_diags_print(&shown, out, p->source_file, p->source, p->source_length, d->style.colour);
     return fw_text_end(out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the judged design to masks, test die and schedule of every flow, and what one die's mask hands
-   to the process: areas, edges, openings. */
+/* From the judged design to masks, test die and schedule of every flow, and what one die's mask
+   hands to the process: areas, edges, openings. */
 #include "base/hash.h"
 #include "plan/stages.h"
 #include <math.h>
@@ -129,8 +129,8 @@ static void add_mask(const fw_mask *mask, const fw_mask_plate_term *term, int nt
         }
 }
 
-/* what the plate of a wafer places, added to the facts of its die: exact areas and edges as drawn
- */
+/* what the plate of a wafer places, added to the facts of its die: exact areas and edges as
+   drawn */
 static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
                                  fw_process_mask_facts *facts) {
     fw_mask_plate_term *term;

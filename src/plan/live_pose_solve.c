@@ -86,8 +86,8 @@ static void place_all(const fw_mechanism *m, const double *angle, bool *stands, 
 /* Asked pose, or where that is out of reach the last reachable one on the straight way to it from
    rest: the first failure among 64 equal parts, then halving to 1e-12 of the way.
    in: displacement (m, m, rad); out: six angles, q; exact up to rounding, cost below 200 inverse
-   solutions of 1 us each. Test: test_live_pose.c (forward kinematics, joints closed, random poses).
- */
+   solutions of 1 us each. Test: test_live_pose.c (forward kinematics, joints closed, random
+   poses). */
 static fw_status six_bar(fw_arena *arena, const fw_mechanism *m, const double asked[3],
                          fw_plan_posed *out) {
     enum { PARTS = 64, HALVINGS = 34 };

@@ -360,8 +360,8 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
     return fw_plan_load_memory(plan, strcmp(path, "-") == 0 ? "standard input" : path, xml, n);
 }
 
-/* what the device names in the data directory, all of it, also when the device has other mistakes
- */
+/* what the device names in the data directory, all of it, also when the device has other
+   mistakes */
 static fw_status check_references(fw_plan *plan, const fw_device *d) {
     fw_status status = FW_OK;
     if (d->material_ref && !fw_device_material_find(&plan->materials, d->material_ref))

@@ -7,8 +7,8 @@
 
 /* a sentence for every value that they replace */
 fw_status fw_plan_lab_assumptions(fw_plan *plan);
-/* FW_INPUT when the device names no material: what is judged or made needs one, a motion does not
- */
+/* FW_INPUT when the device names no material: what is judged or made needs one, a motion does
+   not */
 fw_status fw_plan_need_material(fw_plan *plan);
 fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -42,8 +42,8 @@ fw_status fw_plan_mechanism(fw_plan *plan, const fw_device_scene *scene,
                             const fw_mechanism **mechanism);
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf);
 
-/* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if possible
- */
+/* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if
+   possible */
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
                         const fw_device_scene **scene, double *moved_m);
 

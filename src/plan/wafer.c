@@ -27,8 +27,8 @@ static fw_status value_of(fw_arena *arena, const fw_device_sweep *s, int k, doub
     return FW_OK;
 }
 
-/* the settings of a plan and those of step v behind them: of two for one parameter the last holds
- */
+/* the settings of a plan and those of step v behind them: of two for one parameter the last
+   holds */
 static fw_status settings(fw_plan *plan, int v, fw_device_set **out, double *value) {
     const fw_device_wafer_asked *w = &plan->device->wafer;
     size_t n = (size_t)plan->options.nset;
@@ -176,8 +176,7 @@ fw_status fw_plan_wafers(fw_plan *plan) {
 }
 
 /* the outline of step v, as far as it can be drawn; what is wrong with it is said when it is
- * planned
- */
+   planned */
 static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_geometry_box *die) {
     fw_diags silent = fw_diags_new(arena);
     const fw_device *device;

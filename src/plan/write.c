@@ -374,8 +374,8 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     return FW_OK;
 }
 
-/* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later ones
- */
+/* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later
+   ones */
 static fw_status write_motions(writer *w) {
     fw_plan *plan = w->plan;
     for (int s = 0; s < plan->device->nscene; s++) {

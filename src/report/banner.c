@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The first sections of the page: decision, advice, what is made, and what the flows may make of it. */
+/* The first sections of the page: decision, advice, what is made, and what the flows may make of
+   it. */
 #include "report/report.h"
 #include "report/report_page.h"
 #include <math.h>

@@ -9,17 +9,23 @@
 /* Okabe and Ito, Color Universal Design (2008). Colour never stands alone: every mark that uses it
    also carries a number or a word. */
 
+typedef struct class_row {
+    double below; /* utilisation */
+    const char *colour, *label;
+} class_row;
+enum { CLASSES = 5 };
+
 /* last: no limit known */
-static const fw_report_class utilisation_class[FW_REPORT_CLASSES] = {
+static const class_row utilisation_class[CLASSES] = {
     {0.5, "#0072B2", "below 50 %"},          {0.8, "#009E73", "50 to 80 %"},
     {1.0, "#E69F00", "80 to 100 %"},         {HUGE_VAL, "#D55E00", "above the limit"},
     {HUGE_VAL, "#767676", "no limit known"},
 };
 
 const char *fw_report_utilisation_colour(double utilisation) {
-    if (isnan(utilisation)) return utilisation_class[FW_REPORT_CLASSES - 1].colour;
+    if (isnan(utilisation)) return utilisation_class[CLASSES - 1].colour;
     int i = 0;
-    while (i < FW_REPORT_CLASSES - 2 && !(utilisation < utilisation_class[i].below))
+    while (i < CLASSES - 2 && !(utilisation < utilisation_class[i].below))
         i++;
     return utilisation_class[i].colour;
 }
@@ -127,8 +133,8 @@ static fw_geometry_box rest_box(const fw_device *device, const fw_layout *layout
     return box;
 }
 
-/* what moves, as drawn, and where the names of hinges stand: beside the circle that each keeps free
- */
+/* what moves, as drawn, and where the names of hinges stand: beside the circle that each keeps
+   free */
 static void add_outlines(const fw_device *device, const fw_layout *layout, double label_m,
                          fw_geometry_box *box) {
     if (!fw_report_drawn(layout)) return;
@@ -378,9 +384,9 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
     fw_svg_open(out, "g font-size='11' fill='#424a53'");
     fw_svg_put(out, "rect y='{c}' width='{c}' height='60' fill='#fff'\n", view->height,
                view->width);
-    static const double place[FW_REPORT_CLASSES] = {10.0, 118.0, 220.0, 330.0, 456.0};
+    static const double place[CLASSES] = {10.0, 118.0, 220.0, 330.0, 456.0};
     double size = view->width / WIDTH;
-    for (int i = 0; i < FW_REPORT_CLASSES; i++) {
+    for (int i = 0; i < CLASSES; i++) {
         fw_svg_put(out, "rect x='{c}' y='{c}' width='12' height='12' rx='2' fill='{r}'",
                    place[i] * size, view->height + 10.0, utilisation_class[i].colour);
         fw_svg_put(out, "text x='{c}' y='{c}'>{r}\n", place[i] * size + 18.0, view->height + 20.0,

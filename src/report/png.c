@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Preview picture by cairo. No text: cairo's text engine neither survives a lack of memory nor
-   gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a pixel.
- */
+   gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a
+   pixel. */
 #include "report/report_page.h"
 #include "base/constants.h"
 #include <cairo.h>

@@ -45,8 +45,7 @@ typedef struct fw_report_input {
 fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw_text *out);
 
 /* hinge angles against time with the limit lines; the title says when the verdict (NULL: none)
- * rejects
- */
+   rejects */
 fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                                const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                const fw_device_scene *scene, const fw_verdict *verdict,
@@ -55,8 +54,7 @@ fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                fw_text *out);
 /* accelerations, joint forces on body b in world axes, torques of joints about their point b,
-   drives
- */
+   drives */
 fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                fw_text *out);
 /* the mechanism moving through one scene, as an SVG that plays by itself */
@@ -97,8 +95,8 @@ typedef struct fw_report_hinge { /* one panel */
     int npoint;
     double gap_m;          /* 0: no conjugate surfaces */
     double contact_rad[2]; /* by a pure moment, on either side; NaN: none */
-    double
-        cover_rad[2]; /* world directions from W between which the surfaces are; NaN: not drawn */
+    double cover_rad[2];   /* world directions from W between which the surfaces are; NaN: not
+                              drawn */
     const fw_report_level *level; /* (nlevel) */
     int nlevel;
 } fw_report_hinge;
@@ -135,11 +133,11 @@ typedef struct fw_report_magnitude {
     double per_si; /* times the SI value */
 } fw_report_magnitude;
 
-/* the largest of um, mm, m, km (uN, mN, N, kN, MN; us, ms, s) in which `largest_si` is at least 1
- */
+/* the largest of um, mm, m, km (uN, mN, N, kN, MN; us, ms, s) in which `largest_si` is at least
+   1 */
 fw_report_magnitude fw_report_magnitude_of(fw_report_measure measure, double largest_si);
 
-/* ---- JSON for programs: 17 digits, keys in a fixed order, null where a number is not finite ---- */
+/* ---- JSON for programs: 17 digits, keys in a fixed order, null for what is not finite ---- */
 
 /* schema flexwright.verdict/1 (verdict.json) */
 fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out);

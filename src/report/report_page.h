@@ -7,11 +7,6 @@
 #include "statics/level.h"
 
 /* ---- drawing.c: colours; Okabe and Ito's, which colour-blind readers tell apart ---- */
-typedef struct fw_report_class {
-    double below; /* utilisation */
-    const char *colour, *label;
-} fw_report_class;
-enum { FW_REPORT_CLASSES = 5 };
 const char *fw_report_utilisation_colour(double utilisation);
 const char *fw_report_decision_colour(fw_verdict_decision decision);
 /* "REJECTED: " in front of the titles of files that may travel alone, else ""; NULL allowed */
@@ -159,8 +154,8 @@ typedef struct fw_report_page {
 } fw_report_page;
 void fw_report_banner(fw_report_page *page);
 void fw_report_advice(fw_report_page *page);
-void fw_report_mechanics(
-    fw_report_page *page); /* masses, stiffnesses, dampings as used, per flow */
+/* masses, stiffnesses, dampings as used, per flow */
+void fw_report_mechanics(fw_report_page *page);
 fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
 fw_status fw_report_section_fabricated(fw_report_page *page);

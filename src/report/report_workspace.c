@@ -121,8 +121,8 @@ static void fill(slice *s) {
     fw_svg_path_end(s->out);
 }
 
-/* the hinge's name outside of the middle of its part of the boundary, which has the inside to its
- * left */
+/* the hinge's name outside of the middle of its part of the boundary, which has the inside to
+   its left */
 static void name_it(const slice *s, int who, int e) {
     double x, y, u, v;
     point(s, e, &x, &y);

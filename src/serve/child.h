@@ -36,8 +36,8 @@ int fw_serve_child_ended(pid_t pid, int *status);
 void fw_serve_child_kill(pid_t pid);
 
 /* ---- scratch.c: the server's directory for its jobs ----
-   Below $TMPDIR or /tmp, for the owner alone. A lock in it says that its server lives: what a killed
-   one left, the next one removes. */
+   Below $TMPDIR or /tmp, for the owner alone. A lock in it says that its server lives: what a
+   killed one left, the next one removes. */
 
 typedef struct fw_serve_scratch fw_serve_scratch;
 

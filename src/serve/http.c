@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is serve_guard.c's, what is
-   answered the rows' of routes.c. Never more than one thread: the daemons have none, server.c runs
-   them. */
+/* libmicrohttpd's callbacks. It parses HTTP and moves bytes; who may ask is serve_guard.c's, what
+   is answered the rows' of routes.c. Never more than one thread: the daemons have none, server.c
+   runs them. */
 #include "serve/server.h"
 #include <arpa/inet.h>
 #include <errno.h>

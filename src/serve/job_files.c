@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of a job, and their archive. A request names a file by its path in this list; no path of a
-   request reaches the file system. */
+/* The files of a job, and their archive. A request names a file by its path in this list; no path
+   of a request reaches the file system. */
 #include "serve/jobs.h"
 #include <dirent.h>
 #include <fcntl.h>
@@ -104,9 +104,9 @@ int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file) {
 }
 
 /* ---- the archive ----
-   A directory as one .zip with the same bytes every time: files by name, the date of all is the first
-   that the format knows, permissions are those of a plain file. Runs in a process of its own with
-   limits, because compressing takes time. */
+   A directory as one .zip with the same bytes every time: files by name, the date of all is the
+   first that the format knows, permissions are those of a plain file. Runs in a process of its
+   own with limits, because compressing takes time. */
 
 enum { DOS_DATE_1980_01_01 = (1 << 5) | 1, PLAIN_FILE = 0100644 };
 

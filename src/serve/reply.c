@@ -26,8 +26,8 @@ void fw_serve_request_answer(fw_serve_request *r) {
     MHD_resume_connection(r->connection->mhd);
 }
 
-/* bytes of the UTF-8 sequence at `s`, 0 where none begins (RFC 3629: no long forms, no surrogates)
- */
+/* bytes of the UTF-8 sequence at `s`, 0 where none begins (RFC 3629: no long forms, no
+   surrogates) */
 static size_t sequence(const unsigned char *s) {
     unsigned char first = s[0];
     size_t n = first < 0x80                    ? 1

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A request, its reply, and the streams of events: what every part of the server may use, and what knows
-   nothing of the parts. Private to the room and its tests. */
+/* A request, its reply, and the streams of events: what every part of the server may use, and what
+   knows nothing of the parts. Private to the room and its tests. */
 #ifndef FW_SERVE_REQUEST_H
 #define FW_SERVE_REQUEST_H
 #include "base/arena.h"

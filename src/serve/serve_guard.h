@@ -52,9 +52,9 @@ bool fw_serve_guard_is_entry(const fw_serve_guard_facts *facts);
 size_t fw_serve_guard_body(const fw_serve_guard_facts *facts);
 
 /* ---- the defences by name ----
-   All are on. A test builds the program once for each with FW_SERVE_WITHOUT=FW_DEFENCE_..., and must
-   then see a hostile request get through (tests/serve/mutants.py). Checks that the table of routes
-   repeats (methods, paths) are not here: without one of them the other still refuses. */
+   All are on. A test builds the program once for each with FW_SERVE_WITHOUT=FW_DEFENCE_..., and
+   must then see a hostile request get through (tests/serve/mutants.py). Checks that the table of
+   routes repeats (methods, paths) are not here: without one of them the other still refuses. */
 
 enum fw_serve_defence {
     FW_DEFENCE_NONE,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The server: its parts put together, and the rows of what can be asked for. Private to the room. */
+/* The server: its parts put together, and the rows of what can be asked for. Private to the
+   room. */
 #ifndef FW_SERVE_SERVER_H
 #define FW_SERVE_SERVER_H
 #include "serve/jobs.h"

@@ -31,8 +31,8 @@ typedef struct fw_serve_file_state {
 } fw_serve_file_state;
 fw_status fw_serve_file_watch_read(fw_arena *arena, const fw_serve_file_watch *watch,
                                    fw_diags *diags, fw_serve_file_state *state);
-/* Saves n bytes, whole or not at all, with the permissions that the file has; state is then what was
-   saved. FW_CANCELLED: the file is not at `version` any more, state says what it is. */
+/* Saves n bytes, whole or not at all, with the permissions that the file has; state is then what
+   was saved. FW_CANCELLED: the file is not at `version` any more, state says what it is. */
 fw_status fw_serve_file_watch_save(fw_arena *arena, fw_serve_file_watch *watch, const char *text,
                                    size_t n, const char *version, fw_diags *diags,
                                    fw_serve_file_state *state);

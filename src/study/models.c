@@ -24,7 +24,7 @@ static fw_study_tradeoff_model *add(fw_study_tradeoff *t, const char *kind, cons
 /* the answer of a changed problem by the program's own choice of numbers; point->state says whether
    there is one */
 static fw_status answer(fw_study_problem *q, fw_study_tradeoff_point *point) {
-    fw_study_tradeoff_setting s = {.row = q->row};
+    fw_study_tradeoff_setting s = {.quasi_static = q->quasi_static};
     s.most_steps =
         (long)fmax(1000, model_share * q->budget / fw_study_cost_step(q, "chain", "radau5"));
     *point = (fw_study_tradeoff_point){0};
@@ -86,7 +86,7 @@ static fw_status effects(const fw_study_problem *p, fw_study_tradeoff *t) {
     int n = p->mechanism->npin;
     fw_study_tradeoff_model *m = add(t, "effects", "as chosen");
     q.effects.mode = FW_EFFECTS_ALL;
-    q.row = false; /* inertia is one of them */
+    q.quasi_static = false; /* inertia is one of them */
     FW_TRY(fw_study_problem_compile(&q));
     FW_TRY(answer(&q, &point));
     m->chosen = true;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One device and one scene with everything but the numbers decided: what something will cost before it
-   is run, the problem itself, one answer.
+/* One device and one scene with everything but the numbers decided: what something will cost before
+   it is run, the problem itself, one answer.
 
-   The model of costs depends on counts alone, so that the same settings are run on every machine: how
-   large a part of the budget something takes, where nothing counts instructions. */
+   The model of costs depends on counts alone, so that the same settings are run on every
+   machine: how large a part of the budget something takes, where nothing counts instructions. */
 #include "study/problem.h"
 #include "maths/ode.h"
 #include "plan/stages.h"
@@ -114,7 +114,7 @@ static fw_status look(fw_study_problem *p, double budget) {
     o.most_beams = beams(budget);
     FW_TRY(fw_statics_move_scene(p->arena, p->mechanism, p->scene, &o, &p->plan->diags,
                                  &p->by_itself));
-    p->row = p->by_itself->loads->quasi_static;
+    p->quasi_static = p->by_itself->loads->quasi_static;
     return FW_OK;
 }
 
@@ -164,7 +164,7 @@ static fw_dynamics_motion_options options_of(const fw_study_problem *p,
 static fw_status move(const fw_study_problem *p, const fw_study_tradeoff_setting *s,
                       const fw_dynamics_motion_options *o, fw_diags *diags,
                       const fw_dynamics_motion **motion) {
-    if (!s->row)
+    if (!s->quasi_static)
         return fw_dynamics_simulate_compiled(p->arena, p->mechanism, p->scene, o, &p->ledger,
                                              &p->loads, diags, motion);
     const char *why;

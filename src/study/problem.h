@@ -15,7 +15,7 @@ typedef struct fw_study_problem {
     fw_effect_ledger ledger;
     fw_effects_loads loads;              /* with inertia */
     const fw_dynamics_motion *by_itself; /* what simulate does; NULL: not looked at */
-    bool row;                            /* and that is a row of equilibria */
+    bool quasi_static;                   /* and that is quasi-static */
     double budget; /* instructions, by the model of costs: the same on every machine */
 } fw_study_problem;
 
@@ -31,8 +31,8 @@ fw_status fw_study_problem_compile(fw_study_problem *p);
 typedef struct fw_study_tradeoff_setting {
     const char *method, *integrator;
     double rtol;
-    long most_steps; /* 0: as usual */
-    bool row;        /* equilibria */
+    long most_steps;   /* 0: as usual */
+    bool quasi_static; /* equilibria at successive times */
 } fw_study_tradeoff_setting;
 /* what callgrind counts and clocks measure: nobody looks on */
 fw_status fw_study_tradeoff_answer(const fw_study_problem *p, const fw_study_tradeoff_setting *s,
@@ -54,8 +54,7 @@ double fw_study_cost_step(const fw_study_problem *p, const char *method, const c
 /* the same answer at a tenth of the tolerance over this one */
 double fw_study_cost_digit(const char *integrator);
 
-/* study_grid.c, study_grid.c, models.c, models.c, study_measure.c, study_measure.c, study_tradeoff.c: parts of
-   the whole */
+/* study_grid.c, models.c, study_measure.c: parts of the whole */
 fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t);
 fw_status fw_study_tradeoff_find_reference(fw_study_problem *p, fw_study_tradeoff *t);
 fw_status fw_study_tradeoff_models(fw_study_problem *p, fw_study_tradeoff *t);

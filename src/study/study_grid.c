@@ -134,7 +134,7 @@ static int integrators(const char *name[FW_TRADEOFF_NAMES]) {
     return n;
 }
 
-/* what stands for the program's own choice where that is a row of equilibria */
+/* what stands for the program's own choice where that is quasi-static */
 static const char *known_or(const char *name, const char *otherwise, const char *const *table,
                             int n) {
     for (int i = 0; i < n; i++)
@@ -153,7 +153,7 @@ fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
     FW_NEED(t->curve = fw_arena_array(p->arena, fw_study_tradeoff_curve, (size_t)(m * n)));
     const char *own_m = known_or(t->point[0].method, "chain", method, m);
     const char *own_i =
-        known_or(t->point[0].integrator, p->row ? "radau5" : "dop853", integrator, n);
+        known_or(t->point[0].integrator, p->quasi_static ? "radau5" : "dop853", integrator, n);
     double first = own_share * p->budget;
     FW_TRY(pair(p, t, own_m, own_i, &first, own_one * p->budget));
     t->curve[0].as_integrator = t->curve[0].as_method = true;
@@ -263,7 +263,7 @@ static fw_status stiff(fw_study_problem *p, fw_study_tradeoff *t, fw_study_trade
 /* nothing else ends within its share: one integrator, far tighter, by two methods */
 static fw_status one_twice(fw_study_problem *p, const fw_study_tradeoff *t, const char *integrator,
                            fw_study_tradeoff_point *run, int *found) {
-    const char *own = p->row ? "chain" : t->point[0].method;
+    const char *own = p->quasi_static ? "chain" : t->point[0].method;
     *found = 0;
     for (double rtol = 1e-12; rtol < 1e-7 && *found < 2; rtol *= 10) {
         const char *method = *found ? own : other_method(p, own, NULL, 8);
@@ -277,7 +277,7 @@ static fw_status one_twice(fw_study_problem *p, const fw_study_tradeoff *t, cons
 static fw_status rows(fw_study_problem *p, fw_study_tradeoff_point *run, int *found) {
     *found = 0;
     for (int i = 0; i < 2; i++) {
-        const fw_study_tradeoff_setting s = {.row = true, .rtol = i ? 1e-5 : 1e-7};
+        const fw_study_tradeoff_setting s = {.quasi_static = true, .rtol = i ? 1e-5 : 1e-7};
         FW_TRY(fw_study_problem_run(p, &s, &run[*found]));
         if (run[*found].state == FW_TRADEOFF_DONE) ++*found;
     }
@@ -297,10 +297,10 @@ fw_status fw_study_tradeoff_find_reference(fw_study_problem *p, fw_study_tradeof
     fw_study_tradeoff_point *run = fw_arena_array(p->arena, fw_study_tradeoff_point, 2);
     FW_NEED(run);
     const fw_maths_stepper_row *own = fw_maths_stepper_find(t->point[0].integrator);
-    if (p->row) { /* slow loads on fast modes: stiff */
+    if (p->quasi_static) { /* slow loads on fast modes: stiff */
         FW_TRY(one_twice(p, t, "radau5", run, &found));
-        t->rows_only = found < 2;
-        if (t->rows_only) FW_TRY(rows(p, run, &found));
+        t->quasi_static_only = found < 2;
+        if (t->quasi_static_only) FW_TRY(rows(p, run, &found));
     } else if (own && own->implicit) {
         FW_TRY(stiff(p, t, run, &found));
     } else {
@@ -308,7 +308,7 @@ fw_status fw_study_tradeoff_find_reference(fw_study_problem *p, fw_study_tradeof
         for (int all = 0; all < 2 && found < 2; all++)
             FW_TRY(search(p, t, all, 20, run, &found));
     }
-    if (found < 2 && !p->row) FW_TRY(one_twice(p, t, t->point[0].integrator, run, &found));
+    if (found < 2 && !p->quasi_static) FW_TRY(one_twice(p, t, t->point[0].integrator, run, &found));
     *r = (fw_study_tradeoff_reference){.error = (double)NAN, .utilisation_error = (double)NAN};
     if (found > 0) r->run[0] = &run[0];
     if (found < 2) return FW_OK;

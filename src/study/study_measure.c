@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Instructions by callgrind, and CPU time.
 
-   For the count this program is started again under callgrind, runs a list of settings, and one dump is
-   written behind each. Exactly repeatable, and the same whatever else the machine does. */
+   For the count this program is started again under callgrind, runs a list of settings, and one
+   dump is written behind each. Exactly repeatable, and the same whatever else the machine does. */
 #include "base/sort.h"
 #include "continuum/continuum.h"
 #include "continuum/solver.h"
@@ -85,7 +85,7 @@ static fw_status written(fw_arena *arena, const fw_study_problem *p, const fw_st
     for (int i = 0; i < l->n; i++) {
         const fw_study_tradeoff_point *point = &t->point[l->point[i]];
         fw_text_add(&text, i ? "," : "");
-        if (l->point[i] == 0 && t->row)
+        if (l->point[i] == 0 && t->quasi_static)
             fw_text_add(&text, "row/row/0");
         else if (l->point[i] == 0)
             fw_text_add(&text, "auto/auto/0");
@@ -259,8 +259,8 @@ static bool parse(char *word, fw_study_tradeoff_setting *s) {
     char *integrator = strchr(word, '/'), *rtol = integrator ? strchr(integrator + 1, '/') : NULL;
     if (!rtol) return false;
     *integrator++ = '\0', *rtol++ = '\0';
-    *s = (fw_study_tradeoff_setting){.row = strcmp(word, "row") == 0};
-    if (s->row) return true;
+    *s = (fw_study_tradeoff_setting){.quasi_static = strcmp(word, "row") == 0};
+    if (s->quasi_static) return true;
     if (strcmp(word, "auto") != 0 && !(s->method = known(word, fw_multibody_method_at)))
         return false;
     if (strcmp(integrator, "auto") != 0 &&
@@ -386,7 +386,8 @@ static fw_status of_curves(clockwork *c, fw_study_tradeoff *t) {
 
 fw_status fw_study_tradeoff_times(fw_study_problem *p, const fw_study_tradeoff_options *o,
                                   fw_study_tradeoff *t) {
-    clockwork c = {.p = p, .own = {.row = p->row}, .left_s = time_share * t->budget_s};
+    clockwork c = {
+        .p = p, .own = {.quasi_static = p->quasi_static}, .left_s = time_share * t->budget_s};
     t->chosen_cpu_s = t->chosen_cpu_low_s = t->chosen_cpu_high_s = (double)NAN;
     if (!o->times) {
         t->times_why = "not asked for";

@@ -36,7 +36,6 @@ typedef struct fw_study_median {
    and Nagaraja, Order Statistics, 7.1. Test: test_medians.c. */
 fw_study_median fw_study_median_of(double *sample, int n);
 
-
 /* wider than this share of the median is not told */
 static const double fw_interval_most = 0.1;
 bool fw_study_median_told(const fw_study_median *m);

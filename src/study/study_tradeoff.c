@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The whole comparison: its parts in order, and what the measured settings say together: errors, front,
-   orders, what a digit costs, honesty. */
+/* The whole comparison: its parts in order, and what the measured settings say together: errors,
+   front, orders, what a digit costs, honesty. */
 #include "base/sort.h"
 #include "plan/design.h"
 #include "plan/stages.h"
@@ -42,7 +42,8 @@ static fw_status honesty(fw_arena *arena, fw_study_tradeoff *t) {
     for (int i = 0; i < t->npoint; i++) {
         const fw_study_tradeoff_point *p = &t->point[i];
         if (p->state != FW_TRADEOFF_DONE || !(p->error > known * t->reference.error)) continue;
-        if (i == 0 && t->row && !t->rows_only) continue; /* its error holds that of the model */
+        if (i == 0 && t->quasi_static && !t->quasi_static_only)
+            continue; /* its error holds that of the model */
         ratio[t->judged++] = p->estimated / p->error;
         if (p->estimated / p->error < least) least = p->estimated / p->error, t->least_honest = i;
         t->honest += p->estimated >= p->error;
@@ -108,10 +109,10 @@ const char *fw_study_count_by_text(fw_study_count_by by) {
     return text[by];
 }
 
-/* what simulate does by itself is the first point; where that is a row of equilibria its error will
+/* what simulate does by itself is the first point; where that is quasi-static its error will
    hold what inertia does */
 static fw_status own(fw_study_problem *p, fw_study_tradeoff *t) {
-    const fw_study_tradeoff_setting s = {.row = p->row};
+    const fw_study_tradeoff_setting s = {.quasi_static = p->quasi_static};
     FW_NEED(t->point = fw_arena_array(p->arena, fw_study_tradeoff_point, 1));
     t->npoint = 1;
     FW_TRY(fw_study_problem_run(p, &s, &t->point[0]));
@@ -161,12 +162,12 @@ fw_status fw_study_tradeoff_run(fw_plan *plan, const fw_study_tradeoff_options *
                              .level_why = p.by_itself->ledger.hinge.why,
                              .duration_s = p.scene->duration_s,
                              .chosen_why = p.by_itself->reason,
-                             .row = p.row,
+                             .quasi_static = p.quasi_static,
                              .budget_s = budget,
                              .honesty = {(double)NAN, (double)NAN, (double)NAN}};
     FW_TRY(own(&p, t));
     FW_TRY(fw_study_tradeoff_find_reference(&p, t));
-    if (!t->rows_only) FW_TRY(fw_study_tradeoff_grid(&p, t));
+    if (!t->quasi_static_only) FW_TRY(fw_study_tradeoff_grid(&p, t));
     find_errors(t);
     FW_TRY(fw_plan_compute_flows(plan));
     FW_TRY(fw_study_tradeoff_models(&p, t));

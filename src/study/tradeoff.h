@@ -23,8 +23,8 @@ typedef enum fw_study_count_by {
 } fw_study_count_by;
 const char *fw_study_count_by_text(fw_study_count_by by);
 
-typedef struct
-    fw_study_tradeoff_time { /* CPU time over that of the chosen setting: median of pairs */
+/* CPU time over that of the chosen setting: median of pairs */
+typedef struct fw_study_tradeoff_time {
     double ratio, low, high; /* with the 95 % interval of the median */
     int pairs;               /* 0: not measured */
     bool told;               /* the interval is narrow enough */
@@ -50,10 +50,10 @@ typedef struct fw_study_tradeoff_point { /* one setting of the numbers */
 } fw_study_tradeoff_point;
 
 typedef struct fw_study_tradeoff_reference {
-    const fw_study_tradeoff_point
-        *run[2];  /* the first is the reference; the second NULL: there is none */
-    double error; /* largest difference of any peak of the two, relative; what points below it
-                     are off by is not known */
+    const fw_study_tradeoff_point *run[2]; /* the first is the reference; the second may be NULL */
+    /* largest difference of any peak of the two, relative; what points below it are off by is not
+       known */
+    double error;
     double utilisation_error;
     bool independent; /* neither method nor integrator is shared, nor with the chosen setting */
 } fw_study_tradeoff_reference;
@@ -74,17 +74,18 @@ typedef struct fw_study_tradeoff_model { /* a choice of the model, everything el
 typedef struct fw_study_tradeoff_mask {
     double tolerance_m, edge_m; /* asked for; farthest that an edge is off, at most */
     long vertices, bytes;       /* of the GDSII */
-    double
-        deflection; /* bound on what that changes of a peak deflection, relative; NaN: no hinge */
-    bool usual;     /* the tolerance of this plan */
+    /* bound on what that changes of a peak deflection, relative; NaN: no hinge */
+    double deflection;
+    bool usual; /* the tolerance of this plan */
 } fw_study_tradeoff_mask;
 
 typedef struct fw_study_tradeoff_curve { /* one pair of method and integrator over the tolerances */
     const char *method, *integrator;
     int first, count; /* of point[] */
     double order;     /* slope of -log error over log right-hand sides; NaN: too few points */
-    bool as_method, as_integrator; /* it stands for its method (at the chosen integrator), and for
-                                      its integrator (with the chosen method), in the picture */
+    /* in the picture it stands for its method (at the chosen integrator), and for its integrator
+       (with the chosen method) */
+    bool as_method, as_integrator;
 } fw_study_tradeoff_curve;
 
 typedef struct fw_study_tradeoff {
@@ -101,10 +102,10 @@ typedef struct fw_study_tradeoff {
     fw_study_tradeoff_curve *curve; /* (ncurve) */
     int ncurve;
     const char *chosen_why; /* the program's own reason for its integrator */
-    bool row;             /* by itself simulate takes a row of equilibria: the first point is one */
-    bool rows_only;       /* and no integration with inertia ends: none is compared */
-    int cheapest;         /* of those that are good enough, fw_study_tradeoff_good; FW_NONE */
-    double over_cheapest; /* cost of the chosen one over it; NaN */
+    bool quasi_static;      /* by itself simulate takes equilibria: the first point is one */
+    bool quasi_static_only; /* and no integration with inertia ends: none is compared */
+    int cheapest;           /* of those that are good enough, fw_study_tradeoff_good; FW_NONE */
+    double over_cheapest;   /* cost of the chosen one over it; NaN */
     double digit_here, digit_overall; /* factor of cost for one more digit: at the chosen setting,
                                          over all of the front; NaN: cannot be said */
     double honesty[3];  /* estimated over true error: least, median, largest, of points whose true

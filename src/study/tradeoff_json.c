@@ -122,8 +122,8 @@ static void chosen_json(fw_json *json, const fw_study_tradeoff *t) {
     fw_json_object(json, "chosen");
     point_json(json, &t->point[0]);
     fw_json_text(json, "reason", t->chosen_why);
-    fw_json_truth(json, "quasi_static", t->row);
-    fw_json_truth(json, "equilibria_only", t->rows_only);
+    fw_json_truth(json, "quasi_static", t->quasi_static);
+    fw_json_truth(json, "equilibria_only", t->quasi_static_only);
     fw_json_real(json, "over_cheapest", t->over_cheapest);
     if (t->cheapest >= 0) {
         fw_json_object(json, "cheapest");

@@ -254,9 +254,10 @@ fw_status fw_study_tradeoff_svg(const fw_study_tradeoff *t, fw_text *out) {
     fw_study_panel p = {.x = LEFT, .y = TOP, .width = PLOT_W, .height = PLOT_H};
     const fw_study_tradeoff_point *c = &t->point[0];
     char title[2][120];
-    bool row = t->row;
-    snprintf(title[0], sizeof title[0], "integrators, by %s", row ? "chain" : c->method);
-    snprintf(title[1], sizeof title[1], "methods, by %s", row ? "radau5" : c->integrator);
+    snprintf(title[0], sizeof title[0], "integrators, by %s",
+             t->quasi_static ? "chain" : c->method);
+    snprintf(title[1], sizeof title[1], "methods, by %s",
+             t->quasi_static ? "radau5" : c->integrator);
     fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
                                       .height = HEIGHT,
                                       .decimals = 2,

@@ -129,7 +129,7 @@ static void settings(const fw_study_tradeoff *t, fw_text *out) {
 
 /* the cheapest setting of every method and of every integrator that is good enough */
 static void curves(const fw_study_tradeoff *t, fw_text *out) {
-    if (t->rows_only) {
+    if (t->quasi_static_only) {
         fw_text_add(out,
                     "\nintegrators are not compared: with inertia none ends within its share of "
                     "the budget\n");

@@ -31,9 +31,9 @@ static fw_status describe(fw_verdict_search *s, const double *x, const char **wh
     return FW_OK;
 }
 
-/* rows of one run: utilisation of each hinge in each scene, and how near pull-in is */
-static void take_rows(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
-                      double *ln) {
+/* checks of one run: utilisation of each hinge in each scene, and how near pull-in is */
+static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                        double *ln) {
     int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
@@ -75,7 +75,7 @@ static fw_status take(fw_verdict_search *s, const fw_verdict_variant_verdict *no
     }
     corner->decision = now->decision;
     FW_TRY(take_reason(s, now, corner));
-    take_rows(s, now, ln);
+    take_checks(s, now, ln);
     return FW_OK;
 }
 
@@ -152,7 +152,7 @@ static fw_status run_point(fw_verdict_search *s, const double *x,
     size_t n = (size_t)s->v->ninput, h = (size_t)s->v->nhinge;
     double *kept;
     *corner = (fw_verdict_fabricated_corner){0};
-    for (int r = 0; r < s->nrow; r++)
+    for (int r = 0; r < s->ncheck; r++)
         ln[r] = (double)NAN;
     FW_NEED(kept = fw_arena_array(s->arena, double, n));
     memcpy(kept, x, n * sizeof *kept);
@@ -177,10 +177,10 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     int point = fabricated->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK;
-    double *ln = s->ln + (size_t)point * (size_t)s->nrow;
+    double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
     if (is_known(s, x)) {
         fabricated->corner[point] = *s->known;
-        memcpy(ln, s->known_ln, (size_t)s->nrow * sizeof *ln);
+        memcpy(ln, s->known_ln, (size_t)s->ncheck * sizeof *ln);
     } else {
         FW_TRY(run_point(s, x, &fabricated->corner[point], ln));
     }
@@ -194,7 +194,7 @@ static fw_status point_accepts(const fw_verdict_search *s, const double *x, bool
     fw_verdict_search quiet = *s;
     fw_verdict_fabricated_corner corner;
     double *ln;
-    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->nrow));
+    FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
     FW_TRY(run_point(&quiet, x, &corner, ln));
     *accepted = corner.decision == FW_ACCEPT;
     return FW_OK;
@@ -236,22 +236,22 @@ static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *acc
 
 /* ---- one input alone ---- */
 
-static int governing_row(const fw_verdict_search *s) {
+static int governing_check(const fw_verdict_search *s) {
     const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
-    int rows = s->device->nscene + 1, row = FW_NONE;
+    int checks = s->device->nscene + 1, check = FW_NONE;
     if (fabricated->governing == FW_NONE) return FW_NONE;
-    const double *ln = s->ln + (size_t)fabricated->at * (size_t)s->nrow;
-    for (int r = fabricated->governing * rows; r < (fabricated->governing + 1) * rows; r++)
-        if (!isnan(ln[r]) && (row == FW_NONE || ln[r] > ln[row])) row = r;
-    return row;
+    const double *ln = s->ln + (size_t)fabricated->at * (size_t)s->ncheck;
+    for (int r = fabricated->governing * checks; r < (fabricated->governing + 1) * checks; r++)
+        if (!isnan(ln[r]) && (check == FW_NONE || ln[r] > ln[check])) check = r;
+    return check;
 }
 
-/* how much of the governing utilisation an input makes, ln, and at which end; without a row (a
+/* how much of the governing utilisation an input makes, ln, and at which end; without a check (a
    flexure is gone) the end that the point is at */
-static double weight(const fw_verdict_search *s, int row, int i, bool *low_is_bad) {
+static double weight(const fw_verdict_search *s, int check, int i, bool *low_is_bad) {
     const fw_verdict_fabrication_input *in = &s->v->input[i];
     double range = in->high - in->low, x = s->fabricated->corner[s->fabricated->at].x[i];
-    double slope = row == FW_NONE ? (double)NAN : s->slope[row * s->v->ninput + i];
+    double slope = check == FW_NONE ? (double)NAN : s->slope[check * s->v->ninput + i];
     *low_is_bad = isnan(slope) || slope == 0.0 ? x < in->nominal : slope < 0.0;
     if (isnan(slope)) return fabs(x - in->nominal) * fabs(in->edge_m) * 1e6; /* um: edges cut */
     return fabs(slope) * range;
@@ -338,14 +338,14 @@ static fw_status hold_all(fw_verdict_search *s) {
 }
 
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
-    int row = governing_row(s), n = s->v->ninput;
+    int check = governing_check(s), n = s->v->ninput;
     bool tried[FW_FABRICATION_INPUTS] = {false}, done = false;
     for (int turn = 0; turn < n; turn++) {
         int next = FW_NONE;
         double most = -1.0;
         bool low_is_bad, low = false;
         for (int i = 0; i < n; i++) {
-            double w = weight(s, row, i, &low_is_bad);
+            double w = weight(s, check, i, &low_is_bad);
             if (!tried[i] && w > most) most = w, next = i, low = low_is_bad;
         }
         if (next == FW_NONE) break;

@@ -16,10 +16,9 @@
    accepted and the one before it the limit is enclosed by glances: by the secant of
    ln(utilisation), straight where that goes with a power of x, or by halving where the secant
    gains less than half. There the whole verdict is asked, on both sides of the limit, and tells
-   what coarse judgements are off by; until a value that is accepted and one that is not are within
-   1 % of
-   the change, a thousandth of the value, or one unit of the last digit. All values are decimal
-   numbers in the unit as written; what is printed was judged as printed.
+   what coarse judgements are off by; until a value that is accepted and one that is not are
+   within 1 % of the change, a thousandth of the value, or one unit of the last digit. All values
+   are decimal numbers in the unit as written; what is printed was judged as printed.
 
    Validity: an interval that accepts and lies between two values looked at is missed, and so is
    one nearer than the first value that accepts. What a glance puts more than 5 % beyond the
@@ -33,6 +32,7 @@
    the Fundamental Theorem of Algebra, 1969.
 
    Test: tests/unit/plan/test_advice.c, tests/cli/test_advice.py. */
+#include "base/sort.h"
 #include "verdict/trial.h"
 #include <math.h>
 #include <stdlib.h>
@@ -46,20 +46,20 @@ static const double known_to = 0.01;
 /* and the value to this part of it: of a small change nobody types all digits */
 static const double as_typed = 1e-3;
 /* a coarse judgement may be off by less than this: refinement pays */
-static const double worth_a_look = 1.05;
+static const double worth_refining = 1.05;
 static const double clear_of_limit = 0.997; /* coarsely */
 static const double least_step = 1e-4;      /* of the range: nobody asks for a finer digit */
 static const double factor_without_bounds = 4.0;
 static const double ring_factor = 1.5;
 
-typedef struct look { /* at one value */
-    double at;        /* in the unit as written */
-    double coarse;    /* largest utilisation coarsely, numbers taken as they are; NaN: not run */
-    bool rejected;    /* for certain, coarsely */
+typedef struct sample { /* at one value */
+    double at;          /* in the unit as written */
+    double coarse;      /* largest utilisation coarsely, numbers taken as they are; NaN: not run */
+    bool rejected;      /* for certain, coarsely */
     bool judged, accepted; /* as closely as any verdict */
-} look;
+} sample;
 
-typedef struct hunt { /* for one parameter; values in the unit as written */
+typedef struct parameter_search { /* for one parameter; values in the unit as written */
     fw_verdict_trial *trial;
     const fw_device_parameter *parameter;
     fw_quantity_unit unit;
@@ -69,9 +69,9 @@ typedef struct hunt { /* for one parameter; values in the unit as written */
     double bias;  /* close over coarse, where both were run last */
     int trials;
     double most_work; /* trial->work may come to */
-} hunt;
+} parameter_search;
 
-static bool spent(const hunt *h) {
+static bool spent(const parameter_search *h) {
     return h->trials >= MOST_TRIALS || h->trial->work >= h->most_work;
 }
 
@@ -94,7 +94,7 @@ static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
     return text.failed ? NULL : text.data;
 }
 
-static const char *value_text(const hunt *h, double value, int digits) {
+static const char *value_text(const parameter_search *h, double value, int digits) {
     char number[40];
     fw_number_text(number, sizeof number, value, digits);
     return fw_arena_printf(h->trial->arena, "%s%s%s", number, h->unit_text[0] ? " " : "",
@@ -102,7 +102,7 @@ static const char *value_text(const hunt *h, double value, int digits) {
 }
 
 /* the power of ten at or below x, not finer than the finest digit */
-static double step_below(const hunt *h, double x) {
+static double step_below(const parameter_search *h, double x) {
     double step = pow(10, floor(log10(x) + 1e-9));
     return fmax(step, h->digit);
 }
@@ -111,13 +111,13 @@ static double rounded(double x, double step) {
     return step >= 1 ? nearbyint(x / step) * step : nearbyint(x / step) / nearbyint(1 / step);
 }
 
-static double distance(const hunt *h, const look *l) {
+static double distance(const parameter_search *h, const sample *l) {
     return fabs(l->at - h->now);
 }
 
 /* ---- trials ---- */
 
-static fw_status run(hunt *h, double at, bool glance) {
+static fw_status run(parameter_search *h, double at, bool glance) {
     const char *value = value_text(h, at, 12);
     FW_NEED(value);
     const fw_device_set set = {h->parameter->name, value};
@@ -129,18 +129,17 @@ static bool acceptable(const fw_verdict_trial *trial) {
     return trial->decision == FW_ACCEPT && trial->drawn;
 }
 
-static fw_status glance(hunt *h, double at, look *out) {
+static fw_status glance(parameter_search *h, double at, sample *out) {
     FW_TRY(run(h, at, true));
-    *out = (look){.at = at,
-                  .coarse = fw_verdict_trial_excess(h->trial),
-                  .rejected = h->trial->decision == FW_REJECT || !h->trial->drawn};
+    *out = (sample){.at = at,
+                    .coarse = fw_verdict_trial_excess(h->trial),
+                    .rejected = h->trial->decision == FW_REJECT || !h->trial->drawn};
     return FW_OK;
 }
 
-/* judged as any device; then coarsely, at the corner that now governs: what coarse judgements are
-   off by
- */
-static fw_status judge(hunt *h, double at, look *out) {
+/* judged as any device; then coarsely, at the corner that now governs: what coarse judgements
+   are off by */
+static fw_status judge(parameter_search *h, double at, sample *out) {
     FW_TRY(run(h, at, false));
     bool accepted = acceptable(h->trial);
     double excess = fw_verdict_trial_excess(h->trial);
@@ -152,24 +151,24 @@ static fw_status judge(hunt *h, double at, look *out) {
     return FW_OK;
 }
 
-static double estimate(const hunt *h, const look *l) {
+static double estimate(const parameter_search *h, const sample *l) {
     return l->coarse * h->bias;
 }
 
 /* ---- between a value that is not accepted and one that may be ---- */
 
-static double rest_of(const hunt *h, const look *far) {
+static double rest_of(const parameter_search *h, const sample *far) {
     return fmax(known_to * distance(h, far), as_typed * fabs(h->now));
 }
 
 /* nothing is left to look at between them */
-static bool close_by(const hunt *h, const look *near, const look *far) {
+static bool close_by(const parameter_search *h, const sample *near, const sample *far) {
     double gap = fabs(far->at - near->at), rest = rest_of(h, far);
     return gap <= rest * (1 + 1e-9) || gap <= 1.01 * step_below(h, rest);
 }
 
 /* `at` as a decimal number strictly between; false: there is none */
-static bool between(const hunt *h, const look *near, const look *far, double *at) {
+static bool between(const parameter_search *h, const sample *near, const sample *far, double *at) {
     double step = step_below(h, rest_of(h, far));
     double low = fmin(near->at, far->at), high = fmax(near->at, far->at);
     *at = rounded(*at, step);
@@ -178,9 +177,10 @@ static bool between(const hunt *h, const look *near, const look *far, double *at
     return *at > low + 1e-3 * step && *at < high - 1e-3 * step;
 }
 
-/* where the secant of ln(utilisation) meets 0; the middle where it does not, or that is asked for
- */
-static double root(const hunt *h, const look *near, const look *far, bool halve, double beside) {
+/* where the secant of ln(utilisation) meets 0; the middle where it does not, or that is asked
+   for */
+static double root(const parameter_search *h, const sample *near, const sample *far, bool halve,
+                   double beside) {
     double gap = far->at - near->at, a = log(estimate(h, near)), b = log(estimate(h, far));
     if (halve || !(b < 0) || isnan(a)) return near->at + 0.5 * gap;
     if (a <= 0) return near->at + copysign(rest_of(h, far), gap); /* it was judged: only just not */
@@ -189,12 +189,12 @@ static double root(const hunt *h, const look *near, const look *far, bool halve,
 }
 
 /* brings both together by glances */
-static fw_status approach(hunt *h, look *near, look *far) {
+static fw_status approach(parameter_search *h, sample *near, sample *far) {
     double beside = 0.4, before = HUGE_VAL;
     while (!spent(h) && !close_by(h, near, far)) {
         double gap = fabs(far->at - near->at);
         double at = root(h, near, far, gap > 0.5 * before, beside);
-        look middle;
+        sample middle;
         before = gap;
         if (!between(h, near, far, &at)) return FW_OK;
         FW_TRY(glance(h, at, &middle));
@@ -206,14 +206,14 @@ static fw_status approach(hunt *h, look *near, look *far) {
 }
 
 /* from an accepted value inward until one is not, in growing steps; near: not accepted */
-static fw_status tighten(hunt *h, look near, look *far) {
+static fw_status tighten(parameter_search *h, sample near, sample *far) {
     double stride = 1;
     while (!spent(h)) {
         if (near.judged && close_by(h, &near, far)) return FW_OK;
         double gap = far->at - near.at, step = step_below(h, rest_of(h, far));
         double whole = step * floor(stride * rest_of(h, far) / step + 1e-9);
         double at = far->at - copysign(fmin(fmax(whole, step), 0.5 * fabs(gap)), gap);
-        look inner;
+        sample inner;
         if (!between(h, &near, far, &at)) return FW_OK;
         FW_TRY(judge(h, at, &inner));
         if (inner.accepted)
@@ -226,21 +226,21 @@ static fw_status tighten(hunt *h, look near, look *far) {
 
 /* a step from the limit towards `outer`: right at it a verdict takes the closest of all looks, and
    may have to leave it open all the same */
-static fw_status step_out(hunt *h, const look *outer, look *far) {
+static fw_status step_out(parameter_search *h, const sample *outer, sample *far) {
     double rest = rest_of(h, far), at = far->at + copysign(rest, outer->at - far->at);
-    look further;
+    sample further;
     if (spent(h) || !between(h, far, outer, &at)) return FW_OK;
     FW_TRY(glance(h, at, &further));
     if (!further.rejected) *far = further;
     return FW_OK;
 }
 
-/* the limit between near (not accepted) and *far (may be). far->accepted says whether it was found
- */
-static fw_status enclose(hunt *h, look near, look *far) {
-    const look outer = *far;
+/* the limit between near (not accepted) and *far (may be). far->accepted says whether it was
+   found */
+static fw_status enclose(parameter_search *h, sample near, sample *far) {
+    const sample outer = *far;
     while (!spent(h)) {
-        look inner = near;
+        sample inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
         FW_TRY(judge(h, far->at, far));
@@ -256,13 +256,13 @@ static fw_status enclose(hunt *h, look near, look *far) {
 /* ---- outward ---- */
 
 /* the value at a distance on one side, at most the end of that side */
-static double on_side(const hunt *h, int side, double away) {
+static double on_side(const parameter_search *h, int side, double away) {
     double at = rounded(h->now + side * away, step_below(h, 0.05 * away));
     return fmin(fmax(at, h->low), h->high);
 }
 
 /* distances of the values looked at: the first a tenth of the value, or less of a small range */
-static int rings(const hunt *h, double *away) {
+static int rings(const parameter_search *h, double *away) {
     double first = fmin(h->range / 8, fmax(0.1 * fabs(h->now), 1e-3 * h->range));
     first = fmax(first, h->digit);
     int n = (int)ceil(log(h->range / first) / log(ring_factor) - 1e-9) + 1;
@@ -273,42 +273,44 @@ static int rings(const hunt *h, double *away) {
 }
 
 /* one value further out; where it may be accepted, the limit before it. found->accepted: it was */
-static fw_status look_at(hunt *h, double at, const look *before, look *found) {
+static fw_status sample_further(parameter_search *h, double at, const sample *before,
+                                sample *found) {
     FW_TRY(glance(h, at, found));
-    if (found->rejected || estimate(h, found) > worth_a_look) return FW_OK;
+    if (found->rejected || estimate(h, found) > worth_refining) return FW_OK;
     return enclose(h, *before, found);
 }
 
 /* the other side, not yet looked at as far out as `best`: something there may be nearer */
-static fw_status look_across(hunt *h, int side, const look *before, look *best) {
+static fw_status sample_other_side(parameter_search *h, int side, const sample *before,
+                                   sample *best) {
     double away = distance(h, best), at = on_side(h, side, away);
-    look there;
+    sample there;
     if (spent(h) || fabs(at - h->now) > away) return FW_OK;
     if (fabs(at - before->at) < h->digit) return FW_OK;
-    FW_TRY(look_at(h, at, before, &there));
+    FW_TRY(sample_further(h, at, before, &there));
     if (there.accepted && distance(h, &there) < away) *best = there;
     return FW_OK;
 }
 
-static fw_status search(hunt *h, double excess, look *best) {
+static fw_status search(parameter_search *h, double excess, sample *best) {
     double away[MOST_RINGS];
     int n = rings(h, away);
-    look last[2] = {{.at = h->now, .coarse = excess, .judged = true},
-                    {.at = h->now, .coarse = excess, .judged = true}};
+    sample last[2] = {{.at = h->now, .coarse = excess, .judged = true},
+                      {.at = h->now, .coarse = excess, .judged = true}};
     for (int i = 0; i < n; i++) {
         int first = last[0].coarse <= last[1].coarse ? 0 : 1; /* the side that got better */
         for (int k = 0; k < 2; k++) {
             int s = k == 0 ? first : !first;
             double at = on_side(h, s == 0 ? 1 : -1, away[i]);
             if (at == last[s].at || spent(h)) continue; /* at its end */
-            look now;
-            FW_TRY(look_at(h, at, &last[s], &now));
+            sample now;
+            FW_TRY(sample_further(h, at, &last[s], &now));
             if (!now.accepted) {
                 last[s] = now;
                 continue;
             }
             *best = now;
-            return k == 1 ? FW_OK : look_across(h, s == 0 ? -1 : 1, &last[!s], best);
+            return k == 1 ? FW_OK : sample_other_side(h, s == 0 ? -1 : 1, &last[!s], best);
         }
     }
     return FW_OK;
@@ -317,7 +319,7 @@ static fw_status search(hunt *h, double excess, look *best) {
 /* ---- one parameter ---- */
 
 /* is it a count? One that is written as a whole number, and cannot be read between two of them */
-static fw_status is_count(hunt *h, bool *count) {
+static fw_status is_count(parameter_search *h, bool *count) {
     *count = false;
     if (h->unit_text[0] || h->now != nearbyint(h->now)) return FW_OK;
     double between = h->now + (h->now + 0.5 <= h->high ? 0.5 : -0.5);
@@ -337,9 +339,10 @@ static fw_status is_count(hunt *h, bool *count) {
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }
 
-/* *ok false: nothing says how far to look */
-static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, hunt *h, bool *ok) {
-    *h = (hunt){.trial = trial, .parameter = p, .unit_text = p->unit, .bias = 1};
+/* *ok false: nothing says how far to sample */
+static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, parameter_search *h,
+                       bool *ok) {
+    *h = (parameter_search){.trial = trial, .parameter = p, .unit_text = p->unit, .bias = 1};
     *ok = false;
     if (!fw_quantity_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
         !fw_quantity_dimension_equal(h->unit.dimension, p->dimension)) {
@@ -363,7 +366,8 @@ static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, hu
     return FW_OK;
 }
 
-static fw_status say(const hunt *h, const look *best, fw_verdict_parameter_advice *out) {
+static fw_status report(const parameter_search *h, const sample *best,
+                        fw_verdict_parameter_advice *out) {
     fw_arena *arena = h->trial->arena;
     const char *now = value_text(h, h->now, 6);
     const char *low = value_text(h, h->low, 6), *high = value_text(h, h->high, 6);
@@ -401,7 +405,7 @@ static fw_status say(const hunt *h, const look *best, fw_verdict_parameter_advic
 }
 
 /* share: of the work that is left, for this parameter */
-static fw_status look_into(fw_verdict_trial *trial, const fw_device_parameter *p, double excess,
+static fw_status advise_on(fw_verdict_trial *trial, const fw_device_parameter *p, double excess,
                            int left, double share, fw_verdict_parameter_advice *out) {
     *out = (fw_verdict_parameter_advice){.name = p->name,
                                          .found = FW_PARAMETER_NOT_LOOKED,
@@ -410,14 +414,14 @@ static fw_status look_into(fw_verdict_trial *trial, const fw_device_parameter *p
                                          .low = (double)NAN,
                                          .high = (double)NAN,
                                          .change = (double)NAN};
-    hunt h;
+    parameter_search h;
     bool ok = false;
     if (left > 0) FW_TRY(begin(trial, p, &h, &ok));
     if (ok) {
-        look best = {0};
+        sample best = {0};
         h.most_work = trial->work + share * (most_work - trial->work);
         FW_TRY(search(&h, excess, &best));
-        return say(&h, &best, out);
+        return report(&h, &best, out);
     }
     const char *why = left > 0 ? "state its min and max to say how far it may go"
                                : "there are too many parameters";
@@ -425,13 +429,26 @@ static fw_status look_into(fw_verdict_trial *trial, const fw_device_parameter *p
     return FW_OK;
 }
 
+/* what accepts first, then what was looked at in vain, then what was not looked at */
+static int place_of(fw_verdict_parameter_found found) {
+    switch (found) {
+    case FW_PARAMETER_ACCEPTS:
+        return 0;
+    case FW_PARAMETER_NONE:
+        return 1;
+    case FW_PARAMETER_NOT_LOOKED:
+        break;
+    }
+    return 2;
+}
+
+/* of those that accept the smallest change first */
 static int by_change(const void *a, const void *b) {
-    const fw_verdict_parameter_advice *p = (const fw_verdict_parameter_advice *)a,
-                                      *q = (const fw_verdict_parameter_advice *)b;
-    if (p->found != q->found) return p->found < q->found ? -1 : 1;
-    if (p->found == FW_PARAMETER_ACCEPTS && p->change != q->change)
-        return p->change < q->change ? -1 : 1;
-    return strcmp(p->name, q->name);
+    const fw_verdict_parameter_advice *p = a, *q = b;
+    int order = fw_order_wholes(place_of(p->found), place_of(q->found));
+    if (order == 0 && p->found == FW_PARAMETER_ACCEPTS)
+        order = fw_order_doubles(p->change, q->change);
+    return order ? order : strcmp(p->name, q->name);
 }
 
 fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
@@ -444,7 +461,7 @@ fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_verdict_trial_start(arena, device, options, out, &trial));
     double excess = fw_verdict_trial_excess(&trial);
     for (int i = 0; i < n; i++) {
-        FW_TRY(look_into(&trial, &device->parameter[i], excess, left, 1.0 / (n - i),
+        FW_TRY(advise_on(&trial, &device->parameter[i], excess, left, 1.0 / (n - i),
                          &out->parameter[i]));
         left -= out->parameter[i].trials;
     }

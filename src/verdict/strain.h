@@ -71,11 +71,11 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
    but not at the order of the method. Error: twice what any hinge's largest strain differs by (1.1
    times was seen, test_hard_verdict.c), times the margin of the two runs; the largest difference
    of all hinges counts for each, since one alone may agree by chance. */
-double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *saw,
+double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin);
 /* that over ten times the accuracy wanted of the lowest limit:
    fw_dynamics_motion_options.unsettled */
-double fw_verdict_strain_monitor_unsettled(const void *saw, const void *looser, double margin,
+double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy);
 /* one more instant of one hinge */
 void fw_verdict_strain_peak_add(fw_verdict_strain_peak *peak, double t_s, double strain);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts. */
+/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue
+   counts. */
 #include "verdict/strain.h"
 #include <math.h>
 
@@ -37,18 +38,18 @@ static void count(fw_verdict_strain_monitor *w, int k, const fw_layout_hinge_lay
 
 static const double fw_strains_settle = 2;
 
-double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *saw,
+double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin) {
     double most = 0;
-    for (int k = 0; k < saw->mechanism->nhinge; k++)
-        if (saw->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
-            most = fmax(most, fabs(saw->hinge[k].strain - looser->hinge[k].strain));
+    for (int k = 0; k < tighter->mechanism->nhinge; k++)
+        if (tighter->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
+            most = fmax(most, fabs(tighter->hinge[k].strain - looser->hinge[k].strain));
     return fw_strains_settle * margin * most;
 }
 
-double fw_verdict_strain_monitor_unsettled(const void *saw, const void *looser, double margin,
+double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy) {
-    const fw_verdict_strain_monitor *monitor = saw;
+    const fw_verdict_strain_monitor *monitor = tighter;
     double limit = HUGE_VAL;
     for (int k = 0; k < monitor->mechanism->nhinge; k++) {
         const fw_flexure_result *c = &monitor->mechanism->hinge[k].closed_form;
@@ -149,8 +150,7 @@ double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle 
 
 /* D rises with the factor, on logarithms nearly as a line: secant, kept inside its bracket. One
    step where the law is Basquin's alone. Test: test_fatigue.c
-   utilisation_is_amplitude_over_allowable
- */
+   utilisation_is_amplitude_over_allowable */
 double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
                                       const fw_maths_cycle *cycle, size_t n, double times) {
     double x = 0, y = log(fw_verdict_miner(law, cycle, n, times, 1)), slope = -1 / law->exponent;

@@ -31,7 +31,7 @@ static void remember_fabricated(const fw_verdict_variant_verdict *v, fw_verdict_
             &fabricated->corner[fabricated->hinge[k].corner].hinge[k];
         if (h->joint != to->joint || !h->scene) continue;
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
-        if (h->decision > to->decision) to->decision = h->decision;
+        to->decision = fw_verdict_worse(to->decision, h->decision);
         if (h->utilisation_high > to->utilisation_high) {
             to->utilisation_high = h->utilisation_high;
             to->scene = h->scene;

@@ -29,6 +29,27 @@ static fw_verdict_decision decide(double low, double high) {
     return high < 1.0 ? FW_ACCEPT : FW_INCONCLUSIVE;
 }
 
+/* the order of decisions: nothing else compares them */
+static int badness(fw_verdict_decision decision) {
+    switch (decision) {
+    case FW_ACCEPT:
+        return 0;
+    case FW_INCONCLUSIVE:
+        return 1;
+    case FW_REJECT:
+        break;
+    }
+    return 2;
+}
+
+bool fw_verdict_is_worse(fw_verdict_decision a, fw_verdict_decision b) {
+    return badness(a) > badness(b);
+}
+
+fw_verdict_decision fw_verdict_worse(fw_verdict_decision a, fw_verdict_decision b) {
+    return fw_verdict_is_worse(a, b) ? a : b;
+}
+
 /* the worse decision, then the higher utilisation; the band holds that of both */
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other) {
     double low = fmax(worst->utilisation_low, other->utilisation_low);
@@ -41,12 +62,12 @@ void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hin
 }
 
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other) {
-    if (h->decision != other->decision) return h->decision > other->decision;
+    if (h->decision != other->decision) return fw_verdict_is_worse(h->decision, other->decision);
     return h->utilisation > other->utilisation;
 }
 
 /* twice the standard uncertainty that a shape outside the fitted range has on top of the model
- * error */
+   error */
 static double beyond_fit(const fw_flexure_result *c) {
     return 2.0 * (c->limit_uncertainty - FW_FLEXURE_STRAIN_UNCERTAINTY);
 }
@@ -59,9 +80,9 @@ static void collide(const fw_layout_hinge_layout *drawn, fw_verdict_hinge_verdic
 }
 
 static double strain_error(const fw_dynamics_motion *motion) {
-    const fw_verdict_strain_monitor *saw = motion->observed, *looser = motion->compared;
-    if (!saw || !looser || motion->ended) return 0.0;
-    return fw_verdict_strain_monitor_error(saw, looser, motion->stats.estimate_margin);
+    const fw_verdict_strain_monitor *observed = motion->observed, *looser = motion->compared;
+    if (!observed || !looser || motion->ended) return 0.0;
+    return fw_verdict_strain_monitor_error(observed, looser, motion->stats.estimate_margin);
 }
 
 /* what a hinge is judged by, the same for all that is run */
@@ -288,9 +309,9 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     for (int i = 0; i < device->nscene; i++) {
         if (!v->motion[i]) continue;
         fw_verdict_hinge_verdict now = blank;
-        const fw_verdict_strain_monitor *saw =
+        const fw_verdict_strain_monitor *observed =
             v->motion[i]->observed ? v->motion[i]->observed : &monitor[i];
-        FW_TRY(judge_scene(arena, by, v->motion[i], saw, k, device->scene[i].name, &now));
+        FW_TRY(judge_scene(arena, by, v->motion[i], observed, k, device->scene[i].name, &now));
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
@@ -349,14 +370,14 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
         if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */
-        if (v->hinge[k].decision > v->decision) v->decision = v->hinge[k].decision;
+        v->decision = fw_verdict_worse(v->decision, v->hinge[k].decision);
         if (v->hinge[k].scene &&
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))
             v->governing = k;
     }
     if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
     for (int i = 0; i < v->nreason; i++)
-        if (v->reason[i].decision > v->decision) v->decision = v->reason[i].decision;
+        v->decision = fw_verdict_worse(v->decision, v->reason[i].decision);
     v->drawn = v->decision;
     return FW_OK;
 }

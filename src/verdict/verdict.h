@@ -10,12 +10,11 @@
 #include "verdict/verdict_fabrication.h"
 #include "workspace/workspace.h"
 
-typedef enum fw_verdict_decision {
-    FW_ACCEPT,
-    FW_INCONCLUSIVE,
-    FW_REJECT
-} fw_verdict_decision; /* worst last */
+typedef enum fw_verdict_decision { FW_ACCEPT, FW_INCONCLUSIVE, FW_REJECT } fw_verdict_decision;
 const char *fw_verdict_decision_text(fw_verdict_decision decision);
+/* is a worse than b? Accepted, then inconclusive, then rejected */
+bool fw_verdict_is_worse(fw_verdict_decision a, fw_verdict_decision b);
+fw_verdict_decision fw_verdict_worse(fw_verdict_decision a, fw_verdict_decision b);
 
 typedef struct fw_verdict_hinge_verdict {
     const char *id;    /* joint */
@@ -32,12 +31,11 @@ typedef struct fw_verdict_hinge_verdict {
     int joint;
     double force_share; /* part of the peak strain that the joint force adds to the rotation's */
     bool touches;       /* the drawn solids meet before the peak angle */
-    const fw_flexure_limit
-        *limit;      /* which criterion governs; NULL: a plain number without a source */
+    const fw_flexure_limit *limit; /* the criterion that governs; NULL: a number without a source */
     double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
-    double fatigue_utilisation, damage, cycles; /* NaN: no cycles asked; cycles: of one repetition;
-                                                   damage: Miner's sum, no safety factor */
+    /* NaN: no cycles asked; damage: Miner's sum, no safety factor; cycles: of one repetition */
+    double fatigue_utilisation, damage, cycles;
 } fw_verdict_hinge_verdict;
 
 typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the bands of its hinges */
@@ -48,14 +46,12 @@ typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the ba
     const char *text; /* a sentence */
 } fw_verdict_reason;
 
-typedef struct
-    fw_verdict_fabricated_corner { /* one device that the flow may make, judged like the drawn
-                                      one */
-    const double *x;               /* (ninput) */
-    const char *what;              /* "nominal", "printed edge -0.15 um, thickness 49 um" */
-    fw_verdict_hinge_verdict
-        *hinge;        /* (nhinge) worst over the scenes; utilisation 0 where `why` says that
-                                nothing was run */
+/* one device that the flow may make, judged like the drawn one */
+typedef struct fw_verdict_fabricated_corner {
+    const double *x;  /* (ninput) */
+    const char *what; /* "nominal", "printed edge -0.15 um, thickness 49 um" */
+    /* (nhinge) worst over the scenes; utilisation 0 where `why` says that nothing was run */
+    fw_verdict_hinge_verdict *hinge;
     const char *why;   /* what speaks against it beside its hinges, or NULL */
     const char *scene; /* of `why`; NULL: of none (a flexure is gone) */
     double keep;       /* share of its loads that it may bear */
@@ -86,22 +82,21 @@ typedef struct fw_verdict_fabricated_verdict {
 
 typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickness */
     const fw_mechanism_variant *variant;
-    const fw_verdict_fabrication_input
-        *input; /* (ninput) what the flow may make of it; none: as drawn only */
-    int ninput;
-    const double *suspect; /* (ninput) a corner to look at first, or NULL */
-    const fw_dynamics_motion *const
-        *like; /* (nscene) of a device much like it, or NULL: what acts there by
-                                     far acts here (fw_effect_choice.like) */
-    fw_verdict_fabricated_verdict
-        *fabricated;           /* NULL: not asked for, or the drawn device is not accepted */
+    const fw_verdict_fabrication_input *input; /* (ninput) what the flow may make of it */
+    int ninput;                                /* 0: as drawn only */
+    const double *suspect;                     /* (ninput) a corner to look at first, or NULL */
+    /* (nscene) of a device much like it, or NULL: what acts there by far acts here
+       (fw_effect_choice.like) */
+    const fw_dynamics_motion *const *like;
+    /* NULL: not asked for, or the drawn device is not accepted */
+    fw_verdict_fabricated_verdict *fabricated;
     fw_verdict_decision drawn; /* decision of the drawn geometry alone */
     double *used; /* (nhinge x (nscene + 1)) utilisation of each hinge in each scene and,
                      last, in the workspace; NaN: none */
     const fw_mechanism *mechanism;
-    const fw_dynamics_motion *
-        *motion; /* (device->nscene) NULL where the scene is not for this flow,
-                                   or has no motion: a reason says why */
+    /* (device->nscene) NULL where the scene is not for this flow, or has no motion: a reason says
+       why */
+    const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
     bool beyond_pull_in;                /* a scene may ask for more than its pull-in voltage */
     fw_verdict_reason *reason;          /* (nreason) */
@@ -128,9 +123,9 @@ typedef enum fw_verdict_parameter_found {
                                too long */
 } fw_verdict_parameter_found;
 
-typedef struct
-    fw_verdict_parameter_advice { /* the smallest change of one parameter alone that accepts */
-    const char *name;             /* what --set takes */
+/* the smallest change of one parameter alone that accepts */
+typedef struct fw_verdict_parameter_advice {
+    const char *name; /* what --set takes */
     fw_verdict_parameter_found found;
     double from, to;        /* SI; to: NaN where there is none */
     double low, high;       /* SI: where it was looked for; NaN: not looked */
@@ -150,15 +145,14 @@ typedef struct fw_verdict {
     int governing;              /* index into hinge, or FW_NONE */
     double failure_probability; /* of the worst variant; NaN: not known */
     double accuracy_wanted, accuracy_estimated;
-    double accuracy_left_out;  /* largest sum of bounds that a scene leaves out by itself (auto); it
-                                 is part of the estimate */
+    /* largest sum of bounds that a scene leaves out by itself (auto); it is part of the estimate */
+    double accuracy_left_out;
     fw_verdict_advice *advice; /* (nadvice) for a rejected or inconclusive design */
     int nadvice;
     bool advice_verified; /* the advised values together were run and accepted */
     const char *advice_note;
-    fw_verdict_parameter_advice
-        *parameter; /* (nparameter) the smallest change first; none for an accepted
-                                       design */
+    /* (nparameter) the smallest change first; none for an accepted design */
+    fw_verdict_parameter_advice *parameter;
     int nparameter;
     const fw_layout *layout; /* what was judged; NULL: it cannot be drawn */
 } fw_verdict;
@@ -199,7 +193,7 @@ typedef struct fw_verdict_options {
 } fw_verdict_options;
 
 /* what the model itself may be wrong by, relative, beside the numerical error
- * (docs/theory/verdict.md) */
+   (docs/theory/verdict.md) */
 typedef struct fw_verdict_model_errors {
     double motion;    /* revolute joints at the elastic centres against geometrically exact beams */
     double strain;    /* closed-form peak strain against 3-D finite elements */

@@ -36,41 +36,41 @@ static int first_edge(const fw_verdict_variant_verdict *v) {
 }
 
 /* d ln U/dx by one run per input, at the low end of its range: thin flexures, where things change
-   fastest. A row that is not there at that end (a flexure gone) has no slope: NaN */
+   fastest. A check that is not there at that end (a flexure gone) has no slope: NaN */
 static fw_status slopes(fw_verdict_search *s) {
     const fw_verdict_variant_verdict *v = s->v;
     double x[FW_FABRICATION_INPUTS];
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
         int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
-        for (int r = 0; like < i && r < s->nrow; r++)
+        for (int r = 0; like < i && r < s->ncheck; r++)
             s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
         if (like < i) continue;
         nominal_point(v, x);
         x[i] = in->nominal > in->low ? in->low : in->high;
-        const double *at = s->ln + (size_t)s->fabricated->ncorner * (size_t)s->nrow;
+        const double *at = s->ln + (size_t)s->fabricated->ncorner * (size_t)s->ncheck;
         FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
-        for (int r = 0; r < s->nrow; r++)
+        for (int r = 0; r < s->ncheck; r++)
             s->slope[r * n + i] = (at[r] - s->ln[r]) / (x[i] - in->nominal);
     }
     s->first = s->fabricated->ncorner;
     return FW_OK;
 }
 
-static double estimate(const fw_verdict_search *s, int row, unsigned bits) {
+static double estimate(const fw_verdict_search *s, int check, unsigned bits) {
     const fw_verdict_variant_verdict *v = s->v;
-    double x[FW_FABRICATION_INPUTS], ln = s->ln[row];
+    double x[FW_FABRICATION_INPUTS], ln = s->ln[check];
     corner_point(v, bits, x);
     for (int i = 0; i < v->ninput; i++)
-        ln += s->slope[row * v->ninput + i] * (x[i] - v->input[i].nominal);
+        ln += s->slope[check * v->ninput + i] * (x[i] - v->input[i].nominal);
     return ln;
 }
 
 /* the corner where the estimate is largest; inputs of no account are as in `like` */
-static unsigned worst_corner(const fw_verdict_search *s, int row, unsigned like) {
+static unsigned worst_corner(const fw_verdict_search *s, int check, unsigned like) {
     unsigned bits = 0;
     for (int i = 0; i < s->v->ninput; i++) {
-        double slope = s->slope[row * s->v->ninput + i];
+        double slope = s->slope[check * s->v->ninput + i];
         double size = fabs(slope) * (s->v->input[i].high - s->v->input[i].low);
         bool high = size < fw_of_no_account ? like >> i & 1u : slope > 0.0;
         bits |= high ? 1u << i : 0u;
@@ -84,21 +84,21 @@ static int find_corner(const fw_verdict_search *s, unsigned bits) {
     return FW_NONE;
 }
 
-/* the worst corner of a row, as one that was run where the difference is of no account */
-static unsigned choose(const fw_verdict_search *s, int row) {
+/* the worst corner of a check, as one that was run where the difference is of no account */
+static unsigned choose(const fw_verdict_search *s, int check) {
     for (int p = 0; p < s->fabricated->ncorner; p++)
         if (s->bits[p] != FW_NO_CORNER) {
-            unsigned bits = worst_corner(s, row, s->bits[p]);
+            unsigned bits = worst_corner(s, check, s->bits[p]);
             if (bits == s->bits[p]) return bits;
         }
-    return worst_corner(s, row, 0);
+    return worst_corner(s, check, 0);
 }
 
-/* how far off the estimates of rows that may matter were at a corner that was run */
+/* how far off the estimates of checks that may matter were at a corner that was run */
 static double estimate_error(const fw_verdict_search *s, int point) {
     double error = 0.0;
-    for (int r = 0; r < s->nrow; r++) {
-        double got = s->ln[(size_t)point * (size_t)s->nrow + (size_t)r];
+    for (int r = 0; r < s->ncheck; r++) {
+        double got = s->ln[(size_t)point * (size_t)s->ncheck + (size_t)r];
         double want = estimate(s, r, s->bits[point]);
         if (isnan(want) && isnan(got)) continue;        /* neither here nor there */
         if (isnan(want) || isnan(got)) return HUGE_VAL; /* gone, or new */
@@ -111,26 +111,26 @@ static double estimate_error(const fw_verdict_search *s, int point) {
 static double largest_run(const fw_verdict_search *s) {
     double most = -HUGE_VAL;
     for (int p = 0; p < s->fabricated->ncorner; p++)
-        for (int r = 0; r < s->nrow; r++)
-            most = fmax(most, s->ln[(size_t)p * (size_t)s->nrow + (size_t)r]); /* NaN is passed */
+        for (int r = 0; r < s->ncheck; r++)
+            most = fmax(most, s->ln[(size_t)p * (size_t)s->ncheck + (size_t)r]); /* NaN is passed */
     return most;
 }
 
 /* a utilisation above this may be beyond its limit with the band of the model: wider for a required
    pose, and outside the fitted range of fillets and arcs (10 % counted for every flexure) */
-static double near_limit(const fw_verdict_search *s, int row) {
+static double near_limit(const fw_verdict_search *s, int check) {
     int scenes = s->device->nscene + 1;
-    bool pose = row < s->v->nhinge * scenes && row % scenes == scenes - 1;
+    bool pose = check < s->v->nhinge * scenes && check % scenes == scenes - 1;
     const fw_verdict_model_errors *e = &fw_verdict_model_error;
     return 0.95 / (1.1 + e->strain + (pose ? e->workspace : e->motion));
 }
 
-/* runs the corner of the row whose estimate, with the error seen so far, is highest and either
+/* runs the corner of the check whose estimate, with the error seen so far, is highest and either
    above everything that was run or near a limit; false: there is none left */
 static fw_status run_next(fw_verdict_search *s, bool *ran) {
     double largest = largest_run(s), highest = -HUGE_VAL;
     unsigned next = FW_NO_CORNER;
-    for (int r = 0; r < s->nrow; r++) {
+    for (int r = 0; r < s->ncheck; r++) {
         if (isnan(s->ln[r])) continue;
         unsigned bits = choose(s, r);
         double upper = estimate(s, r, bits) + s->fabricated->error;
@@ -150,7 +150,7 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
 }
 
 static bool no_slope(const fw_verdict_search *s) {
-    for (int r = 0; r < s->nrow; r++)
+    for (int r = 0; r < s->ncheck; r++)
         for (int i = 0; !isnan(s->ln[r]) && i < s->v->ninput; i++)
             if (isnan(s->slope[r * s->v->ninput + i])) return true;
     return false;
@@ -195,22 +195,22 @@ static void tightest(fw_verdict_search *s, int k) {
               fabricated->corner[h->corner].hinge[k].numeric;
 }
 
-/* sigma and what it is made of, from the row that governs the nominal device; the bound over all
-   corners from every row */
+/* sigma and what it is made of, from the check that governs the nominal device; the bound over all
+   corners from every check */
 static void first_order(fw_verdict_search *s, int k) {
     fw_verdict_fabricated_hinge *h = &s->fabricated->hinge[k];
-    int rows = s->device->nscene + 1, row = FW_NONE, n = s->v->ninput;
+    int checks = s->device->nscene + 1, check = FW_NONE, n = s->v->ninput;
     double sum = 0.0;
-    for (int r = k * rows; r < (k + 1) * rows; r++) {
+    for (int r = k * checks; r < (k + 1) * checks; r++) {
         if (isnan(s->ln[r])) continue;
-        if (row == FW_NONE || s->ln[r] > s->ln[row]) row = r;
+        if (check == FW_NONE || s->ln[r] > s->ln[check]) check = r;
         if (!s->fabricated->all)
             h->most =
                 fmax(h->most, exp(estimate(s, r, worst_corner(s, r, 0)) + s->fabricated->error));
     }
-    for (int i = 0; row != FW_NONE && i < n; i++) {
-        double slope = s->slope[row * n + i];
-        h->share[i] = isnan(slope) ? 0.0 : exp(s->ln[row]) * slope * s->v->input[i].sigma;
+    for (int i = 0; check != FW_NONE && i < n; i++) {
+        double slope = s->slope[check * n + i];
+        h->share[i] = isnan(slope) ? 0.0 : exp(s->ln[check]) * slope * s->v->input[i].sigma;
         sum += h->share[i] * h->share[i];
     }
     h->sigma = sqrt(sum);
@@ -225,12 +225,12 @@ static void govern(fw_verdict_search *s) {
     fw_verdict_decision worst = FW_ACCEPT;
     for (int c = 0; c < fabricated->ncorner; c++) {
         const fw_verdict_fabricated_corner *corner = &fabricated->corner[c];
-        if (corner->decision < worst) continue;
-        if (corner->decision > worst) most = -1.0, worst = corner->decision;
+        if (fw_verdict_is_worse(worst, corner->decision)) continue;
+        if (corner->decision != worst) most = -1.0, worst = corner->decision;
         if (corner->why && most < 0.0)
             fabricated->at = c, fabricated->governing = FW_NONE, most = 0.0;
         for (int k = 0; k < s->v->nhinge; k++)
-            if (corner->hinge[k].scene && corner->hinge[k].decision >= worst &&
+            if (corner->hinge[k].scene && !fw_verdict_is_worse(worst, corner->hinge[k].decision) &&
                 corner->hinge[k].utilisation > most) {
                 most = corner->hinge[k].utilisation;
                 fabricated->at = c, fabricated->governing = k;
@@ -292,16 +292,16 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
                              .layout = layout,
                              .options = *options,
                              .v = v,
-                             .nrow = v->nhinge * (device->nscene + 1) + device->nscene};
+                             .ncheck = v->nhinge * (device->nscene + 1) + device->nscene};
     s->options.with_advice = false;
     s->options.motion.samples = 65; /* stability is looked at between them */
     FW_NEED(s->fabricated = fw_arena_one(arena, fw_verdict_fabricated_verdict));
     FW_NEED(s->fabricated->corner =
                 fw_arena_array(arena, fw_verdict_fabricated_corner, FW_MOST_POINTS));
     FW_NEED(s->fabricated->hinge = fw_arena_array(arena, fw_verdict_fabricated_hinge, h));
-    FW_NEED(s->ln = fw_arena_array(arena, double, (size_t)FW_MOST_POINTS *(size_t)s->nrow));
+    FW_NEED(s->ln = fw_arena_array(arena, double, (size_t)FW_MOST_POINTS *(size_t)s->ncheck));
     FW_NEED(s->bits = fw_arena_array(arena, unsigned, FW_MOST_POINTS));
-    FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->nrow *n));
+    FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->ncheck *n));
     for (size_t k = 0; k < h; k++)
         FW_NEED(s->fabricated->hinge[k].share = fw_arena_array(arena, double, n));
     s->fabricated->held = FW_NONE;
@@ -310,7 +310,7 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
 }
 
 /* a trial's suspect decides alone where it is not accepted, or nothing else is asked for */
-static fw_status look_at_suspect(fw_verdict_search *s, bool *decided) {
+static fw_status try_suspect(fw_verdict_search *s, bool *decided) {
     *decided = false;
     bool alone = s->options.corners == FW_CORNERS_SUSPECT;
     if (!s->v->suspect || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
@@ -319,10 +319,10 @@ static fw_status look_at_suspect(fw_verdict_search *s, bool *decided) {
     if (*decided) return FW_OK;
     fw_verdict_fabricated_corner *known =
         fw_arena_one(s->arena, fw_verdict_fabricated_corner); /* the search may come to it */
-    double *ln = fw_arena_array(s->arena, double, (size_t)s->nrow);
+    double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck);
     FW_NEED(known && ln ? known : NULL);
     *known = s->fabricated->corner[0];
-    memcpy(ln, s->ln, (size_t)s->nrow * sizeof *ln);
+    memcpy(ln, s->ln, (size_t)s->ncheck * sizeof *ln);
     s->known = known;
     s->known_ln = ln;
     s->fabricated->ncorner = 0;
@@ -339,7 +339,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         return FW_OK;
     if (alone && !v->suspect) return FW_OK;
     FW_TRY(new_search(arena, device, layout, options, v, &s));
-    FW_TRY(look_at_suspect(&s, &decided));
+    FW_TRY(try_suspect(&s, &decided));
     if (!decided) FW_TRY(search(&s));
     for (int k = 0; k < v->nhinge; k++) {
         tightest(&s, k);
@@ -354,6 +354,6 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     }
     FW_TRY(explain(&s));
     if (s.fabricated->decision == FW_INCONCLUSIVE) FW_TRY(fw_verdict_fabrication_control(&s));
-    if (s.fabricated->decision > v->decision) v->decision = s.fabricated->decision;
+    v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);
 }

@@ -10,8 +10,7 @@ enum { FW_FABRICATION_INPUTS = 6 }; /* at most, of one flow: 64 corners */
 
 /* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
      edge += edge_m (x - even), flare += flare_m (x - drawn), relative thickness and modulus
-   likewise
- */
+   likewise */
 typedef struct fw_verdict_fabrication_input {
     const char *name; /* "printed edge" */
     fw_quantity q;    /* unit, status, source and note of the range */

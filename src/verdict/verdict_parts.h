@@ -45,13 +45,13 @@ typedef struct fw_verdict_search {
     fw_verdict_options options;
     const fw_verdict_variant_verdict *v; /* as drawn */
     fw_verdict_fabricated_verdict *fabricated;
-    int nrow;   /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene */
-    double *ln; /* (points x nrow) ln of the utilisation at each point that was run; NaN: none */
+    int ncheck; /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene */
+    double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_fabricated_corner *known; /* a point that was run before the others, or NULL */
-    const double *known_ln;                    /* (nrow) */
+    const double *known_ln;                    /* (ncheck) */
     int first;     /* how many points there were when the slopes were known */
-    double *slope; /* (nrow x ninput) d ln U / dx about the nominal; NaN: none */
+    double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
 } fw_verdict_search;
 
 enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };

@@ -58,7 +58,7 @@ static fw_status combine(fw_arena *arena, const fw_device *device, double accura
     verdict->failure_probability = (double)NAN;
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
-        if (v->decision > verdict->decision) verdict->decision = v->decision;
+        verdict->decision = fw_verdict_worse(verdict->decision, v->decision);
         verdict->failure_probability = fmax(verdict->failure_probability, v->failure_probability);
     }
     return FW_OK;
@@ -113,8 +113,8 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
     return attempt(arena, device, layout, options, &again, verdict);
 }
 
-/* the drawing, or NULL where the mechanics can be judged without it; its messages are then warnings
- */
+/* the drawing, or NULL where the mechanics can be judged without it; its messages are then
+   warnings */
 static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
                       const fw_layout **layout) {
     fw_diags drawing = fw_diags_new(arena);
@@ -144,7 +144,7 @@ static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const f
     for (int i = 0; i < verdict->nvariant; i++) {
         fw_verdict_variant_verdict *v = &verdict->variant[i];
         FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));
-        if (v->decision > verdict->decision) verdict->decision = v->decision;
+        verdict->decision = fw_verdict_worse(verdict->decision, v->decision);
     }
     return FW_OK;
 }
@@ -156,6 +156,19 @@ static fw_status take_inputs(fw_arena *arena, const fw_device *device, const fw_
         FW_TRY(
             fabricated->fill(fabricated->context, arena, device, layout, i, &verdict->variant[i]));
     return FW_OK;
+}
+
+/* better hinges come with tighter numbers */
+static bool goes_further(fw_verdict_refinement refinement, fw_verdict_refinement last) {
+    switch (last) {
+    case FW_REFINE_NOTHING:
+        return refinement != FW_REFINE_NOTHING;
+    case FW_REFINE_NUMBERS:
+        return refinement == FW_REFINE_HINGES;
+    case FW_REFINE_HINGES:
+        break;
+    }
+    return false;
 }
 
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
@@ -173,7 +186,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
          verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance;) {
         fw_verdict_refinement refinement =
             fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
-        if (refinement <= last) break;
+        if (!goes_further(refinement, last)) break;
         last = refinement;
         fw_verdict_options tight = fw_verdict_tighter(options, refinement);
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Peak strain of a hinge under its rotation and the joint force: by the closed form, by an exact beam,
-   and on two neighbouring levels of hinges. */
+/* Peak strain of a hinge under its rotation and the joint force: by the closed form, by an exact
+   beam, and on two neighbouring levels of hinges. */
 #include "verdict/strain.h"
 #include "base/constants.h"
 #include "verdict/verdict.h"
@@ -12,8 +12,7 @@
    strain = (eps/rad / K) |M(b)| at the roots, without the fillet's concentration inside the arc
    in: radius m, half angle rad, centre m, moment N m, force N; out: largest |M| at the roots and
    inside, N m
-   source: docs/theory/verdict.md eq. 2; test_strain.c section_moments_of_a_whole_six_bar
- */
+   source: docs/theory/verdict.md eq. 2; test_strain.c section_moments_of_a_whole_six_bar */
 void fw_verdict_arc_moments(const fw_device_flexure *f, double centre_m, double M, double Fx,
                             double Fy, double *root_Nm, double *inside_Nm) {
     double r = f->radius_m, a = 0.5 * f->angle_rad, pi = FW_PI;

@@ -3,6 +3,7 @@
    them. */
 #include "base/diag.h"
 #include "cli/options.h"
+#include "effects/effects.h"
 #include "test.h"
 #include <stdlib.h>
 
@@ -60,11 +61,39 @@ static void every_command_is_complete(void **state) {
     }
 }
 
+/* the comment above a member of the public header, from `begins` on */
+static char *header_comment(fw_arena *arena, const char *begins, const char *member) {
+    static char header[1 << 16];
+    FILE *file = fopen(FW_TEST_SOURCE_DIR "/include/flexwright.h", "r");
+    assert_non_null(file);
+    header[fread(header, 1, sizeof header - 1, file)] = '\0';
+    fclose(file);
+    const char *from = strstr(header, begins), *to = from ? strstr(from, member) : NULL;
+    assert_non_null(to);
+    return fw_arena_strndup(arena, from, (size_t)(to - from));
+}
+
+/* the hinge models that the public header names are those of the table, in its order */
+static void public_header_names_the_hinge_models(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    char *at = header_comment(arena, "How flexures enter the mechanism", "*hinge_model;");
+    size_t named = 0;
+    for (char *end; (at = strchr(at, '"')) && (end = strchr(++at, '"')); at = end + 1) {
+        *end = '\0';
+        assert_true(named < fw_effects_hinge_model_count());
+        assert_string_equal(at, fw_effects_hinge_model_text((fw_effects_hinge_model)named++));
+    }
+    assert_int_equal(named, fw_effects_hinge_model_count());
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(command_line_page),
         cmocka_unit_test(diagnostics_page),
         cmocka_unit_test(every_command_is_complete),
+        cmocka_unit_test(public_header_names_the_hinge_models),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
