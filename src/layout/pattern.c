@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#define FW_LAYOUT_PATTERN(name) extern const fw_layout_pattern_kind fw_layout_pattern_##name;
+#include "layout/patterns.def"
+#undef FW_LAYOUT_PATTERN
 #define FW_LAYOUT_PATTERN(name) &fw_layout_pattern_##name,
 static const fw_layout_pattern_kind *const kinds[] = {
 #include "layout/patterns.def"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Test patterns: what is on a plate beside the device, to be measured. A kind is a section of one
-   of the files pattern_*.c and a row of pattern.c; which patterns a flow has, and their sizes, are
+   of the files pattern_*.c and a line of patterns.def; which patterns a flow has, and their sizes, are
    rows of masks/FLOW.xml.
 
    A pattern is drawn in a box of its own: x to the right from 0, y up from the top edge of the bar
@@ -114,9 +114,6 @@ void fw_layout_pen_figure(fw_layout_pen *pen, const char *name, double value, co
 double fw_layout_pen_value(const fw_layout_pen *pen, int parameter);
 
 /* one row per kind: pattern_etch.c, pattern_plating.c, pattern_print.c */
-#define FW_LAYOUT_PATTERN(name) extern const fw_layout_pattern_kind fw_layout_pattern_##name;
-#include "layout/patterns.def"
-#undef FW_LAYOUT_PATTERN
 
 /* ---- closed forms of what the patterns tell; each beside its drawing ---- */
 /* turn of the rotating pointer per strain, 1 (pattern_etch.c) */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Test patterns of etching, release and stress. Each with what it tells, and its row; the table is
- * in pattern.c. */
+/* Test patterns of etching, release and stress. Each with what it tells, and its row;
+   patterns.def lists them. */
 #include "base/constants.h"
 #include "layout/pattern.h"
 #include "layout/layout_text.h"

@@ -198,10 +198,8 @@ fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,
                                 const fw_output_file *file, int nfile, fw_text *out);
 
-/* writers: same mask, same bytes; one for each line of formats.def */
-#define FW_MASK_FORMAT(name, ...) fw_status fw_mask_write_##name(const fw_mask *mask, fw_text *out);
-#include "mask/formats.def"
-#undef FW_MASK_FORMAT
+/* same mask, same bytes; the writers of the other formats are in their rows (fw_mask_format) */
+fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out);
 /* name of layer k in DXF; NULL: out of memory */
 const char *fw_mask_dxf_layer(fw_arena *arena, const fw_mask *mask, int k);
 

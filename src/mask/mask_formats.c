@@ -12,6 +12,7 @@ static const fw_mask_format format_row[] = {
 };
 #undef FW_MASK_FORMAT
 enum { NFORMAT = sizeof format_row / sizeof format_row[0] };
+_Static_assert(NFORMAT <= 32, "sets of formats are bits of an unsigned");
 
 const fw_mask_format *fw_mask_format_at(size_t i) {
     return i < NFORMAT ? &format_row[i] : NULL;

@@ -89,11 +89,8 @@ static void set_limits(fw_mask_rules *r) {
     for (int i = 0; i < r->nrule; i++) {
         const fw_mask_rule *rule = &r->rule[i];
         double *limit = r->search[rule->layer].limit_m;
-        if (rule->kind == &fw_mask_kind_width || rule->kind == &fw_mask_kind_feature)
-            limit[FW_RULE_WIDTH] = fmax(limit[FW_RULE_WIDTH], rule->least);
-        if (rule->kind == &fw_mask_kind_space || rule->kind == &fw_mask_kind_notch ||
-            rule->kind == &fw_mask_kind_feature)
-            limit[FW_RULE_SPACE] = fmax(limit[FW_RULE_SPACE], rule->least);
+        for (int k = FW_RULE_WIDTH; k <= FW_RULE_SPACE; k++)
+            if (rule->kind->chords & 1u << k) limit[k] = fmax(limit[k], rule->least);
     }
 }
 
@@ -186,6 +183,7 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
                                bool (*pick)(const fw_mask_rules *rules,
                                             const fw_mask_rule_finding *f, const void *with),
                                const void *with) {
+    if (!(rule->kind->chords & 1u << kind)) return FW_INTERNAL; /* they were not all searched */
     const fw_mask_rule_search *in = &r->search[rule->layer];
     fw_mask_rule_finding *list, *place;
     int n = 0, count;

@@ -4,6 +4,11 @@
 #define FW_MASK_MASK_WRITERS_H
 #include "mask/mask.h"
 
+/* one writer for each line of formats.def: same mask, same bytes */
+#define FW_MASK_FORMAT(name, ...) fw_status fw_mask_write_##name(const fw_mask *mask, fw_text *out);
+#include "mask/formats.def"
+#undef FW_MASK_FORMAT
+
 /* A GDSII library for programs that write more polygons than they hold: what stands in the text may
    be taken out (length = 0) between two calls. A library is begin, then for each cell, children
    before parents, cell_begin, its content, cell_end, then end. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/mask.h"
+#include "mask/mask_writers.h"
 #include "base/constants.h"
 #include "geometry/geometry_svg.h"
 #include <math.h>

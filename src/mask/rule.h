@@ -115,6 +115,12 @@ typedef struct fw_mask_rules { /* one mask while it is checked */
     bool no_memory;
 } fw_mask_rules;
 
+/* chords that a kind judges */
+enum {
+    FW_CHORD_WIDTH = 1 << FW_RULE_WIDTH,
+    FW_CHORD_SPACE = 1 << FW_RULE_SPACE,
+};
+
 typedef struct fw_mask_rule_kind_row {
     const char *name;   /* kind="..." */
     const char *advice; /* what to do */
@@ -123,7 +129,8 @@ typedef struct fw_mask_rule_kind_row {
     fw_mask_rule_unit_kind unit;
     unsigned takes; /* attributes; INSIDE, FROM, PRINT and WINDOW are needed too */
     unsigned of, usual_of;
-    bool built_in; /* no row of the table says it */
+    unsigned chords; /* FW_CHORD_...: which ones its least holds for, so that they are searched */
+    bool built_in;   /* no row of the table says it */
     fw_status (*check)(fw_mask_rules *rules, const fw_mask_rule *rule);
 } fw_mask_rule_kind_row;
 

@@ -13,6 +13,7 @@ const fw_mask_rule_kind_row fw_mask_kind_width = {
     .number = 144,
     .marker = 0,
     .unit = FW_UNIT_LENGTH,
+    .chords = FW_CHORD_WIDTH,
     .check = check_width,
 };
 
@@ -42,6 +43,7 @@ const fw_mask_rule_kind_row fw_mask_kind_space = {
     .number = 145,
     .marker = 1,
     .unit = FW_UNIT_LENGTH,
+    .chords = FW_CHORD_SPACE,
     .check = check_space,
 };
 
@@ -67,6 +69,7 @@ const fw_mask_rule_kind_row fw_mask_kind_notch = {
     .number = 145,
     .marker = 2,
     .unit = FW_UNIT_LENGTH,
+    .chords = FW_CHORD_SPACE,
     .check = check_notch,
 };
 
@@ -89,5 +92,6 @@ const fw_mask_rule_kind_row fw_mask_kind_feature = {
     .marker = 3,
     .unit = FW_UNIT_LENGTH,
     .takes = FW_TAKES_PRINT,
+    .chords = FW_CHORD_WIDTH | FW_CHORD_SPACE,
     .check = check_feature,
 };

@@ -47,7 +47,6 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
 fw_status fw_process_calibration_text(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration, fw_text *out);
 
-
 /* ---- laboratory packs ---- */
 
 /* Replaces quantities of the flow by id, adds each to flow->override and says it (FW-D198). A pack

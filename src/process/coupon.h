@@ -22,7 +22,7 @@ fw_process_fit fw_process_fit_plane(const double *y, const double *s, const doub
 /* probability of a chi square above x with n degrees of freedom; n 0: 1 */
 double fw_process_chi_square_above(double x, int n);
 
-/* Kinds of coupons: one file and one row in process_calibrate.c each. Private to process/. */
+/* Kinds of coupons: a file coupon_*.c and a line in coupons.def each. Private to process/. */
 
 enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64 };
 

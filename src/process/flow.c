@@ -165,8 +165,7 @@ static fw_status derive_all(fw_arena *arena, fw_process_step *s) {
         double value = answer.computable ? answer.value : (double)NAN;
         const char *source = "";
         FW_NEED(source = fw_arena_printf(arena, "computed: %s",
-                                         use.law == &fw_process_law_expr ? d->expression
-                                                                         : use.law->formula));
+                                         !use.law->argument ? d->expression : use.law->formula));
         FW_TRY(fw_process_step_derive(arena, s, d->name, value, answer.uncertainty, d->dimension,
                                       d->unit, answer.status, source));
         fw_quantity *shown = (fw_quantity *)s->derived[s->nderived - 1];

@@ -77,10 +77,15 @@ static const fw_process_law_argument faraday_argument[] = {
     [EFFICIENCY] = {"efficiency", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [POROSITY] = {"porosity", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [AREA] = {"area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
-const fw_process_law fw_process_law_faraday = {"faraday",        "t = d rho P n F/(eta J M)",
-                                               faraday_argument, 8,
-                                               faraday_time,     faraday_slope,
-                                               faraday_derive,   NULL};
+const fw_process_law fw_process_law_faraday = {
+    .name = "faraday",
+    .formula = "t = d rho P n F/(eta J M)",
+    .argument = faraday_argument,
+    .nargument = 8,
+    .evaluate = faraday_time,
+    .slope = faraday_slope,
+    .derive = faraday_derive,
+};
 
 /* t = (V/Q) ln(c0/c): rinsing in a stirred overflow bath. V m3, Q m3/s, c0/c 1; t s.
    Test: test_law.c, dilution. */
@@ -98,5 +103,9 @@ static const fw_process_law_argument dilution_argument[] = {
     {"flow", FW_DIM_FLOW, FW_LAW_REQUIRED, false, NULL},
     {"dilution", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_process_law_dilution = {
-    "dilution", "t = (volume/flow) ln(dilution)", dilution_argument, 3, dilution_time, NULL, NULL,
-    NULL};
+    .name = "dilution",
+    .formula = "t = (volume/flow) ln(dilution)",
+    .argument = dilution_argument,
+    .nargument = 3,
+    .evaluate = dilution_time,
+};

@@ -25,14 +25,13 @@ static const fw_process_law_argument arrhenius_argument[] = {
     {"activation_energy", FW_DIM_ENERGY, FW_LAW_REQUIRED, false, NULL},
     {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL},
     {"temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_process_law_arrhenius = {"arrhenius",
-                                                 "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))",
-                                                 arrhenius_argument,
-                                                 5,
-                                                 arrhenius_time,
-                                                 NULL,
-                                                 NULL,
-                                                 NULL};
+const fw_process_law fw_process_law_arrhenius = {
+    .name = "arrhenius",
+    .formula = "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))",
+    .argument = arrhenius_argument,
+    .nargument = 5,
+    .evaluate = arrhenius_time,
+};
 
 /* (1 + kappa A)/(1 + kappa A_ref): the etch slows down with the open area.
    kappa 1/m2, A m2; factor on the time, 1. kappa from two dummy areas.
@@ -53,14 +52,13 @@ static const fw_process_law_argument loading_argument[] = {
     {"loading", FW_DIM_PER_AREA, FW_LAW_REQUIRED, false, NULL},
     {"open_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL},
     {"reference_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_process_law_loading = {"loading",
-                                               "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)",
-                                               loading_argument,
-                                               5,
-                                               loading_time,
-                                               NULL,
-                                               NULL,
-                                               NULL};
+const fw_process_law fw_process_law_loading = {
+    .name = "loading",
+    .formula = "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)",
+    .argument = loading_argument,
+    .nargument = 5,
+    .evaluate = loading_time,
+};
 
 enum { DEPTH, RATE, WIDTH, PROBABILITY, LAG, LOADING, OPEN_AREA, REFERENCE_AREA };
 
@@ -166,4 +164,9 @@ static const fw_process_law_argument arde_argument[] = {
     [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL},
     [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
 const fw_process_law fw_process_law_arde = {
-    "arde", "t = (D + S J(w, D))/R0", arde_argument, 8, arde_time, NULL, NULL, NULL};
+    .name = "arde",
+    .formula = "t = (D + S J(w, D))/R0",
+    .argument = arde_argument,
+    .nargument = 8,
+    .evaluate = arde_time,
+};

@@ -15,8 +15,14 @@ static fw_status const_time(fw_process_law_call *call, const double *x, double *
 
 static const fw_process_law_argument const_argument[] = {
     {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_process_law_const = {"const",    "t = time", const_argument, 1,
-                                             const_time, NULL,       NULL,           NULL};
+const fw_process_law fw_process_law_const = {
+    .name = "const",
+    .formula = "t = time",
+    .argument = const_argument,
+    .nargument = 1,
+    .evaluate = const_time,
+    .stated = true,
+};
 
 /* t = d/R. d m, R m/s; t s. Any removal or deposition at a constant rate, also "1 min per um".
    Exact slopes. Test: test_law.c, rate. */
@@ -34,8 +40,14 @@ static void rate_slope(const double *x, double result, double *dx) {
 static const fw_process_law_argument rate_argument[] = {
     {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL}};
-const fw_process_law fw_process_law_rate = {"rate",    "t = thickness/rate", rate_argument, 2,
-                                            rate_time, rate_slope,           NULL,          NULL};
+const fw_process_law fw_process_law_rate = {
+    .name = "rate",
+    .formula = "t = thickness/rate",
+    .argument = rate_argument,
+    .nargument = 2,
+    .evaluate = rate_time,
+    .slope = rate_slope,
+};
 
 /* t = one arithmetic expression over the declared arguments, dimension-checked: a laboratory adds
    its own law without a compiler. Slopes by central difference. Test: test_law.c, expr. */
@@ -54,7 +66,10 @@ static fw_status expr_time(fw_process_law_call *call, const double *x, double *r
 }
 
 const fw_process_law fw_process_law_expr = {
-    "expr", "t = expression over the arguments", NULL, 0, expr_time, NULL, NULL, NULL};
+    .name = "expr",
+    .formula = "t = expression over the arguments",
+    .evaluate = expr_time,
+};
 
 enum { VALUE, SHORTEST, LONGEST, FIRST, PAIRS = 6 };
 
@@ -107,7 +122,10 @@ static const fw_process_law_argument table_argument[] = {
     PAIR(FW_LAW_OPTIONAL, 5),
     PAIR(FW_LAW_OPTIONAL, 6)};
 const fw_process_law fw_process_law_lab_table = {
-    "table",        "t between the laboratory's own pairs value_i, time_i",
-    table_argument, FIRST + 2 * PAIRS,
-    table_time,     NULL,
-    NULL,           NULL};
+    .name = "table",
+    .formula = "t between the laboratory's own pairs value_i, time_i",
+    .argument = table_argument,
+    .nargument = FIRST + 2 * PAIRS,
+    .evaluate = table_time,
+    .pairs_of = "the laboratory curve",
+};

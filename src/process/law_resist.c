@@ -42,8 +42,13 @@ static const fw_process_law_argument spin_argument[] = {
     [SPIN_EXPONENT] = {"exponent", FW_DIM_NONE, FW_LAW_REQUIRED, false, NULL},
     [SPIN_TIME] = {"time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_process_law_spin = {
-    "spin", "speed = w0 (d0/d)^(1/a); t = time", spin_argument, 5, spin_speed, NULL, spin_derive,
-    NULL};
+    .name = "spin",
+    .formula = "speed = w0 (d0/d)^(1/a); t = time",
+    .argument = spin_argument,
+    .nargument = 5,
+    .evaluate = spin_speed,
+    .derive = spin_derive,
+};
 
 /* t = t0 (d/d0)^2: water that must diffuse back through a baked resist. d m, t s.
    Test: test_law.c, diffusion. */
@@ -59,7 +64,12 @@ static const fw_process_law_argument diffusion_argument[] = {
     {"reference_thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"reference_time", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_process_law_diffusion = {
-    "diffusion", "t = t0 (d/d0)^2", diffusion_argument, 3, diffusion_time, NULL, NULL, NULL};
+    .name = "diffusion",
+    .formula = "t = t0 (d/d0)^2",
+    .argument = diffusion_argument,
+    .nargument = 3,
+    .evaluate = diffusion_time,
+};
 
 enum { DOSE_INTENSITY, DOSE_GIVEN, DOSE_THICKNESS, DOSE_FIRST, DOSE_PAIRS = 6 };
 
@@ -121,10 +131,15 @@ static const fw_process_law_argument dose_argument[] = {
     PAIR(4),
     PAIR(5),
     PAIR(6)};
-const fw_process_law fw_process_law_dose = {"dose",        "t = dose(thickness)/intensity",
-                                            dose_argument, DOSE_FIRST + 2 * DOSE_PAIRS,
-                                            dose_time,     dose_slope,
-                                            dose_derive,   NULL};
+const fw_process_law fw_process_law_dose = {
+    .name = "dose",
+    .formula = "t = dose(thickness)/intensity",
+    .argument = dose_argument,
+    .nargument = DOSE_FIRST + 2 * DOSE_PAIRS,
+    .evaluate = dose_time,
+    .slope = dose_slope,
+    .derive = dose_derive,
+};
 
 enum { DUTY_TIME, DUTY_PULSE, DUTY_PAUSE };
 
@@ -177,7 +192,12 @@ static const fw_process_law_argument duty_argument[] = {
     [DUTY_PULSE] = {"pulse", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL},
     [DUTY_PAUSE] = {"pause", FW_DIM_TIME, FW_LAW_REQUIRED, false, NULL}};
 const fw_process_law fw_process_law_duty = {
-    "duty",        "t = time + (n - 1) pause, n = ceil(time/pulse)",
-    duty_argument, 3,
-    duty_time,     duty_slope,
-    duty_derive,   steps};
+    .name = "duty",
+    .formula = "t = time + (n - 1) pause, n = ceil(time/pulse)",
+    .argument = duty_argument,
+    .nargument = 3,
+    .evaluate = duty_time,
+    .slope = duty_slope,
+    .derive = duty_derive,
+    .steps = steps,
+};

@@ -87,11 +87,11 @@ static const char *in_words(fw_arena *arena, const char *name) {
 static const char *missing_name(fw_arena *arena, const fw_process_law_use *use,
                                 const fw_process_argument *a) {
     const char *words = in_words(arena, a->name);
-    bool own_pair = use->law == &fw_process_law_lab_table && strpbrk(a->name, "0123456789");
+    const char *of = strpbrk(a->name, "0123456789") ? use->law->pairs_of : NULL;
     for (int i = 0; i < use->nsetting; i++)
         if (use->setting[i].q == a->q) words = use->setting[i].name;
     if (!words) return NULL;
-    return fw_arena_printf(arena, "%s%s (%s)", words, own_pair ? " of the laboratory curve" : "",
+    return fw_arena_printf(arena, "%s%s%s (%s)", words, of ? " of " : "", of ? of : "",
                            a->q->id ? a->q->id : "no id");
 }
 
@@ -107,8 +107,7 @@ static fw_status missing(fw_arena *arena, const fw_process_law_use *use,
             answer->status = a->q->status;
     }
     /* what is computed is derived at best; a stated time is handed on as it is */
-    if (use->law != &fw_process_law_const && answer->status < FW_DERIVED)
-        answer->status = FW_DERIVED;
+    if (!use->law->stated && answer->status < FW_DERIVED) answer->status = FW_DERIVED;
     for (int i = 0; i < use->law->nargument; i++) {
         const fw_process_law_argument *a = &use->law->argument[i];
         bool given = false;

@@ -75,7 +75,8 @@ typedef struct fw_process_law_use { /* a law with what it is applied to */
 
 typedef struct fw_process_law {
     const char *name, *formula;
-    const fw_process_law_argument *argument; /* (nargument); NULL: any names (expr) */
+    const fw_process_law_argument
+        *argument; /* (nargument); NULL: any names, and an <expr> says it */
     int nargument;
     /* x in the order of `argument`, NaN where not given. FW_INPUT with call->why when outside. */
     fw_status (*evaluate)(fw_process_law_call *call, const double *x, double *result);
@@ -88,6 +89,8 @@ typedef struct fw_process_law {
     /* what steps of the result within the inputs' uncertainties u add to its own: standard, to be
        added as it is; NULL: the law has no steps */
     double (*steps)(const double *x, const double *u);
+    bool stated;          /* hands a time on as it is stated, with its status */
+    const char *pairs_of; /* numbered arguments are pairs of this; NULL: it has none of its own */
 } fw_process_law;
 
 const fw_process_law *fw_process_law_row(int i);             /* i-th law, NULL after the last */

@@ -108,7 +108,7 @@ static fw_status read_expression(fw_process_pack *pack, const fw_xml_record *e,
     const fw_xml_record *found = NULL;
     for (const fw_xml_record *c = e->first_child; c; c = c->next)
         if (fw_xml_is(c, "expr")) found = c;
-    if ((law == &fw_process_law_expr) != (found != NULL)) {
+    if ((law && !law->argument) != (found != NULL)) {
         fw_diag_error(pack->diags, 170, e->element->place,
                       found ? "<expr> belongs to law='expr' only" : "law='expr' needs an <expr>");
         return FW_OK;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A row is enough: a time law, an effect and a mask format that the program does not have (tests/arch/additions/*.patch,
-each of one new file and one line in a list) are added to a copy of the sources, and everything that should know of them
+"""A row is enough: a time law, an effect, a mask format, a design rule, a test pattern and a coupon that the program does
+not have (tests/arch/additions/*.patch, each of one new file and one line in a list) are added to a copy of the sources, and everything that should know of them
 is asked: simulate, the advice of check, hinge --deck, the report, --help, the reference page and the page's form.
 
     additions.py BUILD
@@ -182,6 +182,29 @@ def check(copy):
     assert any(f["name"] == "points" for f in form["mask_formats"]), form["mask_formats"]
     assert any(e["name"] == "magnetic-torque" for e in form["effects"]), form["effects"]
     pages.append("the page's form")
+
+    # what a laboratory adds: a rule and a pattern of a layer table, a coupon
+    for part in ("processes", "masks"):
+        shutil.copytree(ROOT / part, at / part)
+    table = at / "masks/al-masked-rie.xml"
+    text = table.read_text()
+    rows = ('  <rule kind="extent" layer="text" min="500 um" severity="warning" source="tried"/>\n'
+            '  <pattern kind="block" id="a-block" title="BLOCK" width="120 um"/>\n')
+    table.write_text(text.replace("</mask-table>", rows + "</mask-table>"))
+    os.environ["FLEXWRIGHT_DATA"] = str(at)
+    out = at / "own"
+    run("mask", small, "-o", out, "--force", "--corners", "none", ok=(0, 1, 4))
+    certificate = next((out / "masks").glob("*-rie.json")).read_text()
+    expect("the certificate", certificate, '"extent"')
+    expect("the list of patterns", next((out / "masks").glob("*-coupons.json")).read_text(), "a-block", "block")
+    measured = at / "measured.csv"
+    measured.write_text("coupon,feature,drawn_um,measured,u,unit\ncaliper,al.d,,1.02,0.01,um\ncaliper,al.d,,1.03,0.01,um\n")
+    pack = at / "laboratory.xml"
+    run("calibrate", measured, "--flow", "al-masked-rie", "-o", pack)
+    expect("the laboratory pack", pack.read_text(), 'id="al.d"', "caliper")
+    measured.write_text("coupon,feature,drawn_um,measured,u,unit\ncalliper,al.d,,1.02,0.01,um\n")
+    said = subprocess.run([program, "calibrate", measured, "--flow", "al-masked-rie"], capture_output=True, text=True)
+    expect("the list of coupons", said.stderr, "did you mean 'caliper'")
     print("known to: " + ", ".join(pages))
 
 
