@@ -35,14 +35,19 @@ bool fw_process_lag_is_guess(const fw_quantity *lag) {
     return lag && !lag->unknown && lag->status == FW_ASSUMED;
 }
 
+static bool lags(const char *name) {
+    const fw_process_law *law = fw_process_law_find(name);
+    return law && law->lags;
+}
+
 /* how narrow openings fall behind: the step's own law, else the one it derives on the way */
 static void read_lag(const fw_process_step *s, fw_process_cut *cut) {
-    bool own = s->law && strcmp(s->law, "arde") == 0;
+    bool own = lags(s->law);
     const fw_process_argument *list = s->argument;
     int n = s->nargument;
     const char *shape = s->shape;
     for (int i = 0; !own && i < s->nderive; i++)
-        if (s->derive[i].law && strcmp(s->derive[i].law, "arde") == 0) {
+        if (lags(s->derive[i].law)) {
             list = s->derive[i].argument;
             n = s->derive[i].nargument;
             shape = s->derive[i].shape;

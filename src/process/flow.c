@@ -99,7 +99,7 @@ static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     for (int i = 0; i < 2; i++) {
         const fw_quantity *q = find(flow, extra[i]);
         if (!q) continue;
-        worst = q->status > worst ? q->status : worst;
+        worst = fw_process_status_worse(worst, q->status);
         area += q->unknown ? (double)NAN : q->value;
         u = hypot(u, q->uncertainty);
     }
@@ -186,11 +186,12 @@ static fw_status derive_all(fw_arena *arena, fw_process_step *s) {
     return FW_OK;
 }
 
-/* the arguments of an arde law whose lag is only assumed, without lag: the time of wide openings */
+/* the arguments of a law whose lag is only assumed, without lag: the time of wide openings */
 static const fw_process_argument *without_guess(const fw_process_step *s, fw_process_argument *list,
                                                 fw_quantity *none) {
     bool guess = false;
-    if (strcmp(s->law, "arde") != 0 || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
+    const fw_process_law *law = fw_process_law_find(s->law);
+    if (!law || !law->lags || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
     for (int i = 0; i < s->nargument; i++) {
         const fw_process_argument *a = &s->argument[i];
         bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;

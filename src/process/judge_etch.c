@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
 #include "process/films.h"
+#include "process/process_law.h"
 #include <math.h>
 
 /* u(z) = (1 - A)(E - z), E = R T the depth the floor would have reached in the whole time: the wall
@@ -269,7 +270,7 @@ static fw_status lag(fw_process_judge *j, const fw_process_cut *c) {
     if (c->lag == FW_LAG_NONE || isnan(c->lag_value) || p->ncls == 0) return FW_OK;
     const fw_process_edge_class *k = &p->cls[0];
     if (k->kind == FW_GAP_FIELD || !(c->lag_value > 0.0)) return FW_OK;
-    bool firm = c->lag_quantity && c->lag_quantity->status <= FW_DERIVED;
+    bool firm = c->lag_quantity && fw_process_status_firm(c->lag_quantity->status);
     double deep = depth_in_wide_time(c, k->opening_m);
     const char *how = c->follows ? "is planned for" : "would need";
     const char *opening = fw_process_judge_um(&t, k->opening_m),

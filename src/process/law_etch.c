@@ -169,4 +169,5 @@ const fw_process_law fw_process_law_arde = {
     .argument = arde_argument,
     .nargument = 8,
     .evaluate = arde_time,
+    .lags = true,
 };

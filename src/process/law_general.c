@@ -47,6 +47,7 @@ const fw_process_law fw_process_law_rate = {
     .nargument = 2,
     .evaluate = rate_time,
     .slope = rate_slope,
+    .by_rate = true,
 };
 
 /* t = one arithmetic expression over the declared arguments, dimension-checked: a laboratory adds

@@ -44,6 +44,11 @@ fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int
     return FW_OK;
 }
 
+static fw_process_answer worse(fw_process_answer a, fw_process_answer b) {
+    if (a == FW_ANSWER_NO || b == FW_ANSWER_NO) return FW_ANSWER_NO;
+    return a == FW_ANSWER_OPEN || b == FW_ANSWER_OPEN ? FW_ANSWER_OPEN : FW_ANSWER_FINE;
+}
+
 fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight, const char *format,
                                   ...) {
     char text[1200];
@@ -58,7 +63,7 @@ fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight,
         memcpy(text + end, "...", 4);
     }
     FW_TRY(append(j->arena, j->flow, fw_arena_strdup(j->arena, text)));
-    if (weight < j->verdict) j->verdict = weight;
+    j->verdict = worse(j->verdict, weight);
     return FW_OK;
 }
 

@@ -13,7 +13,7 @@ static const fw_process_law *const table[] = {
 enum { LAW_COUNT = sizeof table / sizeof table[0] };
 
 const fw_process_law *fw_process_law_find(const char *name) {
-    for (int i = 0; i < LAW_COUNT; i++)
+    for (int i = 0; name && i < LAW_COUNT; i++)
         if (strcmp(table[i]->name, name) == 0) return table[i];
     return NULL;
 }
@@ -103,11 +103,11 @@ static fw_status missing(fw_arena *arena, const fw_process_law_use *use,
         if (a->q->unknown)
             FW_TRY(
                 add_text(arena, &answer->missing, &answer->nmissing, missing_name(arena, use, a)));
-        else if (a->q->status > answer->status)
-            answer->status = a->q->status;
+        else
+            answer->status = fw_process_status_worse(answer->status, a->q->status);
     }
     /* what is computed is derived at best; a stated time is handed on as it is */
-    if (!use->law->stated && answer->status < FW_DERIVED) answer->status = FW_DERIVED;
+    if (!use->law->stated) answer->status = fw_process_status_worse(answer->status, FW_DERIVED);
     for (int i = 0; i < use->law->nargument; i++) {
         const fw_process_law_argument *a = &use->law->argument[i];
         bool given = false;
@@ -263,7 +263,7 @@ fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const c
                                               (size_t)step->nderived + 1, sizeof *step->derived);
     FW_NEED(q && grown);
     /* what is computed is at best derived */
-    if (status < FW_DERIVED) status = FW_DERIVED;
+    status = fw_process_status_worse(status, FW_DERIVED);
     bool known = isfinite(value) && isfinite(uncertainty_si);
     *q = (fw_quantity){.id = name,
                        .unknown = !known,

@@ -90,11 +90,22 @@ typedef struct fw_process_law {
        added as it is; NULL: the law has no steps */
     double (*steps)(const double *x, const double *u);
     bool stated;          /* hands a time on as it is stated, with its status */
+    bool by_rate;         /* is thickness over rate, and nothing else */
+    bool lags;            /* knows how narrow openings fall behind: probability or lag */
     const char *pairs_of; /* numbered arguments are pairs of this; NULL: it has none of its own */
 } fw_process_law;
 
 const fw_process_law *fw_process_law_row(int i);             /* i-th law, NULL after the last */
-const fw_process_law *fw_process_law_find(const char *name); /* or NULL */
+const fw_process_law *fw_process_law_find(const char *name); /* or NULL, as for NULL */
+/* of two statuses the one that a result of both inherits */
+static inline fw_quantity_value_status fw_process_status_worse(fw_quantity_value_status a,
+                                                               fw_quantity_value_status b) {
+    return a > b ? a : b; /* the enum goes from best to worst */
+}
+/* measured, stated or derived: no one's guess */
+static inline bool fw_process_status_firm(fw_quantity_value_status status) {
+    return fw_process_status_worse(status, FW_DERIVED) == FW_DERIVED;
+}
 /* index of argument `name`, or -1 */
 int fw_process_law_argument_index(const fw_process_law *law, const char *name);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/films.h"
+#include "process/process_law.h"
 #include <math.h>
 #include <string.h>
 
@@ -154,8 +155,8 @@ static const char *unknown_of(const fw_quantity *q) {
    what is not known, or NULL. Other laws say nothing here. */
 static const char *loss_of(const fw_process_step *s, const fw_quantity *r, double *loss_m,
                            double *u_m) {
-    bool rate = s->law && strcmp(s->law, "rate") == 0,
-         fixed = s->law && strcmp(s->law, "const") == 0;
+    const fw_process_law *law = fw_process_law_find(s->law);
+    bool rate = law && law->by_rate, fixed = law && law->stated;
     const fw_quantity *length = argument(s, rate ? "thickness" : "time"), *R = argument(s, "rate");
     double share = 0.0;
     if (!rate && !fixed) return "the time of its law";

@@ -3,6 +3,7 @@
 #include "base/svg.h"
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe_words.h"
+#include "process/process_law.h"
 #include <math.h>
 #include <string.h>
 
@@ -211,7 +212,8 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
     fw_text_add(out, "</tr></table>\n");
-    if (strcmp(s->law, "const") == 0) /* the row "time" above has said it all */
+    const fw_process_law *law = fw_process_law_find(s->law);
+    if (law && law->stated) /* the row "time" above has said it all */
         return FW_OK;
     fw_text_add(out, "<p class=\"small\">Time: law <i>");
     fw_text_escaped(out, s->law);

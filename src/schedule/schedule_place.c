@@ -261,6 +261,21 @@ static bool ready(const fw_schedule_placing *p, const fw_schedule_group *u) {
     return !u->placed;
 }
 
+static bool looks_at_start(fw_schedule_rule rule) {
+    switch (rule) {
+    case FW_RULE_EARLIEST_ADVANCED:
+    case FW_RULE_EARLIEST_BEHIND:
+    case FW_RULE_EARLIEST_END:
+    case FW_RULE_EARLIEST_LONG:
+        return true;
+    case FW_RULE_WAFER:
+    case FW_RULE_STEP:
+    case FW_RULE_LIST:
+        return false;
+    }
+    return false;
+}
+
 /* smaller goes first; the second decides between equal ones, then the wafer */
 static void key_of(const fw_schedule_placing *p, const fw_schedule_group *u, fw_schedule_rule rule,
                    double key[3]) {
@@ -268,7 +283,7 @@ static void key_of(const fw_schedule_placing *p, const fw_schedule_group *u, fw_
     int count = u->count < p->load[u->from] ? u->count : p->load[u->from];
     fw_schedule_wait why;
     double start = 0.0;
-    if (rule <= FW_RULE_EARLIEST_LONG)
+    if (looks_at_start(rule))
         start = round(earliest(p, u->from, u->first, count, &why) * 1e6) * 1e-6;
     const double of[][2] = {[FW_RULE_EARLIEST_ADVANCED] = {start, -u->from},
                             [FW_RULE_EARLIEST_BEHIND] = {start, u->from},
