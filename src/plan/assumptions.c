@@ -106,7 +106,7 @@ static fw_status repetitions(fw_plan *plan) {
     if (asked->failure_probability > 0)
         FW_TRY(fw_plan_assume(
             plan,
-            "What fractures is allowed a failure probability of %s of the whole device, shared "
+            "Brittle materials are allowed a failure probability of %s of the whole device, shared "
             "equally by its flexures, from the Weibull strength of their stressed surfaces; the "
             "safety factor comes on top.",
             fw_number_text(n, sizeof n, asked->failure_probability, 3)));

@@ -45,7 +45,7 @@ static fw_status only(fw_plan_live_request *r, json_t *object, const char *const
     const char *key;
     json_t *value;
     json_object_foreach(object, key, value) if (!listed(key, keys)) return fw_plan_live_wrong(
-        r, "there is no key", key);
+        r, "this member is not known:", key);
     return FW_OK;
 }
 
@@ -54,7 +54,7 @@ static fw_status object_of(fw_plan_live_request *r, const char *key, json_t **va
     *value = json_object_get(r->root, key);
     if (json_is_null(*value)) *value = NULL;
     if (*value && !json_is_object(*value))
-        return fw_plan_live_wrong(r, "an object is wanted for", key);
+        return fw_plan_live_wrong(r, "an object is needed for", key);
     return FW_OK;
 }
 
@@ -67,10 +67,10 @@ static fw_status read_request(fw_arena *arena, const char *json, size_t n, const
         return fw_plan_live_wrong(r, "the request is larger than 16 MiB", NULL);
     r->root = json_loadb(json, n, JSON_REJECT_DUPLICATES, &error);
     if (!r->root || !json_is_object(r->root))
-        return fw_plan_live_wrong(r, "the request is no JSON object", NULL);
+        return fw_plan_live_wrong(r, "the request is not a JSON object", NULL);
     FW_TRY(only(r, r->root, keys));
     const json_t *text = json_object_get(r->root, "text");
-    if (!json_is_string(text)) return fw_plan_live_wrong(r, "a string is wanted for", "text");
+    if (!json_is_string(text)) return fw_plan_live_wrong(r, "a string is needed for", "text");
     r->text = json_string_value(text);
     r->length = json_string_length(text);
     FW_TRY(object_of(r, "set", &r->set));
@@ -86,7 +86,7 @@ fw_status fw_plan_live_string(fw_plan_live_request *r, const json_t *object, con
                               const char **value) {
     const json_t *v = object ? json_object_get(object, key) : NULL;
     if (!v || json_is_null(v)) return FW_OK;
-    if (!json_is_string(v)) return fw_plan_live_wrong(r, "a string is wanted for", key);
+    if (!json_is_string(v)) return fw_plan_live_wrong(r, "a string is needed for", key);
     *value = json_string_value(v);
     return FW_OK;
 }
@@ -95,7 +95,7 @@ fw_status fw_plan_live_real(fw_plan_live_request *r, const json_t *object, const
                             double *value) {
     const json_t *v = object ? json_object_get(object, key) : NULL;
     if (!v || json_is_null(v)) return FW_OK;
-    if (!json_is_number(v)) return fw_plan_live_wrong(r, "a number is wanted for", key);
+    if (!json_is_number(v)) return fw_plan_live_wrong(r, "a number is needed for", key);
     *value = json_number_value(v);
     return FW_OK;
 }
@@ -127,7 +127,7 @@ static fw_status read_options(fw_plan_live_request *r, fw_design_options *o, boo
     FW_TRY(fw_plan_live_string(r, r->options, "detail", &detail));
     *full = strcmp(detail, "full") == 0;
     if (!*full && strcmp(detail, "quick") != 0)
-        return fw_plan_live_wrong(r, "detail is \"quick\" or \"full\"", NULL);
+        return fw_plan_live_wrong(r, "detail must be \"quick\" or \"full\"", NULL);
     if (!*full && !o->hinge_model) o->hinge_model = fw_effects_hinge_model_text(FW_HINGE_REVOLUTE);
     return FW_OK;
 }
@@ -136,10 +136,13 @@ static fw_status apply_sets(fw_plan_live_request *r, fw_design *design) {
     const char *key;
     json_t *value;
     if (json_object_size(r->set) > FW_LIVE_SETS_MOST)
-        return fw_plan_live_wrong(r, "more than 256 values to set", NULL);
+        return fw_plan_live_wrong(r, "set holds more than 256 values, the most of one request",
+                                  NULL);
     json_object_foreach(r->set, key, value) {
-        if (!json_is_string(value)) return fw_plan_live_wrong(r, "a string is wanted for", key);
-        if (!key[0]) return fw_plan_live_wrong(r, "set needs names", NULL);
+        if (!json_is_string(value)) return fw_plan_live_wrong(r, "a string is needed for", key);
+        if (!key[0])
+            return fw_plan_live_wrong(
+                r, "set needs the name of a parameter or a path before every value", NULL);
         int status = fw_design_set(design, key, json_string_value(value));
         if (status != FW_STATUS_OK) return (fw_status)status;
     }
@@ -325,13 +328,14 @@ static fw_status attributes(fw_plan_live_request *r, const json_t *from,
     const char *name;
     if (!object || json_is_null(object)) return FW_OK;
     if (!json_is_object(object))
-        return fw_plan_live_wrong(r, "an object is wanted for", "attributes");
+        return fw_plan_live_wrong(r, "an object is needed for", "attributes");
     size_t n = json_object_size(object);
-    if (n > ATTRIBUTES_MOST) return fw_plan_live_wrong(r, "more than 64 attributes", NULL);
+    if (n > ATTRIBUTES_MOST)
+        return fw_plan_live_wrong(r, "more than 64 attributes, the most of one change", NULL);
     fw_device_text_attribute *item = fw_arena_array(r->arena, fw_device_text_attribute, n);
     FW_NEED(item);
     json_object_foreach(object, name, value) {
-        if (!json_is_string(value)) return fw_plan_live_wrong(r, "a string is wanted for", name);
+        if (!json_is_string(value)) return fw_plan_live_wrong(r, "a string is needed for", name);
         item[change->nattribute++] = (fw_device_text_attribute){name, json_string_value(value)};
     }
     change->attribute = item;
@@ -344,12 +348,13 @@ static fw_status change_of(fw_plan_live_request *r, const json_t *from,
     static const char *const known[] = {"path", "value", "add", "element", "attributes", "remove"};
     const char *key, *path = NULL, *add = NULL, *remove = NULL;
     json_t *value;
-    if (!json_is_object(from)) return fw_plan_live_wrong(r, "a change is an object", NULL);
+    if (!json_is_object(from))
+        return fw_plan_live_wrong(r, "every change has to be a JSON object", NULL);
     json_object_foreach((json_t *)from, key, value) {
         bool found = false;
         for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
             found = found || strcmp(key, known[i]) == 0;
-        if (!found) return fw_plan_live_wrong(r, "there is no key", key);
+        if (!found) return fw_plan_live_wrong(r, "this member is not known:", key);
     }
     *change = (fw_device_text_change){.kind = FW_CHANGE_SET};
     FW_TRY(fw_plan_live_string(r, from, "path", &path));
@@ -359,11 +364,11 @@ static fw_status change_of(fw_plan_live_request *r, const json_t *from,
     FW_TRY(fw_plan_live_string(r, from, "element", &change->element));
     FW_TRY(attributes(r, from, change));
     if ((path != NULL) + (add != NULL) + (remove != NULL) != 1)
-        return fw_plan_live_wrong(r, "a change has one of \"path\", \"add\" and \"remove\"", NULL);
+        return fw_plan_live_wrong(r, "a change needs one of \"path\", \"add\" and \"remove\"",
+                                  NULL);
     if (path && !json_object_get(from, "value"))
-        return fw_plan_live_wrong(r, "a value is wanted (null takes the attribute out) with",
-                                  "path");
-    if (add && !change->element) return fw_plan_live_wrong(r, "an element is wanted with", "add");
+        return fw_plan_live_wrong(r, "a value (null removes the attribute) is needed with", "path");
+    if (add && !change->element) return fw_plan_live_wrong(r, "an element is needed with", "add");
     change->kind = path ? FW_CHANGE_SET : add ? FW_CHANGE_ADD : FW_CHANGE_REMOVE;
     change->path = path ? path : add ? add : remove;
     return FW_OK;
@@ -371,9 +376,9 @@ static fw_status change_of(fw_plan_live_request *r, const json_t *from,
 
 static fw_status changes_of(fw_plan_live_request *r, fw_device_text_change **change, int *n) {
     const json_t *list = json_object_get(r->root, "changes");
-    if (!json_is_array(list)) return fw_plan_live_wrong(r, "a list is wanted for", "changes");
+    if (!json_is_array(list)) return fw_plan_live_wrong(r, "a list is needed for", "changes");
     if (json_array_size(list) > FW_LIVE_CHANGES_MOST)
-        return fw_plan_live_wrong(r, "more than 256 changes", NULL);
+        return fw_plan_live_wrong(r, "more than 256 changes, the most of one request", NULL);
     *n = (int)json_array_size(list);
     FW_NEED(*change = fw_arena_array(r->arena, fw_device_text_change, (size_t)*n));
     for (int i = 0; i < *n; i++)

@@ -128,11 +128,12 @@ static fw_status asked_of(fw_plan_live_request *r, double asked[3]) {
     static const char *const name[] = {"x_m", "y_m", "phi_rad"};
     const json_t *platform = json_object_get(r->root, "platform");
     if (!json_is_object(platform))
-        return fw_plan_live_wrong(r, "an object is wanted for", "platform");
+        return fw_plan_live_wrong(r, "an object is needed for", "platform");
     for (int k = 0; k < 3; k++) {
         asked[k] = k < 2 ? 0.0 : (double)NAN; /* any angle */
         FW_TRY(fw_plan_live_real(r, platform, name[k], &asked[k]));
-        if (fabs(asked[k]) > 1e6) return fw_plan_live_wrong(r, "too far away:", name[k]);
+        if (fabs(asked[k]) > 1e6)
+            return fw_plan_live_wrong(r, "a pose may be at most 1e6 m or rad away:", name[k]);
     }
     return FW_OK;
 }
@@ -148,7 +149,7 @@ static fw_status start_of(fw_plan_live_request *r, const fw_mechanism *m, const 
     FW_NEED(q);
     for (size_t i = 0; i < n; i++) {
         const json_t *v = json_array_get(list, i);
-        if (!json_is_number(v)) return fw_plan_live_wrong(r, "numbers are wanted in", "q");
+        if (!json_is_number(v)) return fw_plan_live_wrong(r, "numbers are needed in", "q");
         q[i] = json_number_value(v);
         if (!(fabs(q[i]) <= 1e6)) return FW_OK;
     }
@@ -167,7 +168,7 @@ static fw_status body_of(fw_plan_live_request *r, const fw_mechanism *m, int *bo
             *body = b;
             return FW_OK;
         }
-    return name ? fw_plan_live_wrong(r, "there is no body", name) : FW_OK;
+    return name ? fw_plan_live_wrong(r, "the device has no body", name) : FW_OK;
 }
 
 /* the flow whose mechanism is moved: the one that is named, else the first */
@@ -180,7 +181,7 @@ static fw_status flow_of(fw_plan_live_request *r, const fw_plan *plan, int *flow
             *flow = i;
             return FW_OK;
         }
-    return name ? fw_plan_live_wrong(r, "there is no flow", name) : FW_OK;
+    return name ? fw_plan_live_wrong(r, "the device has no flow", name) : FW_OK;
 }
 
 /* ---- the answer ---- */

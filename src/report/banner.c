@@ -358,8 +358,9 @@ static void tightest_row(fw_text *out, const fw_verdict_variant_verdict *v, int 
 
 static void tightest(fw_text *out, const fw_verdict_variant_verdict *v) {
     fw_text_add(out,
-                "<div class=\"wide\"><table><caption>Tightest of the devices that were run, and "
-                "what no corner exceeds by first order</caption><thead><tr><th scope=\"col\">Hinge"
+                "<div class=\"wide\"><table><caption>The highest utilisation of the devices that "
+                "were run, and a bound for every corner by first order</caption><thead><tr><th "
+                "scope=\"col\">Hinge"
                 "</th><th scope=\"col\" class=\"n\">As drawn</th><th scope=\"col\" class=\"n\">"
                 "Nominal</th><th scope=\"col\" class=\"n\">Tightest</th><th scope=\"col\" "
                 "class=\"n\">Error band</th><th scope=\"col\" class=\"n\">At most</th><th "

@@ -109,16 +109,18 @@ static void levels_section(fw_report_page *page) {
         for (int k = 0; v->motion && k < page->in->device->nscene; k++) {
             if (!v->motion[k] || !v->motion[k]->ledger.hinge.why) continue;
             if (!any)
-                fw_text_add(out,
-                            "<div class=\"wide\"><table><caption>Hinges: how they were taken, and "
-                            "what the next level changes at the largest peak, under the loads and "
-                            "inertia forces of that instant: hinge angles over the largest, the "
-                            "way of the body that moves most, peak strains over the largest."
-                            "</caption><thead><tr><th scope=\"col\">Scene</th><th scope=\"col\">"
-                            "Flow</th><th scope=\"col\">Hinges</th><th scope=\"col\">Next</th>"
-                            "<th scope=\"col\" class=\"n\">Angles</th><th scope=\"col\" "
-                            "class=\"n\">Way</th><th scope=\"col\" class=\"n\">Strain</th><th "
-                            "scope=\"col\">Why</th></tr></thead><tbody>\n");
+                fw_text_add(
+                    out,
+                    "<div class=\"wide\"><table><caption>The model of the hinges in each "
+                    "scene, and what the next better one changes at the largest peak, "
+                    "under the loads and inertia forces of that instant: hinge angles and "
+                    "peak strains relative to the largest, and the displacement of the "
+                    "body that moves most."
+                    "</caption><thead><tr><th scope=\"col\">Scene</th><th scope=\"col\">"
+                    "Flow</th><th scope=\"col\">Hinges</th><th scope=\"col\">Next</th>"
+                    "<th scope=\"col\" class=\"n\">Angles</th><th scope=\"col\" "
+                    "class=\"n\">Displacement</th><th scope=\"col\" class=\"n\">Strain</th><th "
+                    "scope=\"col\">Why</th></tr></thead><tbody>\n");
             any = true;
             row(out, page->in->device->scene[k].name,
                 v->variant && v->variant->flow ? v->variant->flow : "\u2013", v->mechanism,
@@ -230,9 +232,10 @@ static void pull_ins(fw_report_page *page) {
                 fw_text_add(
                     out, "<div class=\"wide\"><table><caption>Pull-in: the voltage at which a comb "
                          "drive loses its equilibrium when all drives of the scene grow together, "
-                         "slowly; one that is put on at once does so earlier. Margin: that over "
-                         "the largest voltage of the scene. Fringe fields, which are not counted, "
-                         "lower it by about half of their share.</caption><thead><tr><th "
+                         "slowly; a voltage that is switched on suddenly does so earlier. Margin: "
+                         "the pull-in voltage over the largest voltage of the scene. Fringe "
+                         "fields, which the model leaves out, lower it by about half of their "
+                         "share.</caption><thead><tr><th "
                          "scope=\"col\">Scene</th><th scope=\"col\">Flow</th><th scope=\"col\">"
                          "Comb</th><th scope=\"col\" class=\"n\">Pull-in</th><th scope=\"col\">"
                          "Kind</th><th scope=\"col\" class=\"n\">Scene asks for</th><th "

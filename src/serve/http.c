@@ -117,7 +117,7 @@ static void admit(fw_serve_request *r, struct MHD_Connection *mhd, const char *p
     bool known;
     r->route = fw_serve_route_find(method, path, &known);
     if (!r->route) {
-        fw_serve_reply_error(r, known ? 405 : 404, NULL, "there is no %s %s", method, path);
+        fw_serve_reply_error(r, known ? 405 : 404, NULL, "this server has no %s %s", method, path);
         return;
     }
     r->path = fw_arena_strdup(r->arena, path);

@@ -83,7 +83,8 @@ static fw_status wrong(command *c, const char *what, const char *why) {
 
 static fw_status push(command *c, const char *argument) {
     FW_NEED(argument);
-    if (c->n == MOST_ARGUMENTS) return wrong(c, "\"set\" and \"options\"", "are too many");
+    if (c->n == MOST_ARGUMENTS)
+        return wrong(c, "\"set\" and \"options\"", "hold more entries than a job takes (128)");
     c->argv[c->n++] = argument;
     return FW_OK;
 }
@@ -94,11 +95,11 @@ static fw_status value_text(command *c, const char *name, const json_t *value, c
     if (json_is_string(value)) {
         if (json_string_length(value) > MOST_TEXT ||
             strlen(json_string_value(value)) != json_string_length(value))
-            return wrong(c, name, "has a value that is too long, or no text");
+            return wrong(c, name, "has a value that is longer than 2000 bytes or holds a NUL");
         *text = json_string_value(value);
         return FW_OK;
     }
-    if (!json_is_number(value)) return wrong(c, name, "needs a text or a number");
+    if (!json_is_number(value)) return wrong(c, name, "needs a text or a number as its value");
     FW_NEED(*text = fw_arena_strdup(
                 c->arena, fw_number_text(number, sizeof number, json_number_value(value), 17)));
     return FW_OK;
@@ -115,13 +116,14 @@ static fw_status one_option(command *c, unsigned kind, const char *name, const j
         FW_TRY(value_text(c, name, value, &text));
         return push(c, fw_arena_printf(c->arena, "--%s=%s", options[i].option, text));
     }
-    return wrong(c, name, "is no option");
+    return wrong(c, name, "is not an option of a job");
 }
 
 static fw_status one_set(command *c, const char *path, const json_t *value) {
     const char *text;
     if (!*path || strchr(path, '=') || strlen(path) > MOST_TEXT)
-        return wrong(c, path, "cannot be set");
+        return wrong(c, path,
+                     "cannot be set: a path is not empty, has no '=' and at most 2000 bytes");
     FW_TRY(value_text(c, path, value, &text));
     return push(c, fw_arena_printf(c->arena, "--set=%s=%s", path, text));
 }

@@ -251,7 +251,7 @@ static void finish(fw_serve_jobs *jobs, fw_serve_job *job, int status) {
     job->exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (WIFSIGNALED(status))
         job->why = WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL
-                       ? "it was ended: it took more time or memory than a job may"
+                       ? "it was ended: a job may take half an hour and 4 GiB of memory"
                        : "it crashed";
     /* 0 accepted, 1 rejected, 4 inconclusive: all are results */
     int e = job->exit_status;

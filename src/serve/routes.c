@@ -100,7 +100,9 @@ static const char *first_message(const fw_diags *diags) {
 
 static bool no_file(fw_serve_request *r) {
     if (r->server->watch) return false;
-    fw_serve_reply_error(r, 404, NULL, "the server was started without a device file");
+    fw_serve_reply_error(
+        r, 404, NULL,
+        "the server was started without a device file; start it as flexwright serve DEVICE.xml");
     return true;
 }
 
@@ -141,8 +143,10 @@ static void get_events(fw_serve_request *r) {
     if (fw_serve_events_open(&r->server->events, r))
         fw_serve_file_watch_tell(r->server->watch, r->stream);
     else
-        fw_serve_reply_error(r, 429, NULL, "there are %d pages already that listen",
-                             (int)FW_SERVE_STREAMS);
+        fw_serve_reply_error(
+            r, 429, NULL,
+            "%d pages listen for changes already, the most that this server serves; close one",
+            (int)FW_SERVE_STREAMS);
 }
 
 /* ---- POST /api/jobs ---- */
@@ -163,8 +167,10 @@ static void begin(fw_serve_request *r, const json_t *request, const json_t *text
         fw_json_end(&json);
         fw_serve_reply_document(r, 202, &json, &answer);
     } else if (status == FW_LIMIT)
-        fw_serve_reply_error(r, 429, "FW-D287", "%d jobs wait already; cancel one, or wait",
-                             (int)FW_JOBS_QUEUED);
+        fw_serve_reply_error(
+            r, 429, "FW-D287",
+            "%d jobs wait already, the most that this server queues; cancel one, or wait",
+            (int)FW_JOBS_QUEUED);
     else if (status == FW_INPUT)
         fw_serve_reply_error(r, 400, NULL, "%s", order.why);
     else
@@ -192,7 +198,10 @@ static fw_serve_job *job_of(fw_serve_request *r, const char **rest) {
     fw_serve_job *job = n >= 1 && n <= 9 && (!at[n] || at[n] == '/')
                             ? fw_serve_jobs_find(r->server->jobs, (unsigned)strtoul(at, NULL, 10))
                             : NULL;
-    if (!job) fw_serve_reply_error(r, 404, NULL, "there is no such job");
+    if (!job)
+        fw_serve_reply_error(
+            r, 404, NULL,
+            "there is no job of this number; of finished jobs only the newest are kept");
     return job;
 }
 
@@ -267,7 +276,8 @@ static void get_job(fw_serve_request *r) {
     else if (strcmp(rest, "/archive") == 0)
         fw_serve_job_archive(job, r);
     else
-        fw_serve_reply_error(r, 404, NULL, "a job has files and an archive, nothing else");
+        fw_serve_reply_error(r, 404, NULL,
+                             "of a job there are /files/PATH and /archive, nothing else");
 }
 
 static void delete_job(fw_serve_request *r) {
@@ -275,7 +285,8 @@ static void delete_job(fw_serve_request *r) {
     fw_serve_job *job = job_of(r, &rest);
     if (!job) return;
     if (*rest) {
-        fw_serve_reply_error(r, 404, NULL, "only a whole job can be deleted");
+        fw_serve_reply_error(r, 404, NULL,
+                             "a job can be deleted as a whole only, not one of its files");
         return;
     }
     fw_text text = fw_text_new(r->arena);

@@ -63,16 +63,17 @@ bool fw_serve_guard_is_entry(const fw_serve_guard_facts *f) {
 }
 
 static fw_serve_refusal request_line(const fw_serve_guard_facts *f) {
-    if (strcmp(f->version, "HTTP/1.1") != 0) REFUSE(505, "only HTTP/1.1 is spoken here");
+    if (strcmp(f->version, "HTTP/1.1") != 0) REFUSE(505, "this server answers HTTP/1.1 only");
     if (!is_get(f) && strcmp(f->method, "POST") != 0 && strcmp(f->method, "DELETE") != 0)
-        REFUSE(405, "only GET, POST and DELETE are known");
+        REFUSE(405, "this server answers GET, POST and DELETE only");
     if (!plain_path(f->path)) REFUSE(400, "no such path");
-    if (f->query && !fw_serve_guard_is_entry(f)) REFUSE(400, "no page here takes a query");
-    if (f->repeated) REFUSE(400, "a header is there twice");
+    if (f->query && !fw_serve_guard_is_entry(f))
+        REFUSE(400, "no address of this server takes a query (what stands behind ?)");
+    if (f->repeated) REFUSE(400, "a header that may be sent once was sent twice");
     /* the parser hands texts on that end at their first zero byte: what is behind one must not be
        there, so that what was checked is what was sent */
     if (FW_DEFENDED(HEAD) && f->head_bytes > f->seen_bytes)
-        REFUSE(400, "the head holds bytes that belong to nothing");
+        REFUSE(400, "the head of the request holds bytes that are part of no header");
     PASS;
 }
 
@@ -93,7 +94,7 @@ static fw_serve_refusal origin(const fw_serve_guard *g, const fw_serve_guard_fac
     for (int i = 0; i < g->addresses; i++)
         if (strcmp(f->origin, g->origin[i]) == 0 && (!f->host || strcmp(f->host, g->host[i]) == 0))
             PASS;
-    REFUSE(403, "another page may not ask this server");
+    REFUSE(403, "this server answers its own page only, and the request comes from another one");
 }
 
 /* same-origin, or none for what a person types; another port of this machine is same-site and as
@@ -102,7 +103,7 @@ static fw_serve_refusal fetch_site(const fw_serve_guard_facts *f) {
     if (!FW_DEFENDED(FETCH_SITE)) PASS;
     if (!f->fetch_site || strcmp(f->fetch_site, "same-origin") == 0) PASS;
     if (strcmp(f->fetch_site, "none") == 0 && is_get(f)) PASS;
-    REFUSE(403, "another page may not ask this server");
+    REFUSE(403, "this server answers its own page only, and the request comes from another one");
 }
 
 /* ---- the body ---- */
@@ -125,19 +126,19 @@ size_t fw_serve_guard_body(const fw_serve_guard_facts *f) {
 static fw_serve_refusal body(const fw_serve_guard_facts *f) {
     if (f->transfer_encoding) REFUSE(411, "the length of a body must be stated in Content-Length");
     long bytes = f->content_length ? declared(f->content_length) : 0;
-    if (bytes < 0) REFUSE(400, "Content-Length is no number of bytes");
+    if (bytes < 0) REFUSE(400, "Content-Length is not a number of bytes");
     if (strcmp(f->method, "POST") != 0) {
         if (bytes > 0) REFUSE(400, "only POST has a body");
         PASS;
     }
     if (!f->content_length) REFUSE(411, "the length of a body must be stated in Content-Length");
     if (FW_DEFENDED(BODY) && bytes > FW_SERVE_MOST_BODY)
-        REFUSE(413, "the body is larger than 1 MiB");
+        REFUSE(413, "the body is larger than 1 MiB, the most that this server takes");
     const char *type = f->content_type ? f->content_type : "";
     if (FW_DEFENDED(CONTENT_TYPE) && strcasecmp(type, "application/json") != 0 &&
         strcasecmp(type, "application/json; charset=utf-8") != 0 &&
         strcasecmp(type, "application/json;charset=utf-8") != 0)
-        REFUSE(415, "a body must be application/json");
+        REFUSE(415, "the Content-Type of a body must be application/json");
     PASS;
 }
 
@@ -174,7 +175,8 @@ static fw_serve_refusal identity(const fw_serve_guard *g, const fw_serve_guard_f
     char value[FW_SERVE_SECRET];
     bool known = f->cookie && our_cookie(g, f->cookie, value) && equal_in_time(value, g->cookie);
     if (FW_DEFENDED(COOKIE) && !known)
-        REFUSE(401, "open the address that flexwright serve printed; without it nothing is shown");
+        REFUSE(401, "this browser has not opened the address that flexwright serve printed; open "
+                    "that one first");
     if (FW_DEFENDED(HEADER_TOKEN) && !is_get(f) &&
         (!f->token || !equal_in_time(f->token, g->header)))
         REFUSE(403, "the header X-Flexwright-Token is missing or wrong");

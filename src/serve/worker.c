@@ -227,9 +227,13 @@ static void run_worker(const fw_serve_pool *pool, fw_serve_worker *w, int64_t no
     if (more == 0)
         finish(w);
     else if (more < 0)
-        fail(w, "the computation ended unexpectedly: it crashed or reached a limit of memory");
+        fail(w, "the computation ended unexpectedly: it crashed, or needed more than 2 GiB of "
+                "memory, the most "
+                "that the server gives to one");
     else if (now - w->asked_ms > (w->cancelled ? CANCELLED_MS : ANSWER_MS))
-        fail(w, "the computation took longer than 20 s and was ended");
+        fail(w, "the computation was ended after 20 s, the most that the server gives to one; ask "
+                "for less, "
+                "or start it as a job");
 }
 
 void fw_serve_pool_run(fw_serve_pool *pool) {

@@ -229,7 +229,7 @@ fw_status fw_study_tradeoff_count(fw_study_problem *p, const fw_study_tradeoff_o
     if (!o->count)
         t->instructions_why = "not asked for";
     else if (!o->argv)
-        t->instructions_why = "it would have to start the program again";
+        t->instructions_why = "the program cannot be started again with this input";
     else if (!valgrind)
         t->instructions_why = "valgrind is not installed";
     if (t->instructions_why) return FW_OK;

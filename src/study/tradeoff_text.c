@@ -86,7 +86,7 @@ static void answer(const fw_study_tradeoff *t, fw_text *out) {
     if (isfinite(t->floor)) {
         fw_text_add(out, "digits below ");
         number(out, t->floor, "%.1e", 1);
-        fw_text_printf(out, " tell nothing: that is %s\n", fw_study_tradeoff_floor_text(t));
+        fw_text_printf(out, " are meaningless: %s is as large\n", fw_study_tradeoff_floor_text(t));
     }
 }
 

@@ -75,8 +75,9 @@ static fw_status add_line(fw_verdict_trial *trial, fw_verdict *out, const fw_dev
     advice->value = to_m;
     FW_NEED(advice->value_text = fw_arena_printf(trial->arena, "%s um", to));
     FW_NEED(advice->set_path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
-    FW_NEED(advice->text = fw_arena_printf(
-                trial->arena, "flexure %s: %s >= %s um accepts; now %s um", f->id, what, to, from));
+    FW_NEED(advice->text =
+                fw_arena_printf(trial->arena, "flexure %s: %s >= %s um is accepted; now %s um",
+                                f->id, what, to, from));
     return FW_OK;
 }
 
@@ -257,7 +258,8 @@ static fw_status conclude(fw_arena *arena, fw_verdict *verdict, const char *load
     if (!verdict->advice_verified && !loads) {
         verdict->advice_note =
             "no single kind of change (longer or wider flexures, smaller loads or workspace) was "
-            "found that accepts and can be drawn: reconsider hinge points, thickness or material";
+            "found with which the design is accepted and can be drawn: reconsider hinge points, "
+            "thickness or material";
         return FW_OK;
     }
     if (!verdict->advice_verified)

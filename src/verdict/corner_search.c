@@ -307,8 +307,8 @@ static fw_status hold_all(fw_verdict_search *s) {
     double bad = 1.0, good = 0.0;
     if (s->fabricated->corner[0].decision != FW_ACCEPT) {
         s->fabricated->control =
-            "no single input of the flow, held to its best, makes it accepted: give "
-            "the flexures more margin";
+            "no single input of the flow, even held at its best value, makes the design "
+            "acceptable: give the flexures more margin";
         return FW_OK;
     }
     for (int k = 0; k < HALVINGS; k++) {
@@ -332,7 +332,7 @@ static fw_status hold_all(fw_verdict_search *s) {
     FW_NEED(s->fabricated->control = fw_arena_printf(
                 s->arena,
                 "no single input is enough; accepted where every range is %s %% as wide about its "
-                "nominal",
+                "nominal value",
                 percent));
     return FW_OK;
 }

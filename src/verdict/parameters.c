@@ -376,17 +376,20 @@ static fw_status report(const parameter_search *h, const sample *best,
     out->high = fw_quantity_unit_to_si(&h->unit, h->high);
     out->trials = h->trials;
     if (!best->accepted && spent(h)) {
-        FW_NEED(out->text = fw_arena_printf(
-                    arena,
-                    "%s: nothing found in the time that a search is given, from %s to %s; now %s",
-                    out->name, low, high, now));
+        FW_NEED(
+            out->text = fw_arena_printf(
+                arena,
+                "%s: no value from %s to %s was found in the time that a search is given; now %s",
+                out->name, low, high, now));
         return FW_OK;
     }
     if (!best->accepted) {
         out->found = FW_PARAMETER_NONE;
-        FW_NEED(out->text =
-                    fw_arena_printf(arena, "%s: no value found from %s to %s that accepts; now %s",
-                                    out->name, low, high, now));
+        FW_NEED(
+            out->text = fw_arena_printf(
+                arena,
+                "%s: no value from %s to %s was found with which the design is accepted; now %s",
+                out->name, low, high, now));
         return FW_OK;
     }
     out->found = FW_PARAMETER_ACCEPTS;
@@ -396,7 +399,7 @@ static fw_status report(const parameter_search *h, const sample *best,
     char share[32] = "";
     fw_percent_text(share, sizeof share, out->change);
     bool known = out->from > 0;
-    FW_NEED(out->text = fw_arena_printf(arena, "%s: %s accepts; now %s%s%s%s", out->name,
+    FW_NEED(out->text = fw_arena_printf(arena, "%s: %s is accepted; now %s%s%s%s", out->name,
                                         out->value_text, now, known ? " (" : "", known ? share : "",
                                         !known                ? ""
                                         : out->to > out->from ? " % more)"
@@ -424,8 +427,8 @@ static fw_status advise_on(fw_verdict_trial *trial, const fw_device_parameter *p
         return report(&h, &best, out);
     }
     const char *why = left > 0 ? "state its min and max to say how far it may go"
-                               : "there are too many parameters";
-    FW_NEED(out->text = fw_arena_printf(trial->arena, "%s: was not looked at: %s", p->name, why));
+                               : "there are more parameters than a search has time for";
+    FW_NEED(out->text = fw_arena_printf(trial->arena, "%s: no value was tried: %s", p->name, why));
     return FW_OK;
 }
 

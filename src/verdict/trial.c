@@ -165,7 +165,7 @@ static void keep_suspect(fw_verdict_trial *trial, const fw_verdict_variant_verdi
     }
 }
 
-/* of a motion: as at a corner. A row of equilibria is solved at every one. */
+/* of a motion: as at a corner. A quasi-static motion is solved at every one. */
 static const int samples_of_a_glance = 65;
 
 static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,

@@ -111,7 +111,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
 
 typedef struct fw_verdict_advice { /* one change that accepts, verified by running it */
     const char *set_path;          /* "flexure[A]/@length" */
-    const char *text;              /* "flexure A: arc length >= 312 um accepts (now 75 um)" */
+    const char *text;              /* "flexure A: arc length >= 312 um is accepted; now 75 um" */
     double value;                  /* SI */
     const char *value_text;        /* "312 um" */
 } fw_verdict_advice;
@@ -131,7 +131,7 @@ typedef struct fw_verdict_parameter_advice {
     double low, high;       /* SI: where it was looked for; NaN: not looked */
     double change;          /* |to - from| / |from|, infinite from 0; NaN: none */
     const char *value_text; /* "12.4 um": the very text that was run and accepted; NULL: none */
-    const char *text;       /* "width: 12.4 um accepts; now 10 um (24 % more)" */
+    const char *text;       /* "width: 12.4 um is accepted; now 10 um (24 % more)" */
     int trials;
 } fw_verdict_parameter_advice;
 

@@ -91,8 +91,8 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     char less[32];
     fw_number_text(less, sizeof less, 100 * fw_verdict_model_error.motion, 2);
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
-                                 still ? "" : " (with voltages lower by the ", still ? "" : less,
-                                 still ? "" : " % that the model may be wrong by it holds)");
+                                 still ? "" : " (not at voltages lower by the ", still ? "" : less,
+                                 still ? "" : " % that the model may be wrong by)");
     return add(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p), text);
 }
 
@@ -113,9 +113,9 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
                               "that holds on a wafer is not known",
                               scene->name, asked, at, p->comb)
             : fw_arena_printf(arena,
-                              "scene %s asks for up to %s V: comb drive %s pulls in at %s V, less "
-                              "what fringe fields take, which add up to %s %% to its capacitance "
-                              "and are not counted",
+                              "scene %s asks for up to %s V: comb drive %s pulls in at %s V, or at "
+                              "less: fringe fields, which the model leaves out, add up to %s %% to "
+                              "its capacitance",
                               scene->name, asked, p->comb, at, part);
     return add(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
@@ -133,9 +133,10 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
     char part[32];
     const char *text = fw_arena_printf(
         arena,
-        "scene %s may throw the rotor of comb drive %s to its stator (dynamic "
-        "pull-in): it does with the fringe fields that are not counted, up to %s %% "
-        "of the capacitance",
+        "scene %s may throw the rotor of comb drive %s to its stator (dynamic pull-in): it does so "
+        "in "
+        "a run with the fringe fields, which the model leaves out and which add up to %s %% to the "
+        "capacitance",
         scene->name, p->comb, fw_number_text(part, sizeof part, 100 * p->fringe, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);

@@ -82,7 +82,7 @@ class Plan(InTemporary):
         self.assertFalse((out / "recipes").exists())
         verdict = json.loads((out / "verdict.json").read_text())
         self.assertEqual(verdict["verdict"], "reject")
-        advice = re.findall(r"flexure (\w+): arc length >= ([0-9.]+) um accepts", result.stdout)
+        advice = re.findall(r"flexure (\w+): arc length >= ([0-9.]+) um is accepted", result.stdout)
         self.assertTrue(advice)
         for name, length in advice:
             text, n = re.subn(rf'(<flexure id="{name}"[^>]* length=)"[^"]*"', rf'\1"{length} um"', text)

@@ -154,7 +154,7 @@ static void none_is_found(void **state) {
     assert_int_equal(plan->verdict.decision, FW_REJECT);
     assert_int_equal(of(plan, "idle")->found, FW_PARAMETER_NONE);
     assert_int_equal(of(plan, "t")->found, FW_PARAMETER_NONE);
-    assert_non_null(strstr(of(plan, "t")->text, "no value found from 1.5 uN m to 3 uN m"));
+    assert_non_null(strstr(of(plan, "t")->text, "no value from 1.5 uN m to 3 uN m was found"));
     assert_near(of(plan, "t")->low, 1.5e-6, 1e-18);
     assert_int_equal(of(plan, "nought")->found, FW_PARAMETER_NOT_LOOKED);
     assert_int_equal(of(plan, "fixed")->found, FW_PARAMETER_NOT_LOOKED);

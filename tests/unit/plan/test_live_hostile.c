@@ -195,19 +195,19 @@ static void refused(fw_plan_live *live, live_function f, const wrong *row, size_
 static void wrong_requests_are_said(void **state) {
     (void)state;
     fw_plan_live *live = live_new();
-    static const wrong preview[] = {{"", "no JSON object"},
-                                    {"[", "no JSON object"},
-                                    {"[]", "no JSON object"},
-                                    {"1", "no JSON object"},
-                                    {"null", "no JSON object"},
+    static const wrong preview[] = {{"", "not a JSON object"},
+                                    {"[", "not a JSON object"},
+                                    {"[]", "not a JSON object"},
+                                    {"1", "not a JSON object"},
+                                    {"null", "not a JSON object"},
                                     {"{}", "\"text\""},
                                     {"{\"text\":1}", "\"text\""},
                                     {"{\"text\":null}", "\"text\""},
                                     {EMPTY "\"x\":1}", "\"x\""},
-                                    {EMPTY "\"text\":\"\"}", "no JSON object"},
+                                    {EMPTY "\"text\":\"\"}", "not a JSON object"},
                                     {EMPTY "\"set\":[]}", "\"set\""},
                                     {EMPTY "\"set\":{\"a\":1}}", "\"a\""},
-                                    {EMPTY "\"set\":{\"\":\"1\"}}", "names"},
+                                    {EMPTY "\"set\":{\"\":\"1\"}}", "needs the name"},
                                     {EMPTY "\"options\":{\"scene\":3}}", "\"scene\""},
                                     {EMPTY "\"options\":{\"samples\":2.5}}", "samples"},
                                     {EMPTY "\"options\":{\"samples\":1e9}}", "samples"},
@@ -217,21 +217,21 @@ static void wrong_requests_are_said(void **state) {
                                     {EMPTY "\"options\":{\"detail\":\"huge\"}}", "detail"},
                                     {EMPTY "\"options\":{\"method\":\"no\"}}", "method"},
                                     {EMPTY "\"options\":{\"corners\":\"x\"}}", "corners"},
-                                    {"{\"text\":\"\\u0000\"}", "no JSON object"},
-                                    {"{\"text\":\"\xff\"}", "no JSON object"}};
+                                    {"{\"text\":\"\\u0000\"}", "not a JSON object"},
+                                    {"{\"text\":\"\xff\"}", "not a JSON object"}};
     static const wrong edit[] = {
         {"{\"text\":\"<a/>\"}", "\"changes\""},
         {EDIT "{}}", "\"changes\""},
-        {EDIT "[1]}", "a change is an object"},
+        {EDIT "[1]}", "every change has to be a JSON object"},
         {EDIT "[{}]}", "one of"},
-        {EDIT "[{\"path\":\"a\"}]}", "a value is wanted"},
+        {EDIT "[{\"path\":\"a\"}]}", "a value (null removes the attribute) is needed"},
         {EDIT "[{\"path\":\"a\",\"remove\":\"b\",\"value\":\"\"}]}", "one of"},
-        {EDIT "[{\"add\":\"a\"}]}", "an element is wanted"},
+        {EDIT "[{\"add\":\"a\"}]}", "an element is needed"},
         {EDIT "[{\"add\":\"a\",\"element\":\"b\",\"attributes\":{\"c\":1}}]}", "\"c\""}};
     static const wrong pose[] = {{"{\"text\":\"<a/>\"}", "\"platform\""},
                                  {DRAG "3}", "\"platform\""},
                                  {DRAG "{\"x_m\":\"1\"}}", "\"x_m\""},
-                                 {DRAG "{\"x_m\":1e300}}", "too far"}};
+                                 {DRAG "{\"x_m\":1e300}}", "at most 1e6 m"}};
     refused(live, fw_plan_live_preview, preview, sizeof preview / sizeof preview[0]);
     refused(live, fw_plan_live_edit, edit, sizeof edit / sizeof edit[0]);
     refused(live, fw_plan_live_pose, pose, sizeof pose / sizeof pose[0]);
