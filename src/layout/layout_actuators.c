@@ -377,24 +377,6 @@ fw_status fw_layout_actuators_draw(fw_layout_drawing *d) {
 
 /* ---- stators ---- */
 
-bool fw_layout_stators_drawn(const fw_layout_drawing *d) {
-    for (int i = 0; i < d->ncomb; i++)
-        if (!d->comb[i].off) return true;
-    return false;
-}
-
-bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour *c,
-                           double space_m) {
-    for (int i = 0; i < d->ncomb; i++) {
-        const fw_geometry_contour *s = &d->comb[i].stator;
-        if (d->comb[i].off || s->count == 0) continue;
-        if (fw_geometry_contour_distance_below(s, c, space_m, NULL, NULL) < space_m ||
-            fw_geometry_contour_contains(c, s->segment[0].a))
-            return true;
-    }
-    return false;
-}
-
 void fw_layout_stators_drop(fw_layout_drawing *d, const char *why) {
     for (int i = 0; i < d->ncomb; i++)
         if (!d->comb[i].off) comb_off(d, &d->comb[i], why);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Test patterns: what is on a plate beside the device, to be measured. A kind is a section of one
-   of the files pattern_*.c and a line of patterns.def; which patterns a flow has, and their sizes, are
-   rows of masks/FLOW.xml.
+   of the files pattern_*.c and a line of patterns.def; which patterns a flow has, and their sizes,
+   are rows of masks/FLOW.xml.
 
    A pattern is drawn in a box of its own: x to the right from 0, y up from the top edge of the bar
    that it stands on. Whatever touches y = 0 has a foot there (JOINT segments), so that it is joined

@@ -184,8 +184,8 @@ fw_status fw_mask_write_gds(const fw_mask *mask, fw_text *out) {
     return fw_text_end(out);
 }
 
-/* columns and rows at most 32767; both 1: a plain reference (SREF), else an array (AREF) whose corners
-   divide by columns and rows exactly */
+/* columns and rows at most 32767; both 1: a plain reference (SREF), else an array (AREF) whose
+   corners divide by columns and rows exactly */
 static void reference(fw_text *out, const char *cell, fw_geometry_point at, int columns, int rows,
                       fw_geometry_point step) {
     bool one = columns == 1 && rows == 1;

@@ -281,8 +281,8 @@ fw_status fw_mask_write_svg(const fw_mask *mask, fw_text *out) {
 }
 
 /* ---- the plate as exact outlines: every cell once in <defs>, with true arcs, and <use> for each
-   place. 1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is used
-   and not a <symbol>, which some importers clip at its own box. ---- */
+   place. 1 user unit = 1 um, y downwards, the plate's upper left corner is the origin. A <g> is
+   used and not a <symbol>, which some importers clip at its own box. ---- */
 
 /* layers in the order of the table; ids stay those of the table in the top cell only. The mask goes
    by the name of its cell here: steps of a sweep have the same name of their own, and ids of a

@@ -65,7 +65,8 @@ typedef struct fw_process_film {
     bool shortened;         /* drawn thinner than it is: far from everything that is made */
     bool exposed;           /* latent image in resist */
     double foot_m, head_m;  /* the structure's wall at bottom and top, outside the drawn edge */
-    /* of the field: etched by this; what the lag leaves is its floor. In the structure: its foot follows the width of the opening beside it */
+    /* of the field: etched by this; what the lag leaves is its floor. In the structure: its foot
+       follows the width of the opening beside it */
     const fw_process_cut *cut;
     double mask_edge_m; /* with a cut: edge of what masked it */
     double reach_m;     /* above 0: an etch from every opening has taken the film so far
