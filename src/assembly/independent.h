@@ -4,7 +4,7 @@
 #define FW_ASSEMBLY_INDEPENDENT_H
 #include "assembly/kinematics.h"
 #include "multibody/model.h"
-#include "maths/singular.h"
+#include "maths/dense.h"
 
 /* space: singular values of the scaled G, of which `rank` count; asked: as in the options, or NULL
  */

@@ -2,7 +2,7 @@
 /* What can still move, and which rows of G say nothing new. */
 #include "assembly/closure.h"
 #include "assembly/solved.h"
-#include "maths/singular.h"
+#include "maths/dense.h"
 #include <math.h>
 #include <string.h>
 

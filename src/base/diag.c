@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/diag.h"
 #include "base/sort.h"
+#include "base/status.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,4 +133,26 @@ void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const
             show_line(out, source, n, d->place);
     }
     if (diags->dropped) fw_text_printf(out, "%zu more not shown\n", diags->dropped);
+}
+
+const char *fw_status_text(fw_status status) {
+    switch (status) {
+#define FW_STATUS_CASE(code, exit_status, text)                                                    \
+    case FW_##code:                                                                                \
+        return text;
+        FW_STATUS_TABLE(FW_STATUS_CASE)
+#undef FW_STATUS_CASE
+    }
+    return "unknown status";
+}
+
+int fw_status_exit(fw_status status) {
+    switch (status) {
+#define FW_STATUS_CASE(code, exit_status, text)                                                    \
+    case FW_##code:                                                                                \
+        return exit_status;
+        FW_STATUS_TABLE(FW_STATUS_CASE)
+#undef FW_STATUS_CASE
+    }
+    return 70;
 }

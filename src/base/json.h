@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The writer of JSON: every document of the program goes through it. Members and elements are given one
-   after the other, with their key (NULL for an element of a list); commas, escapes, line breaks and
-   closing brackets are written here:
+/* The writer of JSON: every document of the program goes through it. Members and elements are given
+   one after the other, with their key (NULL for an element of a list); commas, escapes, line breaks
+   and closing brackets are written here:
 
      fw_json json = fw_json_new(out, FW_JSON_COMPACT);
      fw_json_object(&json, NULL);
@@ -13,8 +13,9 @@
      return fw_json_finish(&json, "\n");          {"id":"A","list":[1]}
 
    Errors stick: a want of memory in the text, a wrong nesting (a member without a key, an element
-   with one, a bracket too many or too few) in the writer. fw_json_finish tells. No recursion, no tree: cost
-   is that of the bytes. Test: test_json.c, which reads random documents back with another library. */
+   with one, a bracket too many or too few) in the writer. fw_json_finish tells. No recursion, no
+   tree: cost is that of the bytes. Test: test_json.c, which reads random documents back with another
+   library. */
 #ifndef FW_BASE_JSON_H
 #define FW_BASE_JSON_H
 #include "base/text.h"

@@ -63,7 +63,7 @@ static void padded(fw_text *out, double value, int digits) {
     fixed_with_zeros(out, size, decimals);
 }
 
-void fw_markup_si(fw_text *out, double value, const char *unit, int digits) {
+static void append_si(fw_text *out, double value, const char *unit, int digits) {
     static const struct {
         double factor;
         const char *prefix;
@@ -97,7 +97,7 @@ static void percent(fw_text *out, double ratio) {
 
 static void duration(fw_text *out, double seconds) {
     if (!isfinite(seconds) || fabs(seconds) < 60.0 || fabs(seconds) >= 3.6e9) {
-        fw_markup_si(out, seconds, "s", 3);
+        append_si(out, seconds, "s", 3);
         return;
     }
     long whole = lround(fabs(seconds));
@@ -154,7 +154,7 @@ static void directive(fw_text *out, char kind, va_list *arguments) {
         break;
     case 'u': {
         double value = va_arg(*arguments, double);
-        fw_markup_si(out, value, va_arg(*arguments, const char *), 4);
+        append_si(out, value, va_arg(*arguments, const char *), 4);
         break;
     }
     case 'd':

@@ -28,6 +28,5 @@ void fw_markup(fw_text *out, const char *format, ...);
 void fw_markup_part(fw_text *out, const char *format, size_t n, char quote, va_list *arguments);
 
 void fw_markup_number(fw_text *out, double value, int digits);
-void fw_markup_si(fw_text *out, double value, const char *unit, int digits);
 
 #endif

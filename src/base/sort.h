@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orders for qsort: one comparison of numbers, from which the comparators of rows are made, key by
-   key, and the sort of plain numbers. The last key of a row should tell equal rows apart: qsort keeps no
-   order among rows that compare as equal. Test: test_sort.c */
+   key, and the sort of plain numbers. The last key of a row should tell equal rows apart: qsort
+   keeps no order among rows that compare as equal. Test: test_sort.c */
 #ifndef FW_BASE_SORT_H
 #define FW_BASE_SORT_H
 #include <stddef.h>

@@ -177,10 +177,6 @@ void fw_svg_point(fw_text *out, char command, double x, double y, int decimals) 
     fw_text_fixed(out, y, decimals);
 }
 
-void fw_svg_vertex(fw_text *out, int i, double x, double y) {
-    fw_markup(out, "{r}{c} {c}", i == 0 ? "M" : i == 1 ? "L" : " ", x, y);
-}
-
 /* ---- motion ---- */
 
 void fw_svg_animate_path(fw_text *out, int seconds) {

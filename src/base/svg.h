@@ -76,8 +76,6 @@ void fw_svg_path_end(fw_text *out); /* and the line of the document */
 void fw_svg_more(fw_text *out, const char *attributes, ...);
 /* "M1.5 2", "L3 4": an absolute command and its point */
 void fw_svg_point(fw_text *out, char command, double x, double y, int decimals);
-/* point i of an open polyline in pixels, i = 0, 1, ... */
-void fw_svg_vertex(fw_text *out, int i, double x, double y);
 
 /* ---- motion: SMIL, which browsers run even inside <img> ---- */
 

@@ -5,6 +5,7 @@
 #define FW_BASE_TEXT_H
 #include "base/arena.h"
 #include "base/status.h"
+#include <stddef.h>
 
 typedef struct fw_text {
     fw_arena *arena;
@@ -50,5 +51,10 @@ int fw_number_parse(const char *string, size_t n, double *value);
 int fw_edit_distance(const char *a, const char *b, int limit);
 /* best match among count names within distance 2, or NULL */
 const char *fw_did_you_mean(const char *word, const char *const *names, size_t count);
+
+/* SHA-256 (FIPS 180-4). */
+
+/* 64 hexadecimal digits and a NUL into `text` */
+void fw_sha256(const void *data, size_t n, char text[65]);
 
 #endif

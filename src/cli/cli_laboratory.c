@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands of the laboratory: measured coupons become a pack, what was done becomes a log. */
-#include "base/append.h"
-#include "base/hash.h"
 #include "base/output.h"
+#include "base/text.h"
 #include "cli/session.h"
 #include "plan/design.h"
 #include "plan/stages.h"

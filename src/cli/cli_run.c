@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "cli/options.h"
 #include "cli/session.h"
 #include "serve/serve.h"

@@ -3,7 +3,7 @@
    --help and the reference page. Private to the room and its tests. */
 #ifndef FW_CLI_OPTIONS_H
 #define FW_CLI_OPTIONS_H
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "base/text.h"
 #include "device/device.h"
 #include <flexwright.h>

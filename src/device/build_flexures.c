@@ -116,12 +116,13 @@ static bool read_piece(fw_device_reader *r, const fw_xml_record *record, double 
     w[0] = fw_xml_number_or(record, "width", before);
     if (before == UNKNOWN && !(w[0] > 0)) return false;
     if (before > 0 && fabs(w[0] - before) > 1e-12) {
-        fw_diag_error(r->diags, 263, fw_xml_place_of(record, "width"),
-                      "%s: begins %s wide where the path so far ends %s wide; beam theory does "
-                      "not cover the stress concentration of such a step: leave width out, or "
-                      "set width-end before (at the first piece: width of the flexure)",
-                      fw_xml_label(record, label), fw_xml_in_unit(a, w[0], "um"),
-                      fw_xml_in_unit(b, before, "um"));
+        fw_diag_error(
+            r->diags, 263, fw_xml_place_of(record, "width"),
+            "%s: begins with width %s, but the path so far ends with width %s; beam theory does "
+            "not cover the stress concentration of such a step: leave width out, or "
+            "set width-end before (at the first piece: width of the flexure)",
+            fw_xml_label(record, label), fw_xml_in_unit(a, w[0], "um"),
+            fw_xml_in_unit(b, before, "um"));
         return false;
     }
     if (before > 0) w[0] = before;

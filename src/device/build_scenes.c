@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <scene> with its loads and actuators. */
-#include "device/scene_parts.h"
+#include "device/device_reader.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@ static void needs_size(fw_device_scene_reader *s, const fw_xml_record *record, c
                   element, x, y, example);
 }
 
-fw_status fw_device_build_force(fw_device_scene_reader *s, int at) {
+static fw_status build_force(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_force f = {.body = fw_device_reference(s->r, record, "on"),
                          .x_m = fw_xml_number_or(record, "x", 0.0),
@@ -30,7 +30,7 @@ fw_status fw_device_build_force(fw_device_scene_reader *s, int at) {
     return FW_OK;
 }
 
-fw_status fw_device_build_torque(fw_device_scene_reader *s, int at) {
+static fw_status build_torque(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_torque t = {.body = fw_device_reference(s->r, record, "on"),
                           .value_Nm = fw_xml_number_of(record, "value"),
@@ -40,7 +40,7 @@ fw_status fw_device_build_torque(fw_device_scene_reader *s, int at) {
     return FW_OK;
 }
 
-fw_status fw_device_build_gravity(fw_device_scene_reader *s, int at) {
+static fw_status build_gravity(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     needs_size(s, record, "gravity", "gx", "gy", "gy=\"-9.81 m/s^2\"");
     s->scene->gravity = true;
@@ -49,7 +49,7 @@ fw_status fw_device_build_gravity(fw_device_scene_reader *s, int at) {
     return FW_OK;
 }
 
-fw_status fw_device_build_initial(fw_device_scene_reader *s, int at) {
+static fw_status build_initial(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_scene *scene = s->scene;
     fw_device_initial v = {.body = fw_device_reference(s->r, record, "body"),
@@ -131,15 +131,15 @@ static void check_path(fw_device_reader *r, const fw_xml_record *record,
         if (coincide(r->device, a, b))
             fw_diag_error(
                 r->diags, 74, b->place,
-                "%s: this eyelet lies where the one before it does (line %d), so that the "
-                "cable has no direction there; move or remove it",
+                "%s: this eyelet is at the same point as the one before it (line %d), so the cable "
+                "has no direction between them; move this eyelet, or remove it",
                 label, a->place.line);
     }
     if (!moves && t->eyelet[0].body != FW_NOWHERE)
         fw_diag_error(
             r->diags, 74, t->place,
-            "%s: all eyelets are on %s, so that its pull moves nothing; put one on another "
-            "body, or on ground",
+            "%s: all eyelets are on %s, so its tension cannot move one body against another; put "
+            "an eyelet on another body, or on ground",
             label, t->eyelet[0].body < 0 ? "ground" : "one body");
 }
 
@@ -185,7 +185,7 @@ static void check_law_pulls(fw_device_reader *r, const fw_xml_record *record,
     }
 }
 
-fw_status fw_device_build_tendon(fw_device_scene_reader *s, int at) {
+static fw_status build_tendon(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_tendon t = {.id = fw_xml_text_of(record, "id"),
                           .pull_N = fw_xml_number_of(record, "pull"),
@@ -213,7 +213,7 @@ static void check_comb(fw_device_reader *r, const fw_xml_record *record, const f
     fw_xml_label(record, label);
     if (!fw_xml_given(record, "voltage"))
         fw_diag_error(r->diags, 76, record->element->place,
-                      "%s has no voltage, so that it pulls at nothing; add voltage=\"...\"", label);
+                      "%s has no voltage, so it exerts no force; add voltage=\"...\"", label);
     else if (c->voltage_V == 0)
         fw_diag_error(
             r->diags, 76, fw_xml_place_of(record, "voltage"),
@@ -242,7 +242,7 @@ static void check_comb(fw_device_reader *r, const fw_xml_record *record, const f
                       fw_xml_in_unit(b, c->length_m, "um"));
 }
 
-fw_status fw_device_build_comb(fw_device_scene_reader *s, int at) {
+static fw_status build_comb(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     const char *kind = fw_xml_text_of(record, "kind");
     double fingers = fw_xml_number_or(record, "fingers", 0.0);
@@ -270,7 +270,7 @@ fw_status fw_device_build_comb(fw_device_scene_reader *s, int at) {
 
 /* ---- base motion ---- */
 
-fw_status fw_device_build_base_motion(fw_device_scene_reader *s, int at) {
+static fw_status build_base_motion(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     fw_device_base_motion b = {.ax_m_per_s2 = fw_xml_number_or(record, "ax", 0.0),
                                .ay_m_per_s2 = fw_xml_number_or(record, "ay", 0.0),
@@ -316,13 +316,13 @@ static const struct {
     bool (*room)(fw_arena *arena, fw_device_scene *s, int n);
     bool (*own)(fw_arena *arena, fw_device_scene *s);
 } kinds[] = {
-    {"force", fw_device_build_force, room_for_force, own_force},
-    {"torque", fw_device_build_torque, room_for_torque, own_torque},
-    {"gravity", fw_device_build_gravity, NULL, NULL},
-    {"initial", fw_device_build_initial, room_for_initial, own_initial},
-    {"tendon", fw_device_build_tendon, room_for_tendon, own_tendon},
-    {"comb-drive", fw_device_build_comb, room_for_comb, own_comb},
-    {"base-motion", fw_device_build_base_motion, room_for_base, own_base},
+    {"force", build_force, room_for_force, own_force},
+    {"torque", build_torque, room_for_torque, own_torque},
+    {"gravity", build_gravity, NULL, NULL},
+    {"initial", build_initial, room_for_initial, own_initial},
+    {"tendon", build_tendon, room_for_tendon, own_tendon},
+    {"comb-drive", build_comb, room_for_comb, own_comb},
+    {"base-motion", build_base_motion, room_for_base, own_base},
     {"friction", fw_device_build_friction, room_for_friction, own_friction},
     {"contact", fw_device_build_contact, room_for_contact, own_contact},
     {"material-damping", fw_device_build_material_damping, room_for_damping, own_damping},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What else acts in a <scene>: surfaces that rub or touch, the material, the air. */
-#include "device/scene_parts.h"
+#include "device/device_reader.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>

@@ -99,10 +99,9 @@ typedef enum fw_device_joint_kind {
 
 /* <prismatic>, <distance>, <weld>: joints that are not pins. Points a and b are local, as in
    fw_device_spring. prismatic: point b slides along the line through point a with direction `axis`
-   in the
-   frame of a, phi_b - phi_a stays `angle`; travel = distance along the axis - free length, with a
-   spring and a damper. distance: the points stay `length` apart. weld: the points coincide, phi_b -
-   phi_a stays `angle`. */
+   in the frame of a, phi_b - phi_a stays `angle`; travel = distance along the axis - free length,
+   with a spring and a damper. distance: the points stay `length` apart. weld: the points coincide,
+   phi_b - phi_a stays `angle`. */
 typedef struct fw_device_joint {
     const char *id;
     fw_device_joint_kind kind;

@@ -29,7 +29,7 @@ typedef struct fw_device_reader {
     fw_device *device;
 } fw_device_reader;
 
-/* set.c, parameter.c: steps between those of xml/xml_reader.h */
+/* parameter.c: steps between those of xml/xml_reader.h */
 fw_status fw_device_sets_apply(fw_device_reader *r, const fw_device_set *set, int nset);
 fw_status fw_device_parameters_read(fw_device_reader *r);
 
@@ -59,11 +59,32 @@ enum { FW_NOWHERE = -2 };
  */
 int fw_device_reference(fw_device_reader *r, const fw_xml_record *record, const char *name);
 bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate */
-/* what is drawn must lie on a wafer */
-void fw_device_wafer_check(fw_device_reader *r, const fw_xml_record *record, const char *name,
-                           double value_m);
 /* mass and inertia both or neither, and one of them or a shape */
 void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool shape,
                           const char *shape_advice);
+
+/* One function per element of <scene>: build_scenes.c, build_surroundings.c. Private to device/. */
+
+typedef struct fw_device_scene_reader {
+    fw_device_reader *r;
+    fw_device_scene *scene; /* its arrays have room for all of its elements */
+    double duration_s;
+    int *moved; /* (nbody) 1 + index of its <initial> in this scene, 0: none yet */
+} fw_device_scene_reader;
+
+/* `at`: index of the element's record */
+fw_status fw_device_build_friction(fw_device_scene_reader *s, int at);
+fw_status fw_device_build_contact(fw_device_scene_reader *s, int at);
+fw_status fw_device_build_material_damping(fw_device_scene_reader *s, int at);
+fw_status fw_device_build_temperature(fw_device_scene_reader *s, int at);
+fw_status fw_device_build_residual_stress(fw_device_scene_reader *s, int at);
+fw_status fw_device_build_air(fw_device_scene_reader *s, int at);
+
+/* the first of `names` (n) that is given is one too many: error `number`, "LABEL: NAME WHY" */
+bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int number,
+                       const char *const *names, int n, const char *why);
+/* the first of `names` (n) that is absent is one too few: error `number` at the element */
+bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
+                      const char *const *names, int n, const char *why);
 
 #endif

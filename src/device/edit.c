@@ -3,7 +3,6 @@
 #include "device/edit.h"
 #include "device/device_table.h"
 #include "xml/xml.h"
-#include "xml/xml_guard.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -71,10 +70,10 @@ typedef struct search {
 } search;
 
 /* `e` and what follows it; `deep`: what is inside, too. In file order. */
-static void look(search *s, const fw_xml_element *e, bool deep) {
+static void find_wanted(search *s, const fw_xml_element *e, bool deep) {
     for (; e; e = e->next) {
         if (fits(e, s->step, s->key) && (++s->seen == s->wanted || s->wanted == 0)) s->found = e;
-        if (deep) look(s, e->first_child, true);
+        if (deep) find_wanted(s, e->first_child, true);
     }
 }
 
@@ -85,7 +84,7 @@ static fw_status find_step(const editor *e, const step *s, const fw_xml_element 
     const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, name);
     search all = {.step = s, .key = row ? row->key : NULL, .wanted = number_of(s)};
     if (all.wanted < 0) return refuse(e, "this is no path; numbers of elements begin with 1", NULL);
-    look(&all, inside ? inside->first_child : e->root, !inside);
+    find_wanted(&all, inside ? inside->first_child : e->root, !inside);
     if (!all.found) return refuse(e, "there is no such element", name);
     if (all.wanted == 0 && all.seen > 1)
         return refuse(e, "there are several; name one by its id or its number, as in NAME[2]",

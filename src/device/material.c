@@ -58,7 +58,7 @@ const char *fw_device_limit_data_id(int k) {
     return limit_ids[k];
 }
 
-const char *const *fw_device_limit_data_ids(void) {
+static const char *const *limit_data_ids(void) {
     return limit_ids;
 }
 
@@ -66,13 +66,13 @@ fw_quantity_dimension fw_device_limit_data_dimension(int k) {
     return limit_rows[k].dimension;
 }
 
-int fw_device_limit_data_index(const char *id) {
+static int limit_data_index(const char *id) {
     for (int k = 0; k < FW_LIMIT_DATA; k++)
         if (strcmp(limit_ids[k], id) == 0) return k;
     return -1;
 }
 
-void fw_device_limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags) {
+static void limit_data_check(int k, const fw_quantity *q, fw_place place, fw_diags *diags) {
     if (q->unknown || (q->value > limit_rows[k].low && q->value <= limit_rows[k].high)) return;
     fw_diag_error(diags, 47, place, "%s must be %s", limit_ids[k], limit_rows[k].range);
 }
@@ -104,7 +104,7 @@ void fw_device_limit_data_complete(const fw_device_limit_data *data, const char 
                       whose);
 }
 
-fw_device_limit_data fw_device_limit_data_none(fw_place place) {
+static fw_device_limit_data limit_data_none(fw_place place) {
     fw_device_limit_data none;
     memset(&none, 0, sizeof none);
     for (int k = 0; k < FW_LIMIT_DATA; k++)
@@ -196,7 +196,7 @@ static fw_status read_limit(fw_arena *arena, const fw_xml_element *e,
                       fw_quantity_dimension_text(arena, wanted), q.unit,
                       fw_quantity_dimension_text(arena, q.dimension));
     else
-        fw_device_limit_data_check(k, &q, place_of(e, "value"), diags);
+        limit_data_check(k, &q, place_of(e, "value"), diags);
     *slot_ = q;
     return FW_OK;
 }
@@ -206,11 +206,11 @@ static fw_status read_child(fw_arena *arena, const fw_xml_element *e,
                             fw_device_material *m) {
     const fw_xml_attribute *id = fw_xml_attribute_of(e, "id");
     int k = id ? index_of(id->value) : -1;
-    int limit = id && k < 0 ? fw_device_limit_data_index(id->value) : -1;
+    int limit = id && k < 0 ? limit_data_index(id->value) : -1;
     if (limit >= 0) return read_limit(arena, e, source, nsource, diags, limit, m);
     if (id && k < 0) {
         const char *better = fw_did_you_mean(id->value, ids, IDS);
-        if (!better) better = fw_did_you_mean(id->value, fw_device_limit_data_ids(), FW_LIMIT_DATA);
+        if (!better) better = fw_did_you_mean(id->value, limit_data_ids(), FW_LIMIT_DATA);
         if (better)
             fw_diag_error(diags, 72, id->place,
                           "material '%s' has no quantity '%s'; did you mean "
@@ -272,7 +272,7 @@ static fw_status read_material(fw_arena *arena, const fw_xml_element *e,
                                         .source = "",
                                         .place = e->place};
     check_crystal(e, m, diags);
-    fw_device_limit_data none = fw_device_limit_data_none(e->place);
+    fw_device_limit_data none = limit_data_none(e->place);
     for (int k = 0; k < FW_LIMIT_DATA; k++)
         if (!fw_device_limit_data_at(&m->limit, k)->id)
             *fw_device_limit_data_at(&m->limit, k) = *fw_device_limit_data_at(&none, k);

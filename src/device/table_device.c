@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of the table: what a device is made of and what is asked of it. */
-#include "device/table_rows.h"
+#include "device/device_table.h"
 #include "base/constants.h"
 
 static const char *const flexure_kinds[] = {"csfh", "leaf", "path", NULL};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of the table: <six-bar> and <mechanism> with what they hold. */
-#include "device/table_rows.h"
+#include "device/device_table.h"
 
 static const char *const hinge_names[] = {"A", "B", "C", "D", "E", "F", NULL};
 static const char *const link_names[] = {"AB", "BC", "DE", "EF", NULL};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The air around a device: films below bodies and between walls, drag of the open air. Each is a
-   damper; air_slide.c, air_squeeze.c and air_drag.c have the physics. Theory:
+   damper; air_films.c has the physics. Theory:
    docs/theory/effects/air.md. */
 #include "effects/air.h"
 #include "base/constants.h"

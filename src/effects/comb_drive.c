@@ -21,7 +21,7 @@
    in theta). Cost about 1200 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
    instability). Test: test_comb_drive.c. */
-#include "effects/comb.h"
+#include "effects/effects.h"
 #include "base/constants.h"
 #include "effects/effect.h"
 #include <float.h>

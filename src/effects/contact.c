@@ -69,8 +69,8 @@ static void ended(const double *p, double o, double angle, int port, double gap,
     g->curve[turn][turn] = -o * (c * x + s * y);
 }
 
-static void look(const fw_effects_force_element *e, const fw_effects_port_state *s, bool second,
-                 overlap *g) {
+static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                       bool second, overlap *g) {
     const touch *t = e->data;
     const double *p = s->p;
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
@@ -91,7 +91,7 @@ static void look(const fw_effects_force_element *e, const fw_effects_port_state 
 static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
     const touch *t = e->data;
     overlap g;
-    look(e, s, false, &g);
+    overlap_at(e, s, false, &g);
     double modal_load = s->on[0] ? t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate : 0;
     for (int i = 0; i < N; i++)
         f[i] = -modal_load * g.slope[i];
@@ -104,7 +104,7 @@ static void tangent(const fw_effects_force_element *e, const fw_effects_port_sta
     memset(stiffness, 0, N * N * sizeof *stiffness);
     memset(damping, 0, N * N * sizeof *damping);
     if (!s->on[0]) return;
-    look(e, s, true, &g);
+    overlap_at(e, s, true, &g);
     double modal_load = t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate;
     for (int j = 0; j < N; j++) {
         double turning = 0; /* of g' by p_j */
@@ -122,7 +122,7 @@ static double energy(const fw_effects_force_element *e, const fw_effects_port_st
     const touch *t = e->data;
     overlap g;
     if (!s->on[0]) return 0;
-    look(e, s, false, &g);
+    overlap_at(e, s, false, &g);
     return 0.5 * t->k_N_per_m * g.value * g.value;
 }
 
@@ -130,7 +130,7 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
                   double power[2]) {
     const touch *t = e->data;
     overlap g;
-    look(e, s, false, &g);
+    overlap_at(e, s, false, &g);
     power[0] = s->on[0] ? t->c_Ns_per_m * g.rate * g.rate : 0;
     power[1] = 0;
 }
@@ -140,7 +140,7 @@ static double switch_value(const fw_effects_force_element *e, const fw_effects_p
     (void)i;
     const touch *t = e->data;
     overlap g;
-    look(e, s, false, &g);
+    overlap_at(e, s, false, &g);
     double elastic = t->k_N_per_m * g.value;
     return fmin(elastic, elastic + t->c_Ns_per_m * g.rate);
 }
@@ -149,7 +149,7 @@ static double pressing(const fw_effects_force_element *e, const fw_effects_port_
     const touch *t = e->data;
     overlap g;
     if (!s->on[0]) return 0;
-    look(e, s, false, &g);
+    overlap_at(e, s, false, &g);
     return fmax(0, t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate);
 }
 

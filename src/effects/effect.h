@@ -5,8 +5,10 @@
 #include "effects/effects.h"
 #include <math.h>
 
-#define FW_EFFECT(name) extern const fw_effect_row fw_effect_##name;
-#include "effects/effects.def"
+#define FW_EFFECT(name)              extern const fw_effect_row fw_effect_##name;
+#define FW_EFFECT_ELEMENT(name, ...) FW_EFFECT(name)
+#include "device/effects.def"
+#undef FW_EFFECT_ELEMENT
 #undef FW_EFFECT
 
 /* a new element of the loads, zeroed, with memory for its ports; NULL without memory */
@@ -26,8 +28,6 @@ fw_effects_torsion *fw_effects_loads_torsion(const fw_mechanism *mechanism, fw_e
 fw_effects_slide *fw_effects_loads_slide(fw_effects_loads *loads, int joint);
 /* what the drawing and the geometry say of a flexure suffices for its law at finite rotation */
 bool fw_effects_hinge_is_known(const fw_mechanism_hinge *hinge);
-/* a <contact> of the scene is between the conjugate surfaces of this pin */
-bool fw_effects_hinge_touches(const fw_device_scene *scene, int pin);
 /* its pin is no constraint any more: an element stands for it (once, however often it is asked for)
  */
 fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *loads, int hinge);

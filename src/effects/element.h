@@ -2,8 +2,7 @@
 /* A force element: forces between points of bodies as a function of where the points are, how their
    bodies are turned, how both move, and time. One class per effect that needs more than the plain
    springs, dampers and loads of fw_effects_loads; its whole physics is in one file of this room.
-   Everything
-   in SI and world axes.
+   Everything in SI and world axes.
 
    A class knows nothing of arms, masses, joints, scaling or other elements: multibody/ takes its
    ports to where the bodies are and its forces and tangents to the equations of motion.

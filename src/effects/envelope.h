@@ -6,6 +6,7 @@
    Theory: docs/theory/effects/envelope.md. */
 #ifndef FW_EFFECTS_ENVELOPE_H
 #define FW_EFFECTS_ENVELOPE_H
+#include "effects/effect.h"
 #include "effects/effects.h"
 
 typedef struct fw_effects_envelope {
@@ -78,5 +79,14 @@ double fw_effects_envelope_varying(const fw_effect_case *c, double part);
    among those of the envelope: what the motion is without them. envelope_strain.c */
 fw_status fw_effects_envelope_strain(const fw_effect_case *c, const double *strain,
                                      const fw_quantity_law *law, double *bound);
+
+/* Private to the room: drawn tendons and the envelope. */
+
+/* marks in loose (ntendon) the drawn tendons that the envelope, which has all unmarked ones as
+   springs, does not keep taut; of an envelope that is not valid all. False: there are no more */
+bool fw_effects_tendons_loosen(const fw_effect_case *c, const fw_effects_envelope *e, bool *loose);
+/* what those of `loose` change at most, which the valid envelope does not have */
+fw_status fw_effects_tendons_pull(const fw_effect_case *c, const fw_effects_envelope *e,
+                                  const bool *loose, double *bound);
 
 #endif

@@ -19,7 +19,7 @@
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "effects/modal.h"
-#include "maths/lu.h"
+#include "maths/dense.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A flexure instead of an ideal pin. Between W of body a and W of body b, D = W_b - W_a, with the
-   rotation th = phi_b - phi_a - free angle and the arc's axis half turned,
-   psi = axis + (turn of a + turn of b)/2, e = (cos psi, sin psi), n = (-sin psi, cos psi):
+   rotation th = phi_b - phi_a - free angle and the arc's axis half turned, psi = axis + (turn of a
+   + turn of b)/2, e = (cos psi, sin psi), n = (-sin psi, cos psi):
 
      w = e.D,  v = n.D - o drift(o th),  o = 1 where body a has the root at -a, else -1
      U = K th^2/2 + kx(o th) w^2/2 + ky(o th) v^2/2
@@ -156,7 +156,7 @@ static void project(strain *s, double x, double y, double side, const double *li
                 -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
 }
 
-static void look(const flexed *f, const fw_effects_port_state *s, state *at) {
+static void deform(const flexed *f, const fw_effects_port_state *s, state *at) {
     const double *a = s->p, *b = s->p + 3;
     double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
     double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
@@ -201,7 +201,7 @@ static void add_strain(const strain *s, fw_flexure_hinge_jet k, double tau, cons
 void fw_effects_flexed_tangent(const fw_effects_flexed *h, const fw_effects_port_state *s,
                                double warm, double *stiffness, double *damping) {
     state at;
-    look(h, s, &at);
+    deform(h, s, &at);
     memset(damping, 0, N * N * sizeof *damping);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
@@ -244,7 +244,7 @@ bool fw_effects_hinge_is_known(const fw_mechanism_hinge *hinge) {
            isfinite(hinge->law.bend_m_per_N);
 }
 
-bool fw_effects_hinge_touches(const fw_device_scene *scene, int pin) {
+static bool touches(const fw_device_scene *scene, int pin) {
     for (int i = 0; i < scene->ncontact; i++)
         if (scene->contact[i].joint == pin) return true;
     return false;
@@ -342,8 +342,7 @@ fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_eff
    hinge to give */
 bool fw_effects_hinge_flexes(const fw_effect_case *c, int hinge) {
     const fw_mechanism_hinge *h = &c->mechanism->hinge[hinge];
-    return fw_effects_hinge_is_known(h) &&
-           (!h->stated || fw_effects_hinge_touches(c->scene, h->pin));
+    return fw_effects_hinge_is_known(h) && (!h->stated || touches(c->scene, h->pin));
 }
 
 fw_status fw_effects_hinges_flex(const fw_effect_case *c, fw_effects_loads *loads) {

@@ -151,10 +151,9 @@ static fw_status start(fw_arena *arena, const fw_effects_envelope *e, int pins, 
 }
 
 /* What one group of loads with modal forces `modal_load` that share a law can move every pin off
-   its
-   equilibrium. Undamped, mode by mode: (|F|/omega^2) (jumps + slope/omega). Damped, in the energy
-   norm of all modes: |turn/omega| |F/omega| (jumps + (kappa + sqrt(kappa^2 + 1/omega_1^2)) slope).
-   `speed`: modal_load is a velocity, which moves by v/omega. */
+   its equilibrium. Undamped, mode by mode: (|F|/omega^2) (jumps + slope/omega). Damped, in the
+   energy norm of all modes: |turn/omega| |F/omega| (jumps + (kappa + sqrt(kappa^2 + 1/omega_1^2))
+   slope). `speed`: modal_load is a velocity, which moves by v/omega. */
 static void spread(modal *m, const double *modal_load, const unrest *u, bool speed) {
     const double *omega = m->e->omega;
     double size = 0;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/effects.h"
 #include "effects/linear.h"
 #include <float.h>
 #include <math.h>
@@ -195,4 +196,109 @@ const fw_effects_loads *fw_effects_loads_keep(fw_arena *arena, const fw_effects_
     fw_effects_loads *kept = fw_arena_one(arena, fw_effects_loads);
     if (kept) *kept = *loads;
     return kept;
+}
+
+/* [K G^T; G 0] [dq; lambda] = [F; 0] at the initial pose, rows balanced by a length and a
+   stiffness. Geometric stiffness (lambda Psi_qq, turning loads) is left out: callers take a factor
+   for it. Inputs SI; outputs displacement (3 nbody) in m and rad, rotation (npin) in rad. Cost the
+   cube of 3 nbody + the rows of joints and drivers, over 3. Source: standard static condensation
+   of a constrained system. Test: test_effects.c. */
+fw_status fw_effects_static_response(fw_arena *arena, const fw_mechanism *m,
+                                     const fw_effects_loads *loads, const double *force,
+                                     double *displacement, double *rotation, bool *valid) {
+    int total = fw_effects_linear_size(m, loads);
+    *valid = false;
+    if (total > FW_RESPONSE_MOST || total == 0) return FW_OK;
+    fw_mark mark = fw_arena_mark(arena);
+    fw_effects_linear s;
+    bool elastic;
+    FW_TRY(fw_effects_linear_new(arena, m, loads, &s, &elastic));
+    if (elastic) {
+        double *x, *f;
+        FW_NEED(x = fw_arena_array(arena, double, (size_t)total));
+        FW_NEED(f = fw_arena_array(arena, double, (size_t)s.n));
+        for (int i = 0; i < s.n; i++)
+            f[i] = force[i] / fw_effects_linear_force_unit(&s, i);
+        FW_TRY(fw_effects_linear_solve(arena, &s, f, x, valid));
+        for (int i = 0; i < s.n; i++) {
+            displacement[i] = x[i] * fw_effects_linear_unit(&s, i);
+            *valid = *valid && isfinite(displacement[i]);
+        }
+        for (int i = 0; i < m->npin; i++) {
+            int a = m->pin[i].body_a, b = m->pin[i].body_b;
+            rotation[i] = (b == FW_GROUND ? 0 : displacement[3 * b + 2]) -
+                          (a == FW_GROUND ? 0 : displacement[3 * a + 2]);
+        }
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* Free strains that act from the start on: temperature without a law, stress of the layer. */
+
+/* arrays of these loads alone: whoever else holds the same loads keeps theirs as they were */
+static void *copied(fw_arena *arena, const void *from, int count, size_t size) {
+    void *to = fw_arena_alloc(arena, (size_t)count, size);
+    if (to && count > 0) memcpy(to, from, (size_t)count * size);
+    return to;
+}
+
+static fw_status own_arrays(fw_arena *arena, fw_effects_loads *t) {
+    FW_NEED(t->load = copied(arena, t->load, t->nload, sizeof *t->load));
+    FW_NEED(t->timed = copied(arena, t->timed, t->ntimed, sizeof *t->timed));
+    FW_NEED(t->spring = copied(arena, t->spring, t->nspring, sizeof *t->spring));
+    FW_NEED(t->element = copied(arena, t->element, t->nelement, sizeof *t->element));
+    for (int i = 0; i < t->nelement; i++) {
+        fw_effects_force_element *e = &t->element[i];
+        FW_NEED(e->port = copied(arena, e->port, e->ports, sizeof *e->port));
+    }
+    return FW_OK;
+}
+
+static void strain_ports(const fw_effects_loads *loads, fw_geometry_vec2 centre,
+                         fw_effects_force_element *e) {
+    for (int i = 0; i < e->ports; i++)
+        fw_mechanism_strain_point(loads->strain, loads->nbody, centre, e->port[i].body,
+                                  &e->port[i].x_m, &e->port[i].y_m);
+}
+
+/* Inputs: loads->strain, dimensionless. Every point of the loads moves with the material
+   that it lies on, as the joints do in fw_mechanism_strained. Cost O(loads). Test: test_thermal.c.
+ */
+fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_effects_loads *loads,
+                            const fw_mechanism **strained) {
+    *strained = mechanism;
+    if (!loads->strained) return FW_OK;
+    fw_geometry_vec2 centre = fw_mechanism_ground_centre(mechanism);
+    const double *e = loads->strain;
+    const int n = loads->nbody;
+    FW_TRY(own_arrays(arena, loads));
+    for (int i = 0; i < loads->nload; i++) {
+        fw_effects_point_load *l = &loads->load[i];
+        fw_mechanism_strain_point(e, n, centre, l->body, &l->x_m, &l->y_m);
+    }
+    for (int i = 0; i < loads->ntimed; i++) {
+        fw_effects_timed_load *l = &loads->timed[i];
+        fw_mechanism_strain_point(e, n, centre, l->body, &l->x_m, &l->y_m);
+    }
+    for (int i = 0; i < loads->nspring; i++) {
+        fw_device_spring *s = &loads->spring[i];
+        fw_mechanism_strain_point(e, n, centre, s->body_a, &s->ax_m, &s->ay_m);
+        fw_mechanism_strain_point(e, n, centre, s->body_b, &s->bx_m, &s->by_m);
+    }
+    for (int i = 0; i < loads->nelement; i++)
+        strain_ports(loads, centre, &loads->element[i]);
+    return fw_mechanism_strained(arena, mechanism, e, strained);
+}
+
+fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism,
+                              const fw_effects_loads *loads, const fw_mechanism **start) {
+    double law[3], *strain;
+    *start = mechanism;
+    if (!loads->stretch.law) return FW_OK;
+    fw_quantity_law_value(loads->stretch.law, 0, DBL_MIN, law); /* the piece that begins at 0 */
+    if (law[0] == 0) return FW_OK;
+    FW_NEED(strain = fw_arena_array(arena, double, (size_t)mechanism->nbody + 1));
+    strain[mechanism->nbody] = loads->stretch.strain * law[0];
+    return fw_mechanism_strained(arena, mechanism, strain, start);
 }

@@ -6,13 +6,11 @@
 
    Without <material-damping> in the scene, a flexure whose damping the file does not state has the
    estimate of mechanism/mechanism_build.c, which joint-damping adds. With it, joint-damping leaves
-   these
-   hinges alone (fw_effects_material_damped) and this effect has them: nothing counts twice. A
-   damping
-   stated in the file holds in both cases. Inputs eta, Hz, k in N m/rad; output N m s/rad. Valid for
-   motions near the frequency: away from it the damper's loss factor goes with the frequency, the
-   material's hardly does. Source: loss factor and equivalent viscous damping as in any text on
-   vibration; docs/theory/effects/material-damping.md. Test: test_material_damping.c. */
+   these hinges alone (fw_effects_material_damped) and this effect has them: nothing counts twice. A
+   damping stated in the file holds in both cases. Inputs eta, Hz, k in N m/rad; output N m s/rad.
+   Valid for motions near the frequency: away from it the damper's loss factor goes with the
+   frequency, the material's hardly does. Source: loss factor and equivalent viscous damping as in
+   any text on vibration; docs/theory/effects/material-damping.md. Test: test_material_damping.c. */
 #include "effects/effect.h"
 #include "base/constants.h"
 #include "effects/envelope.h"
@@ -73,7 +71,7 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
 }
 
 /* Without its dampers the motion differs by d with M d'' + C d' + K d = C q', q the motion without
-   them: the answer to its forces at the largest rates, of whatever sign and course (dampers.c).
+   them: the answer to its forces at the largest rates, of whatever sign and course (modal_loads.c).
    Infinite where the envelope is not valid. Inputs SI from the envelope; output dimensionless.
    Test: test_material_damping.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {

@@ -4,7 +4,7 @@
 #ifndef FW_EFFECTS_MODAL_H
 #define FW_EFFECTS_MODAL_H
 #include "effects/linear.h"
-#include "maths/singular.h"
+#include "maths/dense.h"
 
 typedef struct fw_effects_modal {
     const fw_mechanism *mechanism;
@@ -36,7 +36,7 @@ fw_status fw_effects_modal_find(fw_arena *arena, const fw_mechanism *mechanism,
 /* shape^T C shape (modes x modes, 1/s) of the dampers in other loads */
 fw_status fw_effects_modal_damping(fw_arena *arena, const fw_effects_modal *modal,
                                    const fw_effects_loads *loads, double *damping);
-/* fills open and pull: released.c */
+/* fills open and pull: linear.c */
 fw_status fw_effects_modal_open(fw_arena *arena, fw_effects_modal *modal);
 /* forces of released pins on body b (npin x 2, N) under forces `force` (n, SI), at rest; and what
    pins that carry `pull` add to shape^T K shape */
@@ -66,7 +66,7 @@ fw_status fw_effects_modal_softening(fw_arena *arena, const fw_effects_modal *mo
 
 /* how much the stiffness and damping of the elements change within the motion, relative: their laws
    go on, and their forces are not linear. amplitude (modes): largest |q|. Infinite where a formula
-   does not hold all the way. modal_bend.c */
+   does not hold all the way. modal_stiffness.c */
 fw_status fw_effects_modal_bend(fw_arena *arena, const fw_effects_modal *modal,
                                 const double *amplitude, double *part);
 
@@ -104,8 +104,7 @@ fw_status fw_effects_modal_loads_breaks(fw_arena *arena, const fw_effects_modal 
                                         int *count);
 
 /* lower bound of the largest hinge deflection. `nonlinearity`: the relative error of the
-   frequencies
-   that is to be expected, and of the geometry */
+   frequencies that is to be expected, and of the geometry */
 fw_status fw_effects_modal_floor(fw_arena *arena, const fw_effects_modal *modal,
                                  const fw_effects_modal_loads *modal_loads, double nonlinearity,
                                  double *floor_rad);

@@ -166,7 +166,7 @@ typedef struct view {
     double still, all, followed, rate;
 } view;
 
-static view look(const walk *w, size_t pin) {
+static view deflection_of(const walk *w, size_t pin) {
     const fw_effects_modal *o = w->o;
     double drawn = fw_effects_pin_deflection(o->mechanism, (int)pin);
     view v = {drawn, drawn, drawn, 0};
@@ -206,7 +206,7 @@ static void cell(walk *w, double t, double h, double piece) {
     enter(w, h);
     note_rings(w);
     for (size_t i = 0; i < w->pins; i++) {
-        view v = look(w, i);
+        view v = deflection_of(w, i);
         w->start[i] = v.followed, w->start_rate[i] = v.rate;
         w->out->still[i] = fmax(w->out->still[i], fabs(v.still));
         w->out->low[i] = fmax(w->out->low[i], fabs(v.all));
@@ -214,7 +214,7 @@ static void cell(walk *w, double t, double h, double piece) {
     leave(w, h);
     note_rings(w);
     for (size_t i = 0; i < w->pins; i++) {
-        view v = look(w, i);
+        view v = deflection_of(w, i);
         double most = cubic_most(w->start[i], v.followed, h * w->start_rate[i], h * v.rate);
         w->out->still[i] = fmax(w->out->still[i], fabs(v.still));
         w->out->low[i] = fmax(w->out->low[i], fabs(v.all));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "effects/hinge_level.h"
+#include "effects/hinge_element.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,8 +16,9 @@
 #define FW_ROW_UNLESS(without, name) FW_CHOSEN(FW_GONE_##without, name)
 #define FW_ROW(without, name)        FW_ROW_UNLESS(without, name)
 #define FW_EFFECT(name)              FW_ROW(FW_WITHOUT_##name, name)
+#define FW_EFFECT_ELEMENT(name, ...) FW_EFFECT(name)
 static const fw_effect_row *const rows[] = {
-#include "effects/effects.def"
+#include "device/effects.def"
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -128,8 +129,8 @@ static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *ch
 /* ---- decision ---- */
 
 /* how it was found, its number, and what that means */
-static fw_status say(const fw_effect_case *c, fw_effect_entry *entry, double sum, double accuracy,
-                     bool last) {
+static fw_status explain(const fw_effect_case *c, fw_effect_entry *entry, double sum,
+                         double accuracy, bool last) {
     if (isinf(entry->bound)) return FW_OK; /* its reason is the whole of it */
     char bound[32], wanted[32], all[32];
     fw_percent_text(bound, sizeof bound, entry->bound);
@@ -183,7 +184,7 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
         double with = sum + entry[least].bound;
         bool first = sum == 0;
         entry[least].active = rows[least]->kept || !(with < accuracy);
-        if (!rows[least]->kept) FW_TRY(say(c, &entry[least], with, accuracy, first));
+        if (!rows[least]->kept) FW_TRY(explain(c, &entry[least], with, accuracy, first));
         if (!entry[least].active) sum = with;
     }
     return FW_OK;
@@ -301,4 +302,48 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
             FW_TRY(rows[i]->leave_out(&c, loads));
     }
     return fw_effects_hinge_settle(&c, choice, ledger, loads);
+}
+
+/* What the rows say of a scene: in words, what can be made less, and making it less. */
+
+void fw_effects_say(const fw_effects_words *words, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    words->write(words->context, format, arguments);
+    va_end(arguments);
+}
+
+void fw_effects_say_law(const fw_effects_words *words, const fw_quantity_law *law) {
+    words->write_law(words->context, law);
+}
+
+void fw_effects_describe(const fw_device *device, const fw_device_scene *scene,
+                         const fw_effects_words *words) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    for (size_t i = 0; i < count; i++)
+        if (row[i]->describe) row[i]->describe(device, scene, words);
+}
+
+void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load) {
+    size_t room = sizeof loads->item / sizeof loads->item[0];
+    if ((size_t)loads->count < room) loads->item[loads->count++] = load;
+}
+
+void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling *loads) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    *loads = (fw_effects_load_scaling){0};
+    for (size_t i = 0; i < count; i++)
+        if (row[i]->loads) row[i]->loads(scene, loads);
+}
+
+bool fw_effects_scale(fw_device_scene *scene, double by) {
+    size_t count;
+    fw_effects_load_scaling loads;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    for (size_t i = 0; i < count; i++)
+        if (row[i]->scale) row[i]->scale(scene, by);
+    fw_effects_find_loads(scene, &loads);
+    return loads.count > 0;
 }

@@ -15,9 +15,9 @@
    them, by the largest row sum of the matrix at most; that is added. Inputs SI; output relative to
    the floor. Proved within linear theory, whose margin is tested. Cost: modes times eyelets.
    Source: docs/theory/effects/tendon.md. Test: test_tendon_slack.c, test_hard_bounds.c. */
-#include "effects/tendon_slack.h"
+#include "effects/envelope.h"
 #include "effects/modal.h"
-#include "maths/lu.h"
+#include "maths/dense.h"
 #include "quantity/law_kind.h"
 #include <math.h>
 

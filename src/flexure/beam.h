@@ -68,4 +68,14 @@ void fw_flexure_beam_at(const fw_flexure_beam *beam, int piece, const fw_flexure
                         double s_m, fw_flexure_beam_section *out);
 void fw_flexure_beam_compliance(const fw_flexure_beam *beam, fw_flexure_beam_linear *out);
 
+/* Gauss-Legendre rules on [0, 1]. Private to the room. */
+
+enum { FW_GAUSS_MOST = 16 };
+
+/* n nodes in rising order and their weights, which add up to 1 */
+void fw_flexure_gauss_rule(int n, double *node, double *weight);
+/* a[i * n + j] = integral of the j-th Lagrange polynomial of the nodes from 0 to node i: the
+   collocation method of order 2 n */
+void fw_flexure_gauss_integrals(int n, const double *node, const double *weight, double *a);
+
 #endif

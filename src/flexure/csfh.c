@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Circular arcs, of one modulus and of a crystal whose modulus goes by direction. */
-#include "flexure/kinds.h"
 #include "flexure/section.h"
 #include <math.h>
 
@@ -192,7 +191,7 @@ static arc_ends ends_of(const fw_flexure_shape *f, const fw_flexure_crystal *k,
                       .ly = in * (s - q * c)};
 }
 
-/* 1/G goes by -4 times what 1/E does (crystal.c) */
+/* 1/G goes by -4 times what 1/E does (flexure_section.c) */
 static arc_compliance compliance_of(const fw_flexure_shape *f, const fw_flexure_crystal *k,
                                     const arc_modulus *m, const arc_ends *at) {
     double a = f->half_angle_rad, s = f->sine, r = f->radius_m, rn = f->neutral_m, t = f->width_m;

@@ -2,6 +2,7 @@
 /* The solver of the elastica: a solution on one mesh, a finer one for the error, the result. */
 #include "flexure/elastica.h"
 #include "flexure/elastica_core.h"
+#include "maths/dense.h"
 #include <float.h>
 #include <math.h>
 
@@ -28,7 +29,7 @@ static void tangent_of(const fw_flexure_end_state *end, double k[3][3]) {
         }
     for (int j = 0; j < 3; j++)
         size *= hypot(hypot(a[0][j], a[1][j]), a[2][j]);
-    bool regular = fw_flexure_solve3(a, 3, x, &det) && fabs(det) > 1e-13 * size;
+    bool regular = fw_maths_solve3(a, 3, x, &det) && fabs(det) > 1e-13 * size;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             k[i][j] = regular ? x[j][i] : (double)NAN;

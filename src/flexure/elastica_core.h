@@ -83,10 +83,6 @@ void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_stat
 double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *dp, double *span);
 void fw_flexure_elastica_begin(const fw_flexure_elastica *e, fw_flexure_carried *carried);
 
-/* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.
- *det: its determinant */
-bool fw_flexure_solve3(const double a[3][3], int columns, double x[3][3], double *det);
-
 typedef struct fw_flexure_goal { /* what is given, without units */
     fw_flexure_elastica_end given[3];
     double value[3];

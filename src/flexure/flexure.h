@@ -1,13 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cubic crystal in a (100) wafer: Young's modulus by direction. Theory:
+   docs/theory/flexure-silicon.md. */
+#ifndef FW_FLEXURE_FLEXURE_H
+#define FW_FLEXURE_FLEXURE_H
+#include "device/device.h"
+#include <stdbool.h>
+
+/* with psi the direction from [100] in the wafer plane:
+     1/E(psi) = a0 + a1 cos 4 psi,  1/G(psi) = g0 + g1 cos 4 psi,  nu to [001] = -s12 E(psi)
+     nu' = -s12/s11 from [001],  G of psi and [001] = 1/s44 whatever psi */
+typedef struct fw_flexure_crystal {
+    bool known;   /* false: isotropic */
+    bool aligned; /* false: the hinge's axis is not known; modulus and stress are then means and
+                     worst cases over all directions */
+    double a0_per_Pa, a1_per_Pa, g0_per_Pa, g1_per_Pa, s12_per_Pa;
+    double bow_per_Pa; /* nu nu'/E: what bowing across adds to 1/E, the same for all psi */
+    double reach;      /* of what keeps the strip from bowing, over its depth */
+    double share;      /* a1/a0 over silicon's: for what was found with silicon */
+    double cos4, sin4; /* of four times the angle of the hinge's symmetry axis from [100] */
+} fw_flexure_crystal;
+
+/* axis_rad: the hinge's symmetry axis from [100]; NaN: not known */
+fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa,
+                                            double axis_rad);
+double fw_flexure_crystal_youngs_Pa(const fw_flexure_crystal *crystal, double from_100_rad);
+
 /* Hinge mechanics in closed form. Theory: docs/theory/flexure.md; reference: shared hinge tables.
 
    Frame of a flexure: arc centre O at the origin, symmetry axis +x, root of the first body at polar
    angle -a, of the second at +a. A leaf lies along y, its middle at the origin. A path (path.h) has
    its two ends on the y axis, the first one below, and W on the x axis, at x >= 0. */
-#ifndef FW_FLEXURE_FLEXURE_H
-#define FW_FLEXURE_FLEXURE_H
-#include "device/device.h"
-#include "flexure/crystal.h"
 
 typedef struct fw_flexure_input {
     fw_device_flexure_kind kind;
@@ -85,7 +107,6 @@ typedef struct fw_flexure_model { /* a row per kind: adding a hinge kind is one 
     void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
                         fw_flexure_result *out);
 } fw_flexure_model;
-const fw_flexure_model *fw_flexure_models(size_t *count);
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
 /* the first half of it, the outline alone */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);
@@ -95,5 +116,11 @@ fw_flexure_input fw_flexure_input_of(const fw_device_flexure *flexure, double fi
 bool fw_flexure_input_varies(const fw_flexure_input *in);
 /* the fillet used where the file gives none: as wide as the flexure, where the arc leaves room */
 double fw_flexure_default_fillet(const fw_device_flexure *flexure);
+
+/* A flexure whose two faces are not equally wide: walls that etching left at a slope. */
+
+/* corrects what was computed for a rectangle of the mean width: flare_m is half of what one face is
+   wider than the other, of either sign; 0 changes nothing */
+void fw_flexure_flare(const fw_flexure_input *in, double flare_m, fw_flexure_result *out);
 
 #endif

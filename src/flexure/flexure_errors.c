@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the closed form does not know, as a figure of each shape. */
-#include "flexure/kinds.h"
+#include "flexure/section.h"
 #include <math.h>
 
 /* the factors by which a shape outside of those compared widens its errors: times 2 for each of

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Closed form of a strip of lines and arcs whose width varies. */
-#include "flexure/gauss.h"
+#include "flexure/beam.h"
 #include "base/constants.h"
-#include "flexure/kinds.h"
+#include "flexure/section.h"
 #include "flexure/path_sections.h"
 #include <math.h>
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Straight leaves. */
-#include "flexure/kinds.h"
 #include "flexure/section.h"
 #include <math.h>
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/limit.h"
+#include "base/constants.h"
+#include "flexure/section.h"
 #include <math.h>
 #include <string.h>
 
@@ -138,7 +140,7 @@ static bool yielding(const fw_flexure_limit_input *in, fw_flexure_limits *all,
 }
 
 /* amplitude that lasts the cycles asked for, once per repetition; the law itself goes to the
-   verdict, which counts the cycles of a motion. Data: strain_life.h */
+   verdict, which counts the cycles of a motion. Data: limit.h */
 static bool fatigue_life(const fw_flexure_limit_input *in, fw_flexure_limits *all,
                          fw_flexure_limit *limit) {
     const fw_device_limit_data *d = &in->material->limit;
@@ -184,11 +186,6 @@ static const fw_flexure_limit_row table[FW_LIMITS] = {
     {"fatigue", "the amplitude that lasts a number of cycles", fatigue_life},
 };
 
-const fw_flexure_limit_row *fw_flexure_limit_rows(size_t *count) {
-    *count = FW_LIMITS;
-    return table;
-}
-
 /* Material -> what it allows this flexure. A stated strength is the only static one.
    Cost: one pow per criterion. Test: test_limits.c the_lowest_governs, a_stated_strength_is_alone
  */
@@ -211,4 +208,91 @@ void fw_flexure_limits_of(const fw_flexure_limit_input *in, fw_flexure_limits *l
 
 const fw_flexure_limit *fw_flexure_limits_governing(const fw_flexure_limits *limits) {
     return limits->governing == FW_NONE ? NULL : &limits->item[limits->governing];
+}
+
+/* Strain life, counted as stress E eps_a, since what a turned strip imposes is a strain:
+     E eps_a(N) = S (N/N1)^b + E eps_f' (2N)^c,   S = sigma1 - E eps_f' (2 N1)^c
+   so that N1 cycles of sigma1 last exactly, whether or not the plastic part is known.
+   in: Pa, cycles, 1; out: Pa, cycles. Valid 1 <= N, S > 0; error: that of the data, a factor of
+   two in life is usual. Cost: two pow; the inverse some six of these.
+   Source: O. H. Basquin, Proc. ASTM 10 (1910) 625; S. S. Manson, NACA TN 2933 (1953); L. F. Coffin,
+   Trans. ASME 76 (1954) 931. Test: test_strain_life.c */
+
+static double plastic_Pa(const fw_flexure_strain_life *law, double cycles) {
+    if (!(law->ductility > 0)) return 0;
+    return law->youngs_Pa * law->ductility * pow(2 * cycles, law->ductility_exponent);
+}
+
+double fw_flexure_strain_life_elastic_Pa(const fw_flexure_strain_life *law) {
+    return law->amplitude_Pa - plastic_Pa(law, law->cycles);
+}
+
+double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles) {
+    return fw_flexure_strain_life_elastic_Pa(law) * pow(cycles / law->cycles, law->exponent) +
+           plastic_Pa(law, cycles);
+}
+
+/* Newton on logarithms: ln sigma(ln N) is convex and falls, so that from below the root in N it
+   comes up to it without passing it */
+double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law, double amplitude_Pa) {
+    double s = fabs(amplitude_Pa), b = law->exponent, c = law->ductility_exponent;
+    double elastic = fw_flexure_strain_life_elastic_Pa(law);
+    if (!(s > 0)) return (double)INFINITY;
+    double ln = log(law->cycles) + log(s / elastic) / b;
+    if (!(law->ductility > 0)) return exp(ln);
+    ln = fmax(ln, log(s / (law->youngs_Pa * law->ductility)) / c - log(2));
+    for (int i = 0; i < 60; i++) {
+        double e = elastic * exp(b * (ln - log(law->cycles)));
+        double p = law->youngs_Pa * law->ductility * exp(c * (ln + log(2)));
+        double step = log((e + p) / s) * (e + p) / (b * e + c * p);
+        ln -= step;
+        if (!(fabs(step) > 1e-13 * fmax(1, fabs(ln)))) break;
+    }
+    return exp(ln);
+}
+
+/* sigma_ar = sqrt(sigma_max sigma_a), sigma_max = sigma_a + |sigma_m|: a strip bends, so that one
+   of its sides has the mean in tension, whichever its sign source: Smith, Watson, Topper, J.
+   Materials 5 (1970) 767; test_strain_life.c mean_stress */
+double fw_flexure_equivalent_amplitude_Pa(double amplitude_Pa, double mean_Pa) {
+    return sqrt((amplitude_Pa + fabs(mean_Pa)) * amplitude_Pa);
+}
+
+/* Effective surface of a flexure under a pure moment, at the peak stress Kt sigma of its fillets:
+     A_eff = (L h + L t/(m+1)) / Kt^m + 2 (pi/2 rho h + rho t/(m+1))
+   first the strip: its side in tension, uniform, and both faces, across which the stress rises from
+   the middle as y, so that int (2y/t)^m dy over the half in tension is t/2/(m+1) each; then the two
+   fillets on that side, with a quarter turn of surface each and as much of the faces as they are
+   long, all taken at the peak: that bounds their share from above. A flexure that turns as far to
+   the other side stresses as much again.
+   in: L, t, h, rho in m, m 1; out: m2; valid m > 0; error: of the allowable stress at most
+   (1 + share of the fillets)^(1/m) too low, 3 % at m = 10, rho = t/2
+   source: W. Weibull, J. Appl. Mech. 18 (1951) 293; docs/theory/limits-of-materials.md eq. 2;
+   test_weibull.c area_against_numerical_integration */
+double fw_flexure_weibull_area_m2(const fw_flexure_input *f, double m) {
+    double t = f->width_m, h = f->depth_m, rho = fmax(f->fillet_m, 0.0);
+    double kt = fw_flexure_fillet_concentration(t, f->fillet_m), faces = t / (m + 1.0);
+    return f->length_m * (h + faces) * pow(kt, -m) + 2.0 * rho * (0.5 * FW_PI * h + faces);
+}
+
+/* P = 1 - exp(-(A_eff/A0) (sigma/sigma0)^m); in: Pa, tension or compression of the same size on the
+   other side; out: 1; relative error of small P kept by expm1; test_weibull.c */
+double fw_flexure_weibull_probability(const fw_flexure_weibull *w, double peak_Pa) {
+    return -expm1(-w->effective_m2 / w->area_m2 * pow(fabs(peak_Pa) / w->strength_Pa, w->modulus));
+}
+
+double fw_flexure_weibull_stress_Pa(const fw_flexure_weibull *w, double probability) {
+    double links = -log1p(-probability) * w->area_m2 / w->effective_m2;
+    return w->strength_Pa * pow(links, 1.0 / w->modulus);
+}
+
+double fw_flexure_series_share(double probability, int n) {
+    return -expm1(log1p(-probability) / (n > 0 ? n : 1));
+}
+
+double fw_flexure_series_probability(const double *probability, int n) {
+    double survives = 0.0; /* its logarithm */
+    for (int i = 0; i < n; i++)
+        survives += log1p(-probability[i]);
+    return -expm1(survives);
 }

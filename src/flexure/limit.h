@@ -6,8 +6,43 @@
 #ifndef FW_FLEXURE_LIMIT_H
 #define FW_FLEXURE_LIMIT_H
 #include "flexure/flexure.h"
-#include "flexure/strain_life.h"
-#include "flexure/weibull.h"
+#include <stdbool.h>
+
+/* How many cycles of an amplitude a material lasts. */
+
+typedef struct fw_flexure_strain_life {
+    bool known;
+    double amplitude_Pa, cycles; /* fully reversed; lasts so many */
+    double exponent;             /* b < 0 of the elastic part (Basquin) */
+    double youngs_Pa;
+    double ductility, ductility_exponent; /* eps_f', c < 0 (Manson, Coffin); 0, 0: elastic only */
+} fw_flexure_strain_life;
+
+/* elastic part of amplitude_Pa */
+double fw_flexure_strain_life_elastic_Pa(const fw_flexure_strain_life *law);
+/* E times the strain amplitude that lasts `cycles` */
+double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles);
+double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law,
+                                     double amplitude_Pa); /* its inverse */
+/* fully reversed amplitude that damages as much as this cycle (Smith, Watson, Topper) */
+double fw_flexure_equivalent_amplitude_Pa(double amplitude_Pa, double mean_Pa);
+
+/* Fracture as the weakest link of a stressed surface (two-parameter Weibull). */
+
+typedef struct fw_flexure_weibull {
+    bool known;
+    double strength_Pa, modulus, area_m2; /* sigma0, m, A0 */
+    double effective_m2; /* surface that breaks as often, were all of it at the peak stress */
+} fw_flexure_weibull;
+
+double fw_flexure_weibull_area_m2(const fw_flexure_input *flexure, double modulus);
+double fw_flexure_weibull_probability(const fw_flexure_weibull *weibull, double peak_Pa);
+double fw_flexure_weibull_stress_Pa(const fw_flexure_weibull *weibull,
+                                    double probability); /* its inverse */
+/* failure probability of each of n equal links of a chain that fails with `probability` */
+double fw_flexure_series_share(double probability, int n);
+/* of a chain of n links: 1 - product of their survivals */
+double fw_flexure_series_probability(const double *probability, int n);
 
 typedef struct fw_flexure_limit {
     const char *criterion;  /* the row's name: "strength", "fracture", "yield", "fatigue" */
@@ -42,7 +77,6 @@ typedef struct fw_flexure_limit_row { /* adding a criterion is one function and 
     /* true: *limit is what it allows. May say in `all` what it found beside, or missed */
     bool (*of)(const fw_flexure_limit_input *in, fw_flexure_limits *all, fw_flexure_limit *limit);
 } fw_flexure_limit_row;
-const fw_flexure_limit_row *fw_flexure_limit_rows(size_t *count);
 void fw_flexure_limits_of(const fw_flexure_limit_input *in, fw_flexure_limits *limits);
 
 /* NULL where nothing is known */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/path_sections.h"
-#include "flexure/gauss.h"
+#include "flexure/beam.h"
 #include "flexure/section.h"
 #include <math.h>
 

@@ -3,7 +3,7 @@
    what the ends of a crystal lose, peak strain at a root. Private to the room. */
 #ifndef FW_FLEXURE_SECTION_H
 #define FW_FLEXURE_SECTION_H
-#include "flexure/crystal.h"
+#include "flexure/flexure.h"
 
 /* root length dL and fillet concentration for fillet rho and width t; rho/t is clamped to the
    range [0.05, 2] of the laws; rho < 0: an ideal end, 0 and 1 */
@@ -47,5 +47,34 @@ typedef struct fw_flexure_root_case {
     double angle_rad;
 } fw_flexure_root_case;
 double fw_flexure_root_peak(const fw_flexure_root_case *root, const fw_flexure_crystal *crystal);
+
+/* Two functions per hinge kind, whose rows are in flexure_table.c, and what they share. Private to
+   the room. */
+
+void fw_flexure_csfh_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_csfh(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+void fw_flexure_leaf_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+void fw_flexure_path_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
+void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                     fw_flexure_result *out);
+fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
+
+/* of all kinds and materials; flexure_errors.c */
+void fw_flexure_shape_marks(fw_flexure_shape *shape);
+fw_flexure_error fw_flexure_errors(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                                   const fw_flexure_result *result);
+
+/* the peak: at the fillet of a root (root: fw_flexure_root_peak), or between the roots where the
+   fillets are wide; beside it the fit (5). beam: t/2 over length and roots, of a crystal in its
+   modulus; inside: of the fibre between the roots over it */
+void fw_flexure_peak_strain(const fw_flexure_shape *shape, double beam, double inside, double root,
+                            fw_flexure_result *out);
+
+/* dL/E of a root whose tangent has cos 4 psi, psi from [100] */
+double fw_flexure_root_m_per_Pa(const fw_flexure_shape *shape, const fw_flexure_crystal *crystal,
+                                double cos4);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact boolean of outlines of lines and arcs: cut both at all common points, keep the parts that
    bound the result, stitch them. Nothing is flattened. */
-#include "geometry/boolean.h"
+#include "geometry/segment.h"
 #include <stdint.h>
 #include <string.h>
 

@@ -63,8 +63,8 @@ typedef struct fw_geometry_outline {
 fw_geometry_outline fw_geometry_outline_start(fw_arena *arena, fw_geometry_vec2 point);
 void fw_geometry_outline_line(fw_geometry_outline *outline, fw_geometry_vec2 to, unsigned flags);
 /* arc about `centre` through the signed sweep; the end point is computed,
-   `fw_geometry_outline_arc_to` takes
-   an end point already known so that neighbours share it bit for bit */
+   `fw_geometry_outline_arc_to` takes an end point already known so that neighbours share it bit for
+   bit */
 void fw_geometry_outline_arc(fw_geometry_outline *outline, fw_geometry_vec2 centre,
                              double sweep_rad, unsigned flags);
 void fw_geometry_outline_arc_to(fw_geometry_outline *outline, fw_geometry_vec2 centre,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Private to the room: one arc as chords (flatten_arc.c), for tessellate.c. */
+/* Private to the room: one arc as chords (geometry_flatten.c), for tessellate.c. */
 #ifndef FW_GEOMETRY_GEOMETRY_FLATTEN_H
 #define FW_GEOMETRY_GEOMETRY_FLATTEN_H
 #include "base/constants.h"

@@ -5,7 +5,7 @@
 #include "base/diag.h"
 #include "base/output.h"
 #include "geometry/contour.h"
-#include "geometry/slice.h"
+#include "geometry/polygon.h"
 #include "geometry/tessellate.h"
 #include "layout/content.h"
 

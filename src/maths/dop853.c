@@ -5,9 +5,9 @@
    Source: Hairer, Norsett and Wanner, Solving ODEs I, 2nd ed., II.5 and II.10. Cost of a step of n
    components: 12 right-hand sides and 74 n multiplications; of the dense output 3 and 72 n.
    Tests: test_ode_rk.c (coefficients), test_ode_*.c */
-#include "maths/dop853_table.h"
+#include "maths/ode_tables.h"
 #include "maths/ode.h"
-#include "maths/rk_kernels.h"
+#include "maths/ode_steps.h"
 #include <math.h>
 
 enum { ENTRIES = sizeof dop_a / sizeof dop_a[0], ROWS = 8, LAST = DOP_STAGES };

@@ -6,9 +6,9 @@
    Source: Hairer, Norsett and Wanner, Solving ODEs I, 2nd ed., II.5 table 5.2 and II.6 (dense
    output), II.4 (control). Cost of a step: 6 right-hand sides, one more with a projection, and
    32 n multiplications. Tests: test_ode_rk.c (coefficients), test_ode_*.c */
-#include "maths/dopri5_table.h"
+#include "maths/ode_tables.h"
 #include "maths/ode.h"
-#include "maths/rk_kernels.h"
+#include "maths/ode_steps.h"
 #include <math.h>
 #include <string.h>
 

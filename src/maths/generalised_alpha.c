@@ -14,8 +14,8 @@
    Source: Chung and Hulbert, J. Appl. Mech. 60 (1993); Arnold and Bruels, Multibody System
    Dynamics 18 (2007). Cost: an evaluation and a solution of n x n per iteration, n the number of u.
    Tests: test_ode_*.c, test_ode_stiff.c */
-#include "maths/lu.h"
-#include "maths/ode_implicit.h"
+#include "maths/dense.h"
+#include "maths/ode_steps.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -19,12 +19,12 @@
    gsl-bsimp allocates: GSL's LU takes and returns one small block per factorisation. GSL does not
    check every allocation in the creation of bsimp and in that LU.
    Source: GSL reference manual, chapter Ordinary Differential Equations. Tests: test_ode_*.c */
-#include "maths/maths_dense.h"
-#include "maths/ode_implicit.h"
+#include "maths/ode_steps.h"
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 enum { PIECES = 64 };
@@ -103,6 +103,17 @@ static void destroy(fw_maths_stepper *b) {
     s->gsl = s->inside = NULL;
 }
 
+static void set_handler_off(void) {
+    gsl_set_error_handler_off();
+}
+
+/* GSL answers by statuses from here on: its own handler of errors would end the process. It is one
+   for the process, and designs run in parallel: it is written once */
+static void quiet(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, set_handler_off);
+}
+
 static fw_status create(fw_arena *arena, const fw_maths_ode *ode, const gsl_odeiv2_step_type *type,
                         fw_maths_stepper **out) {
     size_t n = (size_t)ode->n, width = (size_t)fw_maths_ode_padded(ode->n);
@@ -118,7 +129,7 @@ static fw_status create(fw_arena *arena, const fw_maths_ode *ode, const gsl_odei
     FW_NEED(s->node = fw_arena_array(arena, double, 2 * (PIECES + 1) * width));
     if (type == gsl_odeiv2_step_bsimp)
         FW_NEED(s->j = fw_arena_array(arena, double, n *(size_t)ode->controlled));
-    fw_maths_gsl_quiet();
+    quiet();
     s->history = type == gsl_odeiv2_step_msadams;
     s->extrapolates = type == gsl_odeiv2_step_bsimp;
     s->system = (gsl_odeiv2_system){function, jacobian, n, s};
@@ -284,16 +295,16 @@ static void component(const fw_maths_stepper *b, int i, double wi, int j, double
                                    fw_maths_stepper **s) {                                         \
         return create(arena, ode, gsl_odeiv2_step_##NAME, s);                                      \
     }                                                                                              \
-    const fw_maths_stepper_row fw_maths_gsl_##NAME##_row = {.create = create_##NAME,                     \
-                                                      .start = start,                              \
-                                                      .step = step,                                \
-                                                      .prepare = prepare,                          \
-                                                      .dense = dense,                              \
-                                                      .component = component,                      \
-                                                      .destroy = destroy,                          \
-                                                      .dense_order = 3,                            \
-                                                      .dense_order_u = 5,                          \
-                                                      __VA_ARGS__}
+    const fw_maths_stepper_row fw_maths_gsl_##NAME##_row = {.create = create_##NAME,               \
+                                                            .start = start,                        \
+                                                            .step = step,                          \
+                                                            .prepare = prepare,                    \
+                                                            .dense = dense,                        \
+                                                            .component = component,                \
+                                                            .destroy = destroy,                    \
+                                                            .dense_order = 3,                      \
+                                                            .dense_order_u = 5,                    \
+                                                            __VA_ARGS__}
 
 ROW(rkf45, .name = "gsl-rkf45", .summary = "GSL's Runge-Kutta-Fehlberg 4(5)", .order = 5);
 ROW(rk8pd, .name = "gsl-rk8pd", .summary = "GSL's Runge-Kutta Prince-Dormand 8(9)", .order = 8);

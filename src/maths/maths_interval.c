@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "maths/maths_interval.h"
 
-/* doubles below and above pi: pi = 3.14159265358979323846..., 0x1.921fb54442d18p+1 + 1.2e-16 */
-static const double pi_lo = 0x1.921fb54442d18p+1, pi_hi = 0x1.921fb54442d19p+1;
+/* the double below pi: pi = 3.14159265358979323846..., 0x1.921fb54442d18p+1 + 1.2e-16 */
+static const double pi_lo = 0x1.921fb54442d18p+1;
 
 /* a library function that errs by less than 2 units in the last place */
 static double below(double c) {
@@ -38,13 +38,6 @@ fw_maths_interval fw_maths_interval_div(fw_maths_interval a, fw_maths_interval b
     return checked(hull4(p, q, r, s), p + q + r + s);
 }
 
-fw_maths_interval fw_maths_interval_sqr(fw_maths_interval a) {
-    double p = a.lo * a.lo, q = a.hi * a.hi;
-    if (a.lo > 0.0 || a.hi < 0.0) return outward((fw_maths_interval){fmin(p, q), fmax(p, q)});
-    if (isnan(p + q)) return (fw_maths_interval){0.0, (double)INFINITY};
-    return (fw_maths_interval){0.0, fw_up(fmax(p, q))};
-}
-
 fw_maths_interval fw_maths_interval_sqrt(fw_maths_interval a) {
     if (!(a.hi >= 0.0)) return (fw_maths_interval){(double)NAN, (double)NAN};
     return (fw_maths_interval){a.lo > 0.0 ? fmax(fw_down(sqrt(a.lo)), 0.0) : 0.0,
@@ -76,20 +69,4 @@ fw_maths_interval fw_maths_interval_sin(fw_maths_interval a) {
 
 fw_maths_interval fw_maths_interval_cos(fw_maths_interval a) {
     return wave(a, cos, 0.0, pi_lo);
-}
-
-fw_maths_interval fw_maths_interval_acos(fw_maths_interval a) {
-    if (!(a.lo <= 1.0 && a.hi >= -1.0)) return (fw_maths_interval){(double)NAN, (double)NAN};
-    return (fw_maths_interval){fmax(below(acos(fmin(a.hi, 1.0))), 0.0),
-                               fmin(above(acos(fmax(a.lo, -1.0))), pi_hi)};
-}
-
-/* A rectangle without the origin and the cut: the angle is monotone along every edge, so that the
-   extremes are at corners. */
-fw_maths_interval fw_maths_interval_atan2(fw_maths_interval y, fw_maths_interval x) {
-    bool clear = x.lo > 0.0 || y.lo > 0.0 || y.hi < 0.0;
-    if (!clear) return (fw_maths_interval){-pi_hi, pi_hi};
-    fw_maths_interval out =
-        hull4(atan2(y.lo, x.lo), atan2(y.lo, x.hi), atan2(y.hi, x.lo), atan2(y.hi, x.hi));
-    return (fw_maths_interval){fmax(below(out.lo), -pi_hi), fmin(above(out.hi), pi_hi)};
 }

@@ -176,13 +176,13 @@ void fw_maths_ode_accept(fw_maths_stepper *s, double t_new, double **y_new, doub
     s->steps++;
 }
 
-bool fw_maths_ode_too_small(const fw_maths_stepper *s, double h) {
+static bool too_small(const fw_maths_stepper *s, double h) {
     return !(h > 16 * DBL_EPSILON * fabs(s->t)) || h < 1e10 * DBL_MIN;
 }
 
 bool fw_maths_ode_retry(fw_maths_stepper *s, double h, int *tries) {
     s->rejected++;
-    return ++*tries < 100 && !fw_maths_ode_too_small(s, h);
+    return ++*tries < 100 && !too_small(s, h);
 }
 
 /* ---- interpolation ---- */
@@ -257,4 +257,23 @@ void fw_maths_ode_nested_dense(const fw_maths_stepper *s, int rows, const double
             sum += weight[i] * row[i * s->padded + c];
         y[c] = sum;
     }
+}
+
+static const fw_maths_stepper_row *const table[] = {
+    &fw_maths_dop853_row,    &fw_maths_dopri5_row,
+    &fw_maths_radau5_row,    &fw_maths_generalised_alpha_row,
+    &fw_maths_rk4_row,       &fw_maths_gsl_rkf45_row,
+    &fw_maths_gsl_rk8pd_row, &fw_maths_gsl_msadams_row,
+    &fw_maths_gsl_bsimp_row,
+};
+
+const fw_maths_stepper_row *const *fw_maths_stepper_table(size_t *count) {
+    *count = sizeof table / sizeof table[0];
+    return table;
+}
+
+const fw_maths_stepper_row *fw_maths_stepper_find(const char *name) {
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (strcmp(table[i]->name, name) == 0) return table[i];
+    return NULL;
 }

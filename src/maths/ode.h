@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Integrators of y' = f(t, y) behind one interface: one file and one row in the table each
-   (ode_table.c). All of them keep the last step and can be asked for any time in it (dense output),
+   (ode.c). All of them keep the last step and can be asked for any time in it (dense output),
    move every accepted state onto a manifold when the problem has one, end exactly at t_end, and
    allocate nothing after fw_maths_stepper_new. */
 #ifndef FW_MATHS_ODE_H
@@ -126,8 +126,6 @@ double fw_maths_ode_target(const fw_maths_stepper *s, double *h);
 bool fw_maths_ode_finish(fw_maths_stepper *s, double t_new, double *y_new, double *f_new);
 /* accepts y_new, f_new as the state at t_new (swaps buffers), counts the step */
 void fw_maths_ode_accept(fw_maths_stepper *s, double t_new, double **y_new, double **f_new);
-/* is h too small to go on at t? */
-bool fw_maths_ode_too_small(const fw_maths_stepper *s, double h);
 /* counts a rejected step; is it worth trying h instead? tries: rejections of this step so far */
 bool fw_maths_ode_retry(fw_maths_stepper *s, double h, int *tries);
 /* dense output for steppers without one of their own: u by the quintic through (u, v, a) at both

@@ -2,6 +2,7 @@
 /* What joins bodies beside pins: point-to-point springs, joints and drivers. Values that the file
    leaves open are those of the drawn pose. */
 #include "mechanism/builder.h"
+#include "mechanism/mechanism.h"
 #include "quantity/law_kind.h"
 #include <float.h>
 #include <math.h>
@@ -154,5 +155,82 @@ fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i) {
         return fw_diag_error(b->diags, 92, from->value_place,
                              "driver %s gives its rod a length that is not above 0 at the start",
                              fw_mechanism_name_or_none(from->id));
+    return FW_OK;
+}
+
+/* Bodies and ground that have become longer: a free strain changes where the joints sit on a body,
+   and nothing else that counts. Source: similarity; docs/theory/effects/temperature.md. */
+
+typedef struct mean {
+    fw_geometry_vec2 sum;
+    int count;
+} mean;
+
+static void count_in(mean *m, int body, double x_m, double y_m) {
+    if (body != FW_GROUND) return;
+    m->sum.x += x_m, m->sum.y += y_m;
+    m->count++;
+}
+
+fw_geometry_vec2 fw_mechanism_ground_centre(const fw_mechanism *m) {
+    mean all = {.count = 0};
+    for (int i = 0; i < m->npin; i++) {
+        const fw_mechanism_pin *p = &m->pin[i];
+        count_in(&all, p->body_a, p->ax_m, p->ay_m);
+        count_in(&all, p->body_b, p->bx_m, p->by_m);
+    }
+    for (int i = 0; i < m->njoint; i++) {
+        const fw_device_joint *t = &m->joint[i];
+        count_in(&all, t->body_a, t->ax_m, t->ay_m);
+        count_in(&all, t->body_b, t->bx_m, t->by_m);
+    }
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_device_spring *s = &m->spring[i];
+        count_in(&all, s->body_a, s->ax_m, s->ay_m);
+        count_in(&all, s->body_b, s->bx_m, s->by_m);
+    }
+    if (all.count == 0) return (fw_geometry_vec2){0, 0};
+    return (fw_geometry_vec2){all.sum.x / all.count, all.sum.y / all.count};
+}
+
+void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
+                               double *x_m, double *y_m) {
+    bool ground = body == FW_GROUND;
+    double e = strain[ground ? nbody : body];
+    *x_m += e * (*x_m - (ground ? centre.x : 0));
+    *y_m += e * (*y_m - (ground ? centre.y : 0));
+}
+
+/* Inputs: strain (nbody + 1), dimensionless; output: a copy that shares what does not change.
+   Masses, inertias, angles, rest lengths and stiffnesses stay. Exact. Cost O(joints).
+   Test: test_strained.c. */
+fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *from, const double *strain,
+                                const fw_mechanism **strained) {
+    fw_mechanism *to = fw_arena_one(arena, fw_mechanism);
+    fw_geometry_vec2 centre = fw_mechanism_ground_centre(from);
+    FW_NEED(to);
+    *to = *from;
+    FW_NEED(to->pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)from->npin));
+    FW_NEED(to->joint = fw_arena_array(arena, fw_device_joint, (size_t)from->njoint));
+    FW_NEED(to->spring = fw_arena_array(arena, fw_device_spring, (size_t)from->nspring));
+    for (int i = 0; i < from->npin; i++) {
+        fw_mechanism_pin *p = &to->pin[i];
+        *p = from->pin[i];
+        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_a, &p->ax_m, &p->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_b, &p->bx_m, &p->by_m);
+    }
+    for (int i = 0; i < from->njoint; i++) {
+        fw_device_joint *t = &to->joint[i];
+        *t = from->joint[i];
+        fw_mechanism_strain_point(strain, from->nbody, centre, t->body_a, &t->ax_m, &t->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, t->body_b, &t->bx_m, &t->by_m);
+    }
+    for (int i = 0; i < from->nspring; i++) {
+        fw_device_spring *s = &to->spring[i];
+        *s = from->spring[i];
+        fw_mechanism_strain_point(strain, from->nbody, centre, s->body_a, &s->ax_m, &s->ay_m);
+        fw_mechanism_strain_point(strain, from->nbody, centre, s->body_b, &s->bx_m, &s->by_m);
+    }
+    *strained = to;
     return FW_OK;
 }

@@ -115,8 +115,7 @@ void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2
                                double *x_m, double *y_m);
 
 /* what the closed form of a joint's flexure takes in this variant: the file's sizes, with the
-   fillet
-   that was drawn (layout may be NULL) */
+   fillet that was drawn (layout may be NULL) */
 fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *layout,
                                       const fw_mechanism_variant *variant, int joint);
 

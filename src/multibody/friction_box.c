@@ -17,7 +17,7 @@
    (entries at rest)^3 per pivoting, a few of them. Source: Judice and Pires, Computers and
    Operations Research 21 (1994) 587-596; Murty, Opsearch 10 (1973). Test: test_friction_model.c. */
 #include "multibody/friction.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <float.h>
 #include <math.h>
 

@@ -13,7 +13,7 @@
    test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 
 typedef struct augmented {
     double *matrix; /* (size x size), lower part */

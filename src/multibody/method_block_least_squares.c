@@ -24,7 +24,7 @@
    Problems, 1996, ch. 5. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <math.h>
 #include <string.h>
 

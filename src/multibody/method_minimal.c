@@ -23,7 +23,7 @@
    Jalon and Bayo 1994, ch. 5 (velocity transformations). Test: test_minimal.c. */
 #include "multibody/methods.h"
 #include "multibody/minimal.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

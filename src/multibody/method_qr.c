@@ -14,7 +14,7 @@
    test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <math.h>
 #include <string.h>
 

@@ -17,7 +17,7 @@
    899-903. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <math.h>
 #include <string.h>
 

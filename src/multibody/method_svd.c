@@ -15,7 +15,7 @@
    107 (1985) 82-87. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <string.h>
 
 typedef struct rates {

@@ -12,7 +12,7 @@
    Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
 #include "multibody/methods.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 #include <string.h>
 
 typedef struct pseudo {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the judged design to masks, test die and schedule of every flow, and what one die's mask
    hands to the process: areas, edges, openings. */
-#include "base/hash.h"
+#include "base/text.h"
 #include "plan/stages.h"
 #include <math.h>
 #include <string.h>

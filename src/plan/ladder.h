@@ -3,7 +3,7 @@
    function and a row of ladder_levels.c. docs/theory/flexure-errors.md. */
 #ifndef FW_PLAN_LADDER_H
 #define FW_PLAN_LADDER_H
-#include "flexure/drift.h"
+#include "flexure/finite.h"
 #include "plan/plan.h"
 #include "report/report.h"
 

@@ -7,7 +7,7 @@
    Documents (docs/reference/json.md): flexwright.table/1, preview/1, pose/1, edit/1. */
 #ifndef FW_PLAN_LIVE_H
 #define FW_PLAN_LIVE_H
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "base/status.h"
 #include <stddef.h>
 

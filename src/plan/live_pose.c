@@ -3,7 +3,7 @@
    out takes longer than all the rest. */
 #include "base/json.h"
 #include "assembly/assembly.h"
-#include "base/hash.h"
+#include "base/text.h"
 #include "plan/design.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"

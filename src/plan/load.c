@@ -2,7 +2,7 @@
 /* A description and the packs that it refers to, read: laboratory packs once, applied to every
    flow. */
 #include "base/constants.h"
-#include "base/hash.h"
+#include "base/text.h"
 #include "base/output.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/hash.h"
+#include "base/text.h"
 #include "process/pack.h"
 #include "base/sort.h"
 #include <math.h>

@@ -2,7 +2,6 @@
 /* Recursive descent: sum -> product -> signed -> power -> primary. */
 #include "base/text.h"
 #include "base/constants.h"
-#include "quantity/functions.h"
 #include "quantity/program.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
-#include "quantity/lexer.h"
+#include "quantity/program.h"
 #include <string.h>
 
 static bool is_digit(char c) {

@@ -2,9 +2,9 @@
 /* How something goes with time: a pure factor for loads, an angle or a length for drivers.
 
    Laws may jump or bend at known times (fw_quantity_law_breaks_of); integration stops there and
-   goes on in the
-   next piece. Inside a piece a law and its first two derivatives are continuous. `piece` is a time
-   inside the piece that is meant, so that the value at a break is the limit from that side.
+   goes on in the next piece. Inside a piece a law and its first two derivatives are continuous.
+   `piece` is a time inside the piece that is meant, so that the value at a break is the limit from
+   that side.
 
    What a law is, its row says (law_kind.h); laws.def lists them. */
 #ifndef FW_QUANTITY_QUANTITY_LAW_H
@@ -74,10 +74,9 @@ typedef struct
 } fw_quantity_law_strides;
 /* Looks at the law once over [0, end_s], which sines, steps, ramps and tables do not need.
    `break_s` (breaks), ascending: its fw_quantity_law_breaks_of, at which steps end anyway.
-   coordinate: the law
-   drives a joint, so that its second derivative counts. FW_OK or FW_NOMEM. Not seen is what is zero
-   to the last bit at 2049 looks (a bell exp(-(t/w)^2) with w below some 1e-5 end_s), and what is
-   shorter than a look beside larger things. */
+   coordinate: the law drives a joint, so that its second derivative counts. FW_OK or FW_NOMEM. Not
+   seen is what is zero to the last bit at 2049 looks (a bell exp(-(t/w)^2) with w below some 1e-5
+   end_s), and what is shorter than a look beside larger things. */
 fw_status fw_quantity_law_look(fw_arena *arena, const fw_quantity_law *law, bool coordinate,
                                double end_s, const double *break_s, int breaks,
                                fw_quantity_law_strides *strides);

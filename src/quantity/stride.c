@@ -29,9 +29,9 @@ enum {
 };
 static const double value_tolerance = 0.05, bend_tolerance = 0.3, phase_rad = 2.1;
 
-typedef struct look {
+typedef struct sample {
     double t_s, value[3];
-} look;
+} sample;
 
 typedef struct scan {
     const fw_quantity_law *law;
@@ -39,19 +39,19 @@ typedef struct scan {
     double piece_s;          /* a time in the piece at hand */
     double first, deviation; /* value at 0, largest distance from it */
     double size, least;      /* of what counts: deviation, or second derivative; its floor */
-    int left;                /* looks */
-    look *found;             /* (FOLLOWED) those of the first pass, by time */
+    int left;                /* samples */
+    sample *found;           /* (FOLLOWED) those of the first pass, by time */
     int nfound;
     fw_quantity_law_strides *out;
 } scan;
 
 /* ---- what was seen ---- */
 
-static bool is_known(const look *l) {
+static bool is_known(const sample *l) {
     return isfinite(l->value[0]) && isfinite(l->value[1]) && isfinite(l->value[2]);
 }
 
-static void see(scan *s, double t_s, look *l) {
+static void sample_at(scan *s, double t_s, sample *l) {
     l->t_s = t_s;
     fw_quantity_law_value(s->law, t_s, s->piece_s, l->value);
     if (!is_known(l)) return;
@@ -67,7 +67,7 @@ static double share(const scan *s, double miss) {
 }
 
 /* what the bend of the cubic through a and b misses at look l */
-static double bend_miss(const look *a, const look *b, const look *l) {
+static double bend_miss(const sample *a, const sample *b, const sample *l) {
     double h = b->t_s - a->t_s, x = (l->t_s - a->t_s) / h, rise = b->value[0] - a->value[0];
     double d0 = h * a->value[1] - rise, d1 = rise - h * b->value[1];
     return fabs(((6 * x - 4) * d0 + (2 - 6 * x) * d1) / (h * h) - l->value[2]);
@@ -75,7 +75,7 @@ static double bend_miss(const look *a, const look *b, const look *l) {
 
 /* what the two ends of a cell know of its inside. Coordinates are held to their values as well: a
    wave seen at its nodes shows no bend */
-static double cell_miss(const scan *s, const look *a, const look *b) {
+static double cell_miss(const scan *s, const sample *a, const sample *b) {
     double h = b->t_s - a->t_s;
     if (!is_known(a) || !is_known(b)) return 0;
     double left = bend_miss(a, b, a), right = bend_miss(a, b, b),
@@ -88,7 +88,7 @@ static double cell_miss(const scan *s, const look *a, const look *b) {
 /* How far the cubic of a block a, b strays from those of its halves a, m and m, b: on each half of
    length H the difference is a cubic that is flat at the outer end and has value dv, slope ds at m.
    Its size is at most |dv| + 4/27 H |ds|, its bend 6 |dv|/H^2 + 4 |ds|/H. */
-static double joint_miss(const scan *s, const look *a, const look *m, const look *b) {
+static double joint_miss(const scan *s, const sample *a, const sample *m, const sample *b) {
     if (!is_known(a) || !is_known(m) || !is_known(b)) return 2;
     double h = b->t_s - a->t_s, rise = b->value[0] - a->value[0], half = h / 2;
     double value = a->value[0] + rise / 2 + h / 8 * (a->value[1] - b->value[1]);
@@ -118,9 +118,9 @@ static double stride(const scan *s, double h, double miss) {
 }
 
 /* no looks left: as if the law went on like sin here */
-static double local_stride(const scan *s, const look *a, const look *b) {
+static double local_stride(const scan *s, const sample *a, const sample *b) {
     double rate = 0, h = b->t_s - a->t_s, size = s->coordinate ? s->deviation : s->size;
-    const look *end[2] = {a, b};
+    const sample *end[2] = {a, b};
     for (int i = 0; i < 2; i++) {
         const double *v = end[i]->value;
         rate = fmax(rate, fmax(sqrt(fabs(v[2]) / size), fabs(v[1]) / size));
@@ -132,32 +132,32 @@ static double local_stride(const scan *s, const look *a, const look *b) {
    seems quiet beside a pulse may hold its flank. */
 
 /* first pass: halves a cell until its ends agree and keeps the looks that takes */
-static void follow(scan *s, const look *a, const look *b, int halvings) {
+static void follow(scan *s, const sample *a, const sample *b, int halvings) {
     if (halvings == 0 || s->left == 0 || cell_miss(s, a, b) <= 1) return;
-    look middle;
+    sample middle;
     s->left--;
-    see(s, a->t_s + (b->t_s - a->t_s) / 2, &middle);
+    sample_at(s, a->t_s + (b->t_s - a->t_s) / 2, &middle);
     follow(s, a, &middle, halvings - 1);
     s->found[s->nfound++] = middle;
     follow(s, &middle, b, halvings - 1);
 }
 
 /* second pass: strides of the parts of a cell that agree in themselves */
-static void write_part(scan *s, const look *a, const look *b, int halvings) {
+static void write_part(scan *s, const sample *a, const sample *b, int halvings) {
     double miss = cell_miss(s, a, b), h = b->t_s - a->t_s;
     if (miss <= 1 || halvings == 0 || s->left == 0) {
         double most = miss <= 1 ? stride(s, h, miss) : halvings > 0 ? local_stride(s, a, b) : h;
         emit(s, a->t_s, most);
         return;
     }
-    look middle;
+    sample middle;
     s->left--;
-    see(s, a->t_s + h / 2, &middle);
+    sample_at(s, a->t_s + h / 2, &middle);
     write_part(s, a, &middle, halvings - 1);
     write_part(s, &middle, b, halvings - 1);
 }
 
-static int halvings_left(const look *cell, double h) {
+static int halvings_left(const sample *cell, double h) {
     return HALVINGS - (int)lround(log2((cell[1].t_s - cell[0].t_s) / h));
 }
 
@@ -165,9 +165,9 @@ static int halvings_left(const look *cell, double h) {
 
 typedef struct piece {
     double start_s, end_s;
-    int cells;  /* a power of two */
-    look *seen; /* (cells + 1) */
-    int *found; /* (cells + 1) first look inside each cell, in scan.found */
+    int cells;    /* a power of two */
+    sample *seen; /* (cells + 1) */
+    int *found;   /* (cells + 1) first look inside each cell, in scan.found */
     double
         *miss; /* (2 cells) of blocks, in heap order: 1, its halves 2 and 3, theirs 4 to 7, ... */
 } piece;
@@ -177,13 +177,13 @@ static fw_status look_over(fw_arena *arena, scan *s, piece *p, double wanted) {
     while (2 * p->cells <= wanted)
         p->cells *= 2;
     size_t cells = (size_t)p->cells;
-    FW_NEED(p->seen = fw_arena_array(arena, look, cells + 1));
+    FW_NEED(p->seen = fw_arena_array(arena, sample, cells + 1));
     FW_NEED(p->found = fw_arena_array(arena, int, cells + 1));
     FW_NEED(p->miss = fw_arena_array(arena, double, 2 * cells));
     s->piece_s = p->start_s + (p->end_s - p->start_s) / 2;
     for (int i = 0; i <= p->cells; i++)
-        see(s, i == p->cells ? p->end_s : p->start_s + (p->end_s - p->start_s) * i / p->cells,
-            &p->seen[i]);
+        sample_at(s, i == p->cells ? p->end_s : p->start_s + (p->end_s - p->start_s) * i / p->cells,
+                  &p->seen[i]);
     return FW_OK;
 }
 
@@ -205,7 +205,7 @@ static void judge(const scan *s, const piece *p) {
     }
     for (int size = 2, first = p->cells / 2; first >= 1; size *= 2, first /= 2)
         for (int i = 0; i < first; i++) {
-            const look *a = &p->seen[i * size];
+            const sample *a = &p->seen[i * size];
             int here = first + i;
             double worse = fmax(p->miss[2 * here], p->miss[2 * here + 1]);
             p->miss[here] = worse <= 1 ? worse + joint_miss(s, a, a + size / 2, a + size) : 2;
@@ -213,16 +213,16 @@ static void judge(const scan *s, const piece *p) {
 }
 
 static void write_cell(scan *s, const piece *p, int i) {
-    const look *a = &p->seen[i], *end = &p->seen[i + 1];
+    const sample *a = &p->seen[i], *end = &p->seen[i + 1];
     for (int k = p->found[i]; k <= p->found[i + 1]; k++) {
-        const look *b = k < p->found[i + 1] ? &s->found[k] : end;
+        const sample *b = k < p->found[i + 1] ? &s->found[k] : end;
         write_part(s, a, b, halvings_left(&p->seen[i], b->t_s - a->t_s));
         a = b;
     }
 }
 
 static void write_block(scan *s, const piece *p, int here, int from, int size) {
-    const look *a = p->seen + from;
+    const sample *a = p->seen + from;
     if (p->miss[here] <= 1) {
         /* a whole piece that is quiet needs no limit: steps end where it ends */
         double most = stride(s, a[size].t_s - a->t_s, p->miss[here]);
@@ -241,7 +241,7 @@ static fw_status scan_pieces(fw_arena *arena, scan *s, piece *list, int count) {
     double value[3], end_s = list[count - 1].end_s;
     fw_quantity_law_value(s->law, 0, list[0].end_s / 2, value);
     s->first = isfinite(value[0]) ? value[0] : 0;
-    FW_NEED(s->found = fw_arena_array(arena, look, FOLLOWED));
+    FW_NEED(s->found = fw_arena_array(arena, sample, FOLLOWED));
     for (int i = 0; i < count; i++)
         FW_TRY(look_over(arena, s, &list[i], LOOKS * (list[i].end_s - list[i].start_s) / end_s));
     /* floors: round-off at first; then a thousandth of the law's size, because smaller changes

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One row per unit symbol; prefixes are spelled out, so that what is accepted can be read here. */
-#include "quantity/lexer.h"
+#include "quantity/program.h"
 #include "base/constants.h"
 #include "quantity/quantity.h"
 #include <math.h>

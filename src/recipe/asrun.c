@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/hash.h"
+#include "base/text.h"
 #include "base/json.h"
 #include "recipe/asrun.h"
 #include "recipe/recipe_words.h"

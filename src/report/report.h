@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "device/device.h"
 #include "dynamics/dynamics.h"
-#include "flexure/drift.h"
+#include "flexure/finite.h"
 #include "layout/layout.h"
 #include "mask/mask.h"
 #include "mechanism/mechanism.h"

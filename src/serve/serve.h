@@ -3,7 +3,7 @@
    all that computes runs in processes of its own with limits (worker.h, jobs.h). */
 #ifndef FW_SERVE_SERVE_H
 #define FW_SERVE_SERVE_H
-#include "base/cancel.h"
+#include "base/arena.h"
 #include <stdbool.h>
 
 typedef struct fw_serve_options {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop: sockets, workers, jobs, the file, and the signals that end it. */
 #include "serve/server.h"
-#include "base/cancel.h"
+#include "base/arena.h"
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>

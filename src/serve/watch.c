@@ -2,7 +2,7 @@
 /* inotify on the directory, because editors put a new file in place of the old one; and a look
    every second, because network file systems tell nobody. */
 #include "serve/watch.h"
-#include "base/hash.h"
+#include "base/text.h"
 #include "base/output.h"
 #include <errno.h>
 #include <fcntl.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The worker's side: one question after the other from descriptor 3. */
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "plan/live.h"
 #include "serve/worker.h"
 #include <errno.h>

@@ -13,7 +13,7 @@
    says so. Cost: about 100 to 500 evaluations (30 n^3). Source: J. A. Pelesko and D. H. Bernstein,
    Modeling MEMS and NEMS 2002, ch. 7; Keller 1977. Test: test_pull_in.c. */
 #include "statics/pull_in.h"
-#include "effects/comb.h"
+#include "effects/effects.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef FW_STATICS_REDUCED_H
 #define FW_STATICS_REDUCED_H
 #include "multibody/model.h"
-#include "maths/lapack.h"
+#include "maths/dense.h"
 
 typedef struct fw_statics_reduced {
     int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */

@@ -4,7 +4,7 @@
 #include "statics/modes.h"
 #include "statics/statics_equilibrium.h"
 #include "statics/tangent.h"
-#include "maths/eigen.h"
+#include "maths/dense.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

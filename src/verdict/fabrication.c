@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/verdict_fabrication.h"
-#include "flexure/flare.h"
+#include "flexure/flexure.h"
 #include <math.h>
 
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/survey.h"
+#include "maths/dense.h"
 
 typedef struct open_box {
     fw_workspace_box3 box;
@@ -87,30 +88,15 @@ static double dual(const double g[3], const double half[3], const planes *p, con
 /* multipliers that make g - sum lambda a vanish in n of the coordinates */
 static double from_coordinates(const double g[3], const double half[3], const planes *p,
                                const int *unknown, const int *equation, int n) {
-    double a[3][4], lambda[3];
+    double a[9], lambda[3];
+    int pivot[3];
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
-            a[i][j] = p->a[unknown[j]][equation[i]];
-        a[i][n] = g[equation[i]];
+            a[i * n + j] = p->a[unknown[j]][equation[i]];
+        lambda[i] = g[equation[i]];
     }
-    for (int i = 0; i < n; i++) { /* elimination; a bad pivot only gives a bad bound */
-        for (int j = i + 1; j < n; j++)
-            if (fabs(a[j][i]) > fabs(a[i][i]))
-                for (int k = i; k <= n; k++) {
-                    double swap = a[i][k];
-                    a[i][k] = a[j][k];
-                    a[j][k] = swap;
-                }
-        for (int j = i + 1; j < n; j++)
-            for (int k = n; k >= i; k--)
-                a[j][k] -= a[i][k] * (a[j][i] / a[i][i]);
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        lambda[i] = a[i][n];
-        for (int j = i + 1; j < n; j++)
-            lambda[i] -= a[i][j] * lambda[j];
-        lambda[i] /= a[i][i];
-    }
+    if (!fw_maths_lu_factor(n, a, pivot)) return (double)INFINITY;
+    fw_maths_lu_solve(n, a, pivot, lambda); /* a bad pivot only gives a bad bound */
     double bound = dual(g, half, p, unknown, lambda, n);
     return bound == bound ? bound : (double)INFINITY;
 }

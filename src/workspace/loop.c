@@ -91,7 +91,7 @@ FW_CENTRED fw_maths_interval middle_of(fw_maths_centred a) {
     return (fw_maths_interval){fw_down(a.m - a.e), fw_up(a.m + a.e)};
 }
 
-/* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (centred.h) */
+/* f(c + d) = f(c) + g(c).d within sum |d_i| (g_i.e + g_i.r)/2 (maths_interval.h) */
 FW_CENTRED fw_workspace_form form(fw_maths_interval at, const fw_maths_centred *grad, int n,
                                   const double half[3]) {
     fw_workspace_form f = {.at = at};
@@ -118,7 +118,7 @@ typedef struct coordinates { /* of the box: how the platform depends on them */
    Rotations of both links from the drawn pose are those of a and b; with Q' the derivative of Q
      a' = (Q'.b)/(a x b),  b' = -(Q'.a)/(a x b)
    in: Q, Q' (n); out: psi of the leg's three hinges (base, elbow, platform), rad, the elbow's
-   place, a x b. Error: proved by centred.h. Out of reach where h^2 < 0. Cost about 80 centred
+   place, a x b. Error: proved by maths_interval.h. Out of reach where h^2 < 0. Cost about 80 centred
    operations, 20 where only the reach is wanted. Source: the velocity of Q = O + a + b, dotted with
    b and with a. Test: test_loop.c.
  */

@@ -3,7 +3,6 @@
    that every pose of a box is reached, and the volume a plane cuts of a box. */
 #ifndef FW_WORKSPACE_LOOP_H
 #define FW_WORKSPACE_LOOP_H
-#include "maths/centred.h"
 #include "maths/maths_interval.h"
 #include "workspace/workspace.h"
 

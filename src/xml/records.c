@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which elements and attributes there are, and which are missing. */
 #include "base/text.h"
+#include "base/sort.h"
 #include "xml/xml_reader.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -281,10 +282,10 @@ typedef struct entry {
 
 static int compare(const void *left, const void *right) {
     const entry *a = left, *b = right;
-    if (a->space != b->space) return a->space < b->space ? -1 : 1;
-    if (a->within != b->within) return a->within < b->within ? -1 : 1;
-    int c = strcmp(a->id->value, b->id->value);
-    return c ? c : a->order - b->order;
+    int c = fw_order_wholes(a->space, b->space);
+    if (!c) c = fw_order_wholes(a->within, b->within);
+    if (!c) c = strcmp(a->id->value, b->id->value);
+    return c ? c : fw_order_wholes(a->order, b->order);
 }
 
 fw_status fw_xml_ids_check(fw_xml_reader *r) {

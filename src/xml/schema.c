@@ -5,7 +5,7 @@
 #include "xml/xml_reader.h"
 #include <string.h>
 
-bool fw_xml_kind_is_expression(fw_xml_kind kind) {
+static bool is_expression(fw_xml_kind kind) {
     return kind == FW_KIND_NUMBER || kind == FW_KIND_ANY || kind == FW_KIND_TIMED ||
            kind == FW_KIND_TABLE;
 }
@@ -41,7 +41,7 @@ static void schema_value(fw_text *out, const fw_xml_attribute_row *a) {
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_\\-]{0,63}");
     else if (a->kind == FW_KIND_NAME)
         schema_pattern(out, "[A-Za-z_][A-Za-z0-9_]{0,63}");
-    else if (fw_xml_kind_is_expression(a->kind))
+    else if (is_expression(a->kind))
         schema_pattern(out, "[ -~\\s]*\\S[ -~\\s]*");
     else
         fw_text_add(out, "<text/>");
@@ -224,7 +224,7 @@ static void json_attribute(const fw_xml_table *table, const fw_xml_attribute_row
     fw_json_object(out, NULL);
     fw_json_text(out, "name", a->name);
     fw_json_text(out, "type", kind_text[a->kind]);
-    fw_json_text(out, "unit", fw_xml_kind_is_expression(a->kind) ? a->unit : NULL);
+    fw_json_text(out, "unit", is_expression(a->kind) ? a->unit : NULL);
     fw_json_text(out, "dimension",
                  fixed ? fw_quantity_dimension_text(out->out->arena, a->dimension) : NULL);
     fw_json_text(out, "default", a->fallback);

@@ -83,7 +83,7 @@ bool fw_xml_full(const fw_diags *diags) {
     return diags->count >= FW_DIAG_MOST;
 }
 
-bool fw_xml_id_valid(const char *id, bool hyphen) {
+static bool id_valid(const char *id, bool hyphen) {
     size_t n = strlen(id);
     if (n == 0 || n > 64) return false;
     for (size_t i = 0; i < n; i++) {
@@ -307,7 +307,7 @@ static void read_id(fw_xml_reader *r, const fw_xml_record *record, const fw_xml_
     const fw_xml_attribute *a = cell->given;
     const int number = fw_xml_numbers_of(r, record->row)->name;
     bool name = row->kind == FW_KIND_NAME;
-    cell->ok = fw_xml_id_valid(a->value, !name);
+    cell->ok = id_valid(a->value, !name);
     if (!cell->ok)
         fw_diag_error(
             r->diags, number, a->place,

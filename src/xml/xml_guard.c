@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The raw bytes: where tags and attributes stand, and what a file may not hold. That is refused
    here, so that no parser has to be trusted with it, and every refusal has an exact place. */
-#include "xml/xml_guard.h"
+#include "xml/xml.h"
 #include <string.h>
 
 /* ---- where tags and attributes stand ---- */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libxml2 judges the syntax and hands out names and values; places come from the raw bytes. */
 #include "xml/xml.h"
-#include "xml/xml_guard.h"
 #include <libxml/parser.h>
 #include <libxml/parserInternals.h>
 #include <limits.h>

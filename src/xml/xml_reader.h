@@ -78,7 +78,6 @@ int fw_xml_count(const fw_xml_reader *r, const char *element);
 int fw_xml_children(const fw_xml_record *record, const char *element);
 /* is the report full? then looking for suggestions is no use */
 bool fw_xml_full(const fw_diags *diags);
-bool fw_xml_id_valid(const char *id, bool hyphen);
 const fw_xml_numbers *fw_xml_numbers_of(const fw_xml_reader *r, const fw_xml_element_row *row);
 
 /* evaluates an attribute; *ok tells, errors are reported (an expression's at its own column).

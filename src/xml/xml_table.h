@@ -110,8 +110,7 @@ int fw_xml_row_index(const fw_xml_table *table, const char *name); /* or -1 */
 const fw_xml_element_row *fw_xml_row_find(const fw_xml_table *table,
                                           const char *name);               /* or NULL */
 bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent); /* may it stand there? */
-bool fw_xml_kind_is_expression(fw_xml_kind kind);
-/* law_attributes.c: of the element's row, those of laws included; in the arena where there are
+/* xml_quantity.c: of the element's row, those of laws included; in the arena where there are
    such */
 fw_status fw_xml_attributes_of(fw_arena *arena, const fw_xml_element_row *row,
                                fw_xml_attributes *all);

@@ -41,8 +41,7 @@ class Copy:
             touched = [line[6:] for line in patch.read_text().splitlines() if line.startswith("+++ b/")]
             new = [name for name in touched if not (ROOT / name).exists()]
             assert len(new) == 1, f"{patch.name} adds {len(new)} files; one is enough"
-            rows = 2 if patch.stem == "effect" else 1  # an effect has an element in the description
-            assert len(touched) - 1 <= rows, f"{patch.name} changes {touched}"
+            assert len(touched) == 2, f"{patch.name} changes {touched}"
             call(["git", "apply", "--recount", "-C1", patch], cwd=at)
             self.added += new
             self.changed += [name for name in touched if name not in new]

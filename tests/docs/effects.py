@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every effect of src/effects/effects.def has a page in docs/theory/effects with what a reader needs to judge
+"""Every effect of src/device/effects.def has a page in docs/theory/effects with what a reader needs to judge
 it, each under a heading of its own; its README lists all of them; what the table of the program keeps or prices is
 what pages say. That the tests that they name exist: pages.py."""
 import csv
@@ -18,7 +18,7 @@ HEADINGS = ("Equations", "When it is called for", "Bound", "Validity", "Proved a
 OTHERS = {"README", "costs", "envelope"}
 problems = []
 
-names = re.findall(r"^FW_EFFECT\((\w+)\)", (ROOT / "src/effects/effects.def").read_text(), re.M)
+names = re.findall(r"^FW_EFFECT(?:_ELEMENT)?\((\w+)", (ROOT / "src/device/effects.def").read_text(), re.M)
 ids = [name.replace("_", "-") for name in names]
 readme = (PAGES / "README.md").read_text()
 rows = dict(re.findall(r"^\| \[([\w-]+)\]\([\w-]+\.md\) \|(.*)\|$", readme, re.M))

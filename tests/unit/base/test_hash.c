@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/hash.h"
+#include "base/text.h"
 #include "test.h"
 
 /* FIPS 180-4 example computations and lengths around the padding's edges */

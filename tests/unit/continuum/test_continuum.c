@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solver on our meshes against finite elements made with another mesher (gmsh, wedges, two to
    four times as many bricks), the closed form and beam theory. Needs CalculiX; skipped without. */
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "shapes.h"
 #include "test.h"
 #include <stdlib.h>

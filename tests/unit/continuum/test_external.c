@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* External programs: private, limited, cleaned up; and reading what the solver writes. */
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "continuum/solver.h"
 #include "test.h"
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/law_kind.h"
 #include "drive_rig.h"
-#include "effects/comb.h"
+#include "effects/effects.h"
 
 static const double eps0 = 8.8541878128e-12;
 

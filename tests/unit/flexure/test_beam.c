@@ -3,7 +3,6 @@
    silicon (plane stress, anisotropic). */
 #include "flexure/beam.h"
 #include "flexure/finite.h"
-#include "flexure/gauss.h"
 #include "test.h"
 
 static const double degree = M_PI / 180, um = 1e-6;

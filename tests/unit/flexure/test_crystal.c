@@ -2,8 +2,6 @@
 /* Silicon (100) by direction: moduli, sums and elastic centre against integrals, tables of finite
    elements (CalculiX, anisotropic; um, N/m, uN um/rad) and symmetry. */
 #include "flexure/finite.h"
-#include "flexure/kinds.h"
-#include "flexure/section.h"
 #include "flexure/section.h"
 #include "test.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flexure/flare.h"
+#include "flexure/flexure.h"
 #include "test.h"
 
 /* H1: r 100 um, 270 deg, t 8 um, h 50 um, silicon */

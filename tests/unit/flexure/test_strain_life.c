@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flexure/strain_life.h"
+#include "flexure/limit.h"
 #include "test.h"
 
 static const fw_flexure_strain_life basquin = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/centred.h"
+#include "maths/maths_interval.h"
 #include "test.h"
 
 static uint64_t seed;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/lu.h"
+#include "maths/dense.h"
 #include "test.h"
 
 enum { MOST = 24 };
@@ -62,10 +62,32 @@ static void test_refusals(void **state) {
     assert_false(fw_maths_lu_factor(2, infinite, pivot));
 }
 
+/* by rows that have to change places, with the determinant; a singular one is refused */
+static void test_three(void **state) {
+    (void)state;
+    const double three[3][3] = {{0, 2, 1}, {1, 1, 1}, {4, 1, -2}};
+    double right[3][3] = {{7, 2}, {6, 1}, {0, 4}}, det;
+    assert_true(fw_maths_solve3(three, 2, right, &det));
+    assert_near(det, 9, 1e-14);
+    for (int j = 0; j < 2; j++) {
+        const double is[2][3] = {{7, 6, 0}, {2, 1, 4}};
+        for (int i = 0; i < 3; i++) {
+            double sum = 0;
+            for (int k = 0; k < 3; k++)
+                sum += three[i][k] * right[k][j];
+            assert_near(sum, is[j][i], 1e-14);
+        }
+    }
+    const double flat[3][3] = {{1, 2, 3}, {2, 4, 6}, {1, 0, 1}};
+    assert_false(fw_maths_solve3(flat, 1, right, &det));
+    assert_near(det, 0, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_residuals),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_three),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

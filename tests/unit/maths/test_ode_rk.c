@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The coefficients of dop853, dopri5 and radau5, and the vector kernels. */
-#include "maths/dop853_table.h"
-#include "maths/dopri5_table.h"
-#include "maths/radau5_table.h"
-#include "maths/rk_kernels.h"
+#include "maths/ode_tables.h"
+#include "maths/ode_steps.h"
 #include "test.h"
 
 /* row sums; quadrature conditions of b (order 8), of the fifth and the third order error; trees of

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block elimination against a dense solve of the same S, on random mechanisms. */
 #include "multibody/model.h"
-#include "maths/maths_dense.h"
+#include "maths/dense.h"
 #include "dynamics/models.h"
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/quantity.h"
-#include "quantity/lexer.h"
+#include "quantity/program.h"
 #include "test.h"
 
 static void dimensions_have_names(void **state) {

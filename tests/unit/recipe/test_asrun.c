@@ -2,7 +2,7 @@
 /* As-run logs: what is written is read back, every change of a written log is seen, and planned
    against actual says what is out of its limits. */
 #include "../process/packs.h"
-#include "base/append.h"
+#include "base/output.h"
 #include "recipe/asrun.h"
 #include <stdlib.h>
 #include <sys/resource.h>

@@ -2,7 +2,7 @@
 /* Pull-in voltages against closed forms and scalar equations that are solved here. */
 #include "quantity/law_kind.h"
 #include "rest_rigs.h"
-#include "effects/comb.h"
+#include "effects/effects.h"
 #include "statics/pull_in.h"
 
 static const double eps0 = 8.8541878128e-12;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
-#include "base/cancel.h"
+#include "base/arena.h"
 #include "rest_rigs.h"
 
 static fw_status solve(fixture *f, const rig *r, bool path, const fw_statics **out) {

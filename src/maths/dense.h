@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Dense linear algebra, all of it: what is small is factored here in the caller's memory, the rest
+   by LAPACK. Matrices are row-major unless said otherwise. */
+#ifndef FW_MATHS_DENSE_H
+#define FW_MATHS_DENSE_H
+#include "base/arena.h"
+#include "base/status.h"
+#include <stdbool.h>
+
+/* ---- one answer, memory from the arena ---- */
+
+/* solves a x = b for a symmetric, possibly singular a: LU first, then minimum-norm least squares
+   where that fails. *consistent says whether |a x - b| <= 1e-9 (|a| |x| + |b|): false means that
+   there is no solution, and nothing is hidden behind a rank decision. x may be b. */
+fw_status fw_maths_dense_solve_symmetric(fw_arena *arena, int n, const double *a, const double *b,
+                                         double *x, bool *consistent);
+
+/* a x = value x for any a (n x n, row-major), overwritten; re, im (n), conjugate pairs together,
+   the one with im > 0 first; vector (n x n): row k is the eigenvector of a real value; of a pair k,
+   k + 1 the rows are real and imaginary part of that of k. FW_SOLVER: not finite, or not found. */
+fw_status fw_maths_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
+                                 double *vector);
+
+/* a = U diag(sigma) V^T. `a` (rows x columns) has its rows contiguous; sigma (min(rows, columns))
+   from the largest down; u: left vector i at u + i rows; v: right vector i at v + i columns, all
+   `columns` of them, so that those behind the rank span the null space. */
+typedef struct fw_maths_singular {
+    int rows, columns;
+    double *sigma, *u, *v;
+} fw_maths_singular;
+/* rows 0 gives the unit matrix in v. FW_SOLVER where it does not converge or `a` is not finite. */
+fw_status fw_maths_singular_new(fw_arena *arena, int rows, int columns, const double *a,
+                                fw_maths_singular *out);
+
+/* ---- small, in the caller's memory: LAPACK's first product may wait for ever where memory is
+   short, which a step must not ---- */
+
+/* solves a x = x for the first `columns` columns of x, rows exchanged for size; false: singular.
+   *det: the determinant of a */
+bool fw_maths_solve3(const double a[3][3], int columns, double x[3][3], double *det);
+
+/* P a = L U in place, a (n x n) by rows, pivot (n); false: exactly singular, or not finite */
+bool fw_maths_lu_factor(int n, double *a, int *pivot);
+void fw_maths_lu_solve(int n, const double *a, const int *pivot,
+                       double *x); /* x (n): right side in */
+/* the same for re + i im */
+bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot);
+void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const int *pivot,
+                               double *x, double *y);
+
+/* a (n x n, symmetric, used up) = sum of value[k] v_k v_k^T: value (n) ascending, v_k in row k of
+   vector (n x n). false: not finite, or not found */
+bool fw_maths_jacobi(int n, double *a, double *value, double *vector);
+
+/* ---- LAPACK in loops that must not allocate: workspace comes once from an arena, matrices are
+   column-major with the leading dimension equal to the number of rows unless said otherwise, and
+   every function answers whether LAPACK succeeded. Inputs must be finite: some of these loop for
+   ever on a NaN ---- */
+
+/* before the first use: where OpenBLAS is the BLAS, one thread for the whole process, and
+   FW_NOMEM where its buffer cannot be had, for which it would wait for ever. The functions that
+   give workspace do it by themselves. */
+fw_status fw_maths_lapack_ready(void);
+
+typedef struct fw_maths_lapack_space { /* of one factorisation of one size */
+    double *work;
+    int size;
+} fw_maths_lapack_space;
+
+/* a (m x n, used up) = u diag(s) vt, s (min(m, n)) descending. u (m x min). vt: `full` (n x n),
+   else (min x n) */
+fw_status fw_maths_svd_space(fw_arena *arena, int m, int n, bool full,
+                             fw_maths_lapack_space *space);
+bool fw_maths_svd(int m, int n, bool full, double *a, double *s, double *u, double *vt,
+                  const fw_maths_lapack_space *space);
+
+/* symmetric a (n x n, lower part read) = w diag(value) w^T: values ascending, a becomes w */
+fw_status fw_maths_eigen_space(fw_arena *arena, int n, fw_maths_lapack_space *space);
+bool fw_maths_eigen(int n, double *a, double *value, const fw_maths_lapack_space *space);
+
+/* a (m x n) P = Q R with column pivoting: a keeps R above the diagonal and the reflectors below,
+   tau (min(m, n)); column j of a P was column pivot[j] of a */
+fw_status fw_maths_qr_space(fw_arena *arena, int m, int n, fw_maths_lapack_space *space);
+bool fw_maths_qr(int m, int n, double *a, int *pivot, double *tau,
+                 const fw_maths_lapack_space *space);
+/* x (m) = Q x, or Q^T x; n the columns that were factored */
+bool fw_maths_qr_apply(bool transposed, int m, int n, const double *a, const double *tau, double *x,
+                       const fw_maths_lapack_space *space);
+/* x (n) = R^-1 x, or R^-T x, of the upper triangle of a with leading dimension ld */
+bool fw_maths_triangle_solve(bool transposed, int n, const double *a, int ld, double *x);
+
+/* symmetric indefinite a (n x n, lower part) = L D L^T, Bunch and Kaufman; pivot (n) */
+fw_status fw_maths_indefinite_space(fw_arena *arena, int n, fw_maths_lapack_space *space);
+bool fw_maths_indefinite(int n, double *a, int *pivot, const fw_maths_lapack_space *space);
+bool fw_maths_indefinite_solve(int n, const double *a, const int *pivot, double *x);
+
+/* positive definite a (n x n, lower part) = L L^T; false: not positive */
+bool fw_maths_cholesky(int n, double *a);
+bool fw_maths_cholesky_solve(int n, const double *a, double *x);
+
+/* a (n x n) = P L U; x (n x count) = a^-1 x, or a^-T x. false: exactly singular */
+bool fw_maths_lapack_lu(int n, double *a, int *pivot);
+bool fw_maths_lapack_lu_solve(bool transposed, int n, int count, const double *a, const int *pivot,
+                              double *x);
+
+/* Gaussian elimination of a (m x n, row-major, used up) with complete pivoting, up to the first
+   pivot that is 0 or below `stop` times the largest. Returns the pivots taken; row (m) and column
+   (n) are the order that was found; *last the smallest pivot taken over the first. */
+int fw_maths_complete_pivoting(int m, int n, double *a, int *row, int *column, double stop,
+                               double *last);
+
+#endif
