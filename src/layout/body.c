@@ -404,12 +404,12 @@ static fw_status choose_heads(fw_layout_drawing *d, const work *w, const int *ch
 }
 
 /* the next thing to try where an outline is unsound: other eyelets, else another head there */
-static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, int *choice) {
+static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, int attempts,
+                 int *choice) {
     if (isnan(where.x)) {
         bool exist = true;
         for (int i = 0; i < w->njoint; i++)
-            exist =
-                ++choice[i] < fw_layout_rule.form_attempts + fw_layout_rule.form_beyond && exist;
+            exist = ++choice[i] < attempts && exist;
         return exist;
     }
     if (near_lug(d, w, where) && w->lug_shift + 1 < LUG_SHIFTS) {
@@ -418,9 +418,7 @@ static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, in
     }
     int near = nearest_joint(d, w, where);
     for (int i = 0; i < w->njoint; i++)
-        if (w->joint[i] == near &&
-            ++choice[i] >= fw_layout_rule.form_attempts + fw_layout_rule.form_beyond)
-            return false;
+        if (w->joint[i] == near && ++choice[i] >= attempts) return false;
     return true;
 }
 
@@ -474,7 +472,9 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
             for (int i = 0; i < w->njoint; i++)
                 best[i] = choice[i];
         }
-        if (!vary(d, w, where, choice)) break;
+        bool enough = most >= 1.0 - SOUND_ENOUGH; /* the last ones are for what is wrong */
+        int attempts = fw_layout_rule.form_attempts + (enough ? 0 : fw_layout_rule.form_beyond);
+        if (!vary(d, w, where, attempts, choice)) break;
     }
     w->lug_shift = best_shift;
     FW_TRY(choose_heads(d, w, best));
