@@ -18,12 +18,11 @@ static fw_geometry_vec2 place(const double *q, int body, double x, double y) {
 /* largest gap in m; gaps of angles count with the scene's length. `gap` may be NULL. */
 static fw_status find_gaps(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                            fw_diags *diags, fw_assembly_joint_gap *gap, double *largest) {
-    fw_multibody_model *m;
     fw_assembly_closure c;
     *largest = 0;
     if (mechanism->npin + mechanism->njoint == 0) return FW_OK;
-    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &m));
-    FW_TRY(fw_assembly_closure_new(arena, m, &c)); /* leaves psi */
+    FW_TRY(fw_assembly_closure_new(arena, mechanism, q, diags, &c)); /* leaves psi */
+    const fw_multibody_model *m = c.model;
     for (int i = 0; i < m->nblock; i++) {
         const fw_multibody_block *b = &m->block[i];
         double metres, radian;

@@ -8,24 +8,24 @@
 #define FW_ASSEMBLY_ASSEMBLY_H
 #include "multibody/multibody.h"
 
-typedef struct
-    fw_assembly_joint_gap { /* a pin, a joint or a driver, and how far it is from what it asks */
+/* a pin, a joint or a driver, and how far it is from what it asks */
+typedef struct fw_assembly_joint_gap {
     const char *id;
     double gap_m, gap_rad;  /* of points or lengths, and of angles; 0 where it asks for none */
     double x_m[2], y_m[2];  /* its points on body a and on body b, world */
     int pin, joint, driver; /* of the mechanism, or FW_NONE */
 } fw_assembly_joint_gap;
 
-typedef struct
-    fw_assembly_anchor { /* where a body of a dyad is held: a pin, or a prismatic joint */
-    int pin, joint;      /* the other one is FW_NONE */
+/* where a body of a dyad is held: a pin, or a prismatic joint */
+typedef struct fw_assembly_anchor {
+    int pin, joint; /* the other one is FW_NONE */
 } fw_assembly_anchor;
 
-typedef struct
-    fw_assembly_elbow { /* dyad: pin P between two moving bodies that are held at A (body_a) and B
-                             (body_b). Two pins: on which side of AB lies P? A pin and a prismatic
-                             joint: on which side of the pin, along the axis, lies P? */
-    const char *id;     /* of pin P */
+/* dyad: pin P between two moving bodies that are held at A (body_a) and B (body_b). Two pins: on
+   which side of AB lies P? A pin and a prismatic joint: on which side of the pin, along the axis,
+   lies P? */
+typedef struct fw_assembly_elbow {
+    const char *id; /* of pin P */
     int pin, body_a, body_b;
     fw_assembly_anchor a, b;
     int guess, found; /* sign of the triangle A P B: +1 counter-clockwise, -1, 0: flat */

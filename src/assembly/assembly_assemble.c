@@ -25,15 +25,20 @@ static fw_status even_masses(fw_arena *arena, const fw_mechanism *from, double l
     return FW_OK;
 }
 
+/* the largest |Psi| of a joint */
+static double residual(fw_assembly_closure *c) {
+    return fw_multibody_residual(c->system, fw_multibody_pose_at(c->system, 0, c->u), c->psi);
+}
+
 /* points that a rod joins must not coincide, or it has no direction to start with */
-static void part_rods(fw_assembly_closure *c) {
+static void part_rods(fw_assembly_closure *c, const fw_multibody_pose *pose) {
     const fw_multibody_model *m = c->model;
     for (int i = 0; i < m->nblock; i++) {
         const fw_multibody_block *b = &m->block[i];
-        const double *r = m->arm + 4 * i, *offset = m->offset + 2 * i;
-        if (b->rows != FW_ROWS_ROD ||
-            hypot(r[2] - r[0] - offset[0], r[3] - r[1] - offset[1]) > 1e-9)
-            continue;
+        double d[2], e[2], n[2];
+        if (b->rows != FW_ROWS_ROD) continue;
+        fw_multibody_frame(m, pose, i, d, e, n);
+        if (hypot(d[0], d[1]) > 1e-9) continue;
         int body = b->b < m->nbody ? b->b : b->a;
         double angle = 2 * FW_PI * fw_assembly_spread(7, (unsigned)i);
         c->u[3 * body] += 1e-4 * cos(angle);
@@ -47,11 +52,10 @@ static fw_status try_restarts(fw_arena *arena, const fw_mechanism *mechanism, co
                               fw_diags *diags, fw_assembly_closure *c, fw_assembly_closure *search,
                               fw_assembly_restart *r, bool *good) {
     fw_mechanism even;
-    fw_multibody_model *model;
     double length = c->model->scale.length_m;
     FW_TRY(even_masses(arena, mechanism, length, &even));
-    FW_TRY(fw_multibody_model_new(arena, &even, NULL, q, 1, NULL, diags, &model));
-    FW_TRY(fw_assembly_closure_new(arena, model, search));
+    FW_TRY(fw_assembly_closure_new(arena, &even, q, diags, search));
+    const fw_multibody_model *model = search->model;
     FW_TRY(fw_assembly_restart_new(arena, model, r));
     search->left = 1000 + (long)(2e8 / model->nblock);
     *good = fw_assembly_restart_close(r, search);
@@ -86,17 +90,14 @@ static fw_status too_far(const fw_mechanism *mechanism, const double *guess, fw_
    not of a guess far away */
 static fw_status polish(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
                         fw_diags *diags, const fw_assembly_closure *from, double *q) {
-    fw_multibody_model *model;
     fw_assembly_closure c;
     double length = from->model->scale.length_m;
     for (int i = 0; i < from->model->nq; i++)
         q[i] = guess[i] + (i % 3 == 2 ? 1 : length) * from->u[i];
-    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &model));
-    FW_TRY(fw_assembly_closure_new(arena, model, &c));
+    FW_TRY(fw_assembly_closure_new(arena, mechanism, q, diags, &c));
     fw_assembly_closure_descend(&c, 30); /* it was closed: what is left is round-off */
-    if (!(fw_multibody_model_residual(model, 0, c.u, c.psi) <= usable))
-        return too_far(mechanism, guess, diags);
-    for (int i = 0; i < model->nq; i++)
+    if (!(residual(&c) <= usable)) return too_far(mechanism, guess, diags);
+    for (int i = 0; i < c.model->nq; i++)
         q[i] += (i % 3 == 2 ? 1 : length) * c.u[i];
     return FW_OK;
 }
@@ -114,21 +115,16 @@ static fw_status give_up(fw_arena *arena, const fw_mechanism *mechanism, const d
 
 static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const double *guess,
                           fw_diags *diags, fw_assembly_solved *out) {
-    fw_multibody_model *model;
     fw_assembly_closure c, search;
     fw_assembly_restart r = {.restarts = 0};
     int *group;
     bool good = true;
-    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, guess, 1, NULL, diags, &model));
-    FW_TRY(fw_assembly_closure_new(arena, model, &c));
-    if (!(fw_multibody_model_residual(model, 0, c.u, c.psi) <
-          1e150)) /* its square must be a number */
+    FW_TRY(fw_assembly_closure_new(arena, mechanism, guess, diags, &c));
+    if (!(residual(&c) < 1e150)) /* its square must be a number */
         return too_far(mechanism, guess, diags);
     if (fw_assembly_closure_descend(&c, 0)) /* the guess is closed: nothing moves */
-        return fw_multibody_model_residual(model, 0, c.u, c.psi) <= usable
-                   ? FW_OK
-                   : too_far(mechanism, guess, diags);
-    part_rods(&c);
+        return residual(&c) <= usable ? FW_OK : too_far(mechanism, guess, diags);
+    part_rods(&c, fw_multibody_pose_at(c.system, 0, c.u));
     if (!fw_assembly_closure_descend(&c, 500)) {
         FW_TRY(try_restarts(arena, mechanism, guess, diags, &c, &search, &r, &good));
         out->restarts = r.restarts;
@@ -138,7 +134,7 @@ static fw_status close_up(fw_arena *arena, const fw_mechanism *mechanism, const 
         if (!good || !fw_assembly_closure_descend(&c, 100))
             return give_up(arena, mechanism, guess, diags, &search, &r, out);
     }
-    FW_NEED(group = fw_arena_array(arena, int, (size_t)model->nbody + 1));
+    FW_NEED(group = fw_arena_array(arena, int, (size_t)c.model->nbody + 1));
     c.left = 5000;
     fw_assembly_closure_unwind(&c, group);
     fw_assembly_closure_nearest(&c);

@@ -7,25 +7,30 @@
 #include <string.h>
 
 /* what every block keeps (its law included), from Psi at the guess */
-static void find_kept(fw_assembly_closure *c) {
-    fw_multibody_model *m = c->model;
+static void find_kept(fw_assembly_closure *c, const fw_multibody_pose *pose) {
+    const fw_multibody_model *m = c->model;
     for (int i = 0; i < m->nblock; i++) {
         const fw_multibody_block *b = &m->block[i];
-        const double *r = m->arm + 4 * i, *offset = m->offset + 2 * i;
-        double dx = r[2] - r[0] - offset[0], dy = r[3] - r[1] - offset[1];
-        double ex = m->cosine[b->a] * b->cos_axis - m->sine[b->a] * b->sin_axis;
-        double ey = m->sine[b->a] * b->cos_axis + m->cosine[b->a] * b->sin_axis;
-        double now = b->rows == FW_ROWS_ROD      ? hypot(dx, dy)
-                     : b->rows == FW_ROWS_TRAVEL ? ex * dx + ey * dy
+        double d[2], e[2], n[2];
+        fw_multibody_frame(m, pose, i, d, e, n);
+        double now = b->rows == FW_ROWS_ROD      ? hypot(d[0], d[1])
+                     : b->rows == FW_ROWS_TRAVEL ? e[0] * d[0] + e[1] * d[1]
                                                  : 0; /* TURN, SLIDE: angles since the guess */
         c->kept[i] = b->rows == FW_ROWS_PIN ? 0 : now - c->psi[2 * i];
     }
 }
 
-fw_status fw_assembly_closure_new(fw_arena *arena, fw_multibody_model *m, fw_assembly_closure *c) {
+fw_status fw_assembly_closure_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                                  fw_diags *diags, fw_assembly_closure *c) {
+    const fw_multibody_model *m;
+    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, &m));
     size_t n = (size_t)m->nq, k = (size_t)m->nblock;
     *c = (fw_assembly_closure){
         .arena = arena, .model = m, .goal = 4 * DBL_EPSILON * m->size, .left = 2000};
+    FW_TRY(fw_multibody_system_new(arena, m, mechanism, diags, &c->system));
+    FW_TRY(fw_multibody_chain_numbers_new(arena, m, &c->chain));
+    FW_NEED(c->held = fw_arena_array(arena, double, n));
+    FW_NEED(c->wanted = fw_arena_array(arena, double, n));
     FW_NEED(c->u = fw_arena_array(arena, double, n));
     FW_NEED(c->trial = fw_arena_array(arena, double, n));
     FW_NEED(c->step = fw_arena_array(arena, double, n));
@@ -36,9 +41,10 @@ fw_status fw_assembly_closure_new(fw_arena *arena, fw_multibody_model *m, fw_ass
     FW_NEED(c->soft = fw_arena_array(arena, double, 2 * k));
     for (size_t i = 0; i < k; i++)
         c->active[i] = true, c->soft[2 * i] = c->soft[2 * i + 1] = 1;
-    m->piece = DBL_MIN; /* the piece of the laws that begins at 0 */
-    fw_multibody_model_residual(m, 0, c->u, c->psi);
-    find_kept(c);
+    c->system->piece_s = DBL_MIN; /* the piece of the laws that begins at 0 */
+    const fw_multibody_pose *pose = fw_multibody_pose_at(c->system, 0, c->u);
+    fw_multibody_residual(c->system, pose, c->psi);
+    find_kept(c, pose);
     return FW_OK;
 }
 
@@ -51,9 +57,12 @@ static double worst_gap(const fw_assembly_closure *c) {
     return worst;
 }
 
-double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u) {
-    fw_multibody_model_residual(c->model, 0, u, c->psi);
+double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u,
+                                    const fw_multibody_pose **pose) {
+    const fw_multibody_pose *at = fw_multibody_pose_at(c->system, 0, u);
     double sum = 0;
+    fw_multibody_residual(c->system, at, c->psi);
+    if (pose) *pose = at;
     for (int i = 0; i < c->model->nblock; i++) {
         if (!c->active[i]) c->psi[2 * i] = c->psi[2 * i + 1] = 0;
         double x = c->psi[2 * i] / c->soft[2 * i], y = c->psi[2 * i + 1] / c->soft[2 * i + 1];
@@ -64,13 +73,13 @@ double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u) {
 
 /* rows and columns of blocks that do not count become those of the unit matrix */
 static void leave_out(const fw_assembly_closure *c) {
-    fw_multibody_chain *chain = &c->model->chain;
+    const fw_multibody_chain *chain = &c->model->chain;
     for (int k = 0; k < chain->pins; k++) {
-        double *d = chain->diagonal + 3 * k;
+        double *d = c->chain.diagonal + 3 * k;
         if (!c->active[k]) d[0] = d[2] = 1, d[1] = 0;
         for (int e = chain->column[k]; e < chain->column[k + 1]; e++)
             if (!c->active[k] || !c->active[chain->row[e]])
-                memset(chain->block + 4 * e, 0, 4 * sizeof *chain->block);
+                memset(c->chain.block + 4 * e, 0, 4 * sizeof *c->chain.block);
     }
 }
 
@@ -80,11 +89,12 @@ static void leave_out(const fw_assembly_closure *c) {
    where a loop closes only just, S goes like Psi and a fixed shift would stop the descent. No body
    turns by more than half a radian or goes farther than the scene's length. */
 static bool newton_step(fw_assembly_closure *c, double mu) {
-    fw_multibody_model *m = c->model;
-    double *d = m->chain.diagonal, largest = 0;
-    fw_assembly_closure_mismatch(c, c->u);
+    const fw_multibody_model *m = c->model;
+    const fw_multibody_pose *pose;
+    double *d = c->chain.diagonal, largest = 0;
+    fw_assembly_closure_mismatch(c, c->u, &pose);
     double shift = fmax(1e-14, fmin(fw_epsilon, 1e-2 * worst_gap(c)));
-    fw_multibody_chain_assemble(m);
+    fw_multibody_chain_assemble(m, pose, &c->chain);
     leave_out(c);
     for (int i = 0; i < m->nblock; i++)
         if (c->active[i]) largest = fmax(largest, fmax(d[3 * i], d[3 * i + 2]));
@@ -92,11 +102,11 @@ static bool newton_step(fw_assembly_closure *c, double mu) {
         d[3 * i] += mu * largest * c->soft[2 * i] * c->soft[2 * i];
         d[3 * i + 2] += mu * largest * c->soft[2 * i + 1] * c->soft[2 * i + 1];
     }
-    if (!fw_multibody_chain_factor(&m->chain, mu > 0 ? 0 : shift)) return false;
+    if (!fw_multibody_chain_factor(&m->chain, &c->chain, mu > 0 ? 0 : shift)) return false;
     memcpy(c->lambda, c->psi, 2 * (size_t)m->nblock * sizeof(double));
-    fw_multibody_chain_solve(&m->chain, c->lambda);
+    fw_multibody_chain_solve(&m->chain, &c->chain, c->lambda);
     memset(c->step, 0, (size_t)m->nq * sizeof(double));
-    fw_multibody_model_apply(m, c->lambda, c->step);
+    fw_multibody_apply(m, pose, c->lambda, c->step);
     double most = 0;
     for (int i = 0; i < m->nq; i++) {
         double size = fabs(c->step[i]) / (i % 3 == 2 ? 0.5 : 1);
@@ -105,7 +115,7 @@ static bool newton_step(fw_assembly_closure *c, double mu) {
     if (!(most < (double)INFINITY)) return false;
     for (int i = 0; i < m->nq && most > 1; i++)
         c->step[i] /= most;
-    fw_multibody_model_jacobian(m, c->step, c->lambda);
+    fw_multibody_jacobian(m, pose, c->step, c->lambda);
     c->promise = 0;
     for (int i = 0; i < 2 * m->nblock; i++)
         c->promise -= 2 * c->psi[i] * c->lambda[i] / (c->soft[i] * c->soft[i]);
@@ -120,7 +130,7 @@ static double line_search(fw_assembly_closure *c, double *value) {
     for (int halving = 0; halving < 12; halving++, fraction /= 2) {
         for (int i = 0; i < n; i++)
             c->trial[i] = c->u[i] + fraction * c->step[i];
-        double next = fw_assembly_closure_mismatch(c, c->trial);
+        double next = fw_assembly_closure_mismatch(c, c->trial, NULL);
         if (next <= *value - 1e-4 * fraction * c->promise) {
             memcpy(c->u, c->trial, (size_t)n * sizeof(double));
             *value = next;
@@ -137,10 +147,10 @@ static double line_search(fw_assembly_closure *c, double *value) {
 bool fw_assembly_closure_descend(fw_assembly_closure *c, int most) {
     static const double mu[] = {0, 1e-5, 1e-3, 1e-2, 1e-1, 1, 10, 100};
     const int levels = sizeof mu / sizeof mu[0];
-    double value = fw_assembly_closure_mismatch(c, c->u);
+    double value = fw_assembly_closure_mismatch(c, c->u, NULL);
     int level = 0, idle = 0;
     for (int i = 0; i < most && idle < 20 && c->left > 0; i++) {
-        fw_assembly_closure_mismatch(c, c->u);
+        fw_assembly_closure_mismatch(c, c->u, NULL);
         if (worst_gap(c) <= c->goal) return true;
         double before = value;
         double taken = newton_step(c, mu[level]) ? line_search(c, &value) : 0;
@@ -154,7 +164,7 @@ bool fw_assembly_closure_descend(fw_assembly_closure *c, int most) {
         /* no progress: round-off, or the closest that an impossible mechanism comes */
         idle = value < (1 - 1e-7) * before ? 0 : idle + 1;
     }
-    fw_assembly_closure_mismatch(c, c->u);
+    fw_assembly_closure_mismatch(c, c->u, NULL);
     return worst_gap(c) <= 1e-13 * c->model->size;
 }
 
@@ -170,16 +180,17 @@ double fw_assembly_closure_distance(const fw_assembly_closure *c, const double *
 
 /* c->step = towards the point nearest to 0 on the tangent plane at the closed c->u */
 static bool tangent_step(fw_assembly_closure *c) {
-    fw_multibody_model *m = c->model;
-    fw_assembly_closure_mismatch(c, c->u);
-    fw_multibody_model_jacobian(m, c->u, c->lambda);
+    const fw_multibody_model *m = c->model;
+    const fw_multibody_pose *pose;
+    fw_assembly_closure_mismatch(c, c->u, &pose);
+    fw_multibody_jacobian(m, pose, c->u, c->lambda);
     for (int i = 0; i < 2 * m->nblock; i++)
         c->psi[i] -= c->lambda[i];
-    fw_multibody_chain_assemble(m);
-    if (!fw_multibody_chain_factor(&m->chain, fw_epsilon)) return false;
-    fw_multibody_chain_proximal(m, c->psi, c->lambda);
+    fw_multibody_chain_assemble(m, pose, &c->chain);
+    if (!fw_multibody_chain_factor(&m->chain, &c->chain, fw_epsilon)) return false;
+    fw_multibody_chain_proximal(m, pose, &c->chain, c->psi, c->lambda);
     memset(c->step, 0, (size_t)m->nq * sizeof(double));
-    fw_multibody_model_apply(m, c->lambda, c->step);
+    fw_multibody_apply(m, pose, c->lambda, c->step);
     for (int i = 0; i < m->nq; i++)
         c->step[i] -= c->u[i];
     return true;
@@ -190,9 +201,9 @@ static bool tangent_step(fw_assembly_closure *c) {
    of them is a valid answer. Converges linearly, fast where the guess is near. Source: Gauss-Newton
    with retraction; Absil, Mahony and Sepulchre 2008, ch. 4. Test: test_assemble.c (nearest). */
 void fw_assembly_closure_nearest(fw_assembly_closure *c) {
-    fw_multibody_model *m = c->model;
+    const fw_multibody_model *m = c->model;
     size_t bytes = (size_t)m->nq * sizeof(double);
-    double distance = fw_assembly_closure_distance(c, c->u), *held = m->correction;
+    double distance = fw_assembly_closure_distance(c, c->u), *held = c->held;
     for (int i = 0; i < 100 && distance > 0; i++) {
         memcpy(held, c->u, bytes);
         if (!tangent_step(c)) return;
@@ -200,10 +211,10 @@ void fw_assembly_closure_nearest(fw_assembly_closure *c) {
         for (int k = 0; k < m->nq; k++)
             turned = fmax(turned, fabs(c->step[k]));
         if (!(turned > 1e-9)) return;
-        memcpy(m->accel, c->step, bytes); /* descending needs c->step */
+        memcpy(c->wanted, c->step, bytes); /* descending needs c->step */
         for (int halving = 0; halving < 8; halving++, fraction /= 2) {
             for (int k = 0; k < m->nq; k++)
-                c->u[k] = held[k] + fraction * m->accel[k];
+                c->u[k] = held[k] + fraction * c->wanted[k];
             bool closed = fw_assembly_closure_descend(c, 12);
             double now = fw_assembly_closure_distance(c, c->u);
             if (closed && now < distance) {

@@ -252,16 +252,13 @@ static fw_status keep(hunt *h) {
 
 static fw_status hunt_new(hunt *h) {
     const fw_assembly *f = h->found;
-    fw_multibody_model *model;
     size_t n = (size_t)f->nbody, most = (n > (size_t)f->nelbow ? n : (size_t)f->nelbow) + 1;
-    FW_TRY(
-        fw_multibody_model_new(h->arena, h->mechanism, NULL, f->before, 1, NULL, h->diags, &model));
-    FW_TRY(fw_assembly_closure_new(h->arena, model, &h->c));
+    FW_TRY(fw_assembly_closure_new(h->arena, h->mechanism, f->before, h->diags, &h->c));
     FW_NEED(h->group = fw_arena_array(h->arena, int, most));
     FW_NEED(h->q = fw_arena_array(h->arena, double, 3 * n));
     FW_NEED(h->side = fw_arena_array(h->arena, int, 2 * (size_t)f->nelbow));
     for (int b = 0; b < f->nbody; b++)
-        h->mass += model->mass[b];
+        h->mass += h->c.model->mass[b];
     return FW_OK;
 }
 

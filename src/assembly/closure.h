@@ -4,14 +4,17 @@
 #ifndef FW_ASSEMBLY_CLOSURE_H
 #define FW_ASSEMBLY_CLOSURE_H
 #include "assembly/assembly.h"
-#include "multibody/model.h"
+#include "multibody/system.h"
 
 /* ---- assembly_closure.c ---- */
 typedef struct fw_assembly_closure {
     const fw_arena *arena; /* whose request to stop ends the descent */
-    fw_multibody_model *model;
+    const fw_multibody_model *model;
+    fw_multibody_system *system;
+    fw_multibody_chain_numbers chain;
     double *u;                           /* (3 nbody) displacements from the guess */
     double *trial, *step, *psi, *lambda; /* work */
+    double *held, *wanted;               /* (3 nbody) work of the way to the nearest pose */
     double *kept;                        /* (nblock) angle, length or travel that a block keeps */
     bool *active;                        /* (nblock) blocks that count */
     double *soft;                        /* (2 nblock) a mismatch counts divided by this */
@@ -20,10 +23,12 @@ typedef struct fw_assembly_closure {
     long iterations, left;               /* done; most that may follow */
 } fw_assembly_closure;
 
-fw_status fw_assembly_closure_new(fw_arena *arena, fw_multibody_model *model,
-                                  fw_assembly_closure *c);
-/* sum over active blocks of |Psi|^2 / soft^2; psi is set, the model posed */
-double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u);
+/* for a mechanism at q (3 nbody, SI), which becomes u = 0; psi is that of u = 0 */
+fw_status fw_assembly_closure_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                                  fw_diags *diags, fw_assembly_closure *c);
+/* sum over active blocks of |Psi|^2 / soft^2; psi is set, *pose (NULL: not asked for) that of u */
+double fw_assembly_closure_mismatch(fw_assembly_closure *c, const double *u,
+                                    const fw_multibody_pose **pose);
 /* from c->u downhill; true: every active block is closed to round-off */
 bool fw_assembly_closure_descend(fw_assembly_closure *c, int most);
 /* a closed c->u to the closed pose nearest to u = 0 in the mass metric */
@@ -76,8 +81,8 @@ typedef struct fw_assembly_length_unit {
     const char *name;
     double per_m;
 } fw_assembly_length_unit;
-/* one unit for lengths of one sentence: that of the longest, but so that the shortest keeps digits
- */
+/* one unit for lengths of one sentence: that of the longest, but so that the shortest keeps
+   digits */
 fw_assembly_length_unit fw_assembly_length_unit_for(double longest_m, double shortest_m);
 char *fw_assembly_length_text(char *to, size_t n, double metres, fw_assembly_length_unit unit);
 void fw_assembly_block_gap(const fw_multibody_model *m, int block, const double *psi, double *gap_m,

@@ -3,11 +3,11 @@
 #ifndef FW_ASSEMBLY_INDEPENDENT_H
 #define FW_ASSEMBLY_INDEPENDENT_H
 #include "assembly/kinematics.h"
-#include "multibody/model.h"
+#include "multibody/system.h"
 #include "maths/dense.h"
 
-/* space: singular values of the scaled G, of which `rank` count; asked: as in the options, or NULL
- */
+/* space: singular values of the scaled G, of which `rank` count; asked: as in the options, or
+   NULL */
 fw_status fw_assembly_independent_choose(fw_arena *arena, const fw_mechanism *mechanism,
                                          const fw_maths_singular *space, int rank,
                                          const char *asked, fw_diags *diags,

@@ -3,23 +3,28 @@
 #include "assembly/kinematics.h"
 #include "assembly/assembly.h"
 #include "assembly/independent.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-typedef struct state { /* at one instant; arrays are the model's, scaled */
+typedef struct state { /* at one instant; arrays are in the model's order, scaled */
     fw_arena *arena;
     const fw_mechanism *mechanism;
     const fw_assembly_kinematics_options *options;
     fw_diags *diags;
-    fw_multibody_model *m;
-    double *q0;     /* (3 nbody) SI: where u = 0 */
-    double *y;      /* (ny) u and v */
-    double *a;      /* (nq) */
-    double *g;      /* (rows x nq) */
-    double *packed; /* (rows) */
-    double *work;   /* (nq) */
+    const fw_multibody_model *m;
+    fw_multibody_system *system;
+    const fw_multibody_pose *pose; /* of y, as long as the instant lasts */
+    fw_multibody_solution found;   /* lambda is own */
+    double *q0;                    /* (3 nbody) SI: where u = 0 */
+    double *y;                     /* (ny) u and v */
+    double *a;                     /* (nq) */
+    double *g;                     /* (rows x nq) */
+    double *packed;                /* (rows) */
+    double *work;                  /* (nq) */
+    double *block;                 /* (2 nblock) */
+    double *next;                  /* (ny) a state to come */
     fw_maths_singular space;
     int rank;
 } state;
@@ -49,8 +54,8 @@ static void particular(const state *s, double *b, double *x, double *off) {
     *off = size > 0 ? sqrt(left / size) : 0;
 }
 
-/* x += N z so that x takes the values `given` at the independent coordinates: N_I z = given - x_I
- */
+/* x += N z so that x takes the values `given` at the independent coordinates: N_I z = given -
+   x_I */
 static void add_free(const state *s, const fw_assembly_coordinate_choice *c,
                      const fw_maths_singular *rows, const double *given, double *x) {
     int f = c->count, n = s->space.columns;
@@ -87,7 +92,7 @@ static void driving(const state *s, const fw_assembly_coordinate_choice *c,
     }
 }
 
-/* least lambda with G^T lambda = h, into the model's blocks */
+/* least lambda with G^T lambda = h */
 static void multipliers(const state *s, const double *h) {
     const fw_maths_singular *g = &s->space;
     memset(s->packed, 0, (size_t)g->rows * sizeof *s->packed);
@@ -98,7 +103,7 @@ static void multipliers(const state *s, const double *h) {
         for (int k = 0; k < g->rows; k++)
             s->packed[k] += share / g->sigma[i] * g->u[i * g->rows + k];
     }
-    fw_multibody_model_unpack(s->m, s->packed, s->m->lambda);
+    fw_multibody_unpack(s->m, s->packed, s->found.lambda);
 }
 
 /* ---- one instant ---- */
@@ -139,10 +144,13 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism,
     }
     if (scene) loads.nfriction = 0; /* forces as they are without */
     FW_TRY(fw_multibody_model_new(arena, mechanism, scene ? &loads : NULL, q,
-                                  scene ? scene->duration_s : 1, NULL, diags, &s->m));
-    s->m->piece = DBL_MIN;
-    fw_multibody_model_at(s->m, 0);
-    size_t rows = (size_t)s->m->rows;
+                                  scene ? scene->duration_s : 1, NULL, &s->m));
+    FW_TRY(fw_multibody_system_new(arena, s->m, mechanism, diags, &s->system));
+    s->system->piece_s = DBL_MIN;
+    size_t rows = (size_t)s->m->rows, blocks = (size_t)s->m->nblock;
+    FW_NEED(s->block = fw_arena_array(arena, double, 2 * blocks));
+    FW_NEED(s->found.lambda = fw_arena_array(arena, double, 2 * blocks));
+    FW_NEED(s->next = fw_arena_array(arena, double, (size_t)s->m->ny));
     FW_NEED(s->y = fw_arena_array(arena, double, (size_t)s->m->ny + 2));
     FW_NEED(s->a = fw_arena_array(arena, double, n));
     FW_NEED(s->g = fw_arena_array(arena, double, rows *n));
@@ -151,10 +159,10 @@ static fw_status state_new(fw_arena *arena, const fw_mechanism *mechanism,
     return FW_OK;
 }
 
-/* G at the pose s->y and its singular values */
-static fw_status factor(state *s) {
-    fw_multibody_model_pose(s->m, s->y);
-    fw_multibody_model_dense_jacobian(s->m, s->g);
+/* the pose of s->y at t, G there and its singular values */
+static fw_status factor(state *s, double t) {
+    s->pose = fw_multibody_pose_at(s->system, t, s->y);
+    fw_multibody_dense_jacobian(s->m, s->pose, s->g);
     FW_TRY(fw_maths_singular_new(s->arena, s->m->rows, s->m->nq, s->g, &s->space));
     int least = s->m->rows < s->m->nq ? s->m->rows : s->m->nq;
     for (s->rank = 0; s->rank < least && s->space.sigma[s->rank] > 1e-10 * s->space.sigma[0];)
@@ -187,22 +195,23 @@ static fw_status contradict(const state *s, double t, const char *what) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-/* v, then a, at scaled time t; the choice's rates and accelerations in SI */
-static fw_status rates(state *s, double t, const fw_assembly_coordinate_choice *c,
+/* v, then a, at the pose; the choice's rates and accelerations in SI */
+static fw_status rates(state *s, const fw_assembly_coordinate_choice *c,
                        const fw_maths_singular *rows, const double *rate, const double *accel) {
-    fw_multibody_model *m = s->m;
+    const fw_multibody_model *m = s->m;
+    const double t = s->pose->t;
     double off, *v = s->y + m->nq, *given;
     FW_NEED(given = fw_arena_array(s->arena, double, (size_t)c->count));
-    fw_multibody_model_drift(m, t, m->drift);
-    fw_multibody_model_pack(m, m->drift, s->packed);
+    fw_multibody_drift(s->system, s->pose, s->block);
+    fw_multibody_pack(m, s->block, s->packed);
     for (int i = 0; i < m->rows; i++)
         s->packed[i] = -s->packed[i];
     particular(s, s->packed, v, &off);
     if (off > 1e-8) return contradict(s, t, "velocities");
     wanted(s, c, rate, v, 1, given);
     add_free(s, c, rows, given, v);
-    fw_multibody_model_gamma(m, t, v, m->right);
-    fw_multibody_model_pack(m, m->right, s->packed);
+    fw_multibody_gamma(s->system, s->pose, v, s->block);
+    fw_multibody_pack(m, s->block, s->packed);
     for (int i = 0; i < m->rows; i++)
         s->packed[i] = -s->packed[i];
     particular(s, s->packed, s->a, &off);
@@ -213,14 +222,15 @@ static fw_status rates(state *s, double t, const fw_assembly_coordinate_choice *
 }
 
 /* tau and lambda from M a - Q */
-static void forces(state *s, double t, const fw_assembly_coordinate_choice *c,
-                   const fw_maths_singular *rows, double *tau) {
-    fw_multibody_model *m = s->m;
-    fw_multibody_model_set_switches(m, t, s->y);
-    fw_multibody_model_forces(m, t, s->y);
+static void forces(state *s, const fw_assembly_coordinate_choice *c, const fw_maths_singular *rows,
+                   double *tau) {
+    const fw_multibody_model *m = s->m;
+    s->pose = fw_multibody_set_switches(s->system, s->pose->t, s->y);
+    const fw_multibody_solution *found = fw_multibody_forces(s->system, s->pose, s->y + m->nq);
+    s->found.pose = s->pose, s->found.element = found->element;
     for (int i = 0; i < m->nq; i++) {
         double mass = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
-        s->work[i] = mass * (s->a[i] - m->accel[i]);
+        s->work[i] = mass * (s->a[i] - found->accel[i]);
     }
     driving(s, c, rows, s->work, tau);
     for (int i = 0; i < m->nq; i++)
@@ -259,8 +269,8 @@ static fw_status store(const state *s, double t, fw_assembly_kinematics *k) {
         k->a[i] = unit / (time * time) * s->a[i];
         sum += 0 * (k->v[i] + k->a[i]);
     }
-    fw_multibody_pin_forces(m, k->reaction_N);
-    fw_multibody_joint_forces(m, s->mechanism, k->joint_N, k->driver_N);
+    fw_multibody_pin_forces(m, &s->found, k->reaction_N);
+    fw_multibody_joint_forces(m, &s->found, s->mechanism, k->joint_N, k->driver_N);
     k->unique = s->rank == m->rows;
     for (int i = 0; i < 2 * m->npin; i++)
         sum += 0 * k->reaction_N[i];
@@ -302,7 +312,7 @@ fw_status fw_assembly_kinematics_solve(fw_arena *arena, const fw_mechanism *mech
     FW_TRY(check_finite(options->rate, options->rate ? options->nrate : 0, diags));
     FW_TRY(check_finite(options->accel, options->accel ? options->naccel : 0, diags));
     FW_TRY(state_new(arena, mechanism, scene, q, options, diags, &s));
-    FW_TRY(factor(&s));
+    FW_TRY(factor(&s, 0));
     FW_TRY(fw_assembly_independent_choose(arena, mechanism, &s.space, s.rank, options->independent,
                                           diags, &k->independent));
     const fw_assembly_coordinate_choice *c = &k->independent;
@@ -310,8 +320,8 @@ fw_status fw_assembly_kinematics_solve(fw_arena *arena, const fw_mechanism *mech
     FW_TRY(check_count("accelerations are", options->accel ? options->naccel : 0, c, diags));
     FW_TRY(fw_assembly_independent_rows(arena, &s.space, s.rank, c, &rows));
     FW_TRY(result_new(arena, mechanism, c->count, k));
-    FW_TRY(rates(&s, 0, c, &rows, options->rate, options->accel));
-    forces(&s, 0, c, &rows, k->drive);
+    FW_TRY(rates(&s, c, &rows, options->rate, options->accel));
+    forces(&s, c, &rows, k->drive);
     for (int i = 0; i < c->count; i++) {
         k->rate[i] = options->rate ? options->rate[i] : 0;
         k->accel[i] = options->accel ? options->accel[i] : 0;
@@ -345,7 +355,7 @@ static fw_status not_driven(const state *s, const fw_device_scene *scene) {
 /* u at t + h from u, v, a at t: the Taylor step, closed by Newton; false: not within a tenth of
    what it moved */
 static bool advance(state *s, double t, double h, double *next) {
-    fw_multibody_model *m = s->m;
+    const fw_multibody_model *m = s->m;
     const double *u = s->y, *v = s->y + m->nq;
     double moved = 0, off = 0;
     for (int i = 0; i < m->nq; i++) {
@@ -354,8 +364,7 @@ static bool advance(state *s, double t, double h, double *next) {
         moved = fmax(moved, fabs(next[i] - u[i]));
     }
     if (!(moved < 0.3)) return false;
-    fw_multibody_model_pose(m, next);
-    if (!m->method->factor(m) || !fw_multibody_model_project_position(m, t + h, next)) return false;
+    if (!fw_multibody_close_position(s->system, t + h, next)) return false;
     for (int i = 0; i < m->nq; i++)
         off = fmax(off, fabs(next[i] - s->work[i]));
     return off <= 0.1 * moved + 1e-9;
@@ -364,10 +373,10 @@ static bool advance(state *s, double t, double h, double *next) {
 static fw_status at_instant(state *s, double t, const fw_assembly_coordinate_choice *none) {
     fw_maths_singular rows = {0};
     fw_mark mark = fw_arena_mark(s->arena);
-    FW_TRY(factor(s));
+    FW_TRY(factor(s, t));
     if (s->rank < s->m->nq) return contradict(s, t, "a motion");
-    FW_TRY(rates(s, t, none, &rows, NULL, NULL));
-    forces(s, t, none, &rows, s->work);
+    FW_TRY(rates(s, none, &rows, NULL, NULL));
+    forces(s, none, &rows, s->work);
     fw_arena_rewind(s->arena, mark);
     return FW_OK;
 }
@@ -375,10 +384,10 @@ static fw_status at_instant(state *s, double t, const fw_assembly_coordinate_cho
 /* from t to `end` in steps that keep the branch */
 static fw_status walk(state *s, const fw_device_scene *scene, double t, double end,
                       const fw_assembly_coordinate_choice *none) {
-    double h = end - t, span = h, *next = s->m->stage;
+    double h = end - t, span = h, *next = s->next;
     while (t < end) {
         double to = t + h >= end ? end : t + h;
-        s->m->piece = to * s->m->scale.time_s; /* what holds from there on */
+        s->system->piece_s = to * s->m->scale.time_s; /* what holds from there on */
         if (!advance(s, t, to - t, next)) {
             h /= 2;
             if (h < 1e-10 * span) return lost(s, scene, t);
@@ -405,10 +414,9 @@ fw_status fw_assembly_kinematics_follow(fw_arena *arena, const fw_mechanism *mec
         return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
     }
     FW_TRY(state_new(arena, mechanism, scene, q, options, diags, &s));
-    FW_NEED(s.m->stage = fw_arena_array(arena, double, (size_t)s.m->ny));
     fw_assembly_kinematics *all = fw_arena_array(arena, fw_assembly_kinematics, (size_t)samples);
     FW_NEED(all);
-    FW_TRY(factor(&s));
+    FW_TRY(factor(&s, 0));
     if (s.rank < s.m->nq) return not_driven(&s, scene);
     FW_TRY(at_instant(&s, 0, &none));
     double end = scene->duration_s / s.m->scale.time_s;

@@ -87,8 +87,8 @@ static void add_side(ring *r, double length, int body, int from, int to) {
 }
 
 /* blocks and bodies around the loop that `block` closes; false: it runs through a slide, or it is
-   no loop. Both ends climb to their common root; the side of the body where they meet comes last.
- */
+   no loop. Both ends climb to their common root; the side of the body where they meet comes
+   last. */
 static bool walk(const fw_assembly_tree *t, const fw_multibody_model *m, int block, int *depth,
                  ring *r) {
     int end[2] = {m->block[block].a, m->block[block].b}, last[2] = {block, block};
@@ -224,7 +224,7 @@ static bool close_without_drivers(fw_assembly_closure *c, fw_assembly_restart *r
     if (good) {
         c->left = 2000;
         fw_assembly_closure_descend(c, 500);
-        fw_assembly_closure_mismatch(c, c->u);
+        fw_assembly_closure_mismatch(c, c->u, NULL);
     }
     for (int i = 0; i < 2 * m->nblock; i++)
         c->soft[i] = 1;
@@ -243,7 +243,7 @@ static fw_status blame_driver(const fw_mechanism *mechanism, const fw_assembly_c
     const fw_device_driver *d = &mechanism->driver[b->driver];
     double law[3], off = c->psi[2 * worst];
     char asked[48], best[48], less[48];
-    fw_quantity_law_value(&d->law, 0, m->piece, law);
+    fw_quantity_law_value(&d->law, 0, c->system->piece_s, law);
     bool angle = b->rows == FW_ROWS_TURN;
     off *= angle ? 1 : m->scale.length_m;
     double longest = fmax(fabs(law[0]), fabs(law[0] + off));
@@ -298,7 +298,7 @@ static void concentrate(fw_assembly_closure *c, int block, bool angle) {
         if (b->rows == FW_ROWS_PIN || k == row_of(b, angle)) c->soft[2 * block + k] = 1e3;
     c->left = 4000;
     fw_assembly_closure_descend(c, 1000);
-    fw_assembly_closure_mismatch(c, c->u);
+    fw_assembly_closure_mismatch(c, c->u, NULL);
 }
 
 /* Where angles are held a sum of squares of lengths and angles has no meaning for people. There the
@@ -378,7 +378,7 @@ fw_status fw_assembly_closure_explain(fw_arena *arena, const fw_mechanism *mecha
         }
         memcpy(c->u, least, bytes);
     }
-    fw_assembly_closure_mismatch(c, c->u);
+    fw_assembly_closure_mismatch(c, c->u, NULL);
     status = blame_joint(arena, mechanism, c, &r->tree, cut, diags);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

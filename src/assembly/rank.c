@@ -88,24 +88,25 @@ static fw_status name_redundant(fw_arena *arena, const fw_mechanism *mechanism,
 
 /* dof = unknowns - rank(G), G scaled at q (3 nbody, SI). The rank is where the singular values drop
    below 1e-10 of the largest; both neighbours of the drop are handed out, so that nobody has to
-   believe it. statics/ has its own (fw_statics_equilibrium_rank says why). Cost of a singular
-   value decomposition.
-   Test: test_assemble.c. */
+   believe it. statics/ has its own (fw_statics_equilibrium_rank says why). Cost of a singular value
+   decomposition. Test: test_assemble.c. */
 fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
                            fw_diags *diags, fw_assembly_rank_result *out) {
-    fw_multibody_model *m;
+    const fw_multibody_model *m;
+    fw_multibody_system *system;
     double *g, *still;
     fw_maths_singular s;
-    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, diags, &m));
+    FW_TRY(fw_multibody_model_new(arena, mechanism, NULL, q, 1, NULL, &m));
+    FW_TRY(fw_multibody_system_new(arena, m, mechanism, diags, &system));
     *out = (fw_assembly_rank_result){
         .unknowns = m->nq, .rows = m->rows, .rank = m->rows, .clear = true};
     out->dof = m->nq - m->rows;
     if (m->nq > FW_RANK_MOST || m->rows > 2 * FW_RANK_MOST) return FW_OK;
+    FW_NEED(still = fw_arena_array(arena, double, (size_t)m->nq));
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(g = fw_arena_array(arena, double, (size_t)m->rows *(size_t)m->nq));
-    FW_NEED(still = fw_arena_array(arena, double, (size_t)m->nq));
-    fw_multibody_model_pose(m, still);
-    fw_multibody_model_dense_jacobian(m, g);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(system, 0, still);
+    fw_multibody_dense_jacobian(m, pose, g);
     FW_TRY(fw_maths_singular_new(arena, m->rows, m->nq, g, &s));
     int least = m->rows < m->nq ? m->rows : m->nq, rank = 0;
     while (rank < least && s.sigma[rank] > threshold * s.sigma[0])
@@ -119,6 +120,6 @@ fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const
     fw_arena_rewind(arena, mark);
     if (rank == m->rows) return FW_OK;
     FW_NEED(g = fw_arena_array(arena, double, (size_t)m->rows *(size_t)m->nq));
-    fw_multibody_model_dense_jacobian(m, g);
+    fw_multibody_dense_jacobian(m, pose, g);
     return name_redundant(arena, mechanism, m, g, out);
 }

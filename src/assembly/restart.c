@@ -27,8 +27,8 @@ fw_status fw_assembly_restart_new(fw_arena *arena, const fw_multibody_model *m,
     return FW_OK;
 }
 
-/* bodies from both ends of a block down to the root: the loop that it closes, and what leads to it
- */
+/* bodies from both ends of a block down to the root: the loop that it closes, and what leads to
+   it */
 static void mark_loop(fw_assembly_restart *r, const fw_multibody_model *m, int block) {
     for (int side = 0; side < 2; side++)
         for (int b = m->body[2 * block + side]; b >= 0 && b < m->nbody; b = r->tree.parent[b])
@@ -47,7 +47,7 @@ static void activate(fw_assembly_restart *r, fw_assembly_closure *c, int count) 
 }
 
 static bool closed(fw_assembly_closure *c) {
-    fw_assembly_closure_mismatch(c, c->u);
+    fw_assembly_closure_mismatch(c, c->u, NULL);
     for (int i = 0; i < c->model->nblock; i++)
         if (!(hypot(c->psi[2 * i], c->psi[2 * i + 1]) <= c->goal)) return false;
     return true;
@@ -100,7 +100,7 @@ static bool build_up(fw_assembly_restart *r, fw_assembly_closure *c, unsigned st
 }
 
 static void keep_best(fw_assembly_restart *r, fw_assembly_closure *c) {
-    double value = fw_assembly_closure_mismatch(c, c->u);
+    double value = fw_assembly_closure_mismatch(c, c->u, NULL);
     if (!(value < r->value)) return;
     r->value = value;
     memcpy(r->best, c->u, (size_t)c->model->nq * sizeof(double));

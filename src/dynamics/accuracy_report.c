@@ -2,7 +2,7 @@
 /* Is a motion good enough, and what is said of that. */
 #include "dynamics/tolerance_control.h"
 #include "base/constants.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include <float.h>
 #include <math.h>
 

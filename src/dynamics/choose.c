@@ -73,14 +73,14 @@ static double norm(const double *x, int n) {
 /* out = J z by a central difference of the right-hand side at (t, y), over 2 `reach` */
 static void product(const fw_dynamics_problem *problem, double t, const double *y, const double *z,
                     double reach, double *at, double *more, double *out) {
-    fw_multibody_model *m = problem->model;
+    const fw_multibody_model *m = problem->model;
     int n = 2 * m->nq;
     double e = reach / fmax(norm(z, n), 1e-300);
     for (int sign = -1; sign <= 1; sign += 2) {
         memcpy(at, y, (size_t)m->ny * sizeof *at);
         for (int i = 0; i < n; i++)
             at[i] += sign * e * z[i];
-        fw_multibody_model_lean_rhs(m, t, at, sign < 0 ? more : out);
+        fw_multibody_rhs_motion(problem->system, t, at, sign < 0 ? more : out);
     }
     for (int i = 0; i < n; i++)
         out[i] = (out[i] - more[i]) / (2 * e);
@@ -89,11 +89,11 @@ static void product(const fw_dynamics_problem *problem, double t, const double *
 /* largest |eigenvalue| of the right-hand side's Jacobian J at (t, y), scaled: power iteration
    with J^2, whose dominant eigenvalues are real for oscillations too. A lower bound that is within
    a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
-   Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities; NULL: not asked for
- */
+   Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities; NULL: not asked
+   for */
 static fw_status fastest(const fw_dynamics_problem *problem, double t, const double *y,
                          double reach, double *rate, double *shape) {
-    fw_multibody_model *m = problem->model;
+    const fw_multibody_model *m = problem->model;
     size_t n = (size_t)m->ny;
     double *work[5];
     fw_mark mark = fw_arena_mark(problem->arena);
@@ -135,15 +135,16 @@ static double stated_square(const fw_multibody_model *m, const fw_effects_force_
    off. Where the formula of one means nothing there (two points that coincide have no direction),
    the rate depends on how far it is looked at; then what they state counts. */
 static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate) {
-    fw_multibody_model *m = problem->model;
+    const fw_multibody_model *m = problem->model;
+    bool *on = problem->system->on.element;
     double stated = 0, farther;
     bool idle = false;
     *rate = 0;
     for (int i = 0; i < m->nelement; i++)
-        for (int k = 0; k < m->element[i].own->switches; k++) {
-            if (m->element[i].on[k]) continue;
+        for (int k = 0; k < m->element[i].own->switches; k++, on++) {
+            if (*on) continue;
             stated += stated_square(m, m->element[i].own);
-            m->element[i].on[k] = idle = true;
+            *on = idle = true;
         }
     if (!idle) return FW_OK;
     stated = sqrt(before * before + stated);
@@ -151,7 +152,7 @@ static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double bef
     FW_TRY(fastest(problem, 0, problem->start, 1e-5, &farther, NULL));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
     if (!sound || !(*rate > 1.01 * before)) *rate = stated;
-    fw_multibody_model_set_switches(m, 0, problem->start);
+    fw_multibody_set_switches(problem->system, 0, problem->start);
     return FW_OK;
 }
 
@@ -235,8 +236,8 @@ typedef struct cost {
 static cost prices(const fw_dynamics_recorder *record) {
     const fw_multibody_model *m = record->problem->model;
     const fw_effect_ledger *l = &record->motion->ledger;
-    double n = m->nq, rhs = (m->kernel ? 300 : 1300) * (1 + n / 3);
-    for (int i = 0; i < l->count && !m->kernel; i++)
+    double n = m->nq, rhs = (record->problem->system->kernel ? 300 : 1300) * (1 + n / 3);
+    for (int i = 0; i < l->count && !record->problem->system->kernel; i++)
         if (l->item[i].active) rhs += l->item[i].cost;
     if (m->method->independent) rhs += n * n * n;
     double looks = record->problem->options->reactions ? 9 : 0;
@@ -423,10 +424,9 @@ fw_status fw_dynamics_integrator_choose(fw_dynamics_run *r, const fw_effects_loa
    with N steps of the looser run, `needed` and `stable` explicit ones (choose.c), and the cost of
    an implicit step in explicit ones. Two fifths, because the answer's tolerance, some ten times
    lower, lengthens implicit runs by 10^0.2 to 10^0.25, and those not whose steps stability keeps
-   short.
-   Cost: at most two fifths of the looser run, where it loses.
-   Error: no answer changes but by the integrator. Statistics: docs/theory/integrators.md.
-   Source: Hairer and Wanner II, IV.2 (detection of stiffness). Test: test_choose.c. */
+   short. Cost: at most two fifths of the looser run, where it loses. Error: no answer changes but
+   by the integrator. Statistics: docs/theory/integrators.md. Source: Hairer and Wanner II, IV.2
+   (detection of stiffness). Test: test_choose.c. */
 static const double fw_share = 0.4;
 static const long fw_many = 200, fw_some = 60;
 

@@ -54,24 +54,23 @@ typedef struct fw_dynamics_motion_options {
     double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
 } fw_dynamics_motion_options;
 
-typedef struct
-    fw_dynamics_peak { /* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
-    double angle_rad;  /* with its sign */
+/* per pin: extreme of |phi_b - phi_a - free angle| over the scene */
+typedef struct fw_dynamics_peak {
+    double angle_rad; /* with its sign */
     double t_s;
     double error_rad; /* estimate, >= 0: of the numbers, and what auto left out */
 } fw_dynamics_peak;
 
-typedef struct
-    fw_dynamics_force_peak { /* per joint or driver: largest force and torque that it exerts */
+/* per joint or driver: largest force and torque that it exerts */
+typedef struct fw_dynamics_force_peak {
     double force_N, t_s, error_N;
     /* of prismatic joints and welds, about their point b; of drivers that turn. Else 0 */
     double torque_Nm, torque_t_s, torque_error_Nm;
 } fw_dynamics_force_peak;
 
-typedef struct
-    fw_dynamics_travel_peak { /* per prismatic joint: extreme of |distance along the axis - free
-                                   length| */
-    double travel_m;          /* with its sign */
+/* per prismatic joint: extreme of |distance along the axis - free length| */
+typedef struct fw_dynamics_travel_peak {
+    double travel_m; /* with its sign */
     double t_s, error_m;
 } fw_dynamics_travel_peak;
 
@@ -104,8 +103,8 @@ typedef struct fw_dynamics_motion {
     double *angle_rad;  /* (nsample x npin) phi_b - phi_a - free angle */
     double *reaction_N; /* (nsample x 2 npin) force of the pin on body b (ground: on the ground),
                            world axes, without the springs' torque */
-    double
-        *joint_N; /* (nsample x 3 njoint) force on body b, torque on it about its point b (N m) */
+    /* (nsample x 3 njoint) force on body b, torque on it about its point b (N m) */
+    double *joint_N;
     double *driver_N;       /* (nsample x ndriver) N or N m along the driven coordinate */
     fw_dynamics_peak *peak; /* (npin) */
     /* energies asked for, else NULL, as of a sequence of equilibria */
@@ -131,8 +130,8 @@ typedef struct fw_dynamics_motion {
         *level; /* statics/level.h; NULL: not looked for, or no hinges */
 } fw_dynamics_motion;
 
-/* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too small.
- */
+/* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too
+   small. */
 fw_status fw_dynamics_simulate(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -148,8 +147,8 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
                                         const fw_dynamics_motion **motion);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
-/* estimated relative error of the largest deflection, what was left out included; 0: nothing moves
- */
+/* estimated relative error of the largest deflection, what was left out included; 0: nothing
+   moves */
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion);
 /* puts it there; ends either kind of motion, once */
 void fw_dynamics_motion_widen(fw_dynamics_motion *motion);

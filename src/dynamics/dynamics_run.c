@@ -18,14 +18,14 @@ static fw_status solver_error(fw_status status) {
 }
 
 /* friction that has no force, or more than one, at t or within a millionth of the scene from there
-   (towards such a place forces grow without limit, and steps end before it):
-   FW_OK when it is something else */
+   (towards such a place forces grow without limit, and steps end before it): FW_OK when it is
+   something else */
 fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
     double at, final = fw_dynamics_end(&r->problem);
     const char *id;
     fw_place place;
     char time[32];
-    if (!fw_multibody_friction_jammed(r->problem.model, &at, &id, &place) ||
+    if (!fw_multibody_friction_jammed(r->problem.system, &at, &id, &place) ||
         !(fabs(at - t) < 1e-6 * final))
         return FW_OK;
     return solver_error(fw_diag_error(
@@ -42,6 +42,7 @@ fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
 static fw_status stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
                          fw_maths_ode_result why) {
     const fw_multibody_model *m = r->problem.model;
+    const fw_multibody_record *record = &r->problem.system->record;
     FW_TRY(fw_dynamics_run_jammed(r, s->t));
     int worst = 0;
     double most = -1;
@@ -62,8 +63,8 @@ static fw_status stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
             fw_dynamics_scene_name(&r->problem), time, id));
     /* a position that could not be closed within a billionth of the scene from here is the cause */
     double final = fw_dynamics_end(&r->problem);
-    if (m->stuck >= 0 && fabs(m->stuck_time - s->t) < 1e-9 * final) {
-        const fw_multibody_block *b = &m->block[m->stuck];
+    if (record->stuck >= 0 && fabs(record->stuck_time - s->t) < 1e-9 * final) {
+        const fw_multibody_block *b = &m->block[record->stuck];
         return solver_error(fw_diag_error(
             r->diags, 101, r->problem.scene->place,
             "the joints of scene %s contradict each other from %s s on: joint %s "
@@ -121,73 +122,80 @@ void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepp
 /* a law that jumps changes what its element stores: that is its work. Switches fit the new law. */
 static void jump_of_elements(const fw_dynamics_problem *problem, double t, double *y,
                              double stored) {
-    fw_multibody_model *m = problem->model;
-    fw_multibody_model_at(m, t);
-    fw_multibody_model_pose(m, y);
+    const fw_multibody_model *m = problem->model;
+    fw_multibody_system *sys = problem->system;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+    const double *v = y + m->nq;
     /* a blow may tear a damped stop or cable loose: what it holds is lost then */
     for (int i = 0; i < m->nstop + m->ncable; i++)
-        if ((fw_multibody_model_switch_value(m, t, i, y) > 0) != fw_multibody_model_switch_on(m, i))
-            fw_multibody_model_flip(m, t, i, y);
-    fw_multibody_model_set_switches(m, t, y);
-    fw_multibody_model_pose(m, y);
-    if (m->worked >= 0) y[m->worked] += fw_multibody_model_element_energy(m, t, y, true) - stored;
+        if ((fw_multibody_switch_value(sys, pose, i, v) > 0) != fw_multibody_switch_on(sys, i))
+            fw_multibody_flip(sys, t, i, y);
+    pose = fw_multibody_set_switches(sys, t, y);
+    if (m->worked >= 0) y[m->worked] += fw_multibody_element_energy(sys, pose, v, true) - stored;
+}
+
+static fw_status position_jumps(const fw_dynamics_run *r, double t) {
+    char at[32];
+    return solver_error(fw_diag_error(
+        r->diags, 101, r->problem.scene->place,
+        "a driver or the temperature of scene %s jumps at %s s, but positions must "
+        "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
+        fw_dynamics_scene_name(&r->problem),
+        fw_number_text(at, sizeof at, t * r->problem.model->scale.time_s, 6)));
 }
 
 /* a driver whose speed jumps moves the velocities at once (an impact without rebound); the energy
    that brings or takes is the driver's work */
+static fw_status blow_of_drivers(fw_dynamics_run *r, const fw_maths_stepper *s, double *y) {
+    const fw_multibody_model *m = r->problem.model;
+    fw_multibody_system *sys = r->problem.system;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, s->t, y);
+    double *v = y + m->nq, before = fw_multibody_kinetic_energy(m, v);
+    if (fw_multibody_residual(sys, pose, NULL) > 1e-9 * m->size) return position_jumps(r, s->t);
+    const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
+    if (!factor || !fw_multibody_impact(sys, factor, v)) return stopped(r, s, FW_ODE_SMALL);
+    double after = fw_multibody_kinetic_energy(m, v);
+    if (m->worked >= 0) y[m->worked] += after - before;
+    sys->record.events += fabs(after - before) > 1e-9 * fmax(after, before);
+    return FW_OK;
+}
+
+static double stored_by_elements(const fw_dynamics_problem *problem, double t, const double *y) {
+    const fw_multibody_pose *pose = fw_multibody_pose_at(problem->system, t, y);
+    return fw_multibody_element_energy(problem->system, pose, y + problem->model->nq, true);
+}
+
 static fw_status next_piece(fw_dynamics_run *r, fw_maths_stepper *s, int piece) {
-    fw_multibody_model *m = r->problem.model;
-    double t = s->t, *y = r->control.moved, stored = 0;
+    const fw_dynamics_problem *problem = &r->problem;
+    const fw_multibody_model *m = problem->model;
+    const double *end = problem->end;
+    double *y = r->control.moved, stored = 0;
     memcpy(y, s->y, (size_t)m->ny * sizeof *y);
-    if (m->nelement > 0) {
-        fw_multibody_model_at(m, t); /* samples were taken at other times */
-        fw_multibody_model_pose(m, y);
-        stored = fw_multibody_model_element_energy(m, t, y, true);
-    }
-    m->piece = 0.5 * (r->problem.end[piece - 1] + r->problem.end[piece]) * m->scale.time_s;
-    if (m->driven) {
-        double before = fw_multibody_model_kinetic(m, y + m->nq), psi;
-        psi = fw_multibody_model_residual(m, t, y, m->right);
-        if (psi > 1e-9 * m->size) {
-            char at[32];
-            return solver_error(fw_diag_error(
-                r->diags, 101, r->problem.scene->place,
-                "a driver or the temperature of scene %s jumps at %s s, but positions must "
-                "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
-                fw_dynamics_scene_name(&r->problem),
-                fw_number_text(at, sizeof at, t * m->scale.time_s, 6)));
-        }
-        if (!m->method->factor(m) || !fw_multibody_model_impact(m, t, y + m->nq))
-            return stopped(r, s, FW_ODE_SMALL);
-        double after = fw_multibody_model_kinetic(m, y + m->nq);
-        if (m->worked >= 0) y[m->worked] += after - before;
-        m->events += fabs(after - before) > 1e-9 * fmax(after, before); /* a blow */
-    }
-    if (m->nelement > 0) jump_of_elements(&r->problem, t, y, stored);
-    if (!fw_multibody_friction_decide(m, t, y)) return stopped(r, s, FW_ODE_SMALL);
+    if (m->nelement > 0) stored = stored_by_elements(problem, s->t, y);
+    problem->system->piece_s = 0.5 * (end[piece - 1] + end[piece]) * m->scale.time_s;
+    if (m->driven) FW_TRY(blow_of_drivers(r, s, y));
+    if (m->nelement > 0) jump_of_elements(problem, s->t, y, stored);
+    if (!fw_multibody_friction_decide(problem->system, s->t, y)) return stopped(r, s, FW_ODE_SMALL);
     fw_dynamics_near_zero_forget(&r->control);
     r->record.fresh = true;
-    fw_dynamics_run_start(&r->control, s, t, y, r->problem.end[piece]);
+    fw_dynamics_run_start(&r->control, s, s->t, y, end[piece]);
     return FW_OK;
 }
 
 /* ---- the loop ---- */
 
 static fw_status begin(fw_dynamics_run *r, fw_maths_stepper *s) {
-    fw_multibody_model *m = r->problem.model;
+    fw_multibody_system *sys = r->problem.system;
     fw_dynamics_controller *control = &r->control;
     double *start = r->problem.start;
-    m->projections = m->events = 0;
-    m->worst_position = m->worst_velocity = 0;
-    m->stuck = -1;
-    m->piece = 0.5 * r->problem.end[0] * m->scale.time_s;
+    sys->record = (fw_multibody_record){.stuck = -1};
+    sys->piece_s = 0.5 * r->problem.end[0] * sys->model->scale.time_s;
     control->idle = 0, control->nudge = 0;
     control->taken = 0, control->next_choice_check = control->patience;
-    fw_multibody_model_at(m, 0);
-    fw_multibody_model_set_switches(m, 0, start);
-    fw_multibody_friction_begin(m);
+    fw_multibody_set_switches(sys, 0, start);
+    fw_multibody_friction_begin(sys);
     fw_dynamics_near_zero_begin(control);
-    if (!fw_multibody_friction_decide(m, 0, start)) return stopped(r, s, FW_ODE_SMALL);
+    if (!fw_multibody_friction_decide(sys, 0, start)) return stopped(r, s, FW_ODE_SMALL);
     fw_dynamics_run_start(control, s, 0, start, r->problem.end[0]);
     fw_dynamics_record_begin(&r->record, s->y);
     return FW_OK;
@@ -209,17 +217,17 @@ static fw_status step(fw_dynamics_run *r, fw_maths_stepper *s) {
    turned out to be the wrong choice, and solve starts over */
 static fw_status count(fw_dynamics_run *r, const fw_maths_stepper *s) {
     fw_dynamics_controller *control = &r->control;
-    const fw_multibody_model *m = r->problem.model;
+    const fw_multibody_record *record = &r->problem.system->record;
     bool stuck;
-    if (++control->steps > most_steps(&r->problem) || m->events > fw_most_events)
+    if (++control->steps > most_steps(&r->problem) || record->events > fw_most_events)
         return too_long(r, s);
     control->taken++;
     if (control->trial > 0 && control->taken > control->trial) return FW_LIMIT;
     if (!(control->patience > 0)) return FW_OK;
-    if ((double)(control->taken - 50 * m->events) <= control->next_choice_check) return FW_OK;
+    if ((double)(control->taken - 50 * record->events) <= control->next_choice_check) return FW_OK;
     FW_TRY(fw_dynamics_integrator_stuck(&r->problem, s, &stuck));
     if (stuck) {
-        control->given_up_s = s->t * m->scale.time_s;
+        control->given_up_s = s->t * r->problem.model->scale.time_s;
         return FW_LIMIT;
     }
     control->next_choice_check += 1000; /* looked at again */
@@ -228,8 +236,8 @@ static fw_status count(fw_dynamics_run *r, const fw_maths_stepper *s) {
 
 static fw_status pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_event event,
                       double end) {
-    const fw_multibody_model *m = r->problem.model;
-    long before = m->events;
+    const fw_multibody_record *record = &r->problem.system->record;
+    long before = record->events;
     double met = s->t_old + event.theta * s->h;
     if (event.which >= 0) {
         if (!fw_dynamics_event_pass(&r->control, s, event, end)) {
@@ -238,7 +246,7 @@ static fw_status pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_event
         }
         r->record.fresh = true;
     }
-    fw_dynamics_event_mind_idle(&r->control, s, event, m->events > before, end);
+    fw_dynamics_event_mind_idle(&r->control, s, event, record->events > before, end);
     return FW_OK;
 }
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One scene: two runs (the answer, and a looser one that its error is estimated from), statistics.
- */
+/* One scene: two runs (the answer, and a looser one that its error is estimated from),
+   statistics. */
 #include "dynamics/run.h"
 #include "dynamics/tolerance_control.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -39,14 +39,14 @@ typedef struct pass {
 /* other: the run that this one is compared with, NULL: it is the first. full: the answer. A fixed
  * step has no tolerance: h = rtol^(1/4) scaled makes its error go with rtol, too */
 static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bool full, pass *p) {
-    fw_multibody_model *m = r->problem.model;
+    const fw_multibody_model *m = r->problem.model;
     /* a multistep method chooses its order by what it controls: where the motion is a straight line
        (a joint that sticks to a belt) it would integrate the energies by order 1 */
     bool energies = r->control.integrator->variable_order && !r->control.integrator->implicit;
-    const fw_maths_ode ode = {.context = m,
-                              .rhs = fw_multibody_model_rhs,
-                              .lean = fw_multibody_model_lean_rhs,
-                              .project = fw_multibody_model_project,
+    const fw_maths_ode ode = {.context = r->problem.system,
+                              .rhs = fw_multibody_rhs,
+                              .lean = fw_multibody_rhs_motion,
+                              .project = fw_multibody_project,
                               .n = m->ny,
                               .controlled = energies ? m->ny : 2 * m->nq,
                               .positions = m->nq};
@@ -86,16 +86,17 @@ static double least_energy(const fw_multibody_model *m) {
 static void take_statistics(fw_dynamics_recorder *record, const fw_maths_stepper *s, double rtol,
                             double cpu_s) {
     const fw_multibody_model *m = record->problem->model;
+    const fw_multibody_record *kept = &record->problem->system->record;
     const fw_multibody_scale unit = m->scale;
     fw_dynamics_motion_stats *stats = &record->motion->stats;
     double speed = unit.length_m / unit.time_s;
     stats->cpu_s = cpu_s;
     stats->steps = s->steps, stats->rejected = s->rejected, stats->rhs = s->rhs;
     stats->jacobians = s->jacobians, stats->factorisations = s->factorisations;
-    stats->projections = m->projections;
-    stats->events = m->events;
-    stats->max_constraint_norm = m->worst_position;
-    stats->max_velocity_norm = m->worst_velocity;
+    stats->projections = kept->projections;
+    stats->events = kept->events;
+    stats->max_constraint_norm = kept->worst_position;
+    stats->max_velocity_norm = kept->worst_velocity;
     stats->energy_error = record->drift / fmax(record->largest, least_energy(m));
     stats->largest_energy_J = record->largest * unit.mass_kg * speed * speed;
     stats->rtol = rtol;
@@ -159,8 +160,7 @@ static double difference_counts(const fw_dynamics_run *r, const pass *fine, cons
    cases); and round-off. Output rad. At a hundred times the tolerance, where differences count
    whole: never below the true error in 60 000 random cases (at ten times it was in 7 of 80 000),
    and about a thousand times above it in the geometric mean. Nearer ones: tolerance_control.c.
-   Source:
-   tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test: test_peak.c. */
+   Source: tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test: test_peak.c. */
 static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *coarse) {
     const fw_maths_stepper *s = fine->stepper;
     r->record.motion->stats.estimate_margin = fw_dynamics_run_margin(&r->control);
@@ -346,7 +346,7 @@ static fw_status steer(fw_dynamics_run *r) {
             continue;
         }
         FW_TRY(status);
-        if (r->problem.model->events > 0 && !r->problem.options->unsettled)
+        if (r->problem.system->record.events > 0 && !r->problem.options->unsettled)
             r->control.trust *= fw_trust_events, r->control.part *= fw_part_events;
         estimate_errors(r, &two.fine, &two.coarse);
         double off = r->record.motion->ended ? 0 : fw_dynamics_run_error_ratio(&r->record);
@@ -399,9 +399,9 @@ static void set_stabilisation(fw_dynamics_recorder *record) {
     const char *wanted =
         record->problem->options->stabilise ? record->problem->options->stabilise : "projection";
     record->motion->stabilise = wanted;
-    record->problem->model->projecting = strcmp(wanted, "projection") == 0;
+    record->problem->system->projecting = strcmp(wanted, "projection") == 0;
     /* both roots at 5 per scaled unit of time: some five times faster than the motion itself */
-    record->problem->model->baumgarte = strcmp(wanted, "baumgarte") == 0 ? 5 : 0;
+    record->problem->system->baumgarte = strcmp(wanted, "baumgarte") == 0 ? 5 : 0;
 }
 
 static fw_status report_method(fw_dynamics_recorder *record) {
@@ -410,7 +410,7 @@ static fw_status report_method(fw_dynamics_recorder *record) {
     if (!method->report) return FW_OK;
     fw_text text = fw_text_new(record->problem->arena);
     if (record->problem->why) fw_text_printf(&text, "%s; ", record->problem->why);
-    FW_TRY(method->report(record->problem->model, record->problem->mechanism, &text));
+    FW_TRY(method->report(record->problem->system, record->problem->mechanism, &text));
     FW_TRY(fw_text_end(&text));
     record->motion->method_report = text.data;
     return FW_OK;
@@ -472,8 +472,9 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
     FW_TRY(fw_effects_strain(arena, mechanism, loads, &problem->mechanism));
     FW_TRY(assembled(&r, loads));
     FW_TRY(fw_multibody_model_new(arena, problem->mechanism, loads, problem->q0, scene->duration_s,
-                                  fw_multibody_method_find(result->method), diags,
-                                  &problem->model));
+                                  fw_multibody_method_find(result->method), &problem->model));
+    FW_TRY(fw_multibody_system_new(arena, problem->model, problem->mechanism, diags,
+                                   &problem->system));
     FW_TRY(fw_dynamics_run_arrays(&r));
     set_stabilisation(&r.record);
     problem->most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;

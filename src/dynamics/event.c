@@ -2,50 +2,48 @@
 /* The first event of a step: where a stop, a cable, a switch of an element or the state of a joint
    with friction no longer fits its flag. Looked for on the dense output at FW_PLACES + 1 places,
    and between them wherever a touch may be shorter than their spacing; found to round-off. Entries
-   are numbered as fw_multibody_model_switches has them, then the joints with friction. Test:
-   test_events.c,
-   test_friction.c. */
+   are numbered as switches are (multibody_events.c), then the joints with friction. Test:
+   test_events.c, test_friction.c. */
 #include "dynamics/run.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* r->moved at theta, posed; returns the time */
-static double stand_at(fw_dynamics_controller *control, fw_maths_stepper *s, double theta) {
+/* control->moved at theta, and its pose */
+static const fw_multibody_pose *stand_at(fw_dynamics_controller *control, fw_maths_stepper *s,
+                                         double theta) {
     fw_maths_stepper_dense(s, theta, control->moved);
-    fw_multibody_model_at(control->problem->model, s->t_old + theta * s->h);
-    fw_multibody_model_pose(control->problem->model, control->moved);
-    return s->t_old + theta * s->h;
+    return fw_multibody_pose_at(control->problem->system, s->t_old + theta * s->h, control->moved);
 }
 
 /* how well switch i fits its flag: >= 0 fits, its value with the sign of the flag */
 static double fitting(const fw_dynamics_problem *problem, int i, double value) {
-    if (fw_multibody_model_switch_on(problem->model, i))
+    if (fw_multibody_switch_on(problem->system, i))
         return value > 0 ? value : fmin(value, -DBL_MIN);
     return value > 0 ? -value : fabs(value);
 }
 
 static double fitness(fw_dynamics_controller *control, fw_maths_stepper *s, int i, double theta) {
-    double t = stand_at(control, s, theta);
-    int friction = i - fw_multibody_model_switches(control->problem->model);
+    const fw_dynamics_problem *problem = control->problem;
+    const fw_multibody_pose *pose = stand_at(control, s, theta);
+    const double *v = control->moved + problem->model->nq;
+    int friction = i - fw_multibody_switch_count(problem->model);
     if (friction < 0)
-        return fitting(
-            control->problem, i,
-            fw_multibody_model_switch_value(control->problem->model, t, i, control->moved));
-    fw_multibody_friction_fits(control->problem->model, t, control->moved, control->friction_fit);
+        return fitting(problem, i, fw_multibody_switch_value(problem->system, pose, i, v));
+    fw_multibody_friction_fits(problem->system, pose->t, control->moved, control->friction_fit);
     return control->friction_fit[friction];
 }
 
 /* of all entries at place k, which share their evaluations */
 static void look_at_place(fw_dynamics_controller *control, fw_maths_stepper *s, int k, double *f) {
-    fw_multibody_model *m = control->problem->model;
-    int switches = fw_multibody_model_switches(m);
-    double t = stand_at(control, s, (double)k / FW_PLACES);
-    fw_multibody_model_switch_values(m, t, control->moved, f);
+    const fw_multibody_model *m = control->problem->model;
+    fw_multibody_system *sys = control->problem->system;
+    int switches = fw_multibody_switch_count(m);
+    const fw_multibody_pose *pose = stand_at(control, s, (double)k / FW_PLACES);
+    fw_multibody_switch_values(sys, pose, control->moved + m->nq, f);
     for (int i = 0; i < switches; i++)
         f[i] = fitting(control->problem, i, f[i]);
-    if (fw_multibody_friction_count(m) > 0)
-        fw_multibody_friction_fits(m, t, control->moved, f + switches);
+    if (m->nfriction > 0) fw_multibody_friction_fits(sys, pose->t, control->moved, f + switches);
 }
 
 /* first place in (low, high] where entry i does not fit, given that it does at low and not at
@@ -112,11 +110,11 @@ static double first_unfit(fw_dynamics_controller *control, fw_maths_stepper *s, 
 
 /* What is found at the next place lies beyond the place before this one. */
 fw_dynamics_event fw_dynamics_event_first(fw_dynamics_controller *control, fw_maths_stepper *s) {
-    fw_multibody_model *m = control->problem->model;
-    int count = fw_multibody_model_switches(m) + fw_multibody_friction_count(m);
+    const fw_multibody_model *m = control->problem->model;
+    int count = fw_multibody_switch_count(m) + m->nfriction;
     fw_dynamics_event first = {.which = -1, .theta = 1};
     if (count == 0) return first;
-    fw_multibody_friction_track(m, s->y);
+    fw_multibody_friction_track(control->problem->system, s->y);
     memset(control->unfit, 0, (size_t)count * sizeof *control->unfit);
     for (int k = 0; k <= FW_PLACES; k++) {
         if (first.which >= 0 && first.theta <= (k - 2.0) / FW_PLACES) break;
@@ -162,22 +160,17 @@ bool fw_dynamics_event_aim(fw_dynamics_controller *control, fw_maths_stepper *s,
 
 bool fw_dynamics_event_pass(fw_dynamics_controller *control, fw_maths_stepper *s,
                             fw_dynamics_event event, double end) {
-    fw_multibody_model *m = control->problem->model;
+    const fw_multibody_model *m = control->problem->model;
+    fw_multibody_system *sys = control->problem->system;
     double t = s->t_old + event.theta * s->h, *y = control->moved;
-    int friction = event.which - fw_multibody_model_switches(m);
+    int friction = event.which - fw_multibody_switch_count(m);
     fw_maths_stepper_dense(s, event.theta, y);
-    fw_multibody_model_at(m, t);
     if (friction < 0)
-        fw_multibody_model_flip(m, t, event.which, y);
+        fw_multibody_flip(sys, t, event.which, y);
     else
-        fw_multibody_friction_meet(m, friction);
-    if (m->projecting) {
-        fw_multibody_model_pose(m, y);
-        if (!m->method->factor(m) || !fw_multibody_model_project_position(m, t, y) ||
-            !m->method->factor(m) || !fw_multibody_model_project_velocity(m, t, y + m->nq))
-            return false;
-    }
-    if (!fw_multibody_friction_decide(m, t, y)) return false;
+        fw_multibody_friction_meet(sys, friction);
+    if (sys->projecting && !fw_multibody_close_state(sys, t, y)) return false;
+    if (!fw_multibody_friction_decide(sys, t, y)) return false;
     fw_dynamics_near_zero_forget(control);
     fw_dynamics_run_start(control, s, t, y, end);
     return true;

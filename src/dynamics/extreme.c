@@ -4,7 +4,7 @@
    drivers. */
 #include "dynamics/run.h"
 #include "base/constants.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include <float.h>
 #include <math.h>
 
@@ -40,14 +40,16 @@ fw_status fw_dynamics_run_extremes_new(fw_dynamics_recorder *record) {
 
 /* all channels at theta; distances of prismatic joints are those of the state as integrated */
 static void channels_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta) {
-    fw_multibody_model *m = record->problem->model;
+    const fw_multibody_model *m = record->problem->model;
+    fw_multibody_system *sys = record->problem->system;
     const fw_mechanism *from = record->problem->mechanism;
     fw_maths_stepper_dense(s, theta, record->state);
-    fw_multibody_model_react(m, s->t_old + theta * s->h, record->state, record->rate);
+    const double t = s->t_old + theta * s->h;
+    const fw_multibody_solution *found = fw_multibody_react(sys, t, record->state, record->rate);
     double *force = record->channel_now, *torque = force + m->npin + m->njoint,
            *travel = torque + m->njoint;
-    fw_multibody_pin_forces(m, record->pin_now);
-    fw_multibody_joint_forces(m, from, record->joint_now, travel + m->njoint);
+    fw_multibody_pin_forces(m, found, record->pin_now);
+    fw_multibody_joint_forces(m, found, from, record->joint_now, travel + m->njoint);
     for (int i = 0; i < m->npin; i++)
         force[i] = hypot(record->pin_now[2 * i], record->pin_now[2 * i + 1]);
     for (int i = 0; i < m->njoint; i++) {
@@ -56,7 +58,7 @@ static void channels_at(fw_dynamics_recorder *record, fw_maths_stepper *s, doubl
         torque[i] = from->joint[i].kind == FW_JOINT_DISTANCE ? 0 : record->joint_now[3 * i + 2];
         travel[i] = 0;
         if (from->joint[i].kind != FW_JOINT_PRISMATIC) continue;
-        fw_multibody_model_frame(m, m->joint_block[i], record->state, d, e, n);
+        fw_multibody_frame(m, found->pose, m->joint_block[i], d, e, n);
         travel[i] = (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->joint[i].free_length_m;
     }
 }

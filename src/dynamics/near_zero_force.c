@@ -5,12 +5,11 @@
      |F(t)| = c hypot(t - t0, w),   c = |F'|,  t0 = t - F.F'/c^2,  w = |F x F'|/c^2
 
    a corner that is rounded over the time w. Its branch points t0 +- i w are the only singular
-   points
-   of the motion nearby. The error estimate of a Runge-Kutta step is a weighted sum of its stages
-   and vanishes for some places of a corner in the step where the error does not; as steps are tried
-   at ever shorter lengths until one is accepted, such places are even looked for, and errors of
-   1000 tolerances pass. So the branch points are located and the length of the step is chosen by
-   what they can do:
+   points of the motion nearby. The error estimate of a Runge-Kutta step is a weighted sum of its
+   stages and vanishes for some places of a corner in the step where the error does not; as steps
+   are tried at ever shorter lengths until one is accepted, such places are even looked for, and
+   errors of 1000 tolerances pass. So the branch points are located and the length of the step is
+   chosen by what they can do:
 
      |error of the integral of |F|| <= 32/p^2 c h m R^-p
      R = A + sqrt(A^2 - 1),  A = (|z - 1| + |z + 1|)/2,  z = (t0 + i w - middle)/(h/2)
@@ -21,17 +20,15 @@
    the step through the branch points, m the size of what no polynomial follows, p^2 stands for the
    number of stages. Times the accelerations of a unit force in units of the tolerance it has to be
    below 0.4. A step may end at t0: a sharp corner (w = 0) costs one step made again or two, a
-   rounded
-   one some steps down to w and up again. The sum of these bounds, as displacements, is part of the
-   errors that are stated.
+   rounded one some steps down to w and up again. The sum of these bounds, as displacements, is part
+   of the errors that are stated.
 
    Inputs scaled; methods with error control and without a memory. Cost of a step with joints that
    slip: two right-hand sides, two more where the parabola through the first ones comes near 0;
    without friction none. Error of the bound: for five integrators never below the truth, 5 to 40
    times above it in the median. F is smooth but for what friction adds to it, less than F itself
-   where nothing jams.
-   Source: Trefethen, Approximation Theory and Approximation Practice, 2013, ch. 8 (ellipse); the
-   factors are measured. Test: test_kink.c, test_hard_kink.c. */
+   where nothing jams. Source: Trefethen, Approximation Theory and Approximation Practice, 2013, ch.
+   8 (ellipse); the factors are measured. Test: test_kink.c, test_hard_kink.c. */
 #include "dynamics/run.h"
 #include <float.h>
 #include <math.h>
@@ -54,7 +51,7 @@ struct fw_dynamics_near_zero {
     double *centre, *width, *speed; /* (n) t0, w, c of the branch points next to the last step */
     double *found;                  /* (3 n) those inside it */
     double *most;                   /* (n) largest acceleration per unit of force */
-    double *rate;                   /* (nq) work: accelerations of a unit force */
+    double *drag;                   /* (n x nq) accelerations of a unit force, amid the step */
     double now;                     /* what the last step may move anything by: scaled velocity */
     double sum[FW_MARKS]; /* displacements by steps that begin in each part of the scene */
     bool known;           /* `last` is that of the state at hand */
@@ -62,7 +59,7 @@ struct fw_dynamics_near_zero {
 };
 
 fw_status fw_dynamics_near_zero_new(fw_dynamics_controller *control) {
-    size_t n = (size_t)fw_multibody_friction_count(control->problem->model);
+    size_t n = (size_t)control->problem->model->nfriction;
     struct fw_dynamics_near_zero *k;
     if (n == 0) return FW_OK;
     FW_NEED(k = fw_arena_one(control->problem->arena, struct fw_dynamics_near_zero));
@@ -75,8 +72,8 @@ fw_status fw_dynamics_near_zero_new(fw_dynamics_controller *control) {
     FW_NEED(k->width = fw_arena_array(control->problem->arena, double, n));
     FW_NEED(k->speed = fw_arena_array(control->problem->arena, double, n));
     FW_NEED(k->found = fw_arena_array(control->problem->arena, double, 3 * n));
-    FW_NEED(k->rate = fw_arena_array(control->problem->arena, double,
-                                     (size_t)control->problem->model->nq));
+    FW_NEED(k->drag = fw_arena_array(control->problem->arena, double,
+                                     n *(size_t)control->problem->model->nq));
     control->near_zero = k;
     return FW_OK;
 }
@@ -147,13 +144,13 @@ void fw_dynamics_near_zero_limit(const fw_dynamics_controller *control, fw_maths
 /* ---- looking at a step ---- */
 
 static void press_at(fw_dynamics_controller *control, fw_maths_stepper *s, double theta,
-                     double *force) {
+                     double *force, double *drag) {
     if (theta < 1)
         fw_maths_stepper_dense(s, theta, control->moved);
     else
         memcpy(control->moved, s->y, (size_t)control->problem->model->ny * sizeof *control->moved);
-    fw_multibody_friction_pressing(control->problem->model, s->t_old + theta * s->h, control->moved,
-                                   force);
+    fw_multibody_friction_pressing(control->problem->system, s->t_old + theta * s->h,
+                                   control->moved, force, drag);
 }
 
 /* places first .. count - 1 of the step, as divided differences behind those that are there */
@@ -164,7 +161,7 @@ static void sample(fw_dynamics_controller *control, fw_maths_stepper *s, int fir
         if (p == 0 && k->known)
             memcpy(f, k->last, 2 * (size_t)k->n * sizeof *f);
         else
-            press_at(control, s, fw_along[p], f);
+            press_at(control, s, fw_along[p], f, p + 1 == COARSE ? k->drag : NULL);
         if (p == 1) memcpy(control->near_zero->last, f, 2 * (size_t)k->n * sizeof *f);
         for (int before = 0; before < p; before++)
             for (int c = 0; c < 2 * k->n; c++)
@@ -232,18 +229,16 @@ static bool far(const struct fw_dynamics_near_zero *k, const fw_maths_stepper *s
 }
 
 /* accelerations of a unit force that presses joint i: the largest, and by the norm of
-   fw_maths_ode_norm,
-   in tolerances per unit of time */
+   fw_maths_ode_norm, in tolerances per unit of time */
 static void weigh(fw_dynamics_controller *control, const fw_maths_stepper *s, int i) {
     const int nq = control->problem->model->nq;
+    const double *drag = control->near_zero->drag + (size_t)i * (size_t)nq;
     double sum = 0;
     control->near_zero->most[i] = 0;
-    fw_multibody_friction_drags(control->problem->model, i, control->near_zero->rate);
     for (int c = 0; c < nq; c++) {
-        double x = control->near_zero->rate[c] / (s->atol[nq + c] + s->rtol * fabs(s->y[nq + c]));
+        double x = drag[c] / (s->atol[nq + c] + s->rtol * fabs(s->y[nq + c]));
         sum += x * x;
-        control->near_zero->most[i] =
-            fmax(control->near_zero->most[i], fabs(control->near_zero->rate[c]));
+        control->near_zero->most[i] = fmax(control->near_zero->most[i], fabs(drag[c]));
     }
     control->near_zero->weight[i] = sqrt(sum / s->ode.controlled);
 }
@@ -285,7 +280,7 @@ static void add(fw_dynamics_controller *control, double t) {
 
 bool fw_dynamics_near_zero_again(fw_dynamics_controller *control, fw_maths_stepper *s) {
     struct fw_dynamics_near_zero *k = control->near_zero;
-    if (idle(control, s) || !fw_multibody_friction_slips(control->problem->model)) return false;
+    if (idle(control, s) || !fw_multibody_friction_slips(control->problem->system)) return false;
     double h = s->h;
     bool again = unsafe(control, s) && ++k->tries <= MOST_TRIES;
     k->known = true;

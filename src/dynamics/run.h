@@ -6,7 +6,7 @@
 #include "assembly/assembly.h"
 #include "dynamics/dynamics.h"
 #include "maths/ode.h"
-#include "multibody/model.h"
+#include "multibody/method.h"
 
 /* peak.c */
 typedef struct fw_dynamics_peaks {
@@ -59,13 +59,14 @@ typedef struct fw_dynamics_extreme {
 enum { FW_PLACES = 16 }; /* parts of a step at whose ends switches are looked at */
 
 /* What is to be moved and on what terms. It is settled before the first step; from then on only the
-   data of the model move. */
+   system moves. */
 typedef struct fw_dynamics_problem {
     fw_arena *arena;
     const fw_mechanism *mechanism;
     const fw_device_scene *scene;
     const fw_dynamics_motion_options *options;
-    fw_multibody_model *model;
+    const fw_multibody_model *model;
+    fw_multibody_system *system;
     double *q0;        /* (3 nbody) assembled, SI */
     double *start;     /* (ny) scaled */
     double amplitude;  /* scaled size of the motion: the absolute tolerance is rtol times this */
@@ -178,8 +179,8 @@ bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
 /* early: the run ended at scaled time t, before the scene does */
 void fw_dynamics_record_end(fw_dynamics_recorder *record, bool early, double t);
 enum { FW_GRID = 8 };
-typedef struct
-    fw_dynamics_grid { /* places in a step and the weights of the polynomial through them */
+/* places in a step and the weights of the polynomial through them */
+typedef struct fw_dynamics_grid {
     int last;
     double at[FW_GRID + 1], weight[FW_GRID + 1]; /* at: of the way to theta_end */
 } fw_dynamics_grid;
@@ -243,7 +244,7 @@ void fw_dynamics_near_zero_uncertainty(const fw_dynamics_controller *control,
 double fw_dynamics_near_zero_error(double start, double end, double centre, double width,
                                    int order);
 
-/* from start to end with one stepper; counts and norms are in model and stepper */
+/* from start to end with one stepper; counts and norms are in system and stepper */
 fw_status fw_dynamics_run_pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks);
 
 #endif

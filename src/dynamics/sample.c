@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the steps: evenly spaced rows, the observer's instants. All from the dense
    output; rows are projected like accepted steps. */
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>
@@ -19,34 +19,34 @@ static void pose_in_SI(const fw_dynamics_problem *problem, const double *y, doub
     }
 }
 
-/* behind everything else of a row: the residual leaves nothing that the next step reads */
 static void store_energy(fw_dynamics_recorder *record, size_t row, double t, const double *y) {
-    fw_multibody_model *m = record->problem->model;
+    const fw_multibody_model *m = record->problem->model;
+    fw_multibody_system *sys = record->problem->system;
     double speed = m->scale.length_m / m->scale.time_s, joule = m->scale.mass_kg * speed * speed;
-    fw_multibody_model_at(m, t);
-    fw_multibody_model_pose(m, y);
-    const fw_multibody_energy e = fw_multibody_model_energy(m, t, y);
+    const fw_multibody_energy e = fw_multibody_energy_at(sys, t, y);
     double *out = record->motion->energy_J + 4 * row;
     out[0] = joule * e.kinetic, out[1] = joule * e.elastic;
     out[2] = joule * e.dissipated, out[3] = joule * e.work;
-    record->motion->constraint_norm[row] = fw_multibody_model_residual(m, t, y, m->right);
+    record->motion->constraint_norm[row] =
+        fw_multibody_residual(sys, fw_multibody_pose_at(sys, t, y), NULL);
 }
 
 static void store(fw_dynamics_recorder *record, double t_s, double t, const double *y) {
     fw_dynamics_motion *out = record->motion;
-    fw_multibody_model *m = record->problem->model;
+    const fw_multibody_model *m = record->problem->model;
     const fw_multibody_scale s = m->scale;
     size_t row = (size_t)record->row, base = row * (size_t)m->nq;
     out->t_s[row] = t_s;
     pose_in_SI(record->problem, y, out->q + base, out->angle_rad + row * (size_t)out->npin);
-    fw_multibody_model_react(m, t, y, record->rate);
+    const fw_multibody_solution *found =
+        fw_multibody_react(record->problem->system, t, y, record->rate);
     for (int i = 0; i < m->nq; i++) {
         double unit = (i % 3 == 2 ? 1 : s.length_m) / s.time_s;
         out->v[base + (size_t)i] = unit * y[m->nq + i];
         out->accel[base + (size_t)i] = unit / s.time_s * record->rate[m->nq + i];
     }
-    fw_multibody_pin_forces(m, out->reaction_N + row * 2 * (size_t)out->npin);
-    fw_multibody_joint_forces(m, record->problem->mechanism,
+    fw_multibody_pin_forces(m, found, out->reaction_N + row * 2 * (size_t)out->npin);
+    fw_multibody_joint_forces(m, found, record->problem->mechanism,
                               out->joint_N + row * 3 * (size_t)out->njoint,
                               out->driver_N + row * (size_t)out->ndriver);
     if (out->energy_J) store_energy(record, row, t, y);
@@ -69,23 +69,24 @@ static void first_sample(fw_dynamics_recorder *record, const double *y) {
    singular position that Newton's method goes astray, the row stays as integrated, within the
    tolerance, and the constraint norm tells. */
 static bool settle(fw_dynamics_recorder *record, double t, double *y) {
-    fw_multibody_model *m = record->problem->model;
-    if (!m->projecting) return true;
-    memcpy(record->kept, y, (size_t)m->nq * sizeof *y);
-    fw_multibody_model_at(m, t);
-    fw_multibody_model_pose(m, y);
-    if (!m->method->factor(m)) return false;
-    if (!fw_multibody_model_project_position(m, t, y)) {
-        memcpy(y, record->kept, (size_t)m->nq * sizeof *y);
-        double norm = fw_multibody_model_residual(m, t, y, m->right);
+    fw_multibody_system *sys = record->problem->system;
+    size_t bytes = (size_t)sys->model->nq * sizeof *y;
+    if (!sys->projecting) return true;
+    memcpy(record->kept, y, bytes);
+    const fw_multibody_pose *pose = fw_multibody_close_position(sys, t, y);
+    if (!pose) {
+        memcpy(y, record->kept, bytes);
+        pose = fw_multibody_pose_at(sys, t, y);
+        double norm = fw_multibody_residual(sys, pose, NULL);
         if (!(norm < (double)INFINITY)) return false;
-        m->worst_position = fmax(m->worst_position, norm);
+        sys->record.worst_position = fmax(sys->record.worst_position, norm);
     }
-    return m->method->factor(m) && fw_multibody_model_project_velocity(m, t, y + m->nq);
+    const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
+    return factor && fw_multibody_project_velocity(sys, factor, y + sys->model->nq);
 }
 
 static bool samples(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
-    fw_multibody_model *m = record->problem->model;
+    const fw_multibody_model *m = record->problem->model;
     double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
     double final = fw_dynamics_end(record->problem);
     for (; record->row < record->motion->nsample;) {
@@ -118,9 +119,9 @@ static void show_start(fw_dynamics_recorder *record) {
 static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta,
                       double *force) {
     fw_maths_stepper_dense(s, theta, record->state);
-    fw_multibody_model_react(record->problem->model, s->t_old + theta * s->h, record->state,
-                             record->rate);
-    fw_multibody_pin_forces(record->problem->model, force);
+    const fw_multibody_solution *found = fw_multibody_react(
+        record->problem->system, s->t_old + theta * s->h, record->state, record->rate);
+    fw_multibody_pin_forces(record->problem->model, found, force);
 }
 
 /* Where states are interpolated between a method's own ones, stiff axes make large forces of the
@@ -166,11 +167,8 @@ static void show(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta
 
 /* ---- energy ---- */
 
-/* the energy of models that have a kernel needs no arms: no loads or springs at points */
 static void watch_energy(fw_dynamics_recorder *record, double t, const double *y) {
-    fw_multibody_model_at(record->problem->model, t);
-    if (!record->problem->model->kernel) fw_multibody_model_pose(record->problem->model, y);
-    fw_multibody_energy e = fw_multibody_model_energy(record->problem->model, t, y);
+    fw_multibody_energy e = fw_multibody_energy_at(record->problem->system, t, y);
     double balance = e.kinetic + e.elastic + e.dissipated - e.work;
     double start = record->first.kinetic + record->first.elastic + record->first.dissipated -
                    record->first.work;
@@ -181,9 +179,7 @@ static void watch_energy(fw_dynamics_recorder *record, double t, const double *y
 }
 
 static void first_energy(fw_dynamics_recorder *record, const double *y) {
-    fw_multibody_model_at(record->problem->model, 0);
-    fw_multibody_model_pose(record->problem->model, y);
-    record->first = fw_multibody_model_energy(record->problem->model, 0, y);
+    record->first = fw_multibody_energy_at(record->problem->system, 0, y);
     record->drift = 0;
     record->largest = record->first.kinetic + fabs(record->first.elastic);
 }

@@ -83,7 +83,7 @@ static fw_status pieces(fw_dynamics_problem *problem, const fw_effects_loads *lo
         at[i] /= unit;
     problem->end = at;
     problem->npiece = kept;
-    problem->model->piece = 0.5 * at[0] * unit;
+    problem->system->piece_s = 0.5 * at[0] * unit;
     return FW_OK;
 }
 
@@ -135,46 +135,6 @@ static fw_status note_stated(const fw_dynamics_problem *problem, bool **stated) 
     return FW_OK;
 }
 
-/* one correction v += M^-1 G^T lambda onto G v = -Psi_t with the masses as they are now */
-static bool correct_velocity(fw_multibody_model *m, double *v) {
-    fw_multibody_chain_assemble(m);
-    if (!fw_multibody_chain_factor(&m->chain, fw_epsilon)) return false;
-    fw_multibody_model_jacobian(m, v, m->right);
-    fw_multibody_model_drift(m, 0, m->drift);
-    for (int i = 0; i < 2 * m->nblock; i++)
-        m->right[i] += m->drift[i];
-    fw_multibody_chain_proximal(m, m->right, m->lambda);
-    fw_multibody_model_apply(m, m->lambda, v);
-    return true;
-}
-
-/* What <initial> does not state follows what it does: the correction is found with masses and
-   inertias a million times smaller there, thrice, each time from the velocities that were stated,
-   so that what is stated and fits stays to 1e-18. Posed model; v, work (3 nbody). */
-static bool follow_stated(fw_multibody_model *m, const bool *stated, const double *given, double *v,
-                          double *work) {
-    double *minv = work, *jinv = work + m->nbody;
-    int count = 0;
-    bool good = true;
-    for (int i = 0; i < m->nq; i++)
-        count += stated[i];
-    if (count == 0 || count == m->nq) return true;
-    memcpy(minv, m->minv, (size_t)m->nbody * sizeof *minv);
-    memcpy(jinv, m->jinv, (size_t)m->nbody * sizeof *jinv);
-    for (int b = 0; b < m->nbody; b++) {
-        if (!stated[3 * b]) m->minv[b] *= 1e6;
-        if (!stated[3 * b + 2]) m->jinv[b] *= 1e6;
-    }
-    for (int pass = 0; pass < 3 && good; pass++) {
-        for (int i = 0; i < m->nq; i++)
-            if (stated[i]) v[i] = given[i];
-        good = correct_velocity(m, v);
-    }
-    memcpy(m->minv, minv, (size_t)m->nbody * sizeof *minv);
-    memcpy(m->jinv, jinv, (size_t)m->nbody * sizeof *jinv);
-    return good;
-}
-
 static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double *given,
                             const double *v) {
     double size = 0, moved = 0;
@@ -184,8 +144,8 @@ static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double
     }
     r->record.motion->stats.velocity_moved = size > 0 ? moved / size : 0;
     if (!(size > 0 && moved > 1e-6 * size)) return;
-    double before = fw_multibody_model_kinetic(r->problem.model, given),
-           after = fw_multibody_model_kinetic(r->problem.model, v);
+    double before = fw_multibody_kinetic_energy(r->problem.model, given),
+           after = fw_multibody_kinetic_energy(r->problem.model, v);
     char most[32], energy[32];
     fw_diag_warning(r->diags, 106, r->problem.scene->place,
                     "initial velocities of scene %s contradict the joints; they were changed by up "
@@ -206,60 +166,65 @@ static fw_status cannot_start(const fw_dynamics_run *r) {
 
 /* Velocities start as if all pins were joints, also those that elements stand for: they then start
    without a stretch and without its rate, whatever the scene states. */
-static fw_status closed_model(fw_dynamics_run *r, const fw_effects_loads *loads,
-                              fw_multibody_model **closed) {
+static fw_status closed_system(fw_dynamics_run *r, const fw_effects_loads *loads,
+                               fw_multibody_system **closed) {
+    const fw_dynamics_problem *problem = &r->problem;
     fw_effects_loads all = *loads;
-    *closed = r->problem.model;
-    if (r->problem.model->nreleased == 0) return FW_OK;
+    const fw_multibody_model *model;
+    *closed = problem->system;
+    if (problem->model->nreleased == 0) return FW_OK;
     all.released = NULL;
-    FW_TRY(fw_multibody_model_new(r->problem.arena, r->problem.mechanism, &all, r->problem.q0,
-                                  r->problem.scene->duration_s, NULL, r->diags, closed));
-    (*closed)->piece = r->problem.model->piece;
+    FW_TRY(fw_multibody_model_new(problem->arena, problem->mechanism, &all, problem->q0,
+                                  problem->scene->duration_s, NULL, &model));
+    FW_TRY(fw_multibody_system_new(problem->arena, model, problem->mechanism, r->diags, closed));
+    (*closed)->piece_s = problem->system->piece_s;
     return FW_OK;
 }
 
-/* the positions of y onto the joints of m, the velocities v too; given: and as near to that as the
+/* the positions of y onto the joints, the velocities v too; given: and as near to that as the
    joints allow */
-static bool onto_joints(fw_multibody_model *m, const bool *stated, const double *given, double *y,
-                        double *v, double *work) {
-    fw_multibody_model_pose(m, y);
-    if (!m->method->factor(m) || !fw_multibody_model_project_position(m, 0, y)) return false;
-    fw_multibody_model_pose(m, y);
-    if (given && !follow_stated(m, stated, given, v, work)) return false;
-    return m->method->factor(m) && fw_multibody_model_impact(m, 0, v);
+static bool onto_joints(fw_multibody_system *sys, const bool *stated, const double *given,
+                        double *y, double *v, double *work) {
+    const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, y);
+    if (!pose) return false;
+    if (given && !fw_multibody_follow_stated(sys, pose, stated, given, v, work)) return false;
+    const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
+    return factor && fw_multibody_impact(sys, factor, v);
 }
 
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads) {
-    fw_multibody_model *m = r->problem.model, *closed;
+    const fw_multibody_model *m = r->problem.model;
+    fw_multibody_system *sys = r->problem.system, *closed;
     const fw_multibody_scale s = m->scale;
     double *v = r->problem.start + m->nq, *given = r->record.state;
     bool *stated;
     FW_TRY(note_stated(&r->problem, &stated));
     for (int i = 0; i < m->nq; i++)
         v[i] = given[i] = loads->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
-    FW_TRY(closed_model(r, loads, &closed));
+    FW_TRY(closed_system(r, loads, &closed));
     bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
-    if (good && closed != m)
-        good = onto_joints(m, stated, NULL, r->problem.start, v, r->record.rate);
+    if (good && closed != sys)
+        good = onto_joints(sys, stated, NULL, r->problem.start, v, r->record.rate);
     if (!good) return cannot_start(r);
     warn_velocities(r, stated, given, v);
-    fw_multibody_model_set_switches(m, 0, r->problem.start);
+    fw_multibody_set_switches(sys, 0, r->problem.start);
     FW_TRY(fw_dynamics_run_valid(r, 0, r->problem.start));
-    fw_multibody_friction_begin(m);
-    if (fw_multibody_friction_decide(m, 0, r->problem.start)) return FW_OK;
+    fw_multibody_friction_begin(sys);
+    if (fw_multibody_friction_decide(sys, 0, r->problem.start)) return FW_OK;
     FW_TRY(fw_dynamics_run_jammed(r, 0));
     return cannot_start(r);
 }
 
 fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y) {
-    fw_multibody_model *m = r->problem.model;
+    const fw_multibody_model *m = r->problem.model;
     const char *why = "";
     char time[32];
     if (m->nelement == 0) return FW_OK;
-    fw_multibody_model_pose(m, y);
-    const fw_effects_force_element *e = fw_multibody_model_element_invalid(m, t, y, &why);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(r->problem.system, t, y);
+    const fw_effects_force_element *e =
+        fw_multibody_element_invalid(r->problem.system, pose, y + m->nq, &why);
     if (!e) return FW_OK;
     fw_status status =
         fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id,
@@ -318,8 +283,8 @@ static fw_status recorder_arrays(fw_dynamics_recorder *record) {
 static fw_status controller_arrays(fw_dynamics_controller *control) {
     const fw_multibody_model *model = control->problem->model;
     fw_arena *arena = control->problem->arena;
-    size_t friction = (size_t)fw_multibody_friction_count(model);
-    size_t entries = (size_t)fw_multibody_model_switches(model) + friction;
+    size_t friction = (size_t)model->nfriction;
+    size_t entries = (size_t)fw_multibody_switch_count(model) + friction;
     FW_NEED(control->moved = fw_arena_array(arena, double, (size_t)model->ny));
     FW_NEED(control->fit = fw_arena_array(arena, double, (FW_PLACES + 1) * entries));
     FW_NEED(control->unfit = fw_arena_array(arena, bool, entries));

@@ -1,25 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tolerances by the accuracy that is wanted. Two runs are made, a looser one first, then the
    answer. With rho the ratio of their tolerances and D what they differ by
-   (fw_dynamics_tolerance_difference), the
-   error of the answer is
+   (fw_dynamics_tolerance_difference), the error of the answer is
 
      |error| <= c (10/rho)^0.6 D + b |drift of the energies| + round-off,  b = 1/2
 
    c = 1, for dop853 0.7 where the looser tolerance is at most 1e-6; b = 3 where both runs took
    about the same steps: then D says nothing of the steps' error. Twice as much D where switches of
-   contacts, stops or friction turned: when they do does not go with the tolerance.
-   How far apart the two are follows from the steps N of the looser one and the number n of bodies:
-   the error of dop853 is about rtol kappa N^0.9 n^1.5 (a fit over 545 random devices at tolerances
-   from 1e-2 to 1e-11, right within a factor of 9 for two of three of them), so that
+   contacts, stops or friction turned: when they do does not go with the tolerance. How far apart
+   the two are follows from the steps N of the looser one and the number n of bodies: the error of
+   dop853 is about rtol kappa N^0.9 n^1.5 (a fit over 545 random devices at tolerances from 1e-2 to
+   1e-11, right within a factor of 9 for two of three of them), so that
 
      rho = looser kappa N^0.9 n^1.5 / wanted,  at least sqrt(10), at most 100
 
    Where the estimate is not below what is wanted, this answer is the looser run of the next one,
-   whose tolerance is lower by 2 estimate / wanted, at least by sqrt(10).
-   Joint forces, and verdicts, count D whole (trust below).
-   Validity: integrators in the table below; wanted between 1e-12 and 0.1.
-   Error: measured on a thousand other random devices, docs/theory/integrators.md.
+   whose tolerance is lower by 2 estimate / wanted, at least by sqrt(10). Joint forces, and
+   verdicts, count D whole (trust below). Validity: integrators in the table below; wanted between
+   1e-12 and 0.1. Error: measured on a thousand other random devices, docs/theory/integrators.md.
    Source: tolerance proportionality, Hairer, Norsett and Wanner I, II.4; factors are measured.
    Test: test_steer.c, tests/accuracy/survey.c. */
 #include "dynamics/tolerance_control.h"

@@ -7,8 +7,8 @@
 typedef struct fw_dynamics_tolerances { /* of two runs */
     double looser, rtol; /* relative tolerances: of the one that is compared with, of the answer */
     double margin;       /* times the difference of both: error of the answer */
-    double
-        part; /* likewise of peak angles, with fw_dynamics_tolerance_difference; 0: as the rest */
+    /* likewise of peak angles, with fw_dynamics_tolerance_difference; 0: as the rest */
+    double part;
 } fw_dynamics_tolerances;
 
 /* relative error of the numbers that is wanted: what the effects left out do not take */

@@ -1,32 +1,47 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "multibody/model.h"
+#include "multibody/system.h"
 #include <math.h>
 #include <string.h>
+
+fw_status fw_multibody_chain_numbers_new(fw_arena *arena, const fw_multibody_model *m,
+                                         fw_multibody_chain_numbers *s) {
+    size_t p = (size_t)m->chain.pins, blocks = (size_t)m->chain.blocks;
+    FW_NEED(s->diagonal = fw_arena_array(arena, double, 3 * p));
+    FW_NEED(s->pivot = fw_arena_array(arena, double, 3 * p));
+    FW_NEED(s->first_row = fw_arena_array(arena, unsigned char, p));
+    FW_NEED(s->block = fw_arena_array(arena, double, 4 * blocks));
+    FW_NEED(s->factor = fw_arena_array(arena, double, 4 * blocks));
+    FW_NEED(s->more = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(s->left = fw_arena_array(arena, double, 2 * p));
+    FW_NEED(s->product = fw_arena_array(arena, double, (size_t)m->nq));
+    return FW_OK;
+}
 
 /* ---- S where every block is a pin ---- */
 
 /* with p(r) = (-r_y, r_x) the rows of pin i on body b are +-[I, p(r_i)], so the block of pins i, j
    that share b is +-(I/m + p(r_i) p(r_j)^T / J); 15 flops per pin and body */
-static void assemble_pins(fw_multibody_model *m) {
-    fw_multibody_chain *restrict c = &m->chain;
-    const double *restrict arm = m->arm, *restrict minv = m->minv, *restrict jinv = m->jinv;
+static void assemble_pins(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                          fw_multibody_chain_numbers *restrict s) {
+    const fw_multibody_chain *restrict c = &m->chain;
+    const double *restrict arm = pose->arm, *restrict minv = m->minv, *restrict jinv = m->jinv;
     for (int i = 0; i < c->pins; i++) {
         int a = m->body[2 * i], b = m->body[2 * i + 1];
         double ax = arm[4 * i], ay = arm[4 * i + 1], bx = arm[4 * i + 2], by = arm[4 * i + 3];
         double mass = minv[a] + minv[b], ja = jinv[a], jb = jinv[b];
-        c->diagonal[3 * i] = mass + ja * ay * ay + jb * by * by;
-        c->diagonal[3 * i + 1] = -(ja * ax * ay + jb * bx * by);
-        c->diagonal[3 * i + 2] = mass + ja * ax * ax + jb * bx * bx;
+        s->diagonal[3 * i] = mass + ja * ay * ay + jb * by * by;
+        s->diagonal[3 * i + 1] = -(ja * ax * ay + jb * bx * by);
+        s->diagonal[3 * i + 2] = mass + ja * ax * ax + jb * bx * bx;
     }
     for (int i = 0; i < c->ncoupling; i++) {
         const fw_multibody_coupling *k = &c->coupling[i];
-        const double *r = arm + 2 * k->row_arm, *s = arm + 2 * k->column_arm;
-        double *to = c->block + 4 * k->block;
+        const double *r = arm + 2 * k->row_arm, *q = arm + 2 * k->column_arm;
+        double *to = s->block + 4 * k->block;
         double mass = k->sign * minv[k->body], j = k->sign * jinv[k->body];
-        to[0] += mass + j * r[1] * s[1];
-        to[1] -= j * r[1] * s[0];
-        to[2] -= j * r[0] * s[1];
-        to[3] += mass + j * r[0] * s[0];
+        to[0] += mass + j * r[1] * q[1];
+        to[1] -= j * r[1] * q[0];
+        to[2] -= j * r[0] * q[1];
+        to[3] += mass + j * r[0] * q[0];
     }
 }
 
@@ -38,16 +53,16 @@ static double weighted(const double *g, int k, const double *h, int l, double mi
     return minv * (g[0] * h[0] + g[1] * h[1]) + jinv * g[2] * h[2];
 }
 
-static void assemble_any(fw_multibody_model *m) {
-    fw_multibody_chain *c = &m->chain;
+static void assemble_any(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                         fw_multibody_chain_numbers *s) {
+    const fw_multibody_chain *c = &m->chain;
     for (int i = 0; i < c->pins; i++) {
-        double *d = c->diagonal + 3 * i;
-        fw_multibody_rows rows = m->block[i].rows;
+        double *d = s->diagonal + 3 * i;
         d[0] = d[1] = 0;
-        d[2] = rows == FW_ROWS_PIN || rows == FW_ROWS_SLIDE ? 0 : 1; /* an empty row: lambda = 0 */
+        d[2] = fw_multibody_row_count(&m->block[i]) == 2 ? 0 : 1; /* an empty row: lambda = 0 */
         for (int side = 0; side < 2; side++) {
             int body = m->body[2 * i + side];
-            const double *g = m->jac + 12 * i + 6 * side;
+            const double *g = pose->jac + 12 * i + 6 * side;
             double minv = m->minv[body], jinv = m->jinv[body];
             d[0] += weighted(g, 0, g, 0, minv, jinv);
             d[1] += weighted(g, 0, g, 1, minv, jinv);
@@ -56,8 +71,8 @@ static void assemble_any(fw_multibody_model *m) {
     }
     for (int i = 0; i < c->ncoupling; i++) {
         const fw_multibody_coupling *k = &c->coupling[i];
-        const double *g = m->jac + 6 * k->row_arm, *h = m->jac + 6 * k->column_arm;
-        double *to = c->block + 4 * k->block, minv = m->minv[k->body], jinv = m->jinv[k->body];
+        const double *g = pose->jac + 6 * k->row_arm, *h = pose->jac + 6 * k->column_arm;
+        double *to = s->block + 4 * k->block, minv = m->minv[k->body], jinv = m->jinv[k->body];
         for (int e = 0; e < 4; e++)
             to[e] += weighted(g, e / 2, h, e % 2, minv, jinv);
     }
@@ -67,23 +82,24 @@ static void assemble_any(fw_multibody_model *m) {
    outputs diagonal (3 pins), block (4 blocks). Exact but for rounding. Cost O(pins). Source:
    reference-point coordinates, e.g. Garcia de Jalon and Bayo 1994, ch. 2 and 5. Test:
    test_block_chain.c. */
-void fw_multibody_chain_assemble(fw_multibody_model *m) {
-    memset(m->chain.block, 0, 4 * (size_t)m->chain.blocks * sizeof *m->chain.block);
+void fw_multibody_chain_assemble(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                 fw_multibody_chain_numbers *s) {
+    memset(s->block, 0, 4 * (size_t)m->chain.blocks * sizeof *s->block);
     if (m->plain)
-        assemble_pins(m);
+        assemble_pins(m, pose, s);
     else
-        assemble_any(m);
+        assemble_any(m, pose, s);
 }
 
 /* S + eps D = L D L^T, D = 1/m_a + 1/m_b for pins, column by column in the compiled order. The
    shift goes with the smaller eigenvalue of a pin's block: one that went with the larger, r^2/J,
    would drown it where J is small against m r^2. Outputs pivot (inverse pivot blocks), factor (L).
    `block` is used up. Error: backward stable, S + eps D is positive definite. Cost: chains and
-   rings O(pins). Source: Golub and Van Loan, Matrix Computations, ch. 4. Test: test_block_chain.c.
- */
-bool fw_multibody_chain_factor(fw_multibody_chain *c, double epsilon) {
-    double *restrict d = c->diagonal, *restrict block = c->block, *restrict factor = c->factor;
-    c->shift = epsilon;
+   rings O(pins). Source: Golub and Van Loan, Matrix Computations, ch. 4. Test:
+   test_block_chain.c. */
+bool fw_multibody_chain_factor(const fw_multibody_chain *c, fw_multibody_chain_numbers *s,
+                               double epsilon) {
+    double *restrict d = s->diagonal, *restrict block = s->block, *restrict factor = s->factor;
     for (int i = 0; i < c->pins; i++) {
         d[3 * i] += epsilon * c->isotropic[2 * i];
         d[3 * i + 2] += epsilon * c->isotropic[2 * i + 1];
@@ -94,8 +110,8 @@ bool fw_multibody_chain_factor(fw_multibody_chain *c, double epsilon) {
         double xx = d[3 * k + 2 * y], xy = d[3 * k + 1], yy = d[3 * k + 2 * x];
         double ix = 1 / xx, slant = xy * ix, rest = yy - xy * slant, iy = 1 / rest;
         positive &= xx > 0 && rest > 0;
-        c->first_row[k] = (unsigned char)y;
-        c->pivot[3 * k] = ix, c->pivot[3 * k + 1] = slant, c->pivot[3 * k + 2] = iy;
+        s->first_row[k] = (unsigned char)y;
+        s->pivot[3 * k] = ix, s->pivot[3 * k + 1] = slant, s->pivot[3 * k + 2] = iy;
         for (int e = c->column[k]; e < c->column[k + 1]; e++) {
             const double *b = block + 4 * e;
             double *l = factor + 4 * e, *to = d + 3 * c->row[e];
@@ -119,8 +135,9 @@ bool fw_multibody_chain_factor(fw_multibody_chain *c, double epsilon) {
     return positive;
 }
 
-void fw_multibody_chain_solve(const fw_multibody_chain *c, double *restrict x) {
-    const double *restrict factor = c->factor;
+void fw_multibody_chain_solve(const fw_multibody_chain *c, const fw_multibody_chain_numbers *s,
+                              double *restrict x) {
+    const double *restrict factor = s->factor;
     for (int k = 0; k < c->pins; k++) {
         double x0 = x[2 * k], x1 = x[2 * k + 1];
         for (int e = c->column[k]; e < c->column[k + 1]; e++) {
@@ -131,8 +148,8 @@ void fw_multibody_chain_solve(const fw_multibody_chain *c, double *restrict x) {
         }
     }
     for (int k = c->pins - 1; k >= 0; k--) {
-        const double *p = c->pivot + 3 * k;
-        const int first = 2 * k + c->first_row[k], other = 4 * k + 1 - first;
+        const double *p = s->pivot + 3 * k;
+        const int first = 2 * k + s->first_row[k], other = 4 * k + 1 - first;
         x[other] = (x[other] - p[1] * x[first]) * p[2];
         x[first] = x[first] * p[0] - p[1] * x[other];
         double x0 = x[2 * k], x1 = x[2 * k + 1];
@@ -147,10 +164,11 @@ void fw_multibody_chain_solve(const fw_multibody_chain *c, double *restrict x) {
 
 /* out = S p = G M^-1 G^T p at the pose, from the Jacobian and not from the blocks; an empty row
    gives 0, as its right side is 0 */
-static void multiply(fw_multibody_model *m, const double *p, double *out) {
-    memset(m->product, 0, (size_t)m->nq * sizeof *m->product);
-    fw_multibody_model_apply(m, p, m->product);
-    fw_multibody_model_jacobian(m, m->product, out);
+static void multiply(const fw_multibody_model *m, const fw_multibody_pose *pose, const double *p,
+                     double *product, double *out) {
+    memset(product, 0, (size_t)m->nq * sizeof *product);
+    fw_multibody_apply(m, pose, p, product);
+    fw_multibody_jacobian(m, pose, product, out);
     for (int i = 0; i < 2 * m->nblock; i++)
         out[i] = -out[i];
 }
@@ -162,9 +180,10 @@ static void multiply(fw_multibody_model *m, const double *p, double *out) {
    0 are redundant rows and do not move a body, and weak ones near a singular position are damped.
    Inputs right (2 nblock, kept), pose and factor; output x. Source: proximal point algorithm,
    Rockafellar 1976; Carpentier et al., RSS 2021. Test: test_block_chain.c. */
-void fw_multibody_chain_proximal(fw_multibody_model *m, const double *right, double *x) {
+void fw_multibody_chain_proximal(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                 fw_multibody_chain_numbers *s, const double *right, double *x) {
     int n = 2 * m->nblock;
-    double *more = m->more, *left = m->residual, size = 0, before = (double)INFINITY;
+    double *more = s->more, *left = s->left, size = 0, before = (double)INFINITY;
     for (int i = 0; i < n; i++) {
         size = fmax(size, fabs(right[i]));
         more[i] = right[i];
@@ -172,11 +191,11 @@ void fw_multibody_chain_proximal(fw_multibody_model *m, const double *right, dou
     }
     for (int sweep = 0; sweep < 6; sweep++) {
         double worst = 0;
-        fw_multibody_chain_solve(&m->chain, more);
+        fw_multibody_chain_solve(&m->chain, s, more);
         for (int i = 0; i < n; i++)
             x[i] += more[i];
         if (sweep == 5) return;
-        multiply(m, x, left);
+        multiply(m, pose, x, s->product, left);
         for (int i = 0; i < n; i++) {
             more[i] = right[i] - left[i];
             worst = fmax(worst, fabs(more[i]));

@@ -11,10 +11,9 @@
    ROD      |d| - f                        (d/|d|, d/|d|.p(r_b))   -(d/|d|, d/|d|.p(r_a))
 
    Only f depends on time, so Psi_t = -f', Psi_tt = -f'', Psi_qt = 0; where the ground's points move
-   (stretch.c) d does too.
-   Source: Haug, Computer Aided Kinematics and Dynamics, 1989, ch. 3; Garcia de Jalon and Bayo 1994.
-   Test: test_constraints.c (differences of Psi along motions). */
-#include "multibody/model.h"
+   (stretch.c) d does too. Source: Haug, Computer Aided Kinematics and Dynamics, 1989, ch. 3; Garcia
+   de Jalon and Bayo 1994. Test: test_constraints.c (differences of Psi along motions). */
+#include "multibody/multibody_scratch.h"
 #include <math.h>
 #include <string.h>
 
@@ -23,25 +22,26 @@ static double dot(const double a[2], const double b[2]) {
 }
 
 /* value, first and second derivative of what a block keeps, scaled */
-static void kept(const fw_multibody_model *m, const fw_multibody_block *b, double t, double f[3]) {
-    f[0] = b->value, f[1] = f[2] = 0;
-    if (!b->law) return;
-    double law[3], unit = m->scale.time_s;
-    fw_quantity_law_value(b->law, t * unit, m->piece, law);
+static void kept(const fw_multibody_system *sys, int block, double t, double f[3]) {
+    const fw_multibody_block *b = &sys->model->block[block];
+    f[0] = sys->loading.value[block], f[1] = f[2] = 0;
+    if (!b->law || !sys->loading.driven) return;
+    double law[3], unit = sys->model->scale.time_s;
+    fw_quantity_law_value(b->law, t * unit, sys->piece_s, law);
     f[0] += law[0] / b->unit;
     f[1] = law[1] / b->unit * unit;
     f[2] = law[2] / b->unit * unit * unit;
 }
 
-void fw_multibody_model_frame(const fw_multibody_model *m, int i, const double *u, double d[2],
-                              double e[2], double n[2]) {
+void fw_multibody_frame(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                        double d[2], double e[2], double n[2]) {
     const fw_multibody_block *b = &m->block[i];
-    const double *r = m->arm + 4 * i;
-    d[0] = r[2] - r[0] - m->offset[2 * i];
-    d[1] = r[3] - r[1] - m->offset[2 * i + 1];
+    const double *r = pose->arm + 4 * i, *u = pose->u;
+    d[0] = r[2] - r[0] - pose->offset[2 * i];
+    d[1] = r[3] - r[1] - pose->offset[2 * i + 1];
     if (b->a < m->nbody) d[0] -= u[3 * b->a], d[1] -= u[3 * b->a + 1];
     if (b->b < m->nbody) d[0] += u[3 * b->b], d[1] += u[3 * b->b + 1];
-    double c = m->cosine[b->a], s = m->sine[b->a];
+    double c = pose->cosine[b->a], s = pose->sine[b->a];
     e[0] = c * b->cos_axis - s * b->sin_axis;
     e[1] = s * b->cos_axis + c * b->sin_axis;
     n[0] = -e[1], n[1] = e[0];
@@ -54,12 +54,13 @@ static void point_row(double *g, const double direction[2], const double arm[2],
 }
 
 /* the 2 x 3 Jacobians of block i for a (6), then for b (6) */
-static void block_jacobian(const fw_multibody_model *m, int i, const double *u, double *g) {
+static void block_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                           double *g) {
     const fw_multibody_block *b = &m->block[i];
-    const double *ra = m->arm + 4 * i, *rb = ra + 2;
+    const double *ra = pose->arm + 4 * i, *rb = ra + 2;
     double d[2], e[2], n[2];
     memset(g, 0, 12 * sizeof *g);
-    fw_multibody_model_frame(m, i, u, d, e, n);
+    fw_multibody_frame(m, pose, i, d, e, n);
     switch (b->rows) {
     case FW_ROWS_PIN:
         g[0] = g[4] = 1, g[2] = -ra[1], g[5] = ra[0];
@@ -93,22 +94,25 @@ static void block_jacobian(const fw_multibody_model *m, int i, const double *u, 
     }
 }
 
-void fw_multibody_model_pose(fw_multibody_model *m, const double *u) {
+const fw_multibody_pose *fw_multibody_pose_at(fw_multibody_system *sys, double t, const double *u) {
+    const fw_multibody_model *m = sys->model;
+    fw_multibody_scratch *w = sys->work;
     const double *origin = m->origin;
-    m->posed = u;
+    w->pose.t = t, w->pose.u = u;
+    if (m->stretch.law) fw_multibody_stretch_pose(sys, t);
     for (int b = 0; b < m->nbody; b++) {
         double angle = origin[3 * b + 2] + u[3 * b + 2];
-        sincos(angle, &m->sine[b], &m->cosine[b]);
+        sincos(angle, &w->sine[b], &w->cosine[b]);
     }
     for (int i = 0; i < 2 * m->nblock; i++) {
-        double c = m->cosine[m->body[i]], s = m->sine[m->body[i]];
+        double c = w->cosine[m->body[i]], s = w->sine[m->body[i]];
         double x = m->local[2 * i], y = m->local[2 * i + 1];
-        m->arm[2 * i] = c * x - s * y;
-        m->arm[2 * i + 1] = s * x + c * y;
+        w->arm[2 * i] = c * x - s * y;
+        w->arm[2 * i + 1] = s * x + c * y;
     }
-    if (m->plain) return;
-    for (int i = 0; i < m->nblock; i++)
-        block_jacobian(m, i, u, m->jac + 12 * i);
+    for (int i = 0; i < m->nblock && !m->plain; i++)
+        block_jacobian(m, &w->pose, i, w->jac + 12 * i);
+    return &w->pose;
 }
 
 /* angle of b against a less that at the origin */
@@ -116,18 +120,19 @@ static double turned(const fw_multibody_model *m, const fw_multibody_block *b, c
     return (b->b < m->nbody ? u[3 * b->b + 2] : 0) - (b->a < m->nbody ? u[3 * b->a + 2] : 0);
 }
 
-static void block_residual(const fw_multibody_model *m, int i, double t, const double *u,
+static void block_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose, int i,
                            double psi[2]) {
+    const fw_multibody_model *m = sys->model;
     const fw_multibody_block *b = &m->block[i];
     double d[2], e[2], n[2], f[3];
-    fw_multibody_model_frame(m, i, u, d, e, n);
+    fw_multibody_frame(m, pose, i, d, e, n);
     psi[0] = -d[0], psi[1] = -d[1];
     if (b->rows == FW_ROWS_PIN) return;
-    kept(m, b, t, f);
+    kept(sys, i, pose->t, f);
     psi[1] = 0;
     switch (b->rows) {
     case FW_ROWS_SLIDE:
-        psi[0] = turned(m, b, u) - f[0];
+        psi[0] = turned(m, b, pose->u) - f[0];
         psi[1] = dot(n, d);
         break;
     case FW_ROWS_ROD:
@@ -138,17 +143,17 @@ static void block_residual(const fw_multibody_model *m, int i, double t, const d
         break;
     case FW_ROWS_TURN:
     case FW_ROWS_PIN:
-        psi[0] = turned(m, b, u) - f[0];
+        psi[0] = turned(m, b, pose->u) - f[0];
     }
 }
 
-double fw_multibody_model_residual(fw_multibody_model *m, double t, const double *u, double *psi) {
-    fw_multibody_model_at(m, t);
-    fw_multibody_model_pose(m, u);
-    double worst = 0;
-    for (int i = 0; i < m->nblock; i++) {
-        block_residual(m, i, t, u, psi + 2 * i);
-        double norm = sqrt(dot(psi + 2 * i, psi + 2 * i));
+double fw_multibody_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                             double *psi) {
+    double worst = 0, unwanted[2];
+    for (int i = 0; i < sys->model->nblock; i++) {
+        double *at = psi ? psi + 2 * i : unwanted;
+        block_residual(sys, pose, i, at);
+        double norm = sqrt(dot(at, at));
         worst = norm > worst || isnan(norm) ? norm : worst;
     }
     return worst;
@@ -162,16 +167,17 @@ static const double *of(const fw_multibody_model *m, const double *v, int body) 
     return body < m->nbody ? v + 3 * body : still;
 }
 
-void fw_multibody_model_jacobian(const fw_multibody_model *m, const double *v, double *r) {
+void fw_multibody_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                           const double *v, double *r) {
     for (int i = 0; i < m->nblock; i++) {
         const double *p = of(m, v, m->body[2 * i]), *q = of(m, v, m->body[2 * i + 1]);
         if (m->plain) {
-            const double *s = m->arm + 4 * i;
+            const double *s = pose->arm + 4 * i;
             r[2 * i] = p[0] - p[2] * s[1] - q[0] + q[2] * s[3];
             r[2 * i + 1] = p[1] + p[2] * s[0] - q[1] - q[2] * s[2];
             continue;
         }
-        const double *g = m->jac + 12 * i, *h = g + 6;
+        const double *g = pose->jac + 12 * i, *h = g + 6;
         for (int k = 0; k < 2; k++, g += 3, h += 3)
             r[2 * i + k] =
                 g[0] * p[0] + g[1] * p[1] + g[2] * p[2] + h[0] * q[0] + h[1] * q[1] + h[2] * q[2];
@@ -186,17 +192,18 @@ static void add_transpose(const double *g, const double *lambda, double scale, d
     to[2] += turn * (g[2] * x + g[5] * y);
 }
 
-void fw_multibody_model_apply(const fw_multibody_model *m, const double *lambda, double *a) {
+void fw_multibody_apply(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                        const double *lambda, double *a) {
     for (int i = 0; i < m->nblock; i++) {
         int p = m->body[2 * i], q = m->body[2 * i + 1];
         if (!m->plain) {
-            const double *g = m->jac + 12 * i;
+            const double *g = pose->jac + 12 * i;
             if (p < m->nbody) add_transpose(g, lambda + 2 * i, -m->minv[p], -m->jinv[p], a + 3 * p);
             if (q < m->nbody)
                 add_transpose(g + 6, lambda + 2 * i, -m->minv[q], -m->jinv[q], a + 3 * q);
             continue;
         }
-        const double *r = m->arm + 4 * i;
+        const double *r = pose->arm + 4 * i;
         double x = lambda[2 * i], y = lambda[2 * i + 1];
         if (p < m->nbody) {
             a[3 * p] -= m->minv[p] * x;
@@ -212,57 +219,60 @@ void fw_multibody_model_apply(const fw_multibody_model *m, const double *lambda,
 }
 
 /* Jacobian of block i, side 0 or 1, also where only arms are kept */
-static void side_jacobian(const fw_multibody_model *m, int i, int side, double g[6]) {
+static void side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                          int side, double g[6]) {
     if (!m->plain) {
-        memcpy(g, m->jac + 12 * i + 6 * side, 6 * sizeof *g);
+        memcpy(g, pose->jac + 12 * i + 6 * side, 6 * sizeof *g);
         return;
     }
-    const double *r = m->arm + 4 * i + 2 * side;
+    const double *r = pose->arm + 4 * i + 2 * side;
     double sign = m->body[2 * i + side] == m->nbody ? 0 : side ? -1 : 1;
     const double row[6] = {sign, 0, -sign * r[1], 0, sign, sign * r[0]};
     memcpy(g, row, sizeof row);
 }
 
-void fw_multibody_model_transpose(const fw_multibody_model *m, const double *lambda,
-                                  double *force) {
+void fw_multibody_transpose(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                            const double *lambda, double *force) {
     for (int i = 0; i < 2 * m->nblock; i++) {
         double g[6];
         if (m->body[i] == m->nbody) continue;
-        side_jacobian(m, i / 2, i % 2, g);
+        side_jacobian(m, pose, i / 2, i % 2, g);
         add_transpose(g, lambda + 2 * (i / 2), 1, 1, force + 3 * m->body[i]);
     }
 }
 
 /* ---- time derivatives ---- */
 
-void fw_multibody_model_drift(const fw_multibody_model *m, double t, double *r) {
+void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose *pose, double *r) {
+    const fw_multibody_model *m = sys->model;
     memset(r, 0, 2 * (size_t)m->nblock * sizeof *r);
-    for (int i = 0; m->driven && i < m->nblock; i++) {
+    for (int i = 0; sys->loading.driven && i < m->nblock; i++) {
         double f[3];
         if (!m->block[i].law) continue;
-        kept(m, &m->block[i], t, f);
+        kept(sys, i, pose->t, f);
         r[2 * i] = -f[1];
     }
-    if (m->stretch.law) fw_multibody_stretch_drift(m, r);
+    if (m->stretch.law) fw_multibody_stretch_drift(m, pose, r);
 }
 
 /* (G v)' at a = 0, of one block that is not a pin */
-static void other_gamma(const fw_multibody_model *m, int i, double t, const double *v,
-                        double r[2]) {
+static void other_gamma(const fw_multibody_system *sys, const fw_multibody_pose *pose, int i,
+                        const double *v, double r[2]) {
+    const fw_multibody_model *m = sys->model;
     const fw_multibody_block *b = &m->block[i];
-    const double *p = of(m, v, b->a), *q = of(m, v, b->b), *ra = m->arm + 4 * i, *rb = ra + 2;
+    const double *p = of(m, v, b->a), *q = of(m, v, b->b), *ra = pose->arm + 4 * i, *rb = ra + 2;
     double f[3], wa = p[2], wb = q[2];
-    kept(m, b, t, f);
+    kept(sys, i, pose->t, f);
     r[0] = -f[2], r[1] = 0;
     if (b->rows == FW_ROWS_TURN) return;
     /* d, its rate and its second derivative without accelerations */
     double d[2], e[2], n[2];
-    fw_multibody_model_frame(m, i, m->posed, d, e, n);
+    fw_multibody_frame(m, pose, i, d, e, n);
     double rate[2] = {q[0] - wb * rb[1] - p[0] + wa * ra[1], q[1] + wb * rb[0] - p[1] - wa * ra[0]};
     double bend[2] = {wa * wa * ra[0] - wb * wb * rb[0], wa * wa * ra[1] - wb * wb * rb[1]};
     for (int k = 0; k < 2 && m->stretch.law; k++) {
-        rate[k] += m->stretch.now[1] * m->stretch.block[2 * i + k];
-        bend[k] += m->stretch.now[2] * m->stretch.block[2 * i + k];
+        rate[k] += pose->ground[1] * m->stretch.block[2 * i + k];
+        bend[k] += pose->ground[2] * m->stretch.block[2 * i + k];
     }
     if (b->rows == FW_ROWS_SLIDE) {
         r[1] = dot(n, bend) - 2 * wa * dot(e, rate) - wa * wa * dot(n, d);
@@ -274,38 +284,37 @@ static void other_gamma(const fw_multibody_model *m, int i, double t, const doub
     }
 }
 
-void fw_multibody_model_gamma(const fw_multibody_model *m, double t, const double *v, double *r) {
+void fw_multibody_gamma(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                        const double *v, double *r) {
+    const fw_multibody_model *m = sys->model;
     for (int i = 0; i < m->nblock; i++) {
         if (m->block[i].rows != FW_ROWS_PIN) {
-            other_gamma(m, i, t, v, r + 2 * i);
+            other_gamma(sys, pose, i, v, r + 2 * i);
             continue;
         }
-        const double *s = m->arm + 4 * i;
+        const double *s = pose->arm + 4 * i;
         double wp = of(m, v, m->body[2 * i])[2], wq = of(m, v, m->body[2 * i + 1])[2];
         wp *= wp, wq *= wq;
         r[2 * i] = wq * s[2] - wp * s[0];
         r[2 * i + 1] = wq * s[3] - wp * s[1];
         if (!m->stretch.law) continue;
-        r[2 * i] -= m->stretch.now[2] * m->stretch.block[2 * i];
-        r[2 * i + 1] -= m->stretch.now[2] * m->stretch.block[2 * i + 1];
+        r[2 * i] -= pose->ground[2] * m->stretch.block[2 * i];
+        r[2 * i + 1] -= pose->ground[2] * m->stretch.block[2 * i + 1];
     }
 }
 
 /* ---- dense, without the empty rows ---- */
 
-static bool two_rows(const fw_multibody_block *b) {
-    return b->rows == FW_ROWS_PIN || b->rows == FW_ROWS_SLIDE;
-}
-
-void fw_multibody_model_dense_jacobian(const fw_multibody_model *m, double *g) {
+void fw_multibody_dense_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                 double *g) {
     memset(g, 0, (size_t)m->rows * (size_t)m->nq * sizeof *g);
     for (int i = 0, row = 0; i < m->nblock; i++) {
-        int count = two_rows(&m->block[i]) ? 2 : 1;
+        int count = fw_multibody_row_count(&m->block[i]);
         for (int side = 0; side < 2; side++) {
             int body = m->body[2 * i + side];
             double part[6];
             if (body == m->nbody) continue;
-            side_jacobian(m, i, side, part);
+            side_jacobian(m, pose, i, side, part);
             for (int k = 0; k < count; k++)
                 for (int c = 0; c < 3; c++)
                     g[(size_t)(row + k) * (size_t)m->nq + (size_t)(3 * body + c)] +=
@@ -315,16 +324,16 @@ void fw_multibody_model_dense_jacobian(const fw_multibody_model *m, double *g) {
     }
 }
 
-void fw_multibody_model_pack(const fw_multibody_model *m, const double *block, double *rows) {
+void fw_multibody_pack(const fw_multibody_model *m, const double *block, double *rows) {
     for (int i = 0, row = 0; i < m->nblock; i++) {
         rows[row++] = block[2 * i];
-        if (two_rows(&m->block[i])) rows[row++] = block[2 * i + 1];
+        if (fw_multibody_row_count(&m->block[i]) == 2) rows[row++] = block[2 * i + 1];
     }
 }
 
-void fw_multibody_model_unpack(const fw_multibody_model *m, const double *rows, double *block) {
+void fw_multibody_unpack(const fw_multibody_model *m, const double *rows, double *block) {
     for (int i = 0, row = 0; i < m->nblock; i++) {
         block[2 * i] = rows[row++];
-        block[2 * i + 1] = two_rows(&m->block[i]) ? rows[row++] : 0;
+        block[2 * i + 1] = fw_multibody_row_count(&m->block[i]) == 2 ? rows[row++] : 0;
     }
 }

@@ -1,31 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coulomb friction of joints: what multibody_friction.c (the equations) and stick.c (who sticks)
-   share.
-   Private to multibody/. Theory: docs/theory/effects/friction.md. */
+/* Coulomb friction of joints: what multibody_friction.c (the equations), friction_solve.c and
+   friction_box.c (the small system) and stick.c (who sticks) share. Scaled units. Private to
+   multibody/. Theory: docs/theory/effects/friction.md. */
 #ifndef FW_MULTIBODY_FRICTION_H
 #define FW_MULTIBODY_FRICTION_H
-#include "multibody/model.h"
+#include "multibody/multibody_scratch.h"
 
-typedef struct fw_multibody_model_friction { /* scaled */
-    int a, b;                                /* bodies */
-    int block;          /* of the joint; FW_NONE: an element stands for the pin */
-    bool slides;        /* along a prismatic joint; else it turns about a pin */
-    int element;        /* what presses, or FW_NONE: the joint's own force */
-    double rest, slide; /* coefficient times radius (travel: 1), static and kinetic */
-    double preload;
-    const char *id;
-    fw_place place;
+typedef struct fw_multibody_friction_state {
     /* held during a step, changed by events */
     int slip;    /* sign of the rate; 0: it sticks */
     bool yields; /* at rest because others hold it, with the largest static torque, against slip */
     double held; /* coordinate at which it came to rest */
-    /* at the last evaluation */
+    /* what fw_multibody_friction_solve found for these flags */
     double torque, press;
-} fw_multibody_model_friction;
+} fw_multibody_friction_state;
 
 struct fw_multibody_frictions {
     int n;
-    fw_multibody_model_friction *item; /* (n) */
+    const fw_multibody_friction_joint *joint; /* (n) the model's */
+    fw_multibody_friction_state *item;        /* (n) */
     double *row;              /* (6 n) h of bodies a, b: rate = h.v, generalised force = h T */
     double *bias, *rate;      /* (n) relative acceleration at a = 0; h.v */
     double *accel;            /* (n) relative acceleration without friction */
@@ -43,7 +36,7 @@ struct fw_multibody_frictions {
     double *start, *right, *more, *step, *press, *value; /* (n), the last two (2 n) */
     double *push, *creep;        /* (n) N but for the joint's force; what pulls back to rest */
     int *stuck, *moving, *pivot; /* (n) */
-    /* work of the sorting: */
+    /* work of the sorting */
     double *shift, *most, *centre, *before; /* (n) */
     int *side, *free, *inside;              /* (n) */
     bool *slid;                             /* (n) cannot hold */
@@ -56,25 +49,36 @@ struct fw_multibody_frictions {
     double jam_time;
 };
 
-/* rows, rates, responses and gains at the pose and factor of the model; velocities of y */
-void fw_multibody_friction_respond(fw_multibody_model *m, const double *y);
-/* with the accelerations and multipliers without friction in the model: what presses, and c */
-void fw_multibody_friction_evaluate(fw_multibody_model *m, double t, const double *y);
+/* rows, rates, responses and gains for velocities v */
+void fw_multibody_friction_respond(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                   const double *v);
+/* with the accelerations and multipliers without friction: what presses, and c */
+void fw_multibody_friction_evaluate(fw_multibody_system *sys, const fw_multibody_solution *found,
+                                    const double *v);
+/* both, then torques for the flags that are held, and the solution with them; *lost: the power that
+   they take. false: there are none, or perhaps more than one */
+bool fw_multibody_friction_apply(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                 const double *v, double *lost);
+/* what sticks to rate 0: v */
+void fw_multibody_friction_settle(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                  double *v);
 /* torques for the present flags; false: there is none, or perhaps more than one */
-bool fw_multibody_friction_solve(fw_multibody_model *m);
+bool fw_multibody_friction_solve(struct fw_multibody_frictions *s);
 /* the joint's own force that presses entry i, and all that does, at the torques found */
-void fw_multibody_friction_force(const fw_multibody_model *m, int i, double force[2]);
-double fw_multibody_friction_press(const fw_multibody_model *m, int i);
+void fw_multibody_friction_force(const struct fw_multibody_frictions *s, int i, double force[2]);
+double fw_multibody_friction_press(const struct fw_multibody_frictions *s, int i);
 /* x of least norm with gain x = right among the `count` entries of `which` (both in that order) */
 bool fw_multibody_friction_hold(struct fw_multibody_frictions *s, int count, const int *which);
 void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, const int *which,
                                    const double *right, double *x);
 /* friction_box.c: flags and torques of the entries at rest for the limits of the `press` that they
-   have;
-   the others keep their torques */
+   have; the others keep their torques */
 bool fw_multibody_friction_box(struct fw_multibody_frictions *s);
-double fw_multibody_friction_coordinate(const fw_multibody_model *m, int i, const double *u);
-void fw_multibody_friction_rates(fw_multibody_model *m, const double *v);
-void fw_multibody_friction_rows(fw_multibody_model *m, const double *y); /* posed */
+double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                        int i);
+/* rows and, by them, rates of v */
+void fw_multibody_friction_rows(fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                const double *v);
+void fw_multibody_friction_rates(fw_multibody_system *sys, const double *v);
 
 #endif

@@ -114,13 +114,13 @@ static bool take_flags(struct fw_multibody_frictions *s, int rests) {
     bool again = false;
     for (int k = 0; k < rests; k++) {
         int i = s->inside[k];
-        fw_multibody_model_friction *f = &s->item[i];
+        fw_multibody_friction_state *f = &s->item[i];
         double size, a = acceleration(s, i, rests, &size);
         f->slip = -s->side[i];
         f->yields = f->slip && fabs(a) <= fw_still * size;
         if (!f->slip || f->yields || s->slid[i]) continue;
         s->slid[i] = again = true;
-        s->most[i] = f->slide * f->press;
+        s->most[i] = s->joint[i].slide * f->press;
     }
     return again;
 }
@@ -132,7 +132,7 @@ bool fw_multibody_friction_box(struct fw_multibody_frictions *s) {
     for (int k = 0; k < rests; k++) {
         int i = s->inside[k];
         s->slid[i] = false, s->side[i] = 0;
-        s->most[i] = s->item[i].rest * s->item[i].press;
+        s->most[i] = s->joint[i].rest * s->item[i].press;
         s->shift[i] = s->accel[i] + s->creep[i];
         for (int j = 0; j < s->n; j++)
             if (!s->rests[j]) s->shift[i] += s->gain[i * s->n + j] * s->torque[j];

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The small system of friction: torques T for given flags (multibody_friction.c has the
-   equations). Inputs,
-   scaled: gains, accelerations without friction, what presses; output T. Valid while the spectral
-   radius of K is below 1, else refused. Error: round-off times cond(A_stick); of T where it is not
-   unique, 1e-9. Cost (entries)^3. Test: test_friction_model.c. */
+/* The small system of friction: torques T for given flags (multibody_friction.c has the equations).
+   Inputs, scaled: gains, accelerations without friction, what presses; output T. Valid while the
+   spectral radius of K is below 1, else refused. Error: round-off times cond(A_stick); of T where
+   it is not unique, 1e-9. Cost (entries)^3. Test: test_friction_model.c. */
 #include "multibody/friction.h"
 #include "maths/dense.h"
 #include <float.h>
@@ -49,8 +48,8 @@ void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, 
     }
 }
 
-static double coefficient(const fw_multibody_model_friction *f) {
-    return f->yields ? f->rest : f->slide;
+static double coefficient(const struct fw_multibody_frictions *s, int i) {
+    return s->item[i].yields ? s->joint[i].rest : s->joint[i].slide;
 }
 
 /* eliminates what sticks: T_stuck = start - hold T_moving; reach (2 per pair): what presses a
@@ -99,11 +98,11 @@ static bool contracts(struct fw_multibody_frictions *s, int moving, int *worst) 
     for (int k = 0; k < POWERS; k++) {
         double bound = 0, largest = 0;
         for (int r = 0; r < moving; r++) {
-            const fw_multibody_model_friction *f = &s->item[s->moving[r]];
+            double mu = coefficient(s, s->moving[r]);
             kx[r] = 0;
             for (int c = 0; c < moving; c++) {
                 const double *reach = s->reach + 2 * (r * moving + c);
-                kx[r] += coefficient(f) * hypot(reach[0], reach[1]) * x[c];
+                kx[r] += mu * hypot(reach[0], reach[1]) * x[c];
             }
             if (!(kx[r] / x[r] <= bound)) bound = kx[r] / x[r], *worst = s->moving[r];
             largest = fmax(largest, kx[r]);
@@ -123,8 +122,8 @@ static double mismatch(struct fw_multibody_frictions *s, int moving, const doubl
                        double *slopes) {
     double worst = 0;
     for (int r = 0; r < moving; r++) {
-        const fw_multibody_model_friction *item = &s->item[s->moving[r]];
-        double mu = item->slip * coefficient(item), rho[2] = {s->press[2 * r], s->press[2 * r + 1]};
+        double mu = s->item[s->moving[r]].slip * coefficient(s, s->moving[r]);
+        double rho[2] = {s->press[2 * r], s->press[2 * r + 1]};
         const double *reach = s->reach + 2 * r * moving;
         for (int c = 0; c < moving; c++)
             rho[0] += reach[2 * c] * x[c], rho[1] += reach[2 * c + 1] * x[c];
@@ -167,8 +166,7 @@ static bool fixed_point(struct fw_multibody_frictions *s, int moving, double *x)
     return false;
 }
 
-bool fw_multibody_friction_solve(fw_multibody_model *m) {
-    struct fw_multibody_frictions *s = m->friction;
+bool fw_multibody_friction_solve(struct fw_multibody_frictions *s) {
     int stuck = 0, moving = 0, worst = 0;
     for (int i = 0; i < s->n; i++)
         if (s->item[i].slip)
@@ -196,7 +194,7 @@ bool fw_multibody_friction_solve(fw_multibody_model *m) {
     for (int r = 0; r < moving; r++)
         s->torque[s->moving[r]] = x[r];
     for (int i = 0; i < s->n; i++)
-        s->item[i].torque = s->torque[i], s->item[i].press = fw_multibody_friction_press(m, i);
+        s->item[i].torque = s->torque[i], s->item[i].press = fw_multibody_friction_press(s, i);
     s->jam = -1;
     return true;
 }

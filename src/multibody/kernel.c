@@ -85,7 +85,7 @@ static fw_status plan_loop(fw_arena *arena, const fw_multibody_model *m,
         return FW_OK;
     FW_NEED(place = fw_arena_array(arena, int, (size_t)m->ntorsion));
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_multibody_model_torsion *s = &m->torsion[i];
+        const fw_multibody_torsion *s = &m->torsion[i];
         place[i] = -1;
         for (int k = 0; k < m->nblock; k++) {
             int a = p->loop_body[k], b = p->loop_body[k + 1];
@@ -163,7 +163,7 @@ static void fill_core(fw_multibody_core *k, const fw_multibody_model *m, int lan
         fill_block(m, p->extra + 3 * e + 1, k->extra + w * FW_BLOCK * e + lane, w);
     for (int i = 0; i < p->torsions; i++) {
         double *to = k->torsion + w * FW_TORSION * i + lane;
-        const fw_multibody_model_torsion *t = &m->torsion[i];
+        const fw_multibody_torsion *t = &m->torsion[i];
         to[0] = t->k, to[w] = t->c, to[2 * w] = t->k * t->angle0;
     }
     k->size[lane] = m->size;

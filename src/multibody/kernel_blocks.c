@@ -8,13 +8,13 @@
      FW_CORE_NAME  as users read it
 
    One evaluation: sines, arms r, S = G M^-1 G^T and right-hand side G M^-1 Q + G' v pin by pin,
-   block LDL^T with the forward substitution in the same sweep, backward substitution,
-   a = M^-1 (Q - G^T lambda). All loops run over index tables that are read in order.
-   The plain solution stands where every pivot block is healthy; otherwise the proximal iteration of
-   block_chain.c is run from the start: S + eps D, two to six sweeps. Both solve S lambda = r, with
-   an error of round-off times the condition of S; where S is singular the second moves no body
-   along a redundant row. A closed loop of few bodies has a shorter form of its own, kernel_loop.h.
-   Source: as rhs.c and block_chain.c. Test: test_kernel.c, test_lanes.c. */
+   block LDL^T with the forward substitution in the same sweep, backward substitution, a = M^-1 (Q -
+   G^T lambda). All loops run over index tables that are read in order. The plain solution stands
+   where every pivot block is healthy; otherwise the proximal iteration of block_chain.c is run from
+   the start: S + eps D, two to six sweeps. Both solve S lambda = r, with an error of round-off
+   times the condition of S; where S is singular the second moves no body along a redundant row. A
+   closed loop of few bodies has a shorter form of its own, kernel_loop.h. Source: as rhs.c and
+   block_chain.c. Test: test_kernel.c, test_lanes.c. */
 #ifndef FW_W
 #define FW_W         1
 #define FW_BRIEF     0

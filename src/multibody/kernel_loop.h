@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Part of kernel_blocks.c: the right-hand side of one closed loop of 3 to 6 bodies, both ends on
-   the
-   ground, by cutting it at a pin in the middle into two open chains.
+   the ground, by cutting it at a pin in the middle into two open chains.
 
    In an open chain the angular accelerations alpha are minimal coordinates. With T_k from a body's
    pin on the ground's side to its pin on the cut's side, C_k from the first to the centre of mass,
@@ -21,8 +20,7 @@
    accelerations, of the largest that a joint force gives to the lightest body: 4e-16 at worst for
    masses alike, 3e-12 for masses over four decades; in the median a fifth of the blocks' or less.
    Cost for 5 bodies: 412 arithmetic operations, brief sines included. Source: Wittenburg, Dynamics
-   of
-   Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_kernel.c,
+   of Multibody Systems, 2nd ed., ch. 5 (augmented bodies, cut joints). Test: test_kernel.c,
    test_lanes.c. */
 
 enum { LOOP_MOST = FW_LOOP_MOST, HALF_MOST = 3 };
@@ -286,7 +284,7 @@ static void loop_fill(fw_multibody_core *k, const fw_multibody_model *m, int lan
     q->sign = m->body[2 * q->cut] == p->loop_body[nl + 1] ? 1 : -1;
     LANE(q->floor, lane) = fw_multibody_pin_floor(m, q->cut);
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_multibody_model_torsion *s = &m->torsion[i];
+        const fw_multibody_torsion *s = &m->torsion[i];
         loop_pin *to = &q->pin[p->loop_torsion[i]];
         LANE(to->k, lane) += s->k, LANE(to->c, lane) += s->c;
         LANE(to->torque0, lane) +=

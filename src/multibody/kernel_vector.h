@@ -19,7 +19,7 @@
 typedef double real;
 #define LANE(number, lane) (*((void)(lane), &(number)))
 typedef int64_t bits;
-typedef uint64_t unsigned_bits; /* shifts to the left lose bits on purpose */
+typedef uint64_t unsigned_bits;                /* shifts to the left lose bits on purpose */
 #define MASK(comparison) (-(bits)(comparison)) /* all bits where it holds */
 FW_INLINE bits bits_of(real a) {
     bits b;
@@ -87,13 +87,13 @@ static inline double real_most(real a) {
 
    x = n pi/2 + r, |r| <= pi/4: pi/2 in two parts of 33 bits, whose products with n are exact, and a
    third of 53 bits; r is kept as a sum of two doubles. Then minimax polynomials of degree 13 (sine,
-   relative error 2^-57.9) and 14 (cosine, 2^-63.9) of r, and the quadrant by masks.
-   The library's own would give other bits on a processor with FMA than on one without.
-   Input x in rad, any; output s, c. Valid for |x| <= fw_sincos_range; beyond it, and for NaN, the
-   callers ask the C library. Error below 0.9 ulp (0.83 found) without FMA. Cost about 55
-   operations, no branch; FW_BRIEF 1 leaves out the second doubles: 27 operations, error below 1.6
-   ulp. Source: Cody and Waite 1980, ch. 8; polynomials by the Remez exchange in 60 digits. Test:
-   test_kernel.c (quad precision). */
+   relative error 2^-57.9) and 14 (cosine, 2^-63.9) of r, and the quadrant by masks. The library's
+   own would give other bits on a processor with FMA than on one without. Input x in rad, any;
+   output s, c. Valid for |x| <= fw_sincos_range; beyond it, and for NaN, the callers ask the C
+   library. Error below 0.9 ulp (0.83 found) without FMA. Cost about 55 operations, no branch;
+   FW_BRIEF 1 leaves out the second doubles: 27 operations, error below 1.6 ulp. Source: Cody and
+   Waite 1980, ch. 8; polynomials by the Remez exchange in 60 digits. Test: test_kernel.c (quad
+   precision). */
 static const double fw_sincos_range = 1e5;
 
 FW_INLINE void real_sincos(real x, real *sine, real *cosine) {

@@ -5,14 +5,12 @@
        [ A  -eps ] [ lambda ] = [ b + eps lambda_before ]
 
    in mass-weighted coordinates (multibody/multibody_dense.h), swept until A w = b. The matrix is
-   symmetric and
-   quasi-definite whatever the rank of A, so that it always has a factorisation. Bunch and Kaufman's
-   L D L^T, once per evaluation. Error: round-off times 1/sqrt(eps), refined by the sweeps. Cost
-   (n + rows)^3/3. Source: Lagrange multipliers in index-1 form, Haug 1989, ch. 11; quasi-definite
-   matrices, Vanderbei 1995; the proximal sweeps, Carpentier, Budhiraja and Mansard 2021. Test:
-   test_methods.c. */
+   symmetric and quasi-definite whatever the rank of A, so that it always has a factorisation. Bunch
+   and Kaufman's L D L^T, once per evaluation. Error: round-off times 1/sqrt(eps), refined by the
+   sweeps. Cost (n + rows)^3/3. Source: Lagrange multipliers in index-1 form, Haug 1989, ch. 11;
+   quasi-definite matrices, Vanderbei 1995; the proximal sweeps, Carpentier, Budhiraja and Mansard
+   2021. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 
 typedef struct augmented {
@@ -61,11 +59,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_augmented_kernel = {kernel_prepare, kernel_factor,
                                                                  kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_augmented_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_augmented_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_augmented = {

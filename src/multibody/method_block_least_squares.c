@@ -23,7 +23,6 @@
    SIAM J. Numer. Anal. 22 (1985) 851-864 (weighting); Bjorck, Numerical Methods for Least Squares
    Problems, 1996, ch. 5. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>
@@ -91,12 +90,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_block_least_squares_kernel = {
     kernel_prepare, kernel_factor, kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_block_least_squares_kernel,
-                                            work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_block_least_squares_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_block_least_squares = {

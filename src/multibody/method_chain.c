@@ -5,52 +5,61 @@
    Budhiraja and Mansard, RSS 2021; Featherstone 2008, ch. 8. Test: test_block_chain.c,
    test_simulate.c. */
 #include "multibody/kernel.h"
-#include "multibody/methods.h"
+#include "multibody/multibody_scratch.h"
 #include <string.h>
 
-static bool factor(fw_multibody_model *m) {
-    fw_multibody_chain_assemble(m);
-    return fw_multibody_chain_factor(&m->chain, m->epsilon);
+static bool factor(fw_multibody_system *sys, const fw_multibody_pose *pose) {
+    fw_multibody_scratch *w = sys->work;
+    fw_multibody_chain_assemble(sys->model, pose, &w->chain);
+    return fw_multibody_chain_factor(&sys->model->chain, &w->chain, w->epsilon);
 }
 
-static void accelerate(fw_multibody_model *m, const double *gamma, double *a, double *lambda) {
-    fw_multibody_model_jacobian(m, a, m->drift);
+static void accelerate(fw_multibody_system *sys, const fw_multibody_factor *at, const double *gamma,
+                       double *a, double *lambda) {
+    const fw_multibody_model *m = sys->model;
+    double *right = sys->work->drift;
+    fw_multibody_jacobian(m, at->pose, a, right);
     for (int i = 0; i < 2 * m->nblock; i++)
-        m->drift[i] += gamma[i];
-    fw_multibody_chain_proximal(m, m->drift, lambda);
-    fw_multibody_model_apply(m, lambda, a);
+        right[i] += gamma[i];
+    fw_multibody_chain_proximal(m, at->pose, &sys->work->chain, right, lambda);
+    fw_multibody_apply(m, at->pose, lambda, a);
 }
 
 /* d = -M^-1 G^T (S + eps D)^-1 r: rows that cannot be met are left alone */
-static void correct(fw_multibody_model *m, const double *r, double *d) {
-    memcpy(m->more, r, 2 * (size_t)m->nblock * sizeof *r);
-    fw_multibody_chain_solve(&m->chain, m->more);
+static void correct(fw_multibody_system *sys, const fw_multibody_pose *pose, const double *r,
+                    double *d) {
+    const fw_multibody_model *m = sys->model;
+    double *lambda = sys->work->more;
+    memcpy(lambda, r, 2 * (size_t)m->nblock * sizeof *r);
+    fw_multibody_chain_solve(&m->chain, &sys->work->chain, lambda);
     memset(d, 0, (size_t)m->nq * sizeof *d);
-    fw_multibody_model_apply(m, m->more, d);
+    fw_multibody_apply(m, pose, lambda, d);
 }
 
 /* do rows repeat each other in the assembled pose? Some pivot of S then vanishes against 1/m_a +
    1/m_b (here: below a millionth of it); the smaller eigenvalue of L diag(d, e) L^T is about e/(1 +
    l^2) */
-static bool redundant_as_assembled(fw_multibody_model *m) {
+static bool redundant_as_assembled(fw_multibody_system *sys) {
+    const fw_multibody_model *m = sys->model;
     const fw_multibody_chain *c = &m->chain;
-    memset(m->correction, 0, (size_t)m->nq * sizeof *m->correction);
-    fw_multibody_model_pose(m, m->correction);
-    fw_multibody_chain_assemble(m);
-    if (!fw_multibody_chain_factor(&m->chain, 0)) return true;
+    fw_multibody_chain_numbers *s = &sys->work->chain;
+    double *u = sys->work->correction;
+    memset(u, 0, (size_t)m->nq * sizeof *u);
+    fw_multibody_chain_assemble(m, fw_multibody_pose_at(sys, 0, u), s);
+    if (!fw_multibody_chain_factor(c, s, 0)) return true;
     for (int i = 0; i < c->pins; i++) {
-        double slant = c->pivot[3 * i + 1], least = 1 / c->pivot[3 * i + 2] / (1 + slant * slant);
+        double slant = s->pivot[3 * i + 1], least = 1 / s->pivot[3 * i + 2] / (1 + slant * slant);
         if (!(least > 1e-6 * c->isotropic[2 * i])) return true;
     }
     return false;
 }
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
-    (void)mechanism, (void)diags, (void)work;
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
+    (void)mechanism, (void)diags;
     /* the kernel's 2 x 2 inverses lose digits where joints repeat each other */
-    if (!m->plain || redundant_as_assembled(m)) return FW_OK;
-    return fw_multibody_kernel_new(arena, m, &m->kernel);
+    if (!sys->model->plain || redundant_as_assembled(sys)) return FW_OK;
+    return fw_multibody_kernel_new(arena, sys->model, &sys->kernel);
 }
 
 const fw_multibody_method fw_multibody_method_chain = {

@@ -6,11 +6,10 @@
            [ A_lu A_lv ]       (I + X^T X) w_v = w0_v - X^T (w0_u - c)
 
    in mass-weighted coordinates (multibody/multibody_dense.h), where B = [-X; I] spans the null
-   space of the
-   first rows and B^T B is the reduced mass matrix. The partition stays until it degrades: until the
-   ratio of the smallest to the largest pivot of A_u is a tenth of what it was when it was chosen,
-   or below 1e-3. (X says nothing about that: it stays bounded at a singular position, while A_u^-1
-   does not.)
+   space of the first rows and B^T B is the reduced mass matrix. The partition stays until it
+   degrades: until the ratio of the smallest to the largest pivot of A_u is a tenth of what it was
+   when it was chosen, or below 1e-3. (X says nothing about that: it stays bounded at a singular
+   position, while A_u^-1 does not.)
 
    Pivots end at 1e-3 of the largest. Rows left over, redundant ones and those that vanish near a
    singular position, are not dropped: they remain constraints of the reduced equations,
@@ -22,12 +21,10 @@
    no such row asks for more and the pivots of A_u lie within a factor of 10. Beyond that they are
    of least mass norm: holding one coordinate there pushes the errors of a motion that is about to
    become free into the motion that goes on (measured on two four-bar windows, rtol 1e-12: error at
-   10 s 2e-8 instead of 2e-9).
-   Error: round-off times |X|^2. Cost rows^2 n + n_v^2 n; complete pivoting, rows^2 n, when the
-   partition changes. Source: Wehage and Haug, J. Mech. Des. 104 (1982) 247-255. Test:
-   test_methods.c. */
+   10 s 2e-8 instead of 2e-9). Error: round-off times |X|^2. Cost rows^2 n + n_v^2 n; complete
+   pivoting, rows^2 n, when the partition changes. Source: Wehage and Haug, J. Mech. Des. 104 (1982)
+   247-255. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>
@@ -277,26 +274,27 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_coordinate_partitioning_kernel = {
     kernel_prepare, kernel_factor, kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_coordinate_partitioning_kernel,
-                                            work);
+    return fw_multibody_dense_model_prepare(arena, sys,
+                                            &fw_multibody_coordinate_partitioning_kernel);
 }
 
 /* the independent coordinates stay where they are, except near singular positions: what a step
    left in the motion that is about to become free would be pushed into them */
-static void correct(fw_multibody_model *m, const double *r, double *correction) {
-    fw_multibody_dense *d = m->work;
+static void correct(fw_multibody_system *sys, const fw_multibody_pose *pose, const double *r,
+                    double *correction) {
+    fw_multibody_dense *d = sys->work->method;
     partition *p = d->space;
     if (d->rows > 0 && condition(p) < near) {
-        fw_multibody_dense_model_correct(m, r, correction);
+        fw_multibody_dense_model_correct(sys, pose, r, correction);
         return;
     }
     memset(correction, 0, (size_t)d->n * sizeof *correction);
     if (d->rows == 0) return;
-    fw_multibody_model_pack(m, r, d->gamma);
+    fw_multibody_pack(sys->model, r, d->gamma);
     for (int i = 0; i < d->rows; i++)
         d->b[i] = -d->row[i] * d->gamma[i];
     bool good = particular(d, d->b);
@@ -309,9 +307,10 @@ static void correct(fw_multibody_model *m, const double *r, double *correction) 
         correction[j] *= d->root[j];
 }
 
-static fw_status report(const fw_multibody_model *m, const fw_mechanism *mechanism, fw_text *out) {
+static fw_status report(const fw_multibody_system *sys, const fw_mechanism *mechanism,
+                        fw_text *out) {
     static const char *const axis[] = {"x", "y", "phi"};
-    const fw_multibody_dense *d = m->work;
+    const fw_multibody_dense *d = sys->work->method;
     const partition *p = d->space;
     if (!p || !p->chosen) return FW_OK;
     fw_text_add(out, p->free > 0 ? "independent coordinates: " : "no independent coordinate");

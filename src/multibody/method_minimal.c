@@ -21,8 +21,8 @@
    stopped at. Error: round-off times 1/sin of the angle between e_1 and e_2. Cost O(rates bodies +
    rates^3). Source: Kecskemethy, Krupp and Hiller 1997 (kinematic transformers); Garcia de
    Jalon and Bayo 1994, ch. 5 (velocity transformations). Test: test_minimal.c. */
-#include "multibody/methods.h"
 #include "multibody/minimal.h"
+#include "multibody/multibody_scratch.h"
 #include "maths/dense.h"
 #include <float.h>
 #include <math.h>
@@ -43,10 +43,11 @@ typedef struct minimal {
     double *determinant; /* (steps) D of a dyad */
 } minimal;
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     minimal *p;
     FW_NEED(p = fw_arena_one(arena, minimal));
+    const fw_multibody_model *m = sys->model;
     FW_TRY(fw_multibody_placing_find(arena, m, mechanism, diags, &p->plan));
     size_t nq = (size_t)m->nq, rates = (size_t)p->plan.rates;
     FW_NEED(p->mass = fw_arena_array(arena, double, nq));
@@ -63,12 +64,13 @@ static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechan
         p->mass[3 * b + 2] = 1 / m->jinv[b];
     }
     FW_TRY(fw_maths_lapack_ready());
-    *work = p;
+    sys->work->method = p;
     return FW_OK;
 }
 
-static const double *arm_of(const fw_multibody_model *m, int block, int body) {
-    return m->arm + 4 * block + 2 * fw_layout_side(m, block, body);
+static const double *arm_of(const fw_multibody_model *m, const fw_multibody_pose *pose, int block,
+                            int body) {
+    return pose->arm + 4 * block + 2 * fw_layout_side(m, block, body);
 }
 
 static double sign_of(const fw_multibody_model *m, int block, int body) { /* rows are a - b */
@@ -80,39 +82,40 @@ static double cross(const double a[2], const double b[2]) {
 }
 
 /* from the pin that holds body i of a dyad to the pin between the two */
-static void dyad_vector(const fw_multibody_model *m, const fw_multibody_placing *s, int i,
-                        double e[2]) {
-    const double *from = arm_of(m, s->block[2 * i], s->body[i]);
-    const double *to = arm_of(m, s->block[1], s->body[i]);
+static void dyad_vector(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                        const fw_multibody_placing *s, int i, double e[2]) {
+    const double *from = arm_of(m, pose, s->block[2 * i], s->body[i]);
+    const double *to = arm_of(m, pose, s->block[1], s->body[i]);
     e[0] = to[0] - from[0], e[1] = to[1] - from[1];
 }
 
 /* ---- G d = right ---- */
 
 /* velocity that a body must have at a pin to a placed one */
-static void point_rate(const fw_multibody_model *m, const double *d, const double *right, int block,
-                       int body, double rate[2]) {
+static void point_rate(const fw_multibody_model *m, const fw_multibody_pose *pose, const double *d,
+                       const double *right, int block, int body, double rate[2]) {
     int other = fw_across(m, block, body);
-    const double *v = d + 3 * other, *s = arm_of(m, block, other);
+    const double *v = d + 3 * other, *s = arm_of(m, pose, block, other);
     double sign = sign_of(m, block, body);
     rate[0] = v[0] - v[2] * s[1] + sign * right[2 * block];
     rate[1] = v[1] + v[2] * s[0] + sign * right[2 * block + 1];
 }
 
-static void set_rate(const fw_multibody_model *m, double *d, int block, int body,
-                     const double point[2], double turn) {
-    const double *s = arm_of(m, block, body);
+static void set_rate(const fw_multibody_model *m, const fw_multibody_pose *pose, double *d,
+                     int block, int body, const double point[2], double turn) {
+    const double *s = arm_of(m, pose, block, body);
     d[3 * body] = point[0] + turn * s[1];
     d[3 * body + 1] = point[1] - turn * s[0];
     d[3 * body + 2] = turn;
 }
 
-static void sweep_dyad(const fw_multibody_model *m, const fw_multibody_placing *s,
-                       double determinant, const double *right, double *d) {
+static void sweep_dyad(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                       const fw_multibody_placing *s, double determinant, const double *right,
+                       double *d) {
     double p[2][2], e[2][2];
     for (int i = 0; i < 2; i++) {
-        point_rate(m, d, right, s->block[2 * i], s->body[i], p[i]);
-        dyad_vector(m, s, i, e[i]);
+        point_rate(m, pose, d, right, s->block[2 * i], s->body[i], p[i]);
+        dyad_vector(m, pose, s, i, e[i]);
     }
     double sign = sign_of(m, s->block[1], s->body[0]);
     const double h[2] = {p[1][0] - p[0][0] + sign * right[2 * s->block[1]],
@@ -120,16 +123,16 @@ static void sweep_dyad(const fw_multibody_model *m, const fw_multibody_placing *
     double w[2] = {(h[0] * e[1][0] + h[1] * e[1][1]) / determinant,
                    (h[0] * e[0][0] + h[1] * e[0][1]) / determinant};
     for (int i = 0; i < 2; i++)
-        set_rate(m, d, s->block[2 * i], s->body[i], p[i], w[i]);
+        set_rate(m, pose, d, s->block[2 * i], s->body[i], p[i], w[i]);
 }
 
 /* d (nq + 3) with G d = right, the independent angles at `rates` */
-static void sweep(const fw_multibody_model *m, const minimal *p, const double *right,
-                  const double *rates, double *d) {
+static void sweep(const fw_multibody_model *m, const fw_multibody_pose *pose, const minimal *p,
+                  const double *right, const double *rates, double *d) {
     for (int i = 0; i < p->plan.count; i++) {
         const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
-            sweep_dyad(m, s, p->determinant[i], right, d);
+            sweep_dyad(m, pose, s, p->determinant[i], right, d);
             continue;
         }
         int body = s->body[0];
@@ -143,20 +146,20 @@ static void sweep(const fw_multibody_model *m, const minimal *p, const double *r
         if (s->turn != FW_NONE) /* row: w_b - w_a */
             turn = d[3 * fw_across(m, s->turn, body) + 2] -
                    sign_of(m, s->turn, body) * right[2 * s->turn];
-        point_rate(m, d, right, s->block[0], body, point);
-        set_rate(m, d, s->block[0], body, point, turn);
+        point_rate(m, pose, d, right, s->block[0], body, point);
+        set_rate(m, pose, d, s->block[0], body, point, turn);
     }
 }
 
 /* ---- factor: N and N^T M N at the pose ---- */
 
-static bool determinants(const fw_multibody_model *m, minimal *p) {
+static bool determinants(const fw_multibody_model *m, const fw_multibody_pose *pose, minimal *p) {
     for (int i = 0; i < p->plan.count; i++) {
         const fw_multibody_placing *s = &p->plan.step[i];
         double e[2][2];
         if (!s->dyad) continue;
         for (int k = 0; k < 2; k++)
-            dyad_vector(m, s, k, e[k]);
+            dyad_vector(m, pose, s, k, e[k]);
         p->determinant[i] = cross(e[0], e[1]);
         double size = hypot(e[0][0], e[0][1]) * hypot(e[1][0], e[1][1]);
         if (!(fabs(p->determinant[i]) > flat * size)) return false;
@@ -164,16 +167,17 @@ static bool determinants(const fw_multibody_model *m, minimal *p) {
     return true;
 }
 
-static bool factor(fw_multibody_model *m) {
-    minimal *p = m->work;
+static bool factor(fw_multibody_system *sys, const fw_multibody_pose *pose) {
+    const fw_multibody_model *m = sys->model;
+    minimal *p = sys->work->method;
     size_t nq = (size_t)m->nq;
     int rates = p->plan.rates;
-    if (!determinants(m, p)) return false;
+    if (!determinants(m, pose, p)) return false;
     memset(p->right, 0, 2 * (size_t)m->nblock * sizeof *p->right);
     memset(p->rates, 0, (size_t)rates * sizeof *p->rates);
     for (int k = 0; k < rates; k++) {
         p->rates[k] = 1;
-        sweep(m, p, p->right, p->rates, p->part);
+        sweep(m, pose, p, p->right, p->rates, p->part);
         p->rates[k] = 0;
         memcpy(p->n + (size_t)k * nq, p->part, nq * sizeof *p->part);
     }
@@ -191,10 +195,10 @@ static bool factor(fw_multibody_model *m) {
 /* ---- multipliers ---- */
 
 /* takes the force of a pin on `body` off the body across */
-static void pass_on(const fw_multibody_model *m, int block, int body, const double pull[2],
-                    double *force) {
+static void pass_on(const fw_multibody_model *m, const fw_multibody_pose *pose, int block, int body,
+                    const double pull[2], double *force) {
     int other = fw_across(m, block, body);
-    const double *s = arm_of(m, block, other);
+    const double *s = arm_of(m, pose, block, other);
     force[3 * other] += pull[0];
     force[3 * other + 1] += pull[1];
     force[3 * other + 2] += cross(s, pull);
@@ -207,13 +211,14 @@ static void set_lambda(const fw_multibody_model *m, int block, int body, const d
     lambda[2 * block + 1] = sign * pull[1];
 }
 
-static void dyad_lambda(const fw_multibody_model *m, const fw_multibody_placing *s,
-                        double determinant, double *force, double *lambda) {
+static void dyad_lambda(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                        const fw_multibody_placing *s, double determinant, double *force,
+                        double *lambda) {
     double e[2][2], moment[2];
     for (int i = 0; i < 2; i++) { /* about the pin that holds it */
         const double *f = force + 3 * s->body[i];
-        dyad_vector(m, s, i, e[i]);
-        moment[i] = f[2] - cross(arm_of(m, s->block[2 * i], s->body[i]), f);
+        dyad_vector(m, pose, s, i, e[i]);
+        moment[i] = f[2] - cross(arm_of(m, pose, s->block[2 * i], s->body[i]), f);
     }
     /* middle: on body[0]; e_1 x middle = moment_1, -e_2 x middle = moment_2 */
     const double middle[2] = {(moment[0] * e[1][0] + moment[1] * e[0][0]) / determinant,
@@ -223,39 +228,42 @@ static void dyad_lambda(const fw_multibody_model *m, const fw_multibody_placing 
         const double *f = force + 3 * s->body[i], to = i == 0 ? -1 : 1;
         const double pull[2] = {f[0] + to * middle[0], f[1] + to * middle[1]};
         set_lambda(m, s->block[2 * i], s->body[i], pull, lambda);
-        pass_on(m, s->block[2 * i], s->body[i], pull, force);
+        pass_on(m, pose, s->block[2 * i], s->body[i], pull, force);
     }
 }
 
 /* G^T lambda = force (nq + 3, used up), last placed first */
-static void multipliers(const fw_multibody_model *m, const minimal *p, double *force,
-                        double *lambda) {
+static void multipliers(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                        const minimal *p, double *force, double *lambda) {
     for (int i = p->plan.count - 1; i >= 0; i--) {
         const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
-            dyad_lambda(m, s, p->determinant[i], force, lambda);
+            dyad_lambda(m, pose, s, p->determinant[i], force, lambda);
             continue;
         }
         if (s->loose) continue; /* nothing pulls at it */
         const double *f = force + 3 * s->body[0];
-        double left = f[2] - cross(arm_of(m, s->block[0], s->body[0]), f);
+        double left = f[2] - cross(arm_of(m, pose, s->block[0], s->body[0]), f);
         if (s->turn != FW_NONE) { /* row: on b +lambda, on a -lambda */
             lambda[2 * s->turn] = -sign_of(m, s->turn, s->body[0]) * left;
             lambda[2 * s->turn + 1] = 0;
             force[3 * fw_across(m, s->turn, s->body[0]) + 2] += left;
         }
         set_lambda(m, s->block[0], s->body[0], f, lambda);
-        pass_on(m, s->block[0], s->body[0], f, force);
+        pass_on(m, pose, s->block[0], s->body[0], f, force);
     }
 }
 
-static void accelerate(fw_multibody_model *m, const double *gamma, double *a, double *lambda) {
-    minimal *p = m->work;
+static void accelerate(fw_multibody_system *sys, const fw_multibody_factor *at, const double *gamma,
+                       double *a, double *lambda) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_pose *pose = at->pose;
+    minimal *p = sys->work->method;
     size_t nq = (size_t)m->nq;
     int rates = p->plan.rates;
     for (int i = 0; i < 2 * m->nblock; i++)
         p->right[i] = -gamma[i];
-    sweep(m, p, p->right, NULL, p->part);
+    sweep(m, pose, p, p->right, NULL, p->part);
     for (int k = 0; k < rates; k++) {
         const double *n = p->n + (size_t)k * nq;
         p->rates[k] = 0;
@@ -264,74 +272,80 @@ static void accelerate(fw_multibody_model *m, const double *gamma, double *a, do
     }
     if (rates > 0 && !fw_maths_cholesky_solve(rates, p->reduced, p->rates))
         p->rates[0] = (double)NAN;
-    sweep(m, p, p->right, p->rates, p->part);
+    sweep(m, pose, p, p->right, p->rates, p->part);
     memset(p->force, 0, (nq + 3) * sizeof *p->force);
     for (size_t j = 0; j < nq; j++) {
         p->force[j] = p->mass[j] * (a[j] - p->part[j]);
         a[j] = p->part[j];
     }
-    multipliers(m, p, p->force, lambda);
+    multipliers(m, pose, p, p->force, lambda);
 }
 
 /* the independent angles stay */
-static void correct(fw_multibody_model *m, const double *r, double *d) {
-    minimal *p = m->work;
+static void correct(fw_multibody_system *sys, const fw_multibody_pose *pose, const double *r,
+                    double *d) {
+    const fw_multibody_model *m = sys->model;
+    minimal *p = sys->work->method;
     for (int i = 0; i < 2 * m->nblock; i++)
         p->right[i] = -r[i];
-    sweep(m, p, p->right, NULL, p->part);
+    sweep(m, pose, p, p->right, NULL, p->part);
     memcpy(d, p->part, (size_t)m->nq * sizeof *d);
 }
 
-/* ---- positions ---- */
+/* ---- positions: bodies are placed one after the other, their sines with them ---- */
 
-static void turn_arms(fw_multibody_model *m, const fw_multibody_placing *s, int i,
+static void turn_arms(const fw_multibody_system *sys, const fw_multibody_placing *s, int i,
                       const double *u) {
     int body = s->body[i];
-    sincos(m->origin[3 * body + 2] + u[3 * body + 2], &m->sine[body], &m->cosine[body]);
+    sincos(sys->model->origin[3 * body + 2] + u[3 * body + 2], &sys->work->sine[body],
+           &sys->work->cosine[body]);
 }
 
-static void arm_at(const fw_multibody_model *m, int block, int body, double arm[2]) {
+static void arm_at(const fw_multibody_system *sys, int block, int body, double arm[2]) {
+    const fw_multibody_model *m = sys->model;
     const double *local = m->local + 4 * block + 2 * fw_layout_side(m, block, body);
-    double c = m->cosine[body], s = m->sine[body];
+    double c = sys->work->cosine[body], s = sys->work->sine[body];
     arm[0] = c * local[0] - s * local[1];
     arm[1] = s * local[0] + c * local[1];
 }
 
 /* displacement of a body plus its arm at a pin, from the placed body across */
-static void point_at(const fw_multibody_model *m, const double *u, int block, int body,
+static void point_at(const fw_multibody_system *sys, const double *u, int block, int body,
                      double point[2]) {
+    const fw_multibody_model *m = sys->model;
+    const double *offset = sys->work->pose.offset + 2 * block;
     int other = fw_across(m, block, body);
     double arm[2], sign = sign_of(m, block, body);
-    arm_at(m, block, other, arm);
+    arm_at(sys, block, other, arm);
     for (int k = 0; k < 2; k++)
-        point[k] =
-            arm[k] - sign * m->offset[2 * block + k] + (other < m->nbody ? u[3 * other + k] : 0);
+        point[k] = arm[k] - sign * offset[k] + (other < m->nbody ? u[3 * other + k] : 0);
 }
 
-static void put(fw_multibody_model *m, const fw_multibody_placing *s, int i, const double point[2],
-                double *u) {
+static void put(const fw_multibody_system *sys, const fw_multibody_placing *s, int i,
+                const double point[2], double *u) {
     double arm[2];
     int body = s->body[i];
-    turn_arms(m, s, i, u);
-    arm_at(m, s->block[2 * i], body, arm);
+    turn_arms(sys, s, i, u);
+    arm_at(sys, s->block[2 * i], body, arm);
     u[3 * body] = point[0] - arm[0];
     u[3 * body + 1] = point[1] - arm[1];
 }
 
 /* e_1 - e_2 = h with the lengths of the e: two circles, the side of the guess. The bodies turn by
    the angles between the guessed and the found vectors. false: out of reach, or flat. */
-static bool close_dyad(fw_multibody_model *m, const fw_multibody_placing *s, double *u) {
+static bool close_dyad(const fw_multibody_system *sys, const fw_multibody_placing *s, double *u) {
+    const fw_multibody_model *m = sys->model;
     double point[2][2], guess[2][2], e[2][2];
     for (int i = 0; i < 2; i++) {
         double from[2], to[2];
-        point_at(m, u, s->block[2 * i], s->body[i], point[i]);
-        arm_at(m, s->block[2 * i], s->body[i], from);
-        arm_at(m, s->block[1], s->body[i], to);
+        point_at(sys, u, s->block[2 * i], s->body[i], point[i]);
+        arm_at(sys, s->block[2 * i], s->body[i], from);
+        arm_at(sys, s->block[1], s->body[i], to);
         guess[i][0] = to[0] - from[0], guess[i][1] = to[1] - from[1];
     }
     double sign = sign_of(m, s->block[1], s->body[0]), h[2];
     for (int k = 0; k < 2; k++)
-        h[k] = point[1][k] - point[0][k] - sign * m->offset[2 * s->block[1] + k];
+        h[k] = point[1][k] - point[0][k] - sign * sys->work->pose.offset[2 * s->block[1] + k];
     double far = hypot(h[0], h[1]);
     double l1 = guess[0][0] * guess[0][0] + guess[0][1] * guess[0][1];
     double l2 = guess[1][0] * guess[1][0] + guess[1][1] * guess[1][1];
@@ -347,7 +361,7 @@ static bool close_dyad(fw_multibody_model *m, const fw_multibody_placing *s, dou
     for (int i = 0; i < 2; i++) {
         u[3 * s->body[i] + 2] +=
             atan2(cross(guess[i], e[i]), guess[i][0] * e[i][0] + guess[i][1] * e[i][1]);
-        put(m, s, i, point[i], u);
+        put(sys, s, i, point[i], u);
     }
     return true;
 }
@@ -367,11 +381,12 @@ static void turn_values(const fw_multibody_model *m, minimal *p, const double *u
     }
 }
 
-static bool place_all(fw_multibody_model *m, minimal *p, double *u) {
+static bool place_all(const fw_multibody_system *sys, const minimal *p, double *u) {
+    const fw_multibody_model *m = sys->model;
     for (int i = 0; i < p->plan.count; i++) {
         const fw_multibody_placing *s = &p->plan.step[i];
         if (s->dyad) {
-            if (!close_dyad(m, s, u)) return false;
+            if (!close_dyad(sys, s, u)) return false;
             continue;
         }
         int body = s->body[0];
@@ -380,35 +395,39 @@ static bool place_all(fw_multibody_model *m, minimal *p, double *u) {
         if (s->turn != FW_NONE)
             u[3 * body + 2] = rotation(m, u, fw_across(m, s->turn, body)) -
                               sign_of(m, s->turn, body) * p->turn[i];
-        point_at(m, u, s->block[0], body, point);
-        put(m, s, 0, point, u);
+        point_at(sys, u, s->block[0], body, point);
+        put(sys, s, 0, point, u);
     }
     return true;
 }
 
-static bool close(fw_multibody_model *m, double t, double *u) {
-    minimal *p = m->work;
-    double norm = fw_multibody_model_residual(m, t, u, p->right);
-    if (!(norm < (double)INFINITY)) return false;
+static const fw_multibody_pose *close(fw_multibody_system *sys, double t, double *u) {
+    const fw_multibody_model *m = sys->model;
+    minimal *p = sys->work->method;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, u);
+    double norm = fw_multibody_residual(sys, pose, p->right);
+    if (!(norm < (double)INFINITY)) return NULL;
     turn_values(m, p, u, p->right);
-    if (!place_all(m, p, u)) return false;
+    if (!place_all(sys, p, u)) return NULL;
     for (int i = 0;; i++) {
-        norm = fw_multibody_model_residual(m, t, u, p->right);
-        if (!(norm < (double)INFINITY)) return false;
+        pose = fw_multibody_pose_at(sys, t, u);
+        norm = fw_multibody_residual(sys, pose, p->right);
+        if (!(norm < (double)INFINITY)) return NULL;
         if (norm <= 2 * DBL_EPSILON * m->size || i == 2) break;
-        if (!determinants(m, p)) return false;
+        if (!determinants(m, pose, p)) return NULL;
         for (int k = 0; k < 2 * m->nblock; k++)
             p->right[k] = -p->right[k];
-        sweep(m, p, p->right, NULL, p->part);
+        sweep(m, pose, p, p->right, NULL, p->part);
         for (int j = 0; j < m->nq; j++)
             u[j] += p->part[j];
     }
-    return norm <= 1e-12;
+    return norm <= 1e-12 ? pose : NULL;
 }
 
-static fw_status report(const fw_multibody_model *m, const fw_mechanism *mechanism, fw_text *out) {
+static fw_status report(const fw_multibody_system *sys, const fw_mechanism *mechanism,
+                        fw_text *out) {
     static const char *const axis[] = {"x", "y", "phi"};
-    const minimal *p = m->work;
+    const minimal *p = sys->work->method;
     int dyads = 0;
     for (int i = 0; i < p->plan.count; i++)
         dyads += p->plan.step[i].dyad;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* qr: A^T P = [Q_1 Q_2] [R; 0] with column pivoting. N = M^-1/2 Q_2 spans the null space of G and
    carries the independent rates c_2 = Q_2^T w0, whose reduced mass matrix N^T M N is I in
-   mass-weighted coordinates (multibody/multibody_dense.h). In the range, w = Q_1 y, the
-   constraints ask
-   R^T y = P^T b, y closest to Q_1^T w0:
+   mass-weighted coordinates (multibody/multibody_dense.h). In the range, w = Q_1 y, the constraints
+   ask R^T y = P^T b, y closest to Q_1^T w0:
 
        y += R dl,   (R^T R + eps) dl = P^T b - R^T y,   lambda = -P sum dl,
 
@@ -13,7 +12,6 @@
    J. Mech. Transm. Autom. Des. 108 (1986) 183-188; Golub and Van Loan, section 5.4. Test:
    test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>
@@ -111,11 +109,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_qr_kernel = {kernel_prepare, kernel_factor,
                                                           kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_qr_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_qr_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_qr = {

@@ -2,21 +2,18 @@
 /* schur: A^T A = W diag(mu) W^T, the Schur form of a symmetric matrix. Columns of W with mu = 0
    span the null space of A (zero eigenvalue theorem) and carry the independent rates, whose reduced
    mass matrix is I in mass-weighted coordinates (multibody/multibody_dense.h); the others carry
-   what the
-   constraints prescribe:
+   what the constraints prescribe:
 
        z_i = (w_i . A^T b) / mu_i  where constrained,   z_i = w_i . w0  where independent,
        w = W z,   lambda = A W diag(1/mu) W^T (w0 - w) .
 
-   1/mu is share(mu) of multibody/multibody_dense.h. As mu is s^2, singular values below 1e-7 of
-   the largest
-   drown in round-off: those mu count as 0 (their share would be below 1e-5). Vectors turn by
-   round-off/mu; a second pass with the residuals w0 - w - A^T lambda and b - A w takes out what
+   1/mu is share(mu) of multibody/multibody_dense.h. As mu is s^2, singular values below 1e-7 of the
+   largest drown in round-off: those mu count as 0 (their share would be below 1e-5). Vectors turn
+   by round-off/mu; a second pass with the residuals w0 - w - A^T lambda and b - A w takes out what
    that leaves. Error: round-off times (s_1/s_r)^2 before the second pass. Cost rows n^2 + 9 n^3.
    Source: Walton and Steeves, NASA TR R-326 (1969); Kamman and Huston, J. Appl. Mech. 51 (1984)
    899-903. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>
@@ -114,11 +111,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_schur_kernel = {kernel_prepare, kernel_factor,
                                                              kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_schur_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_schur_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_schur = {

@@ -8,13 +8,10 @@
        lambda = sum u_i (v_i . w0 - z_i) / s_i .
 
    A rate with small s is a weighted mean of the two (share f = s^2 share(s^2) of
-   multibody/multibody_dense.h),
-   one below round-off is free.
-   Error: round-off times s_1/s_r. Cost about 4 rows^2 n + 20 rows^3 + 4 n^3. Source: Singh and
-   Likins, J. Appl. Mech. 52 (1985) 943-948; Mani, Haug and Atkinson, J. Mech. Transm. Autom. Des.
-   107 (1985) 82-87. Test: test_methods.c. */
+   multibody/multibody_dense.h), one below round-off is free. Error: round-off times s_1/s_r. Cost
+   about 4 rows^2 n + 20 rows^3 + 4 n^3. Source: Singh and Likins, J. Appl. Mech. 52 (1985) 943-948;
+   Mani, Haug and Atkinson, J. Mech. Transm. Autom. Des. 107 (1985) 82-87. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <string.h>
 
@@ -78,11 +75,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_svd_kernel = {kernel_prepare, kernel_factor,
                                                            kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_svd_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_svd_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_svd = {

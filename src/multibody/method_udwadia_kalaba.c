@@ -5,13 +5,11 @@
 
    with the Moore-Penrose inverse from the singular value decomposition A = U diag(s) V^T: the
    reciprocal of s is s * share(s^2) (multibody/multibody_dense.h), which is 1/s to round-off where
-   s > 1e-3
-   and 0 where s is round-off, without a jump between the two. Balancing the rows changes
-   neither a nor, at full rank, lambda. Error: round-off times s_1/s_r. Cost about 6 rows^2 n +
-   20 rows^3 by QR iteration. Source: Udwadia and Kalaba, Proc. R. Soc. A 439 (1992) 407-410.
-   Test: test_methods.c. */
+   s > 1e-3 and 0 where s is round-off, without a jump between the two. Balancing the rows changes
+   neither a nor, at full rank, lambda. Error: round-off times s_1/s_r. Cost about 6 rows^2 n + 20
+   rows^3 by QR iteration. Source: Udwadia and Kalaba, Proc. R. Soc. A 439 (1992) 407-410. Test:
+   test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "multibody/methods.h"
 #include "maths/dense.h"
 #include <string.h>
 
@@ -70,11 +68,11 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
 const fw_multibody_dense_kernel fw_multibody_udwadia_kalaba_kernel = {kernel_prepare, kernel_factor,
                                                                       kernel_solve};
 
-static fw_status prepare(fw_arena *arena, fw_multibody_model *m, const fw_mechanism *mechanism,
-                         fw_diags *diags, void **work) {
+static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
+                         fw_diags *diags) {
     (void)mechanism;
     (void)diags;
-    return fw_multibody_dense_model_prepare(arena, m, &fw_multibody_udwadia_kalaba_kernel, work);
+    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_udwadia_kalaba_kernel);
 }
 
 const fw_multibody_method fw_multibody_method_udwadia_kalaba = {

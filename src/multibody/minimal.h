@@ -5,9 +5,8 @@
 #define FW_MULTIBODY_MINIMAL_H
 #include "multibody/model.h"
 
-typedef struct
-    fw_multibody_placing { /* a body turned about a pin of placed bodies, a dyad of two, or a
-                               body that nothing holds */
+/* a body turned about a pin of placed bodies, a dyad of two, or a body that nothing holds */
+typedef struct fw_multibody_placing {
     bool dyad;
     int body[2];  /* the bodies placed; one: body[0] */
     int block[3]; /* pins: placed - body[0], body[0] - body[1], body[1] - placed; one: block[0] */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From mechanism and active effects to the scaled arrays of fw_multibody_model. */
-#include "multibody/build.h"
+#include "multibody/multibody_scratch.h"
 #include <math.h>
 
 typedef struct builder {
@@ -22,8 +22,8 @@ static void set_local(const builder *b, int body, double x, double y, double *to
     to[1] = (y - (ground ? b->centre.y : 0)) / b->m->scale.length_m;
 }
 
-/* positions are taken from the middle of the mechanism, so that far-away coordinates cost no digits
- */
+/* positions are taken from the middle of the mechanism, so that far-away coordinates cost no
+   digits */
 static fw_geometry_vec2 middle(const fw_mechanism *m, const double *q) {
     fw_geometry_vec2 sum = {0, 0};
     for (int b = 0; b < m->nbody; b++)
@@ -44,7 +44,6 @@ static void set_bodies(const builder *b, const double *q) {
         m->origin[3 * i + 1] = (q[3 * i + 1] - b->centre.y) / s.length_m;
         m->origin[3 * i + 2] = q[3 * i + 2];
     }
-    m->cosine[m->nbody] = 1;
 }
 
 /* ---- constraints ---- */
@@ -167,6 +166,16 @@ static const double *local_of(const builder *b, const fw_multibody_block *k, dou
 }
 
 /* blocks in the order of elimination, with what depends on it */
+static fw_status block_arrays(fw_arena *arena, fw_multibody_model *m, int nblock) {
+    size_t p = (size_t)nblock;
+    m->nblock = nblock;
+    FW_NEED(m->block = fw_arena_array(arena, fw_multibody_block, p));
+    FW_NEED(m->body = fw_arena_array(arena, int, 2 * p));
+    FW_NEED(m->local = fw_arena_array(arena, double, 4 * p));
+    FW_NEED(m->offset = fw_arena_array(arena, double, 2 * p));
+    return FW_OK;
+}
+
 static fw_status set_blocks(builder *b) {
     fw_multibody_model *m = b->m;
     const fw_mechanism *from = b->mechanism;
@@ -182,7 +191,7 @@ static fw_status set_blocks(builder *b) {
     for (int i = 0; i < count; i++)
         body[2 * i] = block[i].a, body[2 * i + 1] = block[i].b;
     FW_TRY(fw_multibody_topology_order(b->arena, count, body, m->nbody, order));
-    FW_TRY(fw_multibody_model_block_arrays(b->arena, m, count));
+    FW_TRY(block_arrays(b->arena, m, count));
     m->plain = count == from->npin - m->nreleased;
     for (int i = 0; i < count; i++) {
         fw_multibody_block *k = &m->block[i];
@@ -194,7 +203,7 @@ static fw_status set_blocks(builder *b) {
         if (k->joint != FW_NONE && k->rows != FW_ROWS_TURN) m->joint_block[k->joint] = i;
         if (k->driver != FW_NONE) m->driver_block[k->driver] = i;
         m->driven = m->driven || k->law;
-        m->rows += k->rows == FW_ROWS_PIN || k->rows == FW_ROWS_SLIDE ? 2 : 1;
+        m->rows += fw_multibody_row_count(k);
         const double *xa = m->origin + 3 * k->a, *xb = m->origin + 3 * k->b;
         double *offset = m->offset + 2 * i;
         offset[0] = xa[0] - xb[0], offset[1] = xa[1] - xb[1];
@@ -213,21 +222,20 @@ static void set_turning(const builder *b) {
     for (int i = 0; i < b->loads->ntorsion; i++) {
         const fw_effects_torsion *t = &b->loads->torsion[i];
         int p = index_of(m, t->body_a), q = index_of(m, t->body_b);
-        m->torsion[i] = (fw_multibody_model_torsion){p, q, t->stiffness_Nm_per_rad * tt / turn,
-                                                     t->damping_Nms_per_rad * s.time_s / turn,
-                                                     origin_turn(m, p, q) - t->free_angle_rad};
+        m->torsion[i] = (fw_multibody_torsion){p, q, t->stiffness_Nm_per_rad * tt / turn,
+                                               t->damping_Nms_per_rad * s.time_s / turn,
+                                               origin_turn(m, p, q) - t->free_angle_rad};
     }
     for (int i = 0; i < b->loads->nstop; i++) {
         const fw_effects_stop *t = &b->loads->stop[i];
         int p = index_of(m, t->body_a), q = index_of(m, t->body_b);
-        m->stop[i] =
-            (fw_multibody_model_stop){.a = p,
-                                      .b = q,
-                                      .pin = t->pin,
-                                      .side = t->side,
-                                      .at = t->at_rad + t->free_angle_rad - origin_turn(m, p, q),
-                                      .k = t->stiffness_Nm_per_rad * tt / turn,
-                                      .c = t->damping_Nms_per_rad * s.time_s / turn};
+        m->stop[i] = (fw_multibody_stop){.a = p,
+                                         .b = q,
+                                         .pin = t->pin,
+                                         .side = t->side,
+                                         .at = t->at_rad + t->free_angle_rad - origin_turn(m, p, q),
+                                         .k = t->stiffness_Nm_per_rad * tt / turn,
+                                         .c = t->damping_Nms_per_rad * s.time_s / turn};
     }
     m->ntorsion = b->loads->ntorsion;
     m->nstop = b->loads->nstop;
@@ -243,12 +251,12 @@ static void set_loads(const builder *b) {
                                      (c < 2 ? m->minv[i] : m->jinv[i] / s.length_m);
     for (int i = 0; i < b->loads->nload; i++) {
         const fw_effects_point_load *l = &b->loads->load[i];
-        m->load[i] = (fw_multibody_model_load){l->body, l->x_m / s.length_m, l->y_m / s.length_m,
-                                               l->fx_N * force, l->fy_N * force};
+        m->load[i] = (fw_multibody_load){l->body, l->x_m / s.length_m, l->y_m / s.length_m,
+                                         l->fx_N * force, l->fy_N * force};
     }
     for (int i = 0; i < b->loads->ntimed; i++) {
         const fw_effects_timed_load *l = &b->loads->timed[i];
-        m->timed[i] = (fw_multibody_model_timed){
+        m->timed[i] = (fw_multibody_timed_load){
             l->body,         l->x_m / s.length_m, l->y_m / s.length_m,
             l->fx_N * force, l->fy_N * force,     l->torque_Nm * force / s.length_m,
             l->law};
@@ -263,42 +271,36 @@ static void set_springs(const builder *b) {
     double tt = s.time_s * s.time_s;
     for (int i = 0; i < b->loads->nspring; i++) {
         const fw_device_spring *p = &b->loads->spring[i];
-        double local[4];
         int at = index_of(m, p->body_a), to = index_of(m, p->body_b);
-        set_local(b, at, p->ax_m, p->ay_m, local);
-        set_local(b, to, p->bx_m, p->by_m, local + 2);
-        m->spring[i] = (fw_multibody_model_spring){at,
-                                                   to,
-                                                   local[0],
-                                                   local[1],
-                                                   local[2],
-                                                   local[3],
-                                                   p->stiffness_N_per_m * tt / s.mass_kg,
-                                                   p->damping_Ns_per_m * s.time_s / s.mass_kg,
-                                                   p->length_m / s.length_m,
-                                                   p->cable,
-                                                   !p->cable};
+        set_local(b, at, p->ax_m, p->ay_m, m->spring_end + 4 * i);
+        set_local(b, to, p->bx_m, p->by_m, m->spring_end + 4 * i + 2);
+        m->spring[i] = (fw_multibody_spring){.a = at,
+                                             .b = to,
+                                             .k = p->stiffness_N_per_m * tt / s.mass_kg,
+                                             .c = p->damping_Ns_per_m * s.time_s / s.mass_kg,
+                                             .length = p->length_m / s.length_m,
+                                             .cable = p->cable};
         m->ncable += p->cable;
     }
     for (int i = 0; i < b->loads->nslide; i++) {
         const fw_effects_slide *p = &b->loads->slide[i];
         const fw_device_joint *t = &b->mechanism->joint[p->joint];
         int block = m->joint_block[p->joint];
-        fw_multibody_model_slide *to = &m->slide[i];
-        *to = (fw_multibody_model_slide){.a = m->block[block].a,
-                                         .b = m->block[block].b,
-                                         .block = block,
-                                         .k = p->stiffness_N_per_m * tt / s.mass_kg,
-                                         .c = p->damping_Ns_per_m * s.time_s / s.mass_kg,
-                                         .free = t->free_length_m / s.length_m};
+        fw_multibody_slide *to = &m->slide[i];
+        *to = (fw_multibody_slide){.a = m->block[block].a,
+                                   .b = m->block[block].b,
+                                   .block = block,
+                                   .k = p->stiffness_N_per_m * tt / s.mass_kg,
+                                   .c = p->damping_Ns_per_m * s.time_s / s.mass_kg,
+                                   .free = t->free_length_m / s.length_m};
     }
     m->nspring = b->loads->nspring;
     m->nslide = b->loads->nslide;
 }
 
 /* which quadratures the state carries */
-static void set_energy_integrals(fw_multibody_model *m, bool friction) {
-    bool loses = friction;
+static void set_energy_integrals(fw_multibody_model *m) {
+    bool loses = m->nfriction > 0;
     for (int i = 0; i < m->ntorsion; i++)
         loses = loses || m->torsion[i].c > 0;
     for (int i = 0; i < m->nspring; i++)
@@ -320,17 +322,33 @@ static void set_energy_integrals(fw_multibody_model *m, bool friction) {
 static fw_status set_applied_loads(const builder *b) {
     fw_multibody_model *m = b->m;
     const fw_effects_loads *t = b->loads;
-    FW_NEED(m->torsion = fw_arena_array(b->arena, fw_multibody_model_torsion, (size_t)t->ntorsion));
-    FW_NEED(m->stop = fw_arena_array(b->arena, fw_multibody_model_stop, (size_t)t->nstop));
-    FW_NEED(m->load = fw_arena_array(b->arena, fw_multibody_model_load, (size_t)t->nload));
-    FW_NEED(m->timed = fw_arena_array(b->arena, fw_multibody_model_timed, (size_t)t->ntimed));
-    FW_NEED(m->slide = fw_arena_array(b->arena, fw_multibody_model_slide, (size_t)t->nslide));
-    FW_NEED(m->spring = fw_arena_array(b->arena, fw_multibody_model_spring, (size_t)t->nspring));
+    FW_NEED(m->torsion = fw_arena_array(b->arena, fw_multibody_torsion, (size_t)t->ntorsion));
+    FW_NEED(m->stop = fw_arena_array(b->arena, fw_multibody_stop, (size_t)t->nstop));
+    FW_NEED(m->load = fw_arena_array(b->arena, fw_multibody_load, (size_t)t->nload));
+    FW_NEED(m->timed = fw_arena_array(b->arena, fw_multibody_timed_load, (size_t)t->ntimed));
+    FW_NEED(m->slide = fw_arena_array(b->arena, fw_multibody_slide, (size_t)t->nslide));
+    FW_NEED(m->spring = fw_arena_array(b->arena, fw_multibody_spring, (size_t)t->nspring));
+    FW_NEED(m->spring_end = fw_arena_array(b->arena, double, 4 * (size_t)t->nspring));
     set_turning(b);
     set_loads(b);
     set_springs(b);
     m->special = t->nelement > 0 || m->nreleased > 0 || t->nfriction > 0 || t->stretch.law;
-    return fw_multibody_model_elements_new(b->arena, m, t, b->centre);
+    return fw_multibody_elements_new(b->arena, m, t, b->centre);
+}
+
+static fw_status body_arrays(fw_arena *arena, fw_multibody_model *m) {
+    size_t n = (size_t)m->nbody;
+    FW_NEED(m->origin = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->mass = fw_arena_array(arena, double, n));
+    FW_NEED(m->inertia = fw_arena_array(arena, double, n));
+    FW_NEED(m->minv = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->jinv = fw_arena_array(arena, double, n + 1));
+    FW_NEED(m->constant = fw_arena_array(arena, double, 3 * (n + 1)));
+    FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
+    FW_NEED(m->pin_element = fw_arena_array(arena, int, (size_t)m->npin));
+    FW_NEED(m->joint_block = fw_arena_array(arena, int, (size_t)m->njoint));
+    FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
+    return FW_OK;
 }
 
 /* the model in its own units: lengths of order 1 and masses of mean 1 bring the condition of the
@@ -338,19 +356,16 @@ static fw_status set_applied_loads(const builder *b) {
    Cost O(bodies) for chains and rings. Test: test_constraints.c, test_simulate.c. */
 fw_status fw_multibody_model_new(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_effects_loads *loads, const double *q, double duration_s,
-                                 const fw_multibody_method *method, fw_diags *diags,
-                                 fw_multibody_model **model) {
+                                 const fw_multibody_method *method,
+                                 const fw_multibody_model **model) {
     fw_multibody_model *m = fw_arena_one(arena, fw_multibody_model);
     FW_NEED(m);
     m->nbody = mechanism->nbody;
     m->npin = mechanism->npin, m->njoint = mechanism->njoint, m->ndriver = mechanism->ndriver;
     m->nq = 3 * m->nbody;
-    m->projecting = true;
-    m->epsilon = fw_epsilon;
-    m->actuation = m->drive = m->actuation_rate = m->drive_rate = 1;
-    m->held_s = -1;
-    fw_multibody_model_scale(mechanism, loads, duration_s, &m->scale);
-    FW_TRY(fw_multibody_model_body_arrays(arena, m));
+    m->method = method ? method : fw_multibody_method_find(NULL);
+    fw_multibody_scale_of(mechanism, loads, duration_s, &m->scale);
+    FW_TRY(body_arrays(arena, m));
     builder b = {arena, mechanism, loads, m, middle(mechanism, q)};
     set_bodies(&b, q);
     FW_TRY(set_blocks(&b));
@@ -358,12 +373,9 @@ fw_status fw_multibody_model_new(fw_arena *arena, const fw_mechanism *mechanism,
     if (loads) FW_TRY(set_applied_loads(&b));
     if (loads && loads->stretch.law)
         FW_TRY(fw_multibody_stretch_new(arena, &loads->stretch, b.centre, m));
-    set_energy_integrals(m, loads && loads->nfriction > 0);
-    FW_TRY(fw_multibody_friction_new(arena, mechanism, loads, m));
-    FW_NEED(m->stage = fw_arena_array(arena, double, (size_t)m->ny));
+    if (loads) FW_TRY(fw_multibody_friction_joints(arena, mechanism, loads, m));
+    set_energy_integrals(m);
     FW_TRY(fw_multibody_chain_compile(arena, m));
-    m->method = method ? method : fw_multibody_method_find(NULL);
-    if (m->method->prepare) FW_TRY(m->method->prepare(arena, m, mechanism, diags, &m->work));
     *model = m;
     return FW_OK;
 }

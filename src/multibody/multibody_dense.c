@@ -165,41 +165,46 @@ bool fw_multibody_dense_sweep(fw_multibody_dense *d, const double *b, double *w,
 
 /* ---- for the model ---- */
 
-fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_model *m,
-                                           const fw_multibody_dense_kernel *kernel, void **work) {
+fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_system *sys,
+                                           const fw_multibody_dense_kernel *kernel) {
+    const fw_multibody_model *m = sys->model;
     fw_multibody_dense *d;
     FW_TRY(fw_multibody_dense_new(arena, m->rows, m->nq, kernel, &d));
     for (int b = 0; b < m->nbody; b++) {
         d->root[3 * b] = d->root[3 * b + 1] = sqrt(m->minv[b]);
         d->root[3 * b + 2] = sqrt(m->jinv[b]);
     }
-    *work = d;
+    sys->work->method = d;
     return FW_OK;
 }
 
-bool fw_multibody_dense_model_factor(fw_multibody_model *m) {
-    fw_multibody_dense *d = m->work;
-    fw_multibody_model_dense_jacobian(m, d->g);
+bool fw_multibody_dense_model_factor(fw_multibody_system *sys, const fw_multibody_pose *pose) {
+    fw_multibody_dense *d = sys->work->method;
+    fw_multibody_dense_jacobian(sys->model, pose, d->g);
     return fw_multibody_dense_factor(d);
 }
 
-void fw_multibody_dense_model_accelerate(fw_multibody_model *m, const double *gamma, double *a,
-                                         double *lambda) {
-    fw_multibody_dense *d = m->work;
-    fw_multibody_model_pack(m, gamma, d->gamma);
+void fw_multibody_dense_model_accelerate(fw_multibody_system *sys,
+                                         const fw_multibody_factor *factor, const double *gamma,
+                                         double *a, double *lambda) {
+    fw_multibody_dense *d = sys->work->method;
+    (void)factor;
+    fw_multibody_pack(sys->model, gamma, d->gamma);
     fw_multibody_dense_accelerate(d, d->gamma, a, d->out);
-    fw_multibody_model_unpack(m, d->out, lambda);
+    fw_multibody_unpack(sys->model, d->out, lambda);
 }
 
-void fw_multibody_dense_model_correct(fw_multibody_model *m, const double *r, double *correction) {
-    fw_multibody_dense *d = m->work;
-    fw_multibody_model_pack(m, r, d->gamma);
+void fw_multibody_dense_model_correct(fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                      const double *r, double *correction) {
+    fw_multibody_dense *d = sys->work->method;
+    (void)pose;
+    fw_multibody_pack(sys->model, r, d->gamma);
     fw_multibody_dense_correct(d, d->gamma, correction);
 }
 
-fw_status fw_multibody_dense_model_report(const fw_multibody_model *m,
+fw_status fw_multibody_dense_model_report(const fw_multibody_system *sys,
                                           const fw_mechanism *mechanism, fw_text *out) {
-    const fw_multibody_dense *d = m->work;
+    const fw_multibody_dense *d = sys->work->method;
     const fw_multibody_rank_monitor *k = &d->rank;
     char number[32];
     (void)mechanism;

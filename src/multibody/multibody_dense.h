@@ -14,7 +14,7 @@
    (singular positions). Private to multibody/. */
 #ifndef FW_MULTIBODY_MULTIBODY_DENSE_H
 #define FW_MULTIBODY_MULTIBODY_DENSE_H
-#include "multibody/model.h"
+#include "multibody/multibody_scratch.h"
 
 typedef struct fw_multibody_dense fw_multibody_dense;
 
@@ -72,14 +72,16 @@ bool fw_multibody_dense_sweep(fw_multibody_dense *d, const double *b, double *w,
                               int sweeps, double *more, double *start,
                               bool (*step)(fw_multibody_dense *d, double *r1, double *r2));
 
-/* the same for fw_multibody_method; m->work is the fw_multibody_dense */
-fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_model *m,
-                                           const fw_multibody_dense_kernel *kernel, void **work);
-bool fw_multibody_dense_model_factor(fw_multibody_model *m);
-void fw_multibody_dense_model_accelerate(fw_multibody_model *m, const double *gamma, double *a,
-                                         double *lambda);
-void fw_multibody_dense_model_correct(fw_multibody_model *m, const double *r, double *correction);
-fw_status fw_multibody_dense_model_report(const fw_multibody_model *m,
+/* the same for fw_multibody_method; sys->work->method is the fw_multibody_dense */
+fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_system *sys,
+                                           const fw_multibody_dense_kernel *kernel);
+bool fw_multibody_dense_model_factor(fw_multibody_system *sys, const fw_multibody_pose *pose);
+void fw_multibody_dense_model_accelerate(fw_multibody_system *sys,
+                                         const fw_multibody_factor *factor, const double *gamma,
+                                         double *a, double *lambda);
+void fw_multibody_dense_model_correct(fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                      const double *r, double *correction);
+fw_status fw_multibody_dense_model_report(const fw_multibody_system *sys,
                                           const fw_mechanism *mechanism, fw_text *out);
 
 extern const fw_multibody_dense_kernel fw_multibody_augmented_kernel,

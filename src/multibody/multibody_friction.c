@@ -17,7 +17,7 @@
    with the spectral radius of K below 1 there is one solution, and only one; for a single slipping
    entry there are two or none where it is not (jamming). That is checked, never passed over.
 
-   Inputs: state, posed and factored model with a0, lambda0. Outputs: T, a, lambda. Cost: one
+   Inputs: state, factor, and the solution a0, lambda0 there. Outputs: T, a, lambda. Cost: one
    solution per entry, and n^3 of the number n of entries. Error: round-off times cond(A_stick).
    Source: Coulomb 1785; affine form and contraction: Painleve 1895; Lotstedt, SIAM J. Appl. Math.
    42 (1982) 281-296; Glocker, Set-Valued Force Laws, 2001. Test: test_friction.c,
@@ -29,7 +29,8 @@
 
 static const double fw_beta = 1; /* per scaled time: of what sticks */
 
-static fw_status arrays(fw_arena *arena, fw_multibody_model *m, struct fw_multibody_frictions *s) {
+static fw_status arrays(fw_arena *arena, const fw_multibody_model *m,
+                        struct fw_multibody_frictions *s) {
     size_t n = (size_t)s->n, nq = 3 * (size_t)m->nbody + 3, rows = 2 * (size_t)m->nblock;
     double **const vector[] = {&s->bias,  &s->rate,  &s->accel, &s->size,   &s->loose, &s->torque,
                                &s->left,  &s->more,  &s->start, &s->right,  &s->step,  &s->push,
@@ -66,22 +67,17 @@ static int index_of(const fw_multibody_model *m, int body) {
     return body == FW_GROUND ? m->nbody : body;
 }
 
-fw_status fw_multibody_friction_new(fw_arena *arena, const fw_mechanism *mechanism,
-                                    const fw_effects_loads *loads, fw_multibody_model *m) {
-    struct fw_multibody_frictions *s = NULL;
-    if (!loads || loads->nfriction == 0) return FW_OK;
-    FW_NEED(s = fw_arena_one(arena, struct fw_multibody_frictions));
-    s->n = loads->nfriction;
-    s->jam = s->jammed = s->met = -1;
-    FW_NEED(s->item = fw_arena_array(arena, fw_multibody_model_friction, (size_t)s->n));
-    FW_TRY(arrays(arena, m, s));
-    double newton = m->scale.mass_kg * m->scale.length_m / (m->scale.time_s * m->scale.time_s);
-    for (int i = 0; i < s->n; i++) {
+fw_status fw_multibody_friction_joints(fw_arena *arena, const fw_mechanism *mechanism,
+                                       const fw_effects_loads *loads, fw_multibody_model *m) {
+    double newton = fw_multibody_newton(m);
+    m->nfriction = loads->nfriction;
+    FW_NEED(m->friction = fw_arena_array(arena, fw_multibody_friction_joint, (size_t)m->nfriction));
+    for (int i = 0; i < m->nfriction; i++) {
         const fw_effects_friction *f = &loads->friction[i];
         bool slides = f->pin == FW_NONE, gone = false;
         if (!slides && loads->released) gone = loads->released[f->pin];
         double arm = slides ? 1 : f->radius_m / m->scale.length_m;
-        s->item[i] = (fw_multibody_model_friction){
+        m->friction[i] = (fw_multibody_friction_joint){
             .block = slides ? m->joint_block[f->joint]
                      : gone ? FW_NONE
                             : m->pin_block[f->pin],
@@ -93,15 +89,21 @@ fw_status fw_multibody_friction_new(fw_arena *arena, const fw_mechanism *mechani
             .id = f->id ? f->id : "(unnamed)",
             .place = f->place};
         const fw_device_joint *t = slides ? &mechanism->joint[f->joint] : NULL;
-        s->item[i].a = index_of(m, t ? t->body_a : mechanism->pin[f->pin].body_a);
-        s->item[i].b = index_of(m, t ? t->body_b : mechanism->pin[f->pin].body_b);
+        m->friction[i].a = index_of(m, t ? t->body_a : mechanism->pin[f->pin].body_a);
+        m->friction[i].b = index_of(m, t ? t->body_b : mechanism->pin[f->pin].body_b);
     }
-    m->friction = s;
     return FW_OK;
 }
 
-int fw_multibody_friction_count(const fw_multibody_model *m) {
-    return m->friction ? m->friction->n : 0;
+fw_status fw_multibody_friction_new(fw_arena *arena, fw_multibody_system *sys) {
+    struct fw_multibody_frictions *s;
+    if (sys->model->nfriction == 0) return FW_OK;
+    FW_NEED(s = sys->friction = fw_arena_one(arena, struct fw_multibody_frictions));
+    s->n = sys->model->nfriction;
+    s->joint = sys->model->friction;
+    s->jam = s->jammed = s->met = -1;
+    FW_NEED(s->item = fw_arena_array(arena, fw_multibody_friction_state, (size_t)s->n));
+    return arrays(arena, sys->model, s);
 }
 
 /* ---- relative motion ---- */
@@ -111,9 +113,10 @@ static double of(const fw_multibody_model *m, const double *x, int body, int c) 
 }
 
 /* h.x of entry i */
-static double along(const fw_multibody_model *m, int i, const double *x) {
-    const fw_multibody_model_friction *f = &m->friction->item[i];
-    const double *h = m->friction->row + 6 * i;
+static double along(const fw_multibody_system *sys, int i, const double *x) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_friction_joint *f = &m->friction[i];
+    const double *h = sys->friction->row + 6 * i;
     double sum = 0;
     for (int c = 0; c < 3; c++)
         sum += h[c] * of(m, x, f->a, c) + h[3 + c] * of(m, x, f->b, c);
@@ -121,12 +124,14 @@ static double along(const fw_multibody_model *m, int i, const double *x) {
 }
 
 /* TRAVEL of constraints.c, at the points and with the axis of the joint's SLIDE */
-static void slide_row(fw_multibody_model *m, int i, const double *y) {
-    struct fw_multibody_frictions *s = m->friction;
-    const fw_multibody_model_friction *f = &s->item[i];
-    const double *v = y + m->nq, *ra = m->arm + 4 * f->block, *rb = ra + 2;
+static void slide_row(fw_multibody_system *sys, const fw_multibody_pose *pose, int i,
+                      const double *v) {
+    const fw_multibody_model *m = sys->model;
+    struct fw_multibody_frictions *s = sys->friction;
+    const fw_multibody_friction_joint *f = &s->joint[i];
+    const double *ra = pose->arm + 4 * f->block, *rb = ra + 2;
     double d[2], e[2], n[2], *h = s->row + 6 * i, rate[2], bend[2];
-    fw_multibody_model_frame(m, f->block, y, d, e, n);
+    fw_multibody_frame(m, pose, f->block, d, e, n);
     h[0] = -e[0], h[1] = -e[1];
     h[2] = -(e[1] * ra[0] - e[0] * ra[1]) + n[0] * d[0] + n[1] * d[1];
     h[3] = e[0], h[4] = e[1], h[5] = e[1] * rb[0] - e[0] * rb[1];
@@ -140,37 +145,41 @@ static void slide_row(fw_multibody_model *m, int i, const double *y) {
                  wa * wa * (e[0] * d[0] + e[1] * d[1]);
 }
 
-void fw_multibody_friction_rows(fw_multibody_model *m, const double *y) {
-    struct fw_multibody_frictions *s = m->friction;
+void fw_multibody_friction_rows(fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                const double *v) {
+    struct fw_multibody_frictions *s = sys->friction;
     for (int i = 0; i < s->n; i++) {
         double *h = s->row + 6 * i;
         s->bias[i] = 0;
-        if (s->item[i].slides) {
-            slide_row(m, i, y);
+        if (s->joint[i].slides) {
+            slide_row(sys, pose, i, v);
             continue;
         }
         memset(h, 0, 6 * sizeof *h);
         h[2] = -1, h[5] = 1;
     }
+    fw_multibody_friction_rates(sys, v);
 }
 
-double fw_multibody_friction_coordinate(const fw_multibody_model *m, int i, const double *u) {
-    const fw_multibody_model_friction *f = &m->friction->item[i];
-    if (!f->slides) return of(m, u, f->b, 2) - of(m, u, f->a, 2);
+double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                        int i) {
+    const fw_multibody_friction_joint *f = &m->friction[i];
+    if (!f->slides) return of(m, pose->u, f->b, 2) - of(m, pose->u, f->a, 2);
     double d[2], e[2], n[2];
-    fw_multibody_model_frame(m, f->block, u, d, e, n);
+    fw_multibody_frame(m, pose, f->block, d, e, n);
     return e[0] * d[0] + e[1] * d[1];
 }
 
-void fw_multibody_friction_rates(fw_multibody_model *m, const double *v) {
-    for (int i = 0; i < m->friction->n; i++)
-        m->friction->rate[i] = along(m, i, v);
+void fw_multibody_friction_rates(fw_multibody_system *sys, const double *v) {
+    for (int i = 0; i < sys->friction->n; i++)
+        sys->friction->rate[i] = along(sys, i, v);
 }
 
 /* a_j, lambda_j: unit T_j between the bodies of entry j */
-static void respond_to(fw_multibody_model *m, int j) {
-    struct fw_multibody_frictions *s = m->friction;
-    const fw_multibody_model_friction *f = &s->item[j];
+static void respond_to(fw_multibody_system *sys, const fw_multibody_factor *factor, int j) {
+    const fw_multibody_model *m = sys->model;
+    struct fw_multibody_frictions *s = sys->friction;
+    const fw_multibody_friction_joint *f = &s->joint[j];
     const double *h = s->row + 6 * j;
     double *a = s->response + (size_t)j * (size_t)(m->nq + 3);
     memset(a, 0, (size_t)(m->nq + 3) * sizeof *a);
@@ -179,117 +188,122 @@ static void respond_to(fw_multibody_model *m, int j) {
         for (int c = 0; c < 3 && b < m->nbody; c++)
             a[3 * b + c] = (c < 2 ? m->minv[b] : m->jinv[b]) * h[3 * side + c];
     }
-    s->loose[j] = along(m, j, a);
-    m->method->accelerate(m, s->nothing, a, s->react + (size_t)j * 2 * (size_t)m->nblock);
+    s->loose[j] = along(sys, j, a);
+    m->method->accelerate(sys, factor, s->nothing, a, s->react + (size_t)j * 2 * (size_t)m->nblock);
 }
 
-void fw_multibody_friction_respond(fw_multibody_model *m, const double *y) {
-    struct fw_multibody_frictions *s = m->friction;
-    fw_multibody_friction_rows(m, y);
-    fw_multibody_friction_rates(m, y + m->nq);
+void fw_multibody_friction_respond(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                   const double *v) {
+    struct fw_multibody_frictions *s = sys->friction;
+    size_t n = (size_t)sys->model->nq + 3;
+    fw_multibody_friction_rows(sys, factor->pose, v);
     for (int j = 0; j < s->n; j++)
-        respond_to(m, j);
+        respond_to(sys, factor, j);
     for (int i = 0; i < s->n; i++)
         for (int j = 0; j < s->n; j++)
-            s->gain[i * s->n + j] = along(m, i, s->response + (size_t)j * (size_t)(m->nq + 3));
+            s->gain[i * s->n + j] = along(sys, i, s->response + (size_t)j * n);
 }
 
 /* ---- what presses ---- */
 
 /* the part of the multipliers that presses the surfaces of entry i: of a slide the force across,
    not the couple */
-static void presses(const fw_multibody_model *m, int i, const double *lambda, double rho[2]) {
-    const fw_multibody_model_friction *f = &m->friction->item[i];
+static void presses(const fw_multibody_friction_joint *f, const double *lambda, double rho[2]) {
     bool own = f->element == FW_NONE && f->block != FW_NONE;
     rho[0] = own && !f->slides ? lambda[2 * f->block] : 0;
     rho[1] = own ? lambda[2 * f->block + 1] : 0;
 }
 
-void fw_multibody_friction_force(const fw_multibody_model *m, int i, double force[2]) {
-    const struct fw_multibody_frictions *s = m->friction;
+void fw_multibody_friction_force(const struct fw_multibody_frictions *s, int i, double force[2]) {
     const double *turn = s->turn + 2 * i * s->n;
     force[0] = s->base[2 * i], force[1] = s->base[2 * i + 1];
     for (int j = 0; j < s->n; j++)
         force[0] += turn[2 * j] * s->torque[j], force[1] += turn[2 * j + 1] * s->torque[j];
 }
 
-double fw_multibody_friction_press(const fw_multibody_model *m, int i) {
+double fw_multibody_friction_press(const struct fw_multibody_frictions *s, int i) {
     double force[2];
-    fw_multibody_friction_force(m, i, force);
-    return m->friction->push[i] + hypot(force[0], force[1]);
+    fw_multibody_friction_force(s, i, force);
+    return s->push[i] + hypot(force[0], force[1]);
 }
 
-void fw_multibody_friction_evaluate(fw_multibody_model *m, double t, const double *y) {
-    struct fw_multibody_frictions *s = m->friction;
+void fw_multibody_friction_evaluate(fw_multibody_system *sys, const fw_multibody_solution *found,
+                                    const double *v) {
+    const fw_multibody_model *m = sys->model;
+    struct fw_multibody_frictions *s = sys->friction;
+    const double *accel = found->accel;
     for (int i = 0; i < s->n; i++) {
-        const fw_multibody_model_friction *f = &s->item[i];
+        const fw_multibody_friction_joint *f = &s->joint[i];
         const double *h = s->row + 6 * i;
-        s->accel[i] = along(m, i, m->accel) + s->bias[i];
+        s->accel[i] = along(sys, i, accel) + s->bias[i];
         s->size[i] = fabs(s->bias[i]);
         for (int c = 0; c < 3; c++)
             s->size[i] +=
-                fabs(h[c] * of(m, m->accel, f->a, c)) + fabs(h[3 + c] * of(m, m->accel, f->b, c));
-        presses(m, i, m->lambda, s->base + 2 * i);
-        double gone = fw_multibody_friction_coordinate(m, i, y) - f->held;
+                fabs(h[c] * of(m, accel, f->a, c)) + fabs(h[3 + c] * of(m, accel, f->b, c));
+        presses(f, found->lambda, s->base + 2 * i);
+        double gone = fw_multibody_friction_coordinate(m, found->pose, i) - s->item[i].held;
         s->creep[i] = 2 * fw_beta * s->rate[i] + fw_beta * fw_beta * gone;
         s->push[i] = f->preload;
         if (f->element != FW_NONE)
-            s->push[i] += fw_multibody_model_element_pressing(m, f->element, t, y);
+            s->push[i] += fw_multibody_element_pressing(sys, found->pose, f->element, v);
         for (int j = 0; j < s->n; j++)
-            presses(m, i, s->react + (size_t)j * 2 * (size_t)m->nblock,
-                    s->turn + 2 * (i * s->n + j));
+            presses(f, s->react + (size_t)j * 2 * (size_t)m->nblock, s->turn + 2 * (i * s->n + j));
     }
 }
 
 /* ---- into the equations of motion ---- */
 
-void fw_multibody_friction_apply(fw_multibody_model *m, double t, const double *y) {
-    struct fw_multibody_frictions *s = m->friction;
-    if (m->broken) return;
-    fw_multibody_friction_respond(m, y);
-    fw_multibody_friction_evaluate(m, t, y);
-    if (!fw_multibody_friction_solve(m)) {
-        m->broken = true;
+/* what entries that move take away */
+static double power(const struct fw_multibody_frictions *s) {
+    double sum = 0;
+    for (int i = 0; i < s->n; i++)
+        if (s->item[i].slip && !s->item[i].yields) sum -= s->torque[i] * s->rate[i];
+    return sum;
+}
+
+bool fw_multibody_friction_apply(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                 const double *v, double *lost) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_solution *found = &sys->work->solution;
+    struct fw_multibody_frictions *s = sys->friction;
+    const double t = factor->pose->t;
+    fw_multibody_friction_respond(sys, factor, v);
+    fw_multibody_friction_evaluate(sys, found, v);
+    if (!fw_multibody_friction_solve(s)) {
         if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
-        return;
+        return false;
     }
     if (s->tight >= 0) s->jammed = s->tight, s->jam_time = t; /* should the run end here */
     for (int j = 0; j < s->n; j++) {
         const double *a = s->response + (size_t)j * (size_t)(m->nq + 3);
         const double *l = s->react + (size_t)j * 2 * (size_t)m->nblock;
         for (int i = 0; i < m->nq; i++)
-            m->accel[i] += s->torque[j] * a[i];
+            found->accel[i] += s->torque[j] * a[i];
         for (int i = 0; i < 2 * m->nblock; i++)
-            m->lambda[i] += s->torque[j] * l[i];
+            found->lambda[i] += s->torque[j] * l[i];
     }
+    *lost = power(s);
+    return true;
 }
 
-double fw_multibody_friction_power(const fw_multibody_model *m) {
-    const struct fw_multibody_frictions *s = m->friction;
-    double power = 0;
-    for (int i = 0; i < s->n; i++)
-        if (s->item[i].slip && !s->item[i].yields) power -= s->torque[i] * s->rate[i];
-    return power;
-}
-
-void fw_multibody_friction_settle(fw_multibody_model *m, double *y) {
-    struct fw_multibody_frictions *s = m->friction;
-    double *v = y + m->nq;
-    int stuck = 0;
+void fw_multibody_friction_settle(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                  double *v) {
+    struct fw_multibody_frictions *s = sys->friction;
+    int stuck = 0, nq = sys->model->nq;
     for (int i = 0; i < s->n; i++)
         if (!s->item[i].slip) s->stuck[stuck++] = i;
     if (stuck == 0) return;
-    fw_multibody_friction_respond(m, y);
+    fw_multibody_friction_respond(sys, factor, v);
     if (!fw_multibody_friction_hold(s, stuck, s->stuck)) return;
     for (int pass = 0; pass < 2; pass++) {
         for (int e = 0; e < stuck; e++)
             s->right[e] = -s->rate[s->stuck[e]];
         fw_multibody_friction_holding(s, stuck, s->stuck, s->right, s->start);
         for (int e = 0; e < stuck; e++) {
-            const double *a = s->response + (size_t)s->stuck[e] * (size_t)(m->nq + 3);
-            for (int i = 0; i < m->nq; i++)
+            const double *a = s->response + (size_t)s->stuck[e] * (size_t)(nq + 3);
+            for (int i = 0; i < nq; i++)
                 v[i] += s->start[e] * a[i];
         }
-        fw_multibody_friction_rates(m, v);
+        fw_multibody_friction_rates(sys, v);
     }
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The methods that can be asked for by name. */
-#include "multibody/methods.h"
+#include "multibody/method.h"
 #include <string.h>
 
 static const fw_multibody_method *const methods[] = {

@@ -1,139 +1,213 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Positions onto Psi(q, t) = 0 and velocities onto G v = -Psi_t. */
+#include "multibody/friction.h"
 #include "multibody/kernel.h"
+#include "multibody/multibody_scratch.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 static const double fw_position_limit = 1e-12; /* scaled: what every accepted state satisfies */
 
-static void move(const fw_multibody_model *m, double *x) {
-    for (int i = 0; i < m->nq; i++)
-        x[i] += m->correction[i];
+static void move(const fw_multibody_system *sys, double *x) {
+    for (int i = 0; i < sys->model->nq; i++)
+        x[i] += sys->work->correction[i];
 }
 
 /* a new factor where the last one converged slowly: near a singular position modes of S below eps
    shrink by eps/(s + eps) only, so the shift falls with every call, as far as S stays positive */
-static bool sharpen(fw_multibody_model *m) {
-    m->epsilon = fmax(0.1 * m->epsilon, 1e-11);
-    if (m->method->factor(m)) return true;
-    m->epsilon = fw_epsilon;
-    return m->method->factor(m);
+static bool sharpen(fw_multibody_system *sys, const fw_multibody_pose *pose) {
+    double *epsilon = &sys->work->epsilon;
+    *epsilon = fmax(0.1 * *epsilon, 1e-11);
+    if (fw_multibody_factorise(sys, pose)) return true;
+    *epsilon = fw_epsilon;
+    return fw_multibody_factorise(sys, pose);
 }
 
-/* the joint that stays open, for the message when no smaller step helps; Psi is in m->right */
-static void remember_stuck(fw_multibody_model *m, double t, double norm) {
-    m->stuck = 0;
-    for (int i = 0; i < m->nblock; i++)
-        if (hypot(m->right[2 * i], m->right[2 * i + 1]) >= norm) m->stuck = i;
-    m->stuck_time = t;
+/* the joint that stays open, for the message when no smaller step helps */
+static void remember_stuck(fw_multibody_system *sys, double t, const double *psi, double norm) {
+    sys->record.stuck = 0;
+    for (int i = 0; i < sys->model->nblock; i++)
+        if (hypot(psi[2 * i], psi[2 * i + 1]) >= norm) sys->record.stuck = i;
+    sys->record.stuck_time = t;
+}
+
+/* the method's own way */
+static const fw_multibody_pose *close_by_method(fw_multibody_system *sys, double t, double *u) {
+    const fw_multibody_pose *pose = sys->model->method->close(sys, t, u);
+    if (!pose) return NULL;
+    double norm = fw_multibody_residual(sys, pose, NULL);
+    sys->record.worst_position = fmax(sys->record.worst_position, norm);
+    return norm <= fw_position_limit ? pose : NULL;
 }
 
 /* Newton u += d, G d = -Psi with the factor at hand (of a pose a step's error away); it is renewed
    when that converges slowly. Ends at round-off: below 2 eps times the size, or no longer halving
-   below 1e-13 of it and below the limit. false: |Psi| stays above 1e-12 scaled. Input and output u
-   (3 nbody), scaled; the model is left posed at the result. Cost one to two solves. Source:
-   coordinate projection in the mass metric, Eich 1993. Test: test_simulate.c. */
-bool fw_multibody_model_project_position(fw_multibody_model *m, double t, double *u) {
-    double before = (double)INFINITY, norm = 0;
+   below 1e-13 of it and below the limit. NULL: |Psi| stays above 1e-12 scaled. Input and output u
+   (3 nbody), scaled. Cost one to two solves. Source: coordinate projection in the mass metric, Eich
+   1993. Test: test_simulate.c. */
+const fw_multibody_pose *fw_multibody_project_position(fw_multibody_system *sys, double t,
+                                                       double *u) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_pose *pose = NULL;
+    double before = (double)INFINITY, norm = 0, *psi = sys->work->right;
     const double round_off = fmin(1e-13 * m->size, fw_position_limit);
-    if (m->method->close) {
-        if (!m->method->close(m, t, u)) return false;
-        norm = fw_multibody_model_residual(m, t, u, m->right);
-        m->worst_position = fmax(m->worst_position, norm);
-        return norm <= fw_position_limit;
-    }
+    if (m->method->close) return close_by_method(sys, t, u);
     for (int i = 0; i < 20; i++) {
-        norm = fw_multibody_model_residual(m, t, u, m->right);
+        pose = fw_multibody_pose_at(sys, t, u);
+        norm = fw_multibody_residual(sys, pose, psi);
         if (!(norm < (double)INFINITY)) break;
         bool slow = norm > 0.25 * before;
         if (norm <= 2 * DBL_EPSILON * m->size || (slow && norm <= round_off)) break;
-        if (slow && i > 2 ? !sharpen(m) : (slow || i == 4) && !m->method->factor(m)) break;
+        if (slow && i > 2 ? !sharpen(sys, pose)
+                          : (slow || i == 4) && !fw_multibody_factorise(sys, pose))
+            break;
         before = norm;
-        m->method->correct(m, m->right, m->correction);
-        move(m, u);
+        m->method->correct(sys, pose, psi, sys->work->correction);
+        move(sys, u);
     }
-    m->epsilon = fw_epsilon;
+    sys->work->epsilon = fw_epsilon;
     if (norm <= fw_position_limit) {
-        m->worst_position = fmax(m->worst_position, norm);
-        return true;
+        sys->record.worst_position = fmax(sys->record.worst_position, norm);
+        return pose;
     }
-    remember_stuck(m, t, norm);
-    return false;
+    remember_stuck(sys, t, psi, norm);
+    return NULL;
 }
 
-/* v += d, G d = -(G v + Psi_t); factor and pose must belong together */
-bool fw_multibody_model_project_velocity(fw_multibody_model *m, double t, double *v) {
+const fw_multibody_pose *fw_multibody_close_position(fw_multibody_system *sys, double t,
+                                                     double *u) {
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, u);
+    return fw_multibody_factorise(sys, pose) ? fw_multibody_project_position(sys, t, u) : NULL;
+}
+
+bool fw_multibody_project_velocity(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                                   double *v) {
+    const fw_multibody_model *m = sys->model;
+    const bool driven = sys->loading.driven;
     double before = (double)INFINITY, norm = 0, size = DBL_MIN;
+    double *right = sys->work->right, *drift = sys->work->drift;
     for (int i = 0; i < m->nq; i++)
         size = fmax(size, fabs(v[i]));
-    if (m->driven) fw_multibody_model_drift(m, t, m->drift);
+    if (driven) fw_multibody_drift(sys, factor->pose, drift);
     for (int i = 0; i < 6; i++) {
-        fw_multibody_model_jacobian(m, v, m->right);
+        fw_multibody_jacobian(m, factor->pose, v, right);
         norm = 0;
         for (int j = 0; j < 2 * m->nblock; j++) {
-            if (m->driven) m->right[j] += m->drift[j];
-            norm = fmax(norm, fabs(m->right[j]));
+            if (driven) right[j] += drift[j];
+            norm = fmax(norm, fabs(right[j]));
         }
         if (norm <= 2 * DBL_EPSILON * size || norm > 0.25 * before) break;
         before = norm;
-        m->method->correct(m, m->right, m->correction);
-        move(m, v);
+        m->method->correct(sys, factor->pose, right, sys->work->correction);
+        move(sys, v);
     }
-    m->worst_velocity = fmax(m->worst_velocity, norm);
+    sys->record.worst_velocity = fmax(sys->record.worst_velocity, norm);
     return norm < (double)INFINITY;
 }
 
+/* v of a state whose u is closed */
+static const fw_multibody_factor *close_velocity(fw_multibody_system *sys,
+                                                 const fw_multibody_pose *pose, double *v) {
+    const fw_multibody_factor *factor = pose ? fw_multibody_factorise(sys, pose) : NULL;
+    return factor && fw_multibody_project_velocity(sys, factor, v) ? factor : NULL;
+}
+
+bool fw_multibody_close_state(fw_multibody_system *sys, double t, double *y) {
+    return close_velocity(sys, fw_multibody_close_position(sys, t, y), y + sys->model->nq);
+}
+
+/* right = G v + Psi_t, by how much velocities miss the constraints */
+static void velocity_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                              const double *v, double *right) {
+    double *drift = sys->work->drift;
+    fw_multibody_jacobian(sys->model, pose, v, right);
+    fw_multibody_drift(sys, pose, drift);
+    for (int i = 0; i < 2 * sys->model->nblock; i++)
+        right[i] += drift[i];
+}
+
 /* an impact without rebound: v += d with M d = -G^T L, G d = -(G v + Psi_t), the least change in
-   the mass metric, whatever the method corrects its steps by. Pose and factor belong together. */
-bool fw_multibody_model_impact(fw_multibody_model *m, double t, double *v) {
-    fw_multibody_model_jacobian(m, v, m->right);
-    fw_multibody_model_drift(m, t, m->drift);
-    for (int i = 0; i < 2 * m->nblock; i++)
-        m->right[i] += m->drift[i];
-    memset(m->correction, 0, (size_t)m->nq * sizeof *m->correction);
-    m->method->accelerate(m, m->right, m->correction, m->lambda);
-    move(m, v);
-    return fw_multibody_model_project_velocity(m, t, v);
+   the mass metric, whatever the method corrects its steps by */
+bool fw_multibody_impact(fw_multibody_system *sys, const fw_multibody_factor *factor, double *v) {
+    fw_multibody_scratch *w = sys->work;
+    const fw_multibody_model *m = sys->model;
+    velocity_residual(sys, factor->pose, v, w->right);
+    memset(w->correction, 0, (size_t)m->nq * sizeof *w->correction);
+    m->method->accelerate(sys, factor, w->right, w->correction, w->solution.lambda);
+    move(sys, v);
+    return fw_multibody_project_velocity(sys, factor, v);
+}
+
+/* The correction v += M^-1 G^T lambda onto G v = -Psi_t is found with masses and inertias a million
+   times smaller where nothing is stated, thrice, each time from the velocities that were, so that
+   what is stated and fits stays to 1e-18. Test: test_start.c. */
+bool fw_multibody_follow_stated(fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                const bool *stated, const double *given, double *v, double *work) {
+    fw_multibody_model light = *sys->model;
+    fw_multibody_chain_numbers *s = &sys->work->chain;
+    double *lambda = sys->work->solution.lambda;
+    int count = 0;
+    for (int i = 0; i < light.nq; i++)
+        count += stated[i];
+    if (count == 0 || count == light.nq) return true;
+    light.minv = work, light.jinv = work + light.nbody + 1;
+    for (int b = 0; b <= light.nbody; b++) {
+        bool ground = b == light.nbody;
+        light.minv[b] = sys->model->minv[b] * (ground || stated[3 * b] ? 1 : 1e6);
+        light.jinv[b] = sys->model->jinv[b] * (ground || stated[3 * b + 2] ? 1 : 1e6);
+    }
+    for (int pass = 0; pass < 3; pass++) {
+        for (int i = 0; i < light.nq; i++)
+            if (stated[i]) v[i] = given[i];
+        fw_multibody_chain_assemble(&light, pose, s);
+        if (!fw_multibody_chain_factor(&light.chain, s, fw_epsilon)) return false;
+        velocity_residual(sys, pose, v, sys->work->right);
+        fw_multibody_chain_proximal(&light, pose, s, sys->work->right, lambda);
+        fw_multibody_apply(&light, pose, lambda, v);
+    }
+    return true;
 }
 
 /* without projection the norms are only watched */
-static void monitor(fw_multibody_model *m, double t, const double *y) {
-    m->worst_position = fmax(m->worst_position, fw_multibody_model_residual(m, t, y, m->right));
-    fw_multibody_model_jacobian(m, y + m->nq, m->right);
-    fw_multibody_model_drift(m, t, m->drift);
-    for (int i = 0; i < 2 * m->nblock; i++)
-        m->worst_velocity = fmax(m->worst_velocity, fabs(m->right[i] + m->drift[i]));
+static void monitor(fw_multibody_system *sys, double t, const double *y) {
+    fw_multibody_record *record = &sys->record;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+    double *right = sys->work->right;
+    record->worst_position = fmax(record->worst_position, fw_multibody_residual(sys, pose, NULL));
+    velocity_residual(sys, pose, y + sys->model->nq, right);
+    for (int i = 0; i < 2 * sys->model->nblock; i++)
+        record->worst_velocity = fmax(record->worst_velocity, fabs(right[i]));
+}
+
+/* the kernel's own projection */
+static bool project_plain(fw_multibody_system *sys, double *y, double *f) {
+    if (!fw_multibody_kernel_project(sys->kernel, y, f)) return false;
+    fw_multibody_kernel_norms norms = fw_multibody_kernel_norms_of(sys->kernel);
+    sys->record.worst_position = fmax(sys->record.worst_position, norms.position);
+    sys->record.worst_velocity = fmax(sys->record.worst_velocity, norms.velocity);
+    return true;
 }
 
 /* an accepted step: q onto Psi = 0, then v onto G v = -Psi_t with the factor at the new pose, which
    the evaluation of f uses again */
-bool fw_multibody_model_project(void *model, double t, double *y, double *f) {
-    fw_multibody_model *m = model;
-    if (!m->projecting) {
-        monitor(m, t, y);
-        fw_multibody_model_rhs(m, t, y, f);
-        return !m->broken;
+bool fw_multibody_project(void *system, double t, double *y, double *f) {
+    fw_multibody_system *sys = system;
+    fw_multibody_record *record = &sys->record;
+    if (!sys->projecting) {
+        monitor(sys, t, y);
+        return fw_multibody_evaluate(sys, t, y, true, f);
     }
-    m->projections++;
-    if (m->kernel) {
-        if (!fw_multibody_kernel_project(m->kernel, y, f)) return false;
-        fw_multibody_kernel_norms norms = fw_multibody_kernel_norms_of(m->kernel);
-        m->worst_position = fmax(m->worst_position, norms.position);
-        m->worst_velocity = fmax(m->worst_velocity, norms.velocity);
-        return true;
-    }
-    double worst = m->worst_position, worst_velocity = m->worst_velocity;
-    bool good = fw_multibody_model_project_position(m, t, y);
-    if (good) {
-        m->broken = !m->method->factor(m);
-        good = !m->broken && fw_multibody_model_project_velocity(m, t, y + m->nq);
-    }
-    if (!good) { /* a rejected step does not count */
-        m->worst_position = worst;
-        m->worst_velocity = worst_velocity;
+    record->projections++;
+    if (sys->kernel) return project_plain(sys, y, f);
+    double worst = record->worst_position, worst_velocity = record->worst_velocity;
+    const fw_multibody_factor *factor =
+        close_velocity(sys, fw_multibody_project_position(sys, t, y), y + sys->model->nq);
+    if (!factor) { /* a rejected step does not count */
+        record->worst_position = worst, record->worst_velocity = worst_velocity;
         return false;
     }
-    if (m->friction) fw_multibody_friction_settle(m, y);
-    fw_multibody_model_accelerate(m, t, y, f);
+    if (sys->friction) fw_multibody_friction_settle(sys, factor, y + sys->model->nq);
+    fw_multibody_evaluate_factored(sys, factor, y, true, f);
     return true;
 }

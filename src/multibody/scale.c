@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "multibody/build.h"
+#include "multibody/multibody_scratch.h"
 #include <math.h>
-
-/* ---- sizes of the scene ---- */
 
 static void add_arm(int body, double x, double y, double *sum, int *count) {
     if (body != FW_GROUND) *sum += x * x + y * y, ++*count;
@@ -61,51 +59,12 @@ static double scene_time(const fw_mechanism *m, const fw_effects_loads *loads, d
     return square > 0 && isfinite(square) ? 1 / sqrt(square) : duration;
 }
 
-void fw_multibody_model_scale(const fw_mechanism *mechanism, const fw_effects_loads *loads,
-                              double duration_s, fw_multibody_scale *scale) {
+void fw_multibody_scale_of(const fw_mechanism *mechanism, const fw_effects_loads *loads,
+                           double duration_s, fw_multibody_scale *scale) {
     double mass = 0;
     for (int b = 0; b < mechanism->nbody; b++)
         mass += mechanism->body[b].mass_kg;
     scale->mass_kg = mass / mechanism->nbody;
     scale->length_m = scene_length(mechanism);
     scale->time_s = scene_time(mechanism, loads, scale->length_m, duration_s);
-}
-
-/* ---- arrays ---- */
-
-fw_status fw_multibody_model_body_arrays(fw_arena *arena, fw_multibody_model *m) {
-    size_t n = (size_t)m->nbody;
-    FW_NEED(m->origin = fw_arena_array(arena, double, 3 * (n + 1)));
-    FW_NEED(m->mass = fw_arena_array(arena, double, n));
-    FW_NEED(m->inertia = fw_arena_array(arena, double, n));
-    FW_NEED(m->minv = fw_arena_array(arena, double, n + 1));
-    FW_NEED(m->jinv = fw_arena_array(arena, double, n + 1));
-    FW_NEED(m->constant = fw_arena_array(arena, double, 3 * (n + 1)));
-    FW_NEED(m->cosine = fw_arena_array(arena, double, n + 1));
-    FW_NEED(m->sine = fw_arena_array(arena, double, n + 1));
-    FW_NEED(m->accel = fw_arena_array(arena, double, 3 * (n + 1)));
-    FW_NEED(m->correction = fw_arena_array(arena, double, 3 * (n + 1)));
-    FW_NEED(m->product = fw_arena_array(arena, double, 3 * (n + 1)));
-    FW_NEED(m->pin_block = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(m->pin_element = fw_arena_array(arena, int, (size_t)m->npin));
-    FW_NEED(m->joint_block = fw_arena_array(arena, int, (size_t)m->njoint));
-    FW_NEED(m->driver_block = fw_arena_array(arena, int, (size_t)m->ndriver));
-    return FW_OK;
-}
-
-fw_status fw_multibody_model_block_arrays(fw_arena *arena, fw_multibody_model *m, int nblock) {
-    size_t p = (size_t)nblock;
-    m->nblock = nblock;
-    FW_NEED(m->block = fw_arena_array(arena, fw_multibody_block, p));
-    FW_NEED(m->body = fw_arena_array(arena, int, 2 * p));
-    FW_NEED(m->local = fw_arena_array(arena, double, 4 * p));
-    FW_NEED(m->offset = fw_arena_array(arena, double, 2 * p));
-    FW_NEED(m->arm = fw_arena_array(arena, double, 4 * p));
-    FW_NEED(m->jac = fw_arena_array(arena, double, 12 * p));
-    FW_NEED(m->lambda = fw_arena_array(arena, double, 2 * p));
-    FW_NEED(m->right = fw_arena_array(arena, double, 2 * p));
-    FW_NEED(m->more = fw_arena_array(arena, double, 2 * p));
-    FW_NEED(m->drift = fw_arena_array(arena, double, 2 * p));
-    FW_NEED(m->residual = fw_arena_array(arena, double, 2 * p));
-    return FW_OK;
 }

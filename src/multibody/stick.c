@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which joints with friction stick and which slip. Flags are held during a step; dynamics_run.c looks on the
-   dense output for the first time at which one no longer fits:
+/* Which joints with friction stick and which slip. Flags are held during a step; dynamics/event.c
+   looks on the dense output for the first time at which one no longer fits:
 
      slips   its rate crosses 0
      sticks  |T| exceeds mu_s r N
@@ -13,10 +13,9 @@
    and what presses is found for that answer (friction_solve.c), in turns until both agree: a fixed
    point of N, plain at first, then by halves. It exists and is unique while N depends on T weakly
    enough (multibody_friction.c); where it is not found the run ends with FW-D244. A joint that can
-   stick
-   does. Cost at an event: n solutions, rounds times n^3.
-   Source: Lotstedt 1982; Pfeiffer and Glocker, Multibody Dynamics with Unilateral Contacts, 1996.
-   Test: test_friction.c, test_friction_model.c, test_hard_friction.c. */
+   stick does. Cost at an event: n solutions, rounds times n^3. Source: Lotstedt 1982; Pfeiffer and
+   Glocker, Multibody Dynamics with Unilateral Contacts, 1996. Test: test_friction.c,
+   test_friction_model.c, test_hard_friction.c. */
 #include "multibody/friction.h"
 #include <float.h>
 #include <math.h>
@@ -30,32 +29,29 @@ static const double fw_limit_noise = 1e-12, fw_floor = 1e-15, fw_can_move = 1e-6
 
 /* ---- how well flags fit ---- */
 
-void fw_multibody_friction_track(fw_multibody_model *m, const double *y) {
-    if (!m->friction) return;
-    for (int i = 0; i < m->nq; i++)
-        m->friction->speed = fmax(m->friction->speed, fabs(y[m->nq + i]));
+void fw_multibody_friction_track(fw_multibody_system *sys, const double *y) {
+    struct fw_multibody_frictions *s = sys->friction;
+    const int nq = sys->model->nq;
+    for (int i = 0; i < nq && s; i++)
+        s->speed = fmax(s->speed, fabs(y[nq + i]));
 }
 
-static double limit(const fw_multibody_model_friction *f, double noise) {
-    return f->rest * f->press * (1 + noise) + fw_floor;
+static double limit(const struct fw_multibody_frictions *s, int i, double noise) {
+    return s->joint[i].rest * s->item[i].press * (1 + noise) + fw_floor;
 }
 
-void fw_multibody_friction_fits(fw_multibody_model *m, double t, const double *y, double *fit) {
-    struct fw_multibody_frictions *s = m->friction;
-    bool held = false;
+void fw_multibody_friction_fits(fw_multibody_system *sys, double t, const double *y, double *fit) {
+    struct fw_multibody_frictions *s = sys->friction;
+    bool held = false, known = true;
     for (int i = 0; i < s->n; i++)
         held = held || !s->item[i].slip;
-    fw_multibody_model_pose(m, y);
-    if (held) {
-        fw_multibody_model_rhs(m, t, y, s->state); /* torques; rates too */
-        if (m->method->closes_stages) fw_multibody_model_pose(m, y);
-    }
-    fw_multibody_friction_rows(m, y);
-    fw_multibody_friction_rates(m, y + m->nq);
+    if (held) known = fw_multibody_evaluate(sys, t, y, true, s->state); /* torques */
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+    fw_multibody_friction_rows(sys, pose, y + sys->model->nq);
     for (int i = 0; i < s->n; i++) {
-        const fw_multibody_model_friction *f = &s->item[i];
+        const fw_multibody_friction_state *f = &s->item[i];
         if (!f->slip)
-            fit[i] = m->broken ? -1 : limit(f, 2 * fw_limit_noise) - fabs(f->torque);
+            fit[i] = known ? limit(s, i, 2 * fw_limit_noise) - fabs(f->torque) : -1;
         else if (f->yields)
             fit[i] = fw_still * s->speed + fw_floor - fabs(s->rate[i]);
         else
@@ -63,50 +59,51 @@ void fw_multibody_friction_fits(fw_multibody_model *m, double t, const double *y
     }
 }
 
-bool fw_multibody_friction_slips(const fw_multibody_model *m) {
-    for (int i = 0; i < fw_multibody_friction_count(m); i++)
-        if (m->friction->item[i].slip) return true;
+bool fw_multibody_friction_slips(const fw_multibody_system *sys) {
+    for (int i = 0; i < sys->model->nfriction; i++)
+        if (sys->friction->item[i].slip) return true;
     return false;
 }
 
-void fw_multibody_friction_pressing(fw_multibody_model *m, double t, const double *y,
-                                    double *force) {
-    struct fw_multibody_frictions *s = m->friction;
-    fw_multibody_model_lean_rhs(m, t, y, s->state);
-    for (int i = 0; i < s->n; i++) {
-        bool slips = s->item[i].slip && !m->broken;
-        force[2 * i] = force[2 * i + 1] = 0;
-        if (slips) fw_multibody_friction_force(m, i, force + 2 * i);
-    }
-}
-
-void fw_multibody_friction_drags(const fw_multibody_model *m, int i, double *accel) {
-    const struct fw_multibody_frictions *s = m->friction;
-    const fw_multibody_model_friction *f = &s->item[i];
-    double coefficient = f->yields ? f->rest : f->slide;
-    const double *a = s->response + (size_t)i * (size_t)(m->nq + 3);
-    for (int c = 0; c < m->nq; c++)
+/* accelerations of entry i per unit of the force that presses it */
+static void drag_of(const struct fw_multibody_frictions *s, int i, int nq, double *accel) {
+    double coefficient = s->item[i].yields ? s->joint[i].rest : s->joint[i].slide;
+    const double *a = s->response + (size_t)i * (size_t)(nq + 3);
+    for (int c = 0; c < nq; c++)
         accel[c] = coefficient * a[c];
 }
 
-static int goes(const fw_multibody_model_friction *f) {
+void fw_multibody_friction_pressing(fw_multibody_system *sys, double t, const double *y,
+                                    double *force, double *drag) {
+    struct fw_multibody_frictions *s = sys->friction;
+    const int nq = sys->model->nq;
+    bool known = fw_multibody_evaluate(sys, t, y, false, s->state);
+    for (int i = 0; i < s->n; i++) {
+        force[2 * i] = force[2 * i + 1] = 0;
+        if (s->item[i].slip && known) fw_multibody_friction_force(s, i, force + 2 * i);
+        if (drag) drag_of(s, i, nq, drag + (size_t)i * (size_t)nq);
+    }
+}
+
+static int goes(const fw_multibody_friction_state *f) {
     return f->yields ? 0 : f->slip;
 }
 
-void fw_multibody_friction_meet(fw_multibody_model *m, int i) {
-    fw_multibody_model_friction *f = &m->friction->item[i];
-    m->friction->met = i;
-    m->friction->met_slip = goes(f);
+void fw_multibody_friction_meet(fw_multibody_system *sys, int i) {
+    fw_multibody_friction_state *f = &sys->friction->item[i];
+    sys->friction->met = i;
+    sys->friction->met_slip = goes(f);
     if (f->yields) return;
     f->slip = 0, f->held = (double)NAN; /* at rest here; where it lets go, without a pull back */
 }
 
-void fw_multibody_friction_begin(fw_multibody_model *m) {
-    if (!m->friction) return;
-    for (int i = 0; i < m->friction->n; i++)
-        m->friction->item[i].slip = 1, m->friction->item[i].yields = false;
-    m->friction->speed = 0;
-    m->friction->jam = m->friction->jammed = m->friction->met = -1;
+void fw_multibody_friction_begin(fw_multibody_system *sys) {
+    struct fw_multibody_frictions *s = sys->friction;
+    if (!s) return;
+    for (int i = 0; i < s->n; i++)
+        s->item[i].slip = 1, s->item[i].yields = false;
+    s->speed = 0;
+    s->jam = s->jammed = s->met = -1;
 }
 
 /* ---- who is at rest ---- */
@@ -116,14 +113,14 @@ void fw_multibody_friction_begin(fw_multibody_model *m) {
 static bool find_rests(struct fw_multibody_frictions *s, bool first) {
     bool more = false;
     for (int i = 0; i < s->n; i++) {
-        fw_multibody_model_friction *f = &s->item[i];
+        fw_multibody_friction_state *f = &s->item[i];
         bool held = !f->slip || f->yields, was = s->rests[i];
         double most = (first && held ? fw_still : fw_statics_equilibrium) * s->speed + fw_floor;
         s->rests[i] = (was && !first) || fabs(s->rate[i]) <= most;
         more = more || (s->rests[i] && !was);
     }
     for (int i = 0; i < s->n; i++) {
-        fw_multibody_model_friction *f = &s->item[i];
+        fw_multibody_friction_state *f = &s->item[i];
         f->yields = false;
         f->slip = s->rests[i] ? 0 : s->rate[i] > 0 ? 1 : -1;
     }
@@ -135,13 +132,12 @@ static bool find_rests(struct fw_multibody_frictions *s, bool first) {
 typedef enum contradiction { NONE, ABOVE, BACKWARDS, FREE } contradiction;
 
 /* what is wrong with entry i at the torques found, and how much */
-static contradiction wrong(const fw_multibody_model *m, int i, double *how) {
-    const struct fw_multibody_frictions *s = m->friction;
-    const fw_multibody_model_friction *f = &s->item[i];
+static contradiction wrong(const struct fw_multibody_frictions *s, int i, double *how) {
+    const fw_multibody_friction_state *f = &s->item[i];
     *how = 0;
     if (!s->rests[i]) return NONE;
     if (!f->slip) {
-        *how = fabs(f->torque) / limit(f, fw_limit_noise);
+        *how = fabs(f->torque) / limit(s, i, fw_limit_noise);
         return *how > 1 ? ABOVE : NONE;
     }
     bool free = s->left[i] > fw_can_move * s->loose[i];
@@ -157,7 +153,7 @@ static contradiction wrong(const fw_multibody_model *m, int i, double *how) {
 }
 
 static void mend(struct fw_multibody_frictions *s, int i, contradiction what) {
-    fw_multibody_model_friction *f = &s->item[i];
+    fw_multibody_friction_state *f = &s->item[i];
     if (what == ABOVE)
         f->slip = f->torque > 0 ? -1 : 1, f->yields = true;
     else if (what == BACKWARDS)
@@ -167,13 +163,13 @@ static void mend(struct fw_multibody_frictions *s, int i, contradiction what) {
 }
 
 /* the worst of the most pressing kind; with `lowest` the first entry (no cycles that way) */
-static int choose(const fw_multibody_model *m, bool lowest, contradiction *what) {
+static int choose(const struct fw_multibody_frictions *s, bool lowest, contradiction *what) {
     int found = -1;
     double most = 0;
     *what = NONE;
-    for (int i = 0; i < m->friction->n; i++) {
+    for (int i = 0; i < s->n; i++) {
         double how;
-        contradiction now = wrong(m, i, &how);
+        contradiction now = wrong(s, i, &how);
         if (now == NONE) continue;
         bool first = *what == NONE, urgent = now < *what, worse = now == *what && how > most;
         if (lowest ? !first : !(first || urgent || worse)) continue;
@@ -182,104 +178,102 @@ static int choose(const fw_multibody_model *m, bool lowest, contradiction *what)
     return found;
 }
 
-static bool nothing_wrong(const fw_multibody_model *m) {
+static bool nothing_wrong(const struct fw_multibody_frictions *s) {
     contradiction what;
-    return choose(m, true, &what) < 0;
+    return choose(s, true, &what) < 0;
 }
 
 /* the flags at hand, the worst contradiction mended one after the other: after the box problem only
    who is held by others and who can move by itself, told apart by what is left of it while those
    that stick hold */
-static bool mended(fw_multibody_model *m) {
-    struct fw_multibody_frictions *s = m->friction;
+static bool mended(struct fw_multibody_frictions *s) {
     for (int round = 0; round < 8 * s->n + 8; round++) {
         contradiction what;
-        int i = choose(m, round > 4 * s->n, &what);
+        int i = choose(s, round > 4 * s->n, &what);
         if (i < 0) return true;
         mend(s, i, what);
-        if (!fw_multibody_friction_solve(m)) return false;
+        if (!fw_multibody_friction_solve(s)) return false;
     }
     return false;
 }
 
 /* flags by the box problem, forces by the flags, until both agree */
-static bool agree(fw_multibody_model *m, int *jam) {
-    struct fw_multibody_frictions *s = m->friction;
+static bool agree(struct fw_multibody_frictions *s, int *jam) {
     for (int round = 0; round < ROUNDS; round++) {
         for (int i = 0; i < s->n; i++)
             s->before[i] = s->item[i].press;
         if (!fw_multibody_friction_box(s)) return false;
-        bool solved = fw_multibody_friction_solve(m);
-        if (solved && mended(m)) return true;
+        bool solved = fw_multibody_friction_solve(s);
+        if (solved && mended(s)) return true;
         if (!solved) *jam = s->jam;
         for (int i = 0; i < s->n; i++) {
-            fw_multibody_model_friction *f = &s->item[i];
-            if (!s->rests[i]) s->torque[i] = -f->slip * f->slide * s->before[i];
-            if (!solved) f->press = fw_multibody_friction_press(m, i);
+            fw_multibody_friction_state *f = &s->item[i];
+            if (!s->rests[i]) s->torque[i] = -f->slip * s->joint[i].slide * s->before[i];
+            if (!solved) f->press = fw_multibody_friction_press(s, i);
             if (round >= PLAIN) f->press = 0.5 * (f->press + s->before[i]);
         }
     }
     return false;
 }
 
-static bool sort(fw_multibody_model *m) {
-    struct fw_multibody_frictions *s = m->friction;
+static bool sort(struct fw_multibody_frictions *s) {
     int jam = -1;
-    bool solved = fw_multibody_friction_solve(m);
-    if (solved && nothing_wrong(m)) return true;
+    bool solved = fw_multibody_friction_solve(s);
+    if (solved && nothing_wrong(s)) return true;
     if (!solved) {
         jam = s->jam;
         if (jam < 0) return false;
         memset(s->torque, 0, (size_t)s->n * sizeof *s->torque);
         for (int i = 0; i < s->n; i++)
-            s->item[i].press = fw_multibody_friction_press(m, i);
+            s->item[i].press = fw_multibody_friction_press(s, i);
     }
-    if (agree(m, &jam)) return true;
+    if (agree(s, &jam)) return true;
     for (int i = 0; i < s->n; i++) /* where torques are not unique, others may do */
         if (s->rests[i]) s->item[i].slip = 0, s->item[i].yields = false;
-    if (fw_multibody_friction_solve(m) && mended(m)) return true;
+    if (fw_multibody_friction_solve(s) && mended(s)) return true;
     s->jam = jam >= 0 ? jam : 0;
     return false;
 }
 
-/* a0, lambda0, rows, responses at the state; the pose is there already */
-static void evaluate(fw_multibody_model *m, double t, const double *y) {
-    fw_multibody_model_free(m, t, y);
-    fw_multibody_friction_respond(m, y);
-    fw_multibody_friction_evaluate(m, t, y);
+/* a0, lambda0, rows, responses */
+static void evaluate(fw_multibody_system *sys, const fw_multibody_factor *factor, const double *v) {
+    const fw_multibody_solution *found = fw_multibody_accelerate(sys, factor, v);
+    fw_multibody_friction_respond(sys, factor, v);
+    fw_multibody_friction_evaluate(sys, found, v);
 }
 
-bool fw_multibody_friction_decide(fw_multibody_model *m, double t, double *y) {
-    struct fw_multibody_frictions *s = m->friction;
+bool fw_multibody_friction_decide(fw_multibody_system *sys, double t, double *y) {
+    struct fw_multibody_frictions *s = sys->friction;
+    const fw_multibody_factor *factor;
+    double *v = y + sys->model->nq;
     if (!s) return true;
-    fw_multibody_friction_track(m, y);
-    fw_multibody_model_pose(m, y);
-    m->broken = !m->method->factor(m);
-    if (m->broken) return false;
+    fw_multibody_friction_track(sys, y);
+    factor = fw_multibody_factorise(sys, fw_multibody_pose_at(sys, t, y));
+    if (!factor) return false;
     for (int i = 0; i < s->n; i++) /* those that stay at rest keep their place */
         s->rests[i] = false, s->held[i] = !s->item[i].slip || s->item[i].yields;
-    fw_multibody_friction_respond(m, y);
+    fw_multibody_friction_respond(sys, factor, v);
     for (int pass = 0; pass <= s->n && find_rests(s, pass == 0); pass++)
-        fw_multibody_friction_settle(m, y);
+        fw_multibody_friction_settle(sys, factor, v);
     for (int i = 0; i < s->n; i++)
         if (s->rests[i] && (!s->held[i] || isnan(s->item[i].held)))
-            s->item[i].held = fw_multibody_friction_coordinate(m, i, y);
-    evaluate(m, t, y);
-    if (!sort(m)) {
+            s->item[i].held = fw_multibody_friction_coordinate(sys->model, factor->pose, i);
+    evaluate(sys, factor, v);
+    if (!sort(s)) {
         if (s->jam >= 0) s->jammed = s->jam, s->jam_time = t;
         return false;
     }
     if (s->met >= 0) { /* one that holds after all was no event */
-        m->events += goes(&s->item[s->met]) != s->met_slip;
+        sys->record.events += goes(&s->item[s->met]) != s->met_slip;
         s->met = -1;
     }
     return true;
 }
 
-bool fw_multibody_friction_jammed(const fw_multibody_model *m, double *t, const char **id,
+bool fw_multibody_friction_jammed(const fw_multibody_system *sys, double *t, const char **id,
                                   fw_place *place) {
-    const struct fw_multibody_frictions *s = m->friction;
+    const struct fw_multibody_frictions *s = sys->friction;
     if (!s || s->jammed < 0) return false;
-    *t = s->jam_time, *id = s->item[s->jammed].id, *place = s->item[s->jammed].place;
+    *t = s->jam_time, *id = s->joint[s->jammed].id, *place = s->joint[s->jammed].place;
     return true;
 }

@@ -5,12 +5,10 @@
      g law(t),   g = s (p_b - centre) where b is the ground, -s (p_a - centre) where a is,
 
    so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
-   move likewise. The model holds the ground of one time, fw_multibody_model_at. Scaled units.
-   Exact. What the
-   moving ground feeds in goes to the energy balance: lambda . Psi_t of the joints, and here that
-   of springs
-   and slides. Test: test_constraints.c, test_temperature.c. */
-#include "multibody/build.h"
+   move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
+   feeds in goes to the energy balance: lambda . Psi_t of the joints, and here that of springs and
+   slides. Test: test_constraints.c, test_temperature.c. */
+#include "multibody/multibody_scratch.h"
 #include <math.h>
 
 void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2], double gain[2]) {
@@ -20,11 +18,10 @@ void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2
 
 /* g of every block: of b's point, less that of a's */
 static void gain_of_blocks(fw_multibody_model *m) {
-    fw_multibody_model_stretch *s = &m->stretch;
+    fw_multibody_stretch *s = &m->stretch;
     for (int i = 0; i < m->nblock; i++) {
         const fw_multibody_block *b = &m->block[i];
         double *g = s->block + 2 * i;
-        s->offset[2 * i] = m->offset[2 * i], s->offset[2 * i + 1] = m->offset[2 * i + 1];
         if (b->b == m->nbody) {
             fw_multibody_stretch_gain(m, m->local + 4 * i + 2, g);
         } else if (b->a == m->nbody) {
@@ -36,9 +33,9 @@ static void gain_of_blocks(fw_multibody_model *m) {
 
 static void gain_of_springs(fw_multibody_model *m) {
     for (int i = 0; i < m->nspring; i++) {
-        const fw_multibody_model_spring *p = &m->spring[i];
-        double *end = m->stretch.end + 4 * i, *g = m->stretch.spring + 4 * i;
-        end[0] = p->ax, end[1] = p->ay, end[2] = p->bx, end[3] = p->by;
+        const fw_multibody_spring *p = &m->spring[i];
+        const double *end = m->spring_end + 4 * i;
+        double *g = m->stretch.spring + 4 * i;
         if (p->a == m->nbody) fw_multibody_stretch_gain(m, end, g);
         if (p->b == m->nbody) fw_multibody_stretch_gain(m, end + 2, g + 2);
     }
@@ -46,47 +43,42 @@ static void gain_of_springs(fw_multibody_model *m) {
 
 fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_effects_stretch *from,
                                    fw_geometry_vec2 centre, fw_multibody_model *m) {
-    fw_multibody_model_stretch *s = &m->stretch;
+    fw_multibody_stretch *s = &m->stretch;
     s->strain = from->strain;
     s->centre[0] = (from->centre_m.x - centre.x) / m->scale.length_m;
     s->centre[1] = (from->centre_m.y - centre.y) / m->scale.length_m;
     FW_NEED(s->block = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
-    FW_NEED(s->offset = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     FW_NEED(s->spring = fw_arena_array(arena, double, 4 * (size_t)m->nspring));
-    FW_NEED(s->end = fw_arena_array(arena, double, 4 * (size_t)m->nspring));
     gain_of_blocks(m);
     gain_of_springs(m);
     s->law = from->law;
-    s->t = (double)NAN;
     m->driven = true;
-    fw_multibody_model_at(m, 0);
     return FW_OK;
 }
 
-void fw_multibody_model_at(fw_multibody_model *m, double t) {
-    fw_multibody_model_stretch *s = &m->stretch;
-    if (!s->law || (t == s->t && m->piece == s->piece)) return;
+void fw_multibody_stretch_pose(const fw_multibody_system *sys, double t) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_stretch *s = &m->stretch;
+    fw_multibody_scratch *w = sys->work;
+    if (t == w->ground_t && sys->piece_s == w->ground_piece_s) return;
     const double unit = m->scale.time_s;
-    fw_quantity_law_value(s->law, t * unit, m->piece, s->now);
-    s->now[1] *= unit, s->now[2] *= unit * unit;
-    s->t = t, s->piece = m->piece;
+    fw_quantity_law_value(s->law, t * unit, sys->piece_s, w->ground);
+    w->ground[1] *= unit, w->ground[2] *= unit * unit;
+    w->ground_t = t, w->ground_piece_s = sys->piece_s;
     for (int i = 0; i < 2 * m->nblock; i++) /* d = ... - offset */
-        m->offset[i] = s->offset[i] - s->now[0] * s->block[i];
-    for (int i = 0; i < m->nspring; i++) {
-        fw_multibody_model_spring *p = &m->spring[i];
-        const double *end = s->end + 4 * i, *grows = s->spring + 4 * i;
-        p->ax = end[0] + s->now[0] * grows[0], p->ay = end[1] + s->now[0] * grows[1];
-        p->bx = end[2] + s->now[0] * grows[2], p->by = end[3] + s->now[0] * grows[3];
-    }
+        w->offset[i] = m->offset[i] - w->ground[0] * s->block[i];
+    for (int i = 0; i < 4 * m->nspring; i++)
+        w->spring_end[i] = m->spring_end[i] + w->ground[0] * s->spring[i];
 }
 
-void fw_multibody_stretch_drift(const fw_multibody_model *m, double *r) {
+void fw_multibody_stretch_drift(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                double *r) {
     for (int i = 0; i < m->nblock; i++) {
         double d[2], e[2], n[2];
-        const double x = m->stretch.now[1] * m->stretch.block[2 * i];
-        const double y = m->stretch.now[1] * m->stretch.block[2 * i + 1];
+        const double x = pose->ground[1] * m->stretch.block[2 * i];
+        const double y = pose->ground[1] * m->stretch.block[2 * i + 1];
         if (x == 0 && y == 0) continue;
-        fw_multibody_model_frame(m, i, m->posed, d, e, n);
+        fw_multibody_frame(m, pose, i, d, e, n);
         switch (m->block[i].rows) {
         case FW_ROWS_PIN:
             r[2 * i] -= x, r[2 * i + 1] -= y;
@@ -108,24 +100,26 @@ void fw_multibody_stretch_drift(const fw_multibody_model *m, double *r) {
 
 /* force on the ground's point times its velocity, with the opposite sign: springs k (l - l0) + c l'
    along the line, slides likewise along the axis of their joint */
-double fw_multibody_stretch_power(const fw_multibody_model *m, const double *y) {
-    const fw_multibody_model_stretch *s = &m->stretch;
-    double power = 0;
+double fw_multibody_stretch_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                  const double *v) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_stretch *s = &m->stretch;
+    double power = 0, speed = pose->ground[1];
     for (int i = 0; i < m->nspring; i++) {
-        const fw_multibody_model_spring *p = &m->spring[i];
+        const fw_multibody_spring *p = &m->spring[i];
         const double *g = s->spring + 4 * i;
-        if (!p->on || (p->a != m->nbody && p->b != m->nbody)) continue;
-        fw_multibody_pull l = fw_multibody_model_pull(m, p, y);
+        if (!sys->on.spring[i] || (p->a != m->nbody && p->b != m->nbody)) continue;
+        fw_multibody_pull l = fw_multibody_pull_of(sys, pose, i, v);
         double f = p->k * (l.length - p->length) + p->c * l.rate;
-        power += f * s->now[1] * (l.ux * (g[2] - g[0]) + l.uy * (g[3] - g[1]));
+        power += f * speed * (l.ux * (g[2] - g[0]) + l.uy * (g[3] - g[1]));
     }
     for (int i = 0; i < m->nslide; i++) {
-        const fw_multibody_model_slide *p = &m->slide[i];
+        const fw_multibody_slide *p = &m->slide[i];
         const double *g = s->block + 2 * p->block;
         double d[2], e[2], n[2], travel, rate;
-        fw_multibody_model_frame(m, p->block, y, d, e, n);
-        fw_multibody_model_travel(m, p, y, &travel, &rate);
-        power += (p->k * travel + p->c * rate) * s->now[1] * (e[0] * g[0] + e[1] * g[1]);
+        fw_multibody_frame(m, pose, p->block, d, e, n);
+        fw_multibody_slide_travel(sys, pose, p, v, &travel, &rate);
+        power += (p->k * travel + p->c * rate) * speed * (e[0] * g[0] + e[1] * g[1]);
     }
     return power;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "multibody/model.h"
+#include "multibody/multibody_scratch.h"
 #include <stdbool.h>
 #include <string.h>
 
@@ -222,13 +222,8 @@ fw_status fw_multibody_chain_compile(fw_arena *arena, fw_multibody_model *m) {
             c->row[c->column[k] + i] = below[k].item[i];
     FW_TRY(couplings(arena, m));
     FW_TRY(updates(arena, c));
-    FW_NEED(c->diagonal = fw_arena_array(arena, double, 3 * p));
     FW_NEED(c->isotropic = fw_arena_array(arena, double, 2 * p));
     for (int i = 0; i < m->nblock; i++)
         proximal_weights(m, i, c->isotropic + 2 * i);
-    FW_NEED(c->pivot = fw_arena_array(arena, double, 3 * p));
-    FW_NEED(c->first_row = fw_arena_array(arena, unsigned char, p));
-    FW_NEED(c->block = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
-    FW_NEED(c->factor = fw_arena_array(arena, double, 4 * (size_t)c->blocks));
     return FW_OK;
 }

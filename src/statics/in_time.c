@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equilibria at a time of the scene: loads and drivers at the value of their laws, and their rates
    in the place of the derivatives by the load factor. */
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
@@ -35,36 +35,36 @@ fw_status fw_statics_equilibrium_in_time(fw_statics_equilibrium *w, const fw_eff
     FW_TRY(fw_effects_strain(w->arena, w->mechanism, &loads, &w->mechanism));
     FW_TRY(hold_loads(w, &loads));
     FW_TRY(fw_statics_equilibrium_build(w, &loads));
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
     memcpy(w->gravity, m->constant, (size_t)m->nq * sizeof(double)); /* all that is constant */
     FW_NEED(w->law = fw_arena_array(w->arena, const fw_quantity_law *, (size_t)m->nblock));
     for (int i = 0; i < m->nblock; i++) {
         w->law[i] = m->block[i].law;
         w->start[i] = m->block[i].value;
-        m->block[i].law = NULL; /* fw_statics_equilibrium_at sets the values */
     }
-    m->driven = false;
+    w->system->loading.driven = false; /* fw_statics_equilibrium_at sets the values */
     return FW_OK;
 }
 
 void fw_statics_equilibrium_at(fw_statics_equilibrium *w, double t_s, double piece_s) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
+    fw_multibody_loading *now = &w->system->loading;
     double second = m->scale.time_s, newton = fw_multibody_newton(m), value[3];
     w->t = t_s / second;
-    m->piece = piece_s;
-    memcpy(m->constant, w->gravity, (size_t)m->nq * sizeof(double));
+    w->system->piece_s = piece_s;
+    memcpy(now->constant, w->gravity, (size_t)m->nq * sizeof(double));
     memset(w->load_acceleration, 0, (size_t)m->nq * sizeof(double));
     for (int i = 0; i < w->ntimed; i++) {
         const fw_effects_timed_load *l = &w->timed[i];
-        fw_multibody_model_load *now = &m->load[w->first_timed + i],
-                                *rate = &w->load[w->first_timed + i];
+        fw_multibody_load *rate = &w->load[w->first_timed + i];
+        double *force = now->force + 2 * (w->first_timed + i);
         double turn = l->torque_Nm / (newton * m->scale.length_m) * m->jinv[l->body];
         fw_quantity_law_value(l->law, t_s, piece_s, value);
-        *rate = *now;
-        now->fx = value[0] * l->fx_N / newton, now->fy = value[0] * l->fy_N / newton;
+        *rate = m->load[w->first_timed + i];
+        force[0] = value[0] * l->fx_N / newton, force[1] = value[0] * l->fy_N / newton;
         rate->fx = second * value[1] * l->fx_N / newton;
         rate->fy = second * value[1] * l->fy_N / newton;
-        m->constant[3 * l->body + 2] += value[0] * turn;
+        now->constant[3 * l->body + 2] += value[0] * turn;
         w->load_acceleration[3 * l->body + 2] += second * value[1] * turn;
     }
     w->moving = false;
@@ -72,7 +72,7 @@ void fw_statics_equilibrium_at(fw_statics_equilibrium *w, double t_s, double pie
         w->way[i] = 0;
         if (!w->law[i]) continue;
         fw_quantity_law_value(w->law[i], t_s, piece_s, value);
-        m->block[i].value = w->start[i] + value[0] / m->block[i].unit;
+        now->value[i] = w->start[i] + value[0] / m->block[i].unit;
         w->way[i] = second * value[1] / m->block[i].unit;
         w->moving = w->moving || w->way[i] != 0;
     }

@@ -11,8 +11,8 @@ typedef struct fw_statics_level_state {
     double *q;          /* (3 nbody) m, rad */
     double *angle_rad;  /* (npin) */
     double *reaction_N; /* (2 npin) on body b, world axes */
-    double
-        *strain; /* (nhinge) peak of each hinge; NaN until fw_verdict_level_strains (verdict.h) */
+    /* (nhinge) peak of each hinge; NaN until fw_verdict_level_strains (verdict.h) */
+    double *strain;
 } fw_statics_level_state;
 
 typedef struct fw_statics_level_step {

@@ -28,9 +28,11 @@ static bool none_is_driven(const fw_multibody_model *m) {
     return true;
 }
 
-/* what elements store too, but fw_multibody_model_energy counts that: it is taken off */
+/* what elements store too, but fw_multibody_energy_at counts that: it is taken off */
 double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
+    fw_multibody_system *sys = w->system;
+    const double *v = w->away + m->nq;
     double sum = 0;
     *size = 0;
     if (none_is_driven(m)) return 0;
@@ -38,18 +40,16 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
         double x = 0.5 + (k % 2 ? 0.5 : -0.5) * node[k / 2], along = 0;
         for (int i = 0; i < m->nq; i++)
             w->away[i] = w->y[i] + x * (u[i] - w->y[i]);
-        fw_multibody_model_set_switches(m, 0, w->away);
-        fw_multibody_model_pose(m, w->away);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, w->t, w->away);
         memset(w->pull, 0, (size_t)m->nq * sizeof *w->pull);
-        fw_multibody_model_element_driven(m, 0, w->away, w->pull);
+        fw_multibody_element_driven(sys, pose, v, w->pull);
         for (int i = 0; i < m->nq; i++)
             along += w->pull[i] * (u[i] - w->y[i]);
         sum -= 0.5 * weight[k / 2] * along;
         *size += 0.5 * weight[k / 2] * fabs(along);
     }
     memcpy(w->away, u, (size_t)m->nq * sizeof *u);
-    fw_multibody_model_set_switches(m, 0, w->away);
-    fw_multibody_model_pose(m, w->away);
-    return sum - (fw_multibody_model_element_energy(m, 0, w->away, true) -
-                  fw_multibody_model_element_energy(m, 0, w->away, false));
+    const fw_multibody_pose *pose = fw_multibody_set_switches(sys, w->t, w->away);
+    return sum - (fw_multibody_element_energy(sys, pose, v, true) -
+                  fw_multibody_element_energy(sys, pose, v, false));
 }

@@ -4,10 +4,9 @@
 
    Where the first eigenvalue of the reduced stiffness passes zero is a root along the arc to
    round-off (statics_path.c): at a limit point s has an error of second order; at a bifurcation it
-   is found
-   again from the eigenvalue beside it. Lengths of the arc count displacements in gaps. The unit of
-   s comes from the stiffness that the fields take as drawn, S = Phi^T (K(0) - K(1)) Phi over the
-   eigenvalues mu: 1/|S_kl/sqrt(mu_k mu_l)| is less than where the linear theory loses its
+   is found again from the eigenvalue beside it. Lengths of the arc count displacements in gaps. The
+   unit of s comes from the stiffness that the fields take as drawn, S = Phi^T (K(0) - K(1)) Phi
+   over the eigenvalues mu: 1/|S_kl/sqrt(mu_k mu_l)| is less than where the linear theory loses its
    stiffness, and from the linear displacement, a gap; it is raised while nothing is found. Inputs:
    a mechanism as statics takes it. Valid where the capacitance's formula is; a path that leaves it
    says so. Cost: about 100 to 500 evaluations (30 n^3). Source: J. A. Pelesko and D. H. Bernstein,
@@ -168,8 +167,8 @@ static fw_status extrapolate(seeker *k, const double *near, double s, double h, 
 
 /* Branches cross at a bifurcation, so that paths stop some 1e-9 beside it. The lowest eigenvalue is
    smooth there, but only until it meets the next one, of a softer mode that the field does not
-   touch: h becomes smaller until two cubics agree. Error about h^4, 1e-15 where the first two do.
- */
+   touch: h becomes smaller until two cubics agree. Error about h^4, 1e-15 where the first two
+   do. */
 static fw_status refine(seeker *k, const double *near, double *s) {
     const double first = 2e-4, agreed = 1e-12, found = *s;
     double before = (double)NAN;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The voltage at which comb drives lose their equilibrium. Theory:
- * docs/theory/effects/comb-drive.md.
- */
+   docs/theory/effects/comb-drive.md. */
 #ifndef FW_STATICS_PULL_IN_H
 #define FW_STATICS_PULL_IN_H
 #include "statics/statics.h"
@@ -23,9 +22,8 @@ typedef struct fw_statics_pull_in {
     double largest_V; /* of it in the scene */
     double margin;    /* voltage over largest; below 1 the scene's equilibrium does not exist */
     double where[3];  /* of its rotor: along, across (m), tilt (rad) */
-    double
-        fringe; /* of its capacitance, relative, that is left out at most
-                   (fw_effects_comb_fringe) */
+    /* of its capacitance, relative, that is left out at most (fw_effects_comb_fringe) */
+    double fringe;
     const char *body;  /* moves most in the motion that becomes free; NULL: NONE */
     double *q, *shape; /* (3 nbody) pose in SI; motion, its largest part 1; NULL: NONE */
     const char *why;   /* NONE: what ended it */
@@ -37,8 +35,8 @@ double fw_statics_pull_in_margin(const fw_statics_pull_in *p);
 /* the static voltage lies above the scene's: electrodes that touch all the same were thrown there
    (dynamic pull-in) */
 bool fw_statics_pull_in_dynamic(const fw_statics_pull_in *p);
-/* what electrodes that touched have to do with the static pull-in voltage, a sentence; NULL: memory
- */
+/* what electrodes that touched have to do with the static pull-in voltage, a sentence; NULL:
+   memory */
 const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in *p);
 
 enum { FW_PULL_IN_MOST = 150 }; /* unknowns: some hundred dense evaluations of 30 n^3 */

@@ -60,7 +60,7 @@ static void keep(fw_statics_quasi_static *r, double t, fw_statics_node *node) {
     memcpy(node->v, r->rate, bytes);
     for (int i = 0; i < r->w.model->nq; i++)
         r->size = fmax(r->size, fabs(node->u[i]));
-    r->kinetic = fmax(r->kinetic, fw_multibody_model_kinetic(r->w.model, r->rate));
+    r->kinetic = fmax(r->kinetic, fw_multibody_kinetic_energy(r->w.model, r->rate));
     r->elastic = fmax(r->elastic, fabs(fw_statics_equilibrium_energy(&r->w, node->u, &size)));
     r->elastic = fmax(r->elastic, size / 2);
 }

@@ -9,9 +9,8 @@ typedef struct fw_statics_node { /* an equilibrium: pose and du/dt, scaled */
     double t, *u, *v;            /* (n) */
 } fw_statics_node;
 
-typedef struct
-    fw_statics_track { /* largest size of something seen at instants, peaks between them by
-                             parabolas */
+/* largest size of something seen at instants, peaks between them by parabolas */
+typedef struct fw_statics_track {
     double t[2], s[2]; /* the last two */
     int seen;
     double most, value, at, between; /* size, with its sign, time, what the parabola adds */
@@ -42,8 +41,7 @@ typedef struct fw_statics_quasi_static {
 } fw_statics_quasi_static;
 
 /* quasi_static.c: the equilibrium at scaled t nearest to row->guess; the model stays there.
-   FW_SOLVER: there
-   is none that Newton's method reaches in a few steps, or it is not stable */
+   FW_SOLVER: there is none that Newton's method reaches in a few steps, or it is not stable */
 fw_status fw_statics_quasi_static_solve(fw_statics_quasi_static *r, double t);
 /* the step's curve at theta in [0, 1]: degree 5 through three equilibria and their rates. value,
    slope and bend (n) by scaled time; may be NULL */

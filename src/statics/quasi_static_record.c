@@ -2,7 +2,7 @@
 /* What is read off a sequence of equilibria: peaks of angles, rows, instants, extremes of
    forces. */
 #include "maths/brent.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include "statics/quasi_static.h"
 #include <float.h>
 #include <math.h>
@@ -175,6 +175,7 @@ static void follow(fw_statics_track *k, double t, double value) {
 static void channels(fw_statics_quasi_static *r, double t) {
     const fw_mechanism *from = r->w.mechanism;
     const fw_multibody_model *m = r->w.model;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(r->w.system, t, r->w.y);
     fw_statics_track *k = r->track;
     for (int i = 0; i < from->npin; i++)
         follow(k++, t, hypot(r->reaction[2 * i], r->reaction[2 * i + 1]));
@@ -183,7 +184,7 @@ static void channels(fw_statics_quasi_static *r, double t) {
         follow(k, t, hypot(r->joint[3 * i], r->joint[3 * i + 1]));
         follow(k + 1, t, from->joint[i].kind == FW_JOINT_DISTANCE ? 0 : r->joint[3 * i + 2]);
         if (from->joint[i].kind != FW_JOINT_PRISMATIC) continue;
-        fw_multibody_model_frame(m, m->joint_block[i], r->w.y, d, e, n);
+        fw_multibody_frame(m, pose, m->joint_block[i], d, e, n);
         follow(k + 2, t,
                (e[0] * d[0] + e[1] * d[1]) * m->scale.length_m - from->joint[i].free_length_m);
     }
@@ -273,8 +274,7 @@ static void finish_tracks(fw_statics_quasi_static *r) {
 /* errors: what a curve misses between its equilibria, and round-off */
 void fw_statics_quasi_static_finish(fw_statics_quasi_static *r) {
     fw_dynamics_motion *m = r->motion;
-    fw_multibody_model *model = r->w.model;
-    const fw_multibody_scale unit = model->scale;
+    const fw_multibody_scale unit = r->w.model->scale;
     double speed = unit.length_m / unit.time_s;
     for (int i = 0; i < m->npin; i++) {
         m->peak[i].t_s *= unit.time_s;
@@ -294,7 +294,7 @@ void fw_statics_quasi_static_finish(fw_statics_quasi_static *r) {
                                    .all_steps = r->solved,
                                    .all_rhs = r->evaluated,
                                    .projections = r->evaluated,
-                                   .max_constraint_norm = model->worst_position,
+                                   .max_constraint_norm = r->w.system->record.worst_position,
                                    .energy_error = r->kinetic / fmax(r->elastic, DBL_MIN),
                                    .rtol = r->options->rtol > 0 ? r->options->rtol : r->tolerance,
                                    .largest_energy_J = r->elastic * unit.mass_kg * speed * speed,

@@ -29,9 +29,10 @@ fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
 }
 
 /* A = D G M^-1/2, column-major, rows of norm 1; false: not finite */
-static bool balanced(const fw_multibody_model *m, fw_statics_reduced *r) {
+static bool balanced(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                     fw_statics_reduced *r) {
     size_t n = (size_t)r->n, rows = (size_t)r->rows;
-    fw_multibody_model_dense_jacobian(m, r->g);
+    fw_multibody_dense_jacobian(m, pose, r->g);
     for (size_t i = 0; i < rows; i++) {
         double *row = r->g + i * n, sum = 0;
         for (size_t j = 0; j < n; j++) {
@@ -59,13 +60,14 @@ static void transpose(int n, const double *from, double *to) {
    reader, so that no rank is decided in silence. Error: round-off times largest / kept. Cost about
    20 n^3. Source: null-space reduction, e.g. Garcia de Jalon and Bayo 1994, ch. 5; LAPACK. Test:
    test_modes.c, test_statics.c (a hinge written twice). */
-fw_status fw_statics_reduced_null(const fw_multibody_model *m, fw_statics_reduced *r) {
+fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                  fw_statics_reduced *r) {
     int most = r->rows < r->n ? r->rows : r->n, larger = r->rows > r->n ? r->rows : r->n;
     memset(r->small, 0, (size_t)r->n * (size_t)r->n * sizeof(double));
     for (int i = 0; i < r->n; i++)
         r->small[(size_t)i * (size_t)r->n + (size_t)i] = 1;
-    if (r->rows > 0 && (!balanced(m, r) || !fw_maths_svd(r->rows, r->n, true, r->a, r->sigma,
-                                                         r->left, r->small, &r->svd)))
+    if (r->rows > 0 && (!balanced(m, pose, r) || !fw_maths_svd(r->rows, r->n, true, r->a, r->sigma,
+                                                               r->left, r->small, &r->svd)))
         return FW_SOLVER;
     transpose(r->n, r->small, r->right);
     r->largest = most > 0 ? r->sigma[0] : 0;
@@ -151,8 +153,8 @@ static void sort_modes(fw_statics_reduced *r) {
         }
 }
 
-/* round-off of each value: of its own terms, and squared of what the largest may leave in its shape
- */
+/* round-off of each value: of its own terms, and squared of what the largest may leave in its
+   shape */
 static void set_zero(fw_statics_reduced *r, const double *stiffness) {
     size_t n = (size_t)r->n;
     const double small = 64 * DBL_EPSILON;
@@ -265,14 +267,14 @@ void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_static
             mu[i] += r->left[(size_t)k * rows + i] * part[k];
         mu[i] *= r->balance[i];
     }
-    fw_multibody_model_unpack(m, mu, lambda);
+    fw_multibody_unpack(m, mu, lambda);
 }
 
 void fw_statics_reduced_correct(const fw_multibody_model *m, const fw_statics_reduced *r,
                                 const double *psi, double *d) {
     size_t n = (size_t)r->n, rows = (size_t)r->rows;
     double *packed = r->work;
-    fw_multibody_model_pack(m, psi, packed);
+    fw_multibody_pack(m, psi, packed);
     memset(d, 0, n * sizeof *d);
     for (int k = 0; k < r->rank; k++) {
         double sum = 0;

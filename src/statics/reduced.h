@@ -3,7 +3,7 @@
    symmetric pencil (K, M) in it. Scaled units. Private to statics/. */
 #ifndef FW_STATICS_REDUCED_H
 #define FW_STATICS_REDUCED_H
-#include "multibody/model.h"
+#include "multibody/system.h"
 #include "maths/dense.h"
 
 typedef struct fw_statics_reduced {
@@ -22,8 +22,9 @@ typedef struct fw_statics_reduced {
 
 fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
                                  fw_statics_reduced *r);
-/* null space of G at the model's pose; FW_SOLVER: not finite */
-fw_status fw_statics_reduced_null(const fw_multibody_model *m, fw_statics_reduced *r);
+/* null space of G; FW_SOLVER: not finite */
+fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                  fw_statics_reduced *r);
 /* modes of K (n x n) in it, after fw_statics_reduced_null */
 fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiffness);
 /* lambda (2 nblock) with G^T lambda as close to the force (n) as it gets in the mass metric; of all

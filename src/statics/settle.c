@@ -39,7 +39,7 @@ static fw_status find_contradiction(walker *k) {
     FW_NEED(block = fw_arena_array(w->arena, double, 2 * (size_t)m->nblock));
     for (int i = 0; i < m->nblock; i++)
         block[2 * i] = w->way[i];
-    fw_multibody_model_pack(m, block, packed);
+    fw_multibody_pack(m, block, packed);
     for (size_t i = 0; i < rows; i++) {
         packed[i] *= r->balance[i];
         size = fmax(size, fabs(packed[i]));
@@ -52,7 +52,7 @@ static fw_status find_contradiction(walker *k) {
         for (size_t i = 0; i < rows; i++)
             packed[i] -= share * u[i];
     }
-    fw_multibody_model_unpack(m, packed, block);
+    fw_multibody_unpack(m, packed, block);
     for (int i = 0; i < m->nblock; i++)
         k->blamed[i] =
             m->block[i].driver != FW_NONE && fabs(block[2 * i]) > fw_contradiction * size;
@@ -76,7 +76,7 @@ static fw_status cannot_follow(walker *k, double s) {
     char at[32];
     int count;
     fw_text names = fw_text_new(w->arena);
-    int stuck = m->stuck;
+    int stuck = w->system->record.stuck;
     fw_statics_equilibrium_factor(w, s);
     memcpy(w->y, k->from, (size_t)m->nq * sizeof(double));
     if (fw_statics_equilibrium_evaluate(w) == FW_OK) FW_TRY(find_contradiction(k));

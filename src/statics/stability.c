@@ -105,7 +105,7 @@ static void place(const looker *k, double t_s, double *u) {
 
 static void loads_of(looker *k, double t_s, double piece_s) {
     fw_statics_equilibrium_at(&k->w, t_s, piece_s);
-    k->w.model->held_s = t_s;
+    k->w.system->loading.hold = (fw_multibody_hold){.on = true, .t_s = t_s};
 }
 
 /* stands for weight_s of the scene */
@@ -205,12 +205,12 @@ static fw_status fall(looker *k, double *way) {
 /* of the loads, by the stiffness of the same mode without them */
 static fw_status share(looker *k) {
     fw_statics_equilibrium *w = &k->w;
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
+    fw_multibody_loading *l = &w->system->loading;
     size_t n = (size_t)m->nq;
-    memset(m->constant, 0, n * sizeof *m->constant);
-    for (int i = 0; i < m->nload; i++)
-        m->load[i].fx = m->load[i].fy = 0;
-    m->actuation = m->drive = 0;
+    memset(l->constant, 0, n * sizeof *l->constant);
+    memset(l->force, 0, 2 * (size_t)m->nload * sizeof *l->force);
+    l->actuation = l->drive = 0;
     memset(w->y, 0, (size_t)m->ny * sizeof *w->y);
     memcpy(w->y, k->where, n * sizeof *w->y);
     fw_status status = fw_statics_equilibrium_evaluate(w);

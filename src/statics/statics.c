@@ -175,8 +175,8 @@ fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w) {
 }
 
 static fw_status actives(const fw_statics_equilibrium *w, fw_statics *out) {
-    fw_multibody_model *m = w->model;
-    out->nactive = fw_multibody_model_switches(m);
+    const fw_multibody_model *m = w->model;
+    out->nactive = fw_multibody_switch_count(m);
     FW_NEED(out->active = fw_arena_array(w->arena, fw_statics_active, (size_t)out->nactive));
     for (int i = 0; i < m->nstop; i++)
         out->active[i] = (fw_statics_active){.id = w->mechanism->pin[m->stop[i].pin].id,
@@ -185,13 +185,12 @@ static fw_status actives(const fw_statics_equilibrium *w, fw_statics *out) {
         if (m->spring[i].cable)
             out->active[k++] = (fw_statics_active){.id = w->mechanism->spring[i].id};
     for (int i = 0; i < m->nswitch; i++) {
-        int which;
-        const fw_effects_force_element *e = fw_multibody_model_element_switch(m, i, &which)->own;
+        const fw_effects_force_element *e = fw_multibody_element_of_switch(m, i)->own;
         out->active[m->nstop + m->ncable + i] =
             (fw_statics_active){.id = e->id, .effect = e->class_->effect};
     }
     for (int i = 0; i < out->nactive; i++)
-        out->active[i].on = fw_multibody_model_switch_on(m, i);
+        out->active[i].on = fw_multibody_switch_on(w->system, i);
     return FW_OK;
 }
 

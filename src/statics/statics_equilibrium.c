@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics_equilibrium.h"
 #include "assembly/assembly.h"
-#include "multibody/reactions.h"
+#include "multibody/system.h"
 #include "statics/tangent.h"
 #include <float.h>
 #include <math.h>
@@ -68,7 +68,7 @@ static fw_status freeze(fw_statics_equilibrium *w, fw_effects_loads *loads) {
 
 /* laws of elements stand still at the end, all seen from inside their last pieces */
 static fw_status freeze_elements(fw_statics_equilibrium *w) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
     double end = w->scene->duration_s, edge = 0;
     for (int i = 0; i < m->nelement; i++)
         for (int k = 0; k < m->element[i].own->laws; k++) {
@@ -82,8 +82,8 @@ static fw_status freeze_elements(fw_statics_equilibrium *w) {
                 edge = fmax(edge, at[j]);
             fw_arena_rewind(w->arena, mark);
         }
-    m->held_s = end;
-    m->piece = 0.5 * (edge + end);
+    w->system->loading.hold = (fw_multibody_hold){.on = true, .t_s = end};
+    w->system->piece_s = 0.5 * (edge + end);
     return FW_OK;
 }
 
@@ -112,11 +112,11 @@ static void split_loads(fw_statics_equilibrium *w) {
         w->load[i] = m->load[i];
 }
 
-/* drivers lose their laws: the blocks keep values that fw_statics_equilibrium_factor sets */
+/* drivers leave their laws: the blocks keep values that fw_statics_equilibrium_factor sets */
 static fw_status split_drivers(fw_statics_equilibrium *w) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
     for (int i = 0; i < m->nblock; i++) {
-        fw_multibody_block *b = &m->block[i];
+        const fw_multibody_block *b = &m->block[i];
         w->start[i] = b->value;
         if (!b->law) continue;
         double first, last;
@@ -125,9 +125,8 @@ static fw_status split_drivers(fw_statics_equilibrium *w) {
         w->start[i] += first / b->unit;
         w->way[i] = (last - first) / b->unit;
         w->moving = w->moving || w->way[i] != 0;
-        b->law = NULL;
     }
-    m->driven = false;
+    w->system->loading.driven = false;
     return FW_OK;
 }
 
@@ -148,7 +147,7 @@ static fw_status arrays(fw_statics_equilibrium *w) {
     FW_NEED(w->way = fw_arena_array(w->arena, double, blocks));
     FW_NEED(w->away = fw_arena_array(w->arena, double, (size_t)m->ny));
     FW_NEED(w->pull = fw_arena_array(w->arena, double, n));
-    FW_NEED(w->load = fw_arena_array(w->arena, fw_multibody_model_load, (size_t)m->nload));
+    FW_NEED(w->load = fw_arena_array(w->arena, fw_multibody_load, (size_t)m->nload));
     return FW_OK;
 }
 
@@ -188,7 +187,8 @@ fw_status fw_statics_equilibrium_build(fw_statics_equilibrium *w, const fw_effec
     }
     FW_TRY(fw_assembly_assemble(w->arena, mechanism, w->q0, &moved, w->diags));
     FW_TRY(fw_multibody_model_new(w->arena, mechanism, loads, w->q0, w->scene->duration_s, NULL,
-                                  w->diags, &w->model));
+                                  &w->model));
+    FW_TRY(fw_multibody_system_new(w->arena, w->model, mechanism, w->diags, &w->system));
     w->drive_unit = w->reach = 1;
     FW_TRY(arrays(w));
     return fw_statics_reduced_new(w->arena, w->model, &w->reduced);
@@ -264,47 +264,41 @@ fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechan
 }
 
 void fw_statics_equilibrium_factor(fw_statics_equilibrium *w, double s) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
+    fw_multibody_loading *l = &w->system->loading;
     w->factor = s;
-    m->drive_rate = w->lead == FW_LEAD_LOADS ? 0 : w->drive_unit;
-    m->actuation_rate = w->lead == FW_LEAD_DRIVES ? 0 : 1;
-    m->drive = s * m->drive_rate;
+    l->drive_rate = w->lead == FW_LEAD_LOADS ? 0 : w->drive_unit;
+    l->actuation_rate = w->lead == FW_LEAD_DRIVES ? 0 : 1;
+    l->drive = s * l->drive_rate;
     if (w->lead == FW_LEAD_DRIVES) s = 1; /* all the rest acts in full */
-    m->actuation = s;
+    l->actuation = s;
     for (int i = 0; i < m->nq; i++)
-        m->constant[i] = w->gravity[i] + s * w->load_acceleration[i];
-    for (int i = 0; i < m->nload; i++) {
-        m->load[i].fx = s * w->load[i].fx;
-        m->load[i].fy = s * w->load[i].fy;
-    }
+        l->constant[i] = w->gravity[i] + s * w->load_acceleration[i];
+    for (int i = 0; i < m->nload; i++)
+        l->force[2 * i] = s * w->load[i].fx, l->force[2 * i + 1] = s * w->load[i].fy;
     for (int i = 0; i < m->nblock; i++)
-        m->block[i].value = w->start[i] + s * w->way[i];
+        l->value[i] = w->start[i] + s * w->way[i];
 }
 
 /* ---- one state ---- */
 
-bool fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u) {
-    fw_multibody_model *m = w->model;
-    fw_multibody_model_pose(m, u);
+const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u) {
+    const fw_multibody_model *m = w->model;
     for (int i = 0; i < m->nq; i++)
-        if (!isfinite(u[i])) return false;
-    if (m->nblock > 0 &&
-        (!m->method->factor(m) || !fw_multibody_model_project_position(m, w->t, u)))
-        return false;
-    memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
-    fw_multibody_model_set_switches(m, 0, w->trial); /* at rest: the velocities of trial are 0 */
-    fw_multibody_model_pose(m, u);
-    w->invalid =
-        m->nelement > 0 ? fw_multibody_model_element_invalid(m, 0, w->trial, &w->why) : NULL;
-    return !w->invalid;
+        if (!isfinite(u[i])) return NULL;
+    if (m->nblock > 0 && !fw_multibody_close_position(w->system, w->t, u)) return NULL;
+    memcpy(w->trial, u, (size_t)m->nq * sizeof *u); /* at rest: its velocities are 0 */
+    const fw_multibody_pose *pose = fw_multibody_set_switches(w->system, w->t, w->trial);
+    w->invalid = fw_multibody_element_invalid(w->system, pose, w->trial + m->nq, &w->why);
+    return w->invalid ? NULL : pose;
 }
 
 double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size) {
-    fw_multibody_model *m = w->model;
+    const fw_multibody_model *m = w->model;
     double driven = 0, more = 0;
     memcpy(w->trial, u, (size_t)m->nq * sizeof *u);
     if (m->nelement > 0) driven = fw_statics_equilibrium_driven(w, u, &more);
-    fw_multibody_energy e = fw_multibody_model_energy(m, 0, w->trial);
+    fw_multibody_energy e = fw_multibody_energy_at(w->system, w->t, w->trial);
     *size = fabs(e.elastic) + fabs(e.work) + more;
     return e.elastic - e.work + driven;
 }
@@ -314,19 +308,19 @@ static double inertia_of(const fw_multibody_model *m, int i) {
 }
 
 /* dQ/ds: the loads in full; du/ds of least mass norm with G du/ds = -dPsi/ds */
-static void derivative_by_factor(fw_statics_equilibrium *w) {
+static void derivative_by_factor(fw_statics_equilibrium *w, const fw_multibody_pose *pose) {
     const fw_multibody_model *m = w->model;
     bool load_acceleration = w->lead != FW_LEAD_DRIVES;
     for (int i = 0; i < m->nq; i++)
         w->slope[i] = load_acceleration ? inertia_of(m, i) * w->load_acceleration[i] : 0;
     for (int i = 0; load_acceleration && i < m->nload; i++) {
-        const fw_multibody_model_load *l = &w->load[i];
-        double c = m->cosine[l->body], s = m->sine[l->body], *to = w->slope + 3 * l->body;
+        const fw_multibody_load *l = &w->load[i];
+        double c = pose->cosine[l->body], s = pose->sine[l->body], *to = w->slope + 3 * l->body;
         to[0] += l->fx;
         to[1] += l->fy;
         to[2] += (c * l->x - s * l->y) * l->fy - (s * l->x + c * l->y) * l->fx;
     }
-    if (m->nelement > 0) fw_multibody_model_element_slope(w->model, 0, w->y, w->slope);
+    if (m->nelement > 0) fw_multibody_element_slope(w->system, pose, w->y + m->nq, w->slope);
     memset(w->follow, 0, (size_t)m->nq * sizeof(double));
     if (!w->moving || !load_acceleration) return;
     for (int i = 0; i < m->nblock; i++)
@@ -360,18 +354,20 @@ static void project_on_modes(fw_statics_equilibrium *w) {
    mode the force. State w->y is moved onto the constraints first. Error: round-off. Cost about
    30 n^3. Test: test_statics.c. */
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w) {
-    fw_multibody_model *m = w->model;
-    if (!fw_statics_equilibrium_close(w, w->y)) return FW_SOLVER;
-    FW_TRY(fw_statics_reduced_null(m, &w->reduced));
-    fw_multibody_model_forces(m, w->t, w->y);
+    const fw_multibody_model *m = w->model;
+    const fw_multibody_pose *pose = fw_statics_equilibrium_close(w, w->y);
+    const double *v = w->y + m->nq;
+    if (!pose) return FW_SOLVER;
+    FW_TRY(fw_statics_reduced_null(m, pose, &w->reduced));
+    const double *accel = fw_multibody_forces(w->system, pose, v)->accel;
     for (int i = 0; i < m->nq; i++) {
-        w->force[i] = inertia_of(m, i) * m->accel[i];
+        w->force[i] = inertia_of(m, i) * accel[i];
         if (!isfinite(w->force[i])) return FW_SOLVER;
     }
     fw_statics_reduced_multipliers(m, &w->reduced, w->force, w->lambda);
-    fw_statics_tangent(m, w->t, w->y, w->lambda, w->stiffness, NULL);
+    fw_statics_tangent(w->system, pose, v, w->lambda, w->stiffness, NULL);
     FW_TRY(fw_statics_reduced_spectrum(&w->reduced, w->stiffness));
-    derivative_by_factor(w);
+    derivative_by_factor(w, pose);
     project_on_modes(w);
     return FW_OK;
 }
@@ -391,15 +387,15 @@ void fw_statics_equilibrium_pose(const fw_statics_equilibrium *w, const double *
 
 void fw_statics_equilibrium_reactions(const fw_statics_equilibrium *w, double *reaction,
                                       double *joint, double *driver) {
-    fw_multibody_model *m = w->model;
-    memcpy(m->lambda, w->lambda, 2 * (size_t)m->nblock * sizeof(double));
-    if (m->nelement > 0) { /* their forces on released pins */
-        fw_multibody_model_set_switches(m, 0, w->y);
-        fw_multibody_model_pose(m, w->y);
-        fw_multibody_model_forces(m, 0, w->y);
-    }
-    fw_multibody_pin_forces(m, reaction);
-    fw_multibody_joint_forces(m, w->mechanism, joint, driver);
+    const fw_multibody_model *m = w->model;
+    const fw_multibody_pose *pose = m->nelement > 0
+                                        ? fw_multibody_set_switches(w->system, w->t, w->y)
+                                        : fw_multibody_pose_at(w->system, w->t, w->y);
+    fw_multibody_solution found = {.pose = pose, .lambda = w->lambda};
+    if (m->nelement > 0) /* their forces on released pins */
+        found.element = fw_multibody_forces(w->system, pose, w->y + m->nq)->element;
+    fw_multibody_pin_forces(m, &found, reaction);
+    fw_multibody_joint_forces(m, &found, w->mechanism, joint, driver);
 }
 
 /* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,

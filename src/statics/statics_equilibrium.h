@@ -23,7 +23,8 @@ typedef struct fw_statics_equilibrium {
         *loads; /* what was compiled, for the mechanism `plain`, before anything was
                               done to it; NULL: not by fw_statics_equilibrium_new */
     const fw_mechanism *plain;
-    fw_multibody_model *model;
+    const fw_multibody_model *model;
+    fw_multibody_system *system;
     fw_statics_reduced reduced;
     double *q0;    /* (3 nbody) assembled, SI */
     double *y;     /* (ny) state; u first, all else 0 */
@@ -43,7 +44,7 @@ typedef struct fw_statics_equilibrium {
     double *noise;     /* (dof) round-off of the gradient */
     /* what goes with s */
     double *gravity, *load_acceleration; /* (n + 3) accelerations */
-    fw_multibody_model_load *load;       /* (nload) as at s = 1 */
+    fw_multibody_load *load;             /* (nload) as at s = 1 */
     double *start, *way; /* (nblock) driver values at s = 0 and from there to s = 1 */
     double *psi, *trial, *step;
     bool moving; /* some driver moves */
@@ -89,12 +90,13 @@ void fw_statics_equilibrium_at(fw_statics_equilibrium *w, double t_s, double pie
 void fw_statics_equilibrium_rate(const fw_statics_equilibrium *w, double *rate);
 /* assembled pose, model and memory for both */
 fw_status fw_statics_equilibrium_build(fw_statics_equilibrium *w, const fw_effects_loads *loads);
-/* u onto the constraints at the present s; leaves the model posed, the switches set. false: no */
-bool fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u);
+/* u onto the constraints at the present s, the switches set; the pose there. NULL: it does not
+   close, or an element does not hold */
+const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u);
 /* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
    terms' sizes */
 double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size);
-/* potential.c: the part of driven elements; leaves the model posed at u with its switches */
+/* potential.c: the part of driven elements; leaves the switches of u */
 double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size);
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */

@@ -8,9 +8,9 @@
 
    and q' - q, the angles and the joint forces are what the level changes. So it is exact where the
    loads are slow against the motion; where it swings it is what the hinges' law changes at that
-   instant, not what their frequencies add up to over many periods.
-   In: SI; out: SI. Error: round-off over the least stiffness. Cost: two models and 3 to 5
-   evaluations of 30 n^3, n = 3 nbody. Source: d'Alembert's principle. Test: test_hinge_models.c. */
+   instant, not what their frequencies add up to over many periods. In: SI; out: SI. Error:
+   round-off over the least stiffness. Cost: two models and 3 to 5 evaluations of 30 n^3, n = 3
+   nbody. Source: d'Alembert's principle. Test: test_hinge_models.c. */
 #include "statics/level.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
@@ -150,7 +150,7 @@ static fw_status in_time(fw_statics_equilibrium *w, fw_arena *arena, const fw_me
 
 static void at_time(fw_statics_equilibrium *w, double t_s) {
     fw_statics_equilibrium_at(w, t_s, t_s);
-    w->model->held_s = t_s;
+    w->system->loading.hold = (fw_multibody_hold){.on = true, .t_s = t_s};
 }
 
 /* the acceleration that `low` leaves goes to `high` as a constant one the other way */

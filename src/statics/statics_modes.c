@@ -32,7 +32,8 @@ static fw_status modal_damping(const fw_statics_equilibrium *w, damped *d) {
     fw_mark mark = fw_arena_mark(w->arena);
     FW_NEED(c = fw_arena_array(w->arena, double, n *n));
     FW_NEED(part = fw_arena_array(w->arena, double, n *dof));
-    fw_statics_tangent(w->model, 0, w->y, w->lambda, w->stiffness, c);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, w->y);
+    fw_statics_tangent(w->system, pose, w->y + w->model->nq, w->lambda, w->stiffness, c);
     for (size_t k = 0; k < dof; k++)
         for (size_t i = 0; i < n; i++)
             for (size_t j = 0; j < n; j++)

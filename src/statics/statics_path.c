@@ -129,7 +129,8 @@ static bool take_state(follower *f, const state *along, state *to) {
         to->value[k] = w->reduced.value[k];
         to->negative += to->value[k] < -w->reduced.zero[k];
     }
-    fw_multibody_model_switch_values(m, 0, w->y, to->hold);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(w->system, w->t, w->y);
+    fw_multibody_switch_values(w->system, pose, w->y + m->nq, to->hold);
     memcpy(to->u, w->y, (size_t)m->nq * sizeof(double));
     double ds;
     if (!bordered(w, along, 1, false, w->step, &ds)) return false;
@@ -426,7 +427,7 @@ fw_status fw_statics_equilibrium_follow(fw_statics_equilibrium *w, int most_poin
                                         fw_statics_path **out) {
     follower f = {.w = w, .most = most_points > 0 ? most_points : FW_POINTS};
     fw_statics_path *path;
-    f.switches = fw_multibody_model_switches(w->model);
+    f.switches = fw_multibody_switch_count(w->model);
     FW_NEED(path = f.path = fw_arena_one(w->arena, fw_statics_path));
     path->nbody = w->mechanism->nbody;
     path->npin = w->mechanism->npin;

@@ -45,16 +45,17 @@ static void add_pair(const target *to, int a, int b, double matrix[6][6]) {
             add_entry(to, i < 3 ? a : b, i % 3, j < 3 ? a : b, j % 3, matrix[i][j]);
 }
 
-static void turn(const fw_multibody_model *m, int body, double x, double y, double out[2]) {
-    out[0] = m->cosine[body] * x - m->sine[body] * y;
-    out[1] = m->sine[body] * x + m->cosine[body] * y;
+static void turn(const fw_multibody_pose *pose, int body, double x, double y, double out[2]) {
+    out[0] = pose->cosine[body] * x - pose->sine[body] * y;
+    out[1] = pose->sine[body] * x + pose->cosine[body] * y;
 }
 
-static pair pair_of(const fw_multibody_model *m, const double *u, int a, int b,
+static pair pair_of(const fw_multibody_model *m, const fw_multibody_pose *pose, int a, int b,
                     const double local[4], const double offset[2]) {
+    const double *u = pose->u;
     pair p;
-    turn(m, a, local[0], local[1], p.ra);
-    turn(m, b, local[2], local[3], p.rb);
+    turn(pose, a, local[0], local[1], p.ra);
+    turn(pose, b, local[2], local[3], p.rb);
     for (int k = 0; k < 2; k++) {
         double ua = a < m->nbody ? u[3 * a + k] : 0, ub = b < m->nbody ? u[3 * b + k] : 0;
         p.d[k] = ub - ua - offset[k] + p.rb[k] - p.ra[k];
@@ -115,18 +116,18 @@ static gauge along(const pair *p, const double w[2]) {
 
 /* ---- constraints ---- */
 
-static void constraint(const fw_multibody_model *m, const double *u, int i, const double *lambda,
-                       const target *to) {
+static void constraint(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                       const double *lambda, const target *to) {
     const fw_multibody_block *c = &m->block[i];
     if (c->rows == FW_ROWS_TURN) return; /* linear */
-    pair p = pair_of(m, u, c->a, c->b, m->local + 4 * i, m->offset + 2 * i);
+    pair p = pair_of(m, pose, c->a, c->b, m->local + 4 * i, pose->offset + 2 * i);
     if (c->rows == FW_ROWS_PIN) { /* -d: the arms turn */
         add_entry(to, c->a, 2, c->a, 2, -(lambda[0] * p.ra[0] + lambda[1] * p.ra[1]));
         add_entry(to, c->b, 2, c->b, 2, lambda[0] * p.rb[0] + lambda[1] * p.rb[1]);
         return;
     }
     double e[2];
-    turn(m, c->a, c->cos_axis, c->sin_axis, e);
+    turn(pose, c->a, c->cos_axis, c->sin_axis, e);
     const double n[2] = {-e[1], e[0]};
     gauge g = c->rows == FW_ROWS_ROD     ? distance_of(&p)
               : c->rows == FW_ROWS_SLIDE ? along(&p, n)
@@ -163,16 +164,16 @@ static void spring_on(const fw_multibody_model *m, const gauge *g, int a, int b,
     add_pair(damping, a, b, matrix);
 }
 
-/* a point spring; where its points lie apart by no more than round-off, a direction means nothing
- */
-static void point_spring(const fw_multibody_model *m, const fw_multibody_model_spring *s,
-                         const double *u, const double *v, const target *stiffness,
-                         const target *damping) {
-    const double local[4] = {s->ax, s->ay, s->bx, s->by};
+/* a point spring; where its points lie apart by no more than round-off, a direction means
+   nothing */
+static void point_spring(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                         const double *v, const target *stiffness, const target *damping) {
+    const fw_multibody_spring *s = &m->spring[i];
     const double offset[2] = {m->origin[3 * s->a] - m->origin[3 * s->b],
                               m->origin[3 * s->a + 1] - m->origin[3 * s->b + 1]};
-    pair p = pair_of(m, u, s->a, s->b, local, offset);
-    bool together = s->length == 0 && hypot(p.d[0], p.d[1]) <= fw_multibody_spring_round_off(m, s);
+    pair p = pair_of(m, pose, s->a, s->b, pose->spring_end + 4 * i, offset);
+    bool together =
+        s->length == 0 && hypot(p.d[0], p.d[1]) <= fw_multibody_spring_round_off(m, pose, i);
     for (int k = 0; together && k < 2; k++) {
         gauge g = component(&p, k);
         spring_on(m, &g, s->a, s->b, v, s->k, s->c, 0, stiffness, damping);
@@ -190,61 +191,61 @@ static void between_angles(const target *to, int a, int b, double value) {
 }
 
 /* a force of fixed direction turns with its arm only: torque r x f, d/dphi = -r . f */
-static void dead_load(const fw_multibody_model *m, int body, double x, double y, double fx,
+static void dead_load(const fw_multibody_pose *pose, int body, double x, double y, double fx,
                       double fy, const target *to) {
     double r[2];
-    turn(m, body, x, y, r);
+    turn(pose, body, x, y, r);
     add_entry(to, body, 2, body, 2, r[0] * fx + r[1] * fy);
 }
 
-static void forces(const fw_multibody_model *m, double t, const double *y, const target *stiffness,
-                   const target *damping) {
-    const double *u = y, *v = y + m->nq;
+static void forces(const fw_multibody_system *sys, const fw_multibody_pose *pose, const double *v,
+                   const target *stiffness, const target *damping) {
+    const fw_multibody_model *m = sys->model;
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_multibody_model_torsion *s = &m->torsion[i];
+        const fw_multibody_torsion *s = &m->torsion[i];
         between_angles(stiffness, s->a, s->b, s->k);
         if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
     }
     for (int i = 0; i < m->nstop; i++) {
-        const fw_multibody_model_stop *s = &m->stop[i];
-        if (!s->on) continue;
+        const fw_multibody_stop *s = &m->stop[i];
+        if (!sys->on.stop[i]) continue;
         between_angles(stiffness, s->a, s->b, s->k);
         if (damping->matrix) between_angles(damping, s->a, s->b, s->c);
     }
     for (int i = 0; i < m->nload; i++) {
-        const fw_multibody_model_load *l = &m->load[i];
-        dead_load(m, l->body, l->x, l->y, l->fx, l->fy, stiffness);
+        const fw_multibody_load *l = &m->load[i];
+        const double *f = sys->loading.force + 2 * i;
+        dead_load(pose, l->body, l->x, l->y, f[0], f[1], stiffness);
     }
     for (int i = 0; i < m->ntimed; i++) {
-        const fw_multibody_model_timed *l = &m->timed[i];
+        const fw_multibody_timed_load *l = &m->timed[i];
         double factor[3];
-        fw_quantity_law_value(l->law, t * m->scale.time_s, m->piece, factor);
-        dead_load(m, l->body, l->x, l->y, factor[0] * l->fx, factor[0] * l->fy, stiffness);
+        fw_quantity_law_value(l->law, pose->t * m->scale.time_s, sys->piece_s, factor);
+        dead_load(pose, l->body, l->x, l->y, factor[0] * l->fx, factor[0] * l->fy, stiffness);
     }
-    for (int i = 0; i < m->nspring; i++) {
-        const fw_multibody_model_spring *s = &m->spring[i];
-        if (s->on) point_spring(m, s, u, v, stiffness, damping);
-    }
+    for (int i = 0; i < m->nspring; i++)
+        if (sys->on.spring[i]) point_spring(m, pose, i, v, stiffness, damping);
     for (int i = 0; i < m->nslide; i++) {
-        const fw_multibody_model_slide *s = &m->slide[i];
+        const fw_multibody_slide *s = &m->slide[i];
         const fw_multibody_block *c = &m->block[s->block];
         double e[2];
-        turn(m, s->a, c->cos_axis, c->sin_axis, e);
-        pair p = pair_of(m, u, s->a, s->b, m->local + 4 * s->block, m->offset + 2 * s->block);
+        turn(pose, s->a, c->cos_axis, c->sin_axis, e);
+        pair p = pair_of(m, pose, s->a, s->b, m->local + 4 * s->block, pose->offset + 2 * s->block);
         gauge g = along(&p, e);
         spring_on(m, &g, s->a, s->b, v, s->k, s->c, s->free, stiffness, damping);
     }
     if (m->nelement > 0)
-        fw_multibody_model_element_tangent(m, t, y, stiffness->matrix, damping->matrix);
+        fw_multibody_element_tangent(sys, pose, v, stiffness->matrix, damping->matrix);
 }
 
-void fw_statics_tangent(const fw_multibody_model *m, double t, const double *y,
-                        const double *lambda, double *stiffness, double *damping) {
+void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                        const double *v, const double *lambda, double *stiffness, double *damping) {
+    const fw_multibody_model *m = sys->model;
     size_t size = (size_t)m->nq * (size_t)m->nq * sizeof(double);
     const target k = {m->nq, m->nbody, stiffness}, c = {m->nq, m->nbody, damping};
     memset(stiffness, 0, size);
     if (damping) memset(damping, 0, size);
-    forces(m, t, y, &k, &c);
+    forces(sys, pose, v, &k, &c);
     for (int i = 0; i < m->nblock; i++)
-        constraint(m, y, i, lambda + 2 * i, &k);
+        constraint(m, pose, i, lambda + 2 * i, &k);
 }

@@ -8,6 +8,7 @@
    bench_rhs CASE COUNT only so many evaluations of one case, for instruction counts:
      valgrind --tool=callgrind --toggle-collect=measured ./bench_rhs loop 10000 */
 #include "multibody/kernel_plan.h"
+#include "multibody/system.h"
 #include "dynamics/models.h"
 #include <stdlib.h>
 #include <time.h>
@@ -16,7 +17,8 @@ enum { ROUNDS = 15, CASES = 32 };
 
 typedef struct bench {
     const char *name, *label;
-    fw_multibody_model *model;
+    const fw_multibody_model *model;
+    fw_multibody_system *system; /* of the general code */
     fw_multibody_kernel *kernel; /* NULL: the general code, or lanes */
     bool project;
     fw_multibody_lanes *lanes;
@@ -32,12 +34,13 @@ static double now_ns(void) {
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-static fw_multibody_model *model_of(fw_arena *arena, const rig *r, double *topology_ms) {
+static fw_multibody_system *system_of(fw_arena *arena, const rig *r, double *topology_ms) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_choice choice = {0};
     fw_effect_ledger ledger;
     fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
-    fw_multibody_model *m = NULL;
+    const fw_multibody_model *m;
+    fw_multibody_system *sys = NULL;
     double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
     for (int b = 0; b < r->m.nbody; b++) {
         q[3 * b] = r->m.body[b].x_m;
@@ -46,10 +49,11 @@ static fw_multibody_model *model_of(fw_arena *arena, const rig *r, double *topol
     }
     double began = now_ns();
     if (fw_effects_compile(arena, &r->m, &r->scene, &choice, 1e-3, &diags, &ledger, loads) ||
-        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, NULL, &diags, &m))
+        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, NULL, &m) ||
+        fw_multibody_system_new(arena, m, &r->m, &diags, &sys))
         exit(1);
     if (topology_ms) *topology_ms = 1e-6 * (now_ns() - began);
-    return m;
+    return sys;
 }
 
 /* a state a little off the assembled pose, moving */
@@ -71,7 +75,7 @@ static void once(bench *b) {
         fw_multibody_kernel_rhs(b->kernel, b->y, b->f);
         b->y[2] += 1e-30 * b->f[b->model->nq + 2];
     } else {
-        fw_multibody_model_rhs(b->model, 0, b->y, b->f);
+        fw_multibody_rhs(b->system, 0, b->y, b->f);
         b->y[2] += 1e-30 * b->f[b->model->nq + 2];
     }
 }
@@ -87,7 +91,7 @@ static int by_size(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static bench make(fw_arena *arena, const char *name, const char *label, fw_multibody_model *m,
+static bench make(fw_arena *arena, const char *name, const char *label, const fw_multibody_model *m,
                   fw_multibody_kernel *kernel) {
     bench b = {.name = name, .label = label, .model = m, .kernel = kernel};
     size_t n = (size_t)m->ny;
@@ -110,7 +114,7 @@ static fw_multibody_kernel *kernel_of(fw_arena *arena, const fw_multibody_model 
 static bench make_lanes(fw_arena *arena, const fw_multibody_model *m, const char *set) {
     static char label[3][48];
     static int at = 0;
-    bench b = make(arena, set, label[at], (fw_multibody_model *)(uintptr_t)m, NULL);
+    bench b = make(arena, set, label[at], m, NULL);
     const fw_multibody_model *eight[8] = {m, m, m, m, m, m, m, m};
     if (fw_multibody_lanes_new(arena, eight, 8, set, &b.lanes)) exit(1);
     b.y = fw_arena_array(arena, double, fw_multibody_lanes_size(b.lanes));
@@ -133,10 +137,11 @@ static int make_all(fw_arena *arena, bench *b) {
     static char label[8][64];
     rig *six = fw_arena_one(arena, rig), *twice = fw_arena_one(arena, rig);
     *six = rig_six_bar(arena, false), *twice = rig_six_bar(arena, true);
-    fw_multibody_model *m = model_of(arena, six, NULL), *d = model_of(arena, twice, NULL);
-    fw_multibody_model *general = model_of(arena, six, NULL);
+    fw_multibody_system *general = system_of(arena, six, NULL);
+    const fw_multibody_model *m = general->model, *d = system_of(arena, twice, NULL)->model;
     general->kernel = NULL;
-    b[n++] = make(arena, "general", "six-bar, general code", general, NULL);
+    b[n] = make(arena, "general", "six-bar, general code", m, NULL);
+    b[n++].system = general;
     b[n++] = make(arena, "blocks", "six-bar, 2 x 2 blocks", m, kernel_of(arena, m, false));
     b[n++] = make(arena, "loop", "six-bar, closed loop", m, kernel_of(arena, m, true));
     b[n++] = make(arena, "redundant", "six-bar, hinge D twice", d, kernel_of(arena, d, true));
@@ -153,7 +158,7 @@ static int make_all(fw_arena *arena, bench *b) {
         rig *r = fw_arena_one(arena, rig);
         double ms;
         *r = rig_windows(arena, windows);
-        fw_multibody_model *big = model_of(arena, r, &ms);
+        const fw_multibody_model *big = system_of(arena, r, &ms)->model;
         snprintf(label[i], sizeof label[i], "%d four-bars, per body (model in %.1f ms)", windows,
                  ms);
         b[n] = make(arena, "windows", label[i], big, kernel_of(arena, big, true));

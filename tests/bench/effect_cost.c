@@ -11,7 +11,7 @@
    ./effect_cost --list   the effects of this build: id, instructions as stated */
 #include "effects/effect.h"
 #include "layout/layout.h"
-#include "multibody/model.h"
+#include "multibody/system.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,13 +89,14 @@ static void compile(const fw_effect_case *c, const char *off, fw_effects_loads *
     }
 }
 
-static fw_multibody_model *model_of(fw_arena *arena, const fw_mechanism *mechanism,
-                                    const fw_device_scene *scene, const request *r,
-                                    fw_diags *diags) {
+static fw_multibody_system *system_of(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_device_scene *scene, const request *r,
+                                      fw_diags *diags) {
     const fw_effect_case c = {.arena = arena, .mechanism = mechanism, .scene = scene};
     fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
     double *q = fw_arena_array(arena, double, 3 * (size_t)mechanism->nbody);
-    fw_multibody_model *m = NULL;
+    const fw_multibody_model *m;
+    fw_multibody_system *sys;
     if (!loads || !q) fail("memory");
     compile(&c, r->off, loads);
     for (int b = 0; b < mechanism->nbody; b++) {
@@ -103,21 +104,23 @@ static fw_multibody_model *model_of(fw_arena *arena, const fw_mechanism *mechani
         q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
     }
     need(fw_effects_strain(arena, mechanism, loads, &mechanism), diags, "strains");
-    need(fw_multibody_model_new(arena, mechanism, loads, q, scene->duration_s, NULL, diags, &m),
-         diags, "model");
-    if (r->general) m->kernel = NULL;
-    m->piece = 0.4 * scene->duration_s;
-    return m;
+    need(fw_multibody_model_new(arena, mechanism, loads, q, scene->duration_s, NULL, &m), diags,
+         "model");
+    need(fw_multibody_system_new(arena, m, mechanism, diags, &sys), diags, "system");
+    if (r->general) sys->kernel = NULL;
+    sys->piece_s = 0.4 * scene->duration_s;
+    return sys;
 }
 
-void measured(fw_multibody_model *m, double t, const double *y, double *f, long count);
-__attribute__((noinline)) void measured(fw_multibody_model *m, double t, const double *y, double *f,
-                                        long count) {
+void measured(fw_multibody_system *sys, double t, const double *y, double *f, long count);
+__attribute__((noinline)) void measured(fw_multibody_system *sys, double t, const double *y,
+                                        double *f, long count) {
     for (long i = 0; i < count; i++)
-        fw_multibody_model_rhs(m, t, y, f);
+        fw_multibody_rhs(sys, t, y, f);
 }
 
-static void run(fw_multibody_model *m, double t, const request *r, fw_arena *arena) {
+static void run(fw_multibody_system *sys, double t, const request *r, fw_arena *arena) {
+    const fw_multibody_model *m = sys->model;
     double *y = fw_arena_array(arena, double, (size_t)m->ny), sum = 0;
     double *f = fw_arena_array(arena, double, (size_t)m->ny);
     uint64_t z = 5;
@@ -126,13 +129,13 @@ static void run(fw_multibody_model *m, double t, const request *r, fw_arena *are
         z = z * 6364136223846793005u + 1442695040888963407u;
         y[i] = r->still && i >= m->nq ? 0 : r->stir * ((double)(z >> 11) * 0x1p-53 - 0.5);
     }
-    fw_multibody_model_set_switches(m, 0, y);
-    fw_multibody_friction_begin(m);
-    if (!fw_multibody_friction_decide(m, t / m->scale.time_s, y)) fail("friction jams");
-    measured(m, t / m->scale.time_s, y, f, r->count);
+    fw_multibody_set_switches(sys, 0, y);
+    fw_multibody_friction_begin(sys);
+    if (!fw_multibody_friction_decide(sys, t / m->scale.time_s, y)) fail("friction jams");
+    measured(sys, t / m->scale.time_s, y, f, r->count);
     for (int i = 0; i < 2 * m->nq; i++)
         sum += fabs(f[i]);
-    printf("kernel %s\nsum %.17g\n", m->kernel ? "yes" : "no", sum);
+    printf("kernel %s\nsum %.17g\n", sys->kernel ? "yes" : "no", sum);
 }
 
 static int list(void) {
@@ -192,8 +195,8 @@ static void serve(const request *r, const opened *o) {
     for (int i = 0; i < o->device->nscene; i++)
         if (strcmp(o->device->scene[i].name, r->scene) == 0) scene = &o->device->scene[i];
     if (!scene) fail("no such scene");
-    fw_multibody_model *m = model_of(arena, o->mechanism, scene, r, &diags);
-    run(m, 0.4 * scene->duration_s, r, arena);
+    fw_multibody_system *sys = system_of(arena, o->mechanism, scene, r, &diags);
+    run(sys, 0.4 * scene->duration_s, r, arena);
     fw_arena_free(arena);
 }
 

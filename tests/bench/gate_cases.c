@@ -49,7 +49,7 @@ static bool prepare_rhs(gate *g) {
     const fw_effect_choice choice = {0};
     fw_effect_ledger ledger;
     fw_effects_loads *loads = fw_arena_one(g->arena, fw_effects_loads);
-    fw_multibody_model *m = NULL;
+    const fw_multibody_model *m = NULL;
     double q[15];
     for (int b = 0; b < 5; b++) {
         q[3 * b] = g->r.m.body[b].x_m;
@@ -58,8 +58,8 @@ static bool prepare_rhs(gate *g) {
     }
     if (!must(fw_effects_compile(g->arena, &g->r.m, &g->r.scene, &choice, 1e-3, &diags, &ledger,
                                  loads)) ||
-        !must(fw_multibody_model_new(g->arena, &g->r.m, loads, q, g->r.scene.duration_s, NULL,
-                                     &diags, &m)) ||
+        !must(
+            fw_multibody_model_new(g->arena, &g->r.m, loads, q, g->r.scene.duration_s, NULL, &m)) ||
         !must(fw_multibody_kernel_new(g->arena, m, &g->kernel)) || !g->kernel)
         return false;
     g->ny = m->ny;

@@ -5,7 +5,7 @@
 #ifndef FW_TEST_HARD_H
 #define FW_TEST_HARD_H
 #include "quantity/law_kind.h"
-#include "multibody/model.h"
+#include "multibody/method.h"
 #include "assembly/assembly.h"
 #include "dynamics/models.h"
 #include "maths/ode.h"
@@ -140,8 +140,8 @@ static inline void hard_bars(rig *r, const double (*p)[2], int n, double mass) {
 
 /* ---- the bare model: terms, assembled pose, method of one's own ---- */
 
-static inline fw_multibody_model *hard_model(fw_arena *arena, const rig *r,
-                                             const fw_multibody_method *method) {
+static inline fw_multibody_system *hard_system(fw_arena *arena, const rig *r,
+                                               const fw_multibody_method *method) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
     fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
@@ -151,25 +151,27 @@ static inline fw_multibody_model *hard_model(fw_arena *arena, const rig *r,
         const fw_mechanism_mass *p = &r->m.body[b];
         q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
     }
-    fw_multibody_model *m = NULL; /* without the fast kernel, which knows one method only */
+    const fw_multibody_model *m;
+    fw_multibody_system *sys;
     assert_int_equal(
         fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, loads), FW_OK);
     assert_int_equal(fw_assembly_assemble(arena, &r->m, q, &moved, &diags), FW_OK);
     assert_int_equal(
-        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, method, &diags, &m),
-        FW_OK);
-    m->kernel = NULL;
-    return m;
+        fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s, method, &m), FW_OK);
+    assert_int_equal(fw_multibody_system_new(arena, m, &r->m, &diags, &sys), FW_OK);
+    sys->kernel = NULL; /* the fast one, which knows one method only */
+    return sys;
 }
 
-/* integrates the bare model by dop853 at rtol from the scene's initial velocities; y (ny) is the
+/* integrates the bare system by dop853 at rtol from the scene's initial velocities; y (ny) is the
    end. Tolerances as they are: no lower or upper bound. FW_ODE_SMALL: more than most_steps, too. */
 static inline fw_maths_ode_result hard_integrate(fw_arena *arena, const rig *r,
-                                                 fw_multibody_model *m, double rtol,
+                                                 fw_multibody_system *sys, double rtol,
                                                  long most_steps, double *y) {
-    const fw_maths_ode ode = {.context = m,
-                              .rhs = fw_multibody_model_rhs,
-                              .project = fw_multibody_model_project,
+    const fw_multibody_model *m = sys->model;
+    const fw_maths_ode ode = {.context = sys,
+                              .rhs = fw_multibody_rhs,
+                              .project = fw_multibody_project,
                               .n = m->ny,
                               .controlled = 2 * m->nq,
                               .positions = m->nq};

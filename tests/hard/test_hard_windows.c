@@ -3,6 +3,7 @@
    constraint Jacobian loses N rows there, the motion could go on with every window folded the other
    way, and a solver that follows its own round-off takes such a branch. */
 #include "hard.h"
+#include "multibody/multibody_scratch.h"
 
 static const struct { /* B0 at `t`, elliptic functions, 22 digits */
     int n;
@@ -156,9 +157,9 @@ static void test_ablation_projection(void **state) {
 
 static double shift; /* eps of the method below */
 
-static bool factor(fw_multibody_model *m) {
-    fw_multibody_chain_assemble(m);
-    return fw_multibody_chain_factor(&m->chain, shift);
+static bool factor(fw_multibody_system *sys, const fw_multibody_pose *pose) {
+    fw_multibody_chain_assemble(sys->model, pose, &sys->work->chain);
+    return fw_multibody_chain_factor(&sys->model->chain, &sys->work->chain, shift);
 }
 
 static fw_multibody_method chain_with_shift(void) {
@@ -183,9 +184,10 @@ static void test_ablation_shift(void **state) {
                 fw_arena *arena = fw_arena_new(0);
                 int n = reference[row[i]].n;
                 rig r = rig_windows(arena, n);
-                fw_multibody_model *m = hard_model(arena, &r, &method);
+                fw_multibody_system *sys = hard_system(arena, &r, &method);
+                const fw_multibody_model *m = sys->model;
                 double *y = fw_arena_array(arena, double, (size_t)m->ny), q[3], v[3];
-                fw_maths_ode_result result = hard_integrate(arena, &r, m, pow(10, -e), 3000, y);
+                fw_maths_ode_result result = hard_integrate(arena, &r, sys, pow(10, -e), 3000, y);
                 for (int c = 0; c < 3; c++) {
                     double unit = c == 2 ? 1 : m->scale.length_m;
                     const double start[3] = {0, 0.5, 0};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All methods solve the same equations, M a + G^T lambda = Q, G a = -gamma, on random M and G; what
    they report; memory and numbers that are none. */
-#include "multibody/methods.h"
 #include "multibody/multibody_dense.h"
 #include "models.h"
 
@@ -166,16 +165,18 @@ static void reports_say_what_was_met(void **state) {
 
 /* ---- memory ---- */
 
-static fw_multibody_model *six_bar_model(fw_arena *arena, const rig *r, const char *method,
-                                         fw_status *status) {
+static fw_multibody_system *six_bar_system(fw_arena *arena, const rig *r, const char *method,
+                                           fw_status *status) {
     double q[15];
     for (int b = 0; b < 5; b++)
         q[3 * b] = r->m.body[b].x_m, q[3 * b + 1] = r->m.body[b].y_m, q[3 * b + 2] = 0;
     fw_diags diags = fw_diags_new(arena);
-    fw_multibody_model *m = NULL;
-    *status = fw_multibody_model_new(arena, &r->m, NULL, q, 1, fw_multibody_method_find(method),
-                                     &diags, &m);
-    return m;
+    const fw_multibody_model *m;
+    fw_multibody_system *sys = NULL;
+    *status =
+        fw_multibody_model_new(arena, &r->m, NULL, q, 1, fw_multibody_method_find(method), &m);
+    if (*status == FW_OK) *status = fw_multibody_system_new(arena, m, &r->m, &diags, &sys);
+    return sys;
 }
 
 static void the_loop_allocates_nothing(void **state) {
@@ -184,12 +185,13 @@ static void the_loop_allocates_nothing(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
         fw_status status;
-        fw_multibody_model *m = six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
+        fw_multibody_system *sys =
+            six_bar_system(arena, &r, fw_multibody_method_at(k).name, &status);
         assert_int_equal(status, FW_OK);
         double y[32] = {0}, f[32];
         long before = fw_arena_count();
-        fw_multibody_model_rhs(m, 0, y, f);
-        assert_true(fw_multibody_model_project(m, 0, y, f));
+        fw_multibody_rhs(sys, 0, y, f);
+        assert_true(fw_multibody_project(sys, 0, y, f));
         assert_int_equal(fw_arena_count(), before);
         fw_arena_free(arena);
     }
@@ -203,7 +205,7 @@ static void memory_short_is_said(void **state) {
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_six_bar(arena, false);
             fw_arena_fail_at(n, 1);
-            six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
+            six_bar_system(arena, &r, fw_multibody_method_at(k).name, &status);
             fw_arena_fail_at(0, 0);
             fw_arena_free(arena);
             assert_true(n < 400);
@@ -219,13 +221,14 @@ static void not_a_number_is_refused(void **state) {
         fw_arena *arena = fw_arena_new(0);
         rig r = rig_six_bar(arena, false);
         fw_status status;
-        fw_multibody_model *m = six_bar_model(arena, &r, fw_multibody_method_at(k).name, &status);
+        fw_multibody_system *sys =
+            six_bar_system(arena, &r, fw_multibody_method_at(k).name, &status);
         double y[32] = {0}, f[32];
         y[2] = (double)NAN;
-        fw_multibody_model_rhs(m, 0, y, f);
+        fw_multibody_rhs(sys, 0, y, f);
         assert_true(isnan(f[15]));
         y[2] = 0, y[17] = (double)INFINITY;
-        fw_multibody_model_rhs(m, 0, y, f);
+        fw_multibody_rhs(sys, 0, y, f);
         assert_true(!isfinite(f[15]));
         fw_arena_free(arena);
     }

@@ -1,24 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block elimination against a dense solve of the same S, on random mechanisms. */
-#include "multibody/model.h"
+#include "multibody/systems.h"
 #include "maths/dense.h"
-#include "dynamics/models.h"
 #include <stdlib.h>
 
-static fw_multibody_model *model_of(fw_arena *arena, const rig *r) {
-    double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
-    for (int b = 0; b < r->m.nbody; b++) {
-        q[3 * b] = r->m.body[b].x_m;
-        q[3 * b + 1] = r->m.body[b].y_m;
-        q[3 * b + 2] = r->m.body[b].phi_rad;
-    }
-    fw_multibody_model *m;
-    assert_int_equal(fw_multibody_model_new(arena, &r->m, NULL, q, 1, NULL, NULL, &m), FW_OK);
-    return m;
+static fw_multibody_system *system_of(fw_arena *arena, const rig *r) {
+    return rig_system_with(arena, &r->m, NULL, 1, NULL);
 }
 
 /* S = G M^-1 G^T by unit vectors: column j is G (M^-1 G^T e_j) */
-static double *dense_s(fw_arena *arena, fw_multibody_model *m) {
+static double *dense_s(fw_arena *arena, const fw_multibody_model *m,
+                       const fw_multibody_pose *pose) {
     size_t n = 2 * (size_t)m->npin;
     double *s = fw_arena_array(arena, double, n *n);
     double *e = fw_arena_array(arena, double, n), *a = fw_arena_array(arena, double, (size_t)m->nq);
@@ -27,8 +19,8 @@ static double *dense_s(fw_arena *arena, fw_multibody_model *m) {
         memset(e, 0, n * sizeof *e);
         memset(a, 0, (size_t)m->nq * sizeof *a);
         e[j] = -1; /* apply subtracts */
-        fw_multibody_model_apply(m, e, a);
-        fw_multibody_model_jacobian(m, a, column);
+        fw_multibody_apply(m, pose, e, a);
+        fw_multibody_jacobian(m, pose, a, column);
         for (size_t i = 0; i < n; i++)
             s[i * n + j] = column[i];
     }
@@ -44,14 +36,16 @@ static void test_against_dense(void **state) {
                 : seed == 2 ? rig_squeezer(arena)
                 : seed == 3 ? rig_windows(arena, 6)
                             : rig_any(arena, seed);
-        fw_multibody_model *m = model_of(arena, &r);
+        fw_multibody_system *sys = system_of(arena, &r);
+        const fw_multibody_model *m = sys->model;
+        fw_multibody_chain_numbers *numbers = &sys->work->chain;
         size_t n = 2 * (size_t)m->npin;
         double *u = fw_arena_array(arena, double, (size_t)m->nq);
         for (int i = 0; i < m->nq;
              i++) /* away from the assembled pose, windows from singular ones */
             u[i] = 0.4 * (rig_random(&random) - 0.5);
-        fw_multibody_model_pose(m, u);
-        double *s = dense_s(arena, m), *b = fw_arena_array(arena, double, n);
+        const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, u);
+        double *s = dense_s(arena, m, pose), *b = fw_arena_array(arena, double, n);
         double *x = fw_arena_array(arena, double, n), *want = fw_arena_array(arena, double, n);
         double size = 0;
         bool consistent;
@@ -65,16 +59,16 @@ static void test_against_dense(void **state) {
         for (size_t i = 0; i < n; i++)
             size = fmax(size, fabs(want[i]));
         /* plain factor */
-        fw_multibody_chain_assemble(m);
-        assert_true(fw_multibody_chain_factor(&m->chain, 0));
+        fw_multibody_chain_assemble(m, pose, numbers);
+        assert_true(fw_multibody_chain_factor(&m->chain, numbers, 0));
         memcpy(x, b, n * sizeof *x);
-        fw_multibody_chain_solve(&m->chain, x);
+        fw_multibody_chain_solve(&m->chain, numbers, x);
         for (size_t i = 0; i < n; i++)
             assert_near(x[i], want[i], 1e-9 * size);
         /* proximal: the same without the shift showing */
-        fw_multibody_chain_assemble(m);
-        assert_true(fw_multibody_chain_factor(&m->chain, fw_epsilon));
-        fw_multibody_chain_proximal(m, b, x);
+        fw_multibody_chain_assemble(m, pose, numbers);
+        assert_true(fw_multibody_chain_factor(&m->chain, numbers, fw_epsilon));
+        fw_multibody_chain_proximal(m, pose, numbers, b, x);
         for (size_t i = 0; i < n; i++)
             assert_near(x[i], want[i], 1e-9 * size);
         fw_arena_free(arena);
@@ -86,21 +80,23 @@ static void test_redundant(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig once = rig_six_bar(arena, false), twice = rig_six_bar(arena, true);
-    fw_multibody_model *m[2] = {model_of(arena, &once), model_of(arena, &twice)};
+    fw_multibody_system *system[2] = {system_of(arena, &once), system_of(arena, &twice)};
     double force[2][15];
     for (int k = 0; k < 2; k++) {
+        const fw_multibody_model *m = system[k]->model;
+        fw_multibody_chain_numbers *s = &system[k]->work->chain;
         double v[15], r[14], x[14];
         for (int i = 0; i < 15; i++)
-            v[i] = sin(3.0 * i + 1) / (i % 3 == 2 ? 1 : m[k]->scale.length_m), force[k][i] = 0;
+            v[i] = sin(3.0 * i + 1) / (i % 3 == 2 ? 1 : m->scale.length_m), force[k][i] = 0;
         const double zero[15] = {0};
-        fw_multibody_model_pose(m[k], zero);
-        fw_multibody_model_jacobian(m[k], v, r); /* consistent for both */
-        fw_multibody_chain_assemble(m[k]);
-        assert_true(fw_multibody_chain_factor(&m[k]->chain, fw_epsilon));
-        fw_multibody_chain_proximal(m[k], r, x);
-        fw_multibody_model_apply(m[k], x, force[k]);
+        const fw_multibody_pose *pose = fw_multibody_pose_at(system[k], 0, zero);
+        fw_multibody_jacobian(m, pose, v, r); /* consistent for both */
+        fw_multibody_chain_assemble(m, pose, s);
+        assert_true(fw_multibody_chain_factor(&m->chain, s, fw_epsilon));
+        fw_multibody_chain_proximal(m, pose, s, r, x);
+        fw_multibody_apply(m, pose, x, force[k]);
         for (int i = 0; i < 15; i++) /* the two models have their own lengths */
-            force[k][i] *= i % 3 == 2 ? 1e-3 : m[k]->scale.length_m;
+            force[k][i] *= i % 3 == 2 ? 1e-3 : m->scale.length_m;
     }
     for (int i = 0; i < 15; i++)
         assert_near(force[1][i], force[0][i], 1e-12);
@@ -112,7 +108,7 @@ static void test_topology(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig six = rig_six_bar(arena, false);
-    fw_multibody_model *m = model_of(arena, &six);
+    const fw_multibody_model *m = system_of(arena, &six)->model;
     assert_int_equal(m->chain.blocks, 5);
     assert_int_equal(m->chain.first[m->npin], 0);
     /* both ends first */
@@ -121,7 +117,7 @@ static void test_topology(void **state) {
         assert_int_equal(m->block[i].pin, order[i]);
     for (int n = 5; n <= 80; n *= 2) {
         rig w = rig_windows(arena, n);
-        fw_multibody_model *big = model_of(arena, &w);
+        const fw_multibody_model *big = system_of(arena, &w)->model;
         assert_true(big->chain.blocks <= 4 * n);
         assert_true(big->chain.first[big->npin] <= 3 * n);
         char seen[300] = {0};
@@ -137,7 +133,7 @@ static void test_scaling(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig six = rig_six_bar(arena, false);
-    fw_multibody_model *m = model_of(arena, &six);
+    const fw_multibody_model *m = system_of(arena, &six)->model;
     for (int b = 0; b < m->nbody; b++) { /* all of order one */
         assert_true(m->mass[b] > 0.1 && m->mass[b] < 10);
         assert_true(m->inertia[b] > 0.01 && m->inertia[b] < 10);

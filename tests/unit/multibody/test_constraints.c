@@ -2,16 +2,14 @@
 /* Every kind of constraint and force against differences: Jacobian and gamma along motions, forces
    against the derivative of the energy, S against G M^-1 G^T. */
 #include "quantity/law_kind.h"
-#include "multibody/model.h"
-#include "dynamics/models.h"
+#include "multibody/systems.h"
 
 /* bodies, joints and forces of every kind at random; nothing needs to fit together */
 typedef struct zoo {
     rig r;
     fw_effects_loads loads;
     fw_quantity_law *law;
-    fw_multibody_model *m;
-    double *q;
+    fw_multibody_system *sys;
     uint64_t seed;
     bool stretches; /* the ground follows the law */
 } zoo;
@@ -121,22 +119,15 @@ static zoo zoo_new(fw_arena *arena, uint64_t seed, bool stretches) {
     }
     add_joints(arena, &z, N);
     add_terms(arena, &z, N);
-    z.q = fw_arena_array(arena, double, 3 * N);
-    for (int b = 0; b < N; b++) {
-        z.q[3 * b] = z.r.m.body[b].x_m;
-        z.q[3 * b + 1] = z.r.m.body[b].y_m;
-        z.q[3 * b + 2] = z.r.m.body[b].phi_rad;
-    }
-    assert_int_equal(fw_multibody_model_new(arena, &z.r.m, &z.loads, z.q, 1e-2, NULL, NULL, &z.m),
-                     FW_OK);
-    z.m->piece = 1e-3;
+    z.sys = rig_system_with(arena, &z.r.m, &z.loads, 1e-2, NULL);
+    z.sys->piece_s = 1e-3;
     return z;
 }
 
 enum { MOST = 64 };
 
 static void state_of(zoo *z, double *y, double size) {
-    for (int i = 0; i < z->m->ny; i++)
+    for (int i = 0; i < z->sys->model->ny; i++)
         y[i] = about(z, size);
 }
 
@@ -146,7 +137,8 @@ static void test_constraint_derivatives(void **state) {
     for (uint64_t seed = 1; seed <= 80; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, seed > 40);
-        fw_multibody_model *m = z.m;
+        fw_multibody_system *sys = z.sys;
+        const fw_multibody_model *m = sys->model;
         assert_true(m->nblock == 3 + 6 + 2 + 2 && !m->plain && m->driven);
         int n = 2 * m->nblock;
         double y[MOST], psi[5][MOST], rate[MOST], drift[MOST], gamma[MOST], u[MOST];
@@ -157,13 +149,12 @@ static void test_constraint_derivatives(void **state) {
             double s = (k - 2) * step;
             for (int i = 0; i < m->nq; i++)
                 u[i] = y[i] + s * v[i];
-            fw_multibody_model_residual(m, t + s, u, psi[k]);
+            fw_multibody_residual(sys, fw_multibody_pose_at(sys, t + s, u), psi[k]);
         }
-        fw_multibody_model_at(m, t);
-        fw_multibody_model_pose(m, y);
-        fw_multibody_model_jacobian(m, v, rate);
-        fw_multibody_model_drift(m, t, drift);
-        fw_multibody_model_gamma(m, t, v, gamma);
+        const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+        fw_multibody_jacobian(m, pose, v, rate);
+        fw_multibody_drift(sys, pose, drift);
+        fw_multibody_gamma(sys, pose, v, gamma);
         for (int i = 0; i < n; i++) {
             double first = (8 * (psi[3][i] - psi[1][i]) - (psi[4][i] - psi[0][i])) / (12 * step);
             double second =
@@ -176,24 +167,25 @@ static void test_constraint_derivatives(void **state) {
     }
 }
 
-/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_multibody_model_transpose and by the
+/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_multibody_transpose and by the
    dense G */
 static void test_products(void **state) {
     (void)state;
     for (uint64_t seed = 1; seed <= 20; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, false);
-        fw_multibody_model *m = z.m;
+        fw_multibody_system *sys = z.sys;
+        const fw_multibody_model *m = sys->model;
         int n = 2 * m->nblock;
         double y[MOST], l[MOST], a[MOST] = {0}, f[MOST] = {0}, rows[MOST], g[MOST * MOST];
         state_of(&z, y, 0.7);
-        fw_multibody_model_pose(m, y);
+        const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
         for (int i = 0; i < m->rows; i++)
             rows[i] = about(&z, 1);
-        fw_multibody_model_unpack(m, rows, l);
-        fw_multibody_model_transpose(m, l, f);
-        fw_multibody_model_apply(m, l, a);
-        fw_multibody_model_dense_jacobian(m, g);
+        fw_multibody_unpack(m, rows, l);
+        fw_multibody_transpose(m, pose, l, f);
+        fw_multibody_apply(m, pose, l, a);
+        fw_multibody_dense_jacobian(m, pose, g);
         for (int c = 0; c < m->nq; c++) {
             double sum = 0;
             for (int i = 0; i < m->rows; i++)
@@ -204,23 +196,24 @@ static void test_products(void **state) {
         }
         /* (S + eps D) x = b solved by the blocks, checked by products */
         double b[MOST], x[MOST], back[MOST];
-        fw_multibody_chain_assemble(m);
-        assert_true(fw_multibody_chain_factor(&m->chain, 1e-3));
+        fw_multibody_chain_numbers s;
+        assert_int_equal(fw_multibody_chain_numbers_new(arena, m, &s), FW_OK);
+        fw_multibody_chain_assemble(m, pose, &s);
+        assert_true(fw_multibody_chain_factor(&m->chain, &s, 1e-3));
         memcpy(x, l, sizeof x);
         memcpy(b, l, sizeof b);
-        fw_multibody_chain_solve(&m->chain, x);
+        fw_multibody_chain_solve(&m->chain, &s, x);
         memset(a, 0, sizeof a);
-        fw_multibody_model_apply(m, x, a);
-        fw_multibody_model_jacobian(m, a, back);
+        fw_multibody_apply(m, pose, x, a);
+        fw_multibody_jacobian(m, pose, a, back);
         for (int i = 0; i < n; i++)
             assert_near(-back[i] + 1e-3 * m->chain.isotropic[i] * x[i], b[i], 1e-9);
         fw_arena_free(arena);
     }
 }
 
-static double potential(fw_multibody_model *m, const double *y) {
-    fw_multibody_model_pose(m, y);
-    fw_multibody_energy e = fw_multibody_model_energy(m, 0, y);
+static double potential(fw_multibody_system *sys, double t, const double *y) {
+    fw_multibody_energy e = fw_multibody_energy_at(sys, t, y);
     return e.elastic - e.work;
 }
 
@@ -231,22 +224,25 @@ static void test_forces(void **state) {
     for (uint64_t seed = 1; seed <= 40; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, false);
-        fw_multibody_model *m = z.m;
+        fw_multibody_system *sys = z.sys;
+        const fw_multibody_model *m = sys->model;
         double y[MOST], work = 0, booked[2];
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_multibody_model_set_switches(m, 0, y);
-        assert_int_equal(fw_multibody_model_switches(m), 4);
-        fw_multibody_model_pose(m, y);
-        fw_multibody_model_forces(m, 1e-3 / m->scale.time_s, y);
-        double with[MOST];
-        memcpy(with, m->accel, sizeof(double) * (size_t)m->nq);
-        fw_multibody_model_power(m, 1e-3 / m->scale.time_s, y, booked);
-        int timed = m->ntimed;
-        m->ntimed = 0; /* now what is conservative, at rest */
+        assert_int_equal(fw_multibody_switch_count(m), 4);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, 1e-3 / m->scale.time_s, y);
+        double with[MOST], without[MOST];
+        memcpy(with, fw_multibody_forces(sys, pose, y + m->nq)->accel,
+               sizeof(double) * (size_t)m->nq);
+        fw_multibody_power(sys, pose, y + m->nq, booked);
+        fw_multibody_model conservative = *m;
+        conservative.ntimed = 0;
+        sys->model = &conservative;
         double rest[MOST] = {0};
         memcpy(rest, y, sizeof(double) * (size_t)m->nq);
-        fw_multibody_model_forces(m, 0, rest);
+        pose = fw_multibody_pose_at(sys, 0, rest);
+        memcpy(without, fw_multibody_forces(sys, pose, rest + m->nq)->accel,
+               sizeof(double) * (size_t)m->nq);
         for (int i = 0; i < m->nq; i++) {
             const double h = 2e-4; /* a short spring bends its potential strongly */
             double p[4];
@@ -254,14 +250,13 @@ static void test_forces(void **state) {
                 double u[MOST] = {0};
                 memcpy(u, rest, sizeof u);
                 u[i] += h * (k < 2 ? k - 2 : k - 1);
-                p[k] = potential(m, u);
+                p[k] = potential(sys, 0, u);
             }
             double slope = (8 * (p[2] - p[1]) - (p[3] - p[0])) / (12 * h);
             double mass = i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3];
-            assert_near(mass * m->accel[i], -slope, 1e-8 * (1 + fabs(slope)));
-            work += mass * (with[i] - m->accel[i]) * y[m->nq + i];
+            assert_near(mass * without[i], -slope, 1e-8 * (1 + fabs(slope)));
+            work += mass * (with[i] - without[i]) * y[m->nq + i];
         }
-        m->ntimed = timed;
         assert_near(work, booked[1] - booked[0], 1e-10 * (1 + fabs(booked[0])));
         fw_arena_free(arena);
     }
@@ -274,23 +269,21 @@ static void test_moving_ground(void **state) {
     for (uint64_t seed = 1; seed <= 60; seed++) {
         fw_arena *arena = fw_arena_new(0);
         zoo z = zoo_new(arena, seed, true);
-        fw_multibody_model *m = z.m;
+        fw_multibody_system *sys = z.sys;
+        const fw_multibody_model *m = sys->model;
         double y[MOST], u[MOST] = {0}, value[5], booked[2], work = 0;
         const double t = 1e-3 / m->scale.time_s, step = 1e-4;
         state_of(&z, y, 0.7);
         y[m->dissipated] = y[m->worked] = 0;
-        fw_multibody_model_at(m, t);
-        fw_multibody_model_set_switches(m, 0, y);
-        fw_multibody_model_pose(m, y);
-        fw_multibody_model_forces(m, t, y);
-        fw_multibody_model_power(m, t, y, booked);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, t, y);
+        const double *accel = fw_multibody_forces(sys, pose, y + m->nq)->accel;
+        fw_multibody_power(sys, pose, y + m->nq, booked);
         for (int i = 0; i < m->nq; i++)
-            work += (i % 3 == 2 ? m->inertia : m->mass)[i / 3] * m->accel[i] * y[m->nq + i];
+            work += (i % 3 == 2 ? m->inertia : m->mass)[i / 3] * accel[i] * y[m->nq + i];
         for (int k = 0; k < 5; k++) {
             for (int i = 0; i < m->nq; i++)
                 u[i] = y[i] + (k - 2) * step * y[m->nq + i];
-            fw_multibody_model_at(m, t + (k - 2) * step);
-            value[k] = potential(m, u);
+            value[k] = potential(sys, t + (k - 2) * step, u);
         }
         double rate = (8 * (value[3] - value[1]) - (value[4] - value[0])) / (12 * step);
         double size = 1 + fabs(rate) + fabs(booked[0]) + fabs(booked[1]);

@@ -3,9 +3,7 @@
    coordinates cost no digits, switches are counted through, released pins are no blocks. */
 #include "effects/effect.h"
 #include "multibody/kernel_plan.h"
-#include "multibody/methods.h"
-#include "multibody/reactions.h"
-#include "dynamics/models.h"
+#include "multibody/systems.h"
 
 /* ---- a class with everything: k s + c l' between the first and the last port, a couple kr on the
    turn of the first two, and load pull t along the line; acts while s > 0 ---- */
@@ -75,7 +73,8 @@ typedef struct plant {
     rig r;
     fw_effects_loads loads;
     all data[ELEMENTS];
-    fw_multibody_model *m;
+    fw_multibody_system *sys;
+    const fw_multibody_model *m;
 } plant;
 
 static double grid(uint64_t *seed) { /* multiples of 2^-20, so that a shift is exact */
@@ -117,14 +116,9 @@ static void plant_new(fw_arena *arena, uint64_t seed, double far, bool released,
         e->data = &p->data[i];
     }
     if (released) t->released[2] = true, t->nreleased = 1, t->element[1].pin = 2;
-    double q[3 * BODIES];
-    for (int b = 0; b < BODIES; b++) {
-        const fw_mechanism_mass *at = &p->r.m.body[b];
-        q[3 * b] = at->x_m, q[3 * b + 1] = at->y_m, q[3 * b + 2] = at->phi_rad;
-    }
-    fw_diags diags = fw_diags_new(arena);
-    assert_int_equal(fw_multibody_model_new(arena, &p->r.m, t, q, 4, NULL, &diags, &p->m), FW_OK);
-    p->m->piece = 2;
+    p->sys = rig_system_with(arena, &p->r.m, t, 4, NULL);
+    p->m = p->sys->model;
+    p->sys->piece_s = 2;
 }
 
 static void state_any(uint64_t *seed, double *y, int count) {
@@ -142,25 +136,23 @@ static void powers_fit(void **state) {
         uint64_t pick = 31 * seed;
         plant p;
         plant_new(arena, seed, 0, seed % 2, &p);
-        fw_multibody_model *m = p.m;
+        fw_multibody_system *sys = p.sys;
+        const fw_multibody_model *m = p.m;
         int n = m->nq;
         double y[64] = {0}, z[64] = {0}, t = 1.5 / m->scale.time_s, h = 1e-3, given = 0, rate = 0;
         double power[2], size = 0;
         state_any(&pick, y, 2 * n);
-        fw_multibody_model_set_switches(m, t, y);
-        fw_multibody_model_pose(m, y);
-        fw_multibody_model_forces(m, t, y);
-        fw_multibody_model_power(m, t, y, power);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, t, y);
+        const double *accel = fw_multibody_forces(sys, pose, y + n)->accel;
+        fw_multibody_power(sys, pose, y + n, power);
         for (int i = 0; i < n; i++) {
-            double part =
-                y[n + i] * m->accel[i] * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]);
+            double part = y[n + i] * accel[i] * (i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]);
             given += part, size += fabs(part);
         }
         for (int k = 0; k < 7; k++) {
             for (int i = 0; i < n; i++)
                 z[i] = y[i] + (k - 3) * h * y[n + i];
-            fw_multibody_model_pose(m, z);
-            rate += weight[k] / (60 * h) * fw_multibody_model_energy(m, t, z).elastic;
+            rate += weight[k] / (60 * h) * fw_multibody_energy_at(sys, t, z).elastic;
         }
         assert_near(given, -rate - power[0] + power[1], 1e-9 * (1 + size));
         fw_arena_free(arena);
@@ -176,18 +168,17 @@ static void far_away_costs_nothing(void **state) {
         plant_new(arena, seed, 0, true, &near);
         plant_new(arena, seed, 1024, true, &far);
         uint64_t pick = seed;
-        double y[64] = {0}, a[64];
+        double y[64] = {0}, a[2][64];
         int n = near.m->nq;
         state_any(&pick, y, 2 * n);
-        fw_multibody_model *both[2] = {near.m, far.m};
+        fw_multibody_system *both[2] = {near.sys, far.sys};
         for (int i = 0; i < 2; i++) {
-            fw_multibody_model_set_switches(both[i], 1, y);
-            fw_multibody_model_pose(both[i], y);
-            fw_multibody_model_forces(both[i], 1, y);
-            if (i == 0) memcpy(a, near.m->accel, (size_t)n * sizeof *a);
+            const fw_multibody_pose *pose = fw_multibody_set_switches(both[i], 1, y);
+            const double *accel = fw_multibody_forces(both[i], pose, y + n)->accel;
+            memcpy(a[i], accel, (size_t)n * sizeof *accel);
         }
         for (int i = 0; i < n; i++)
-            assert_near(far.m->accel[i], a[i], 1e-12 * (1 + fabs(a[i])));
+            assert_near(a[1][i], a[0][i], 1e-12 * (1 + fabs(a[0][i])));
         fw_arena_free(arena);
     }
 }
@@ -200,25 +191,28 @@ static void switches_are_counted_through(void **state) {
         fw_arena *arena = fw_arena_new(0);
         plant p;
         plant_new(arena, seed, 0, false, &p);
-        fw_multibody_model *m = p.m;
+        fw_multibody_system *sys = p.sys;
+        const fw_multibody_model *m = p.m;
         uint64_t pick = 5 * seed;
         double y[64] = {0}, value[5], t = 2 * rig_random(&pick) / m->scale.time_s;
         state_any(&pick, y, 2 * m->nq);
-        assert_int_equal(fw_multibody_model_switches(m), 5);
-        fw_multibody_model_set_switches(m, t, y);
-        fw_multibody_model_switch_values(m, t, y, value);
+        assert_int_equal(fw_multibody_switch_count(m), 5);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, t, y);
+        const double *v = y + m->nq;
+        const bool *elements = sys->on.element; /* two of the first, one of each other */
+        fw_multibody_switch_values(sys, pose, v, value);
         for (int i = 0; i < 5; i++) {
-            assert_near(value[i], fw_multibody_model_switch_value(m, t, i, y), 0);
-            assert_int_equal(fw_multibody_model_switch_on(m, i), value[i] > 0);
+            assert_near(value[i], fw_multibody_switch_value(sys, pose, i, v), 0);
+            assert_int_equal(fw_multibody_switch_on(sys, i), value[i] > 0);
             on += value[i] > 0;
         }
-        assert_int_equal(m->element[0].on[0], value[1] > 0);
-        assert_int_equal(m->element[0].on[1], t * m->scale.time_s > 1);
-        assert_int_equal(m->element[2].on[0], value[4] > 0);
-        double before = fw_multibody_model_energy(m, t, y).elastic;
-        fw_multibody_model_flip(m, t, 4, y);
-        double after = fw_multibody_model_energy(m, t, y).elastic;
-        assert_int_equal(m->element[2].on[0], !(value[4] > 0));
+        assert_int_equal(elements[0], value[1] > 0);
+        assert_int_equal(elements[1], t * m->scale.time_s > 1);
+        assert_int_equal(elements[m->element[2].first_switch], value[4] > 0);
+        double before = fw_multibody_energy_at(sys, t, y).elastic;
+        fw_multibody_flip(sys, t, 4, y);
+        double after = fw_multibody_energy_at(sys, t, y).elastic;
+        assert_int_equal(elements[3], !(value[4] > 0));
         assert_near(y[m->dissipated], before - after, 1e-13 * (1 + before));
         assert_true(value[4] > 0 ? before > after : before < after);
         fw_arena_free(arena);
@@ -241,15 +235,14 @@ static void released_pins_are_no_blocks(void **state) {
     double y[64] = {0}, f[64], reaction[8];
     uint64_t pick = 3;
     state_any(&pick, y, 2 * with.m->nq);
-    fw_multibody_model_set_switches(with.m, 1, y);
-    fw_multibody_model_rhs(with.m, 1, y, f);
-    fw_multibody_pin_forces(with.m, reaction);
+    fw_multibody_set_switches(with.sys, 1, y);
+    const fw_multibody_solution *found = fw_multibody_react(with.sys, 1, y, f);
+    fw_multibody_pin_forces(with.m, found, reaction);
     for (int k = 0; k < 2; k++) {
-        assert_near(reaction[4 + k], with.m->element[1].f[6 + k], 0);
+        assert_near(reaction[4 + k], found->element[3 * with.m->element[1].first_port + 6 + k], 0);
         assert_true(reaction[4 + k] != 0);
         int block = with.m->pin_block[3];
-        assert_near(reaction[6 + k], fw_multibody_newton(with.m) * with.m->lambda[2 * block + k],
-                    0);
+        assert_near(reaction[6 + k], fw_multibody_newton(with.m) * found->lambda[2 * block + k], 0);
     }
     fw_arena_free(arena);
 }
@@ -261,9 +254,6 @@ static void minimal_places_loose_bodies(void **state) {
     rig r = rig_six_bar(arena, false);
     fw_effects_loads t;
     assert_int_equal(fw_effects_loads_new(arena, &r.m, &r.scene, &t), FW_OK);
-    double q[15];
-    for (int b = 0; b < 5; b++)
-        q[3 * b] = r.m.body[b].x_m, q[3 * b + 1] = r.m.body[b].y_m, q[3 * b + 2] = 0;
     static const struct {
         int pins[3];
         const char *report;
@@ -276,13 +266,10 @@ static void minimal_places_loose_bodies(void **state) {
         memset(t.released, 0, 6 * sizeof *t.released);
         for (int i = 0; i < 3 && cases[c].pins[i] >= 0; i++)
             t.released[cases[c].pins[i]] = true;
-        fw_diags diags = fw_diags_new(arena);
-        fw_multibody_model *m;
-        assert_int_equal(
-            fw_multibody_model_new(arena, &r.m, &t, q, 1, &fw_multibody_method_minimal, &diags, &m),
-            FW_OK);
+        fw_multibody_system *sys =
+            rig_system_with(arena, &r.m, &t, 1, &fw_multibody_method_minimal);
         fw_text text = fw_text_new(arena);
-        assert_int_equal(fw_multibody_method_minimal.report(m, &r.m, &text), FW_OK);
+        assert_int_equal(fw_multibody_method_minimal.report(sys, &r.m, &text), FW_OK);
         if (!strstr(text.data, cases[c].report)) fail_msg("%s", text.data);
     }
     fw_arena_free(arena);

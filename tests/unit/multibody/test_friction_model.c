@@ -1,30 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What friction does at one instant, on random mechanisms and states: the equations of motion with
    its torques, and the law of every joint with friction, checked from the outside. */
-#include "dynamics/models.h"
+#include "multibody/systems.h"
 #include "effects/effect.h"
 #include "multibody/friction.h"
 
 static const double NOT = (double)NAN;
 
-static fw_multibody_model *model_of(fw_arena *arena, const rig *r, const char *method) {
+static fw_multibody_system *system_of(fw_arena *arena, const rig *r, const char *method) {
     fw_diags diags = fw_diags_new(arena);
     fw_effect_ledger ledger;
     fw_effects_loads *loads = fw_arena_one(arena, fw_effects_loads);
     const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};
-    double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
-    for (int b = 0; b < r->m.nbody; b++) {
-        const fw_mechanism_mass *p = &r->m.body[b];
-        q[3 * b] = p->x_m, q[3 * b + 1] = p->y_m, q[3 * b + 2] = p->phi_rad;
-    }
-    fw_multibody_model *m = NULL;
     assert_int_equal(
         fw_effects_compile(arena, &r->m, &r->scene, &all, 1e-3, &diags, &ledger, loads), FW_OK);
-    assert_int_equal(fw_multibody_model_new(arena, &r->m, loads, q, r->scene.duration_s,
-                                            fw_multibody_method_find(method), &diags, &m),
-                     FW_OK);
-    m->piece = r->scene.duration_s / 2;
-    return m;
+    fw_multibody_system *sys =
+        rig_system_with(arena, &r->m, loads, r->scene.duration_s, fw_multibody_method_find(method));
+    sys->piece_s = r->scene.duration_s / 2;
+    return sys;
 }
 
 /* friction in most pins; sometimes a block on a body, that slides along it */
@@ -72,7 +65,8 @@ static rig any(fw_arena *arena, uint64_t seed) {
 }
 
 /* relative acceleration of an entry by differences of its rate along y + h f, order 4 */
-static double relative(fw_multibody_model *m, int i, const double *y, const double *f) {
+static double relative(fw_multibody_system *sys, int i, const double *y, const double *f) {
+    const fw_multibody_model *m = sys->model;
     double rate[4], z[128];
     const double at[4] = {-2, -1, 1, 2}, h = 1e-4;
     for (int k = 0; k < 4; k++) {
@@ -81,55 +75,52 @@ static double relative(fw_multibody_model *m, int i, const double *y, const doub
             z[c] = y[c] + t * y[m->nq + c] + t * t / 2 * f[m->nq + c];
             z[m->nq + c] = y[m->nq + c] + t * f[m->nq + c];
         }
-        fw_multibody_model_pose(m, z);
-        fw_multibody_friction_rows(m, z);
-        fw_multibody_friction_rates(m, z + m->nq);
-        rate[k] = m->friction->rate[i];
+        fw_multibody_friction_rows(sys, fw_multibody_pose_at(sys, 0, z), z + m->nq);
+        rate[k] = sys->friction->rate[i];
     }
     return (8 * (rate[2] - rate[1]) - (rate[3] - rate[0])) / (12 * h);
 }
 
-static double pressing(const fw_multibody_model *m, int i) {
-    const fw_multibody_model_friction *f = &m->friction->item[i];
-    const double *l = m->lambda + 2 * f->block;
+static double pressing(const fw_multibody_system *sys, int i) {
+    const fw_multibody_friction_joint *f = &sys->model->friction[i];
+    const double *l = sys->work->solution.lambda + 2 * f->block;
     return f->preload + (f->slides ? fabs(l[1]) : hypot(l[0], l[1]));
 }
 
 /* M a + G^T lambda = Q + sum h T, by virtual power with random w: no way through the rows */
-static void check_motion(fw_multibody_model *m, const double *y, const double *f, uint64_t *seed) {
+static void check_motion(fw_multibody_system *sys, const double *y, const double *f,
+                         uint64_t *seed) {
+    const fw_multibody_model *m = sys->model;
     double force[64] = {0}, w[64], left = 0, size = 0, torque[16];
-    const struct fw_multibody_frictions *s = m->friction;
+    const struct fw_multibody_frictions *s = sys->friction;
     for (int i = 0; i < s->n; i++)
         torque[i] = s->torque[i];
-    fw_multibody_model_pose(m, y);
-    fw_multibody_model_forces(m, 0, y);
-    fw_multibody_model_transpose(m, m->lambda, force);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
+    const fw_multibody_solution *found = fw_multibody_forces(sys, pose, y + m->nq);
+    fw_multibody_transpose(m, pose, found->lambda, force);
     for (int c = 0; c < m->nq; c++) {
         double mass = c % 3 == 2 ? m->inertia[c / 3] : m->mass[c / 3];
         w[c] = rig_random(seed) - 0.5;
-        double part[2] = {mass * (f[m->nq + c] - m->accel[c]) * w[c], force[c] * w[c]};
+        double part[2] = {mass * (f[m->nq + c] - found->accel[c]) * w[c], force[c] * w[c]};
         left += part[0] + part[1];
         size += fabs(part[0]) + fabs(part[1]);
     }
-    fw_multibody_friction_rows(m, y);
-    fw_multibody_friction_rates(m, w);
+    fw_multibody_friction_rows(sys, pose, w);
     for (int i = 0; i < s->n; i++)
         left -= torque[i] * s->rate[i];
     assert_near(left, 0, 1e-11 * (1 + size));
 }
 
-static void check_laws(fw_multibody_model *m, const double *y, const double *f, int count[3]) {
-    struct fw_multibody_frictions *s = m->friction;
+static void check_laws(fw_multibody_system *sys, const double *y, const double *f, int count[3]) {
+    struct fw_multibody_frictions *s = sys->friction;
     double rate[16];
-    fw_multibody_model_pose(m, y);
-    fw_multibody_friction_rows(m, y);
-    fw_multibody_friction_rates(m, y + m->nq);
+    fw_multibody_friction_rows(sys, fw_multibody_pose_at(sys, 0, y), y + sys->model->nq);
     for (int i = 0; i < s->n; i++)
         rate[i] = s->rate[i];
     for (int i = 0; i < s->n; i++) {
-        const fw_multibody_model_friction *item = &s->item[i];
-        double n = pressing(m, i), t = s->torque[i];
-        assert_near(n, item->press, 1e-11 * (1 + n));
+        const fw_multibody_friction_joint *item = &s->joint[i];
+        double n = pressing(sys, i), t = s->torque[i];
+        assert_near(n, s->item[i].press, 1e-11 * (1 + n));
         if (!s->rests[i]) {
             assert_true(rate[i] != 0);
             assert_near(t, -(rate[i] > 0 ? 1 : -1) * item->slide * n, 1e-12 * (1 + n));
@@ -137,8 +128,7 @@ static void check_laws(fw_multibody_model *m, const double *y, const double *f, 
             continue;
         }
         assert_near(rate[i], 0, 1e-12);
-        double a = relative(m, i, y, f);
-        fw_multibody_model_pose(m, y);
+        double a = relative(sys, i, y, f);
         assert_true(fabs(t) <= item->rest * n * (1 + 1e-11) + 1e-14);
         if (fabs(a) < 1e-7 * (1 + s->size[i])) {
             count[1]++;
@@ -153,8 +143,8 @@ static void check_laws(fw_multibody_model *m, const double *y, const double *f, 
    slips, rho_rc the force of r for unit T_c while the others hold. Is there one? By powers of the
    map from several patterns of signs; the forces from accelerations of the method, not from the
    small system: T of those that hold by least squares over their relative accelerations. */
-static bool may_jam(fw_multibody_model *m) {
-    struct fw_multibody_frictions *s = m->friction;
+static bool may_jam(fw_multibody_system *sys) {
+    struct fw_multibody_frictions *s = sys->friction;
     double reach[32][32][2], x[32], next[32];
     int who[32] = {0}, count = 0, stuck[32] = {0}, held = 0;
     for (int i = 0; i < s->n; i++)
@@ -183,11 +173,11 @@ static bool may_jam(fw_multibody_model *m) {
         for (int k = 0; k < 60; k++) {
             double size = 0, least = (double)INFINITY;
             for (int r = 0; r < count; r++) {
-                const fw_multibody_model_friction *f = &s->item[who[r]];
+                const fw_multibody_friction_joint *f = &s->joint[who[r]];
                 double rho[2] = {0, 0};
                 for (int c = 0; c < count; c++)
                     rho[0] += reach[r][c][0] * x[c], rho[1] += reach[r][c][1] * x[c];
-                next[r] = (f->yields ? f->rest : f->slide) * hypot(rho[0], rho[1]);
+                next[r] = (s->item[who[r]].yields ? f->rest : f->slide) * hypot(rho[0], rho[1]);
                 size = fmax(size, next[r]);
                 if (fabs(x[r]) > 1e-6) least = fmin(least, next[r] / fabs(x[r]));
             }
@@ -207,38 +197,38 @@ static void laws_hold(void **state) {
     for (int c = 0; c < 600; c++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = any(arena, 1000 + (uint64_t)c);
-        fw_multibody_model *m = model_of(arena, &r, c % 2 ? "chain" : "svd");
-        if (!m->friction) {
+        fw_multibody_system *sys = system_of(arena, &r, c % 2 ? "chain" : "svd");
+        const fw_multibody_model *m = sys->model;
+        if (!sys->friction) {
             fw_arena_free(arena);
             continue;
         }
         double y[128] = {0}, f[128];
-        struct fw_multibody_frictions *s = m->friction;
+        struct fw_multibody_frictions *s = sys->friction;
         for (int i = 0; i < m->nq && c % 3; i++)
             y[m->nq + i] = 0.5 * (rig_random(&seed) - 0.5);
-        fw_multibody_model_pose(m, y);
-        assert_true(m->method->factor(m));
-        assert_true(fw_multibody_model_project_velocity(m, 0, y + m->nq));
-        fw_multibody_friction_begin(m);
-        fw_multibody_friction_track(m, y); /* these velocities have been */
-        if (c % 3 == 1) {                  /* bring about half of them to rest */
+        const fw_multibody_factor *factor =
+            fw_multibody_factorise(sys, fw_multibody_pose_at(sys, 0, y));
+        assert_non_null(factor);
+        assert_true(fw_multibody_project_velocity(sys, factor, y + m->nq));
+        fw_multibody_friction_begin(sys);
+        fw_multibody_friction_track(sys, y); /* these velocities have been */
+        if (c % 3 == 1) {                    /* bring about half of them to rest */
             for (int i = 0; i < s->n; i++)
                 s->item[i].slip = rig_random(&seed) < 0.5, s->item[i].held = NOT;
-            fw_multibody_friction_settle(m, y);
+            fw_multibody_friction_settle(sys, factor, y + m->nq);
         }
-        if (!fw_multibody_friction_decide(m, 0, y)) {
-            assert_true(may_jam(m));
+        if (!fw_multibody_friction_decide(sys, 0, y)) {
+            assert_true(may_jam(sys));
             refused++;
             fw_arena_free(arena);
             continue;
         }
-        fw_multibody_model_rhs(m, 0, y, f);
-        assert_false(m->broken);
-        double power = fw_multibody_friction_power(m);
-        assert_true(power >= -1e-12);
-        check_laws(m, y, f, count);
-        fw_multibody_model_rhs(m, 0, y, f);
-        check_motion(m, y, f, &seed);
+        assert_true(fw_multibody_evaluate(sys, 0, y, true, f));
+        assert_true(m->dissipated < 0 || f[m->dissipated] >= -1e-12);
+        check_laws(sys, y, f, count);
+        fw_multibody_rhs(sys, 0, y, f);
+        check_motion(sys, y, f, &seed);
         fw_arena_free(arena);
     }
     print_message("%d slip, %d stick, %d begin to slip; %d refused\n", count[0], count[1], count[2],
@@ -287,15 +277,15 @@ static rig many(fw_arena *arena, int n, uint64_t seed) {
 
 /* rate 0: |T| <= mu_s N r and no acceleration, or T = mu_k N r against it; else T against the rate.
    Largest mismatch, relative */
-static double mismatch(fw_multibody_model *m, const double *y, int *holds, int *lets_go) {
-    struct fw_multibody_frictions *s = m->friction;
+static double mismatch(fw_multibody_system *sys, const double *y, int *holds, int *lets_go) {
+    const fw_multibody_model *m = sys->model;
+    struct fw_multibody_frictions *s = sys->friction;
     double worst = 0, f[512], torque[64];
-    fw_multibody_model_rhs(m, 0, y, f);
-    assert_false(m->broken);
+    assert_true(fw_multibody_evaluate(sys, 0, y, true, f));
     memcpy(torque, s->torque, (size_t)s->n * sizeof *torque);
     for (int i = 0; i < s->n; i++) {
-        const fw_multibody_model_friction *item = &s->item[i];
-        double n = pressing(m, i), t = torque[i], size = s->size[i] + fabs(s->accel[i]), a;
+        const fw_multibody_friction_joint *item = &s->joint[i];
+        double n = pressing(sys, i), t = torque[i], size = s->size[i] + fabs(s->accel[i]), a;
         a = (item->b < m->nbody ? f[m->nq + 3 * item->b + 2] : 0) -
             (item->a < m->nbody ? f[m->nq + 3 * item->a + 2] : 0);
         for (int j = 0; j < s->n; j++)
@@ -326,27 +316,29 @@ static void many_joints(void **state) {
     for (int c = 0; c < 2000; c++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = many(arena, 3 + c % 26, 40000 + 17 * (uint64_t)c);
-        fw_multibody_model *m = model_of(arena, &r, "chain");
+        fw_multibody_system *sys = system_of(arena, &r, "chain");
+        const fw_multibody_model *m = sys->model;
         double y[512] = {0};
-        struct fw_multibody_frictions *s = m->friction;
+        struct fw_multibody_frictions *s = sys->friction;
         for (int i = 0; i < m->nq && c % 2; i++)
             y[m->nq + i] = 0.1 * (rig_random(&seed) - 0.5);
-        fw_multibody_model_pose(m, y);
-        assert_true(m->method->factor(m));
-        assert_true(fw_multibody_model_project_velocity(m, 0, y + m->nq));
-        fw_multibody_friction_begin(m);
-        fw_multibody_friction_track(m, y);
+        const fw_multibody_factor *factor =
+            fw_multibody_factorise(sys, fw_multibody_pose_at(sys, 0, y));
+        assert_non_null(factor);
+        assert_true(fw_multibody_project_velocity(sys, factor, y + m->nq));
+        fw_multibody_friction_begin(sys);
+        fw_multibody_friction_track(sys, y);
         if (c % 2) { /* most of them at rest */
             for (int i = 0; i < s->n; i++)
                 s->item[i].slip = rig_random(&seed) < 0.3, s->item[i].held = NOT;
-            fw_multibody_friction_settle(m, y);
+            fw_multibody_friction_settle(sys, factor, y + m->nq);
         }
         int before[2] = {holds, lets_go};
-        if (!fw_multibody_friction_decide(m, 0, y)) {
-            assert_true(may_jam(m));
+        if (!fw_multibody_friction_decide(sys, 0, y)) {
+            assert_true(may_jam(sys));
             refused++;
         } else {
-            worst = fmax(worst, mismatch(m, y, &holds, &lets_go));
+            worst = fmax(worst, mismatch(sys, y, &holds, &lets_go));
             mixed += holds > before[0] && lets_go > before[1];
             joints = s->n > joints ? s->n : joints;
         }
@@ -378,7 +370,6 @@ static double by_side(const fw_effects_force_element *e, const fw_effects_port_s
 static void contact_presses(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_diags diags = fw_diags_new(arena);
     const fw_effects_element_class contact = {
         .effect = "contact", .force = without_force, .switch_value = by_side, .pressing = by_place};
     rig r = rig_new(arena, 1, 1, 0);
@@ -394,15 +385,15 @@ static void contact_presses(void **state) {
     fw_effects_friction *f = fw_effects_loads_add_friction(arena, &loads);
     f->pin = 0, f->element = 0, f->kinetic_coefficient = f->static_coefficient = 0.3;
     f->radius_m = 0.1, f->preload_N = 1;
-    const double q[3] = {3, 4, 0}, omega = 1.5;
-    fw_multibody_model *m = NULL;
-    assert_int_equal(fw_multibody_model_new(arena, &r.m, &loads, q, 3, NULL, &diags, &m), FW_OK);
+    const double omega = 1.5;
+    fw_multibody_system *sys = rig_system_with(arena, &r.m, &loads, 3, NULL);
+    const fw_multibody_model *m = sys->model;
     double y[8] = {0}, out[8];
     y[5] = omega * m->scale.time_s;
-    fw_multibody_model_set_switches(m, 0, y);
-    fw_multibody_friction_begin(m);
-    assert_true(fw_multibody_friction_decide(m, 0, y));
-    fw_multibody_model_rhs(m, 0, y, out);
+    fw_multibody_set_switches(sys, 0, y);
+    fw_multibody_friction_begin(sys);
+    assert_true(fw_multibody_friction_decide(sys, 0, y));
+    fw_multibody_rhs(sys, 0, y, out);
     /* x + 10 y from port a to port b, upward speed of b */
     double n = 1 + 2 + 3.25 - 0.5 + 40 + 0.25 * omega;
     assert_near(out[5] / m->scale.time_s / m->scale.time_s, -0.3 * 0.1 * n / 0.5, 1e-12);

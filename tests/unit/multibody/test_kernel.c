@@ -68,22 +68,23 @@ static fw_multibody_kernel *kernel_of(fw_arena *arena, const fw_multibody_model 
 }
 
 /* M a + G^T lambda = Q and G a = -gamma, put into the model's own operators */
-static void check_equations(fw_arena *arena, fw_multibody_model *m, const double *y,
+static void check_equations(fw_arena *arena, fw_multibody_system *sys, const double *y,
                             const double *a, const double *lambda) {
+    const fw_multibody_model *m = sys->model;
     double *rows = fw_arena_array(arena, double, 2 * (size_t)m->nblock);
     double *gamma = fw_arena_array(arena, double, 2 * (size_t)m->nblock);
-    fw_multibody_model_pose(m, y);
-    fw_multibody_model_jacobian(m, a, rows);
-    fw_multibody_model_gamma(m, 0, y + m->nq, gamma);
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
+    fw_multibody_jacobian(m, pose, a, rows);
+    fw_multibody_gamma(sys, pose, y + m->nq, gamma);
     double most = fmax(rig_largest(a, m->nq), rig_largest(gamma, 2 * m->nblock)) * m->size;
     for (int i = 0; i < 2 * m->nblock; i++)
         assert_near(rows[i], -gamma[i], 1e-12 * most);
-    fw_multibody_model_forces(m, 0, y);
-    most = fmax(rig_largest(m->accel, m->nq), rig_largest(a, m->nq));
+    double *accel = fw_multibody_forces(sys, pose, y + m->nq)->accel;
+    most = fmax(rig_largest(accel, m->nq), rig_largest(a, m->nq));
     most = fmax(most, rig_largest(lambda, 2 * m->nblock) * rig_largest(m->minv, m->nbody));
-    fw_multibody_model_apply(m, lambda, m->accel);
+    fw_multibody_apply(m, pose, lambda, accel);
     for (int i = 0; i < m->nq; i++)
-        assert_near(m->accel[i], a[i], 1e-12 * most);
+        assert_near(accel[i], a[i], 1e-12 * most);
 }
 
 /* by the blocks (0), or in the form of closed loops where the model is one (1) */
@@ -95,13 +96,14 @@ static void prefer(fw_multibody_kernel *k, bool loop) {
 
 /* both forms, as far as the model has them, against the general code and in the equations */
 static void compare(fw_arena *arena, const rig *r, double size, uint64_t seed, double tolerance) {
-    fw_multibody_model *m = rig_model(arena, r);
+    fw_multibody_system *sys = rig_system(arena, r);
+    const fw_multibody_model *m = sys->model;
     fw_multibody_kernel *k = kernel_of(arena, m);
     assert_non_null(k);
     double *y = rig_state(arena, m, size, seed);
     double *f = fw_arena_array(arena, double, (size_t)m->ny), *g;
     g = fw_arena_array(arena, double, (size_t)m->ny);
-    rig_general(m, y, f);
+    rig_general(sys, y, f);
     for (int loop = 0; loop < 2; loop++) {
         prefer(k, loop);
         fw_multibody_kernel_rhs(k, y, g);
@@ -109,7 +111,7 @@ static void compare(fw_arena *arena, const rig *r, double size, uint64_t seed, d
         for (int i = 0; i < m->ny; i++)
             assert_near(g[i], f[i], tolerance * most);
         assert_memory_equal(g, y + m->nq, sizeof(double) * (size_t)m->nq);
-        check_equations(arena, m, y, g + m->nq, fw_multibody_kernel_lambda(k));
+        check_equations(arena, sys, y, g + m->nq, fw_multibody_kernel_lambda(k));
     }
 }
 
@@ -152,7 +154,7 @@ static void test_chains_and_loops(void **state) {
                 fw_arena_free(arena);
                 continue;
             }
-            fw_multibody_model *m = rig_model(arena, &r);
+            const fw_multibody_model *m = rig_model(arena, &r);
             assert_int_equal(kernel_of(arena, m)->core.loop != NULL, closed && n >= 3 && n <= 6);
             compare(arena, &r, 0.3, (uint64_t)(10 * n + kind), 1e-10);
             fw_arena_free(arena);
@@ -167,7 +169,7 @@ static void test_both_solves(void **state) {
         rig r = seed == 0   ? rig_six_bar(arena, false)
                 : seed == 1 ? rig_windows(arena, 5)
                             : rig_any(arena, seed);
-        fw_multibody_model *m = rig_model(arena, &r);
+        const fw_multibody_model *m = rig_model(arena, &r);
         fw_multibody_kernel *k = kernel_of(arena, m);
         double *y = rig_state(arena, m, 0.4, seed), *f[2];
         for (int loop = 0; loop < 2; loop++) {
@@ -209,14 +211,15 @@ static void test_singular_positions(void **state) {
         for (size_t i = 0; i < sizeof flat / sizeof *flat; i++) {
             fw_arena *arena = fw_arena_new(0);
             rig r = rig_windows(arena, n);
-            fw_multibody_model *m = rig_model(arena, &r);
+            fw_multibody_system *sys = rig_system(arena, &r);
+            const fw_multibody_model *m = sys->model;
             fw_multibody_kernel *k = kernel_of(arena, m);
             double *y = fw_arena_array(arena, double, (size_t)m->ny);
             double *f = fw_arena_array(arena, double, (size_t)m->ny);
             double *g = fw_arena_array(arena, double, (size_t)m->ny);
             windows_state(m, n, flat[i], y);
             fw_multibody_kernel_rhs(k, y, f);
-            rig_general(m, y, g);
+            rig_general(sys, y, g);
             /* crank angle from the x axis: phi + 90 degrees = flat */
             double kappa = ((n + 1) / 2.0 + n) / ((n + 1) / 3.0 + n);
             double want = -kappa * 9.81 * cos(flat[i]) * m->scale.time_s * m->scale.time_s;
@@ -236,7 +239,7 @@ static void test_redundant(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig once = rig_six_bar(arena, false), twice = rig_six_bar(arena, true);
-    fw_multibody_model *m[2] = {rig_model(arena, &once), rig_model(arena, &twice)};
+    const fw_multibody_model *m[2] = {rig_model(arena, &once), rig_model(arena, &twice)};
     double f[2][31], y[2][31];
     for (int k = 0; k < 2; k++) {
         fw_multibody_kernel *kernel = kernel_of(arena, m[k]);
@@ -269,7 +272,7 @@ static void test_bits(void **state) {
         {-0x1.acc2fedaeba7ep-1, -0x1.411df48ca7d82p+1, 0x1.c2fe09d03c72fp-1, 0x1.91d66cbd5ca1ap-7}};
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_six_bar(arena, false);
-    fw_multibody_model *m = rig_model(arena, &r);
+    const fw_multibody_model *m = rig_model(arena, &r);
     fw_multibody_kernel *k = kernel_of(arena, m);
     double *y = rig_state(arena, m, 3, 12), f[31];
     for (int loop = 0; loop < 2; loop++) {
@@ -292,18 +295,19 @@ static void test_projection(void **state) {
         rig r = seed == 0   ? rig_six_bar(arena, false)
                 : seed == 1 ? rig_windows(arena, 4)
                             : rig_any(arena, seed);
-        fw_multibody_model *m = rig_model(arena, &r);
-        fw_multibody_kernel *k = kernel_of(arena, m), *own = m->kernel;
+        fw_multibody_system *sys = rig_system(arena, &r);
+        const fw_multibody_model *m = sys->model;
+        fw_multibody_kernel *k = kernel_of(arena, m), *own = sys->kernel;
         double *start = rig_state(arena, m, 1e-4, seed), *y[2], *f[2];
         for (int i = 0; i < 2; i++) {
             y[i] = fw_arena_array(arena, double, (size_t)m->ny);
             f[i] = fw_arena_array(arena, double, (size_t)m->ny);
             memcpy(y[i], start, sizeof(double) * (size_t)m->ny);
         }
-        m->kernel = NULL;
-        fw_multibody_model_rhs(m, 0, y[0], f[0]);
-        assert_true(fw_multibody_model_project(m, 0, y[0], f[0]));
-        m->kernel = own;
+        sys->kernel = NULL;
+        fw_multibody_rhs(sys, 0, y[0], f[0]);
+        assert_true(fw_multibody_project(sys, 0, y[0], f[0]));
+        sys->kernel = own;
         for (int loop = 0; loop < 2; loop++) {
             prefer(k, loop);
             memcpy(y[1], start, sizeof(double) * (size_t)m->ny);
@@ -314,8 +318,8 @@ static void test_projection(void **state) {
                 assert_near(y[1][i], y[0][i], 1e-13);
                 assert_near(f[1][i], f[0][i], 1e-9 * rig_largest(f[0], m->ny));
             }
-            assert_true(fw_multibody_model_residual(m, 0, y[1], m->right) <=
-                        8 * DBL_EPSILON * m->size);
+            const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y[1]);
+            assert_true(fw_multibody_residual(sys, pose, NULL) <= 8 * DBL_EPSILON * m->size);
         }
         fw_arena_free(arena);
     }
@@ -328,7 +332,7 @@ static void test_not_a_number(void **state) {
         rig r = kind == 0   ? rig_six_bar(arena, false)
                 : kind == 1 ? rig_six_bar(arena, true)
                             : rig_windows(arena, 3);
-        fw_multibody_model *m = rig_model(arena, &r);
+        const fw_multibody_model *m = rig_model(arena, &r);
         fw_multibody_kernel *k = kernel_of(arena, m);
         double *y = rig_state(arena, m, 0.1, 3), *f, *g;
         f = fw_arena_array(arena, double, (size_t)m->ny);
@@ -363,7 +367,7 @@ static void test_memory(void **state) {
     for (int kind = 0; kind < 2; kind++) {
         fw_arena *arena = fw_arena_new(0);
         rig r = kind ? rig_windows(arena, 3) : rig_six_bar(arena, false);
-        fw_multibody_model *m = rig_model(arena, &r);
+        const fw_multibody_model *m = rig_model(arena, &r);
         fw_multibody_kernel *k;
         double *y = rig_state(arena, m, 0.1, 3), *f = rig_state(arena, m, 0, 3);
         fw_arena_fail_at(0, 0);

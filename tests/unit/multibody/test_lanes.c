@@ -29,6 +29,7 @@ static rig vary(fw_arena *arena, int kind, int design) {
 typedef struct batch {
     fw_arena *arena;
     const fw_multibody_model *model[MOST];
+    fw_multibody_system *system[MOST];
     fw_multibody_kernel *kernel[MOST];
     double *y[MOST];
     int count, ny;
@@ -38,7 +39,8 @@ static batch begin(int kind, int count) {
     batch b = {.arena = fw_arena_new(0), .count = count};
     for (int d = 0; d < count; d++) {
         rig r = vary(b.arena, kind, d);
-        fw_multibody_model *m = rig_model(b.arena, &r);
+        b.system[d] = rig_system(b.arena, &r);
+        const fw_multibody_model *m = b.system[d]->model;
         b.model[d] = m;
         assert_int_equal(fw_multibody_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
         b.y[d] = rig_state(b.arena, m, 0.3, (uint64_t)d);
@@ -166,7 +168,7 @@ static void reference(const fw_multibody_model *m, const double *y, double *a, d
         A[i][n] = A[i][i] * (long double)m->constant[i];
     }
     for (int i = 0; i < m->ntorsion; i++) {
-        const fw_multibody_model_torsion *t = &m->torsion[i];
+        const fw_multibody_torsion *t = &m->torsion[i];
         const double *v = y + m->nq;
         long double turn = -(long double)t->angle0, rate = 0;
         if (t->a < m->nbody)
@@ -206,7 +208,7 @@ static void test_loops(void **state) {
                 batch b = {.arena = fw_arena_new(0), .count = MOST};
                 for (int d = 0; d < MOST; d++) {
                     rig r = closed_loop(b.arena, n, decades, (uint64_t)d);
-                    fw_multibody_model *m = rig_model(b.arena, &r);
+                    const fw_multibody_model *m = rig_model(b.arena, &r);
                     b.model[d] = m, b.ny = m->ny;
                     assert_int_equal(fw_multibody_kernel_new(b.arena, m, &b.kernel[d]), FW_OK);
                     assert_int_equal(b.kernel[d]->core.loop != NULL, n <= FW_LOOP_MOST);
@@ -242,7 +244,7 @@ static void test_loops_near_singular(void **state) {
     for (int s = 0; fw_multibody_lanes_set(s); s++) {
         batch b = {.arena = fw_arena_new(0), .count = MOST};
         rig r = rig_windows(b.arena, 1);
-        fw_multibody_model *m = rig_model(b.arena, &r);
+        const fw_multibody_model *m = rig_model(b.arena, &r);
         for (int d = 0; d < MOST; d++) {
             b.model[d] = m, b.ny = m->ny;
             b.y[d] = rig_state(b.arena, m, 0.1, (uint64_t)d);
@@ -350,10 +352,10 @@ static void test_integrate(void **state) {
                          FW_OK);
         assert_true(run.steps > 10 && run.rhs > 11 * run.steps);
         for (int d = 0; d < 5; d++) {
-            fw_multibody_model *m = (fw_multibody_model *)(uintptr_t)b.model[d];
-            const fw_maths_ode ode = {.context = m,
-                                      .rhs = fw_multibody_model_rhs,
-                                      .project = fw_multibody_model_project,
+            const fw_multibody_model *m = b.model[d];
+            const fw_maths_ode ode = {.context = b.system[d],
+                                      .rhs = fw_multibody_rhs,
+                                      .project = fw_multibody_project,
                                       .n = m->ny,
                                       .controlled = 2 * m->nq};
             fw_maths_stepper *alone;

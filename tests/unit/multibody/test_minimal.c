@@ -2,42 +2,36 @@
 /* minimal: which mechanisms it can place body by body, and that what it computes solves the
    equations of motion at every pose. */
 #include "quantity/law_kind.h"
-#include "multibody/methods.h"
 #include "multibody/minimal.h"
-#include "dynamics/models.h"
+#include "multibody/systems.h"
 
 typedef struct made {
     fw_status status;
-    fw_multibody_model *m;
+    fw_multibody_system *sys;
     const char *message;
 } made;
 
-static made model_of(fw_arena *arena, const rig *r) {
-    double *q = fw_arena_array(arena, double, 3 * (size_t)r->m.nbody);
-    for (int b = 0; b < r->m.nbody; b++) {
-        q[3 * b] = r->m.body[b].x_m;
-        q[3 * b + 1] = r->m.body[b].y_m;
-        q[3 * b + 2] = r->m.body[b].phi_rad;
-    }
+static made system_of(fw_arena *arena, const rig *r) {
+    const fw_multibody_model *m =
+        rig_model_with(arena, &r->m, NULL, 1, &fw_multibody_method_minimal);
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
     made out = {0};
-    out.status = fw_multibody_model_new(arena, &r->m, NULL, q, 1, &fw_multibody_method_minimal,
-                                        diags, &out.m);
+    out.status = fw_multibody_system_new(arena, m, &r->m, diags, &out.sys);
     out.message = diags->count ? diags->item[0].message : "";
     return out;
 }
 
 static void expect(fw_arena *arena, const rig *r, const char *report) {
-    made k = model_of(arena, r);
+    made k = system_of(arena, r);
     if (k.status != FW_OK) fail_msg("%s", k.message);
     fw_text text = fw_text_new(arena);
-    assert_int_equal(fw_multibody_method_minimal.report(k.m, &r->m, &text), FW_OK);
+    assert_int_equal(fw_multibody_method_minimal.report(k.sys, &r->m, &text), FW_OK);
     assert_string_equal(text.data, report);
 }
 
 static void refused(fw_arena *arena, const rig *r, const char *what) {
-    made k = model_of(arena, r);
+    made k = system_of(arena, r);
     assert_int_equal(k.status, FW_SOLVER);
     if (!strstr(k.message, what)) fail_msg("%s", k.message);
 }
@@ -147,9 +141,10 @@ static void equations_are_solved(void **state) {
             double b = driven->body_b == FW_GROUND ? 0 : r.m.body[driven->body_b].phi_rad;
             driven->free_angle_rad = b - a;
         }
-        made k = model_of(arena, &r);
+        made k = system_of(arena, &r);
         if (k.status != FW_OK) fail_msg("case %d: %s", c, k.message);
-        fw_multibody_model *m = k.m;
+        fw_multibody_system *sys = k.sys;
+        const fw_multibody_model *m = sys->model;
         double u[64], a0[64], a[64], gamma[64], lambda[64], force[67] = {0}, rows[64];
         for (int j = 0; j < m->nq; j++) {
             u[j] = 0.1 * (rig_random(&seed) - 0.5) * (j % 3 == 2 ? 1 : 0.1);
@@ -159,11 +154,13 @@ static void equations_are_solved(void **state) {
             for (int e = 0; e < 2; e++)
                 gamma[2 * i + e] =
                     e == 0 || m->block[i].rows == FW_ROWS_PIN ? rig_random(&seed) - 0.5 : 0;
-        assert_true(m->method->close(m, 0.01, u));
-        assert_true(fw_multibody_model_residual(m, 0.01, u, rows) <= 1e-14 * (1 + m->size));
-        assert_true(m->method->factor(m));
-        m->method->accelerate(m, gamma, a, lambda);
-        fw_multibody_model_jacobian(m, a, rows);
+        const fw_multibody_pose *pose = m->method->close(sys, 0.01, u);
+        assert_non_null(pose);
+        assert_true(fw_multibody_residual(sys, pose, rows) <= 1e-14 * (1 + m->size));
+        const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
+        assert_non_null(factor);
+        m->method->accelerate(sys, factor, gamma, a, lambda);
+        fw_multibody_jacobian(m, pose, a, rows);
         double largest = 0, pull = 0;
         for (int j = 0; j < m->nq; j++)
             largest = fmax(largest, fabs(a[j]));
@@ -171,13 +168,13 @@ static void equations_are_solved(void **state) {
             assert_near(rows[i], -gamma[i], 1e-13 * (1 + largest));
             pull = fmax(pull, fabs(lambda[i]));
         }
-        fw_multibody_model_transpose(m, lambda, force);
+        fw_multibody_transpose(m, pose, lambda, force);
         for (int j = 0; j < m->nq; j++) {
             double mass = 1 / (j % 3 == 2 ? m->jinv[j / 3] : m->minv[j / 3]);
             assert_near(force[j], mass * (a0[j] - a[j]), 1e-12 * (1 + pull + mass * largest));
         }
-        m->method->correct(m, gamma, a);
-        fw_multibody_model_jacobian(m, a, rows);
+        m->method->correct(sys, pose, gamma, a);
+        fw_multibody_jacobian(m, pose, a, rows);
         for (int i = 0; i < 2 * m->nblock; i++)
             assert_near(rows[i], -gamma[i], 1e-12);
         fw_arena_free(arena);
@@ -189,16 +186,17 @@ static void impossible_poses_are_refused(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     rig r = rig_windows(arena, 1);
-    made k = model_of(arena, &r);
+    made k = system_of(arena, &r);
     assert_int_equal(k.status, FW_OK);
     double u[9] = {0};
     u[2] = -M_PI / 2; /* cranks level: the coupler lies on the line of the ground */
-    assert_false(k.m->method->close(k.m, 0, u) && k.m->method->factor(k.m));
+    const fw_multibody_pose *pose = k.sys->model->method->close(k.sys, 0, u);
+    assert_false(pose && fw_multibody_factorise(k.sys, pose));
     rig six = rig_six_bar(arena, false);
-    k = model_of(arena, &six);
+    k = system_of(arena, &six);
     double far[15] = {0};
     far[2] = 2.5, far[5] = 2.5, far[8] = 2.5; /* AB, BC, CD turned away from F */
-    assert_false(k.m->method->close(k.m, 0, far));
+    assert_null(k.sys->model->method->close(k.sys, 0, far));
     fw_arena_free(arena);
 }
 

@@ -343,7 +343,8 @@ static void damped_pairs_satisfy_the_pencil(void **state) {
         int n = w.reduced.n, dof = w.reduced.dof;
         double t = w.model->scale.time_s, sum = 0, trace = 0, fastest = 0;
         double *c = fw_arena_array(f.arena, double, (size_t)(n * n));
-        fw_statics_tangent(w.model, 0, w.y, w.lambda, w.stiffness, c);
+        const fw_multibody_pose *pose = fw_multibody_pose_at(w.system, 0, w.y);
+        fw_statics_tangent(w.system, pose, w.y + w.model->nq, w.lambda, w.stiffness, c);
         for (int k = 0; k < dof; k++) {
             const double *phi = w.reduced.shape + k * n;
             for (int i = 0; i < n * n; i++)

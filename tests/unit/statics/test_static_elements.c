@@ -4,6 +4,7 @@
 #include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "dynamics/element_rigs.h"
+#include "multibody/systems.h"
 #include "statics/statics_equilibrium.h"
 #include "statics/tangent.h"
 
@@ -22,13 +23,13 @@ static const fw_statics *solve(fixture *f, const rig *r, const fw_effects_loads 
 /* ---- tangent ---- */
 
 /* G^T lambda - Q at y, flags as they are */
-static void balance(fw_multibody_model *m, double t, const double *y, const double *lambda,
-                    double *f) {
-    fw_multibody_model_pose(m, y);
-    fw_multibody_model_forces(m, t, y);
+static void balance(fw_multibody_system *sys, const double *y, const double *lambda, double *f) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
+    const double *accel = fw_multibody_forces(sys, pose, y + m->nq)->accel;
     for (int i = 0; i < m->nq; i++)
-        f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * m->accel[i];
-    fw_multibody_model_transpose(m, lambda, f);
+        f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * accel[i];
+    fw_multibody_transpose(m, pose, lambda, f);
 }
 
 static void tangent_is_the_derivative(void **state) {
@@ -50,14 +51,9 @@ static void tangent_is_the_derivative(void **state) {
             line_add(f.arena, &t, &d[i], a, x, y, to, 2e-4, -1e-4)->switches = i == 1;
         }
         if (seed % 2) bush_release(f.arena, &r.m, &t, 1, &b);
-        double q[3 * 16], y[128] = {0}, z[128], lambda[64] = {0}, value[7][64], sum;
-        for (int i = 0; i < 3 * r.m.nbody; i++) {
-            const fw_mechanism_mass *at = &r.m.body[i / 3];
-            q[i] = i % 3 == 0 ? at->x_m : i % 3 == 1 ? at->y_m : at->phi_rad;
-        }
-        fw_multibody_model *m;
-        assert_int_equal(fw_multibody_model_new(f.arena, &r.m, &t, q, 1, NULL, &f.diags, &m),
-                         FW_OK);
+        double y[128] = {0}, z[128], lambda[64] = {0}, value[7][64], sum;
+        fw_multibody_system *sys = rig_system_with(f.arena, &r.m, &t, 1, NULL);
+        const fw_multibody_model *m = sys->model;
         int n = m->nq;
         double *k = fw_arena_array(f.arena, double, (size_t)(n * n)), worst = 0, most = 0;
         double *c = fw_arena_array(f.arena, double, (size_t)(n * n));
@@ -65,16 +61,15 @@ static void tangent_is_the_derivative(void **state) {
             y[i] = 0.3 * (rig_random(&pick) - 0.5);
         for (int i = 0; i < 2 * m->nblock; i++)
             lambda[i] = rig_random(&pick) - 0.5;
-        fw_multibody_model_set_switches(m, 0, y);
-        on += fw_multibody_model_switch_on(m, 0);
-        fw_multibody_model_pose(m, y);
-        fw_statics_tangent(m, 0, y, lambda, k, c);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(sys, 0, y);
+        on += fw_multibody_switch_on(sys, 0);
+        fw_statics_tangent(sys, pose, y + n, lambda, k, c);
         for (int j = 0; j < 2 * n; j++) {
             const double *matrix = j < n ? k + j : c + j - n, h = 1e-3;
             for (int s = 0; s < 7; s++) {
                 memcpy(z, y, sizeof z);
                 z[j] += (s - 3) * h;
-                balance(m, 0, z, lambda, value[s]);
+                balance(sys, z, lambda, value[s]);
             }
             for (int i = 0; i < n; i++) {
                 sum = 0;

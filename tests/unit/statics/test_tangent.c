@@ -2,7 +2,7 @@
 /* The tangent is the derivative of G^T lambda - Q, which other files compute. */
 #include "quantity/law_kind.h"
 #include "statics/tangent.h"
-#include "dynamics/models.h"
+#include "multibody/systems.h"
 
 enum { BODIES = 5, N = 3 * BODIES };
 
@@ -10,7 +10,7 @@ typedef struct plant { /* bodies with every joint and every force, at random */
     rig r;
     fw_effects_loads loads;
     fw_quantity_law ramp, drive;
-    fw_multibody_model *m;
+    fw_multibody_system *sys;
 } plant;
 
 static double pick(uint64_t *seed) {
@@ -111,43 +111,35 @@ static void plant_new(fw_arena *arena, uint64_t seed, plant *p) {
     }
     random_joints(arena, p, &seed);
     random_terms(arena, p, &seed);
-    double q[N];
-    for (int b = 0; b < BODIES; b++) {
-        q[3 * b] = p->r.m.body[b].x_m;
-        q[3 * b + 1] = p->r.m.body[b].y_m;
-        q[3 * b + 2] = p->r.m.body[b].phi_rad;
-    }
-    fw_diags diags = fw_diags_new(arena);
-    assert_int_equal(fw_multibody_model_new(arena, &p->r.m, &p->loads, q, 5, NULL, &diags, &p->m),
-                     FW_OK);
-    p->m->piece = 1;
+    p->sys = rig_system_with(arena, &p->r.m, &p->loads, 5, NULL);
+    p->sys->piece_s = 1;
 }
 
 /* G^T lambda - Q at y, with the flags of stops and cables as they are */
-static void balance(fw_multibody_model *m, double t, const double *y, const double *lambda,
+static void balance(fw_multibody_system *sys, double t, const double *y, const double *lambda,
                     double *f) {
-    fw_multibody_model_pose(m, y);
-    fw_multibody_model_forces(m, t, y);
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+    const double *accel = fw_multibody_forces(sys, pose, y + N)->accel;
     for (int i = 0; i < N; i++)
-        f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * m->accel[i];
-    fw_multibody_model_transpose(m, lambda, f);
+        f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * accel[i];
+    fw_multibody_transpose(m, pose, lambda, f);
 }
 
 /* largest difference between column j of the tangent and the difference quotient of order 6 */
-static double column_error(fw_multibody_model *m, double t, double *y, const double *lambda, int j,
-                           const double *matrix, int column) {
+static double column_error(fw_multibody_system *sys, double t, double *y, const double *lambda,
+                           int j, const double *matrix, int column) {
     static const double weight[6] = {-1.0 / 60, 9.0 / 60,  -45.0 / 60,
                                      45.0 / 60, -9.0 / 60, 1.0 / 60};
     static const int at[6] = {-3, -2, -1, 1, 2, 3};
     double sum[N] = {0}, f[N], keep = y[j], h = 1e-3, worst = 0;
     for (int k = 0; k < 6; k++) {
         y[j] = keep + at[k] * h;
-        balance(m, t, y, lambda, f);
+        balance(sys, t, y, lambda, f);
         for (int i = 0; i < N; i++)
             sum[i] += weight[k] * f[i] / h;
     }
     y[j] = keep;
-    fw_multibody_model_pose(m, y);
     for (int i = 0; i < N; i++)
         worst = fmax(worst, fabs(sum[i] - matrix[i * N + column]));
     return worst;
@@ -161,7 +153,7 @@ static void every_joint_and_force(void **state) {
         uint64_t noise = seed * 7919;
         plant p;
         plant_new(arena, seed, &p);
-        fw_multibody_model *m = p.m;
+        const fw_multibody_model *m = p.sys->model;
         double y[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N], t = 1.5 / m->scale.time_s;
         for (int i = 0; i < 2 * N; i++)
             y[i] = pick(&noise);
@@ -171,14 +163,13 @@ static void every_joint_and_force(void **state) {
             lambda[2 * i + 1] = two ? pick(&noise) : 0;
             kinds[m->block[i].rows]++;
         }
-        fw_multibody_model_set_switches(m, t, y);
-        for (int i = 0; i < fw_multibody_model_switches(m); i++)
-            if (fw_multibody_model_switch_on(m, i)) *(i < m->nstop ? &stops : &cables) += 1;
-        fw_multibody_model_pose(m, y);
-        fw_statics_tangent(m, t, y, lambda, k, c);
+        const fw_multibody_pose *pose = fw_multibody_set_switches(p.sys, t, y);
+        for (int i = 0; i < fw_multibody_switch_count(m); i++)
+            if (fw_multibody_switch_on(p.sys, i)) *(i < m->nstop ? &stops : &cables) += 1;
+        fw_statics_tangent(p.sys, pose, y + N, lambda, k, c);
         for (int j = 0; j < N; j++) {
-            double stiff = column_error(m, t, y, lambda, j, k, j);
-            double damp = column_error(m, t, y, lambda, N + j, c, j);
+            double stiff = column_error(p.sys, t, y, lambda, j, k, j);
+            double damp = column_error(p.sys, t, y, lambda, N + j, c, j);
             if (!(stiff < 1e-9 && damp < 1e-10))
                 fail_msg("seed %d, column %d: K off by %g, C by %g", (int)seed, j, stiff, damp);
         }
@@ -202,8 +193,7 @@ static void rest_is_symmetric(void **state) {
             lambda[i] = pick(&noise);
         for (int i = 0; i < N; i++)
             y[i] = pick(&noise), x[i] = pick(&noise);
-        fw_multibody_model_pose(p.m, y);
-        fw_statics_tangent(p.m, 0, y, lambda, k, c);
+        fw_statics_tangent(p.sys, fw_multibody_pose_at(p.sys, 0, y), y + N, lambda, k, c);
         for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++) {
                 assert_near(k[i * N + j], k[j * N + i], 1e-14);
@@ -238,20 +228,14 @@ static void springs_without_length(void **state) {
             s->by_m = cos(b->phi_rad) * (y - b->y_m) - sin(b->phi_rad) * (x - b->x_m);
             s->length_m = 0, s->cable = false;
         }
-        double q[N], u[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N];
-        for (int i = 0; i < N; i++) {
-            const fw_mechanism_mass *b = &p.r.m.body[i / 3];
-            q[i] = i % 3 == 0 ? b->x_m : i % 3 == 1 ? b->y_m : b->phi_rad;
-        }
-        fw_diags diags = fw_diags_new(arena);
-        assert_int_equal(fw_multibody_model_new(arena, &p.r.m, t, q, 5, NULL, &diags, &p.m), FW_OK);
-        p.m->piece = 1;
-        fw_multibody_model_pose(p.m, u);
-        fw_statics_tangent(p.m, 0, u, lambda, k, c);
+        double u[2 * N + 8] = {0}, lambda[64] = {0}, k[N * N], c[N * N];
+        p.sys = rig_system_with(arena, &p.r.m, t, 5, NULL);
+        p.sys->piece_s = 1;
+        fw_statics_tangent(p.sys, fw_multibody_pose_at(p.sys, 0, u), u + N, lambda, k, c);
         double most = 0;
         for (int j = 0; j < N; j++) {
-            double stiff = column_error(p.m, 0, u, lambda, j, k, j);
-            double damp = column_error(p.m, 0, u, lambda, N + j, c, j);
+            double stiff = column_error(p.sys, 0, u, lambda, j, k, j);
+            double damp = column_error(p.sys, 0, u, lambda, N + j, c, j);
             if (!(stiff < 1e-9 && damp < 1e-9))
                 fail_msg("seed %d, column %d: K off by %g, C by %g", (int)seed, j, stiff, damp);
             most = fmax(most, fmin(k[j * N + j], c[j * N + j]));
