@@ -6,7 +6,7 @@
    Theory: docs/theory/assembly.md. */
 #ifndef FW_ASSEMBLY_ASSEMBLY_H
 #define FW_ASSEMBLY_ASSEMBLY_H
-#include "multibody/multibody.h"
+#include "multibody/model.h"
 
 /* a pin, a joint or a driver, and how far it is from what it asks */
 typedef struct fw_assembly_joint_gap {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* On which side the elbows of a mechanism stand, and its other assemblies: every elbow mirrored in
    turn, breadth first. */
-#include "assembly/branch.h"
+#include "assembly/closure.h"
 #include "base/constants.h"
 #include <math.h>
 #include <string.h>

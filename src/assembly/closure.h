@@ -38,7 +38,7 @@ void fw_assembly_closure_unwind(const fw_assembly_closure *c, int *group);
 /* distance of the mass metric from u = 0, squared */
 double fw_assembly_closure_distance(const fw_assembly_closure *c, const double *u);
 
-/* ---- tree.c ---- */
+/* ---- restart.c ---- */
 typedef struct fw_assembly_tree {
     int *order;  /* (nbody) bodies in the order in which they are placed */
     int *parent; /* (nbody) body that it is joined to; nbody: the ground; -1: nothing */
@@ -47,12 +47,7 @@ typedef struct fw_assembly_tree {
     int *first;  /* (nbody + 1) blocks of a body: item[first[b]] .. */
     int *item;   /* (2 nblock) */
 } fw_assembly_tree;
-fw_status fw_assembly_tree_new(fw_arena *arena, const fw_multibody_model *m,
-                               fw_assembly_tree *tree);
-/* puts body b where the joints to its parent close, keeping its angle where they allow it */
-void fw_assembly_tree_place(const fw_assembly_tree *tree, fw_assembly_closure *c, int body);
 
-/* ---- restart.c ---- */
 /* closes the active blocks from other starts: body by body along the tree, loops as they close,
    then with turned bodies. best (3 nbody) ends as the least mismatch *value of all active blocks.
    work: 3 nbody doubles and nblock flags. */
@@ -87,5 +82,24 @@ fw_assembly_length_unit fw_assembly_length_unit_for(double longest_m, double sho
 char *fw_assembly_length_text(char *to, size_t n, double metres, fw_assembly_length_unit unit);
 void fw_assembly_block_gap(const fw_multibody_model *m, int block, const double *psi, double *gap_m,
                            double *gap_rad);
+
+/* ---- branch.c: elbows and other assemblies ---- */
+
+/* Elbows and other assemblies. Private to assembly/. */
+
+/* dyads whose mirror image may close too; (*count) of at most npin */
+fw_status fw_assembly_elbows_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                  fw_assembly_elbow **elbow, int *count);
+/* +1, -1, or 0 where it is flat; q (3 nbody) SI */
+int fw_assembly_elbow_side(const fw_mechanism *mechanism, const double *q,
+                           const fw_assembly_elbow *elbow);
+fw_status fw_assembly_alternatives_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                        fw_diags *diags, fw_assembly *found);
+
+/* ---- rank.c ---- */
+
+/* degrees of freedom at q (3 nbody) SI */
+fw_status fw_assembly_rank(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
+                           fw_diags *diags, fw_assembly_rank_result *out);
 
 #endif

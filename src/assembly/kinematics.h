@@ -7,21 +7,7 @@
    Theory: docs/theory/assembly.md. */
 #ifndef FW_ASSEMBLY_KINEMATICS_H
 #define FW_ASSEMBLY_KINEMATICS_H
-#include "multibody/multibody.h"
-
-typedef struct fw_assembly_coordinate { /* of a body: 0 x, 1 y, 2 phi */
-    int body, axis;
-} fw_assembly_coordinate;
-
-typedef struct fw_assembly_coordinate_choice {
-    fw_assembly_coordinate *item; /* (count) count = degrees of freedom */
-    int count;
-    double condition; /* largest scaled velocity of any motion over the rates that give it; >= 1 */
-    bool automatic;   /* chosen by pivoting, not asked for */
-    const char *text; /* "AB.phi,CD.phi" */
-    const char *better; /* the automatic choice where it is ten times better conditioned, or NULL */
-    double better_condition;
-} fw_assembly_coordinate_choice;
+#include "assembly/independent.h"
 
 typedef struct fw_assembly_kinematics_options {
     const char *independent; /* "BODY.x|y|phi", comma separated; NULL: chosen by pivoting */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can still move, and which rows of G say nothing new. */
 #include "assembly/closure.h"
-#include "assembly/solved.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>

@@ -5,6 +5,196 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- the tree ---- */
+
+/* A spanning tree of bodies from the ground, and placing a body where the joints to its parent
+   close. */
+
+static fw_status index_blocks(fw_arena *arena, const fw_multibody_model *m, fw_assembly_tree *t) {
+    FW_NEED(t->first = fw_arena_array(arena, int, (size_t)m->nbody + 2));
+    FW_NEED(t->item = fw_arena_array(arena, int, 2 * (size_t)m->nblock));
+    for (int i = 0; i < 2 * m->nblock; i++)
+        t->first[m->body[i] + 1]++;
+    for (int b = 0; b <= m->nbody; b++)
+        t->first[b + 1] += t->first[b];
+    int *next;
+    FW_NEED(next = fw_arena_array(arena, int, (size_t)m->nbody + 1));
+    for (int i = 0; i < 2 * m->nblock; i++) {
+        int b = m->body[i];
+        t->item[t->first[b] + next[b]++] = i / 2;
+    }
+    return FW_OK;
+}
+
+/* joints from body b to bodies that stand, and the latest of those */
+static int joints_to_placed(const fw_assembly_tree *t, const fw_multibody_model *m,
+                            const int *place, int b, int *latest) {
+    int count = 0;
+    *latest = -1;
+    for (int e = t->first[b]; e < t->first[b + 1]; e++) {
+        const fw_multibody_block *k = &m->block[t->item[e]];
+        int other = k->a == b ? k->b : k->a;
+        if (other < m->nbody && place[other] < 0) continue;
+        count++;
+        if (place[other] > *latest) *latest = place[other];
+    }
+    return count;
+}
+
+/* what closes a loop comes first, then what hangs on the body placed last, then the heaviest: loops
+   close one by one, each with few new bodies */
+static int next_body(const fw_assembly_tree *t, const fw_multibody_model *m, const int *place) {
+    int best = -1, best_joints = 0, best_latest = -1;
+    for (int b = 0; b < m->nbody; b++) {
+        int latest, joints;
+        if (place[b] >= 0) continue;
+        joints = joints_to_placed(t, m, place, b, &latest);
+        joints = joints > 2 ? 2 : joints;
+        bool better = joints != best_joints   ? joints > best_joints
+                      : latest != best_latest ? latest > best_latest
+                                              : joints == 0 && m->mass[b] > m->mass[best];
+        if (best < 0 || better) best = b, best_joints = joints, best_latest = latest;
+    }
+    return best;
+}
+
+/* rows of all blocks between two bodies: how much of a pose they settle */
+static int rows_between(const fw_assembly_tree *t, const fw_multibody_model *m, int b, int other) {
+    int rows = 0;
+    for (int e = t->first[b]; e < t->first[b + 1]; e++) {
+        const fw_multibody_block *k = &m->block[t->item[e]];
+        if ((k->a == b ? k->b : k->a) != other) continue;
+        rows += k->rows == FW_ROWS_PIN || k->rows == FW_ROWS_SLIDE ? 2 : 1;
+    }
+    return rows;
+}
+
+/* of the bodies that stand and are joined to b the one that settles most of its pose, among equals
+   that of least depth; -1: none */
+static int choose_parent(const fw_assembly_tree *t, const fw_multibody_model *m, const int *place,
+                         const int *depth, int b) {
+    int parent = -1, most = 0;
+    for (int e = t->first[b]; e < t->first[b + 1]; e++) {
+        const fw_multibody_block *k = &m->block[t->item[e]];
+        int other = k->a == b ? k->b : k->a;
+        if (other < m->nbody && place[other] < 0) continue;
+        int rows = rows_between(t, m, b, other);
+        if (rows > most || (rows == most && depth[other] < depth[parent]))
+            parent = other, most = rows;
+    }
+    return parent;
+}
+
+/* inputs the blocks; outputs as in closure.h. Pieces that nothing holds start at their heaviest
+   body. Cost O(bodies (bodies + blocks)). Test: test_assemble.c (hard guesses). */
+static fw_status tree_new(fw_arena *arena, const fw_multibody_model *m, fw_assembly_tree *t) {
+    size_t n = (size_t)m->nbody;
+    int *place, *depth; /* in `order`; -1: not placed; the ground stands before all */
+    FW_NEED(t->order = fw_arena_array(arena, int, n));
+    FW_NEED(t->parent = fw_arena_array(arena, int, n + 1));
+    FW_NEED(t->stage = fw_arena_array(arena, int, (size_t)m->nblock));
+    FW_NEED(t->link = fw_arena_array(arena, bool, (size_t)m->nblock));
+    FW_NEED(place = fw_arena_array(arena, int, n + 1));
+    FW_NEED(depth = fw_arena_array(arena, int, n + 1));
+    FW_TRY(index_blocks(arena, m, t));
+    for (int b = 0; b <= m->nbody; b++)
+        place[b] = -1, t->parent[b] = -1;
+    for (int count = 0; count < m->nbody; count++) {
+        int b = next_body(t, m, place);
+        t->parent[b] = choose_parent(t, m, place, depth, b);
+        depth[b] = t->parent[b] < 0 ? 0 : depth[t->parent[b]] + 1;
+        place[b] = count;
+        t->order[count] = b;
+    }
+    for (int i = 0; i < m->nblock; i++) {
+        int a = m->body[2 * i], b = m->body[2 * i + 1];
+        t->stage[i] = place[a] > place[b] ? place[a] : place[b];
+        t->link[i] = t->parent[a] == b || t->parent[b] == a;
+    }
+    return FW_OK;
+}
+
+/* ---- placing ---- */
+
+static double angle_of(const fw_multibody_model *m, const double *u, int body) {
+    return body < m->nbody ? m->origin[3 * body + 2] + u[3 * body + 2] : 0;
+}
+
+static void point_of(const fw_multibody_model *m, const double *u, int body, const double *local,
+                     double p[2]) {
+    double angle = angle_of(m, u, body), c = cos(angle), s = sin(angle);
+    p[0] = m->origin[3 * body] + c * local[0] - s * local[1];
+    p[1] = m->origin[3 * body + 1] + s * local[0] + c * local[1];
+    if (body < m->nbody) p[0] += u[3 * body], p[1] += u[3 * body + 1];
+}
+
+static void shift(fw_assembly_closure *c, int body, double x, double y) {
+    c->u[3 * body] += x;
+    c->u[3 * body + 1] += y;
+}
+
+/* angle, by the first block that keeps one */
+static void turn_body(const fw_assembly_tree *t, fw_assembly_closure *c, int body, int parent) {
+    const fw_multibody_model *m = c->model;
+    for (int e = t->first[body]; e < t->first[body + 1]; e++) {
+        int i = t->item[e];
+        const fw_multibody_block *k = &m->block[i];
+        if ((k->a != parent && k->b != parent) ||
+            (k->rows != FW_ROWS_TURN && k->rows != FW_ROWS_SLIDE))
+            continue;
+        double other = parent < m->nbody ? c->u[3 * parent + 2] : 0;
+        c->u[3 * body + 2] = other + (k->b == body ? c->kept[i] : -c->kept[i]);
+        return;
+    }
+}
+
+/* moves the body so that block i closes; rods keep their direction */
+static void shift_body(fw_assembly_closure *c, int i, int body) {
+    const fw_multibody_model *m = c->model;
+    const fw_multibody_block *k = &m->block[i];
+    double a[2], b[2], sign = k->b == body ? 1 : -1;
+    point_of(m, c->u, k->a, m->local + 4 * i, a);
+    point_of(m, c->u, k->b, m->local + 4 * i + 2, b);
+    double dx = b[0] - a[0], dy = b[1] - a[1], turn = angle_of(m, c->u, k->a);
+    double ex = cos(turn) * k->cos_axis - sin(turn) * k->sin_axis;
+    double ey = sin(turn) * k->cos_axis + cos(turn) * k->sin_axis;
+    if (k->rows == FW_ROWS_PIN) {
+        shift(c, body, -sign * dx, -sign * dy);
+    } else if (k->rows == FW_ROWS_SLIDE) {
+        double off = ex * dy - ey * dx;
+        shift(c, body, sign * off * ey, -sign * off * ex);
+    } else if (k->rows == FW_ROWS_TRAVEL) {
+        double more = c->kept[i] - (ex * dx + ey * dy);
+        shift(c, body, sign * more * ex, sign * more * ey);
+    } else if (k->rows == FW_ROWS_ROD) {
+        double length = hypot(dx, dy);
+        if (!(length > 1e-9 * m->size)) { /* any direction, so that G is defined */
+            shift(c, body, sign * c->kept[i], 0);
+            return;
+        }
+        double more = sign * (c->kept[i] / length - 1);
+        shift(c, body, more * dx, more * dy);
+    }
+}
+
+static void place(const fw_assembly_tree *t, fw_assembly_closure *c, int body) {
+    const fw_multibody_model *m = c->model;
+    int parent = t->parent[body];
+    if (parent < 0) return;
+    turn_body(t, c, body, parent);
+    /* a pin says all about the position, a slide leaves the travel, a rod the direction */
+    static const fw_multibody_rows order[] = {FW_ROWS_ROD, FW_ROWS_SLIDE, FW_ROWS_TRAVEL,
+                                              FW_ROWS_PIN};
+    for (size_t r = 0; r < sizeof order / sizeof order[0]; r++)
+        for (int e = t->first[body]; e < t->first[body + 1]; e++) {
+            const fw_multibody_block *k = &m->block[t->item[e]];
+            if (k->rows == order[r] && (k->a == parent || k->b == parent))
+                shift_body(c, t->item[e], body);
+        }
+}
+
+/* ---- restarts ---- */
+
 enum { LOOP_TRIES = 40, WHOLE_TRIES = 6, LOOP_STEPS = 80, WHOLE_STEPS = 200 };
 
 /* splitmix64 of both arguments (Steele, Lea and Flood 2014): no state, so a start does not depend
@@ -19,7 +209,7 @@ double fw_assembly_spread(unsigned stream, unsigned index) {
 fw_status fw_assembly_restart_new(fw_arena *arena, const fw_multibody_model *m,
                                   fw_assembly_restart *r) {
     *r = (fw_assembly_restart){.value = (double)INFINITY};
-    FW_TRY(fw_assembly_tree_new(arena, m, &r->tree));
+    FW_TRY(tree_new(arena, m, &r->tree));
     FW_NEED(r->best = fw_arena_array(arena, double, (size_t)m->nq));
     FW_NEED(r->saved = fw_arena_array(arena, double, (size_t)m->nq));
     FW_NEED(r->wanted = fw_arena_array(arena, bool, (size_t)m->nblock));
@@ -37,7 +227,7 @@ static void mark_loop(fw_assembly_restart *r, const fw_multibody_model *m, int b
 
 static void place_all(fw_assembly_restart *r, fw_assembly_closure *c, int count) {
     for (int i = 0; i < count; i++)
-        fw_assembly_tree_place(&r->tree, c, r->tree.order[i]);
+        place(&r->tree, c, r->tree.order[i]);
 }
 
 /* blocks between the first `count` bodies */
@@ -85,7 +275,7 @@ static bool close_loop(fw_assembly_restart *r, fw_assembly_closure *c, int count
 static bool build_up(fw_assembly_restart *r, fw_assembly_closure *c, unsigned stream) {
     const fw_multibody_model *m = c->model;
     for (int count = 1; count <= m->nbody; count++) {
-        fw_assembly_tree_place(&r->tree, c, r->tree.order[count - 1]);
+        place(&r->tree, c, r->tree.order[count - 1]);
         memset(r->loop, 0, (size_t)m->nbody + 1);
         for (int i = 0; i < m->nblock; i++)
             if (r->wanted[i] && r->tree.stage[i] == count - 1) mark_loop(r, m, i);

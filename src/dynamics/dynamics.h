@@ -6,7 +6,7 @@
    and time. */
 #ifndef FW_DYNAMICS_DYNAMICS_H
 #define FW_DYNAMICS_DYNAMICS_H
-#include "multibody/multibody.h"
+#include "multibody/model.h"
 
 typedef struct fw_dynamics_instant { /* the mechanism at one time, on the dense output */
     double t_s;

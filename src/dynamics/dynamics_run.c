@@ -256,7 +256,8 @@ static bool turned_too_far(const fw_dynamics_problem *problem, const fw_dynamics
     return false;
 }
 
-/* one step; where an event or a kink wants it shorter it is made again, by the next call */
+/* one step; where an event or a contact force near zero wants it shorter the next call makes it
+   again */
 static fw_status advance(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_peaks *peaks,
                          double end) {
     fw_dynamics_controller *control = &r->control;

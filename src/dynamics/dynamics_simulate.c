@@ -2,7 +2,6 @@
 /* One scene: two runs (the answer, and a looser one that its error is estimated from),
    statistics. */
 #include "dynamics/run.h"
-#include "dynamics/tolerance_control.h"
 #include "multibody/system.h"
 #include <float.h>
 #include <math.h>

@@ -231,16 +231,6 @@ static void side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *
     memcpy(g, row, sizeof row);
 }
 
-void fw_multibody_transpose(const fw_multibody_model *m, const fw_multibody_pose *pose,
-                            const double *lambda, double *force) {
-    for (int i = 0; i < 2 * m->nblock; i++) {
-        double g[6];
-        if (m->body[i] == m->nbody) continue;
-        side_jacobian(m, pose, i / 2, i % 2, g);
-        add_transpose(g, lambda + 2 * (i / 2), 1, 1, force + 3 * m->body[i]);
-    }
-}
-
 /* ---- time derivatives ---- */
 
 void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose *pose, double *r) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coulomb friction of joints: what multibody_friction.c (the equations), friction_solve.c and
-   friction_box.c (the small system) and stick.c (who sticks) share. Scaled units. Private to
-   multibody/. Theory: docs/theory/effects/friction.md. */
+/* Coulomb friction of joints: what multibody_friction.c (the equations), friction_solve.c (the
+   small systems) and stick.c (who sticks) share. Scaled units. Private to multibody/. Theory:
+   docs/theory/effects/friction.md. */
 #ifndef FW_MULTIBODY_FRICTION_H
 #define FW_MULTIBODY_FRICTION_H
 #include "multibody/multibody_scratch.h"
@@ -71,7 +71,7 @@ double fw_multibody_friction_press(const struct fw_multibody_frictions *s, int i
 bool fw_multibody_friction_hold(struct fw_multibody_frictions *s, int count, const int *which);
 void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, const int *which,
                                    const double *right, double *x);
-/* friction_box.c: flags and torques of the entries at rest for the limits of the `press` that they
+/* flags and torques of the entries at rest for the limits of the `press` that they
    have; the others keep their torques */
 bool fw_multibody_friction_box(struct fw_multibody_frictions *s);
 double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_multibody_pose *pose,
@@ -79,6 +79,5 @@ double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_mu
 /* rows and, by them, rates of v */
 void fw_multibody_friction_rows(fw_multibody_system *sys, const fw_multibody_pose *pose,
                                 const double *v);
-void fw_multibody_friction_rates(fw_multibody_system *sys, const double *v);
 
 #endif

@@ -20,7 +20,9 @@
    row-major. */
 #ifndef FW_MULTIBODY_MODEL_H
 #define FW_MULTIBODY_MODEL_H
-#include "multibody/multibody.h"
+#include "base/diag.h"
+#include "effects/effects.h"
+#include "mechanism/mechanism.h"
 
 typedef struct fw_multibody_scale { /* one unit of the model in SI */
     double length_m, mass_kg, time_s;
@@ -191,16 +193,23 @@ fw_status fw_multibody_model_new(fw_arena *arena, const fw_mechanism *mechanism,
 /* multibody_check.c: what comes in from mechanism and scene; errors are reported */
 fw_status fw_multibody_check_motion(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                     fw_diags *diags);
-/* multibody_names.c: id of the joint or driver that a block belongs to */
+/* id of the joint or driver that a block belongs to */
 const char *fw_multibody_block_name(const fw_mechanism *mechanism, const fw_multibody_block *block);
 fw_place fw_multibody_block_place(const fw_mechanism *mechanism, const fw_multibody_block *block);
 
-/* topology.c: elimination order of blocks between bodies (2 n; `ground` does not couple):
+/* block_chain.c: elimination order of blocks between bodies (2 n; `ground` does not couple):
    order[k] = block */
 fw_status fw_multibody_topology_order(fw_arena *arena, int n, const int *body, int ground,
                                       int *order);
 
 static const double fw_epsilon = 1e-8; /* proximal term, relative to 1/m_a + 1/m_b of each pin */
+
+/* multibody_table.c */
+typedef struct fw_multibody_method_row { /* feeds --help and reference pages */
+    const char *name, *summary;
+} fw_multibody_method_row;
+/* the i-th method; name NULL behind the last */
+fw_multibody_method_row fw_multibody_method_at(size_t i);
 
 /* N of one scaled unit of force */
 static inline double fw_multibody_newton(const fw_multibody_model *m) {

@@ -70,7 +70,8 @@ void fw_multibody_dense_accelerate(fw_multibody_dense *d, const double *gamma, d
         a[j] = d->w[j] * d->root[j];
 }
 
-void fw_multibody_dense_correct(fw_multibody_dense *d, const double *r, double *correction) {
+/* d of least mass norm with G d = -r, one sweep: rows that cannot be met are left alone */
+static void correct(fw_multibody_dense *d, const double *r, double *correction) {
     memset(correction, 0, (size_t)d->n * sizeof *correction);
     if (d->rows == 0) return;
     for (int i = 0; i < d->rows; i++)
@@ -199,7 +200,7 @@ void fw_multibody_dense_model_correct(fw_multibody_system *sys, const fw_multibo
     fw_multibody_dense *d = sys->work->method;
     (void)pose;
     fw_multibody_pack(sys->model, r, d->gamma);
-    fw_multibody_dense_correct(d, d->gamma, correction);
+    correct(d, d->gamma, correction);
 }
 
 fw_status fw_multibody_dense_model_report(const fw_multibody_system *sys,

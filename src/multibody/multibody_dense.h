@@ -55,8 +55,6 @@ bool fw_multibody_dense_factor(fw_multibody_dense *d);
 /* G a = -gamma, M a + G^T lambda = M a_in; NaN where LAPACK gave up */
 void fw_multibody_dense_accelerate(fw_multibody_dense *d, const double *gamma, double *a,
                                    double *lambda);
-/* d of least mass norm with G d = -r, one sweep: rows that cannot be met are left alone */
-void fw_multibody_dense_correct(fw_multibody_dense *d, const double *r, double *correction);
 
 /* share of the constraint over s^2: sum_{j < sweeps} eps^j / (s^2 + eps)^(j + 1) */
 double fw_multibody_dense_share(double s_squared, int sweeps);

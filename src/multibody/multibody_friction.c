@@ -145,6 +145,11 @@ static void slide_row(fw_multibody_system *sys, const fw_multibody_pose *pose, i
                  wa * wa * (e[0] * d[0] + e[1] * d[1]);
 }
 
+static void rates(fw_multibody_system *sys, const double *v) {
+    for (int i = 0; i < sys->friction->n; i++)
+        sys->friction->rate[i] = along(sys, i, v);
+}
+
 void fw_multibody_friction_rows(fw_multibody_system *sys, const fw_multibody_pose *pose,
                                 const double *v) {
     struct fw_multibody_frictions *s = sys->friction;
@@ -158,7 +163,7 @@ void fw_multibody_friction_rows(fw_multibody_system *sys, const fw_multibody_pos
         memset(h, 0, 6 * sizeof *h);
         h[2] = -1, h[5] = 1;
     }
-    fw_multibody_friction_rates(sys, v);
+    rates(sys, v);
 }
 
 double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_multibody_pose *pose,
@@ -168,11 +173,6 @@ double fw_multibody_friction_coordinate(const fw_multibody_model *m, const fw_mu
     double d[2], e[2], n[2];
     fw_multibody_frame(m, pose, f->block, d, e, n);
     return e[0] * d[0] + e[1] * d[1];
-}
-
-void fw_multibody_friction_rates(fw_multibody_system *sys, const double *v) {
-    for (int i = 0; i < sys->friction->n; i++)
-        sys->friction->rate[i] = along(sys, i, v);
 }
 
 /* a_j, lambda_j: unit T_j between the bodies of entry j */
@@ -304,6 +304,6 @@ void fw_multibody_friction_settle(fw_multibody_system *sys, const fw_multibody_f
             for (int i = 0; i < nq; i++)
                 v[i] += s->start[e] * a[i];
         }
-        fw_multibody_friction_rates(sys, v);
+        rates(sys, v);
     }
 }

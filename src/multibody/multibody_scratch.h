@@ -36,9 +36,6 @@ typedef struct fw_multibody_scratch {
 
 /* ---- parts of a new model ---- */
 
-/* scale.c */
-void fw_multibody_scale_of(const fw_mechanism *mechanism, const fw_effects_loads *loads,
-                           double duration_s, fw_multibody_scale *scale);
 /* elements.c: centre: origin of the scaled coordinates, m */
 fw_status fw_multibody_elements_new(fw_arena *arena, fw_multibody_model *m,
                                     const fw_effects_loads *loads, fw_geometry_vec2 centre);
@@ -48,7 +45,7 @@ fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_effects_stretch *fr
 /* multibody_friction.c: joints with friction; after blocks */
 fw_status fw_multibody_friction_joints(fw_arena *arena, const fw_mechanism *mechanism,
                                        const fw_effects_loads *loads, fw_multibody_model *m);
-/* topology.c: the schedule of the elimination */
+/* block_chain.c: the schedule of the elimination */
 fw_status fw_multibody_chain_compile(fw_arena *arena, fw_multibody_model *model);
 
 /* ---- parts of a new system ---- */
@@ -78,10 +75,6 @@ double fw_multibody_element_pressing(const fw_multibody_system *sys, const fw_mu
 double fw_multibody_element_switch_value(const fw_multibody_system *sys,
                                          const fw_multibody_pose *pose,
                                          const fw_multibody_element *e, int i, const double *v);
-/* project.c: u onto Psi(u, t) = 0 from the factor made last, of a pose nearby; NULL: it does not
-   get there */
-const fw_multibody_pose *fw_multibody_project_position(fw_multibody_system *sys, double t,
-                                                       double *u);
 /* rhs.c: fw_multibody_rhs; false: there are no accelerations. energies: their rates are wanted */
 bool fw_multibody_evaluate(fw_multibody_system *sys, double t, const double *y, bool energies,
                            double *f);

@@ -46,8 +46,7 @@ static const fw_multibody_pose *close_by_method(fw_multibody_system *sys, double
    below 1e-13 of it and below the limit. NULL: |Psi| stays above 1e-12 scaled. Input and output u
    (3 nbody), scaled. Cost one to two solves. Source: coordinate projection in the mass metric, Eich
    1993. Test: test_simulate.c. */
-const fw_multibody_pose *fw_multibody_project_position(fw_multibody_system *sys, double t,
-                                                       double *u) {
+static const fw_multibody_pose *project_position(fw_multibody_system *sys, double t, double *u) {
     const fw_multibody_model *m = sys->model;
     const fw_multibody_pose *pose = NULL;
     double before = (double)INFINITY, norm = 0, *psi = sys->work->right;
@@ -78,7 +77,7 @@ const fw_multibody_pose *fw_multibody_project_position(fw_multibody_system *sys,
 const fw_multibody_pose *fw_multibody_close_position(fw_multibody_system *sys, double t,
                                                      double *u) {
     const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, u);
-    return fw_multibody_factorise(sys, pose) ? fw_multibody_project_position(sys, t, u) : NULL;
+    return fw_multibody_factorise(sys, pose) ? project_position(sys, t, u) : NULL;
 }
 
 bool fw_multibody_project_velocity(fw_multibody_system *sys, const fw_multibody_factor *factor,
@@ -141,7 +140,7 @@ bool fw_multibody_impact(fw_multibody_system *sys, const fw_multibody_factor *fa
 
 /* The correction v += M^-1 G^T lambda onto G v = -Psi_t is found with masses and inertias a million
    times smaller where nothing is stated, thrice, each time from the velocities that were, so that
-   what is stated and fits stays to 1e-18. Test: test_start.c. */
+   what is stated and fits stays to 1e-18. Test: test_hard_start.c. */
 bool fw_multibody_follow_stated(fw_multibody_system *sys, const fw_multibody_pose *pose,
                                 const bool *stated, const double *given, double *v, double *work) {
     fw_multibody_model light = *sys->model;
@@ -202,7 +201,7 @@ bool fw_multibody_project(void *system, double t, double *y, double *f) {
     if (sys->kernel) return project_plain(sys, y, f);
     double worst = record->worst_position, worst_velocity = record->worst_velocity;
     const fw_multibody_factor *factor =
-        close_velocity(sys, fw_multibody_project_position(sys, t, y), y + sys->model->nq);
+        close_velocity(sys, project_position(sys, t, y), y + sys->model->nq);
     if (!factor) { /* a rejected step does not count */
         record->worst_position = worst, record->worst_velocity = worst_velocity;
         return false;

@@ -9,7 +9,7 @@
    After an event, at the start, at borders of pieces and after blows all flags are decided
    together. Joints that move slip the way they go. Those at rest are first brought to rate 0
    exactly (least change in the mass metric). If all of them can hold they do. Else they are sorted
-   by a convex problem for the forces that press now (friction_box.c, which always has an answer),
+   by a convex problem for the forces that press now (friction_solve.c, which always has an answer),
    and what presses is found for that answer (friction_solve.c), in turns until both agree: a fixed
    point of N, plain at first, then by halves. It exists and is unique while N depends on T weakly
    enough (multibody_friction.c); where it is not found the run ends with FW-D244. A joint that can

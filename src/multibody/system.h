@@ -96,9 +96,6 @@ void fw_multibody_jacobian(const fw_multibody_model *m, const fw_multibody_pose 
 /* a -= M^-1 G^T lambda */
 void fw_multibody_apply(const fw_multibody_model *m, const fw_multibody_pose *pose,
                         const double *lambda, double *a);
-/* force += G^T lambda */
-void fw_multibody_transpose(const fw_multibody_model *m, const fw_multibody_pose *pose,
-                            const double *lambda, double *force);
 /* r = Psi_t */
 void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose *pose, double *r);
 /* r = G' v + Psi_tt, so that G a = -r; gamma of the text books is -r */
@@ -181,7 +178,7 @@ bool fw_multibody_project_velocity(fw_multibody_system *sys, const fw_multibody_
 /* likewise by the least change in the mass metric: velocities behind a blow */
 bool fw_multibody_impact(fw_multibody_system *sys, const fw_multibody_factor *factor, double *v);
 
-/* ---- at a state: rhs.c, project.c, energy.c, multibody_events.c ---- */
+/* ---- at a state: rhs.c, project.c, forces.c, multibody_events.c ---- */
 
 /* f = y' (ny) as fw_maths_ode wants it; accelerations are NaN where there are none */
 void fw_multibody_rhs(void *system, double t, const double *y, double *f);
@@ -224,7 +221,7 @@ const fw_multibody_pose *fw_multibody_set_switches(fw_multibody_system *sys, dou
 /* one flag; energy that is let go counts as dissipated in y */
 void fw_multibody_flip(fw_multibody_system *sys, double t, int i, double *y);
 
-/* reactions.c: forces of a solution in SI. Pins (2 npin): on body b, world axes. Joints (3 njoint):
+/* rhs.c: forces of a solution in SI. Pins (2 npin): on body b, world axes. Joints (3 njoint):
    force on body b, torque on it about its point b. Drivers (ndriver): N or N m along the driven
    coordinate */
 void fw_multibody_pin_forces(const fw_multibody_model *m, const fw_multibody_solution *found,

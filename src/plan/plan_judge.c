@@ -2,7 +2,6 @@
 #include "assembly/assembly.h"
 #include "plan/stages.h"
 #include "process/process.h"
-#include "statics/stability.h"
 #include "statics/quasi.h"
 #include <math.h>
 #include <string.h>

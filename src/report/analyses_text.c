@@ -3,7 +3,7 @@
 #include "base/constants.h"
 #include "report/report.h"
 #include "report/report_page.h"
-#include "statics/pull_in.h"
+#include "statics/statics.h"
 #include <math.h>
 
 static double degrees(double rad) {

@@ -7,7 +7,7 @@
 #include "dynamics/dynamics.h"
 #include "report/preview.h"
 #include "statics/level.h"
-#include "statics/pull_in.h"
+#include "statics/statics.h"
 
 /* [a, b] */
 void fw_report_json_pair(fw_json *json, const char *key, double a, double b);

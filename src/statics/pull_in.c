@@ -11,7 +11,7 @@
    a mechanism as statics takes it. Valid where the capacitance's formula is; a path that leaves it
    says so. Cost: about 100 to 500 evaluations (30 n^3). Source: J. A. Pelesko and D. H. Bernstein,
    Modeling MEMS and NEMS 2002, ch. 7; Keller 1977. Test: test_pull_in.c. */
-#include "statics/pull_in.h"
+#include "statics/statics.h"
 #include "effects/effects.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
@@ -333,7 +333,9 @@ double fw_statics_pull_in_margin(const fw_statics_pull_in *p) {
     return sqrt(1 + p->fringe);
 }
 
-bool fw_statics_pull_in_dynamic(const fw_statics_pull_in *p) {
+/* the static voltage lies above the scene's: electrodes that touch all the same were thrown there
+   (dynamic pull-in) */
+static bool dynamic(const fw_statics_pull_in *p) {
     return p->margin >= 1;
 }
 
@@ -342,7 +344,7 @@ const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in
     fw_number_text(at, sizeof at, p->voltage_V, 4);
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     bool none = p->kind == FW_PULL_IN_NONE;
-    if (!fw_statics_pull_in_dynamic(p))
+    if (!dynamic(p))
         return fw_arena_printf(arena,
                                "static pull-in of comb drive %s %s %s V, below the %s V of the "
                                "scene",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "statics/reduced.h"
+#include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

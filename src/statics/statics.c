@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/statics.h"
 #include "statics/level.h"
-#include "statics/pull_in.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>

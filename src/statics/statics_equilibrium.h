@@ -3,8 +3,45 @@
    units. Private to statics/. */
 #ifndef FW_STATICS_STATICS_EQUILIBRIUM_H
 #define FW_STATICS_STATICS_EQUILIBRIUM_H
-#include "statics/reduced.h"
+#include "multibody/system.h"
+#include "maths/dense.h"
 #include "statics/modes.h"
+
+/* ---- reduced.c ---- */
+
+/* Motions that the joints allow, and the stiffness against them: the null space of G and the
+   symmetric pencil (K, M) in it. Scaled units. Private to statics/. */
+
+typedef struct fw_statics_reduced {
+    int n, rows, rank, dof;        /* n = 3 nbody; dof = n - rank */
+    double largest, kept, dropped; /* singular values of balanced G M^-1/2: the largest, the
+                                      smallest that counts, the largest that does not (0: none) */
+    double *shape; /* (dof x n) modes: shape M shape^T = 1, shape K shape^T = value */
+    double *value; /* (dof) ascending, 1/time^2 */
+    double *zero;  /* (dof) |value| up to this is no more than round-off */
+    double *root;  /* (n) M^-1/2 */
+    double *left;  /* (rows x min(rows, n)) column-major, singular vectors */
+    double *right; /* (n x n) row-major: right singular vectors, those of the null space last */
+    double *balance, *g, *a, *sigma, *small, *work;
+    fw_maths_lapack_space svd, eigen;
+} fw_statics_reduced;
+
+fw_status fw_statics_reduced_new(fw_arena *arena, const fw_multibody_model *m,
+                                 fw_statics_reduced *r);
+/* null space of G; FW_SOLVER: not finite */
+fw_status fw_statics_reduced_null(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                  fw_statics_reduced *r);
+/* modes of K (n x n) in it, after fw_statics_reduced_null */
+fw_status fw_statics_reduced_spectrum(fw_statics_reduced *r, const double *stiffness);
+/* lambda (2 nblock) with G^T lambda as close to the force (n) as it gets in the mass metric; of all
+   such, the one of least norm */
+void fw_statics_reduced_multipliers(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                    const double *force, double *lambda);
+/* d (n) of least mass norm with G d = -psi (2 nblock) */
+void fw_statics_reduced_correct(const fw_multibody_model *m, const fw_statics_reduced *r,
+                                const double *psi, double *d);
+
+/* ---- statics_equilibrium.c ---- */
 
 /* dense matrices of 3 nbody unknowns: more would take minutes */
 enum { FW_STATICS_MOST = 1200 };
@@ -52,7 +89,7 @@ typedef struct fw_statics_equilibrium {
     const fw_effects_force_element *invalid; /* its formula does not hold at the pose closed last */
     const char *why;
     double *away, *pull; /* (ny) (n) work of the potential of driven elements */
-    /* in time (in_time.c): laws are taken at t, scaled; `slope`, `follow` and `push` are then
+    /* in time: laws are taken at t, scaled; `slope`, `follow` and `push` are then
        derivatives by it */
     double t;
     const fw_effects_timed_load *timed; /* (ntimed) load[first_timed + i] is what i pushes with */
@@ -82,21 +119,19 @@ fw_status fw_statics_equilibrium_again(const fw_statics_equilibrium *w,
                                        const fw_effects_loads *loads,
                                        fw_statics_equilibrium *other);
 void fw_statics_equilibrium_factor(fw_statics_equilibrium *w, double s);
-/* in_time.c: a model of the scene whose loads and drivers follow their laws, and these at one time;
+/* a model of the scene whose loads and drivers follow their laws, and these at one time;
    piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */
 fw_status fw_statics_equilibrium_in_time(fw_statics_equilibrium *w, const fw_effects_loads *loads);
 void fw_statics_equilibrium_at(fw_statics_equilibrium *w, double t_s, double piece_s);
 /* du/dt (n) along the equilibria, at an evaluated one, per scaled time */
 void fw_statics_equilibrium_rate(const fw_statics_equilibrium *w, double *rate);
-/* assembled pose, model and memory for both */
-fw_status fw_statics_equilibrium_build(fw_statics_equilibrium *w, const fw_effects_loads *loads);
 /* u onto the constraints at the present s, the switches set; the pose there. NULL: it does not
    close, or an element does not hold */
 const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w, double *u);
 /* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
    terms' sizes */
 double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size);
-/* potential.c: the part of driven elements; leaves the switches of u */
+/* settle.c: the part of driven elements; leaves the switches of u */
 double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size);
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
@@ -132,5 +167,14 @@ int fw_statics_equilibrium_mover(const fw_statics_equilibrium *w, const double *
 /* 1/s^2 per scaled eigenvalue */
 double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w);
 const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
+
+/* ---- tangent.c ---- */
+
+/* Exact derivatives of the equations of motion, dense, in scaled units. Private to statics/. */
+
+/* At a pose, with velocities v and multipliers lambda (2 nblock, the model's order):
+     stiffness (nq x nq) = d(G^T lambda)/du - dQ/du,   damping (nq x nq, may be NULL) = -dQ/dv. */
+void fw_statics_tangent(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                        const double *v, const double *lambda, double *stiffness, double *damping);
 
 #endif

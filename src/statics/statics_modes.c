@@ -3,7 +3,6 @@
 #include "base/constants.h"
 #include "statics/modes.h"
 #include "statics/statics_equilibrium.h"
-#include "statics/tangent.h"
 #include "maths/dense.h"
 #include <float.h>
 #include <math.h>

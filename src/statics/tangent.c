@@ -15,7 +15,7 @@
    r_x) and dp/dphi = -r. Error: round-off. Cost: a constant per element, and nq^2 zeros. Source:
    direct differentiation; geometric stiffness as in Geradin and Cardona 2001, ch. 9. Test:
    test_tangent.c. */
-#include "statics/tangent.h"
+#include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #define FW_VERDICT_VERDICT_H
 #include "dynamics/dynamics.h"
 #include "statics/level.h"
-#include "statics/pull_in.h"
+#include "statics/statics.h"
 #include "verdict/verdict_fabrication.h"
 #include "workspace/workspace.h"
 

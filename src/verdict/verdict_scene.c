@@ -8,7 +8,6 @@
        inconclusive.
    Test: test_program.py. */
 #include "verdict/verdict_parts.h"
-#include "statics/stability.h"
 #include "statics/quasi.h"
 #include <math.h>
 

@@ -33,4 +33,14 @@ static inline fw_multibody_system *rig_system_with(fw_arena *arena, const fw_mec
     return rig_system_of(arena, m, rig_model_with(arena, m, loads, duration_s, method));
 }
 
+/* force += G^T lambda, from M^-1 G^T lambda */
+static inline void rig_transpose(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                                 const double *lambda, double *force) {
+    double a[512] = {0};
+    assert_true(m->nq <= 512);
+    fw_multibody_apply(m, pose, lambda, a);
+    for (int i = 0; i < m->nq; i++)
+        force[i] -= (i % 3 == 2 ? m->inertia : m->mass)[i / 3] * a[i];
+}
+
 #endif

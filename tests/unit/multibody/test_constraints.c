@@ -167,7 +167,7 @@ static void test_constraint_derivatives(void **state) {
     }
 }
 
-/* S v by the chain's blocks equals G M^-1 G^T v; G^T by fw_multibody_transpose and by the
+/* S v by the chain's blocks equals G M^-1 G^T v; G^T by rig_transpose and by the
    dense G */
 static void test_products(void **state) {
     (void)state;
@@ -183,7 +183,7 @@ static void test_products(void **state) {
         for (int i = 0; i < m->rows; i++)
             rows[i] = about(&z, 1);
         fw_multibody_unpack(m, rows, l);
-        fw_multibody_transpose(m, pose, l, f);
+        rig_transpose(m, pose, l, f);
         fw_multibody_apply(m, pose, l, a);
         fw_multibody_dense_jacobian(m, pose, g);
         for (int c = 0; c < m->nq; c++) {

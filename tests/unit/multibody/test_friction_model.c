@@ -97,7 +97,7 @@ static void check_motion(fw_multibody_system *sys, const double *y, const double
         torque[i] = s->torque[i];
     const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
     const fw_multibody_solution *found = fw_multibody_forces(sys, pose, y + m->nq);
-    fw_multibody_transpose(m, pose, found->lambda, force);
+    rig_transpose(m, pose, found->lambda, force);
     for (int c = 0; c < m->nq; c++) {
         double mass = c % 3 == 2 ? m->inertia[c / 3] : m->mass[c / 3];
         w[c] = rig_random(seed) - 0.5;

@@ -168,7 +168,7 @@ static void equations_are_solved(void **state) {
             assert_near(rows[i], -gamma[i], 1e-13 * (1 + largest));
             pull = fmax(pull, fabs(lambda[i]));
         }
-        fw_multibody_transpose(m, pose, lambda, force);
+        rig_transpose(m, pose, lambda, force);
         for (int j = 0; j < m->nq; j++) {
             double mass = 1 / (j % 3 == 2 ? m->jinv[j / 3] : m->minv[j / 3]);
             assert_near(force[j], mass * (a0[j] - a[j]), 1e-12 * (1 + pull + mass * largest));

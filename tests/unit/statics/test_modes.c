@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "statics/modes.h"
 #include "statics/statics_equilibrium.h"
-#include "statics/tangent.h"
 #include "rest_rigs.h"
 #include <float.h>
 

@@ -2,9 +2,8 @@
 /* Motions that stay on an unstable equilibrium: rates, growth, bearable load and the equilibrium
    behind in closed form; what falls, swings or ends in time is not reported. */
 #include "quantity/law_kind.h"
-#include "statics/stability.h"
-#include "rest_rigs.h"
 #include "statics/quasi.h"
+#include "rest_rigs.h"
 
 static const fw_dynamics_motion *move(fixture *f, const rig *r, int samples) {
     const fw_dynamics_motion_options o = {.samples = samples, .effects = {.mode = FW_EFFECTS_ALL}};

@@ -3,7 +3,7 @@
 #include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "effects/effects.h"
-#include "statics/pull_in.h"
+#include "statics/statics.h"
 
 static const double eps0 = 8.8541878128e-12;
 static const fw_effect_choice all = {.mode = FW_EFFECTS_ALL};

@@ -6,7 +6,6 @@
 #include "dynamics/element_rigs.h"
 #include "multibody/systems.h"
 #include "statics/statics_equilibrium.h"
-#include "statics/tangent.h"
 
 static const fw_statics *solve(fixture *f, const rig *r, const fw_effects_loads *t, bool path) {
     fw_statics_equilibrium *w = fw_arena_one(f->arena, fw_statics_equilibrium);
@@ -29,7 +28,7 @@ static void balance(fw_multibody_system *sys, const double *y, const double *lam
     const double *accel = fw_multibody_forces(sys, pose, y + m->nq)->accel;
     for (int i = 0; i < m->nq; i++)
         f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * accel[i];
-    fw_multibody_transpose(m, pose, lambda, f);
+    rig_transpose(m, pose, lambda, f);
 }
 
 static void tangent_is_the_derivative(void **state) {

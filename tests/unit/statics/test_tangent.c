@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tangent is the derivative of G^T lambda - Q, which other files compute. */
 #include "quantity/law_kind.h"
-#include "statics/tangent.h"
+#include "statics/statics_equilibrium.h"
 #include "multibody/systems.h"
 
 enum { BODIES = 5, N = 3 * BODIES };
@@ -123,7 +123,7 @@ static void balance(fw_multibody_system *sys, double t, const double *y, const d
     const double *accel = fw_multibody_forces(sys, pose, y + N)->accel;
     for (int i = 0; i < N; i++)
         f[i] = -(i % 3 == 2 ? m->inertia[i / 3] : m->mass[i / 3]) * accel[i];
-    fw_multibody_transpose(m, pose, lambda, f);
+    rig_transpose(m, pose, lambda, f);
 }
 
 /* largest difference between column j of the tangent and the difference quotient of order 6 */
