@@ -2,6 +2,7 @@
 /* What joins bodies beside hinges, and what drives them. Points are in the bodies' axes; of the
    ground, of the file. */
 #include "base/json.h"
+#include "effects/effects.h"
 #include "mechanism/mechanism.h"
 #include "report/report_page.h"
 #include "report/json_parts.h"
@@ -142,19 +143,57 @@ static void comb(const fw_report_preview *in, const fw_device_comb *c, fw_json *
     end(out, c->law);
 }
 
-static void loads(const fw_report_preview *in, fw_json *out) {
-    const fw_device_scene *s = in->scene;
-    fw_json_list(out, "loads");
-    for (int i = 0; s && i < s->nforce; i++)
-        force(&s->force[i], out);
-    for (int i = 0; s && i < s->ntorque; i++)
-        torque(&s->torque[i], out);
-    for (int i = 0; s && i < s->ntendon; i++) {
-        if (i || s->nforce || s->ntorque) fw_json_line(out, 0);
-        tendon(&s->tendon[i], out);
+static void applied(const fw_report_preview *in, fw_json *out) {
+    for (int i = 0; i < in->scene->nforce; i++)
+        force(&in->scene->force[i], out);
+    for (int i = 0; i < in->scene->ntorque; i++)
+        torque(&in->scene->torque[i], out);
+}
+
+static void tendons(const fw_report_preview *in, fw_json *out) {
+    for (int i = 0; i < in->scene->ntendon; i++) {
+        if (i || in->scene->nforce || in->scene->ntorque) fw_json_line(out, 0);
+        tendon(&in->scene->tendon[i], out);
     }
-    for (int i = 0; s && i < s->ncomb; i++)
-        comb(in, &s->comb[i], out);
+}
+
+static void combs(const fw_report_preview *in, fw_json *out) {
+    for (int i = 0; i < in->scene->ncomb; i++)
+        comb(in, &in->scene->comb[i], out);
+}
+
+/* The effects whose loads are drawn, in the order of "loads" and "load_factor"; those of all other
+   effects are named. */
+static const struct {
+    const char *effect;
+    void (*loads)(const fw_report_preview *in, fw_json *out);
+} drawn[] = {{"applied-load", applied}, {"tendon", tendons}, {"comb-drive", combs}};
+
+static bool is_drawn(const char *effect) {
+    for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++)
+        if (strcmp(drawn[i].effect, effect) == 0) return true;
+    return false;
+}
+
+static void loads(const fw_report_preview *in, fw_json *out) {
+    fw_json_list(out, "loads");
+    for (size_t i = 0; in->scene && i < sizeof drawn / sizeof drawn[0]; i++)
+        drawn[i].loads(in, out);
+    fw_json_end(out);
+}
+
+/* loads that the rows of other effects find in the scene, by the names that the rows give them */
+static void loads_not_drawn(const fw_report_preview *in, fw_json *out) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    fw_json_list(out, "not_drawn");
+    for (size_t i = 0; in->scene && i < count; i++) {
+        fw_effects_load_scaling found = {.count = 0};
+        if (!row[i]->loads || is_drawn(row[i]->id)) continue;
+        row[i]->loads(in->scene, &found);
+        for (int k = 0; k < found.count; k++)
+            fw_json_text(out, NULL, found.item[k].name);
+    }
     fw_json_end(out);
 }
 
@@ -164,6 +203,7 @@ void fw_report_preview_attached(const fw_report_preview *in, fw_json *out) {
     springs(in->mechanism, out);
     fw_json_line(out, 0);
     loads(in, out);
+    loads_not_drawn(in, out);
 }
 
 /* ---- how much of a load acts when ---- */

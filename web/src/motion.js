@@ -135,6 +135,8 @@ export class Motion {
         const stats = m.stats ?? {};
         const facts = [m.method, m.integrator, state.preview.hinge_model ? `hinges: ${state.preview.hinge_model}` : null, m.rtol ? `rtol ${number(m.rtol, 2)}` : null, `${number(stats.steps, 6)} steps`, `${number(stats.rhs, 6)} evaluations`,
             stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null];
+        const hidden = notDrawn(state.preview);
+        if (hidden.length) facts.push(`not drawn: ${hidden.join(", ")}`);
         this.stats.textContent = facts.filter(Boolean).join(" · ");
         this.stats.title = [m.reason, state.preview.hinge_model_why].filter(Boolean).join("; ");
     }
@@ -273,6 +275,9 @@ function loadsOf(p) {
     const most = (x) => Math.max(...list.filter((y) => y.kind === x.kind).map(size[x.kind]));
     return list.filter((x) => size[x.kind]?.(x) > 0).map((x) => ({ index: x.index, relative: size[x.kind](x) / most(x), ...arrows[x.kind](p, x) }));
 }
+
+/** Names of the scene's loads that no arrow stands for: those of effects without a picture, and kinds that are new to this page. */
+const notDrawn = (p) => [...(p.not_drawn ?? []), ...new Set((p.loads ?? []).map((x) => x.kind).filter((kind) => !arrows[kind]))];
 
 const lawOf = (x) => (x.law && x.law !== "step" ? `, ${x.law}` : "");
 const bodyOf = (p, i) => p.bodies[i]?.id ?? "ground";

@@ -169,12 +169,28 @@ static void electrodes_say_what_they_are(void **state) {
     json_decref(p);
 }
 
+/* what no picture shows is named, as the effect's own row calls it */
+static void loads_without_a_picture_are_named(void **state) {
+    (void)state;
+    json_t *shaken = ask_file(live, fw_plan_live_preview, "tests/data/effects/shaken.xml",
+                              "\"options\":{\"accuracy\":0.1}");
+    assert_int_equal(json_array_size(at(shaken, "not_drawn")), 1);
+    assert_string_equal(json_string_value(json_array_get(at(shaken, "not_drawn"), 0)),
+                        "base motion");
+    json_decref(shaken);
+    json_t *pulled =
+        ask_file(live, fw_plan_live_preview, TENDONS, "\"options\":{\"accuracy\":0.1}");
+    assert_int_equal(json_array_size(at(pulled, "not_drawn")), 0);
+    json_decref(pulled);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(factors_are_those_of_the_laws),
         cmocka_unit_test(tensions_are_those_of_the_motion),
         cmocka_unit_test(the_picture_holds_what_is_attached),
         cmocka_unit_test(electrodes_say_what_they_are),
+        cmocka_unit_test(loads_without_a_picture_are_named),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
