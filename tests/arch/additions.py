@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A row is enough: a time law, an effect, a mask format, a design rule, a test pattern and a coupon that the program does
-not have (tests/arch/additions/*.patch, each of one new file and one line in a list) are added to a copy of the sources, and everything that should know of them
-is asked: simulate, the advice of check, hinge --deck, the report, --help, the reference page and the page's form.
+"""A row is enough: a time law, an effect, a mask format, a design rule, a test pattern, a coupon, a command and an
+endpoint that the program does not have (tests/arch/additions/*.patch, each of one new file and one line in a list; an
+endpoint is a function beside its row) are added to a copy of the sources, and everything that should know of them is
+asked: simulate, the advice of check, hinge --deck, the report, --help, the reference page and the page's form.
 
     additions.py BUILD
 
@@ -19,6 +20,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/serve"))
+import client  # noqa: E402
 PATCHES = sorted((ROOT / "tests/arch/additions").glob("*.patch"))
 
 
@@ -40,8 +43,9 @@ class Copy:
         for patch in PATCHES:
             touched = [line[6:] for line in patch.read_text().splitlines() if line.startswith("+++ b/")]
             new = [name for name in touched if not (ROOT / name).exists()]
-            assert len(new) == 1, f"{patch.name} adds {len(new)} files; one is enough"
-            assert len(touched) == 2, f"{patch.name} changes {touched}"
+            files = 0 if patch.stem == "endpoint" else 1  # whose function stands beside its row
+            assert len(new) == files, f"{patch.name} adds {len(new)} files; {files} is enough"
+            assert len(touched) == files + 1, f"{patch.name} changes {touched}"
             call(["git", "apply", "--recount", "-C1", patch], cwd=at)
             self.added += new
             self.changed += [name for name in touched if name not in new]
@@ -101,7 +105,8 @@ class Copy:
         words[at + 1] = str(program)
         for w in own:
             words[words.index(w)] = str(first) if first else w
-        words[at:at] = map(str, self.objects)
+        # of rooms that the program is linked from: another one would ask for rooms above them
+        words[at:at] = [str(o) for o in self.objects if f"libfw_{o.name.split('-')[1]}.a" in command]
         call(["sh", "-c", " ".join(words)], cwd=self.build)
         return program
 
@@ -165,6 +170,20 @@ def check(copy):
     assert vertices.count("\n") > 100, vertices
     pages.append("the masks")
     expect("--help", run("plan", "--help"), "points")
+    assert run("greet", "world") == "hello world\n"
+    expect("the list of commands", run("--help"), "greet     a greeting on standard output")
+    expect("the help of the command", run("greet", "--help"), "Prints a greeting", "flexwright greet world")
+    said = subprocess.run([program, "gret"], capture_output=True, text=True)
+    expect("the command that was meant", said.stderr, "did you mean greet?")
+
+    # the server: the new address answers who may ask, and nobody else
+    with client.Server(str(program), str(at)) as server:
+        assert server.ask("GET", "/api/greeting")[0] == 401
+        server.enter()
+        status, _, body = server.ask("GET", "/api/greeting")
+        assert (status, json.loads(body)) == (200, {"hello": "you"}), (status, body)
+        assert server.ask("POST", "/api/greeting", {})[0] == 405
+    pages.append("the server")
 
     # the reference page, its schema, and what the page makes its form of
     source = at / "tests/arch/additions/pages.c"
