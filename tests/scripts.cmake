@@ -55,11 +55,10 @@ fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/p
 fw_script_test(docs.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/names.py)
 fw_script_test(docs.theory LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(build.clang COMMAND tests/build/clang.sh TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(build.threads COMMAND tests/build/threads.sh TIMEOUT 900)
 fw_script_test(build.bytes COMMAND ${Python3_EXECUTABLE} tests/build/bytes.py ${FW_PROGRAM} TIMEOUT 900)
-set_tests_properties(build.bytes PROPERTIES DEPENDS "build.clang;build.sanitized") # uses what they build
+set_tests_properties(build.bytes PROPERTIES DEPENDS build.sanitized) # uses what they build
 fw_script_test(effects.costs COMMAND ${Python3_EXECUTABLE} tests/build/effects.py costs $<TARGET_FILE:effect_cost>)
 fw_script_test(effects.absent COMMAND ${Python3_EXECUTABLE} tests/build/effects.py absent
                ${PROJECT_BINARY_DIR} TIMEOUT 600)
@@ -75,7 +74,7 @@ fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/r
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.clang build.sanitized build.threads build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
+set_tests_properties(build.sanitized build.threads build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 
 include(serve/serve.cmake)
 include(web/web.cmake)

@@ -1,11 +1,12 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Unit tests, and the whole program on the gallery, under AddressSanitizer and
-# UndefinedBehaviorSanitizer without recovery.
+# The second compiler, clang, has no warning about any source either. What it builds runs under
+# AddressSanitizer and UndefinedBehaviorSanitizer without recovery: the unit tests, and the whole
+# program on the gallery.
 set -eu
 cd "$(dirname "$0")/../.."
 . tools/setup.sh
-configure_and_build build-asan -DFW_SANITIZE=ON -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1"
+configure_and_build build-asan -DCMAKE_C_COMPILER=clang -DFW_SANITIZE=ON -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG="-g1 -O1"
 ctest --test-dir build-asan -L quick --output-on-failure -j 2
 FW_TEST_QUICK=1 FW_BOUNDS_COUNT=40 ctest --test-dir build-asan -L hard -LE quick -E valgrind --output-on-failure -j 2
 out=$(mktemp -d)
