@@ -18,7 +18,6 @@ ALLOWED = {  # header prefix -> rooms that may include it
     "zlib": {"mask"},
     "microhttpd": {"serve"},
     "zip.h": {"serve"},
-    "geos_c": {"geometry"},
     "jansson": {"base", "plan", "serve", "cli"},  # readers: what is written goes through base/json.h
 }
 MOST_LINES = 600
