@@ -65,18 +65,19 @@ enum { NATTRIBUTE = sizeof attributes / sizeof attributes[0] };
 
 static const fw_mask_rule_kind_row *kind_named(fw_xml_reader *r, const fw_xml_element *e) {
     const fw_xml_attribute *a = fw_xml_attribute_of(e, "kind");
-    const char *names[32];
-    size_t n = 0;
     if (!a) {
         fw_diag_error(r->diags, 135, e->place,
                       "<rule> needs kind=\"...\", which says what is looked at");
         return NULL;
     }
     const fw_mask_rule_kind_row *row;
-    for (size_t i = 0; (row = fw_mask_rule_kind_at(i)); i++) {
-        if (row->built_in) continue;
-        if (strcmp(row->name, a->value) == 0) return row;
-        names[n++] = row->name;
+    size_t rows = 0, n = 0;
+    for (; (row = fw_mask_rule_kind_at(rows)); rows++)
+        if (!row->built_in && strcmp(row->name, a->value) == 0) return row;
+    const char **names = fw_arena_array(r->arena, const char *, rows);
+    for (size_t i = 0; names && i < rows; i++) {
+        row = fw_mask_rule_kind_at(i);
+        if (!row->built_in) names[n++] = row->name;
     }
     fw_text known = fw_text_new(r->arena);
     for (size_t i = 0; i < n; i++)

@@ -97,7 +97,7 @@ static void the_pose_alone(void **state) {
         e->class_->force(e, &s, f[i]);
     }
     for (int i = 0; i < 200; i++) {
-        int at = (int)(((unsigned)(random_(&seed) * POSES / 2) + POSES / 2) % POSES);
+        int at = ((int)(random_(&seed) * POSES / 2) + POSES / 2) % POSES;
         const fw_effects_port_state s = {.load = 1, .p = p[at], .w = w};
         if (i % 3 == 0) e->class_->tangent(e, &s, k, c);
         if (i % 5 == 0) (void)e->class_->energy(e, &s);
