@@ -29,8 +29,8 @@ void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *mechanism,
 void fw_report_preview_um(fw_json *out, const char *key, double metres);
 void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m); /* [x, y] */
 void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b); /* -1: the ground */
-/* what else joins bodies and what drives them: "ties", "springs", "loads", and "not_drawn", the names
-   of loads that effects find in the scene and no picture shows */
+/* what else joins bodies and what drives them: "ties", "springs", "loads", and "not_drawn", the
+   names of loads that effects find in the scene and no picture shows */
 void fw_report_preview_attached(const fw_report_preview *in, fw_json *out);
 /* "load_factor": of every load, in their order, its time law at the motion's instants */
 void fw_report_preview_factors(const fw_device_scene *scene, const fw_dynamics_motion *motion,
