@@ -33,14 +33,21 @@ static void kept(const fw_multibody_system *sys, int block, double t, double f[3
     f[2] = law[2] / b->unit * unit * unit;
 }
 
-void fw_multibody_frame(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
-                        double d[2], double e[2], double n[2]) {
+/* d of block i */
+static void point_to_point(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                           double d[2]) {
     const fw_multibody_block *b = &m->block[i];
     const double *r = pose->arm + 4 * i, *u = pose->u;
     d[0] = r[2] - r[0] - pose->offset[2 * i];
     d[1] = r[3] - r[1] - pose->offset[2 * i + 1];
     if (b->a < m->nbody) d[0] -= u[3 * b->a], d[1] -= u[3 * b->a + 1];
     if (b->b < m->nbody) d[0] += u[3 * b->b], d[1] += u[3 * b->b + 1];
+}
+
+void fw_multibody_frame(const fw_multibody_model *m, const fw_multibody_pose *pose, int i,
+                        double d[2], double e[2], double n[2]) {
+    const fw_multibody_block *b = &m->block[i];
+    point_to_point(m, pose, i, d);
     double c = pose->cosine[b->a], s = pose->sine[b->a];
     e[0] = c * b->cos_axis - s * b->sin_axis;
     e[1] = s * b->cos_axis + c * b->sin_axis;
@@ -125,9 +132,10 @@ static void block_residual(const fw_multibody_system *sys, const fw_multibody_po
     const fw_multibody_model *m = sys->model;
     const fw_multibody_block *b = &m->block[i];
     double d[2], e[2], n[2], f[3];
-    fw_multibody_frame(m, pose, i, d, e, n);
+    point_to_point(m, pose, i, d);
     psi[0] = -d[0], psi[1] = -d[1];
-    if (b->rows == FW_ROWS_PIN) return;
+    if (b->rows == FW_ROWS_PIN) return; /* needs no axis */
+    fw_multibody_frame(m, pose, i, d, e, n);
     kept(sys, i, pose->t, f);
     psi[1] = 0;
     switch (b->rows) {
@@ -167,16 +175,24 @@ static const double *of(const fw_multibody_model *m, const double *v, int body) 
     return body < m->nbody ? v + 3 * body : still;
 }
 
-void fw_multibody_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose,
-                           const double *v, double *r) {
+static void jacobian_of_pins(const fw_multibody_model *m, const double *arm, const double *v,
+                             double *r) {
     for (int i = 0; i < m->nblock; i++) {
         const double *p = of(m, v, m->body[2 * i]), *q = of(m, v, m->body[2 * i + 1]);
-        if (m->plain) {
-            const double *s = pose->arm + 4 * i;
-            r[2 * i] = p[0] - p[2] * s[1] - q[0] + q[2] * s[3];
-            r[2 * i + 1] = p[1] + p[2] * s[0] - q[1] - q[2] * s[2];
-            continue;
-        }
+        const double *s = arm + 4 * i;
+        r[2 * i] = p[0] - p[2] * s[1] - q[0] + q[2] * s[3];
+        r[2 * i + 1] = p[1] + p[2] * s[0] - q[1] - q[2] * s[2];
+    }
+}
+
+void fw_multibody_jacobian(const fw_multibody_model *m, const fw_multibody_pose *pose,
+                           const double *v, double *r) {
+    if (m->plain) {
+        jacobian_of_pins(m, pose->arm, v, r);
+        return;
+    }
+    for (int i = 0; i < m->nblock; i++) {
+        const double *p = of(m, v, m->body[2 * i]), *q = of(m, v, m->body[2 * i + 1]);
         const double *g = pose->jac + 12 * i, *h = g + 6;
         for (int k = 0; k < 2; k++, g += 3, h += 3)
             r[2 * i + k] =

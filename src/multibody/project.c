@@ -92,10 +92,10 @@ bool fw_multibody_project_velocity(fw_multibody_system *sys, const fw_multibody_
     for (int i = 0; i < 6; i++) {
         fw_multibody_jacobian(m, factor->pose, v, right);
         norm = 0;
-        for (int j = 0; j < 2 * m->nblock; j++) {
-            if (driven) right[j] += drift[j];
+        for (int j = 0; driven && j < 2 * m->nblock; j++)
+            right[j] += drift[j];
+        for (int j = 0; j < 2 * m->nblock; j++)
             norm = fmax(norm, fabs(right[j]));
-        }
         if (norm <= 2 * DBL_EPSILON * size || norm > 0.25 * before) break;
         before = norm;
         m->method->correct(sys, factor->pose, right, sys->work->correction);
