@@ -218,7 +218,7 @@ static void counts(void **state) {
         "ref=\"al-masked-rie\" carrier=\"insulating\"/><flexure id=\"f\" kind=\"csfh\" "
         "radius=\"100 "
         "um\" angle=\"270 deg\" width=\"8 um\" gap=\"8 um\" fillet=\"4 um\"/><mechanism><body "
-        "id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\" width=\"100 "
+        "id=\"arm\" mass=\"0.02 mg\" inertia=\"0.003 mg mm^2\" x=\"0.5 mm\" y=\"0 mm\" width=\"60 "
         "um\"/><revolute id=\"h\" a=\"ground\" b=\"arm\" b-x=\"-0.5 mm\" hinge=\"f\" axis=\"180 "
         "deg\"/></mechanism><scene name=\"a\" duration=\"5 ms\"><comb-drive kind=\"comb\" id=\"c\" "
         "on=\"arm\" "
