@@ -93,9 +93,10 @@ void fw_multibody_slide_travel(const fw_multibody_system *sys, const fw_multibod
         psi_rate += (side ? 1 : -1) * (e[0] * vx + e[1] * vy);
         if (!side) psi_rate += w[2] * (n[0] * d[0] + n[1] * d[1]);
     }
-    const double *grows = m->stretch.block + 2 * s->block;
-    if (m->stretch.law && !sys->loading.hold.on)
+    if (m->stretch.law && !sys->loading.hold.on) {
+        const double *grows = m->stretch.block + 2 * s->block;
         psi_rate += pose->ground[1] * (e[0] * grows[0] + e[1] * grows[1]);
+    }
     *rate = psi_rate;
 }
 
