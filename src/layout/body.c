@@ -404,12 +404,11 @@ static fw_status choose_heads(fw_layout_drawing *d, const work *w, const int *ch
 }
 
 /* the next thing to try where an outline is unsound: other eyelets, else another head there */
-static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, int attempts,
-                 int *choice) {
+static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, int *choice) {
     if (isnan(where.x)) {
         bool exist = true;
         for (int i = 0; i < w->njoint; i++)
-            exist = ++choice[i] < attempts && exist;
+            exist = ++choice[i] < fw_layout_rule.form_attempts && exist;
         return exist;
     }
     if (near_lug(d, w, where) && w->lug_shift + 1 < LUG_SHIFTS) {
@@ -418,11 +417,10 @@ static bool vary(const fw_layout_drawing *d, work *w, fw_geometry_vec2 where, in
     }
     int near = nearest_joint(d, w, where);
     for (int i = 0; i < w->njoint; i++)
-        if (w->joint[i] == near && ++choice[i] >= attempts) return false;
+        if (w->joint[i] == near && ++choice[i] >= fw_layout_rule.form_attempts) return false;
     return true;
 }
 
-static const double TOUCHING_M = 1e-9;   /* of edges of one outline: the grid of the mask */
 static const double SOUND_ENOUGH = 1e-3; /* of a limit: 10 nm, below what a mask writer places */
 
 /* no head, and no place of the eyelets, that was tried makes the outline sound */
@@ -431,15 +429,6 @@ static fw_status say_flaw(fw_layout_drawing *d, const work *w) {
     char x[32], y[32], value[32], limit[32];
     const char *label = fw_layout_body_label(d, w->body);
     FW_NEED(label);
-    if (f.value_m < TOUCHING_M) { /* no mask has such an outline, whatever its rules */
-        fw_diag_error(
-            d->diags, 126, fw_layout_body_place(d, w->body),
-            "the outline of %s touches or crosses itself at (%s, %s) um, whatever neck and "
-            "root block the layout gives the hinge there: change the length, angle or width "
-            "of that hinge, its position, or the width of the body",
-            label, fw_layout_um(x, f.where.x), fw_layout_um(y, f.where.y));
-        return FW_GEOMETRY;
-    }
     if (d->said) return FW_OK;
     fw_diag_warning(
         d->diags, 138, fw_layout_body_place(d, w->body),
@@ -472,9 +461,7 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
             for (int i = 0; i < w->njoint; i++)
                 best[i] = choice[i];
         }
-        bool enough = most >= 1.0 - SOUND_ENOUGH; /* the last ones are for what is wrong */
-        int attempts = fw_layout_rule.form_attempts + (enough ? 0 : fw_layout_rule.form_beyond);
-        if (!vary(d, w, where, attempts, choice)) break;
+        if (!vary(d, w, where, choice)) break;
     }
     w->lug_shift = best_shift;
     FW_TRY(choose_heads(d, w, best));

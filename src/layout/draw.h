@@ -101,7 +101,6 @@ typedef struct fw_layout_head_shape {
     double longer_m; /* neck */
     double wider_m;  /* disc cut out of the body's own plate */
     bool plain;      /* the neck does not widen towards a plate's corner */
-    bool beyond;     /* the neck's far edge passes beyond the foot of the block on the ring */
 } fw_layout_head_shape;
 fw_layout_head_shape fw_layout_head_form(int attempt); /* 0: as wanted; then others, without end */
 

@@ -18,10 +18,8 @@ fw_layout_head_shape fw_layout_head_form(int attempt) {
                                     0.53859725722361010};
     const fw_layout_rules *rule = &fw_layout_rule;
     double x[4];
-    bool beyond = attempt >= rule->form_attempts; /* the last ones, from the first on */
-    if (beyond) attempt -= rule->form_attempts;
     if (attempt == 0)
-        return (fw_layout_head_shape){1.0, rule->block_behind_widths, 0.0, 0.0, false, beyond};
+        return (fw_layout_head_shape){1.0, rule->block_behind_widths, 0.0, 0.0, false};
     for (int i = 0; i < 4; i++)
         x[i] = fmod(attempt * alpha[i], 1.0);
     return (fw_layout_head_shape){
@@ -31,7 +29,6 @@ fw_layout_head_shape fw_layout_head_form(int attempt) {
         .longer_m = x[2] * rule->form_longer_m,
         .wider_m = x[3] * rule->form_wider_m,
         .plain = attempt % 2 == 0,
-        .beyond = beyond,
     };
 }
 static double cross(fw_geometry_vec2 p, fw_geometry_vec2 q) {
@@ -189,12 +186,8 @@ fw_status fw_layout_head_draw_shape(fw_arena *arena, const fw_layout_hinge_shape
     fw_geometry_vec2 near_edge = fw_add(w, -side->neck_m, v), foot = on_circle(near_edge, u, q1);
     double turn = side->own_rad - asin(side->neck_m / q1) - end;
     double end_m = side->neck_end_m;
-    if (side->form.beyond)
-        side->far_m = fmax(side->far_m, fmax(fw_dot(q, v), fw_dot(s->outer_end, v)) +
-                                            side->form.behind * s->width_m);
     far_path far = choose_far_path(s, side);
-    if (!side->form.beyond && side->far_m > side->neck_m &&
-        fw_dot(far.leave, u) > side->corner_m - rule->tooth_room_m) {
+    if (side->far_m > side->neck_m && fw_dot(far.leave, u) > side->corner_m - rule->tooth_room_m) {
         side->far_m = side->neck_m; /* the block ends too near to the plate's corner */
         side->neck_end_m = end_m;
         far = choose_far_path(s, side);

@@ -73,7 +73,6 @@ const fw_layout_rules fw_layout_rule = {
     .form_longer_m = 40e-6,
     .form_wider_m = 24e-6,
     .form_attempts = 24,
-    .form_beyond = 8,
     .block_ring_clear_m = 15e-6,
     .far_side_least_m = 1e-6,
     .far_side_ahead_m = 5e-6,

@@ -96,7 +96,6 @@ typedef struct fw_layout_rules {
     double form_longer_m;     /* neck: two corners and a step longer at most */
     double form_wider_m;      /* disc in the body's own plate, likewise */
     int form_attempts;        /* at most at one head: ten times as many as 99 of 100 take */
-    int form_beyond;          /* then so many with the neck's far edge beyond the block's foot */
     double block_ring_clear_m; /* a far side that turns does so this much inside the ring */
     double far_side_least_m;   /* shortest edge of a block's far side */
     double far_side_ahead_m;   /* an edge that meets the far side nearer than this meets nothing */
