@@ -297,6 +297,14 @@ typedef struct fw_mask_order {
 
 fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
 
+/* Lines of the sheet for people, ASCII: one of them; what is on the plate (called `what`), with its
+   tone, reading and mirror; least sizes (INFINITY: none), bias and grid; corners of the data, m */
+void fw_mask_order_line(fw_text *out, const char *what, const char *value);
+void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
+                               const fw_mask_order *order);
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask);
+void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);
+
 /* boundaries of one layer in the GDSII file */
 void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *vertices);
 

@@ -150,58 +150,65 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_ord
 
 /* The order sheet for people: ASCII, to be pasted into a shop's form. */
 
-static void sheet_line(fw_text *out, const char *what, const char *value) {
+void fw_mask_order_line(fw_text *out, const char *what, const char *value) {
     fw_text_printf(out, "%-22s %s\n", what, value);
 }
 
-static const char *micrometres(char *text, size_t n, double value_m) {
-    char number[32];
-    if (isfinite(value_m))
-        snprintf(text, n, "%s um", fw_number_text(number, sizeof number, value_m * 1e6, 7));
-    else
-        snprintf(text, n, "none below %s um",
-                 fw_number_text(number, sizeof number, FW_MASK_LOOK_M * 1e6, 7));
-    return text;
-}
-
-static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
-    char line[200], number[32];
-    if (mask->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
-    fw_text_printf(out, "Order sheet of mask %s (flexwright " FW_VERSION ")\n\n", order->name);
-    sheet_line(out, "device", mask->device);
-    sheet_line(out, "flow", mask->flow);
-    sheet_line(out, "top cell", mask->cell);
-    sheet_line(out, "plate",
-               mask->table->plate ? mask->table->plate : "not said: all layers drawn");
-    if (mask->table->order) sheet_line(out, "", mask->table->order);
-    snprintf(line, sizeof line, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
-             order->field ? order->field : "unknown");
-    sheet_line(out, "polygon tone", line);
-    sheet_line(out, "reading", mask->table->reading);
+void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
+                               const fw_mask_order *order) {
     static const char *const mirror[] = {
         "the reading does not say: ask before writing",
         "no: with the chrome up the plate looks like the data",
         "yes: with the chrome up the plate is the mirror image of the data (x becomes -x)"};
-    sheet_line(out, "mirror", mirror[order->mirror + 1]);
-    sheet_line(out, "", "the data themselves are not mirrored");
-    sheet_line(out, "least feature", micrometres(line, sizeof line, order->width_m));
-    sheet_line(out, "least space", micrometres(line, sizeof line, order->space_m));
-    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
-             fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
-    sheet_line(out, "process bias", line);
-    snprintf(line, sizeof line, "1 nm; arcs within %s nm",
-             fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
-    sheet_line(out, "grid", line);
+    char tone[200];
+    fw_mask_order_line(out, what, table->plate ? table->plate : "not said: all layers drawn");
+    if (table->order) fw_mask_order_line(out, "", table->order);
+    snprintf(tone, sizeof tone, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
+             order->field ? order->field : "unknown");
+    fw_mask_order_line(out, "polygon tone", tone);
+    fw_mask_order_line(out, "reading", table->reading);
+    fw_mask_order_line(out, "mirror", mirror[order->mirror + 1]);
+    fw_mask_order_line(out, "", "the data themselves are not mirrored");
 }
 
-static void box(const fw_mask *mask, fw_text *out) {
-    const double side[] = {mask->box.x0, mask->box.y0, mask->box.x1, mask->box.y1};
+static void least_line(fw_text *out, const char *what, double value_m) {
+    bool there = isfinite(value_m);
+    char number[32], line[64];
+    fw_number_text(number, sizeof number, (there ? value_m : FW_MASK_LOOK_M) * 1e6, 7);
+    snprintf(line, sizeof line, "%s%s um", there ? "" : "none below ", number);
+    fw_mask_order_line(out, what, line);
+}
+
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask) {
+    char line[200], number[32];
+    least_line(out, "least feature", width_m);
+    least_line(out, "least space", space_m);
+    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
+             fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
+    fw_mask_order_line(out, "process bias", line);
+    snprintf(line, sizeof line, "1 nm; arcs within %s nm",
+             fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
+    fw_mask_order_line(out, "grid", line);
+}
+
+void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box) {
+    const double side[] = {box.x0, box.y0, box.x1, box.y1};
     fw_text_printf(out, "%-22s ", "extent");
     for (int i = 0; i < 4; i++) {
         fw_text_add(out, i == 2 ? " to " : i ? ", " : "");
         fw_text_fixed(out, side[i] * 1e6, 4);
     }
     fw_text_add(out, " um\n");
+}
+
+static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
+    if (mask->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
+    fw_text_printf(out, "Order sheet of mask %s (flexwright " FW_VERSION ")\n\n", order->name);
+    fw_mask_order_line(out, "device", mask->device);
+    fw_mask_order_line(out, "flow", mask->flow);
+    fw_mask_order_line(out, "top cell", mask->cell);
+    fw_mask_order_plate_lines(out, "plate", mask->table, order);
+    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask);
 }
 
 static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
@@ -242,7 +249,7 @@ fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *fi
     fw_mask_order order;
     FW_TRY(fw_mask_order_gather(out->arena, mask, &order));
     head(mask, &order, out);
-    box(mask, out);
+    fw_mask_order_extent_line(out, mask->box);
     fw_text_printf(out, "%-22s %d, %d vertices, at most %d each\n", "polygons on the plate",
                    order.polygons, order.vertices, mask->vertex_limit);
     layers(mask, &order, out);

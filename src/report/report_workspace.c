@@ -317,13 +317,7 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
         top += 34.0 + height;
     }
     FW_TRY(fw_text_end(&body));
-    fw_svg_begin(out, &(fw_svg_frame){.width = FW_SLICES_WIDTH,
-                                      .height = top,
-                                      .decimals = 2,
-                                      .size = FW_SVG_SIZE_BEHIND,
-                                      .file = true,
-                                      .lead = "role='img'",
-                                      .font = fw_svg_font_page});
+    fw_svg_begin_picture(out, FW_SLICES_WIDTH, top);
     fw_svg_title(out, "{s}: workspace", in->device->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out,

@@ -103,55 +103,31 @@ fw_status fw_wafer_notes(fw_arena *arena, const fw_wafer *w, const char ***line,
 /* The order sheet of the whole plate for people: ASCII, to be pasted into a shop's form. Places to
    measure are those of the die nearest to the centre, in coordinates of the plate. */
 
-static void sheet_line(fw_text *out, const char *what, const char *value) {
-    fw_text_printf(out, "%-22s %s\n", what, value);
-}
-
 static void lengths(fw_text *out, const char *what, double a_m, const char *between, double b_m) {
     char a[32], b[32], line[160];
     fw_number_text(a, sizeof a, a_m * 1e3, 9);
     fw_number_text(b, sizeof b, b_m * 1e3, 9);
     snprintf(line, sizeof line, "%s%s%s%s", a, between, b, " mm");
-    sheet_line(out, what, line);
-}
-
-static void micrometres(fw_text *out, const char *what, double value_m) {
-    char number[32], line[64];
-    snprintf(line, sizeof line, "%s um", fw_number_text(number, sizeof number, value_m * 1e6, 7));
-    sheet_line(out, what, isfinite(value_m) ? line : "none below 100 um");
+    fw_mask_order_line(out, what, line);
 }
 
 static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
-    static const char *const mirror[] = {
-        "the reading does not say: ask before writing",
-        "no: with the chrome up the plate looks like the data",
-        "yes: with the chrome up the plate is the mirror image of the data (x becomes -x)"};
-    char line[200];
     if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
     fw_text_printf(out, "Order sheet of plate %s-%s (flexwright " FW_VERSION ")\n\n", w->top,
                    w->flow);
-    sheet_line(out, "device", w->device->name);
-    sheet_line(out, "title", w->title);
-    sheet_line(out, "flow", w->flow);
-    sheet_line(out, "top cell", w->top);
+    fw_mask_order_line(out, "device", w->device->name);
+    fw_mask_order_line(out, "title", w->title);
+    fw_mask_order_line(out, "flow", w->flow);
+    fw_mask_order_line(out, "top cell", w->top);
     lengths(out, "plate", w->form.plate_m, " mm x ", w->form.plate_m);
     lengths(out, "wafer", w->form.diameter_m, " mm, in the plate's middle; edge exclusion ",
             w->form.edge_m);
-    sheet_line(out, "layers on the plate",
-               w->table->plate ? w->table->plate : "not said: all layers drawn");
-    if (w->table->order) sheet_line(out, "", w->table->order);
-    snprintf(line, sizeof line, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
-             order->field ? order->field : "unknown");
-    sheet_line(out, "polygon tone", line);
-    sheet_line(out, "reading", w->table->reading);
-    sheet_line(out, "mirror", mirror[order->mirror + 1]);
-    sheet_line(out, "", "the data themselves are not mirrored");
+    fw_mask_order_plate_lines(out, "layers on the plate", w->table, order);
 }
 
 static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask *any,
                     const fw_wafer_sum *s, fw_text *out) {
     double width = HUGE_VAL, space = HUGE_VAL, polygons = 0, vertices = 0;
-    char line[200], number[32];
     for (int k = 0; k < w->table->nlayer; k++) {
         if (!order->plate[k]) continue;
         width = fmin(width, s[k].width_m);
@@ -159,22 +135,9 @@ static void content(const fw_wafer *w, const fw_mask_order *order, const fw_mask
         polygons += s[k].polygons;
         vertices += s[k].vertices;
     }
-    micrometres(out, "least feature", width);
-    micrometres(out, "least space", space);
-    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
-             fw_number_text(number, sizeof number, any->bias_m * 1e6, 6));
-    sheet_line(out, "process bias", line);
-    snprintf(line, sizeof line, "1 nm; arcs within %s nm",
-             fw_number_text(number, sizeof number, any->tolerance_m * 1e9, 6));
-    sheet_line(out, "grid", line);
-    fw_geometry_box b = fw_wafer_extent(w);
-    const double side[] = {b.x0, b.y0, b.x1, b.y1};
-    fw_text_printf(out, "%-22s ", "extent");
-    for (int i = 0; i < 4; i++) {
-        fw_text_add(out, i == 2 ? " to " : i ? ", " : "");
-        fw_text_fixed(out, side[i] * 1e6, 4);
-    }
-    fw_text_printf(out, " um\n%-22s %d dies, %d alignment sites, %d test dies\n", "places", w->dies,
+    fw_mask_order_size_lines(out, width, space, any);
+    fw_mask_order_extent_line(out, fw_wafer_extent(w));
+    fw_text_printf(out, "%-22s %d dies, %d alignment sites, %d test dies\n", "places", w->dies,
                    w->alignments, w->tests);
     fw_text_printf(out, "%-22s %d, %d references\n", "cells", w->ncell + 1, w->nrun);
     fw_text_printf(out, "%-22s ", "polygons, flat");

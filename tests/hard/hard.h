@@ -109,21 +109,6 @@ static inline fw_quantity_law hard_law(fw_arena *arena, const char *text,
     return (fw_quantity_law){.kind = &fw_quantity_law_expression, .program = program};
 }
 
-static inline fw_device_spring *hard_spring(rig *r, const char *id, int a, double ax, double ay,
-                                            int b, double bx, double by, double k, double length) {
-    fw_device_spring *s = &r->m.spring[r->m.nspring++];
-    *s = (fw_device_spring){.id = id,
-                            .body_a = a,
-                            .body_b = b,
-                            .ax_m = ax,
-                            .ay_m = ay,
-                            .bx_m = bx,
-                            .by_m = by,
-                            .stiffness_N_per_m = k,
-                            .length_m = length};
-    return s;
-}
-
 /* ---- a row of bars through pins; the bars are bodies first, first + 1, ... ---- */
 
 /* bars through the points p (n + 1), uniform mass each, pins at the inner points only */

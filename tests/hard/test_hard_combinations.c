@@ -128,8 +128,8 @@ static void some_cables(fw_arena *arena, rig *r) {
         int b = body_of(r);
         const fw_mechanism_mass *m = &r->m.body[b];
         double x = m->x_m + lot(-2e-3, 2e-3), y = m->y_m + lot(1e-3, 2e-3);
-        fw_device_spring *s = hard_spring(r, "line", FW_GROUND, x, y, b, 0, 0, decades(-0.5, 3),
-                                          hypot(x - m->x_m, y - m->y_m) * lot(0.98, 1.05));
+        fw_device_spring *s = rig_spring(r, "line", FW_GROUND, x, y, b, 0, 0, decades(-0.5, 3),
+                                         hypot(x - m->x_m, y - m->y_m) * lot(0.98, 1.05));
         s->cable = chance(0.7), s->damping_Ns_per_m = chance(0.5) ? 0 : decades(-7, -4);
     }
 }

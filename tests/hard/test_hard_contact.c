@@ -287,7 +287,7 @@ static trial slack_pendulum(fw_arena *arena, bool cable, double zeta) {
     t.r = rig_new(arena, 1, 0, 1);
     rig_body(&t.r, "bob", m, 1e-3, x0, y0, 0);
     if (cable) {
-        fw_device_spring *line = hard_spring(&t.r, "line", FW_GROUND, 0, 0, 0, 0, 0, k, length);
+        fw_device_spring *line = rig_spring(&t.r, "line", FW_GROUND, 0, 0, 0, 0, 0, k, length);
         line->cable = true, line->damping_Ns_per_m = c;
     } else {
         fw_device_tendon *line = t.r.scene.tendon = fw_arena_array(arena, fw_device_tendon, 1);
@@ -403,7 +403,7 @@ static void sticks_and_slips(void **state) {
     hard_tie(arena, &t.r, "rub", FW_JOINT_PRISMATIC, 0, 1);
     rig_velocity(&t.r, 0, (double)b.v, 0, 0);
     rig_velocity(&t.r, 1, (double)b.v, 0, 0);
-    hard_spring(&t.r, "spring", FW_GROUND, -5, 0, 1, 0, 0, (double)b.k, 5);
+    rig_spring(&t.r, "spring", FW_GROUND, -5, 0, 1, 0, 0, (double)b.k, 5);
     t.r.scene.friction = fw_arena_array(arena, fw_device_friction_use, 1);
     t.r.scene.friction[t.r.scene.nfriction++] = (fw_device_friction_use){.revolute = FW_NONE,
                                                                          .joint = 1,

@@ -77,8 +77,8 @@ static void test_cables(void **state) {
         rig r = rig_new(arena, 1, 0, 4);
         rig_body(&r, "weight", 1, 0.05, 0, 0, 0);
         for (int i = 0; i < 4; i++) {
-            fw_device_spring *s = hard_spring(&r, "cable", FW_GROUND, corner[i][0], corner[i][1], 0,
-                                              0.1 * corner[i][0], 0.1 * corner[i][1], 2e4, 1.3);
+            fw_device_spring *s = rig_spring(&r, "cable", FW_GROUND, corner[i][0], corner[i][1], 0,
+                                             0.1 * corner[i][0], 0.1 * corner[i][1], 2e4, 1.3);
             s->cable = true;
             s->damping_Ns_per_m = i == 2 ? 3 : 0;
         }

@@ -208,7 +208,7 @@ static void draw_belt(fw_arena *arena, int c, trial *t) {
     rig_body(r, "mass", m, m * size * size, 0, 0, 0);
     hard_tie(arena, r, "rail", FW_JOINT_PRISMATIC, FW_GROUND, 0);
     hard_tie(arena, r, "rub", FW_JOINT_PRISMATIC, 0, 1);
-    hard_spring(r, "spring", FW_GROUND, -reach, 0, 1, 0, 0, y.k, reach);
+    rig_spring(r, "spring", FW_GROUND, -reach, 0, 1, 0, 0, y.k, reach);
     rub(arena, r, FW_NONE, 1, mu, mu * y.slide / y.rest, y.k * y.rest / mu, 0);
     rig_velocity(r, 0, y.v, 0, 0);
     rig_velocity(r, 1, y.v, 0, 0);

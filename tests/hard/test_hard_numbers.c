@@ -51,8 +51,8 @@ static bench *everything(fw_arena *arena) {
     hard_local(r, 1, 1, 0.66, &rod->ax_m, &rod->ay_m);
     rod->length_m = hypot(1, 0.16);
     hard_tie_at(arena, r, "weld", FW_JOINT_WELD, 1, 4, 0.8, 0.75);
-    hard_spring(r, "spring", FW_GROUND, 2, 1, 2, 0.1, 0, 3, 0.4)->damping_Ns_per_m = 0.05;
-    hard_spring(r, "cable", FW_GROUND, -1, 1, 0, 0, 0, 4, 1)->cable = true;
+    rig_spring(r, "spring", FW_GROUND, 2, 1, 2, 0.1, 0, 3, 0.4)->damping_Ns_per_m = 0.05;
+    rig_spring(r, "cable", FW_GROUND, -1, 1, 0, 0, 0, 4, 1)->cable = true;
     b->motor = (fw_quantity_law){
         .kind = &fw_quantity_law_sine, .end_s = (double)INFINITY, .frequency_Hz = 1};
     hard_driver(arena, r, "motor", 4, FW_NONE, b->motor);

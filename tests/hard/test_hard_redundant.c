@@ -94,7 +94,7 @@ static void test_guides_and_welds(void **state) {
                                              0.5 + i * 3 * cos(0.3), 0.2 + i * 3 * sin(0.3));
             t->axis_rad = 0.3;
         }
-        hard_spring(&r, "spring", FW_GROUND, 2, 1, 0, 0.1, 0.1, 30, 0.5);
+        rig_spring(&r, "spring", FW_GROUND, 2, 1, 0, 0.1, 0.1, 30, 0.5);
         r.scene.gravity = true, r.scene.gy_m_per_s2 = -9.81;
         r.scene.duration_s = 3;
         m[k] = hard_run(arena, &r, (fw_dynamics_motion_options){.rtol = 1e-12, .samples = 4});

@@ -66,6 +66,21 @@ static inline fw_mechanism_pin *rig_pin_local(rig *r, const char *id, int a, dou
     return p;
 }
 
+static inline fw_device_spring *rig_spring(rig *r, const char *id, int a, double ax, double ay,
+                                           int b, double bx, double by, double k, double length) {
+    fw_device_spring *s = &r->m.spring[r->m.nspring++];
+    *s = (fw_device_spring){.id = id,
+                            .body_a = a,
+                            .body_b = b,
+                            .ax_m = ax,
+                            .ay_m = ay,
+                            .bx_m = bx,
+                            .by_m = by,
+                            .stiffness_N_per_m = k,
+                            .length_m = length};
+    return s;
+}
+
 static inline void rig_force(rig *r, int body, double fx, double fy) {
     r->scene.force[r->scene.nforce++] = (fw_device_force){.body = body, .fx_N = fx, .fy_N = fy};
 }

@@ -38,21 +38,6 @@ static inline fw_device_joint *rig_guide(fixture *f, rig *r, int body, double x,
     return t;
 }
 
-static inline fw_device_spring *rig_spring(rig *r, int a, double ax, double ay, int b, double bx,
-                                           double by, double k, double length) {
-    fw_device_spring *s = &r->m.spring[r->m.nspring++];
-    *s = (fw_device_spring){.id = "spring",
-                            .body_a = a,
-                            .body_b = b,
-                            .ax_m = ax,
-                            .ay_m = ay,
-                            .bx_m = bx,
-                            .by_m = by,
-                            .stiffness_N_per_m = k,
-                            .length_m = length};
-    return s;
-}
-
 /* von Mises truss: springs k from (-b, 0) and (b, 0) to a body on a vertical guide at (0, h), load
    P downwards. With y the height and L^2 = b^2 + y^2: P(y) = 2 k y (L0 / L - 1); limit points where
    L^3 = L0 b^2. */
@@ -60,8 +45,8 @@ static inline rig rig_truss(fixture *f, double b, double h, double k, double loa
     rig r = rig_new(f->arena, 1, 0, 2);
     rig_body(&r, "apex", 1, 1, 0, h, 0);
     rig_guide(f, &r, 0, 0, 0, acos(0.0));
-    rig_spring(&r, FW_GROUND, -b, 0, 0, 0, 0, k, hypot(b, h));
-    rig_spring(&r, FW_GROUND, b, 0, 0, 0, 0, k, hypot(b, h));
+    rig_spring(&r, "spring", FW_GROUND, -b, 0, 0, 0, 0, k, hypot(b, h));
+    rig_spring(&r, "spring", FW_GROUND, b, 0, 0, 0, 0, k, hypot(b, h));
     rig_force(&r, 0, 0, -load);
     r.scene.duration_s = 1;
     return r;

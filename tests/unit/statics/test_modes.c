@@ -272,7 +272,7 @@ static void spring_without_length(void **state) {
     fixture f = begin();
     rig r = rig_new(f.arena, 1, 1, 1);
     rig_body(&r, "plate", 1, 1, 0, 0, 0);
-    rig_spring(&r, FW_GROUND, 0, 0, 0, 0, 0, 100, 0)->damping_Ns_per_m = 0.4;
+    rig_spring(&r, "spring", FW_GROUND, 0, 0, 0, 0, 0, 100, 0)->damping_Ns_per_m = 0.4;
     r.scene.duration_s = 1;
     for (int at = 0; at < 2; at++) {
         const fw_statics_modes *m = modes_at(&f, &r, at, 0);
@@ -287,7 +287,7 @@ static void spring_without_length(void **state) {
     r = rig_new(g.arena, 1, 1, 1);
     rig_body(&r, "beam", 1, 1, 0.3, 0, 0);
     rig_pin(&r, "A", FW_GROUND, 0, 0.8, 0, 0, 0);
-    rig_spring(&r, FW_GROUND, 0, 0, 0, -0.3, 0, 100, 0);
+    rig_spring(&r, "spring", FW_GROUND, 0, 0, 0, -0.3, 0, 100, 0);
     r.scene.duration_s = 1;
     const fw_statics_modes *m = modes_at(&g, &r, false, 0);
     assert_relative(m->mode[0].omega_rad_per_s, sqrt(100 * 0.64 / 1.25), 1e-13);

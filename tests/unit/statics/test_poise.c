@@ -122,7 +122,7 @@ static void it_moves_along_the_symmetry(void **state) {
         rig_body(&r, "lever", 1, 0.2, 0, 1.5, 0);
         rig_guide(&f, &r, 0, 0, 0, acos(0.0));
         rig_pin(&r, "hinge", 0, 1, 0, 1, 10, 0);
-        rig_spring(&r, FW_GROUND, 0, 0, 0, 0, 0, 300, 1);
+        rig_spring(&r, "spring", FW_GROUND, 0, 0, 0, 0, 0, 300, 1);
         rig_force(&r, 1, i == 2 ? 0.3 : 0, i ? -40 : -8);
         r.scene.force[0].y_m = 0.5;
         r.scene.duration_s = 2;

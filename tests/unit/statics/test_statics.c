@@ -206,8 +206,8 @@ static void cable_takes_hold(void **state) {
     rig r = rig_new(f.arena, 1, 0, 2);
     rig_body(&r, "car", 1, 1, 0, 0, 0);
     rig_guide(&f, &r, 0, 0, 0, 0);
-    rig_spring(&r, FW_GROUND, -5, 0, 0, 0, 0, 10, 5);
-    rig_spring(&r, FW_GROUND, -4, 0, 0, 0, 0, 30, 4.2)->cable = true;
+    rig_spring(&r, "spring", FW_GROUND, -5, 0, 0, 0, 0, 10, 5);
+    rig_spring(&r, "spring", FW_GROUND, -4, 0, 0, 0, 0, 30, 4.2)->cable = true;
     r.m.spring[1].id = "rope";
     rig_force(&r, 0, 8, 0);
     r.scene.duration_s = 1;

@@ -205,8 +205,8 @@ static rig mixed(fixture *f) {
                                                 .ax_m = 0.1,
                                                 .bx_m = 4.1,
                                                 .by_m = 2};
-    rig_spring(&r, FW_GROUND, 0.5, 2.5, 1, 0.1, 0.2, 6, 1)->damping_Ns_per_m = 0.4;
-    rig_spring(&r, 2, 0.3, 0, FW_GROUND, 3.5, 2.5, 5, 0.5)->damping_Ns_per_m = 0.1;
+    rig_spring(&r, "spring", FW_GROUND, 0.5, 2.5, 1, 0.1, 0.2, 6, 1)->damping_Ns_per_m = 0.4;
+    rig_spring(&r, "spring", 2, 0.3, 0, FW_GROUND, 3.5, 2.5, 5, 0.5)->damping_Ns_per_m = 0.1;
     r.scene.temperature = fw_arena_array(f->arena, fw_device_temperature, 1);
     r.scene.ntemperature = 1;
     r.scene.duration_s = 2;
@@ -317,7 +317,7 @@ static void dampers_rest(void **state) {
         q[i][0] = rest(&f, &r)->q[0];
         assert_near(q[i][0], 7 * (0.02 * law + 0.1) / 10, 1e-12);
         r.scene.ntendon = 0;
-        rig_spring(&r, FW_GROUND, -1, 0.3, 0, 0, 0, 5, 1.2)->damping_Ns_per_m = i ? 4 : 0;
+        rig_spring(&r, "spring", FW_GROUND, -1, 0.3, 0, 0, 0, 5, 1.2)->damping_Ns_per_m = i ? 4 : 0;
         fw_device_temperature warm = {.change_K = 100,
                                       .expansion_per_K = 2e-5,
                                       .substrate_expansion_per_K = 5e-4,
@@ -427,7 +427,8 @@ static void points_follow(void **state) {
         r[i] = rig_new(f.arena, 1, 1, 1);
         rig_body(&r[i], "lever", 1, 1, 0, 0, 0);
         rig_pin_local(&r[i], "A", FW_GROUND, size, 0, 0, size * 0.3, size * 0.1);
-        rig_spring(&r[i], FW_GROUND, -size, size * 0.5, 0, size * 0.4, -size * 0.2, 3, 0.7);
+        rig_spring(&r[i], "spring", FW_GROUND, -size, size * 0.5, 0, size * 0.4, -size * 0.2, 3,
+                   0.7);
         r[i].scene.force[r[i].scene.nforce++] = (fw_device_force){
             .body = 0, .x_m = size * -0.5, .y_m = size * 0.8, .fx_N = 2, .fy_N = 1};
     }
