@@ -313,4 +313,6 @@ ROW(msadams, .name = "gsl-msadams",
     .order = 12, .variable_order = true);
 ROW(bsimp, .name = "gsl-bsimp",
     .summary = "GSL's semi-implicit extrapolation of Bader and Deuflhard", .order = 12,
-    .implicit = true, .variable_order = true);
+    .implicit = true, .variable_order = true,
+    /* a Jacobian by differences and many small steps in each of its own */
+    .rhs_per_count = 5, .rhs_per_step = 1000);

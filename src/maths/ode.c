@@ -259,13 +259,16 @@ void fw_maths_ode_nested_dense(const fw_maths_stepper *s, int rows, const double
     }
 }
 
+/* ---- the table ---- */
+
+#define FW_MATHS_INTEGRATOR(name) extern const fw_maths_stepper_row fw_maths_##name##_row;
+#include "maths/integrators.def"
+#undef FW_MATHS_INTEGRATOR
+#define FW_MATHS_INTEGRATOR(name) &fw_maths_##name##_row,
 static const fw_maths_stepper_row *const table[] = {
-    &fw_maths_dop853_row,    &fw_maths_dopri5_row,
-    &fw_maths_radau5_row,    &fw_maths_generalised_alpha_row,
-    &fw_maths_rk4_row,       &fw_maths_gsl_rkf45_row,
-    &fw_maths_gsl_rk8pd_row, &fw_maths_gsl_msadams_row,
-    &fw_maths_gsl_bsimp_row,
+#include "maths/integrators.def"
 };
+#undef FW_MATHS_INTEGRATOR
 
 const fw_maths_stepper_row *const *fw_maths_stepper_table(size_t *count) {
     *count = sizeof table / sizeof table[0];

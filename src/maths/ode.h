@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Integrators of y' = f(t, y) behind one interface: one file and one row in the table each
-   (ode.c). All of them keep the last step and can be asked for any time in it (dense output),
-   move every accepted state onto a manifold when the problem has one, end exactly at t_end, and
-   allocate nothing after fw_maths_stepper_new. */
+/* Integrators of y' = f(t, y) behind one interface: one file and one line in integrators.def each.
+   All of them keep the last step and can be asked for any time in it (dense output), move every
+   accepted state onto a manifold when the problem has one, end exactly at t_end, and allocate
+   nothing after fw_maths_stepper_new. */
 #ifndef FW_MATHS_ODE_H
 #define FW_MATHS_ODE_H
 #include "base/arena.h"
@@ -50,6 +50,9 @@ typedef struct
     bool fixed_step;     /* takes fw_maths_stepper.h_fixed and knows no error */
     bool second_order;   /* only for problems with positions */
     bool variable_order; /* `order` is the highest, chosen by the error */
+    /* right-hand sides over those that it counts, and in a step, for limits of what a run may cost;
+       0: as others of its kind (study/problem.c) */
+    double rhs_per_count, rhs_per_step;
     fw_status (*create)(fw_arena *arena, const fw_maths_ode *ode, fw_maths_stepper **stepper);
     void (*start)(fw_maths_stepper *s); /* y, t, t_end are set: f, first step, history */
     fw_maths_ode_result (*step)(fw_maths_stepper *s); /* one accepted step */
@@ -86,6 +89,8 @@ struct fw_maths_stepper { /* first member of every integrator's own struct */
 /* by name; NULL: unknown */
 const fw_maths_stepper_row *fw_maths_stepper_find(const char *name);
 const fw_maths_stepper_row *const *fw_maths_stepper_table(size_t *count);
+/* those that are chosen where none is asked for */
+extern const fw_maths_stepper_row fw_maths_dop853_row, fw_maths_dopri5_row, fw_maths_radau5_row;
 /* memory for ode->n components; atol (n) is read at every start and must live as long as the
    stepper. FW_INPUT: the integrator needs positions, or sizes contradict each other. The arena owns
    the stepper, but not what GSL takes from malloc: call fw_maths_stepper_free before the arena
@@ -103,10 +108,6 @@ void fw_maths_stepper_component(fw_maths_stepper *s, int a, double wa, int b, do
                                 double theta, double *value, double *slope);
 
 /* ---- shared by the integrators (ode.c) ---- */
-
-extern const fw_maths_stepper_row fw_maths_dop853_row, fw_maths_dopri5_row, fw_maths_radau5_row,
-    fw_maths_generalised_alpha_row, fw_maths_rk4_row, fw_maths_gsl_rkf45_row,
-    fw_maths_gsl_rk8pd_row, fw_maths_gsl_msadams_row, fw_maths_gsl_bsimp_row;
 
 int fw_maths_ode_padded(int n);
 double *fw_maths_ode_vector(fw_arena *arena, int n); /* zeros, padded; NULL when memory is short */

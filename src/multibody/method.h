@@ -1,15 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What solves  M a + G^T lambda = Q,  G a = -gamma. One file each, method_*.c; rows in
-   multibody_table.c. Vectors are in the model's order: a, d (3 nbody), gamma, lambda, r (2 nblock;
-   empty rows are 0 and stay 0). */
+/* What solves  M a + G^T lambda = Q,  G a = -gamma: one file and one line in methods.def each.
+   Vectors are in the model's order: a, d (3 nbody), gamma, lambda, r (2 nblock; empty rows are 0
+   and stay 0). */
 #ifndef FW_MULTIBODY_METHOD_H
 #define FW_MULTIBODY_METHOD_H
 #include "multibody/system.h"
 
+/* Instructions of an answer for the reference six-bar (five bodies, n = 15, m = 12) by dop853 at a
+   tolerance of 1e-7, over the right-hand sides of its finer run: projection, dense output, peaks
+   and the run that errors are estimated from included; and how that grows with the bodies. Counted
+   by `flexwright tradeoff`, gcc -O2 (docs/theory/tradeoff.md). Dense factorisations grow with the
+   cube of the bodies, where small ones are mostly calls. */
+typedef struct fw_multibody_method_cost {
+    double six_bar, power;
+} fw_multibody_method_cost;
+
 typedef struct fw_multibody_method {
     const char *name, *summary, *source;
+    fw_multibody_method_cost cost;
     bool independent; /* solves for independent coordinates, not for forces: very different masses
                          cost it no digits */
+    const struct fw_multibody_dense_kernel *kernel; /* of a dense one (multibody_dense.h); NULL */
     /* memory, for sys->work->method; FW_SOLVER with a diagnostic when it cannot treat this
        mechanism. NULL: none */
     fw_status (*prepare)(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
@@ -37,10 +48,5 @@ typedef struct fw_multibody_method {
 
 /* NULL: unknown; name NULL: the default */
 const fw_multibody_method *fw_multibody_method_find(const char *name);
-
-extern const fw_multibody_method fw_multibody_method_chain, fw_multibody_method_augmented,
-    fw_multibody_method_coordinate_partitioning, fw_multibody_method_udwadia_kalaba,
-    fw_multibody_method_svd, fw_multibody_method_qr, fw_multibody_method_schur,
-    fw_multibody_method_block_least_squares, fw_multibody_method_minimal;
 
 #endif

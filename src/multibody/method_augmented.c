@@ -56,22 +56,16 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
     return fw_multibody_dense_sweep(d, b, w, lambda, sweeps, s->more, s->start, step);
 }
 
-const fw_multibody_dense_kernel fw_multibody_augmented_kernel = {kernel_prepare, kernel_factor,
-                                                                 kernel_solve};
-
-static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
-                         fw_diags *diags) {
-    (void)mechanism;
-    (void)diags;
-    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_augmented_kernel);
-}
+static const fw_multibody_dense_kernel kernel = {kernel_prepare, kernel_factor, kernel_solve};
 
 const fw_multibody_method fw_multibody_method_augmented = {
     .name = "augmented",
     .summary = "accelerations and multipliers from one symmetric system, regularised; redundant "
                "joints and singular positions allowed",
     .source = "Haug 1989; Carpentier, Budhiraja and Mansard 2021",
-    .prepare = prepare,
+    .cost = {133000, 3},
+    .kernel = &kernel,
+    .prepare = fw_multibody_dense_model_prepare,
     .factor = fw_multibody_dense_model_factor,
     .accelerate = fw_multibody_dense_model_accelerate,
     .correct = fw_multibody_dense_model_correct,

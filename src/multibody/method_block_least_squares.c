@@ -87,21 +87,15 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
     return fw_multibody_dense_sweep(d, b, w, lambda, sweeps, p->more, p->start, step);
 }
 
-const fw_multibody_dense_kernel fw_multibody_block_least_squares_kernel = {
-    kernel_prepare, kernel_factor, kernel_solve};
-
-static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
-                         fw_diags *diags) {
-    (void)mechanism;
-    (void)diags;
-    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_block_least_squares_kernel);
-}
+static const fw_multibody_dense_kernel kernel = {kernel_prepare, kernel_factor, kernel_solve};
 
 const fw_multibody_method fw_multibody_method_block_least_squares = {
     .name = "block-least-squares",
     .summary = "Gauss' principle and the constraints as one stacked least-squares problem",
     .source = "Gauss 1829; Van Loan 1985; after Pennestri",
-    .prepare = prepare,
+    .cost = {162000, 2},
+    .kernel = &kernel,
+    .prepare = fw_multibody_dense_model_prepare,
     .factor = fw_multibody_dense_model_factor,
     .accelerate = fw_multibody_dense_model_accelerate,
     .correct = fw_multibody_dense_model_correct,

@@ -67,6 +67,7 @@ const fw_multibody_method fw_multibody_method_chain = {
     .summary = "reference-point coordinates, block elimination along the joint graph, proximal "
                "iteration; linear time, redundant joints and singular positions allowed",
     .source = "Carpentier, Budhiraja and Mansard 2021; Featherstone 2008",
+    .cost = {3700, 1},
     .prepare = prepare,
     .factor = factor,
     .accelerate = accelerate,

@@ -271,16 +271,7 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
     return true;
 }
 
-const fw_multibody_dense_kernel fw_multibody_coordinate_partitioning_kernel = {
-    kernel_prepare, kernel_factor, kernel_solve};
-
-static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
-                         fw_diags *diags) {
-    (void)mechanism;
-    (void)diags;
-    return fw_multibody_dense_model_prepare(arena, sys,
-                                            &fw_multibody_coordinate_partitioning_kernel);
-}
+static const fw_multibody_dense_kernel kernel = {kernel_prepare, kernel_factor, kernel_solve};
 
 /* the independent coordinates stay where they are, except near singular positions: what a step
    left in the motion that is about to become free would be pushed into them */
@@ -331,11 +322,13 @@ static fw_status report(const fw_multibody_system *sys, const fw_mechanism *mech
 
 const fw_multibody_method fw_multibody_method_coordinate_partitioning = {
     .name = "coordinate-partitioning",
+    .cost = {66000, 3},
     .independent = true,
     .summary =
         "independent coordinates chosen by complete pivoting, changed when the pivots degrade",
     .source = "Wehage and Haug 1982",
-    .prepare = prepare,
+    .kernel = &kernel,
+    .prepare = fw_multibody_dense_model_prepare,
     .factor = fw_multibody_dense_model_factor,
     .accelerate = fw_multibody_dense_model_accelerate,
     .correct = correct,

@@ -445,6 +445,7 @@ const fw_multibody_method fw_multibody_method_minimal = {
     .summary =
         "independent angles, loops closed dyad by dyad; only for pins, and not at flat dyads",
     .source = "Kecskemethy, Krupp and Hiller 1997; Garcia de Jalon and Bayo 1994",
+    .cost = {27000, 1},
     .prepare = prepare,
     .factor = factor,
     .accelerate = accelerate,

@@ -108,21 +108,15 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
     return true;
 }
 
-const fw_multibody_dense_kernel fw_multibody_schur_kernel = {kernel_prepare, kernel_factor,
-                                                             kernel_solve};
-
-static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
-                         fw_diags *diags) {
-    (void)mechanism;
-    (void)diags;
-    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_schur_kernel);
-}
+static const fw_multibody_dense_kernel kernel = {kernel_prepare, kernel_factor, kernel_solve};
 
 const fw_multibody_method fw_multibody_method_schur = {
     .name = "schur",
     .summary = "independent rates along the eigenvectors of G^T G with eigenvalue zero",
     .source = "Walton and Steeves 1969; Kamman and Huston 1984",
-    .prepare = prepare,
+    .cost = {291000, 3},
+    .kernel = &kernel,
+    .prepare = fw_multibody_dense_model_prepare,
     .factor = fw_multibody_dense_model_factor,
     .accelerate = fw_multibody_dense_model_accelerate,
     .correct = fw_multibody_dense_model_correct,

@@ -72,21 +72,15 @@ static bool kernel_solve(fw_multibody_dense *d, const double *b, double *w, doub
     return true;
 }
 
-const fw_multibody_dense_kernel fw_multibody_svd_kernel = {kernel_prepare, kernel_factor,
-                                                           kernel_solve};
-
-static fw_status prepare(fw_arena *arena, fw_multibody_system *sys, const fw_mechanism *mechanism,
-                         fw_diags *diags) {
-    (void)mechanism;
-    (void)diags;
-    return fw_multibody_dense_model_prepare(arena, sys, &fw_multibody_svd_kernel);
-}
+static const fw_multibody_dense_kernel kernel = {kernel_prepare, kernel_factor, kernel_solve};
 
 const fw_multibody_method fw_multibody_method_svd = {
     .name = "svd",
     .summary = "independent rates along the null space from the singular value decomposition",
     .source = "Singh and Likins 1985; Mani, Haug and Atkinson 1985",
-    .prepare = prepare,
+    .cost = {376000, 3},
+    .kernel = &kernel,
+    .prepare = fw_multibody_dense_model_prepare,
     .factor = fw_multibody_dense_model_factor,
     .accelerate = fw_multibody_dense_model_accelerate,
     .correct = fw_multibody_dense_model_correct,

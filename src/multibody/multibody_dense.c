@@ -167,10 +167,11 @@ bool fw_multibody_dense_sweep(fw_multibody_dense *d, const double *b, double *w,
 /* ---- for the model ---- */
 
 fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_system *sys,
-                                           const fw_multibody_dense_kernel *kernel) {
+                                           const fw_mechanism *mechanism, fw_diags *diags) {
+    (void)mechanism, (void)diags;
     const fw_multibody_model *m = sys->model;
     fw_multibody_dense *d;
-    FW_TRY(fw_multibody_dense_new(arena, m->rows, m->nq, kernel, &d));
+    FW_TRY(fw_multibody_dense_new(arena, m->rows, m->nq, m->method->kernel, &d));
     for (int b = 0; b < m->nbody; b++) {
         d->root[3 * b] = d->root[3 * b + 1] = sqrt(m->minv[b]);
         d->root[3 * b + 2] = sqrt(m->jinv[b]);

@@ -70,9 +70,10 @@ bool fw_multibody_dense_sweep(fw_multibody_dense *d, const double *b, double *w,
                               int sweeps, double *more, double *start,
                               bool (*step)(fw_multibody_dense *d, double *r1, double *r2));
 
-/* the same for fw_multibody_method; sys->work->method is the fw_multibody_dense */
+/* the members of a fw_multibody_method with a kernel; sys->work->method is the fw_multibody_dense
+ */
 fw_status fw_multibody_dense_model_prepare(fw_arena *arena, fw_multibody_system *sys,
-                                           const fw_multibody_dense_kernel *kernel);
+                                           const fw_mechanism *mechanism, fw_diags *diags);
 bool fw_multibody_dense_model_factor(fw_multibody_system *sys, const fw_multibody_pose *pose);
 void fw_multibody_dense_model_accelerate(fw_multibody_system *sys,
                                          const fw_multibody_factor *factor, const double *gamma,
@@ -81,10 +82,5 @@ void fw_multibody_dense_model_correct(fw_multibody_system *sys, const fw_multibo
                                       const double *r, double *correction);
 fw_status fw_multibody_dense_model_report(const fw_multibody_system *sys,
                                           const fw_mechanism *mechanism, fw_text *out);
-
-extern const fw_multibody_dense_kernel fw_multibody_augmented_kernel,
-    fw_multibody_udwadia_kalaba_kernel, fw_multibody_svd_kernel, fw_multibody_qr_kernel,
-    fw_multibody_schur_kernel, fw_multibody_block_least_squares_kernel,
-    fw_multibody_coordinate_partitioning_kernel;
 
 #endif

@@ -3,17 +3,14 @@
 #include "multibody/method.h"
 #include <string.h>
 
+#define FW_MULTIBODY_METHOD(name) extern const fw_multibody_method fw_multibody_method_##name;
+#include "multibody/methods.def"
+#undef FW_MULTIBODY_METHOD
+#define FW_MULTIBODY_METHOD(name) &fw_multibody_method_##name,
 static const fw_multibody_method *const methods[] = {
-    &fw_multibody_method_chain,
-    &fw_multibody_method_minimal,
-    &fw_multibody_method_augmented,
-    &fw_multibody_method_coordinate_partitioning,
-    &fw_multibody_method_udwadia_kalaba,
-    &fw_multibody_method_svd,
-    &fw_multibody_method_qr,
-    &fw_multibody_method_schur,
-    &fw_multibody_method_block_least_squares,
+#include "multibody/methods.def"
 };
+#undef FW_MULTIBODY_METHOD
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 const fw_multibody_method *fw_multibody_method_find(const char *name) {

@@ -6,32 +6,13 @@
    machine: how large a part of the budget something takes, where nothing counts instructions. */
 #include "study/problem.h"
 #include "maths/ode.h"
+#include "multibody/method.h"
 #include "plan/stages.h"
 #include "statics/quasi.h"
 #include "verdict/strain.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Instructions of an answer for the reference six-bar (five bodies, n = 15, m = 12) by dop853 at a
-   tolerance of 1e-7, over the right-hand sides of its finer run: projection, dense output, peaks
-   and the run that errors are estimated from included; and how that grows with the bodies. Counted
-   by this program, gcc -O2 (docs/theory/tradeoff.md). Dense factorisations grow with the cube of
-   the bodies, where small ones are mostly calls. */
-static const struct {
-    const char *method;
-    double six_bar, power;
-} cost_table[] = {
-    {"chain", 3700, 1},
-    {"minimal", 27000, 1},
-    {"augmented", 133000, 3},
-    {"coordinate-partitioning", 66000, 3},
-    {"udwadia-kalaba", 371000, 3},
-    {"svd", 376000, 3},
-    {"qr", 167000, 3},
-    {"schur", 291000, 3},
-    {"block-least-squares", 162000, 2},
-};
 
 /* hinges that give are springs, not constraints: without any constraint all methods are alike */
 static bool constrained(const fw_study_problem *p) {
@@ -43,11 +24,9 @@ double fw_study_cost_rhs(const fw_study_problem *p, const char *method) {
     double effects = 0, times = (1 + p->mechanism->nbody) / 6.0;
     for (int i = 0; i < p->ledger.count; i++)
         if (p->ledger.item[i].active) effects += p->ledger.item[i].cost;
-    for (size_t i = 0; method && constrained(p) && i < sizeof cost_table / sizeof cost_table[0];
-         i++)
-        if (strcmp(cost_table[i].method, method) == 0)
-            return effects + cost_table[i].six_bar * pow(times, cost_table[i].power);
-    return effects + cost_table[0].six_bar * times;
+    const fw_multibody_method *row = method ? fw_multibody_method_find(method) : NULL;
+    if (!row || !constrained(p)) row = fw_multibody_method_find(NULL);
+    return effects + row->cost.six_bar * pow(times, row->cost.power);
 }
 
 static const fw_maths_stepper_row *stepper(const char *integrator) {
@@ -57,8 +36,9 @@ static const fw_maths_stepper_row *stepper(const char *integrator) {
 double fw_study_cost_answer(const fw_study_problem *p, const fw_study_tradeoff_point *point) {
     double n = 3.0 * p->mechanism->nbody;
     const fw_maths_stepper_row *row = stepper(point->integrator);
-    /* iterations evaluate more than they count, and GSL's extrapolation much more */
-    double lean = !row || !row->implicit ? 1 : row == fw_maths_stepper_find("gsl-bsimp") ? 5 : 2;
+    /* iterations evaluate more than they count */
+    double kind = row && row->implicit ? 2 : 1;
+    double lean = row && row->rhs_per_count > 0 ? row->rhs_per_count : kind;
     return lean * (double)point->rhs * fw_study_cost_rhs(p, point->method) +
            (double)point->factorisations * (2.5 * n * n * n + 50 * n * n);
 }
@@ -68,9 +48,7 @@ double fw_study_cost_step(const fw_study_problem *p, const char *method, const c
     double n = 3.0 * p->mechanism->nbody, rhs = fw_study_cost_rhs(p, method);
     /* strains are watched at so many instants of every step, each of which solves for the forces */
     double looks = p->mechanism->nhinge > 0 ? FW_INSTANTS : 0;
-    /* GSL's extrapolation takes a Jacobian by differences and many small steps in each of its own
-     */
-    if (row && row == fw_maths_stepper_find("gsl-bsimp")) return 1000 * rhs;
+    if (row && row->rhs_per_step > 0) return row->rhs_per_step * rhs;
     if (row && row->implicit) return (20 + looks) * rhs + 2.5 * n * n * n + 50 * n * n;
     return ((row && row->order < 6 ? 7 : 15) + looks) * rhs;
 }

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A row is enough: a time law, an effect, a mask format, a design rule, a test pattern, a coupon, a command and an
-endpoint that the program does not have (tests/arch/additions/*.patch, each of one new file and one line in a list; an
-endpoint is a function beside its row) are added to a copy of the sources, and everything that should know of them is
-asked: simulate, the advice of check, hinge --deck, the report, --help, the reference page and the page's form.
+"""A row is enough: a time law, an effect, a method of constrained dynamics, an integrator, a mask format, a design rule,
+a test pattern, a coupon, a command and an endpoint that the program does not have (tests/arch/additions/*.patch, each of
+one new file and one line in a list; an endpoint is a function beside its row) are added to a copy of the sources, and
+everything that should know of them is asked: simulate, the advice of check, hinge --deck, the report, tradeoff, --help,
+the reference page and the page's form.
 
     additions.py BUILD
 
@@ -151,6 +152,20 @@ def check(copy):
     assert max(abs(p["angle_rad"]) for p in mine["peaks"]) > 1e-3
     pages.append("simulate")
 
+    # methods and integrators: the same motion, by the new ones
+    for option, rtol, within in ((("--method", "normal-equations"), "1e-8", 1e-6), (("--integrator", "heun"), "1e-6", 1e-4)):
+        other = json.loads(run("simulate", at / "mine.xml", "--json", "--rtol", rtol, *option))
+        assert other[option[0][2:]] == option[1], other[option[0][2:]]
+        for a, b in zip(mine["peaks"], other["peaks"]):
+            assert abs(a["angle_rad"] - b["angle_rad"]) <= within * abs(b["angle_rad"]) + a["error_rad"], (option, a, b)
+        expect("simulate --help", run("simulate", "--help"), option[1])
+        said = subprocess.run([program, "simulate", at / "mine.xml", option[0], "none"], capture_output=True, text=True)
+        expect("the names that are known", said.stderr, option[1])
+    study = json.loads(run("tradeoff", ROOT / "docs/mechanisms/slider-crank.xml", "--budget", "2", "--no-time", "--json"))
+    state = {(p["method"], p["integrator"]): p["state"] for p in reversed(study["points"])}  # at the loosest tolerance
+    assert state[("normal-equations", "dop853")] == "done" and ("chain", "heun") in state, state
+    pages.append("tradeoff")
+
     large = device(at, "large", MAGNET.format(LARGE, ""))
     expect("the advice of check", run("check", large, "--corners", "none", ok=(1,)), "REJECT", "magnetic fields")
 
@@ -199,6 +214,8 @@ def check(copy):
     assert "decay" in attributes["law"]["choices"] and attributes["time-constant"]["unit"] == "ms", attributes
     assert any(f["name"] == "points" for f in form["mask_formats"]), form["mask_formats"]
     assert any(e["name"] == "magnetic-torque" for e in form["effects"]), form["effects"]
+    assert any(m["name"] == "normal-equations" for m in form["methods"]), form["methods"]
+    assert any(m["name"] == "heun" for m in form["integrators"]), form["integrators"]
     pages.append("the page's form")
 
     # what a laboratory adds: a rule and a pattern of a layer table, a coupon

@@ -6,20 +6,6 @@
 
 enum { N = 15, ROWS = 12 };
 
-static const struct kernel_row {
-    const char *name;
-    const fw_multibody_dense_kernel *kernel;
-} kernels[] = {
-    {"augmented", &fw_multibody_augmented_kernel},
-    {"udwadia-kalaba", &fw_multibody_udwadia_kalaba_kernel},
-    {"svd", &fw_multibody_svd_kernel},
-    {"qr", &fw_multibody_qr_kernel},
-    {"schur", &fw_multibody_schur_kernel},
-    {"block-least-squares", &fw_multibody_block_least_squares_kernel},
-    {"coordinate-partitioning", &fw_multibody_coordinate_partitioning_kernel},
-};
-enum { KERNELS = sizeof kernels / sizeof kernels[0] };
-
 typedef struct problem {
     double g[(N + 3) * N], mass[N], free[N], gamma[N + 3];
     int rows;
@@ -98,21 +84,36 @@ static void kernels_agree(void **state) {
         int redundant = c % 3 == 2 ? 1 + c % 6 : 0;
         problem p = any_problem(100 + (uint64_t)c, ROWS - c % 4, redundant % 4, c % 2 ? 2 : 0);
         double first[N], first_lambda[N + 3];
-        for (int k = 0; k < KERNELS; k++) {
+        int kernels = 0;
+        for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
+            const char *name = fw_multibody_method_at(k).name;
+            const fw_multibody_dense_kernel *kernel = fw_multibody_method_find(name)->kernel;
             double a[N], lambda[N + 3], force, constraint;
-            solve(arena, kernels[k].kernel, &p, a, lambda);
+            if (!kernel) continue; /* makes use of what G looks like */
+            solve(arena, kernel, &p, a, lambda);
             residuals(&p, a, lambda, &force, &constraint);
-            if (!k) {
+            if (kernels++ == 0) {
                 memcpy(first, a, sizeof a);
                 memcpy(first_lambda, lambda, sizeof lambda);
             }
             double apart = difference(a, first, N), l = difference(lambda, first_lambda, p.rows);
             if (!(force < 1e-13 && constraint < 1e-13 && apart < 1e-12) ||
                 (redundant == 0 && !(l < 1e-12)))
-                fail_msg("%s, case %d: force %.1e constraint %.1e a %.1e lambda %.1e",
-                         kernels[k].name, c, force, constraint, apart, l);
+                fail_msg("%s, case %d: force %.1e constraint %.1e a %.1e lambda %.1e", name, c,
+                         force, constraint, apart, l);
         }
+        assert_true(kernels >= 7);
         fw_arena_free(arena);
+    }
+}
+
+/* what a run may cost goes by it (study/problem.c) */
+static void every_method_states_its_cost(void **state) {
+    (void)state;
+    for (size_t k = 0; fw_multibody_method_at(k).name; k++) {
+        const char *name = fw_multibody_method_at(k).name;
+        const fw_multibody_method_cost cost = fw_multibody_method_find(name)->cost;
+        if (!(cost.six_bar > 1000 && cost.power >= 1)) fail_msg("%s states no cost", name);
     }
 }
 
@@ -237,6 +238,7 @@ static void not_a_number_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kernels_agree),
+        cmocka_unit_test(every_method_states_its_cost),
         cmocka_unit_test(reports_say_what_was_met),
         cmocka_unit_test(the_loop_allocates_nothing),
         cmocka_unit_test(memory_short_is_said),

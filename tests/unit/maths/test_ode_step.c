@@ -40,8 +40,8 @@ static void test_wrong_input(void **state) {
         assert_int_equal(fw_maths_stepper_new(arena, row, &ode, 1e-6, atol, &s), FW_INPUT);
         assert_null(s);
     }
-    assert_int_equal(fw_maths_stepper_new(arena, &fw_maths_generalised_alpha_row, &first_order.ode,
-                                          1e-6, atol, &s),
+    assert_int_equal(fw_maths_stepper_new(arena, fw_maths_stepper_find("generalised-alpha"),
+                                          &first_order.ode, 1e-6, atol, &s),
                      FW_INPUT);
     fw_maths_stepper_free(NULL);
     fw_arena_free(arena);

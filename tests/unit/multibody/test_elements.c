@@ -267,9 +267,9 @@ static void minimal_places_loose_bodies(void **state) {
         for (int i = 0; i < 3 && cases[c].pins[i] >= 0; i++)
             t.released[cases[c].pins[i]] = true;
         fw_multibody_system *sys =
-            rig_system_with(arena, &r.m, &t, 1, &fw_multibody_method_minimal);
+            rig_system_with(arena, &r.m, &t, 1, fw_multibody_method_find("minimal"));
         fw_text text = fw_text_new(arena);
-        assert_int_equal(fw_multibody_method_minimal.report(sys, &r.m, &text), FW_OK);
+        assert_int_equal(fw_multibody_method_find("minimal")->report(sys, &r.m, &text), FW_OK);
         if (!strstr(text.data, cases[c].report)) fail_msg("%s", text.data);
     }
     fw_arena_free(arena);

@@ -13,7 +13,7 @@ typedef struct made {
 
 static made system_of(fw_arena *arena, const rig *r) {
     const fw_multibody_model *m =
-        rig_model_with(arena, &r->m, NULL, 1, &fw_multibody_method_minimal);
+        rig_model_with(arena, &r->m, NULL, 1, fw_multibody_method_find("minimal"));
     fw_diags *diags = fw_arena_one(arena, fw_diags);
     *diags = fw_diags_new(arena);
     made out = {0};
@@ -26,7 +26,7 @@ static void expect(fw_arena *arena, const rig *r, const char *report) {
     made k = system_of(arena, r);
     if (k.status != FW_OK) fail_msg("%s", k.message);
     fw_text text = fw_text_new(arena);
-    assert_int_equal(fw_multibody_method_minimal.report(k.sys, &r->m, &text), FW_OK);
+    assert_int_equal(fw_multibody_method_find("minimal")->report(k.sys, &r->m, &text), FW_OK);
     assert_string_equal(text.data, report);
 }
 
