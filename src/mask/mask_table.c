@@ -10,16 +10,8 @@ static const char *const role_names[] = {
     [FW_ROLE_TETHER] = "tether",       [FW_ROLE_TEXT] = "text",       [FW_ROLE_MARK] = "mark",
     [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_COUNT] = NULL};
 static const char *const tones[] = {"data clear", "data dark", NULL};
-const char *const fw_mask_yes_no[] = {"yes", "no", NULL};
 
 /* ---- forms of text ---- */
-
-bool fw_mask_is_plain(const char *text) {
-    size_t n = strlen(text);
-    for (size_t i = 0; i < n; i++)
-        if ((unsigned char)text[i] < 0x20 || (unsigned char)text[i] > 0x7e) return false;
-    return n > 0 && n <= 400;
-}
 
 static bool is_identifier(const char *s) {
     size_t n = strlen(s);
@@ -293,11 +285,6 @@ static const fw_xml_table table_of_layers = {.file = "layer table",
                                                          .range = 141}};
 
 /* ---- layers ---- */
-
-bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word) {
-    const char *text = fw_xml_text_of(record, name);
-    return text && strcmp(text, word) == 0;
-}
 
 static unsigned roles_of(const fw_xml_record *record) {
     const char *text = fw_xml_text_of(record, "roles");

@@ -59,7 +59,20 @@ typedef struct fw_mask_rule_search { /* one layer */
     bool no_memory;
 } fw_mask_rule_search;
 
-/* rules_search.c */
+/* what a rule asks of a pair of edges; 0: there is none */
+static inline double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind,
+                                         double slack_m) {
+    double limit = in->limit_m[kind];
+    return limit > 0 ? limit + slack_m : 0;
+}
+/* beyond this a chord of that kind changes nothing */
+static inline double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind) {
+    double least = kind == FW_RULE_WIDTH ? in->measure->width_m : in->measure->space_m;
+    if (in->everything) return HUGE_VAL;
+    return fw_greater(fw_mask_rule_needed(in, kind, 2 * in->slack_m), fw_lesser(least, in->cap_m));
+}
+
+/* rules_edges.c */
 fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double tolerance_m);
 bool fw_mask_rule_parts(fw_mask_rule_search *in, fw_mask_rule_edge *e); /* false: no memory */
 /* which edges begin at a place, by the bits of its coordinates: the next one after edge `after`, or
@@ -77,10 +90,6 @@ void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f);
    each, in the order of shapes. Sorts `list`. */
 fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,
                               fw_mask_rule_finding **out, int *nout);
-/* what a rule asks of a pair of edges; 0: there is none */
-double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind, double slack_m);
-/* beyond this a chord of that kind changes nothing */
-double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind);
 
 /* ---- kinds: each has its check and its row in a file rule_*.c, and one line in rules.def ---- */
 
@@ -143,7 +152,7 @@ const fw_mask_rule_kind_row *fw_mask_rule_kind_at(size_t i); /* NULL behind the 
 double fw_mask_rule_row_shown(const fw_mask_rule_kind_row *kind, double value);
 const char *fw_mask_rule_unit_name(const fw_mask_rule_kind_row *kind);
 
-/* ---- for the kinds ---- */
+/* ---- for the kinds: rules_kinds.c ---- */
 void fw_mask_rules_add(fw_mask_rules *rules, fw_mask_finding finding);
 /* the rule's findings among the chords of a layer: one for each place where a chord of that kind is
    below the limit. `pick` (may be NULL) says which pairs of shapes count */
@@ -197,6 +206,7 @@ fw_geometry_box fw_mask_marker(const fw_mask_finding *finding);
 #define FW_MASK_YES_NO .kind = FW_KIND_WORD, .words = fw_mask_yes_no, .fallback = "no"
 #define FW_MASK_LENGTH .kind = FW_KIND_NUMBER, .dimension = {.m = 1}, .unit = "um"
 
+/* table_rules.c */
 extern const char *const fw_mask_yes_no[];
 bool fw_mask_is_plain(const char *text);
 bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word);

@@ -49,7 +49,7 @@ const fw_mask_rule_kind_row fw_mask_kind_space = {
 
 /* Notch: the same as space, but between edges of one connected shape (pieces that share joints), in
    the place of the layer's rule for space there. Chords, error, cost: rules_pair.c; islands:
-   mask_rules.c. Test: test_rule_seeded.c. */
+   rules_kinds.c. Test: test_rule_seeded.c. */
 
 static bool of_one(const fw_mask_rules *rules, const fw_mask_rule_finding *f, const void *with) {
     const int *group = with;

@@ -3,6 +3,24 @@
 #include "mask/rule.h"
 #include <string.h>
 
+/* ---- what rows of other elements have too ---- */
+
+const char *const fw_mask_yes_no[] = {"yes", "no", NULL};
+
+bool fw_mask_is_plain(const char *text) {
+    size_t n = strlen(text);
+    for (size_t i = 0; i < n; i++)
+        if ((unsigned char)text[i] < 0x20 || (unsigned char)text[i] > 0x7e) return false;
+    return n > 0 && n <= 400;
+}
+
+bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word) {
+    const char *text = fw_xml_text_of(record, name);
+    return text && strcmp(text, word) == 0;
+}
+
+/* ---- rows: which attributes there are depends on the kind ---- */
+
 const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,
                                              .misplaced = 135,
                                              .attribute = 135,
@@ -11,8 +29,6 @@ const fw_xml_numbers fw_mask_rule_numbers = {.element = 135,
                                              .word = 135,
                                              .form = 141,
                                              .range = 135};
-
-/* ---- rows: which attributes there are depends on the kind ---- */
 
 static const fw_quantity_dimension length = {.m = 1};
 static const char *const severities[] = {"error", "warning", NULL};
