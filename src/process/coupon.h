@@ -26,6 +26,9 @@ double fw_process_chi_square_above(double x, int n);
 
 enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64 };
 
+/* of a larger chi square: below, the data contradict */
+#define FW_COUPON_LEAST_PROBABILITY 0.001
+
 typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     fw_arena *arena;
     const fw_process_flow *flow;
@@ -50,6 +53,7 @@ typedef struct fw_process_coupon {
 #include "process/coupons.def"
 #undef FW_PROCESS_COUPON
 
+/* ---- for the kinds: coupon_fit.c ---- */
 /* a result, tested: FW-D212 and FW_INPUT where chi square is too large. Several kinds may give the
    same id: they are joined afterwards. freedom and chi_square of `fit`. */
 fw_status fw_process_coupon_give(fw_process_coupon_work *work, const char *id, double value,

@@ -5,28 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static fw_quantity *find(const fw_process_flow *flow, const char *id) {
-    for (int i = flow->nquantity - 1; i >= 0; i--) /* the flow's own come after the shared ones */
-        if (flow->quantity[i]->id && strcmp(flow->quantity[i]->id, id) == 0)
-            return flow->quantity[i];
-    return NULL;
-}
-
-const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id) {
-    return find(flow, id);
-}
-
-const fw_process_material *fw_process_flow_material(const fw_process_flow *flow, const char *id) {
-    for (int i = flow->nprocess_material - 1; i >= 0; i--)
-        if (strcmp(flow->process_material[i].id, id) == 0) return &flow->process_material[i];
-    return NULL;
-}
-
-const char *fw_process_flow_material_name(const fw_process_flow *flow, const char *id) {
-    const fw_process_material *m = fw_process_flow_material(flow, id);
-    return m ? m->name : id;
-}
-
 static bool usable(double x) {
     return isfinite(x) && x > 0.0;
 }
@@ -68,7 +46,7 @@ static fw_status check_facts(const fw_process_flow *flow, const fw_process_mask_
 
 /* a quantity that the pack leaves to the mask; absent in packs that do not need it */
 static void fill(fw_process_flow *flow, const char *id, double value, double uncertainty) {
-    fw_quantity *q = find(flow, id);
+    fw_quantity *q = fw_process_flow_own_quantity(flow, id);
     if (!q) return;
     q->unknown = !isfinite(value) || !isfinite(uncertainty);
     q->value = q->unknown ? 0.0 : value;
@@ -92,26 +70,26 @@ static double all_area(const fw_process_mask_facts *m) {
    an edge that prints b further out. The mask's own area is exact. All m2. */
 static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
-    const fw_quantity *edge = find(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
     double area = all_structure(m);
     double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
     fw_quantity_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
-        const fw_quantity *q = find(flow, extra[i]);
+        const fw_quantity *q = fw_process_flow_own_quantity(flow, extra[i]);
         if (!q) continue;
         worst = fw_process_status_worse(worst, q->status);
         area += q->unknown ? (double)NAN : q->value;
         u = hypot(u, q->uncertainty);
     }
     fill(flow, "mask.plated-area", area, u);
-    fw_quantity *whole = find(flow, "mask.plated-area");
+    fw_quantity *whole = fw_process_flow_own_quantity(flow, "mask.plated-area");
     if (!whole) return;
     whole->status = worst;
     whole->source = "this device's own mask, contact ring and thief of the pack";
 }
 
 static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
-    const fw_quantity *edge = find(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
     fill(flow, "mask.structure-area", all_structure(m), 0.0);
@@ -133,7 +111,7 @@ static void forget_mask(fw_process_flow *flow) {
 /* the device file may ask for another thickness than the pack's own */
 static fw_status set_thickness(fw_arena *arena, fw_process_flow *flow,
                                const fw_process_mask_facts *m) {
-    fw_quantity *q = find(flow, flow->thickness->id);
+    fw_quantity *q = fw_process_flow_own_quantity(flow, flow->thickness->id);
     if (!q || !usable(m->device_thickness_m) ||
         fabs(m->device_thickness_m - q->value) < 1e-9 * q->value)
         return FW_OK;
@@ -237,7 +215,7 @@ static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
     double thickness = facts ? facts->device_thickness_m : 0.0;
     FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, thickness, p));
     flow->bias_m = p->bias_m;
-    const fw_quantity *edge = find(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
     double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
     if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);

@@ -28,6 +28,8 @@ double fw_process_judge_known(const fw_quantity *q); /* NaN where it is not */
 /* appends a reason; the verdict becomes no better than `weight` */
 fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight, const char *format,
                                   ...) __attribute__((format(printf, 3, 4)));
+/* the reasons from `from` on come before all others, in their order */
+void fw_process_judge_to_front(fw_process_flow *flow, int from);
 /* what etches do to edges and gaps, from the fixed point (judge_etch.c) */
 fw_status fw_process_judge_etching(fw_process_judge *j);
 

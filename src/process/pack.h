@@ -46,6 +46,9 @@ const char *fw_process_pack_text(const fw_xml_record *e, const char *name); /* "
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
+/* the flow's quantity with this id, to be filled in; NULL: it has none */
+fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
+
 fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* <corner>s of the flow; mistakes are FW-D260 */
 void fw_process_pack_corners(fw_process_pack *pack);

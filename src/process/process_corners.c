@@ -63,11 +63,6 @@ void fw_process_pack_corners(fw_process_pack *pack) {
 
 /* ---- inputs of the verdict ---- */
 
-void fw_process_quantity_range(const fw_quantity *q, double *low, double *high) {
-    *low = q->interval ? q->low : q->value - 2.0 * q->uncertainty;
-    *high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
-}
-
 static void set_range(fw_verdict_fabrication_input *in, const fw_quantity *q) {
     in->q = *q;
     in->nominal = q->value;

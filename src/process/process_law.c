@@ -28,13 +28,6 @@ int fw_process_law_argument_index(const fw_process_law *law, const char *name) {
     return -1;
 }
 
-const fw_quantity *fw_process_law_input(const fw_process_law_use *use, const char *name) {
-    for (int i = 0; i < use->nargument; i++)
-        if (strcmp(use->argument[i].name, name) == 0)
-            return use->argument[i].q->unknown ? NULL : use->argument[i].q;
-    return NULL;
-}
-
 /* the inputs of one evaluation, in the order of the law's arguments */
 typedef struct input {
     double x[FW_LAW_ARGUMENTS];
@@ -252,29 +245,4 @@ void fw_process_law_window(const fw_process_law_answer *answer, double k, double
     time->first_look_s = fmax(0.0, answer->value - k * answer->uncertainty);
     time->clear_by_s = answer->value + k * answer->uncertainty;
     time->stop_s = time->clear_by_s * (1.0 + overrun);
-}
-
-fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const char *name,
-                                 double value, double uncertainty_si,
-                                 fw_quantity_dimension dimension, const char *unit,
-                                 fw_quantity_value_status status, const char *source) {
-    fw_quantity *q = fw_arena_one(arena, fw_quantity);
-    const fw_quantity **grown = fw_arena_grow(arena, step->derived, (size_t)step->nderived,
-                                              (size_t)step->nderived + 1, sizeof *step->derived);
-    FW_NEED(q && grown);
-    /* what is computed is at best derived */
-    status = fw_process_status_worse(status, FW_DERIVED);
-    bool known = isfinite(value) && isfinite(uncertainty_si);
-    *q = (fw_quantity){.id = name,
-                       .unknown = !known,
-                       .value = known ? value : 0.0,
-                       .uncertainty = known ? fabs(uncertainty_si) : 0.0,
-                       .dimension = dimension,
-                       .unit = unit,
-                       .status = status,
-                       .source = source,
-                       .place = step->place};
-    grown[step->nderived++] = q;
-    step->derived = grown;
-    return FW_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time laws: one file and one row in process_law.c each. A law is a function of named arguments
+/* Time laws: one line of time_laws.def each, their rows in law_*.c. A law is a function of named arguments
    with dimensions; the evaluator adds uncertainty, status, window and what is missing. */
 #ifndef FW_PROCESS_PROCESS_LAW_H
 #define FW_PROCESS_PROCESS_LAW_H

@@ -2,69 +2,14 @@
 #include "base/text.h"
 #include "process/pack.h"
 #include "base/sort.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name) {
-    return fw_xml_cell_of(e, name)->given;
-}
-
-const char *fw_process_pack_text(const fw_xml_record *e, const char *name) {
-    const fw_xml_attribute *a = fw_process_pack_get(e, name);
-    return a ? a->value : "";
-}
-
-double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent) {
-    const fw_xml_cell *cell = fw_xml_cell_of(e, name);
-    return cell->ok ? cell->number : absent;
-}
 
 static int by_id(const void *a, const void *b) {
     const fw_process_id *s = a, *t = b;
     int order = strcmp(s->id, t->id);
     if (!order) order = fw_order_wholes(s->base, t->base);
     return order ? order : fw_order_wholes(s->order, t->order);
-}
-
-/* the flow's own one wins over the shared one */
-static const fw_process_id *find(const fw_process_pack *pack, const char *id) {
-    int low = 0, high = pack->nid;
-    while (low < high) {
-        int middle = low + (high - low) / 2;
-        if (strcmp(pack->id[middle].id, id) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < pack->nid && strcmp(pack->id[low].id, id) == 0 ? &pack->id[low] : NULL;
-}
-
-static const char *nearest(const fw_process_pack *pack, const char *wrong,
-                           fw_process_id_kind kind) {
-    const char *best = NULL;
-    int least = 3;
-    for (int i = 0; i < pack->nid; i++) {
-        int d = pack->id[i].kind == kind ? fw_edit_distance(wrong, pack->id[i].id, 2) : 3;
-        if (d < least) {
-            least = d;
-            best = pack->id[i].id;
-        }
-    }
-    return best;
-}
-
-void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attribute,
-                           fw_process_id_kind kind) {
-    static const char *const word[] = {"source", "material", "equipment",
-                                       "hazard", "quantity", "step"};
-    const fw_process_id *found = find(pack, attribute->value);
-    if (found && found->kind == kind) return found->item;
-    const char *best = nearest(pack, attribute->value, kind);
-    fw_diag_error(pack->diags, 165, attribute->place, "%s='%s': there is no %s with this id%s%s%s",
-                  attribute->name, attribute->value, word[kind], best ? "; did you mean '" : "",
-                  best ? best : "", best ? "'?" : "");
-    return NULL;
 }
 
 static void enter(fw_process_pack *pack, const char *id, fw_process_id_kind kind, bool base,
