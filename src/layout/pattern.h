@@ -93,7 +93,7 @@ fw_status fw_layout_pattern_draw(fw_arena *arena, const fw_layout_pattern *patte
                                  double width_rule_m, double space_rule_m, double bias_m,
                                  fw_layout_coupon *coupon);
 
-/* ---- for the kinds ---- */
+/* ---- for the kinds: pattern_pen.c ---- */
 /* a rectangle of the shape that is being drawn; parts of a shape overlap, none only touches */
 fw_status fw_layout_pen_box(fw_layout_pen *pen, double x0, double y0, double x1, double y1);
 /* ends the shape: the rectangles become one piece; what lies on y = 0 is its feet. FW_GEOMETRY when

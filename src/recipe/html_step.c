@@ -89,6 +89,17 @@ static void tagged(fw_text *out, const char *text) {
     fw_text_printf(out, "<span class=\"tag %s\">%s</span>", text, text);
 }
 
+/* "[3]": number of the source in the list at the end; other text as it is */
+static void source_of(const fw_process_flow *flow, const char *source, fw_text *out) {
+    if (!source || !source[0]) return;
+    for (int i = 0; i < flow->nsource; i++)
+        if (strcmp(flow->source[i].text, source) == 0) {
+            fw_text_printf(out, "[%d]", i + 1);
+            return;
+        }
+    fw_text_escaped(out, source);
+}
+
 static void step_head(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
@@ -164,7 +175,7 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     fw_text_add(out, "</td><td>");
     tagged(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     fw_text_add(out, " ");
-    fw_recipe_html_source(flow, q->source, out);
+    source_of(flow, q->source, out);
     if (q->note) {
         fw_text_add(out, " <span class=\"muted\">");
         fw_text_escaped(out, q->note);

@@ -198,16 +198,6 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "time, k = 2.</p>\n");
 }
 
-void fw_recipe_html_source(const fw_process_flow *flow, const char *source, fw_text *out) {
-    if (!source || !source[0]) return;
-    for (int i = 0; i < flow->nsource; i++)
-        if (strcmp(flow->source[i].text, source) == 0) {
-            fw_text_printf(out, "[%d]", i + 1);
-            return;
-        }
-    fw_text_escaped(out, source);
-}
-
 static void sources(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out, "<h3>Sources</h3>\n<ol class=\"small\">\n");
     for (int i = 0; i < flow->nsource; i++) {

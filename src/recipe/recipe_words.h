@@ -45,7 +45,5 @@ fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_h
                                   const struct fw_recipe_section_scale *scale, fw_text *out);
 void fw_recipe_html_step(const fw_process_flow *flow, int index, struct fw_recipe_slicer *slicer,
                          const struct fw_recipe_section_scale *scale, fw_text *out);
-/* "[3]": number of the source in the list at the end; other text as it is */
-void fw_recipe_html_source(const fw_process_flow *flow, const char *source, fw_text *out);
 
 #endif

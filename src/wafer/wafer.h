@@ -28,7 +28,7 @@ fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
 /* do all points of the rectangle lie in the usable area? exact */
 bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
 
-/* ---- places: wafer_grid.c, wafer_grid.c ---- */
+/* ---- places: wafer_grid.c ---- */
 typedef enum fw_wafer_kind { FW_WAFER_DIE, FW_WAFER_ALIGNMENT, FW_WAFER_TEST } fw_wafer_kind;
 
 typedef struct fw_wafer_site {
@@ -55,6 +55,10 @@ fw_status fw_wafer_assign(const fw_wafer_form *form, const fw_device_wafer_asked
 /* dies that are devices, for the process; 0: what is asked for cannot be laid out */
 fw_status fw_wafer_dies(fw_arena *arena, const fw_device_wafer_asked *asked, fw_geometry_box die,
                         int *dies);
+
+/* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
+   and are centred */
+void fw_wafer_origin(const fw_wafer_grid *grid, fw_geometry_box die, int32_t *dx, int32_t *dy);
 
 /* "C" and "07" of "C07"; columns are written with as many digits as the last one, two at least */
 enum { FW_WAFER_NAME = 16 };
@@ -132,9 +136,5 @@ fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_
 /* for the mask shop, with the files that go with it */
 fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file, int nfile,
                                fw_text *out);
-
-/* origin of a die's cell from the lower left corner of its place: dies of sweeps may differ in size
-   and are centred */
-void fw_wafer_origin(const fw_wafer_grid *grid, fw_geometry_box die, int32_t *dx, int32_t *dy);
 
 #endif

@@ -1,103 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells and arrays. Array steps are whole multiples of the pitch in dbu, so that columns and rows
-   divide the corners of an AREF exactly. */
+/* From devices and what <wafer> asks for to places, cells and arrays. */
 #include "wafer/wafer_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { LONGEST_NAME = 32 };
-
-static bool taken(const fw_wafer *w, const char *name) {
-    for (int i = 0; i < w->ncell; i++)
-        if (strcmp(w->cell[i].name, name) == 0) return true;
-    return w->top && strcmp(w->top, name) == 0;
-}
-
-/* a name that no other cell has: readers take the last of two cells of one name, or stop */
-static const char *own_name(fw_wafer_maker *m, const char *name) {
-    const char *own = name;
-    for (int k = 2; own && taken(m->wafer, own); k++)
-        own = fw_arena_printf(m->arena, "%.*s_%d", LONGEST_NAME - 6, name, k);
-    return own;
-}
-
-fw_status fw_wafer_add_cell(fw_wafer_maker *m, const char *name, const fw_mask *mask, int32_t dx,
-                            int32_t dy, int *cell) {
-    fw_wafer *w = m->wafer;
-    if (w->ncell == m->cells) {
-        int more = m->cells ? 2 * m->cells : 64;
-        FW_NEED(w->cell = fw_arena_grow(m->arena, w->cell, (size_t)w->ncell, (size_t)more,
-                                        sizeof *w->cell));
-        m->cells = more;
-    }
-    const char *own = own_name(m, name);
-    FW_NEED(own);
-    *cell = w->ncell;
-    w->cell[w->ncell++] = (fw_wafer_cell){.name = own, .mask = mask, .dx = dx, .dy = dy};
-    return FW_OK;
-}
-
-fw_status fw_wafer_add_run(fw_wafer_maker *m, fw_wafer_run run) {
-    fw_wafer *w = m->wafer;
-    if (w->nrun == m->runs) {
-        int more = m->runs ? 2 * m->runs : 256;
-        FW_NEED(w->run =
-                    fw_arena_grow(m->arena, w->run, (size_t)w->nrun, (size_t)more, sizeof *w->run));
-        m->runs = more;
-    }
-    w->cell[run.cell].placed += run.columns * run.rows;
-    w->run[w->nrun++] = run;
-    return FW_OK;
-}
-
-/* the longest evenly spaced run from site i on, in its row, of sites with its cell that are not
-   done; marks them */
-static fw_status add_run_from(fw_wafer_maker *m, const int *cell_of, bool *done, int i, int end) {
-    const fw_wafer_grid *g = &m->wafer->grid;
-    int n = 1, stride = 0, at = g->site[i].column;
-    done[i] = true;
-    for (int j = i + 1; j < end; j++) {
-        if (done[j] || cell_of[j] != cell_of[i]) continue;
-        int step = g->site[j].column - at;
-        if (stride == 0) stride = step;
-        if (step > stride) break; /* a gap: another run begins there */
-        if (step < stride) continue;
-        done[j] = true;
-        at = g->site[j].column;
-        n++;
-    }
-    const fw_wafer_cell *c = &m->wafer->cell[cell_of[i]];
-    return fw_wafer_add_run(m, (fw_wafer_run){.cell = cell_of[i],
-                                              .x = g->site[i].x + c->dx,
-                                              .y = g->site[i].y + c->dy,
-                                              .columns = n,
-                                              .rows = 1,
-                                              .step_x = (stride ? stride : 1) * g->pitch_x,
-                                              .step_y = g->pitch_y});
-}
-
-/* arrays of equal cells in every row; cell_of[i]: of site i, -1: none */
-static fw_status add_rows(fw_wafer_maker *m, const int *cell_of) {
-    const fw_wafer_grid *g = &m->wafer->grid;
-    bool *done = fw_arena_array(m->arena, bool, (size_t)g->nsite);
-    FW_NEED(done);
-    for (int start = 0, end; start < g->nsite; start = end) {
-        for (end = start; end < g->nsite && g->site[end].row == g->site[start].row;)
-            end++;
-        for (int i = start; i < end; i++)
-            if (!done[i] && cell_of[i] >= 0) FW_TRY(add_run_from(m, cell_of, done, i, end));
-    }
-    return FW_OK;
-}
-
-void fw_wafer_origin(const fw_wafer_grid *grid, fw_geometry_box die, int32_t *dx, int32_t *dy) {
-    double width = grid->width * 1e-9, height = grid->height * 1e-9;
-    *dx = (int32_t)floor((0.5 * (width - (die.x1 - die.x0)) - die.x0) * 1e9 + 0.5);
-    *dy = (int32_t)floor((0.5 * (height - (die.y1 - die.y0)) - die.y0) * 1e9 + 0.5);
-}
-
-/* From devices and what <wafer> asks for to places, cells and arrays. */
 
 /* a device that is not placed counts too: it could be laid out, and the number of dies must not
    hang on what is found out about it later. Without any outline its size is 0. */
@@ -197,8 +103,8 @@ static fw_status add_die(fw_wafer_maker *m, const fw_wafer_variant *v, const cha
     const char *own = v->mask->cell, *name = own;
     int32_t dx, dy;
     if (*suffix)
-        FW_NEED(name = fw_arena_printf(m->arena, "%.*s%s", LONGEST_NAME - (int)strlen(suffix), own,
-                                       suffix));
+        FW_NEED(name = fw_arena_printf(m->arena, "%.*s%s",
+                                       FW_WAFER_LONGEST_NAME - (int)strlen(suffix), own, suffix));
     fw_wafer_origin(&m->wafer->grid, v->die, &dx, &dy);
     return fw_wafer_add_cell(m, name, v->mask, dx, dy, cell);
 }
@@ -242,7 +148,7 @@ static fw_status place(fw_wafer_maker *m) {
                      : s->kind == FW_WAFER_TEST && own_test ? test
                                                             : marks;
     }
-    FW_TRY(add_rows(m, of_site));
+    FW_TRY(fw_wafer_add_rows(m, of_site));
     return fw_wafer_ids(m);
 }
 
@@ -250,7 +156,7 @@ static fw_status place(fw_wafer_maker *m) {
 static fw_status name_top(fw_wafer_maker *m) {
     fw_wafer *w = m->wafer;
     const char *tail = w->rejected ? "_WAFER_REJECTED" : "_WAFER";
-    char *top = fw_arena_printf(m->arena, "%.*s%s", LONGEST_NAME - (int)strlen(tail),
+    char *top = fw_arena_printf(m->arena, "%.*s%s", FW_WAFER_LONGEST_NAME - (int)strlen(tail),
                                 w->device->name, tail);
     FW_NEED(top);
     for (char *s = top; *s; s++) {

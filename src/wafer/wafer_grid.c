@@ -231,6 +231,12 @@ const char *fw_wafer_column_name(const fw_wafer_grid *grid, int column, char nam
     return name;
 }
 
+void fw_wafer_origin(const fw_wafer_grid *grid, fw_geometry_box die, int32_t *dx, int32_t *dy) {
+    double width = grid->width * 1e-9, height = grid->height * 1e-9;
+    *dx = (int32_t)floor((0.5 * (width - (die.x1 - die.x0)) - die.x0) * 1e9 + 0.5);
+    *dy = (int32_t)floor((0.5 * (height - (die.y1 - die.y0)) - die.y0) * 1e9 + 0.5);
+}
+
 /* Which place is what. All rules are fixed, so that the same description gives the same wafer:
 
    alignment  the first and the last die of the row whose middle is nearest to the centre (of two
