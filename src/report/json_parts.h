@@ -26,6 +26,7 @@ void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *mechanism,
 
 /* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */
 
+void fw_report_preview_put_um(fw_text *out, double metres);
 void fw_report_preview_um(fw_json *out, const char *key, double metres);
 void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m); /* [x, y] */
 void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b); /* -1: the ground */

@@ -8,8 +8,6 @@
 #include "report/json_parts.h"
 #include <math.h>
 
-static const double UM = 1e6;
-
 typedef struct frame { /* world -> local: turn by -phi about (x, y), then that point is the origin
                         */
     double x_m, y_m, c, s;
@@ -26,43 +24,20 @@ static fw_geometry_vec2 into(const frame *f, fw_geometry_vec2 p) {
     return (fw_geometry_vec2){f->c * x + f->s * y, -f->s * x + f->c * y};
 }
 
-/* 1 nm */
-static void um(fw_text *out, double metres) {
-    fw_text_fixed(out, isfinite(metres) ? UM * metres : 0.0, 3);
-}
-
 static void point(fw_text *out, const char *command, fw_geometry_vec2 p) {
     fw_text_add(out, command);
-    um(out, p.x);
+    fw_report_preview_put_um(out, p.x);
     fw_text_add(out, " ");
-    um(out, p.y);
-}
-
-void fw_report_preview_um(fw_json *out, const char *key, double metres) {
-    um(fw_json_value(out, key), metres);
-}
-
-void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m) {
-    fw_json_list(out, key);
-    fw_report_preview_um(out, NULL, x_m);
-    fw_report_preview_um(out, NULL, y_m);
-    fw_json_end(out);
-}
-
-void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b) {
-    fw_json_list(out, key);
-    fw_json_whole(out, NULL, a);
-    fw_json_whole(out, NULL, b);
-    fw_json_end(out);
+    fw_report_preview_put_um(out, p.y);
 }
 
 /* y points up: counter-clockwise is SVG's positive sweep in these axes */
 static void arc_to(fw_text *out, const frame *f, const fw_geometry_segment *s, double sweep,
                    fw_geometry_vec2 to) {
     fw_text_add(out, "A");
-    um(out, s->radius);
+    fw_report_preview_put_um(out, s->radius);
     fw_text_add(out, " ");
-    um(out, s->radius);
+    fw_report_preview_put_um(out, s->radius);
     fw_text_printf(out, " 0 %d %d", fabs(sweep) > FW_PI ? 1 : 0, sweep > 0.0 ? 1 : 0);
     point(out, " ", into(f, to));
 }
