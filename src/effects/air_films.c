@@ -17,6 +17,41 @@
 #include "effects/air.h"
 #include <math.h>
 
+/* ---- the gas, and what it acts on ---- */
+
+double fw_effects_air_viscosity(double temperature_K) {
+    return 1.458e-6 * pow(temperature_K, 1.5) / (temperature_K + 110.4);
+}
+
+/* mean free path mu/p sqrt(pi R T/2), the one that Kn of the slip formulas is made of */
+fw_effects_gas fw_effects_gas_of(const fw_device_air *air) {
+    fw_effects_gas g = {.pressure_Pa =
+                            isnan(air->pressure_Pa) ? FW_STANDARD_ATMOSPHERE_Pa : air->pressure_Pa,
+                        .temperature_K = isnan(air->temperature_K) ? 293.15 : air->temperature_K};
+    g.viscosity_Pas =
+        isnan(air->viscosity_Pas) ? fw_effects_air_viscosity(g.temperature_K) : air->viscosity_Pas;
+    g.density_kg_per_m3 = g.pressure_Pa / (FW_DRY_AIR_J_PER_kg_K * g.temperature_K);
+    g.path_m =
+        g.viscosity_Pas / g.pressure_Pa * sqrt(FW_PI * FW_DRY_AIR_J_PER_kg_K * g.temperature_K / 2);
+    return g;
+}
+
+/* a stated area keeps the drawn figure; without one it is a disc, which has the least polar moment
+   and perimeter of its area */
+fw_effects_face fw_effects_air_face(const fw_mechanism *m, const fw_device_air *air, int body) {
+    const fw_mechanism_shape *drawn = m->shape ? &m->shape[body] : NULL;
+    bool known = drawn && drawn->area_m2 > 0;
+    double area = air->area_m2;
+    if (known && isnan(area))
+        return (fw_effects_face){drawn->area_m2, drawn->polar_m4, drawn->perimeter_m};
+    if (!known) return (fw_effects_face){area, area * area / (2 * FW_PI), 2 * sqrt(FW_PI * area)};
+    double scale = area / drawn->area_m2;
+    return (fw_effects_face){area, scale * scale * drawn->polar_m4,
+                             sqrt(scale) * drawn->perimeter_m};
+}
+
+/* ---- squeeze film ---- */
+
 static const double slip = 9.638, slip_power = 1.159;
 
 /* the series converges like exp only in its first term; 40 terms leave 1e-9 of what it subtracts.

@@ -153,8 +153,15 @@ typedef struct fw_effects_words {
                       const fw_quantity_law *law); /* " times a ramp over 2 ms"; nothing for NULL */
     void *context;
 } fw_effects_words;
-void fw_effects_say(const fw_effects_words *words, const char *format, ...);
-void fw_effects_say_law(const fw_effects_words *words, const fw_quantity_law *law);
+static inline void fw_effects_say(const fw_effects_words *words, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    words->write(words->context, format, arguments);
+    va_end(arguments);
+}
+static inline void fw_effects_say_law(const fw_effects_words *words, const fw_quantity_law *law) {
+    words->write_law(words->context, law);
+}
 
 typedef struct fw_effects_load { /* something that a scene can be given less of */
     const char *name;            /* "tendon pulls" */
@@ -165,7 +172,10 @@ typedef struct fw_effects_load_scaling {
     fw_effects_load item[16]; /* (count) */
     int count;
 } fw_effects_load_scaling;
-void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load);
+static inline void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load) {
+    size_t room = sizeof loads->item / sizeof loads->item[0];
+    if ((size_t)loads->count < room) loads->item[loads->count++] = load;
+}
 
 /* What a mechanism made of solids (continuum/device_deck.c) does with an effect that the scene
    calls for */

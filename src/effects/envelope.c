@@ -11,13 +11,6 @@
    (docs/theory/effects/envelope.md) */
 static const double nonlinearity_most = 0.8, widening = 4;
 
-double fw_effects_pin_deflection(const fw_mechanism *m, int i) {
-    const fw_mechanism_pin *p = &m->pin[i];
-    double a = p->body_a == FW_GROUND ? 0 : m->body[p->body_a].phi_rad;
-    double b = p->body_b == FW_GROUND ? 0 : m->body[p->body_b].phi_rad;
-    return b - a - p->free_angle_rad;
-}
-
 static fw_status arrays(fw_arena *arena, const fw_effects_modal *o, fw_effects_envelope *e) {
     size_t n = (size_t)o->n, m = (size_t)o->modes, pins = (size_t)o->mechanism->npin;
     FW_NEED(e->across = fw_arena_array(arena, double, (size_t)o->mechanism->njoint));

@@ -46,6 +46,10 @@ typedef struct fw_effects_envelope {
    `kept` first, so that an effect's `add` sees at least that envelope */
 fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene, fw_effects_envelope *envelope);
+/* the same for the rows (count) of the table that are handed in: envelope_find.c */
+fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_device_scene *scene, const fw_effect_row *const *row,
+                                      size_t count, fw_effects_envelope *envelope);
 /* of given loads */
 fw_status fw_effects_envelope_of(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_device_scene *scene, const fw_effects_loads *loads,

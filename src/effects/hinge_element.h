@@ -20,6 +20,7 @@ typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, 
 /* what U is multiplied by, and its rate */
 double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
                                 double *rate);
+extern const fw_effects_element_class fw_effects_flexed_class; /* hinge_element.c */
 /* the closed form: elastic force times warm, and what the material dissipates; warm 0: that alone
  */
 void fw_effects_flexed_force(const fw_effects_flexed *h, const fw_effects_port_state *s,

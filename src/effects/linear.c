@@ -95,6 +95,12 @@ static void add_spring_along(const fw_effects_linear *s, const fw_mechanism *m,
     add_stiffness(s, &along, p->stiffness_N_per_m / s->stiffness_N_per_m);
 }
 
+bool fw_effects_spring_slack(const fw_mechanism *m, const fw_device_spring *s) {
+    fw_geometry_vec2 a = fw_mechanism_local_place(m, s->body_a, s->ax_m, s->ay_m);
+    fw_geometry_vec2 b = fw_mechanism_local_place(m, s->body_b, s->bx_m, s->by_m);
+    return s->cable && !(hypot(b.x - a.x, b.y - a.y) > s->length_m);
+}
+
 /* points that coincide: a spring without length holds them in all directions */
 static void add_spring(const fw_effects_linear *s, const fw_mechanism *m,
                        const fw_device_spring *p) {

@@ -100,12 +100,6 @@ static void modal_load_at(const fw_mechanism *m, double *force, int body, double
     modal_load(m, force, body, fw_mechanism_local_place(m, body, x, y), fx, fy);
 }
 
-bool fw_effects_spring_slack(const fw_mechanism *m, const fw_device_spring *s) {
-    fw_geometry_vec2 a = fw_mechanism_local_place(m, s->body_a, s->ax_m, s->ay_m);
-    fw_geometry_vec2 b = fw_mechanism_local_place(m, s->body_b, s->bx_m, s->by_m);
-    return s->cable && !(hypot(b.x - a.x, b.y - a.y) > s->length_m);
-}
-
 /* timed loads at the start, or with end_s > 0 at the largest of their factor in the scene */
 static void add_loads(const fw_mechanism *m, const fw_effects_loads *loads, double end_s,
                       double *force) {

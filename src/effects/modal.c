@@ -10,6 +10,13 @@ static double mass_of(const fw_mechanism *m, int i) {
     return i % 3 == 2 ? m->body[i / 3].inertia_kg_m2 : m->body[i / 3].mass_kg;
 }
 
+double fw_effects_pin_deflection(const fw_mechanism *m, int i) {
+    const fw_mechanism_pin *p = &m->pin[i];
+    double a = p->body_a == FW_GROUND ? 0 : m->body[p->body_a].phi_rad;
+    double b = p->body_b == FW_GROUND ? 0 : m->body[p->body_b].phi_rad;
+    return b - a - p->free_angle_rad;
+}
+
 static double energy_unit(const fw_effects_linear *s) {
     return s->stiffness_N_per_m * s->length_m * s->length_m;
 }

@@ -27,6 +27,11 @@ const fw_effect_row *const *fw_effect_rows(size_t *count) {
     return rows;
 }
 
+fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_device_scene *scene, fw_effects_envelope *envelope) {
+    return fw_effects_envelope_of_rows(arena, mechanism, scene, rows, ROWS, envelope);
+}
+
 /* is `id` one of the comma separated names? */
 static bool listed(const char *list, const char *id) {
     size_t n = strlen(id);
@@ -306,28 +311,12 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
 
 /* What the rows say of a scene: in words, what can be made less, and making it less. */
 
-void fw_effects_say(const fw_effects_words *words, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
-    words->write(words->context, format, arguments);
-    va_end(arguments);
-}
-
-void fw_effects_say_law(const fw_effects_words *words, const fw_quantity_law *law) {
-    words->write_law(words->context, law);
-}
-
 void fw_effects_describe(const fw_device *device, const fw_device_scene *scene,
                          const fw_effects_words *words) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     for (size_t i = 0; i < count; i++)
         if (row[i]->describe) row[i]->describe(device, scene, words);
-}
-
-void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effects_load load) {
-    size_t room = sizeof loads->item / sizeof loads->item[0];
-    if ((size_t)loads->count < room) loads->item[loads->count++] = load;
 }
 
 void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling *loads) {

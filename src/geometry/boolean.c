@@ -245,13 +245,6 @@ static fw_status cut_edges(fw_geometry_graph *g) {
     return FW_OK;
 }
 
-fw_geometry_segment fw_geometry_edge_segment(const fw_geometry_graph *g,
-                                             const fw_geometry_edge *e) {
-    fw_geometry_segment s = fw_geometry_segment_cut(g->segment[e->segment], e->t0, g->node[e->from],
-                                                    e->t1, g->node[e->to]);
-    return e->reversed ? fw_geometry_segment_reverse(&s) : s;
-}
-
 static fw_geometry_vec2 middle_of(const fw_geometry_graph *g, const fw_geometry_edge *e) {
     fw_geometry_segment s = fw_geometry_edge_segment(g, e);
     return fw_geometry_segment_point(&s, 0.5);

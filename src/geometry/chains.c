@@ -16,6 +16,13 @@ static int edge_end(const fw_geometry_edge *e) {
     return e->reversed ? e->from : e->to;
 }
 
+fw_geometry_segment fw_geometry_edge_segment(const fw_geometry_graph *g,
+                                             const fw_geometry_edge *e) {
+    fw_geometry_segment s = fw_geometry_segment_cut(g->segment[e->segment], e->t0, g->node[e->from],
+                                                    e->t1, g->node[e->to]);
+    return e->reversed ? fw_geometry_segment_reverse(&s) : s;
+}
+
 /* how far from its ends an edge is still one simple crossing of a circle about the end */
 static double reach(const fw_geometry_segment *s) {
     double chord = vec_distance(s->a, s->b);

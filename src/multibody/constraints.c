@@ -249,6 +249,33 @@ static void side_jacobian(const fw_multibody_model *m, const fw_multibody_pose *
 
 /* ---- time derivatives ---- */
 
+/* r += Psi_t of the moving ground */
+static void stretch_drift(const fw_multibody_model *m, const fw_multibody_pose *pose, double *r) {
+    for (int i = 0; i < m->nblock; i++) {
+        double d[2], e[2], n[2];
+        const double x = pose->ground[1] * m->stretch.block[2 * i];
+        const double y = pose->ground[1] * m->stretch.block[2 * i + 1];
+        if (x == 0 && y == 0) continue;
+        fw_multibody_frame(m, pose, i, d, e, n);
+        switch (m->block[i].rows) {
+        case FW_ROWS_PIN:
+            r[2 * i] -= x, r[2 * i + 1] -= y;
+            break;
+        case FW_ROWS_SLIDE:
+            r[2 * i + 1] += n[0] * x + n[1] * y;
+            break;
+        case FW_ROWS_TRAVEL:
+            r[2 * i] += e[0] * x + e[1] * y;
+            break;
+        case FW_ROWS_ROD:
+            r[2 * i] += (d[0] * x + d[1] * y) / sqrt(d[0] * d[0] + d[1] * d[1]);
+            break;
+        case FW_ROWS_TURN:
+            break;
+        }
+    }
+}
+
 void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose *pose, double *r) {
     const fw_multibody_model *m = sys->model;
     memset(r, 0, 2 * (size_t)m->nblock * sizeof *r);
@@ -258,7 +285,7 @@ void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose 
         kept(sys, i, pose->t, f);
         r[2 * i] = -f[1];
     }
-    if (m->stretch.law) fw_multibody_stretch_drift(m, pose, r);
+    if (m->stretch.law) stretch_drift(m, pose, r);
 }
 
 /* (G v)' at a = 0, of one block that is not a pin */

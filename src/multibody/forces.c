@@ -204,6 +204,33 @@ static double taken(const fw_multibody_system *sys, const fw_multibody_pose *pos
     return power;
 }
 
+/* What a moving ground (stretch.c) feeds in: force on its point times its velocity, with the opposite
+   sign: springs k (l - l0) + c l'
+   along the line, slides likewise along the axis of their joint */
+static double stretch_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                            const double *v) {
+    const fw_multibody_model *m = sys->model;
+    const fw_multibody_stretch *s = &m->stretch;
+    double power = 0, speed = pose->ground[1];
+    for (int i = 0; i < m->nspring; i++) {
+        const fw_multibody_spring *p = &m->spring[i];
+        const double *g = s->spring + 4 * i;
+        if (!sys->on.spring[i] || (p->a != m->nbody && p->b != m->nbody)) continue;
+        fw_multibody_pull l = fw_multibody_pull_of(sys, pose, i, v);
+        double f = p->k * (l.length - p->length) + p->c * l.rate;
+        power += f * speed * (l.ux * (g[2] - g[0]) + l.uy * (g[3] - g[1]));
+    }
+    for (int i = 0; i < m->nslide; i++) {
+        const fw_multibody_slide *p = &m->slide[i];
+        const double *g = s->block + 2 * p->block;
+        double d[2], e[2], n[2], travel, rate;
+        fw_multibody_frame(m, pose, p->block, d, e, n);
+        fw_multibody_slide_travel(sys, pose, p, v, &travel, &rate);
+        power += (p->k * travel + p->c * rate) * speed * (e[0] * g[0] + e[1] * g[1]);
+    }
+    return power;
+}
+
 void fw_multibody_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                         const double *v, double power[2]) {
     const fw_multibody_model *m = sys->model;
@@ -219,7 +246,7 @@ void fw_multibody_power(const fw_multibody_system *sys, const fw_multibody_pose 
                     (l->fx * (w[0] - w[2] * ry) + l->fy * (w[1] + w[2] * rx) + l->torque * w[2]);
     }
     if (m->nelement > 0) fw_multibody_element_power(sys, pose, v, power);
-    if (m->stretch.law) power[1] += fw_multibody_stretch_power(sys, pose, v);
+    if (m->stretch.law) power[1] += stretch_power(sys, pose, v);
 }
 
 /* ---- energy ---- */

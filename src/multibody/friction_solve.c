@@ -48,6 +48,19 @@ void fw_multibody_friction_holding(struct fw_multibody_frictions *s, int count, 
     }
 }
 
+void fw_multibody_friction_force(const struct fw_multibody_frictions *s, int i, double force[2]) {
+    const double *turn = s->turn + 2 * i * s->n;
+    force[0] = s->base[2 * i], force[1] = s->base[2 * i + 1];
+    for (int j = 0; j < s->n; j++)
+        force[0] += turn[2 * j] * s->torque[j], force[1] += turn[2 * j + 1] * s->torque[j];
+}
+
+double fw_multibody_friction_press(const struct fw_multibody_frictions *s, int i) {
+    double force[2];
+    fw_multibody_friction_force(s, i, force);
+    return s->push[i] + hypot(force[0], force[1]);
+}
+
 static double coefficient(const struct fw_multibody_frictions *s, int i) {
     return s->item[i].yields ? s->joint[i].rest : s->joint[i].slide;
 }

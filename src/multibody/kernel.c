@@ -16,18 +16,6 @@ bool fw_multibody_core_plain(const fw_multibody_model *m) {
            m->ntimed == 0 && m->nspring == 0 && m->nslide == 0 && m->nstop == 0 && !m->special;
 }
 
-double fw_multibody_pin_floor(const fw_multibody_model *m, int pin) {
-    double masses = 0, trace = 0;
-    for (int side = 0; side < 2; side++) {
-        int b = m->body[2 * pin + side];
-        const double *l = m->local + 4 * pin + 2 * side;
-        if (b == m->nbody) continue;
-        masses += m->minv[b];
-        trace += 2 * m->minv[b] + m->jinv[b] * (l[0] * l[0] + l[1] * l[1]);
-    }
-    return fmax(masses, 1e-8 * trace);
-}
-
 /* ---- plan ---- */
 
 /* the first coupling of every block goes into the table by block, further ones into a list;
@@ -133,11 +121,26 @@ static void fill_block(const fw_multibody_model *m, const int arm[2], double *to
     to[w] = shared ? sign * m->jinv[body] : 0;
 }
 
+/* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much
+   larger that its round-off would reach fw_healthy of that, 1e-8 of its trace (which does not
+   depend on the pose). The pivot of a pin is measured against it. */
+static double pin_floor(const fw_multibody_model *m, int pin) {
+    double masses = 0, trace = 0;
+    for (int side = 0; side < 2; side++) {
+        int b = m->body[2 * pin + side];
+        const double *l = m->local + 4 * pin + 2 * side;
+        if (b == m->nbody) continue;
+        masses += m->minv[b];
+        trace += 2 * m->minv[b] + m->jinv[b] * (l[0] * l[0] + l[1] * l[1]);
+    }
+    return fmax(masses, 1e-8 * trace);
+}
+
 static void fill_pin(const fw_multibody_model *m, int i, double *to, int w) {
     for (int c = 0; c < 4; c++)
         to[w * (FW_LOCAL + c)] = m->local[4 * i + c];
     to[w * FW_MASSES] = m->minv[m->body[2 * i]] + m->minv[m->body[2 * i + 1]];
-    to[w * FW_FLOOR] = fw_multibody_pin_floor(m, i);
+    to[w * FW_FLOOR] = pin_floor(m, i);
     to[w * FW_OFFSET] = m->offset[2 * i];
     to[w * (FW_OFFSET + 1)] = m->offset[2 * i + 1];
 }

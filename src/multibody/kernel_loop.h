@@ -282,7 +282,7 @@ static void loop_fill(fw_multibody_core *k, const fw_multibody_model *m, int lan
     }
     q->cut = p->loop_pin[nl];
     q->sign = m->body[2 * q->cut] == p->loop_body[nl + 1] ? 1 : -1;
-    LANE(q->floor, lane) = fw_multibody_pin_floor(m, q->cut);
+    LANE(q->floor, lane) = k->pin[FW_W * (FW_PIN * q->cut + FW_FLOOR) + lane];
     for (int i = 0; i < m->ntorsion; i++) {
         const fw_multibody_torsion *s = &m->torsion[i];
         loop_pin *to = &q->pin[p->loop_torsion[i]];

@@ -92,10 +92,6 @@ struct fw_multibody_kernel {
 };
 
 bool fw_multibody_core_plain(const fw_multibody_model *model);
-/* 1/m_a + 1/m_b, the smaller eigenvalue of the pin's own block; where r^2/J makes the block so much
-   larger that its round-off would reach fw_healthy of that, 1e-8 of its trace (which does not
-   depend on the pose). The pivot of a pin is measured against it. */
-double fw_multibody_pin_floor(const fw_multibody_model *model, int pin);
 
 /* one design, and lanes of them where the processor has neither of the others */
 extern const fw_multibody_core_ops fw_multibody_core_single;

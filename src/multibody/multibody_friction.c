@@ -214,19 +214,6 @@ static void presses(const fw_multibody_friction_joint *f, const double *lambda, 
     rho[1] = own ? lambda[2 * f->block + 1] : 0;
 }
 
-void fw_multibody_friction_force(const struct fw_multibody_frictions *s, int i, double force[2]) {
-    const double *turn = s->turn + 2 * i * s->n;
-    force[0] = s->base[2 * i], force[1] = s->base[2 * i + 1];
-    for (int j = 0; j < s->n; j++)
-        force[0] += turn[2 * j] * s->torque[j], force[1] += turn[2 * j + 1] * s->torque[j];
-}
-
-double fw_multibody_friction_press(const struct fw_multibody_frictions *s, int i) {
-    double force[2];
-    fw_multibody_friction_force(s, i, force);
-    return s->push[i] + hypot(force[0], force[1]);
-}
-
 void fw_multibody_friction_evaluate(fw_multibody_system *sys, const fw_multibody_solution *found,
                                     const double *v) {
     const fw_multibody_model *m = sys->model;

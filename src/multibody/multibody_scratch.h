@@ -58,12 +58,6 @@ fw_status fw_multibody_friction_new(fw_arena *arena, fw_multibody_system *sys);
 void fw_multibody_stretch_pose(const fw_multibody_system *sys, double t);
 /* what a point of the ground gains per unit of the law */
 void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2], double gain[2]);
-/* r += Psi_t of the moving ground */
-void fw_multibody_stretch_drift(const fw_multibody_model *m, const fw_multibody_pose *pose,
-                                double *r);
-/* fed in by springs and slides */
-double fw_multibody_stretch_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                  const double *v);
 /* elements.c: accel += M^-1 Q */
 void fw_multibody_element_forces(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                                  const double *v);
@@ -75,6 +69,13 @@ double fw_multibody_element_pressing(const fw_multibody_system *sys, const fw_mu
 double fw_multibody_element_switch_value(const fw_multibody_system *sys,
                                          const fw_multibody_pose *pose,
                                          const fw_multibody_element *e, int i, const double *v);
+/* project.c: the state onto Psi = 0 and G v = -Psi_t with the factor at hand, and the factor there;
+   NULL: it does not get there */
+const fw_multibody_factor *fw_multibody_project_state(fw_multibody_system *sys, double t,
+                                                      double *y);
+/* right = G v + Psi_t, by how much velocities miss the constraints */
+void fw_multibody_velocity_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                    const double *v, double *right);
 /* rhs.c: fw_multibody_rhs; false: there are no accelerations. energies: their rates are wanted */
 bool fw_multibody_evaluate(fw_multibody_system *sys, double t, const double *y, bool energies,
                            double *f);

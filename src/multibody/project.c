@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Positions onto Psi(q, t) = 0 and velocities onto G v = -Psi_t. */
-#include "multibody/friction.h"
-#include "multibody/kernel.h"
 #include "multibody/multibody_scratch.h"
 #include <float.h>
 #include <math.h>
@@ -12,6 +10,11 @@ static const double fw_position_limit = 1e-12; /* scaled: what every accepted st
 static void move(const fw_multibody_system *sys, double *x) {
     for (int i = 0; i < sys->model->nq; i++)
         x[i] += sys->work->correction[i];
+}
+
+const fw_multibody_factor *fw_multibody_factorise(fw_multibody_system *sys,
+                                                  const fw_multibody_pose *pose) {
+    return sys->model->method->factor(sys, pose) ? &sys->work->factor : NULL;
 }
 
 /* a new factor where the last one converged slowly: near a singular position modes of S below eps
@@ -112,13 +115,17 @@ static const fw_multibody_factor *close_velocity(fw_multibody_system *sys,
     return factor && fw_multibody_project_velocity(sys, factor, v) ? factor : NULL;
 }
 
+const fw_multibody_factor *fw_multibody_project_state(fw_multibody_system *sys, double t,
+                                                      double *y) {
+    return close_velocity(sys, project_position(sys, t, y), y + sys->model->nq);
+}
+
 bool fw_multibody_close_state(fw_multibody_system *sys, double t, double *y) {
     return close_velocity(sys, fw_multibody_close_position(sys, t, y), y + sys->model->nq);
 }
 
-/* right = G v + Psi_t, by how much velocities miss the constraints */
-static void velocity_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                              const double *v, double *right) {
+void fw_multibody_velocity_residual(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                                    const double *v, double *right) {
     double *drift = sys->work->drift;
     fw_multibody_jacobian(sys->model, pose, v, right);
     fw_multibody_drift(sys, pose, drift);
@@ -131,7 +138,7 @@ static void velocity_residual(const fw_multibody_system *sys, const fw_multibody
 bool fw_multibody_impact(fw_multibody_system *sys, const fw_multibody_factor *factor, double *v) {
     fw_multibody_scratch *w = sys->work;
     const fw_multibody_model *m = sys->model;
-    velocity_residual(sys, factor->pose, v, w->right);
+    fw_multibody_velocity_residual(sys, factor->pose, v, w->right);
     memset(w->correction, 0, (size_t)m->nq * sizeof *w->correction);
     m->method->accelerate(sys, factor, w->right, w->correction, w->solution.lambda);
     move(sys, v);
@@ -161,52 +168,9 @@ bool fw_multibody_follow_stated(fw_multibody_system *sys, const fw_multibody_pos
             if (stated[i]) v[i] = given[i];
         fw_multibody_chain_assemble(&light, pose, s);
         if (!fw_multibody_chain_factor(&light.chain, s, fw_epsilon)) return false;
-        velocity_residual(sys, pose, v, sys->work->right);
+        fw_multibody_velocity_residual(sys, pose, v, sys->work->right);
         fw_multibody_chain_proximal(&light, pose, s, sys->work->right, lambda);
         fw_multibody_apply(&light, pose, lambda, v);
     }
-    return true;
-}
-
-/* without projection the norms are only watched */
-static void monitor(fw_multibody_system *sys, double t, const double *y) {
-    fw_multibody_record *record = &sys->record;
-    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
-    double *right = sys->work->right;
-    record->worst_position = fmax(record->worst_position, fw_multibody_residual(sys, pose, NULL));
-    velocity_residual(sys, pose, y + sys->model->nq, right);
-    for (int i = 0; i < 2 * sys->model->nblock; i++)
-        record->worst_velocity = fmax(record->worst_velocity, fabs(right[i]));
-}
-
-/* the kernel's own projection */
-static bool project_plain(fw_multibody_system *sys, double *y, double *f) {
-    if (!fw_multibody_kernel_project(sys->kernel, y, f)) return false;
-    fw_multibody_kernel_norms norms = fw_multibody_kernel_norms_of(sys->kernel);
-    sys->record.worst_position = fmax(sys->record.worst_position, norms.position);
-    sys->record.worst_velocity = fmax(sys->record.worst_velocity, norms.velocity);
-    return true;
-}
-
-/* an accepted step: q onto Psi = 0, then v onto G v = -Psi_t with the factor at the new pose, which
-   the evaluation of f uses again */
-bool fw_multibody_project(void *system, double t, double *y, double *f) {
-    fw_multibody_system *sys = system;
-    fw_multibody_record *record = &sys->record;
-    if (!sys->projecting) {
-        monitor(sys, t, y);
-        return fw_multibody_evaluate(sys, t, y, true, f);
-    }
-    record->projections++;
-    if (sys->kernel) return project_plain(sys, y, f);
-    double worst = record->worst_position, worst_velocity = record->worst_velocity;
-    const fw_multibody_factor *factor =
-        close_velocity(sys, project_position(sys, t, y), y + sys->model->nq);
-    if (!factor) { /* a rejected step does not count */
-        record->worst_position = worst, record->worst_velocity = worst_velocity;
-        return false;
-    }
-    if (sys->friction) fw_multibody_friction_settle(sys, factor, y + sys->model->nq);
-    fw_multibody_evaluate_factored(sys, factor, y, true, f);
     return true;
 }

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Accelerations, and the forces of the joints that go with them. */
+/* Accelerations, of every state that an integrator asks for and of every step that it accepts, and
+   the forces of the joints that go with them. */
 #include "multibody/friction.h"
 #include "multibody/kernel.h"
 #include "multibody/multibody_scratch.h"
 #include "multibody/system.h"
 #include <math.h>
 #include <string.h>
-
-const fw_multibody_factor *fw_multibody_factorise(fw_multibody_system *sys,
-                                                  const fw_multibody_pose *pose) {
-    return sys->model->method->factor(sys, pose) ? &sys->work->factor : NULL;
-}
 
 /* gamma + 2 alpha (G v + Psi_t) + alpha^2 Psi: the drift of a free run dies away. Source:
    Baumgarte 1972 */
@@ -122,6 +118,50 @@ const fw_multibody_solution *fw_multibody_react(fw_multibody_system *sys, double
         memcpy(found->lambda, fw_multibody_kernel_lambda(sys->kernel),
                2 * (size_t)sys->model->nblock * sizeof(double));
     return found;
+}
+
+/* ---- an accepted step ---- */
+
+/* without projection the norms are only watched */
+static void monitor(fw_multibody_system *sys, double t, const double *y) {
+    fw_multibody_record *record = &sys->record;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, t, y);
+    double *right = sys->work->right;
+    record->worst_position = fmax(record->worst_position, fw_multibody_residual(sys, pose, NULL));
+    fw_multibody_velocity_residual(sys, pose, y + sys->model->nq, right);
+    for (int i = 0; i < 2 * sys->model->nblock; i++)
+        record->worst_velocity = fmax(record->worst_velocity, fabs(right[i]));
+}
+
+/* the kernel's own projection */
+static bool project_plain(fw_multibody_system *sys, double *y, double *f) {
+    if (!fw_multibody_kernel_project(sys->kernel, y, f)) return false;
+    fw_multibody_kernel_norms norms = fw_multibody_kernel_norms_of(sys->kernel);
+    sys->record.worst_position = fmax(sys->record.worst_position, norms.position);
+    sys->record.worst_velocity = fmax(sys->record.worst_velocity, norms.velocity);
+    return true;
+}
+
+/* an accepted step: q onto Psi = 0, then v onto G v = -Psi_t with the factor at the new pose, which
+   the evaluation of f uses again */
+bool fw_multibody_project(void *system, double t, double *y, double *f) {
+    fw_multibody_system *sys = system;
+    fw_multibody_record *record = &sys->record;
+    if (!sys->projecting) {
+        monitor(sys, t, y);
+        return fw_multibody_evaluate(sys, t, y, true, f);
+    }
+    record->projections++;
+    if (sys->kernel) return project_plain(sys, y, f);
+    double worst = record->worst_position, worst_velocity = record->worst_velocity;
+    const fw_multibody_factor *factor = fw_multibody_project_state(sys, t, y);
+    if (!factor) { /* a rejected step does not count */
+        record->worst_position = worst, record->worst_velocity = worst_velocity;
+        return false;
+    }
+    if (sys->friction) fw_multibody_friction_settle(sys, factor, y + sys->model->nq);
+    fw_multibody_evaluate_factored(sys, factor, y, true, f);
+    return true;
 }
 
 /* ---- forces of the joints ---- */

@@ -6,10 +6,9 @@
 
    so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
    move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
-   feeds in goes to the energy balance: lambda . Psi_t of the joints, and here that of springs and
-   slides. Test: test_constraints.c, test_temperature.c. */
+   feeds in goes to the energy balance: lambda . Psi_t of the joints (rhs.c), and that of springs and
+   slides (forces.c). Test: test_constraints.c, test_temperature.c. */
 #include "multibody/multibody_scratch.h"
-#include <math.h>
 
 void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2], double gain[2]) {
     for (int k = 0; k < 2; k++)
@@ -69,57 +68,4 @@ void fw_multibody_stretch_pose(const fw_multibody_system *sys, double t) {
         w->offset[i] = m->offset[i] - w->ground[0] * s->block[i];
     for (int i = 0; i < 4 * m->nspring; i++)
         w->spring_end[i] = m->spring_end[i] + w->ground[0] * s->spring[i];
-}
-
-void fw_multibody_stretch_drift(const fw_multibody_model *m, const fw_multibody_pose *pose,
-                                double *r) {
-    for (int i = 0; i < m->nblock; i++) {
-        double d[2], e[2], n[2];
-        const double x = pose->ground[1] * m->stretch.block[2 * i];
-        const double y = pose->ground[1] * m->stretch.block[2 * i + 1];
-        if (x == 0 && y == 0) continue;
-        fw_multibody_frame(m, pose, i, d, e, n);
-        switch (m->block[i].rows) {
-        case FW_ROWS_PIN:
-            r[2 * i] -= x, r[2 * i + 1] -= y;
-            break;
-        case FW_ROWS_SLIDE:
-            r[2 * i + 1] += n[0] * x + n[1] * y;
-            break;
-        case FW_ROWS_TRAVEL:
-            r[2 * i] += e[0] * x + e[1] * y;
-            break;
-        case FW_ROWS_ROD:
-            r[2 * i] += (d[0] * x + d[1] * y) / sqrt(d[0] * d[0] + d[1] * d[1]);
-            break;
-        case FW_ROWS_TURN:
-            break;
-        }
-    }
-}
-
-/* force on the ground's point times its velocity, with the opposite sign: springs k (l - l0) + c l'
-   along the line, slides likewise along the axis of their joint */
-double fw_multibody_stretch_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                                  const double *v) {
-    const fw_multibody_model *m = sys->model;
-    const fw_multibody_stretch *s = &m->stretch;
-    double power = 0, speed = pose->ground[1];
-    for (int i = 0; i < m->nspring; i++) {
-        const fw_multibody_spring *p = &m->spring[i];
-        const double *g = s->spring + 4 * i;
-        if (!sys->on.spring[i] || (p->a != m->nbody && p->b != m->nbody)) continue;
-        fw_multibody_pull l = fw_multibody_pull_of(sys, pose, i, v);
-        double f = p->k * (l.length - p->length) + p->c * l.rate;
-        power += f * speed * (l.ux * (g[2] - g[0]) + l.uy * (g[3] - g[1]));
-    }
-    for (int i = 0; i < m->nslide; i++) {
-        const fw_multibody_slide *p = &m->slide[i];
-        const double *g = s->block + 2 * p->block;
-        double d[2], e[2], n[2], travel, rate;
-        fw_multibody_frame(m, pose, p->block, d, e, n);
-        fw_multibody_slide_travel(sys, pose, p, v, &travel, &rate);
-        power += (p->k * travel + p->c * rate) * speed * (e[0] * g[0] + e[1] * g[1]);
-    }
-    return power;
 }

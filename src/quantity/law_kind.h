@@ -56,7 +56,11 @@ typedef struct fw_quantity_law_breaks {
     int most, count;
 } fw_quantity_law_breaks;
 /* a time at which the law or its slope jumps; outside (0, end_s) it does not count */
-void fw_quantity_law_break(fw_quantity_law_breaks *breaks, double t_s);
+static inline void fw_quantity_law_break(fw_quantity_law_breaks *b, double t_s) {
+    if (!(t_s > 0 && t_s < b->end_s)) return;
+    if (b->count < b->most) b->t_s[b->count] = t_s;
+    b->count++;
+}
 
 struct fw_quantity_law_kind {
     const char *name;   /* as in law="..." */
@@ -105,10 +109,19 @@ fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law); /* of 
 bool fw_quantity_law_is_straight(const fw_quantity_law *law);             /* of NULL: yes */
 bool fw_quantity_law_never_negative(const fw_quantity_law *law);          /* of NULL: yes */
 bool fw_quantity_law_is_ready(const fw_quantity_law *law);
-/* for rows */
-bool fw_quantity_law_always(const fw_quantity_law *law); /* true */
+/* ---- for rows ---- */
+
+static inline bool fw_quantity_law_always(const fw_quantity_law *law) {
+    (void)law;
+    return true;
+}
+
 /* `end` does not lie behind `start` */
-bool fw_quantity_law_ends_early(const fw_quantity_law *law, fw_quantity_law_mistake *mistake);
+static inline bool fw_quantity_law_ends_early(const fw_quantity_law *law,
+                                              fw_quantity_law_mistake *mistake) {
+    *mistake = (fw_quantity_law_mistake){63, "end", "is not behind", "start", "exchange them"};
+    return !(law->start_s < law->end_s);
+}
 
 /* ---- what attributes are written with ---- */
 

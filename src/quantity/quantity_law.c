@@ -33,12 +33,6 @@ void fw_quantity_law_value(const fw_quantity_law *law, double t_s, double piece_
     law->kind->value(law, t_s, piece_s, value);
 }
 
-void fw_quantity_law_break(fw_quantity_law_breaks *b, double t_s) {
-    if (!(t_s > 0 && t_s < b->end_s)) return;
-    if (b->count < b->most) b->t_s[b->count] = t_s;
-    b->count++;
-}
-
 int fw_quantity_law_breaks_of(const fw_quantity_law *law, double end_s, double *t_s, int most) {
     fw_quantity_law_breaks b = {end_s, t_s, most, 0};
     if (law && law->kind->breaks) law->kind->breaks(law, &b);
@@ -96,16 +90,4 @@ bool fw_quantity_law_is_ready(const fw_quantity_law *law) {
 
 fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law) {
     return law && law->kind->wave ? law->kind->wave(law) : (fw_quantity_law_wave){0};
-}
-
-/* ---- for rows ---- */
-
-bool fw_quantity_law_always(const fw_quantity_law *law) {
-    (void)law;
-    return true;
-}
-
-bool fw_quantity_law_ends_early(const fw_quantity_law *law, fw_quantity_law_mistake *mistake) {
-    *mistake = (fw_quantity_law_mistake){63, "end", "is not behind", "start", "exchange them"};
-    return !(law->start_s < law->end_s);
 }

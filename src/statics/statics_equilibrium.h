@@ -131,12 +131,12 @@ const fw_multibody_pose *fw_statics_equilibrium_close(fw_statics_equilibrium *w,
 /* potential energy at a closed u, that of driven elements counted from w->y; *size: sum of its
    terms' sizes */
 double fw_statics_equilibrium_energy(fw_statics_equilibrium *w, const double *u, double *size);
-/* settle.c: the part of driven elements; leaves the switches of u */
+/* driven_potential.c: the part of driven elements; leaves the switches of u */
 double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u, double *size);
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
-/* Newton step along the modes at an evaluated state: step (n), largest component returned */
+/* descent.c: Newton step along the modes at an evaluated state: step (n), largest component returned */
 double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step);
 /* the forces along all modes are round-off: what a soft mode does then means nothing */
 bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w);

@@ -38,10 +38,6 @@ bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent) {
     return false;
 }
 
-const fw_xml_numbers *fw_xml_numbers_of(const fw_xml_reader *r, const fw_xml_element_row *row) {
-    return row && row->numbers ? row->numbers : &r->table->numbers;
-}
-
 /* ---- from elements to records ---- */
 
 static void unknown_element(fw_xml_reader *r, const fw_xml_element *e,

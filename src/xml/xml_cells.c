@@ -83,6 +83,10 @@ bool fw_xml_full(const fw_diags *diags) {
     return diags->count >= FW_DIAG_MOST;
 }
 
+const fw_xml_numbers *fw_xml_numbers_of(const fw_xml_reader *r, const fw_xml_element_row *row) {
+    return row && row->numbers ? row->numbers : &r->table->numbers;
+}
+
 static bool id_valid(const char *id, bool hyphen) {
     size_t n = strlen(id);
     if (n == 0 || n > 64) return false;
