@@ -236,10 +236,6 @@ void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool
                       fw_xml_label(record, label), shape_advice);
 }
 
-bool fw_device_body_drawn(const fw_device_body *body) {
-    return !isnan(body->width_m) || !isnan(body->plate_width_m);
-}
-
 static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) {
     bool wide = fw_xml_given(record, "plate-width"), high = fw_xml_given(record, "plate-height");
     char label[FW_LABEL];

@@ -406,30 +406,6 @@ fw_status fw_device_own_scene(fw_arena *arena, fw_device_scene *s) {
 
 /* ---- scenes ---- */
 
-bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int number,
-                       const char *const *names, int n, const char *why) {
-    char label[FW_LABEL];
-    for (int i = 0; i < n; i++)
-        if (fw_xml_given(record, names[i])) {
-            fw_diag_error(r->diags, number, fw_xml_place_of(record, names[i]), "%s: %s %s",
-                          fw_xml_label(record, label), names[i], why);
-            return true;
-        }
-    return false;
-}
-
-bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
-                      const char *const *names, int n, const char *why) {
-    char label[FW_LABEL];
-    for (int i = 0; i < n; i++)
-        if (!fw_xml_given(record, names[i])) {
-            fw_diag_error(r->diags, number, record->element->place, "%s needs %s=\"...\": %s",
-                          fw_xml_label(record, label), names[i], why);
-            return true;
-        }
-    return false;
-}
-
 static fw_status build_scene(fw_device_reader *r, int at, fw_device_scene *s, int *moved) {
     const fw_xml_record *record = &r->xml.record[at];
     int count[KINDS] = {0}, parts = 0;

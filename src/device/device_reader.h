@@ -53,15 +53,25 @@ fw_status fw_device_time_program(fw_device_reader *r, const fw_xml_record *recor
 void fw_device_finite_check(fw_device_reader *r, const fw_xml_record *record, const char *name,
                             const fw_quantity_law *law, double duration_s);
 
+/* ---- reference.c ---- */
+
 enum { FW_NOWHERE = -2 };
 /* index of what the attribute refers to (joints first, then joints njoint + i), FW_GROUND (==
    FW_NONE) for "ground" or when it is absent, FW_NOWHERE when there is none: that has been reported
  */
 int fw_device_reference(fw_device_reader *r, const fw_xml_record *record, const char *name);
-bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate */
+/* the first of `names` (n) that is given is one too many: error `number`, "LABEL: NAME WHY" */
+bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int number,
+                       const char *const *names, int n, const char *why);
+/* the first of `names` (n) that is absent is one too few: error `number` at the element */
+bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
+                      const char *const *names, int n, const char *why);
+
 /* mass and inertia both or neither, and one of them or a shape */
 void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool shape,
                           const char *shape_advice);
+
+bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate: device.c */
 
 /* One function per element of <scene>: build_scenes.c, build_surroundings.c. Private to device/. */
 
@@ -79,12 +89,5 @@ fw_status fw_device_build_material_damping(fw_device_scene_reader *s, int at);
 fw_status fw_device_build_temperature(fw_device_scene_reader *s, int at);
 fw_status fw_device_build_residual_stress(fw_device_scene_reader *s, int at);
 fw_status fw_device_build_air(fw_device_scene_reader *s, int at);
-
-/* the first of `names` (n) that is given is one too many: error `number`, "LABEL: NAME WHY" */
-bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int number,
-                       const char *const *names, int n, const char *why);
-/* the first of `names` (n) that is absent is one too few: error `number` at the element */
-bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
-                      const char *const *names, int n, const char *why);
 
 #endif

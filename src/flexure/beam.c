@@ -184,61 +184,6 @@ void fw_flexure_beam_compliance(const fw_flexure_beam *b, fw_flexure_beam_linear
     out->error = fmax(out->error, 4e-15);
 }
 
-/* the crystal of the closed form in the frame of the flexure; psi of a tangent is a quarter turn
-   off the polar angle, which cos 4 psi does not feel. The two roots give as
-   fw_flexure_root_m_per_Pa has it, the ends take away what fw_flexure_end_loss_of says, spread as
-   it is found there */
-static void crystal_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                       fw_flexure_beam *out) {
-    const fw_flexure_crystal *k = &in->crystal;
-    double turn = 0.5 * FW_PI - out->psi_rad; /* from the middle to either end */
-    fw_flexure_shape shape;
-    fw_flexure_shape_of(in, &shape);
-    out->cubic = true;
-    out->a0_per_Pa = k->a0_per_Pa;
-    out->a1_per_Pa = k->aligned ? k->a1_per_Pa : 0; /* else the mean over all directions */
-    out->orientation_rad = 0.25 * atan2(k->sin4, k->cos4);
-    out->depth_factor = closed_form->depth_factor * shape.golovin;
-    out->shear_Pa = closed_form->youngs_Pa / (2 * (1 + closed_form->poisson));
-    double h = in->depth_m, L = in->length_m, t = in->width_m, E = closed_form->youngs_Pa, f = 1;
-    if (in->kind == FW_FLEXURE_CSFH)
-        f = fw_flexure_depth_crystal(h / sqrt(in->radius_m * t), k, E).bow;
-    const fw_flexure_end_loss loss = fw_flexure_end_loss_of(k, h, f, L, shape.root_block_m);
-    double far = exp(-L / loss.reach_m);
-    out->lost_m = loss.reach_m;
-    out->lost_per_Pa = k->bow_per_Pa * loss.length_m / (loss.reach_m * (1 - far));
-    for (int end = 0; end < 2; end++) {
-        double four = 4 * (out->orientation_rad + (end ? turn : -turn));
-        double per_E = out->a0_per_Pa + out->a1_per_Pa * cos(four) - out->lost_per_Pa * (1 + far);
-        out->root_m[end] = fw_flexure_root_m_per_Pa(&shape, k, k->aligned ? cos(four) : 0) / per_E;
-    }
-}
-
-/* EI is what makes K = EI/(L + 2 dL) the stiffness of the closed form, as in
-   fw_flexure_hinge_law_of; of a crystal it goes with the direction. Test: test_beam.c, of a crystal
-   tests/cli/test_hinge.py test_random_beams */
-void fw_flexure_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
-                                fw_flexure_beam_piece *piece, fw_flexure_beam *out) {
-    bool arc = in->kind == FW_FLEXURE_CSFH;
-    double t = in->width_m, L = in->length_m, dL = closed_form->root_length_m;
-    double a = arc ? 0.5 * in->angle_rad : 0, r = arc ? in->radius_m : 0;
-    double thin = in->youngs_Pa * in->depth_m * t * t * t / 12;
-    *piece = (fw_flexure_beam_piece){
-        .length_m = L, .curvature_per_m = arc ? 1 / r : 0, .width_m = {t, t, t}};
-    *out =
-        (fw_flexure_beam){.piece = piece,
-                          .npiece = 1,
-                          .x_m = r * cos(a),
-                          .y_m = arc ? -r * sin(a) : -0.5 * L,
-                          .psi_rad = 0.5 * FW_PI - a,
-                          .depth_m = in->depth_m,
-                          .youngs_Pa = in->youngs_Pa,
-                          .shear_Pa = in->youngs_Pa / (2 * (1 + in->poisson)),
-                          .depth_factor = closed_form->stiffness_Nm_per_rad * (L + 2 * dL) / thin,
-                          .root_m = {dL, dL}};
-    if (in->crystal.known) crystal_of(in, closed_form, out);
-}
-
 /* P_0 .. P_n at x by their recurrence */
 static void legendre(int n, long double x, long double *p) {
     p[0] = 1;

@@ -381,3 +381,46 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / rooted;
     out->strain_fit_per_rad = fit / rooted;
 }
+
+/* ---- strain under a wrench ---- */
+
+fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
+                                     fw_flexure_path_strain *out) {
+    fw_flexure_course p;
+    fw_flexure_path_of(in, &p);
+    const fw_flexure_path_stuff m = fw_flexure_path_stuff_of(&p, in);
+    int each = p.n <= 2 ? 64 : 32;
+    *out = (fw_flexure_path_strain){0};
+    FW_NEED(out->point = fw_arena_array(arena, fw_flexure_path_point, (size_t)(p.n * (each + 1))));
+    for (int i = 0; i < p.n; i++)
+        for (int k = 0; k <= each; k++) {
+            fw_flexure_path_section at;
+            fw_flexure_path_section_at(&p, &m, i, p.shape[i].piece.length_m * k / each, &at);
+            double by = 1;
+            bool root = (i == 0 && k == 0) || (i == p.n - 1 && k == each);
+            double between = fw_flexure_path_fibre_factor(&at);
+            if (root) by = fmax(1, fw_flexure_path_root_factor(in, &m, k > 0, &at) / between);
+            out->point[out->n++] = (fw_flexure_path_point){
+                at.pose.x_m, at.pose.y_m, by * fw_flexure_path_fibre(&at, in->youngs_Pa, &m)};
+        }
+    return FW_OK;
+}
+
+/* Section moment M + (y - yW) Fx - (x - xW) Fy times strain per moment, over the points; between
+   them the moment may rise by an eighth of its second difference, which is added. In: m, N m, N in
+   the flexure's frame; out: 1. Cost 1 ns a point. source: docs/theory/verdict.md eq. 2;
+   test_path.c strain_along_the_strip */
+double fw_flexure_path_strain_at(const fw_flexure_path_strain *s, const double at_m[2],
+                                 const double F[3]) {
+    double worst = 0, before = 0, now = 0;
+    for (int i = 0; i < s->n; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        double next = F[0] + (p->y_m - at_m[1]) * F[1] - (p->x_m - at_m[0]) * F[2];
+        worst = fmax(worst, fabs(next) * p->strain_per_Nm);
+        if (i > 1)
+            worst = fmax(worst, (fabs(now) + 0.125 * fabs(before - 2 * now + next)) *
+                                    s->point[i - 1].strain_per_Nm);
+        before = now, now = next;
+    }
+    return worst;
+}

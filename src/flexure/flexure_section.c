@@ -280,6 +280,13 @@ double fw_flexure_root_peak(const fw_flexure_root_case *r, const fw_flexure_crys
     return Kt * root_crystal_rise(&of, &at);
 }
 
+void fw_flexure_peak_strain(const fw_flexure_shape *f, double beam, double inside, double root,
+                            fw_flexure_result *out) {
+    out->concentration = f->fillet_m < 0 ? inside : fmax(inside, root);
+    out->strain_per_rad = beam * out->concentration;
+    out->strain_fit_per_rad = beam * f->fillet_concentration * inside;
+}
+
 /* compliances of a cubic crystal by inversion of (C11, C12, C44), turned about [001]:
      S11 = (C11 + C12)/((C11 - C12)(C11 + 2 C12)),  S12 = -C12/(...),  S44 = 1/C44
      S0 = S11 - S12 - S44/2,  1/E = S11 - S0/2 sin^2(2 psi),  1/G = S44 + 2 S0 sin^2(2 psi)

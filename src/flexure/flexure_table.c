@@ -42,13 +42,6 @@ void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *f) {
     fw_flexure_shape_marks(f);
 }
 
-void fw_flexure_peak_strain(const fw_flexure_shape *f, double beam, double inside, double root,
-                            fw_flexure_result *out) {
-    out->concentration = f->fillet_m < 0 ? inside : fmax(inside, root);
-    out->strain_per_rad = beam * out->concentration;
-    out->strain_fit_per_rad = beam * f->fillet_concentration * inside;
-}
-
 /* limit angle = strength / safety factor / (E eps/rad); its relative standard uncertainty is that
    of the strain: 0 to 4 % above solids; twice as much for a crystal; 2 % more for fillets below
    t/10, 5 % more where the fillet lies outside the fitted range or the arc is thick (t/r > 0.3) */

@@ -43,6 +43,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     options.fabricated_of = (fw_verdict_fabricated_of){fabricated_of, plan};
     FW_TRY(
         fw_verdict_run(plan->arena, plan->device, &options, &plan->diags, verdict, &plan->layout));
+    FW_TRY(fw_verdict_advise(plan->arena, plan->device, &options, verdict));
     return fw_plan_compute_flows(plan);
 }
 

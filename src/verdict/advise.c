@@ -279,6 +279,7 @@ static fw_status conclude(fw_arena *arena, fw_verdict *verdict, const char *load
 
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
+    if (verdict->decision == FW_ACCEPT || !options->with_advice) return FW_OK;
     FW_TRY(fw_verdict_change_parameters(arena, device, options, verdict));
     verdict->advice_note = hopeless(device, verdict);
     if (verdict->advice_note) return FW_OK;

@@ -122,7 +122,6 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
 
 static fw_verdict_options quiet(const fw_verdict_options *options) {
     fw_verdict_options o = *options;
-    o.with_advice = false;
     o.coarse_first = true;
     if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
     return o;

@@ -183,7 +183,7 @@ typedef struct fw_verdict_fabricated_of {
 
 typedef struct fw_verdict_options {
     fw_dynamics_motion_options motion;
-    bool with_advice;
+    bool with_advice; /* of what is not accepted: fw_verdict_advise */
     fw_verdict_corners corners;
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
     bool at_a_glance; /* no refinement of what is undecided: for trials */
@@ -228,7 +228,8 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);
-/* fills advice: which lengths accept, which value of each parameter, each one run */
+/* what is not accepted, where advice is asked for: fills it: which lengths accept, which value of
+   each parameter, each one run */
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict);
 

@@ -293,7 +293,6 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
                              .options = *options,
                              .v = v,
                              .ncheck = v->nhinge * (device->nscene + 1) + device->nscene};
-    s->options.with_advice = false;
     s->options.motion.samples = 65; /* stability is looked at between them */
     FW_NEED(s->fabricated = fw_arena_one(arena, fw_verdict_fabricated_verdict));
     FW_NEED(s->fabricated->corner =

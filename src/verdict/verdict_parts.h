@@ -5,11 +5,11 @@
 #define FW_VERDICT_VERDICT_PARTS_H
 #include "verdict/verdict.h"
 
-/* ---- verdict_run.c and variant.c: which of two hinges matters more, what may still decide ---- */
+/* ---- decision.c: which of two hinges matters more; refinement.c: what may still decide ---- */
 
 void fw_verdict_keep_worst(fw_verdict_hinge_verdict *worst, const fw_verdict_hinge_verdict *other);
 bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hinge_verdict *other);
-/* hinges of which some are inconclusive: what may decide them (verdict_run.c) */
+/* hinges of which some are inconclusive: what may decide them */
 typedef enum fw_verdict_refinement {
     FW_REFINE_NOTHING,
     FW_REFINE_NUMBERS, /* tighter numbers alone */
@@ -22,7 +22,7 @@ double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, doub
 /* the same request, as close as that */
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
                                       fw_verdict_refinement refinement);
-/* every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
+/* verdict_run.c: every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *mechanism,
                                    fw_diags *diags);
 
