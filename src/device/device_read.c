@@ -4,7 +4,6 @@
 #include "base/text.h"
 #include "device/device_reader.h"
 #include "quantity/law_kind.h"
-#include <string.h>
 
 /* a material is needed where stiffness or mass must be computed; a mass that is stated and could
    not be read is no mass that must be computed */

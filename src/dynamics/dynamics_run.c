@@ -1,121 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loop over steps, smooth pieces and events. */
 #include "dynamics/run.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
-
-static const long fw_usual_steps = 10 * 1000 * 1000, fw_most_events = 1000 * 1000;
-
-static long most_steps(const fw_dynamics_problem *problem) {
-    return problem->options->most_steps > 0 ? problem->options->most_steps : fw_usual_steps;
-}
-
-/* ---- what can go wrong ---- */
-
-static fw_status solver_error(fw_status status) {
-    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
-}
-
-/* friction that has no force, or more than one, at t or within a millionth of the scene from there
-   (towards such a place forces grow without limit, and steps end before it): FW_OK when it is
-   something else */
-fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
-    double at, final = fw_dynamics_end(&r->problem);
-    const char *id;
-    fw_place place;
-    char time[32];
-    if (!fw_multibody_friction_jammed(r->problem.system, &at, &id, &place) ||
-        !(fabs(at - t) < 1e-6 * final))
-        return FW_OK;
-    return solver_error(fw_diag_error(
-        r->diags, 244, place,
-        "friction of joint %s in scene %s has no unique value at %s s: the normal force in the "
-        "joint rises with the friction force itself, so that the joint jams, or could stick as "
-        "well as slide, and rigid bodies have no unique motion; lower the coefficient or the "
-        "radius, move the load nearer to the joint, or give the joint a <contact>, whose "
-        "stiffness determines the normal force",
-        id, fw_dynamics_scene_name(&r->problem),
-        fw_number_text(time, sizeof time, t * r->problem.model->scale.time_s, 6)));
-}
-
-static fw_status stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
-                         fw_maths_ode_result why) {
-    const fw_multibody_model *m = r->problem.model;
-    const fw_multibody_record *record = &r->problem.system->record;
-    FW_TRY(fw_dynamics_run_jammed(r, s->t));
-    int worst = 0;
-    double most = -1;
-    for (int b = 0; b < m->nbody; b++) {
-        const double *a = s->f + m->nq + 3 * b;
-        double size = fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
-        if (size > most || isnan(size)) most = isnan(size) ? (double)INFINITY : size, worst = b;
-    }
-    const char *id =
-        r->problem.mechanism->body[worst].id ? r->problem.mechanism->body[worst].id : "(unnamed)";
-    char time[32];
-    fw_number_text(time, sizeof time, s->t * m->scale.time_s, 6);
-    if (why == FW_ODE_NAN)
-        return solver_error(fw_diag_error(
-            r->diags, 102, r->problem.scene->place,
-            "the motion of scene %s overflows after %s s, at body %s: its accelerations are no "
-            "finite numbers; check loads, masses and stiffnesses",
-            fw_dynamics_scene_name(&r->problem), time, id));
-    /* a position that could not be closed within a billionth of the scene from here is the cause */
-    double final = fw_dynamics_end(&r->problem);
-    if (record->stuck >= 0 && fabs(record->stuck_time - s->t) < 1e-9 * final) {
-        const fw_multibody_block *b = &m->block[record->stuck];
-        return solver_error(fw_diag_error(
-            r->diags, 101, r->problem.scene->place,
-            "the joints of scene %s contradict each other from %s s on: joint %s "
-            "cannot be kept; %s",
-            fw_dynamics_scene_name(&r->problem), time,
-            fw_multibody_block_name(r->problem.mechanism, b),
-            m->driven ? "a driver prescribes a value that the other joints do not allow"
-                      : "the mechanism cannot reach any farther"));
-    }
-    return solver_error(fw_diag_error(
-        r->diags, 101, r->problem.scene->place,
-        "the steps of scene %s become too small at %s s, at body %s; the motion "
-        "runs into a position it cannot pass%s, or rtol is too tight",
-        fw_dynamics_scene_name(&r->problem), time, id,
-        strcmp(m->method->name, "chain") == 0 ? "" : " by this method (--method chain may)"));
-}
-
-/* the step says which of the two it is: a few per period of the motion, or tiny ones */
-static fw_status too_long(const fw_dynamics_run *r, const fw_maths_stepper *s) {
-    char count[32], step[32], at[32];
-    double unit = r->problem.model->scale.time_s;
-    bool steps = r->control.steps > most_steps(&r->problem);
-    double limit = (double)(steps ? most_steps(&r->problem) : fw_most_events);
-    fw_status status = fw_diag_error(
-        r->diags, 108, r->problem.scene->place,
-        "scene %s needs more than %s %s (steps are %s s, and %s s are reached): shorten it, or "
-        "check for a stiffness or damping that is extreme in relation to the masses",
-        fw_dynamics_scene_name(&r->problem), fw_number_text(count, sizeof count, limit, 9),
-        steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
-        fw_number_text(at, sizeof at, s->t * unit, 3));
-    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
-}
-
-/* ---- steps that see all of the loads ---- */
-
-/* Longer by half in the second run, so that the difference of the two tells the error where not the
-   tolerance but a law limits the steps. Without error control a step may neither end on a flank
-   after a long rest nor be as long as the law bears: an eighth of the whole, and in the second run
-   longer like h_fixed, by 10^(1/2). */
-static void limit_step(const fw_dynamics_controller *control, fw_maths_stepper *s, double t) {
-    if (control->problem->nstride == 0) return;
-    s->h_max = s->row->fixed_step
-                   ? control->fixed_part * fw_dynamics_run_stride(control->problem, 1, t)
-                   : fw_dynamics_run_stride(control->problem, control->law_stride, t);
-}
-
-void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepper *s, double t,
-                           const double *y, double end) {
-    limit_step(control, s, t);
-    fw_maths_stepper_start(s, t, y, end);
-}
 
 /* ---- pieces ---- */
 
@@ -134,16 +21,6 @@ static void jump_of_elements(const fw_dynamics_problem *problem, double t, doubl
     if (m->worked >= 0) y[m->worked] += fw_multibody_element_energy(sys, pose, v, true) - stored;
 }
 
-static fw_status position_jumps(const fw_dynamics_run *r, double t) {
-    char at[32];
-    return solver_error(fw_diag_error(
-        r->diags, 101, r->problem.scene->place,
-        "a driver or the temperature of scene %s jumps at %s s, but positions must "
-        "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
-        fw_dynamics_scene_name(&r->problem),
-        fw_number_text(at, sizeof at, t * r->problem.model->scale.time_s, 6)));
-}
-
 /* a driver whose speed jumps moves the velocities at once (an impact without rebound); the energy
    that brings or takes is the driver's work */
 static fw_status blow_of_drivers(fw_dynamics_run *r, const fw_maths_stepper *s, double *y) {
@@ -151,9 +28,11 @@ static fw_status blow_of_drivers(fw_dynamics_run *r, const fw_maths_stepper *s, 
     fw_multibody_system *sys = r->problem.system;
     const fw_multibody_pose *pose = fw_multibody_pose_at(sys, s->t, y);
     double *v = y + m->nq, before = fw_multibody_kinetic_energy(m, v);
-    if (fw_multibody_residual(sys, pose, NULL) > 1e-9 * m->size) return position_jumps(r, s->t);
+    if (fw_multibody_residual(sys, pose, NULL) > 1e-9 * m->size)
+        return fw_dynamics_run_position_jumps(r, s->t);
     const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
-    if (!factor || !fw_multibody_impact(sys, factor, v)) return stopped(r, s, FW_ODE_SMALL);
+    if (!factor || !fw_multibody_impact(sys, factor, v))
+        return fw_dynamics_run_stopped(r, s, FW_ODE_SMALL);
     double after = fw_multibody_kinetic_energy(m, v);
     if (m->worked >= 0) y[m->worked] += after - before;
     sys->record.events += fabs(after - before) > 1e-9 * fmax(after, before);
@@ -175,7 +54,8 @@ static fw_status next_piece(fw_dynamics_run *r, fw_maths_stepper *s, int piece) 
     problem->system->piece_s = 0.5 * (end[piece - 1] + end[piece]) * m->scale.time_s;
     if (m->driven) FW_TRY(blow_of_drivers(r, s, y));
     if (m->nelement > 0) jump_of_elements(problem, s->t, y, stored);
-    if (!fw_multibody_friction_decide(problem->system, s->t, y)) return stopped(r, s, FW_ODE_SMALL);
+    if (!fw_multibody_friction_decide(problem->system, s->t, y))
+        return fw_dynamics_run_stopped(r, s, FW_ODE_SMALL);
     fw_dynamics_near_zero_forget(&r->control);
     r->record.fresh = true;
     fw_dynamics_run_start(&r->control, s, s->t, y, end[piece]);
@@ -195,7 +75,8 @@ static fw_status begin(fw_dynamics_run *r, fw_maths_stepper *s) {
     fw_multibody_set_switches(sys, 0, start);
     fw_multibody_friction_begin(sys);
     fw_dynamics_near_zero_begin(control);
-    if (!fw_multibody_friction_decide(sys, 0, start)) return stopped(r, s, FW_ODE_SMALL);
+    if (!fw_multibody_friction_decide(sys, 0, start))
+        return fw_dynamics_run_stopped(r, s, FW_ODE_SMALL);
     fw_dynamics_run_start(control, s, 0, start, r->problem.end[0]);
     fw_dynamics_record_begin(&r->record, s->y);
     return FW_OK;
@@ -204,13 +85,13 @@ static fw_status begin(fw_dynamics_run *r, fw_maths_stepper *s) {
 static void limit(const fw_dynamics_controller *control, fw_maths_stepper *s, double end) {
     if (s->t >= s->t_end)
         fw_dynamics_run_start(control, s, s->t, s->y, end); /* no event after all */
-    limit_step(control, s, s->t);
+    fw_dynamics_run_limit_step(control, s, s->t);
     fw_dynamics_near_zero_limit(control, s);
 }
 
 static fw_status step(fw_dynamics_run *r, fw_maths_stepper *s) {
     fw_maths_ode_result result = fw_maths_stepper_step(s);
-    return result == FW_ODE_STEP ? FW_OK : stopped(r, s, result);
+    return result == FW_ODE_STEP ? FW_OK : fw_dynamics_run_stopped(r, s, result);
 }
 
 /* FW_LIMIT with a diagnostic: the scene is too long; without: a trial lost, or explicit steps
@@ -219,8 +100,8 @@ static fw_status count(fw_dynamics_run *r, const fw_maths_stepper *s) {
     fw_dynamics_controller *control = &r->control;
     const fw_multibody_record *record = &r->problem.system->record;
     bool stuck;
-    if (++control->steps > most_steps(&r->problem) || record->events > fw_most_events)
-        return too_long(r, s);
+    control->steps++;
+    FW_TRY(fw_dynamics_run_limits(r, s));
     control->taken++;
     if (control->trial > 0 && control->taken > control->trial) return FW_LIMIT;
     if (!(control->patience > 0)) return FW_OK;
@@ -242,7 +123,7 @@ static fw_status pass(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_event
     if (event.which >= 0) {
         if (!fw_dynamics_event_pass(&r->control, s, event, end)) {
             FW_TRY(fw_dynamics_run_jammed(r, met));
-            return stopped(r, s, FW_ODE_SMALL);
+            return fw_dynamics_run_stopped(r, s, FW_ODE_SMALL);
         }
         r->record.fresh = true;
     }
@@ -270,7 +151,7 @@ static fw_status advance(fw_dynamics_run *r, fw_maths_stepper *s, fw_dynamics_pe
     if (fw_dynamics_event_aim(control, s, event)) return FW_OK;
     if (fw_dynamics_near_zero_again(control, s)) return FW_OK;
     if (!fw_dynamics_record_step(&r->record, s, peaks, event.theta))
-        return stopped(r, s, FW_ODE_SMALL);
+        return fw_dynamics_run_stopped(r, s, FW_ODE_SMALL);
     FW_TRY(pass(r, s, event, end));
     return fw_dynamics_run_valid(r, s->t, s->y);
 }

@@ -255,6 +255,30 @@ double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record) {
     return worst;
 }
 
+/* The bounds are relative to the largest deflection of any hinge with nothing left out, which is at
+   least 1 - their sum of the one seen here. */
+double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion) {
+    double largest = 0, out = motion->ledger.left_out;
+    for (int i = 0; i < motion->npin; i++)
+        largest = fmax(largest, fabs(motion->peak[i].angle_rad));
+    return out < 1 ? out / (1 - out) * largest : HUGE_VAL;
+}
+
+double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion) {
+    double angle = 0, error = 0;
+    for (int i = 0; i < motion->npin; i++) {
+        angle = fmax(angle, fabs(motion->peak[i].angle_rad));
+        error = fmax(error, motion->peak[i].error_rad);
+    }
+    return angle > 0 ? error / angle : 0;
+}
+
+void fw_dynamics_motion_widen(fw_dynamics_motion *motion) {
+    double more = fw_dynamics_motion_left_out(motion);
+    for (int i = 0; i < motion->npin; i++)
+        motion->peak[i].error_rad += more;
+}
+
 /* ---- angles of the pins ---- */
 
 fw_status fw_dynamics_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,

@@ -149,13 +149,29 @@ static inline const char *fw_dynamics_scene_name(const fw_dynamics_problem *prob
     return problem->scene->name ? problem->scene->name : "(unnamed)";
 }
 
-/* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
-fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads);
+/* pieces.c: smooth pieces, problem.end, and what limits steps in them */
+fw_status fw_dynamics_run_pieces(fw_dynamics_problem *problem, const fw_effects_loads *loads);
+/* to the longest step that laws allow from t on */
+void fw_dynamics_run_limit_step(const fw_dynamics_controller *control, fw_maths_stepper *s,
+                                double t);
+/* the stepper from t on, with the longest step that laws allow */
+void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepper *s, double t,
+                           const double *y, double end);
+
+/* run_ends.c: what ends a run early, each with its message; FW_OK where it does not */
 /* FW-D242 where an element says that it does not hold */
 fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y);
-/* longest scaled step from scaled time t on that leaps over nothing in any law, each of whose
-   strides may be `factor` times as long */
-double fw_dynamics_run_stride(const fw_dynamics_problem *problem, double factor, double t);
+/* FW-D244 when friction is what ended the run at scaled time t */
+fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t);
+/* FW-D108 when it takes more steps or events than it may */
+fw_status fw_dynamics_run_limits(const fw_dynamics_run *r, const fw_maths_stepper *s);
+/* a step was not possible, `why` */
+fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
+                                  fw_maths_ode_result why);
+fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t);
+
+/* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
+fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads);
 /* what differences of the two runs are multiplied with to be errors */
 double fw_dynamics_run_margin(const fw_dynamics_controller *control);
 fw_status fw_dynamics_run_arrays(fw_dynamics_run *r);
@@ -202,12 +218,6 @@ void fw_dynamics_run_take_extremes(fw_dynamics_recorder *record, double margin,
                                    long steps);
 /* the largest error over the largest value of its kind */
 double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record);
-
-/* dynamics_run.c: FW-D244 when friction is what ended the run at scaled time t */
-fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t);
-/* the stepper from t on, with the longest step that laws allow */
-void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepper *s, double t,
-                           const double *y, double end);
 
 /* event.c */
 typedef struct fw_dynamics_event {

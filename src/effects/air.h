@@ -9,7 +9,9 @@ typedef struct fw_effects_gas { /* dry air, or what the scene states of it */
     double path_m; /* mean free path */
 } fw_effects_gas;
 
-/* air_films.c. Sutherland's law for dry air, 170 K to 1900 K within 2 %: 1.458e-6 T^1.5/(T + 110.4) */
+/* ---- air_films.c ---- */
+
+/* Sutherland's law for dry air, 170 K to 1900 K within 2 %: 1.458e-6 T^1.5/(T + 110.4) */
 double fw_effects_air_viscosity(double temperature_K);
 fw_effects_gas fw_effects_gas_of(const fw_device_air *air);
 
@@ -24,18 +26,18 @@ typedef struct fw_effects_face { /* of a body seen from above */
 fw_effects_face fw_effects_air_face(const fw_mechanism *mechanism, const fw_device_air *air,
                                     int body);
 
-/* air_films.c: film of `gap` between the face of a body and the ground below it */
+/* film of `gap` between the face of a body and the ground below it */
 fw_effects_damper fw_effects_air_slide(const fw_effects_gas *gas, const fw_effects_face *face,
                                        double gap_m);
 fw_status fw_effects_air_slide_add(const fw_effect_case *c, fw_effects_loads *loads,
                                    const fw_device_air *air, int body);
 
-/* air_films.c: open air around a thin body that moves in its own plane */
+/* open air around a thin body that moves in its own plane */
 fw_effects_damper fw_effects_air_drag(const fw_effects_gas *gas, const fw_effects_face *face);
 fw_status fw_effects_air_drag_add(const fw_effect_case *c, fw_effects_loads *loads,
                                   const fw_device_air *air, int body);
 
-/* air_films.c: film between two walls that approach each other */
+/* film between two walls that approach each other */
 typedef struct fw_effects_squeeze {
     double c0_Nsm2; /* coefficient times gap^3, without rarefaction */
     double path_m;

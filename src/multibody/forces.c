@@ -204,9 +204,9 @@ static double taken(const fw_multibody_system *sys, const fw_multibody_pose *pos
     return power;
 }
 
-/* What a moving ground (stretch.c) feeds in: force on its point times its velocity, with the opposite
-   sign: springs k (l - l0) + c l'
-   along the line, slides likewise along the axis of their joint */
+/* What a moving ground (stretch.c) feeds in: force on its point times its velocity, with the
+   opposite sign: springs k (l - l0) + c l' along the line, slides likewise along the axis of their
+   joint */
 static double stretch_power(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                             const double *v) {
     const fw_multibody_model *m = sys->model;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One step along the equilibria of a scene. It solves for those in its middle and at its end, where
-   du/dt is exact too; a step is good when the cubic through its ends meets the middle. Its curve, of
-   degree 5, is far better than that. Source: predictor-corrector continuation, Allgower and Georg
-   1990, ch. 2; Hermite interpolation, Stoer and Bulirsch, 2.1. Test: test_quasi.c. */
+   du/dt is exact too; a step is good when the cubic through its ends meets the middle. Its curve,
+   of degree 5, is far better than that. Source: predictor-corrector continuation, Allgower and
+   Georg 1990, ch. 2; Hermite interpolation, Stoer and Bulirsch, 2.1. Test: test_quasi.c. */
 #include "statics/quasi_static.h"
 #include <math.h>
 #include <string.h>

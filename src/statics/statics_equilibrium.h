@@ -136,7 +136,8 @@ double fw_statics_equilibrium_driven(fw_statics_equilibrium *w, const double *u,
 /* everything at w->y, closed first: force, lambda, stiffness, modes, gradient, push. FW_SOLVER: the
    joints cannot close, or something is not finite */
 fw_status fw_statics_equilibrium_evaluate(fw_statics_equilibrium *w);
-/* descent.c: Newton step along the modes at an evaluated state: step (n), largest component returned */
+/* descent.c: Newton step along the modes at an evaluated state: step (n), largest component
+   returned */
 double fw_statics_equilibrium_newton(const fw_statics_equilibrium *w, double *step);
 /* the forces along all modes are round-off: what a soft mode does then means nothing */
 bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w);

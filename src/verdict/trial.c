@@ -2,7 +2,6 @@
 #include "verdict/trial.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
-#include <string.h>
 
 static fw_status copy_scenes(fw_arena *arena, fw_device *d) {
     size_t n = (size_t)d->nscene;

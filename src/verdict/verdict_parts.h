@@ -22,7 +22,8 @@ double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, doub
 /* the same request, as close as that */
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
                                       fw_verdict_refinement refinement);
-/* verdict_run.c: every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
+/* verdict_run.c: every joint is where both its bodies put it, within 10 nm, in the drawn position
+   (FW-D206) */
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *mechanism,
                                    fw_diags *diags);
 

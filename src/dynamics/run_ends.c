@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What can end a run before its scene does, and what is said of that. */
+#include "dynamics/run.h"
+#include <math.h>
+#include <string.h>
+
+static const long fw_usual_steps = 10 * 1000 * 1000, fw_most_events = 1000 * 1000;
+
+static long most_steps(const fw_dynamics_problem *problem) {
+    return problem->options->most_steps > 0 ? problem->options->most_steps : fw_usual_steps;
+}
+
+static fw_status solver_error(fw_status status) {
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
+
+/* friction that has no force, or more than one, at t or within a millionth of the scene from there
+   (towards such a place forces grow without limit, and steps end before it): FW_OK when it is
+   something else */
+fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
+    double at, final = fw_dynamics_end(&r->problem);
+    const char *id;
+    fw_place place;
+    char time[32];
+    if (!fw_multibody_friction_jammed(r->problem.system, &at, &id, &place) ||
+        !(fabs(at - t) < 1e-6 * final))
+        return FW_OK;
+    return solver_error(fw_diag_error(
+        r->diags, 244, place,
+        "friction of joint %s in scene %s has no unique value at %s s: the normal force in the "
+        "joint rises with the friction force itself, so that the joint jams, or could stick as "
+        "well as slide, and rigid bodies have no unique motion; lower the coefficient or the "
+        "radius, move the load nearer to the joint, or give the joint a <contact>, whose "
+        "stiffness determines the normal force",
+        id, fw_dynamics_scene_name(&r->problem),
+        fw_number_text(time, sizeof time, t * r->problem.model->scale.time_s, 6)));
+}
+
+fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
+                                  fw_maths_ode_result why) {
+    const fw_multibody_model *m = r->problem.model;
+    const fw_multibody_record *record = &r->problem.system->record;
+    FW_TRY(fw_dynamics_run_jammed(r, s->t));
+    int worst = 0;
+    double most = -1;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *a = s->f + m->nq + 3 * b;
+        double size = fabs(a[0]) + fabs(a[1]) + fabs(a[2]);
+        if (size > most || isnan(size)) most = isnan(size) ? (double)INFINITY : size, worst = b;
+    }
+    const char *id =
+        r->problem.mechanism->body[worst].id ? r->problem.mechanism->body[worst].id : "(unnamed)";
+    char time[32];
+    fw_number_text(time, sizeof time, s->t * m->scale.time_s, 6);
+    if (why == FW_ODE_NAN)
+        return solver_error(fw_diag_error(
+            r->diags, 102, r->problem.scene->place,
+            "the motion of scene %s overflows after %s s, at body %s: its accelerations are no "
+            "finite numbers; check loads, masses and stiffnesses",
+            fw_dynamics_scene_name(&r->problem), time, id));
+    /* a position that could not be closed within a billionth of the scene from here is the cause */
+    double final = fw_dynamics_end(&r->problem);
+    if (record->stuck >= 0 && fabs(record->stuck_time - s->t) < 1e-9 * final) {
+        const fw_multibody_block *b = &m->block[record->stuck];
+        return solver_error(fw_diag_error(
+            r->diags, 101, r->problem.scene->place,
+            "the joints of scene %s contradict each other from %s s on: joint %s "
+            "cannot be kept; %s",
+            fw_dynamics_scene_name(&r->problem), time,
+            fw_multibody_block_name(r->problem.mechanism, b),
+            m->driven ? "a driver prescribes a value that the other joints do not allow"
+                      : "the mechanism cannot reach any farther"));
+    }
+    return solver_error(fw_diag_error(
+        r->diags, 101, r->problem.scene->place,
+        "the steps of scene %s become too small at %s s, at body %s; the motion "
+        "runs into a position it cannot pass%s, or rtol is too tight",
+        fw_dynamics_scene_name(&r->problem), time, id,
+        strcmp(m->method->name, "chain") == 0 ? "" : " by this method (--method chain may)"));
+}
+
+/* the step says which of the two it is: a few per period of the motion, or tiny ones */
+static fw_status too_long(const fw_dynamics_run *r, const fw_maths_stepper *s) {
+    char count[32], step[32], at[32];
+    double unit = r->problem.model->scale.time_s;
+    bool steps = r->control.steps > most_steps(&r->problem);
+    double limit = (double)(steps ? most_steps(&r->problem) : fw_most_events);
+    fw_status status = fw_diag_error(
+        r->diags, 108, r->problem.scene->place,
+        "scene %s needs more than %s %s (steps are %s s, and %s s are reached): shorten it, or "
+        "check for a stiffness or damping that is extreme in relation to the masses",
+        fw_dynamics_scene_name(&r->problem), fw_number_text(count, sizeof count, limit, 9),
+        steps ? "steps" : "events", fw_number_text(step, sizeof step, s->h * unit, 2),
+        fw_number_text(at, sizeof at, s->t * unit, 3));
+    return status == FW_NOMEM ? FW_NOMEM : FW_LIMIT;
+}
+
+fw_status fw_dynamics_run_limits(const fw_dynamics_run *r, const fw_maths_stepper *s) {
+    bool over = r->control.steps > most_steps(&r->problem) ||
+                r->problem.system->record.events > fw_most_events;
+    return over ? too_long(r, s) : FW_OK;
+}
+
+fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t) {
+    char at[32];
+    return solver_error(fw_diag_error(
+        r->diags, 101, r->problem.scene->place,
+        "a driver or the temperature of scene %s jumps at %s s, but positions must "
+        "change continuously; use law=\"ramp\" with a rise, or another law without jumps",
+        fw_dynamics_scene_name(&r->problem),
+        fw_number_text(at, sizeof at, t * r->problem.model->scale.time_s, 6)));
+}
+
+fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y) {
+    const fw_multibody_model *m = r->problem.model;
+    const char *why = "";
+    char time[32];
+    if (m->nelement == 0) return FW_OK;
+    const fw_multibody_pose *pose = fw_multibody_pose_at(r->problem.system, t, y);
+    const fw_effects_force_element *e =
+        fw_multibody_element_invalid(r->problem.system, pose, y + m->nq, &why);
+    if (!e) return FW_OK;
+    fw_status status =
+        fw_diag_error(r->diags, 242, e->place, "%s of scene %s at %s s: %s", e->id,
+                      fw_dynamics_scene_name(&r->problem),
+                      fw_number_text(time, sizeof time, t * m->scale.time_s, 4), why);
+    return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
+}
