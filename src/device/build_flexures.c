@@ -1,51 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* <flexure>, and what a path is made of: <line> and <arc>. */
-#include "device/device_reader.h"
-#include "base/constants.h"
+/* <flexure>: what all kinds have, and which kind it is (flexures.def). */
+#include "device/flexure_kind.h"
 #include <math.h>
 #include <string.h>
 
-/* exactly two of length, radius, angle; the third follows from length = radius angle */
-static bool complete_arc(fw_device_reader *r, const fw_xml_record *record, fw_device_flexure *f) {
-    char label[FW_LABEL];
-    bool length = fw_xml_given(record, "length"), radius = fw_xml_given(record, "radius");
-    bool angle = fw_xml_given(record, "angle");
-    if (length + radius + angle != 2) {
-        fw_diag_error(r->diags, 58, record->element->place,
-                      "%s: a csfh needs exactly two of length, radius and angle (length = radius x "
-                      "angle); %d given",
-                      fw_xml_label(record, label), length + radius + angle);
-        return false;
-    }
-    if (!length)
-        f->length_m = f->radius_m * f->angle_rad;
-    else if (!radius)
-        f->radius_m = f->length_m / f->angle_rad;
-    else
-        f->angle_rad = f->length_m / f->radius_m;
-    return !fw_xml_failed(record, "length") && !fw_xml_failed(record, "radius") &&
-           !fw_xml_failed(record, "angle");
-}
+#define FW_DEVICE_FLEXURE(name, sentence)                                                          \
+    extern const fw_device_flexure_row fw_device_flexure_##name;
+#include "device/flexures.def"
+#undef FW_DEVICE_FLEXURE
+#define FW_DEVICE_FLEXURE(name, sentence) &fw_device_flexure_##name,
+static const fw_device_flexure_row *const kinds[] = {
+#include "device/flexures.def"
+};
+#undef FW_DEVICE_FLEXURE
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
-static void check_arc(fw_device_reader *r, const fw_xml_record *record,
-                      const fw_device_flexure *f) {
-    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    if (f->angle_rad > 330 * FW_PI / 180 * (1 + 1e-12))
-        fw_diag_error(r->diags, 59, f->length_place,
-                      "%s: length over radius is an angle of %s; it must be at most 330 deg, else "
-                      "the ends of the arc meet; shorten it or take a greater radius",
-                      fw_xml_label(record, label), fw_xml_in_unit(a, f->angle_rad, "deg"));
-    if (f->width_m >= 2 * f->radius_m)
-        fw_diag_error(
-            r->diags, 59, fw_xml_place_of(record, "width"),
-            "%s: width %s is not below twice the radius (%s), so the inner side of the arc "
-            "has no radius left; make it thinner",
-            fw_xml_label(record, label), fw_xml_in_unit(a, f->width_m, "um"),
-            fw_xml_in_unit(b, 2 * f->radius_m, "um"));
-}
+/* ---- what kinds share ---- */
 
-static void check_slender(fw_device_reader *r, const fw_xml_record *record,
-                          const fw_device_flexure *f) {
+void fw_device_flexure_slender(fw_device_reader *r, const fw_xml_record *record,
+                               const fw_device_flexure *f) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     if (f->width_m > f->length_m / 4 || f->width_middle_m > f->length_m / 4)
         fw_diag_error(
@@ -59,9 +32,8 @@ static void check_slender(fw_device_reader *r, const fw_xml_record *record,
 /* least of all widths: below it the data of materials do not hold (table_device.c) */
 static const double thinnest_m = 1e-7;
 
-/* edges of a piece: each must lie on its side of the centre line all along */
-static bool check_edges(fw_device_reader *r, const fw_xml_record *record,
-                        const fw_geometry_strip_piece *p) {
+bool fw_device_flexure_edges(fw_device_reader *r, const fw_xml_record *record,
+                             const fw_geometry_strip_piece *p) {
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     fw_geometry_strip_shape shape;
     double least, most;
@@ -84,65 +56,12 @@ static bool check_edges(fw_device_reader *r, const fw_xml_record *record,
     return false;
 }
 
-/* width-middle of a csfh or leaf: both edges one arc, the ends as wide as `width` */
-static void check_middle(fw_device_reader *r, const fw_xml_record *record,
-                         const fw_device_flexure *f) {
+void fw_device_flexure_middle(fw_device_reader *r, const fw_xml_record *record,
+                              const fw_device_flexure *f) {
     fw_geometry_strip_piece one;
     if (!(f->width_middle_m > 0 && f->width_m > 0 && f->length_m > 0)) return;
     fw_device_flexure_pieces(f, &one);
-    check_edges(r, record, &one);
-}
-
-/* ---- path ---- */
-
-enum { UNKNOWN = -1 }; /* width where the piece before ends, which was reported */
-
-static bool failed_any(const fw_xml_record *record, const char *const *name, int n) {
-    bool failed = false;
-    for (int i = 0; i < n; i++)
-        failed = failed || fw_xml_failed(record, name[i]);
-    return failed;
-}
-
-/* one <line> or <arc>; `before`: the width where it begins */
-static bool read_piece(fw_device_reader *r, const fw_xml_record *record, double before,
-                       fw_geometry_strip_piece *p) {
-    static const char *const line[] = {"length", "width", "width-middle", "width-end"};
-    static const char *const bent[] = {"radius", "angle", "width", "width-middle", "width-end"};
-    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
-    bool arc = fw_xml_is(record, "arc");
-    if (arc ? failed_any(record, bent, 5) : failed_any(record, line, 4)) return false;
-    double *w = p->width_m;
-    w[0] = fw_xml_number_or(record, "width", before);
-    if (before == UNKNOWN && !(w[0] > 0)) return false;
-    if (before > 0 && fabs(w[0] - before) > 1e-12) {
-        fw_diag_error(
-            r->diags, 263, fw_xml_place_of(record, "width"),
-            "%s: begins with width %s, but the path so far ends with width %s; beam theory does "
-            "not cover the stress concentration of such a step: leave width out, or "
-            "set width-end before (at the first piece: width of the flexure)",
-            fw_xml_label(record, label), fw_xml_in_unit(a, w[0], "um"),
-            fw_xml_in_unit(b, before, "um"));
-        return false;
-    }
-    if (before > 0) w[0] = before;
-    w[2] = fw_xml_number_or(record, "width-end", w[0]);
-    w[1] = fw_xml_number_or(record, "width-middle", 0.5 * (w[0] + w[2]));
-    if (!arc) {
-        p->length_m = fw_xml_number_of(record, "length");
-        return check_edges(r, record, p);
-    }
-    double radius = fw_xml_number_of(record, "radius"), angle = fw_xml_number_of(record, "angle");
-    if (angle == 0) {
-        fw_diag_error(
-            r->diags, 262, fw_xml_place_of(record, "angle"),
-            "%s: an arc of 0 deg has no length; remove it, or write <line length=\"...\"/>",
-            fw_xml_label(record, label));
-        return false;
-    }
-    p->length_m = radius * fabs(angle);
-    p->curvature_per_m = copysign(1 / radius, angle);
-    return check_edges(r, record, p);
+    fw_device_flexure_edges(r, record, &one);
 }
 
 /* a path that meets itself, and ends that lie too near to each other for two bodies */
@@ -176,35 +95,11 @@ static void check_whole(fw_device_reader *r, const fw_xml_record *record,
             fw_xml_in_unit(b, f->length_m, "um"));
 }
 
-/* children in their order; what is wrong with one is said there and the whole is not judged */
-static fw_status read_path(fw_device_reader *r, int at, fw_device_flexure *f) {
-    const fw_xml_record *record = &r->xml.record[at];
-    char label[FW_LABEL];
-    fw_geometry_strip_piece *piece;
-    double before = f->width_m, least = HUGE_VAL;
-    bool ok = true;
-    int n = 0;
-    FW_NEED(piece = fw_arena_array(r->arena, fw_geometry_strip_piece, FW_STRIP_MOST));
-    for (int i = at + 1; i < r->xml.nrecord && r->xml.record[i].parent >= at; i++) {
-        if (r->xml.record[i].parent != at) continue;
-        if (n == FW_STRIP_MOST) {
-            fw_diag_error(r->diags, 262, r->xml.record[i].element->place,
-                          "%s: a path has at most %d pieces; join some",
-                          fw_xml_label(record, label), FW_STRIP_MOST);
-            return FW_OK;
-        }
-        bool good = read_piece(r, &r->xml.record[i], before, &piece[n]);
-        before = good ? piece[n].width_m[2] : UNKNOWN;
-        ok = ok && good;
-        n++;
-    }
-    f->piece = piece, f->npiece = n, f->width_m = (double)NAN;
-    if (ok && n == 0 && !r->xml.unknown_element)
-        fw_diag_error(r->diags, 262, record->element->place,
-                      "%s: a path needs its pieces: <line length=\"...\"/> and "
-                      "<arc radius=\"...\" angle=\"...\"/> in their order",
-                      fw_xml_label(record, label));
-    if (!ok || n == 0) return FW_OK;
+void fw_device_flexure_lay(fw_device_reader *r, const fw_xml_record *record,
+                           const fw_geometry_strip_piece *piece, int n, fw_device_flexure *f) {
+    double least = HUGE_VAL;
+    f->kind = FW_FLEXURE_PATH;
+    f->piece = piece, f->npiece = n, f->angle_rad = 0;
     f->length_m = fw_geometry_strip_length(piece, n);
     for (int i = 0; i < n; i++) {
         fw_geometry_strip_shape shape;
@@ -216,8 +111,9 @@ static fw_status read_path(fw_device_reader *r, int at, fw_device_flexure *f) {
     }
     f->width_m = least;
     check_whole(r, record, f);
-    return FW_OK;
 }
+
+/* ---- what a kind has no use for ---- */
 
 static void refuse_pieces(fw_device_reader *r, int at, const char *kind) {
     char label[FW_LABEL];
@@ -229,33 +125,41 @@ static void refuse_pieces(fw_device_reader *r, int at, const char *kind) {
                           r->xml.record[i].row->name);
 }
 
-static void refuse_attributes(fw_device_reader *r, const fw_xml_record *record,
-                              const char *const *name, int n, int number, const char *what) {
-    char label[FW_LABEL];
-    for (int i = 0; i < n; i++)
-        if (fw_xml_given(record, name[i]))
-            fw_diag_error(r->diags, number, fw_xml_place_of(record, name[i]), "%s: %s %s",
-                          fw_xml_label(record, label), name[i], what);
+static bool takes(const fw_device_flexure_row *kind, const char *name) {
+    for (const char *const *own = kind->takes; *own; own++)
+        if (strcmp(*own, name) == 0) return true;
+    return false;
 }
 
-static void leaf_of(fw_device_reader *r, const fw_xml_record *record, fw_device_flexure *f) {
+static void refuse_attributes(fw_device_reader *r, const fw_xml_record *record,
+                              const fw_device_flexure_row *kind) {
+    static const char *const name[] = {"length", "radius", "angle", "width-middle"};
     char label[FW_LABEL];
-    static const char *const foreign[] = {"radius", "angle"};
-    for (int i = 0; i < 2; i++)
-        if (fw_xml_given(record, foreign[i]))
-            fw_diag_error(r->diags, 58, fw_xml_place_of(record, foreign[i]),
-                          "%s: a leaf is straight and has no %s; remove it or write kind=\"csfh\"",
-                          fw_xml_label(record, label), foreign[i]);
-    if (!fw_xml_given(record, "length"))
-        fw_diag_error(r->diags, 58, record->element->place, "%s: a leaf needs its length",
-                      fw_xml_label(record, label));
-    check_slender(r, record, f);
-    check_middle(r, record, f);
+    for (int i = 0; i < 4; i++) {
+        if (!fw_xml_given(record, name[i]) || takes(kind, name[i])) continue;
+        fw_place place = fw_xml_place_of(record, name[i]);
+        if (kind->refused.number)
+            fw_diag_error(r->diags, kind->refused.number, place, "%s: %s%s%s",
+                          fw_xml_label(record, label), kind->refused.before, name[i],
+                          kind->refused.after);
+        else
+            fw_diag_error(r->diags, 58, place, "%s: a %s has no %s; remove it",
+                          fw_xml_label(record, label), kind->name, name[i]);
+    }
+}
+
+/* ---- the whole ---- */
+
+static const fw_device_flexure_row *kind_of(const fw_xml_record *record) {
+    const char *name = fw_xml_text_of(record, "kind");
+    for (int i = 0; name && i < KINDS; i++)
+        if (strcmp(kinds[i]->name, name) == 0) return kinds[i];
+    return NULL;
 }
 
 static fw_status flexure_of(fw_device_reader *r, int at, fw_device_flexure *f) {
     const fw_xml_record *record = &r->xml.record[at];
-    const char *kind = fw_xml_text_of(record, "kind");
+    const fw_device_flexure_row *kind = kind_of(record);
     bool length = fw_xml_given(record, "length");
     *f = (fw_device_flexure){.id = fw_xml_text_of(record, "id"),
                              .length_m = fw_xml_number_of(record, "length"),
@@ -270,28 +174,10 @@ static fw_status flexure_of(fw_device_reader *r, int at, fw_device_flexure *f) {
                              .radius_given = fw_xml_given(record, "radius"),
                              .place = record->element->place,
                              .length_place = fw_xml_place_of(record, length ? "length" : "radius")};
-    if (!kind) return FW_OK;
-    static const char *const foreign[] = {"length", "radius", "angle", "width-middle"};
-    if (strcmp(kind, "path") == 0) {
-        f->kind = FW_FLEXURE_PATH;
-        f->angle_rad = 0, f->width_middle_m = 0;
-        refuse_attributes(r, record, foreign, 4, 262,
-                          "belongs to the pieces of a path; move it there");
-        return fw_xml_failed(record, "width") ? FW_OK : read_path(r, at, f);
-    }
-    refuse_pieces(r, at, kind);
-    if (strcmp(kind, "csfh") == 0) {
-        f->kind = FW_FLEXURE_CSFH;
-        if (!complete_arc(r, record, f)) return FW_OK;
-        check_arc(r, record, f);
-        if (!(f->width_m < 2 * f->radius_m)) return FW_OK;
-        check_slender(r, record, f);
-        check_middle(r, record, f);
-        return FW_OK;
-    }
-    f->kind = FW_FLEXURE_LEAF;
-    leaf_of(r, record, f);
-    return FW_OK;
+    if (!kind) return FW_OK; /* reported */
+    if (!kind->pieces) refuse_pieces(r, at, kind->name);
+    refuse_attributes(r, record, kind);
+    return kind->build(r, at, f);
 }
 
 fw_status fw_device_build_flexures(fw_device_reader *r) {

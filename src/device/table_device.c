@@ -3,7 +3,16 @@
 #include "device/device_table.h"
 #include "base/constants.h"
 
-static const char *const flexure_kinds[] = {"csfh", "leaf", "path", NULL};
+#define FW_DEVICE_FLEXURE(name, sentence) #name,
+static const char *const flexure_kinds[] = {
+#include "device/flexures.def"
+    NULL};
+#undef FW_DEVICE_FLEXURE
+#define FW_DEVICE_FLEXURE(name, sentence) "; " #name ": " sentence
+static const char flexure_kinds_are[] =
+#include "device/flexures.def"
+    ".";
+#undef FW_DEVICE_FLEXURE
 static const char *const carriers[] = {"none", "insulating", NULL};
 static const char *const yes_no[] = {"yes", "no", NULL};
 static const char *const wafer_centres[] = {"auto", "die", "street", NULL};
@@ -108,8 +117,7 @@ static const fw_xml_attribute_row flow_rows[] = {
 static const fw_xml_attribute_row flexure_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = flexure_kinds,
-     .sentence = "csfh: a thin arc between conjugate surfaces; leaf: a thin straight strip; path: "
-                 "its pieces are <line> and <arc> inside, in their order, tangent to each other."},
+     .sentence = flexure_kinds_are + 2}, /* without the first semicolon */
     {"length", SIZE,
      .sentence = "Along the centre line, from face to face. csfh: exactly two of "
                  "length, radius and angle."},

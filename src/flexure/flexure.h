@@ -100,13 +100,6 @@ typedef struct fw_flexure_shape {
     fw_geometry_pose start;        /* of a path: first end and its tangent */
 } fw_flexure_shape;
 
-typedef struct fw_flexure_model { /* a row per kind: adding a hinge kind is one file and one row */
-    fw_device_flexure_kind kind;
-    const char *name, *summary;
-    void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
-    void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
-                        fw_flexure_result *out);
-} fw_flexure_model;
 void fw_flexure_closed_form(const fw_flexure_input *in, fw_flexure_result *out);
 /* the first half of it, the outline alone */
 void fw_flexure_shape_of(const fw_flexure_input *in, fw_flexure_shape *shape);

@@ -3,15 +3,20 @@
 #include "flexure/section.h"
 #include <math.h>
 
-static const fw_flexure_model table[] = {
-    {FW_FLEXURE_CSFH, "csfh", "circular arc with a pair of conjugate surfaces",
-     fw_flexure_csfh_shape, fw_flexure_csfh},
-    {FW_FLEXURE_LEAF, "leaf", "straight leaf", fw_flexure_leaf_shape, fw_flexure_leaf},
-    {FW_FLEXURE_PATH, "path", "lines and arcs of any width, one after the other",
-     fw_flexure_path_shape, fw_flexure_path},
+/* a row per model; of kinds that are made of lines and arcs (device/flexures.def) it is the path's */
+typedef struct model {
+    fw_device_flexure_kind kind;
+    void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);
+    void (*closed_form)(const fw_flexure_shape *shape, const fw_flexure_input *in,
+                        fw_flexure_result *out);
+} model;
+static const model table[] = {
+    {FW_FLEXURE_CSFH, fw_flexure_csfh_shape, fw_flexure_csfh},
+    {FW_FLEXURE_LEAF, fw_flexure_leaf_shape, fw_flexure_leaf},
+    {FW_FLEXURE_PATH, fw_flexure_path_shape, fw_flexure_path},
 };
 
-static const fw_flexure_model *model_of(fw_device_flexure_kind kind) {
+static const model *model_of(fw_device_flexure_kind kind) {
     size_t i = 0;
     while (table[i].kind != kind && i + 1 < sizeof table / sizeof table[0])
         i++;

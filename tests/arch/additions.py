@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A row is enough: a time law, an effect, a method of constrained dynamics, an integrator, a mask format, a design rule,
-a test pattern, a coupon, a command and an endpoint that the program does not have (tests/arch/additions/*.patch, each of
-one new file and one line in a list; an endpoint is a function beside its row) are added to a copy of the sources, and
-everything that should know of them is asked: simulate, the advice of check, hinge --deck, the report, tradeoff, --help,
-the reference page and the page's form.
+"""A row is enough: a time law, an effect, a kind of hinge, a method of constrained dynamics, an integrator, a mask format,
+a design rule, a test pattern, a coupon, a command and an endpoint that the program does not have
+(tests/arch/additions/*.patch, each of one new file and one line in a list; an endpoint is a function beside its row) are
+added to a copy of the sources, and everything that should know of them is asked: simulate, the advice of check, hinge,
+the report, tradeoff, --help, the reference page and the page's form.
 
     additions.py BUILD
 
@@ -15,6 +15,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -127,6 +128,15 @@ def device(at, name, load):
 MAGNET = '<magnetic-torque on="AB" moment="{} mA mm^2" field="100 mT" law="decay" time-constant="2 ms"{}/>'
 SAME = '<torque on="AB" value="100 mT * {} mA mm^2" law="expression" factor="exp(-time/(2 ms))"/>'
 SMALL, LARGE = 400, 20000
+HAIRPIN = '<flexure id="hairpin" kind="hairpin" length="300 um" width="width" gap="8 um"/>'
+HAIRPIN_AS_PATH = """<flexure id="hairpin" kind="path" width="width" gap="8 um">
+    <line length="50 um"/><arc radius="63.66197723675813 um" angle="180 deg"/><line length="50 um"/></flexure>"""
+
+
+def numbers(text):
+    """all but what was measured on this machine"""
+    text = re.sub(r'"(?:cpu|wall|us|seconds|cost)\w*": [^,\n]*', "", text)
+    return [float(x) for x in re.findall(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", text)]
 
 
 def check(copy):
@@ -165,6 +175,26 @@ def check(copy):
     state = {(p["method"], p["integrator"]): p["state"] for p in reversed(study["points"])}  # at the loosest tolerance
     assert state[("normal-equations", "dop853")] == "done" and ("chain", "heun") in state, state
     pages.append("tradeoff")
+
+    # a hinge: that of the same lines and arcs, in mechanics, motion and masks
+    text = (ROOT / "docs/gallery/free-form-four-bar/device.xml").read_text()
+    path = re.search(r'  <flexure id="hairpin".*?</flexure>\n', text, re.S).group()
+    answers = []
+    for own in (HAIRPIN, HAIRPIN_AS_PATH):
+        file = at / "hairpin.xml"
+        file.write_text(text.replace(path, own))
+        answers.append([numbers(run(*command, file, "--json"))
+                        for command in (("hinge", "--level", "closed-form"), ("simulate", "--hinge-model", "revolute"))])
+        run("mask", file, "-o", at / "hairpin", "--force", "--corners", "none", "--flow", "al-masked-rie", ok=(0, 1, 4))
+        answers[-1].append(numbers(next((at / "hairpin/masks").glob("*.svg")).read_text()))
+    for mine, same in zip(*answers):
+        assert len(mine) == len(same) > 100, (len(mine), len(same))
+        for a, b in zip(mine, same):
+            assert abs(a - b) <= 1e-7 * abs(b) + 1e-12, (a, b)
+    pages.append("hinge and the masks of a hinge")
+    file.write_text(text.replace(path, HAIRPIN.replace("length=", 'radius="70 um" length=')))
+    said = subprocess.run([program, "assemble", file], capture_output=True, text=True)
+    expect("what a hinge goes by", said.stderr, "a hairpin has no radius", "FW-D058")
 
     large = device(at, "large", MAGNET.format(LARGE, ""))
     expect("the advice of check", run("check", large, "--corners", "none", ok=(1,)), "REJECT", "magnetic fields")
@@ -207,13 +237,16 @@ def check(copy):
     text = call([copy.link("tests/live", object_)])
     expect("the reference page and the schema", text, "| `decay` | `start`, **`time-constant`** |",
            "decay: after which a share of 1/e is left", "### `<magnetic-torque>`", '<element name="magnetic-torque">',
-           "<value>decay</value>", '<attribute name="time-constant">')
+           "<value>decay</value>", '<attribute name="time-constant">', "hairpin: half a turn between two legs",
+           "<value>hairpin</value>")
     form = json.loads(call([copy.link("tests/live"), "table"], input=""))
     elements = {e["name"]: e for e in form["elements"]}
     attributes = {a["name"]: a for a in elements["magnetic-torque"]["attributes"]}
     assert "decay" in attributes["law"]["choices"] and attributes["time-constant"]["unit"] == "ms", attributes
     assert any(f["name"] == "points" for f in form["mask_formats"]), form["mask_formats"]
     assert any(e["name"] == "magnetic-torque" for e in form["effects"]), form["effects"]
+    kind, = (a for a in elements["flexure"]["attributes"] if a["name"] == "kind")
+    assert "hairpin" in kind["choices"] and "hairpin: half" in kind["sentence"], kind
     assert any(m["name"] == "normal-equations" for m in form["methods"]), form["methods"]
     assert any(m["name"] == "heun" for m in form["integrators"]), form["integrators"]
     pages.append("the page's form")
