@@ -9,46 +9,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const fw_cli_command table[] = {
-#define COMMAND(name_, argument_, summary_, example_, text_, options_)                             \
-    {.name = #name_,                                                                               \
-     .argument = (argument_),                                                                      \
-     .summary = (summary_),                                                                        \
-     .example = (example_),                                                                        \
-     .text = (text_),                                                                              \
-     .options = (options_),                                                                        \
-     .run = fw_cli_command_##name_},
-#include "cli/commands.def"
-#undef COMMAND
-};
-
-/* named in the contract, not in this version: say so instead of "unknown" */
-static const char *const later[] = {"study"};
-
-const fw_cli_command *fw_cli_command_table(size_t *count) {
-    *count = sizeof table / sizeof table[0];
-    return table;
-}
-
-static const fw_cli_command *find_command(const char *name) {
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
-        if (strcmp(table[i].name, name) == 0) return &table[i];
-    return NULL;
-}
-
-static int unknown_command(const char *name) {
-    for (size_t i = 0; i < sizeof later / sizeof later[0]; i++)
-        if (strcmp(later[i], name) == 0)
-            return fw_cli_usage("'%s' is not in this version (%s); flexwright --help lists what is",
-                                name, FW_VERSION);
-    const char *names[sizeof table / sizeof table[0]];
-    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
-        names[i] = table[i].name;
-    const char *near = fw_did_you_mean(name, names, sizeof table / sizeof table[0]);
-    return fw_cli_usage("unknown command '%s'%s%s%s; see flexwright --help", name,
-                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
-}
-
 /* the first signal asks to stop, the second one stops; a handler sees nothing but what is static */
 static fw_cancel interrupted;
 
@@ -79,7 +39,7 @@ int fw_cli_run(int argc, char **argv) {
     const char *name = argv[1];
     if (strcmp(name, FW_SERVE_CHILD) == 0) return fw_serve_child(argc, argv);
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0) {
-        const fw_cli_command *about = argc > 2 ? find_command(argv[2]) : NULL;
+        const fw_cli_command *about = argc > 2 ? fw_cli_find_command(argv[2]) : NULL;
         if (about)
             fw_cli_command_help(about);
         else
@@ -90,8 +50,8 @@ int fw_cli_run(int argc, char **argv) {
         printf("flexwright %s\n", FW_VERSION);
         return last_words(0);
     }
-    const fw_cli_command *command = find_command(name);
-    if (!command) return unknown_command(name);
+    const fw_cli_command *command = fw_cli_find_command(name);
+    if (!command) return fw_cli_unknown_command(name);
     fw_cli_options options = {.design = fw_design_options_default(),
                               .colour = -1,
                               .argv = argv,

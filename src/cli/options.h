@@ -38,6 +38,9 @@ typedef struct fw_cli_command { /* one row per command */
     int (*run)(fw_cli_options *options);
 } fw_cli_command;
 const fw_cli_command *fw_cli_command_table(size_t *count);
+const fw_cli_command *fw_cli_find_command(const char *name); /* NULL: there is none */
+/* says so, and what was probably meant; returns exit status 2 */
+int fw_cli_unknown_command(const char *name);
 
 enum { /* option groups */
        FW_OPT_COMMON = 1,
@@ -76,11 +79,13 @@ typedef struct fw_cli_option_row {
     const char *name;     /* without the dashes */
     char letter;          /* 0: none */
     const char *argument; /* NULL: none */
-    const char *help;     /* {names}: of what may be named, from its table (option_help) */
+    const char *help;     /* {names}: of what may be named, from its table */
     unsigned group;
     const char *(*take)(fw_cli_options *o, const char *value); /* NULL or what is wrong */
 } fw_cli_option_row;
 const fw_cli_option_row *fw_cli_option_rows(size_t *count);
+/* the help of a row with the names filled in; until the next call */
+const char *fw_cli_option_help(const fw_cli_option_row *row);
 /* "gds, svg or dxf", from the tables; until the next call */
 const char *fw_cli_mask_format_names(void);
 const char *fw_cli_hinge_model_names(void);

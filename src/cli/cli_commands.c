@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands, one row of commands.def each, and what --help and the reference page say of them
+   and of their options. */
+#include "cli/session.h"
+#include "dynamics/dynamics.h"
+#include <stdio.h>
+#include <string.h>
+
+static const fw_cli_command commands[] = {
+#define COMMAND(name_, argument_, summary_, example_, text_, options_)                             \
+    {.name = #name_,                                                                               \
+     .argument = (argument_),                                                                      \
+     .summary = (summary_),                                                                        \
+     .example = (example_),                                                                        \
+     .text = (text_),                                                                              \
+     .options = (options_),                                                                        \
+     .run = fw_cli_command_##name_},
+#include "cli/commands.def"
+#undef COMMAND
+};
+
+const fw_cli_command *fw_cli_command_table(size_t *count) {
+    *count = sizeof commands / sizeof commands[0];
+    return commands;
+}
+
+const fw_cli_command *fw_cli_find_command(const char *name) {
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        if (strcmp(commands[i].name, name) == 0) return &commands[i];
+    return NULL;
+}
+
+/* named in the contract, not in this version: say so instead of "unknown" */
+static const char *const later[] = {"study"};
+
+int fw_cli_unknown_command(const char *name) {
+    for (size_t i = 0; i < sizeof later / sizeof later[0]; i++)
+        if (strcmp(later[i], name) == 0)
+            return fw_cli_usage("'%s' is not in this version (%s); flexwright --help lists what is",
+                                name, FW_VERSION);
+    const char *names[sizeof commands / sizeof commands[0]];
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        names[i] = commands[i].name;
+    const char *near = fw_did_you_mean(name, names, sizeof commands / sizeof commands[0]);
+    return fw_cli_usage("unknown command '%s'%s%s%s; see flexwright --help", name,
+                        near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
+}
+
+/* ---- help ---- */
+
+static void print_options(unsigned groups, FILE *to) {
+    size_t count;
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
+    for (size_t i = 0; i < count; i++) {
+        if (!(table[i].group & groups)) continue;
+        char left[64];
+        snprintf(left, sizeof left, "%s%c%s--%s%s%s", table[i].letter ? "-" : " ",
+                 table[i].letter ? table[i].letter : ' ', table[i].letter ? ", " : "  ",
+                 table[i].name, table[i].argument ? " " : "",
+                 table[i].argument ? table[i].argument : "");
+        fprintf(to, "  %-26s %s\n", left, fw_cli_option_help(&table[i]));
+    }
+}
+
+void fw_cli_help(void) {
+    size_t n;
+    const fw_cli_command *command = fw_cli_command_table(&n);
+    fputs(
+        "flexwright - from one description of a compliant micromanipulator to a verdict, masks "
+        "and\n"
+        "fabrication recipes\n\n"
+        "  flexwright plan device.xml -o out       everything, for every flow of the device\n"
+        "  flexwright check device.xml             only: does a hinge leave its elastic range?\n\n"
+        "Commands:\n",
+        stdout);
+    for (size_t i = 0; i < n; i++)
+        printf("  %-9s %s\n", command[i].name, command[i].summary);
+    fputs(
+        "\n  flexwright COMMAND --help              options of a command, with an example\n"
+        "  flexwright --version\n\n"
+        "Exit status: 0 accepted or done, 1 design rejected, 2 wrong usage, 3 invalid input,\n"
+        "4 inconclusive, 5 input or output failed, 6 out of memory or another limit,\n"
+        "7 no numerical solution, 70 internal error, 130 and 143 on signals.\n"
+        "Results go to standard output, messages to standard error.\n\n"
+        "FLEXWRIGHT_DATA names the directory that holds processes/ and masks/ (then only that one\n"
+        "is used); NO_COLOR and FORCE_COLOR as usual. No other setting changes a result.\n",
+        stdout);
+}
+
+static void print_rows(const char *title, fw_multibody_method_row (*at)(size_t)) {
+    puts(title);
+    for (size_t i = 0; at(i).name; i++)
+        printf("  %-24s %s\n", at(i).name, at(i).summary);
+}
+
+void fw_cli_command_help(const fw_cli_command *command) {
+    printf("flexwright %s%s%s [options]\n\n  %s\n\n%s\n\nOptions:\n", command->name,
+           command->argument ? " " : "", command->argument ? command->argument : "",
+           command->example, command->text);
+    print_options(command->options, stdout);
+    if (command->options & FW_OPT_SIMULATE) {
+        print_rows("\nMethods:", fw_multibody_method_at);
+        print_rows("Integrators:", fw_dynamics_integrator_at);
+        print_rows("Stabilisation:", fw_dynamics_stabilisation_at);
+    }
+}
+
+void fw_cli_reference(fw_text *out) {
+    size_t n, count;
+    const fw_cli_command *command = fw_cli_command_table(&n);
+    const fw_cli_option_row *table = fw_cli_option_rows(&count);
+    fw_text_add(out, "# Command line\n\nGenerated from the option table; do not edit.\n");
+    for (size_t i = 0; i < n; i++) {
+        fw_text_printf(out, "\n## flexwright %s%s%s\n\n%s\n\n    %s\n\n%s\n\n", command[i].name,
+                       command[i].argument ? " " : "",
+                       command[i].argument ? command[i].argument : "", command[i].summary,
+                       command[i].example, command[i].text);
+        fw_text_add(out, "| option | meaning |\n|---|---|\n");
+        for (size_t k = 0; k < count; k++)
+            if (table[k].group & command[i].options)
+                fw_text_printf(
+                    out, "| `%s%.*s%s--%s%s%s` | %s |\n", table[k].letter ? "-" : "",
+                    table[k].letter ? 1 : 0, &table[k].letter, table[k].letter ? "`, `" : "",
+                    table[k].name, table[k].argument ? " " : "",
+                    table[k].argument ? table[k].argument : "", fw_cli_option_help(&table[k]));
+    }
+}
