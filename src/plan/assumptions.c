@@ -8,7 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
-fw_status fw_plan_assume(fw_plan *plan, const char *format, ...) {
+__attribute__((format(printf, 2, 3))) static fw_status assume(fw_plan *plan, const char *format,
+                                                              ...) {
     if (plan->nassumption == plan->assumption_capacity) {
         int more = plan->assumption_capacity ? 2 * plan->assumption_capacity : 16;
         const char **grown = fw_arena_grow(plan->arena, plan->assumption, (size_t)plan->nassumption,
@@ -34,7 +35,7 @@ static fw_status of_crystal(fw_plan *plan, const fw_verdict_variant_verdict *jud
     for (int k = 0; m && k < m->nhinge; k++)
         most = fmax(most, hypot(m->hinge[k].off_a_m.x, m->hinge[k].off_a_m.y));
     char angle[32], off[32];
-    return fw_plan_assume(
+    return assume(
         plan,
         "%s%s%s is a cubic crystal with [100] at %s deg from +x; its modulus goes with the "
         "direction "
@@ -56,15 +57,14 @@ static fw_status of_variant(fw_plan *plan, const fw_verdict_variant_verdict *jud
         fabs(v->explicit_stiffness_scale - 1.0) > 1e-9 || fabs(v->explicit_mass_scale - 1.0) > 1e-9;
     if (scaled) {
         char k[32], mass[32], c[32];
-        FW_TRY(
-            fw_plan_assume(plan,
-                           "Flow %s: masses, stiffnesses and dampings that the device file states "
-                           "hold for its own material and thickness; here they are scaled by "
-                           "rho h (%s), E h (%s) and sqrt(E h rho h) (%s, the same modal "
-                           "damping).",
-                           v->flow, fw_number_text(mass, sizeof mass, v->explicit_mass_scale, 4),
-                           fw_number_text(k, sizeof k, v->explicit_stiffness_scale, 4),
-                           fw_number_text(c, sizeof c, v->explicit_damping_scale, 4)));
+        FW_TRY(assume(plan,
+                      "Flow %s: masses, stiffnesses and dampings that the device file states "
+                      "hold for its own material and thickness; here they are scaled by "
+                      "rho h (%s), E h (%s) and sqrt(E h rho h) (%s, the same modal "
+                      "damping).",
+                      v->flow, fw_number_text(mass, sizeof mass, v->explicit_mass_scale, 4),
+                      fw_number_text(k, sizeof k, v->explicit_stiffness_scale, 4),
+                      fw_number_text(c, sizeof c, v->explicit_damping_scale, 4)));
     }
     return FW_OK;
 }
@@ -83,12 +83,11 @@ static fw_status strength_override(fw_plan *plan) {
                  "strength of %s is stated as %s GPa, the pack has %s GPa (%s): the verdict "
                  "depends on it, so measure it on beams of the same wafer",
                  pack->id, mine, theirs, pack->strength.source ? pack->strength.source : "");
-    return fw_plan_assume(
-        plan,
-        "The device file states a strength of %s GPa for %s where the pack has %s "
-        "GPa; with the pack's value every utilisation would be %.2f times as "
-        "high. Measure the strength of your own sidewalls.",
-        mine, pack->id, theirs, own->value / pack->strength.value);
+    return assume(plan,
+                  "The device file states a strength of %s GPa for %s where the pack has %s "
+                  "GPa; with the pack's value every utilisation would be %.2f times as "
+                  "high. Measure the strength of your own sidewalls.",
+                  mine, pack->id, theirs, own->value / pack->strength.value);
 }
 
 /* what asking for cycles, a probability or survival rests on */
@@ -96,7 +95,7 @@ static fw_status repetitions(fw_plan *plan) {
     const fw_device_limits_asked *asked = &plan->device->limits;
     char n[32];
     if (asked->cycles > 0)
-        FW_TRY(fw_plan_assume(
+        FW_TRY(assume(
             plan,
             "Every scene is repeated %s times, each on its own. Strains at both roots are counted "
             "by "
@@ -104,15 +103,15 @@ static fw_status repetitions(fw_plan *plan) {
             "scatter by a factor of two and more, which the band of the stress does not hold.",
             fw_number_text(n, sizeof n, asked->cycles, 4)));
     if (asked->failure_probability > 0)
-        FW_TRY(fw_plan_assume(
+        FW_TRY(assume(
             plan,
             "Brittle materials are allowed a failure probability of %s of the whole device, shared "
             "equally by its flexures, from the Weibull strength of their stressed surfaces; the "
             "safety factor comes on top.",
             fw_number_text(n, sizeof n, asked->failure_probability, 3)));
     if (asked->survival)
-        FW_TRY(fw_plan_assume(plan, "Metals may pass their proportional limit up to the 0.2 %% "
-                                    "offset: a hinge may not come back to where it was."));
+        FW_TRY(assume(plan, "Metals may pass their proportional limit up to the 0.2 %% "
+                            "offset: a hinge may not come back to where it was."));
     return FW_OK;
 }
 
@@ -142,28 +141,27 @@ static fw_status how_hinges_move(fw_plan *plan) {
     int give = t.level[FW_HINGE_COMPLIANCE], exact = t.level[FW_HINGE_ELASTICA];
     bool all = give + exact == t.motions;
     if (give > 0)
-        FW_TRY(fw_plan_assume(plan,
-                              "%singes turn, give way to forces and drift as flexures do, in "
-                              "closed form for the wound strip (nonlinear-hinge).",
-                              give < t.motions ? "In scenes whose ledger has nonlinear-hinge h"
-                                               : "H"));
+        FW_TRY(assume(plan,
+                      "%singes turn, give way to forces and drift as flexures do, in "
+                      "closed form for the wound strip (nonlinear-hinge).",
+                      give < t.motions ? "In scenes whose ledger has nonlinear-hinge h" : "H"));
     if (exact > 0)
-        FW_TRY(fw_plan_assume(plan, "%singes are geometrically exact beams (elastica).",
-                              exact < t.motions ? "In scenes that need it h" : "H"));
+        FW_TRY(assume(plan, "%singes are geometrically exact beams (elastica).",
+                      exact < t.motions ? "In scenes that need it h" : "H"));
     char by[32];
     fw_percent_text(by, sizeof by, t.error);
-    FW_TRY(fw_plan_assume(plan, "%s revolute joints at the centres of elastic weights.",
-                          give + exact == 0 ? "Hinges are"
-                          : all             ? "Required poses take them as"
-                                            : "Other scenes and required poses take them as"));
-    return fw_plan_assume(plan,
-                          "The band of every utilisation holds what these models of hinges may be "
-                          "off by, up to %s %%: the step to the next level, computed at each "
-                          "scene's peak, and the stiffness of the closed form against finite "
-                          "elements; where there is no such step, and at least where pins swing, "
-                          "%.1f %%, the most by which exact flexures changed the peak moment of a "
-                          "hinge in four reference load cases.",
-                          by, 100.0 * fw_verdict_model_error.motion);
+    FW_TRY(assume(plan, "%s revolute joints at the centres of elastic weights.",
+                  give + exact == 0 ? "Hinges are"
+                  : all             ? "Required poses take them as"
+                                    : "Other scenes and required poses take them as"));
+    return assume(plan,
+                  "The band of every utilisation holds what these models of hinges may be "
+                  "off by, up to %s %%: the step to the next level, computed at each "
+                  "scene's peak, and the stiffness of the closed form against finite "
+                  "elements; where there is no such step, and at least where pins swing, "
+                  "%.1f %%, the most by which exact flexures changed the peak moment of a "
+                  "hinge in four reference load cases.",
+                  by, 100.0 * fw_verdict_model_error.motion);
 }
 
 /* what the corners of the flows are, and what they are not */
@@ -174,18 +172,32 @@ static fw_status as_fabricated(fw_plan *plan) {
         any = any || v->fabricated;
         for (int k = 0; v->fabricated && k < v->ninput; k++)
             if (v->input[k].unknown)
-                FW_TRY(fw_plan_assume(plan,
-                                      "Flow %s: %s is not known (%s). The corners take an assumed "
-                                      "range, and the verdict holds inside it only: measure it.",
-                                      v->variant->flow, v->input[k].name, v->input[k].unknown));
+                FW_TRY(assume(plan,
+                              "Flow %s: %s is not known (%s). The corners take an assumed "
+                              "range, and the verdict holds inside it only: measure it.",
+                              v->variant->flow, v->input[k].name, v->input[k].unknown));
     }
     if (!any)
-        return fw_plan_assume(plan, "The check is of the drawn geometry; what etching or plating "
-                                    "makes of it is in each flow's judgement.");
-    return fw_plan_assume(
-        plan, "Corners of a flow move all edges of the device alike, and all its walls. "
-              "The strength is no input of them: the safety factor stands for it. What "
-              "differs from flexure to flexure of one device is not in them.");
+        return assume(plan, "The check is of the drawn geometry; what etching or plating "
+                            "makes of it is in each flow's judgement.");
+    return assume(plan, "Corners of a flow move all edges of the device alike, and all its walls. "
+                        "The strength is no input of them: the safety factor stands for it. What "
+                        "differs from flexure to flexure of one device is not in them.");
+}
+
+/* a sentence for every value that laboratory packs replace */
+static fw_status of_laboratory(fw_plan *plan) {
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_process_flow *flow = plan->flow[i].flow;
+        for (int k = 0; flow && k < flow->noverride; k++) {
+            const fw_process_override *o = &flow->override[k];
+            FW_TRY(assume(plan,
+                          "Flow %s: the laboratory's %s = %s stands for %s of the process "
+                          "pack. Source: %s.",
+                          flow->id, o->id, o->is, o->was, o->source));
+        }
+    }
+    return FW_OK;
 }
 
 fw_status fw_plan_assumptions(fw_plan *plan) {
@@ -195,26 +207,26 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
     for (int i = 0; i < plan->verdict.nvariant; i++)
         FW_TRY(of_variant(plan, &plan->verdict.variant[i]));
     FW_TRY(strength_override(plan));
-    FW_TRY(fw_plan_lab_assumptions(plan));
-    FW_TRY(fw_plan_assume(plan, "Safety factor %s on the strength (%s:%d:%d).",
-                          fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
-                          fw_place_file(plan->device->limits_place),
-                          plan->device->limits_place.line, plan->device->limits_place.column));
+    FW_TRY(of_laboratory(plan));
+    FW_TRY(assume(plan, "Safety factor %s on the strength (%s:%d:%d).",
+                  fw_number_text(sf, sizeof sf, plan->device->safety_factor, 4),
+                  fw_place_file(plan->device->limits_place), plan->device->limits_place.line,
+                  plan->device->limits_place.column));
     FW_TRY(repetitions(plan));
     FW_TRY(how_hinges_move(plan));
-    FW_TRY(fw_plan_assume(plan,
-                          "Peak strain is the closed form with root fillets, depth and curved-beam "
-                          "factors, with the joint force's own bending added; 3-D finite elements "
-                          "on held-out shapes are within %.1f %%.",
-                          100.0 * e->strain));
+    FW_TRY(assume(plan,
+                  "Peak strain is the closed form with root fillets, depth and curved-beam "
+                  "factors, with the joint force's own bending added; 3-D finite elements "
+                  "on held-out shapes are within %.1f %%.",
+                  100.0 * e->strain));
     for (int i = 0; i < plan->verdict.nvariant; i++)
         if (plan->verdict.variant[i].workspace.required) {
-            FW_TRY(fw_plan_assume(plan,
-                                  "Over the required workspace only the rotations are known, not "
-                                  "the forces that hold the pose: the band is widened by %.0f %%, "
-                                  "the most that joint forces added in the reference load cases. "
-                                  "The search is dense, not an interval proof.",
-                                  100.0 * e->workspace));
+            FW_TRY(assume(plan,
+                          "Over the required workspace only the rotations are known, not "
+                          "the forces that hold the pose: the band is widened by %.0f %%, "
+                          "the most that joint forces added in the reference load cases. "
+                          "The search is dense, not an interval proof.",
+                          100.0 * e->workspace));
             break;
         }
     return as_fabricated(plan);

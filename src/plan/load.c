@@ -76,20 +76,6 @@ static fw_status warn_of_unused_packs(fw_plan *plan) {
     return plan->diags.failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_plan_lab_assumptions(fw_plan *plan) {
-    for (int i = 0; i < plan->nflow; i++) {
-        const fw_process_flow *flow = plan->flow[i].flow;
-        for (int k = 0; flow && k < flow->noverride; k++) {
-            const fw_process_override *o = &flow->override[k];
-            FW_TRY(fw_plan_assume(plan,
-                                  "Flow %s: the laboratory's %s = %s stands for %s of the process "
-                                  "pack. Source: %s.",
-                                  flow->id, o->id, o->is, o->was, o->source));
-        }
-    }
-    return FW_OK;
-}
-
 /* ---- the description and its flows ---- */
 
 fw_plan_options fw_plan_options_default(void) {
@@ -324,6 +310,13 @@ static fw_status load_flows(fw_plan *plan) {
                              "the device has no flow '%s': %s", plan->options.flow,
                              flow_names(plan));
     return FW_OK;
+}
+
+fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
+                                fw_verdict_variant_verdict *v) {
+    v->variant = &pf->variant;
+    if (!pf->flow) return FW_OK;
+    return fw_process_flow_fabricated(arena, pf->flow, NULL, &pf->variant, &v->input, &v->ninput);
 }
 
 /* a plan of its own for messages and memory, over the packs of this one */

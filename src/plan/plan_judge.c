@@ -6,13 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
-                                fw_verdict_variant_verdict *v) {
-    v->variant = &pf->variant;
-    if (!pf->flow) return FW_OK;
-    return fw_process_flow_fabricated(arena, pf->flow, NULL, &pf->variant, &v->input, &v->ninput);
-}
-
 /* the same with the gaps of the drawing: the facts that fw_plan_compute_flows has, hence the same
    edges as mask and recipe. The variant may be one of a description read again. */
 static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *device,

@@ -5,13 +5,9 @@
 #include "base/output.h"
 #include "plan/plan.h"
 
-/* a sentence for every value that they replace */
-fw_status fw_plan_lab_assumptions(fw_plan *plan);
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does
    not */
 fw_status fw_plan_need_material(fw_plan *plan);
-fw_status fw_plan_assume(fw_plan *plan, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
 /* the description of a loaded plan read again with one more --set, and its variants, in `arena`;
    what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
@@ -26,10 +22,24 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
                              bool insulated, fw_process_mask_facts *facts);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
-/* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
-fw_status fw_plan_wafers(fw_plan *plan);
+/* once the plate is laid out: currents and rates for what is really on it. What there is to say of
+   the flow has been said. */
+fw_status fw_plan_compute_wafers(fw_plan *plan);
+/* masks and test dies of the flows, as fw_plan_fabricate says; and who does what when, of every
+   flow that will be written */
+fw_status fw_plan_masks(fw_plan *plan);
+fw_status fw_plan_schedules(fw_plan *plan);
+
+/* ---- steps of a wafer's sweeps ---- */
+int fw_plan_sweep_steps(const fw_device_wafer_asked *asked);
+/* the settings of a plan and those of step v behind them: of two for one parameter the last holds.
+   value: of every sweep, SI */
+fw_status fw_plan_sweep_settings(fw_plan *plan, int v, fw_device_set **set, double *value);
+/* does it end the whole plan, not one step of it? */
+bool fw_plan_is_final(fw_status status);
 /* plan->dies, from what <wafer> asks for */
 fw_status fw_plan_count_dies(fw_plan *plan);
+
 fw_status fw_plan_hash(fw_plan *plan, const fw_text *text, const char **sha256);
 /* once per plan, after judging */
 fw_status fw_plan_assumptions(fw_plan *plan);

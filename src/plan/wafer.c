@@ -5,50 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static int steps_of(const fw_device_wafer_asked *w) {
-    int n = 1;
-    for (int k = 0; k < w->nsweep; k++)
-        n *= w->sweep[k].steps;
-    return n;
-}
-
-/* value of the sweep at step k, in its unit, as --set takes it */
-static fw_status value_of(fw_arena *arena, const fw_device_sweep *s, int k, double *value,
-                          const char **text) {
-    fw_quantity_unit u = {.factor = 1};
-    if (*s->unit) fw_quantity_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
-    double from = fw_quantity_unit_from_si(&u, s->from), to = fw_quantity_unit_from_si(&u, s->to);
-    char number[40];
-    fw_number_text(number, sizeof number, from + (to - from) * k / (s->steps - 1), 12);
-    double shown;
-    if (!fw_number_parse(number, strlen(number), &shown)) return FW_INTERNAL;
-    *value = fw_quantity_unit_to_si(&u, shown);
-    FW_NEED(*text = fw_arena_printf(arena, "%s%s%s", number, *s->unit ? " " : "", s->unit));
-    return FW_OK;
-}
-
-/* the settings of a plan and those of step v behind them: of two for one parameter the last
-   holds */
-static fw_status settings(fw_plan *plan, int v, fw_device_set **out, double *value) {
-    const fw_device_wafer_asked *w = &plan->device->wafer;
-    size_t n = (size_t)plan->options.nset;
-    fw_device_set *set = fw_arena_array(plan->arena, fw_device_set, n + 2);
-    FW_NEED(set);
-    if (n > 0) memcpy(set, plan->options.set, n * sizeof *set);
-    for (int k = 0, rest = v; k < w->nsweep; rest /= w->sweep[k++].steps) {
-        const fw_device_sweep *s = &w->sweep[k];
-        set[n + (size_t)k].path = plan->device->parameter[s->parameter].name;
-        FW_TRY(value_of(plan->arena, s, rest % s->steps, &value[k], &set[n + (size_t)k].value));
-    }
-    *out = set;
-    return FW_OK;
-}
-
-static bool is_final(fw_status status) {
-    return status == FW_NOMEM || status == FW_CANCELLED || status == FW_INTERNAL ||
-           status == FW_IO || status == FW_USAGE;
-}
-
 static const char *first_error(const fw_plan *step, fw_status status) {
     for (size_t i = 0; i < step->diags.count; i++)
         if (step->diags.item[i].severity == FW_ERROR) return step->diags.item[i].message;
@@ -59,7 +15,7 @@ static const char *first_error(const fw_plan *step, fw_status status) {
 static fw_status run_step(fw_plan *plan, int v, double *value, const char **why) {
     fw_plan_options options = plan->options;
     fw_device_set *set;
-    FW_TRY(settings(plan, v, &set, value));
+    FW_TRY(fw_plan_sweep_settings(plan, v, &set, value));
     options.set = set;
     options.nset = plan->options.nset + plan->device->wafer.nsweep;
     options.dies = plan->dies;
@@ -70,8 +26,9 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     fw_status status =
         fw_plan_load_memory(step, plan->source_file, plan->source, plan->source_length);
     if (status == FW_OK) status = fw_plan_judge(step);
-    if (status == FW_OK) status = fw_plan_fabricate(step);
-    if (status != FW_OK && is_final(status)) return status;
+    if (status == FW_OK) status = fw_plan_masks(step);
+    if (status == FW_OK) status = fw_plan_schedules(step);
+    if (status != FW_OK && fw_plan_is_final(status)) return status;
     *why = status == FW_OK ? NULL : first_error(step, status);
     if (status == FW_OK) return FW_OK;
     FW_NEED(*why = fw_arena_strdup(plan->arena, *why));
@@ -123,7 +80,7 @@ static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_va
 static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const char *const *why) {
     fw_plan_flow *pf = &plan->flow[flow];
     const fw_device_wafer_asked *w = &plan->device->wafer;
-    int n = steps_of(w);
+    int n = fw_plan_sweep_steps(w);
     fw_wafer_variant *v = fw_arena_array(plan->arena, fw_wafer_variant, (size_t)n);
     FW_NEED(v);
     fw_wafer_variant own = variant_of(plan, flow);
@@ -154,13 +111,14 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
     return fw_plan_hash(plan, &pf->wafer_gds, &pf->wafer_sha256);
 }
 
-fw_status fw_plan_wafers(fw_plan *plan) {
+/* wafers of the flows that have a mask, with the devices of the sweeps, each planned by itself */
+static fw_status make_all(fw_plan *plan) {
     const fw_device_wafer_asked *w = &plan->device->wafer;
     bool any = false;
     for (int i = 0; i < plan->nflow; i++)
         any = any || plan->flow[i].mask;
     if (!w->asked || plan->options.dies > 0 || !any) return FW_OK;
-    int n = steps_of(w);
+    int n = fw_plan_sweep_steps(w);
     double(*value)[2] = fw_arena_alloc(plan->arena, (size_t)n, sizeof *value);
     const char **why = fw_arena_array(plan->arena, const char *, (size_t)n);
     FW_NEED(value && why ? why : NULL);
@@ -175,41 +133,10 @@ fw_status fw_plan_wafers(fw_plan *plan) {
     return FW_OK;
 }
 
-/* the outline of step v, as far as it can be drawn; what is wrong with it is said when it is
-   planned */
-static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_geometry_box *die) {
-    fw_diags silent = fw_diags_new(arena);
-    const fw_device *device;
-    const fw_layout *layout;
-    fw_device_set *set;
-    double value[2];
-    FW_TRY(settings(plan, v, &set, value));
-    fw_status status =
-        fw_device_read(arena, plan->source_file, plan->source, plan->source_length, set,
-                       plan->options.nset + plan->device->wafer.nsweep, &silent, &device);
-    if (status == FW_OK) status = fw_layout_build(arena, device, &silent, &layout);
-    if (status == FW_OK && layout->drawn) {
-        die->x1 = fmax(die->x1, die->x0 + layout->die.x1 - layout->die.x0);
-        die->y1 = fmax(die->y1, die->y0 + layout->die.y1 - layout->die.y0);
-    }
-    return is_final(status) ? status : FW_OK;
-}
-
-fw_status fw_plan_count_dies(fw_plan *plan) {
-    const fw_device_wafer_asked *w = &plan->device->wafer;
-    plan->dies = plan->options.dies > 0 ? plan->options.dies : 1;
-    if (plan->options.dies > 0 || !w->asked || !plan->layout || !plan->layout->drawn) return FW_OK;
-    fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
-    FW_NEED(scratch);
-    fw_geometry_box die = plan->layout->die;
-    fw_status status = FW_OK;
-    for (int v = 0; w->nsweep > 0 && v < steps_of(w) && status == FW_OK; v++) {
-        fw_mark empty = fw_arena_mark(scratch);
-        status = enlarge(plan, scratch, v, &die);
-        fw_arena_rewind(scratch, empty);
-    }
-    if (status == FW_OK) status = fw_wafer_dies(scratch, w, die, &plan->dies);
-    fw_arena_free(scratch);
-    if (plan->dies == 0) plan->dies = 1; /* why, the wafer says */
-    return status;
+/* A step of a sweep has masks and schedules, but no wafer of its own. */
+fw_status fw_plan_fabricate(fw_plan *plan) {
+    FW_TRY(fw_plan_masks(plan));
+    FW_TRY(make_all(plan));
+    FW_TRY(fw_plan_compute_wafers(plan));
+    return fw_plan_schedules(plan);
 }
