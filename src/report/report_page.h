@@ -15,7 +15,7 @@ const char *fw_report_decision_word(fw_verdict_decision decision); /* "ACCEPT" .
 /* `colour` when it reads #rgb or #rrggbb, else entry `index` of the palette */
 const char *fw_report_layer_colour(const char *colour, int index);
 
-/* ---- drawing.c: from the plane to picture coordinates, y down ---- */
+/* ---- report_view.c: from the plane to picture coordinates, y down ---- */
 typedef struct fw_report_view {
     double x0_m, y1_m, scale; /* pixel per m */
     double width, height;
@@ -26,14 +26,10 @@ double fw_report_y(const fw_report_view *view, double y_m);
 void fw_report_path(fw_text *out, const fw_report_view *view, const fw_geometry_contour *contour);
 fw_geometry_box fw_report_box_empty(void);
 void fw_report_box_add(fw_geometry_box *box, double x_m, double y_m);
-/* what the pictures show: the mechanism at rest and, with `reach`, where its hinges get to */
-fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
-                                     const fw_geometry_box *reach, double width);
 /* hinge point of a joint in the drawn position */
 fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
 bool fw_report_drawn(const fw_layout *layout);
 bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a shape of its own */
-void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
 
 /* ---- film.c: bodies and bending flexures at an instant ---- */
 typedef struct fw_report_bend_point {
@@ -115,6 +111,10 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism,
                            fw_text *out);
 
 /* ---- drawing.c: the device ---- */
+/* what the pictures show: the mechanism at rest and, with `reach`, where its hinges get to */
+fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
+                                     const fw_geometry_box *reach, double width);
+void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
 /* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
 fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
                             const fw_verdict *verdict, const fw_report_view *view, bool ids,

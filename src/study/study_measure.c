@@ -58,6 +58,13 @@ static int tightest(const fw_study_tradeoff *t, const fw_study_tradeoff_curve *c
     return at;
 }
 
+bool fw_study_tradeoff_good(const fw_study_tradeoff *t, const fw_study_tradeoff_point *p) {
+    const fw_study_tradeoff_point *ref = t->reference.run[0];
+    if (p->state != FW_TRADEOFF_DONE || !ref || !(p->error <= t->accuracy)) return false;
+    double used = fabs(p->utilisation - ref->utilisation);
+    return !(used > 10 * t->accuracy); /* NaN: no hinge has a limit */
+}
+
 static fw_status choose(fw_arena *arena, const fw_study_tradeoff *t, wishes *l) {
     order *all;
     int n = 0;

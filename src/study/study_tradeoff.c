@@ -8,7 +8,6 @@
 #include "study/study_numbers.h"
 #include "study/tradeoff.h"
 #include <math.h>
-#include <stdlib.h>
 
 /* true errors below this many times the reference's own are not known well enough to be compared */
 static const double known = 3;
@@ -24,13 +23,6 @@ static void find_errors(fw_study_tradeoff *t) {
         p->utilisation_error = fabs(p->utilisation / ref->utilisation - 1);
         p->floor = !(p->error > t->reference.error);
     }
-}
-
-bool fw_study_tradeoff_good(const fw_study_tradeoff *t, const fw_study_tradeoff_point *p) {
-    const fw_study_tradeoff_point *ref = t->reference.run[0];
-    if (p->state != FW_TRADEOFF_DONE || !ref || !(p->error <= t->accuracy)) return false;
-    double used = fabs(p->utilisation - ref->utilisation);
-    return !(used > 10 * t->accuracy); /* NaN: no hinge has a limit */
 }
 
 /* estimated over true error, where the true one is known */
@@ -103,11 +95,6 @@ static fw_status judge_settings(fw_arena *arena, fw_study_tradeoff *t) {
 /* ---- the whole ---- */
 
 static const double usual_budget_s = 20;
-
-const char *fw_study_count_by_text(fw_study_count_by by) {
-    static const char *const text[] = {"model", "scaled", "callgrind"};
-    return text[by];
-}
 
 /* what simulate does by itself is the first point; where that is quasi-static its error will
    hold what inertia does */

@@ -27,6 +27,11 @@ static void time_of(fw_text *out, const fw_study_tradeoff_time *x) {
         fw_text_real(out, "%11.2f", x->ratio);
 }
 
+const char *fw_study_count_by_text(fw_study_count_by by) {
+    static const char *const text[] = {"model", "scaled", "callgrind"};
+    return text[by];
+}
+
 const char *fw_study_tradeoff_floor_text(const fw_study_tradeoff *t) {
     if (!t->floor_what) return "nothing";
     if (strcmp(t->floor_what, "solid") == 0) return "what the verdict allows its model of hinges";
