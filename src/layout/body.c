@@ -150,37 +150,6 @@ static fw_status plate_parts(fw_layout_drawing *d, int body, parts *out) {
     return cut_free(d, body, &plate, NULL, 0, out);
 }
 
-/* Where the spokes of a body with more than two hinges meet: in the middle of them. With hinges in
-   line one of them is in the way of the others' spokes there; then (beside: only for bodies that
-   cannot be drawn otherwise) the hub stands beside the line, on the side where no other body
-   leaves, clear of the longest flexure. test_layout_hubs.c */
-fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d, int body) {
-    const fw_device *device = d->device;
-    fw_geometry_vec2 sum = fw_v(0.0, 0.0), along = sum, others = sum, first = sum;
-    double clear = 0.0;
-    int n = 0;
-    for (int j = 0; j < device->nrevolute; j++) {
-        const fw_device_revolute *t = &device->revolute[j];
-        if (t->body_a != body && t->body_b != body) continue;
-        fw_geometry_vec2 p = fw_layout_joint_point(device, j);
-        int other = t->body_a == body ? t->body_b : t->body_a;
-        if (n++ == 0) first = p;
-        if (fw_norm(fw_sub(p, first)) > fw_norm(along)) along = fw_sub(p, first);
-        if (other >= 0 && isfinite(device->body[other].x_m + device->body[other].y_m))
-            others = fw_add(others, 1.0,
-                            fw_sub(fw_v(device->body[other].x_m, device->body[other].y_m), p));
-        clear = fmax(clear, device->flexure[t->flexure].length_m);
-        sum = fw_add(sum, 1.0, p);
-    }
-    fw_geometry_vec2 hub = fw_v(sum.x / n, sum.y / n);
-    if (!d->beside || !d->beside[body]) return hub;
-    double size = fw_norm(along);
-    fw_geometry_vec2 out =
-        size > 0.0 ? fw_left(fw_v(along.x / size, along.y / size)) : fw_v(0.0, 1.0);
-    return fw_add(
-        hub, (fw_dot(out, others) > 0.0 ? -1.0 : 1.0) * (clear + fw_layout_rule.hub_clear_m), out);
-}
-
 static fw_status bar_parts(fw_layout_drawing *d, int body, const int *joint, int njoint,
                            parts *out) {
     fw_geometry_contour bar;

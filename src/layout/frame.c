@@ -25,15 +25,6 @@ static fw_status clear_of_all(const fw_layout_drawing *d, const fw_geometry_cont
     return FW_OK;
 }
 
-double fw_layout_base_reach(const fw_layout_drawing *d, int joint) {
-    const fw_layout_hinge_plan *plan = &d->hinge[joint];
-    fw_geometry_vec2 out = plan->side[plan->side[1].body == FW_GROUND].direction;
-    fw_geometry_vec2 w = fw_layout_joint_point(d->device, joint);
-    const fw_geometry_box *b = &d->layout->window;
-    double x = out.x > 0.0 ? b->x1 - w.x : w.x - b->x0, y = out.y > 0.0 ? b->y1 - w.y : w.y - b->y0;
-    return (fabs(out.x) > fabs(out.y) ? x : y) - fw_layout_rule.stub_m;
-}
-
 /* where the pedestal leaves the base: the middle of the bar between two ground hinges, or the end
    of the spoke of one */
 typedef struct foot {

@@ -6,7 +6,6 @@
 #include "layout/draw.h"
 #include "layout/layout_text.h"
 #include <math.h>
-#include <string.h>
 
 enum { SETTLING = 20 };
 static const double SETTLED_M = 1e-12;
@@ -75,12 +74,6 @@ fw_status fw_layout_actuators_plan(fw_layout_drawing *d) {
     }
     FW_NEED(d->bare = fw_arena_array(d->arena, fw_geometry_contour, (size_t)device->nbody));
     return FW_OK;
-}
-
-bool fw_layout_eyelets_on(const fw_layout_drawing *d, int body) {
-    for (int i = 0; i < d->neyelet; i++)
-        if (d->eyelet[i].eyelet->body == body) return true;
-    return false;
 }
 
 /* ---- saying ---- */
