@@ -14,7 +14,7 @@
 #define FW_E           2.71828182845904523536 /* the base of natural logarithms */
 
 #define FW_BOLTZMANN_J_PER_K           1.380649e-23    /* exact */
-#define FW_ELECTRONVOLT_J              1.602176634e-19 /* exact; its multiples, each rounded once: */
+#define FW_ELECTRONVOLT_J              1.602176634e-19 /* exact; multiples, each rounded once: */
 #define FW_KILOELECTRONVOLT_J          1.602176634e-16
 #define FW_MILLIELECTRONVOLT_J         1.602176634e-22
 #define FW_FARADAY_C_PER_mol           96485.33212      /* exact to these digits */

@@ -14,8 +14,8 @@
 
    Errors stick: a want of memory in the text, a wrong nesting (a member without a key, an element
    with one, a bracket too many or too few) in the writer. fw_json_finish tells. No recursion, no
-   tree: cost is that of the bytes. Test: test_json.c, which reads random documents back with another
-   library. */
+   tree: cost is that of the bytes. Test: test_json.c, which reads random documents back with
+   another library. */
 #ifndef FW_BASE_JSON_H
 #define FW_BASE_JSON_H
 #include "base/text.h"

@@ -113,8 +113,8 @@ static fw_status hash_of(fw_plan *plan, const fw_plan_flow *pf, char hash[65]) {
     return FW_OK;
 }
 
-static fw_status show(fw_plan *plan, const fw_process_flow *flow, const fw_recipe_asrun *run,
-                      bool json) {
+static fw_status print_log(fw_plan *plan, const fw_process_flow *flow, const fw_recipe_asrun *run,
+                           bool json) {
     fw_text text = fw_text_new(plan->arena);
     FW_TRY(json ? fw_recipe_asrun_write_json(flow, run, &text)
                 : fw_recipe_asrun_write_text(flow, run, &text));
@@ -130,7 +130,7 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
-    return show(plan, pf->flow, &run, options->json);
+    return print_log(plan, pf->flow, &run, options->json);
 }
 
 /* the file is locked from here to the end, so that two entries never have one line before them */

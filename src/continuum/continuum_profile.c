@@ -3,7 +3,8 @@
 #include "base/constants.h"
 #include <math.h>
 
-fw_continuum_profile_frame fw_continuum_profile_at(const fw_continuum_profile *p, double s_m) {
+/* frame at arc length s; beyond the ends the last piece goes on */
+static fw_continuum_profile_frame frame_at(const fw_continuum_profile *p, double s_m) {
     int i = 0;
     while (i + 1 < p->shape->npiece && s_m >= p->s0_m[i + 1])
         i++;
@@ -19,15 +20,15 @@ fw_continuum_profile_frame fw_continuum_profile_at(const fw_continuum_profile *p
     return g;
 }
 
-fw_continuum_profile_frame fw_continuum_profile_out(const fw_continuum_profile *p, int end,
-                                                    double before_m) {
-    fw_continuum_profile_frame f =
-        fw_continuum_profile_at(p, end ? p->length_m - before_m : before_m);
+/* outward-looking frame at distance `before` inside end 0 or 1 (< 0: in the block) */
+static fw_continuum_profile_frame frame_outwards(const fw_continuum_profile *p, int end,
+                                                 double before_m) {
+    fw_continuum_profile_frame f = frame_at(p, end ? p->length_m - before_m : before_m);
     if (!end) f.tx = -f.tx, f.ty = -f.ty;
     return f;
 }
 
-fw_geometry_vec2 fw_continuum_profile_offset(fw_continuum_profile_frame f, double n_m) {
+static fw_geometry_vec2 offset_from(fw_continuum_profile_frame f, double n_m) {
     return (fw_geometry_vec2){f.x - n_m * f.ty, f.y + n_m * f.tx};
 }
 
@@ -54,8 +55,8 @@ static bool fillet_at(const fw_continuum_profile *p, int end, int side,
     }
     double last = shape->piece[end ? shape->npiece - 1 : 0].length_m;
     if (!(fillet->before_m < last)) return false;
-    fw_continuum_profile_frame f = fw_continuum_profile_out(p, end, fillet->before_m);
-    fillet->centre = fw_continuum_profile_offset(f, nc);
+    fw_continuum_profile_frame f = frame_outwards(p, end, fillet->before_m);
+    fillet->centre = offset_from(f, nc);
     fillet->from_rad = atan2(-sign * f.tx, sign * f.ty);
     fillet->sweep_rad = sign * 0.5 * FW_PI + k * fillet->before_m;
     return true;
@@ -81,7 +82,7 @@ fw_status fw_continuum_profile_build(const fw_continuum_shape *shape, fw_continu
             fw_continuum_shape cut = *shape;
             cut.npiece = i;
             before.shape = &cut;
-            profile->start[i] = fw_continuum_profile_at(&before, profile->length_m);
+            profile->start[i] = frame_at(&before, profile->length_m);
         }
         profile->length_m += piece->length_m;
     }
@@ -114,10 +115,9 @@ fw_continuum_profile_edge fw_continuum_profile_strip_edge(const fw_continuum_pro
         a = p->fillet[0][!side].before_m;
         b = p->length_m - p->fillet[1][side].before_m;
     }
-    fw_continuum_profile_frame f = fw_continuum_profile_at(p, a + u * (b - a));
-    return (fw_continuum_profile_edge){
-        fw_continuum_profile_offset(f, sign * 0.5 * p->shape->width_m),
-        {sign * f.ty, -sign * f.tx}};
+    fw_continuum_profile_frame f = frame_at(p, a + u * (b - a));
+    return (fw_continuum_profile_edge){offset_from(f, sign * 0.5 * p->shape->width_m),
+                                       {sign * f.ty, -sign * f.tx}};
 }
 
 fw_continuum_profile_edge fw_continuum_profile_fillet_edge(const fw_continuum_profile *p, int end,
@@ -140,7 +140,7 @@ fw_geometry_vec2 fw_continuum_profile_block_edge(const fw_continuum_profile *p, 
     } else {
         n = half * (2.0 * (v - corner) / (1.0 - 2.0 * corner) - 1.0);
     }
-    return fw_continuum_profile_offset(fw_continuum_profile_out(p, end, -deep), n);
+    return offset_from(frame_outwards(p, end, -deep), n);
 }
 
 /* from the end of the strip's edge around fillet, face, block and back, on the way out at `end`,
@@ -150,31 +150,28 @@ static void round_block(fw_geometry_outline *o, const fw_continuum_profile *p, i
     const fw_continuum_profile_fillet *right = &p->fillet[end][0], *left = &p->fillet[end][1];
     double k = end ? s->piece[s->npiece - 1].curvature_per_m : -s->piece[0].curvature_per_m;
     double half = s->block_half_m, length = s->block_length_m;
-    fw_continuum_profile_frame near = fw_continuum_profile_out(p, end, 0.0),
-                               far = fw_continuum_profile_out(p, end, -length);
-    fw_geometry_vec2 centre =
-        k != 0.0 ? fw_continuum_profile_offset(near, 1.0 / k) : (fw_geometry_vec2){0.0, 0.0};
+    fw_continuum_profile_frame near = frame_outwards(p, end, 0.0),
+                               far = frame_outwards(p, end, -length);
+    fw_geometry_vec2 centre = k != 0.0 ? offset_from(near, 1.0 / k) : (fw_geometry_vec2){0.0, 0.0};
     fw_geometry_outline_arc(o, right->centre, right->sweep_rad, 0);
-    fw_geometry_outline_line(o, fw_continuum_profile_offset(near, -half), 0);
+    fw_geometry_outline_line(o, offset_from(near, -half), 0);
     if (k != 0.0)
-        fw_geometry_outline_arc_to(o, centre, k * length, fw_continuum_profile_offset(far, -half),
-                                   0);
+        fw_geometry_outline_arc_to(o, centre, k * length, offset_from(far, -half), 0);
     else
-        fw_geometry_outline_line(o, fw_continuum_profile_offset(far, -half), 0);
-    fw_geometry_outline_line(o, fw_continuum_profile_offset(far, half), 0);
+        fw_geometry_outline_line(o, offset_from(far, -half), 0);
+    fw_geometry_outline_line(o, offset_from(far, half), 0);
     if (k != 0.0)
-        fw_geometry_outline_arc_to(o, centre, -k * length, fw_continuum_profile_offset(near, half),
-                                   0);
+        fw_geometry_outline_arc_to(o, centre, -k * length, offset_from(near, half), 0);
     else
-        fw_geometry_outline_line(o, fw_continuum_profile_offset(near, half), 0);
-    fw_continuum_profile_frame f = fw_continuum_profile_out(p, end, left->before_m);
+        fw_geometry_outline_line(o, offset_from(near, half), 0);
+    fw_continuum_profile_frame f = frame_outwards(p, end, left->before_m);
     double last = left->from_rad + left->sweep_rad;
     fw_geometry_outline_line(o,
                              (fw_geometry_vec2){left->centre.x + s->fillet_m * cos(last),
                                                 left->centre.y + s->fillet_m * sin(last)},
                              0);
-    fw_geometry_outline_arc_to(o, left->centre, -left->sweep_rad,
-                               fw_continuum_profile_offset(f, 0.5 * s->width_m), 0);
+    fw_geometry_outline_arc_to(o, left->centre, -left->sweep_rad, offset_from(f, 0.5 * s->width_m),
+                               0);
 }
 
 /* an edge of the strip, `side` of the way from first to second root, forwards or back */
@@ -187,12 +184,11 @@ static void along(fw_geometry_outline *o, const fw_continuum_profile *p, int sid
         int i = forwards ? step : s->npiece - 1 - step;
         double from = fmax(a, p->s0_m[i]), k = s->piece[i].curvature_per_m;
         double to = fmin(b, p->s0_m[i] + s->piece[i].length_m);
-        fw_geometry_vec2 target =
-            fw_continuum_profile_offset(fw_continuum_profile_at(p, forwards ? to : from), n);
+        fw_geometry_vec2 target = offset_from(frame_at(p, forwards ? to : from), n);
         if (k == 0.0)
             fw_geometry_outline_line(o, target, 0);
         else
-            fw_geometry_outline_arc_to(o, fw_continuum_profile_offset(p->start[i], 1.0 / k),
+            fw_geometry_outline_arc_to(o, offset_from(p->start[i], 1.0 / k),
                                        (forwards ? k : -k) * (to - from), target, 0);
     }
 }

@@ -32,12 +32,6 @@ typedef struct fw_continuum_profile_edge {
 
 fw_status fw_continuum_profile_build(const fw_continuum_shape *shape, fw_continuum_profile *profile,
                                      const char **why);
-/* frame at arc length s; beyond the ends the last piece goes on */
-fw_continuum_profile_frame fw_continuum_profile_at(const fw_continuum_profile *p, double s_m);
-/* outward-looking frame at distance `before` inside end 0 or 1 (< 0: in the block) */
-fw_continuum_profile_frame fw_continuum_profile_out(const fw_continuum_profile *p, int end,
-                                                    double before_m);
-fw_geometry_vec2 fw_continuum_profile_offset(fw_continuum_profile_frame f, double n_m);
 /* at `side` (0 right, 1 left of the way from first to second root), u in [0, 1] along the strip
    between its fillets, or along a fillet from the strip to the face */
 fw_continuum_profile_edge fw_continuum_profile_strip_edge(const fw_continuum_profile *p, int side,

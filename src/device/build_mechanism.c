@@ -220,8 +220,8 @@ static fw_status build_joints(fw_device_reader *r) {
 
 /* ---- bodies ---- */
 
-void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool shape,
-                          const char *shape_advice) {
+static void check_mass(fw_device_reader *r, const fw_xml_record *record, bool shape,
+                       const char *shape_advice) {
     char label[FW_LABEL];
     bool mass = fw_xml_given(record, "mass"), inertia = fw_xml_given(record, "inertia");
     if (mass != inertia)
@@ -243,8 +243,8 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
         fw_diag_error(r->diags, 64, fw_xml_place_of(record, wide ? "plate-width" : "plate-height"),
                       "%s: plate-width and plate-height belong together; add the other",
                       fw_xml_label(record, label));
-    fw_device_mass_check(r, record, fw_xml_given(record, "width") || wide || high,
-                         "width (bars to its joints) or plate-width and plate-height");
+    check_mass(r, record, fw_xml_given(record, "width") || wide || high,
+               "width (bars to its joints) or plate-width and plate-height");
     fw_device_body b = {.id = fw_xml_text_of(record, "id"),
                         .mass_kg = fw_xml_number_of(record, "mass"),
                         .inertia_kg_m2 = fw_xml_number_of(record, "inertia"),
@@ -381,7 +381,7 @@ static void check_hinge_points(fw_device_reader *r, const parts *p) {
 
 static void check_link(fw_device_reader *r, const fw_xml_record *record) {
     static const char *const centre[] = {"x", "y"};
-    fw_device_mass_check(r, record, fw_xml_given(record, "width"), "width");
+    check_mass(r, record, fw_xml_given(record, "width"), "width");
     for (int k = 0; k < 2; k++)
         if (fw_xml_given(record, centre[k]) && !fw_xml_given(record, "mass")) {
             char label[FW_LABEL];
@@ -427,8 +427,8 @@ static fw_device_body six_bar_body(fw_device_reader *r, const parts *p, int i) {
     b.plate_angle_rad = fw_xml_number_or(record, "angle", 0.0);
     b.x_m = heavy ? b.plate_x_m : none;
     b.y_m = heavy ? b.plate_y_m : none;
-    fw_device_mass_check(r, record, fw_xml_given(record, "width") && fw_xml_given(record, "height"),
-                         "width and height");
+    check_mass(r, record, fw_xml_given(record, "width") && fw_xml_given(record, "height"),
+               "width and height");
     return b;
 }
 

@@ -67,10 +67,6 @@ bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int num
 bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
                       const char *const *names, int n, const char *why);
 
-/* mass and inertia both or neither, and one of them or a shape */
-void fw_device_mass_check(fw_device_reader *r, const fw_xml_record *record, bool shape,
-                          const char *shape_advice);
-
 bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate: device.c */
 
 /* One function per element of <scene>: build_scenes.c, build_surroundings.c. Private to device/. */

@@ -65,14 +65,14 @@ static bool fits(const fw_xml_element *e, const step *s, const char *key) {
 typedef struct search {
     const step *step;
     const char *key;
-    long wanted, seen; /* wanted: number of it, 0: the only one */
+    long wanted, matches; /* wanted: number of it, 0: the only one */
     const fw_xml_element *found;
 } search;
 
 /* `e` and what follows it; `deep`: what is inside, too. In file order. */
 static void find_wanted(search *s, const fw_xml_element *e, bool deep) {
     for (; e; e = e->next) {
-        if (fits(e, s->step, s->key) && (++s->seen == s->wanted || s->wanted == 0)) s->found = e;
+        if (fits(e, s->step, s->key) && (++s->matches == s->wanted || s->wanted == 0)) s->found = e;
         if (deep) find_wanted(s, e->first_child, true);
     }
 }
@@ -86,7 +86,7 @@ static fw_status find_step(const editor *e, const step *s, const fw_xml_element 
     if (all.wanted < 0) return refuse(e, "this is no path; numbers of elements begin with 1", NULL);
     find_wanted(&all, inside ? inside->first_child : e->root, !inside);
     if (!all.found) return refuse(e, "there is no such element", name);
-    if (all.wanted == 0 && all.seen > 1)
+    if (all.wanted == 0 && all.matches > 1)
         return refuse(e, "there are several; name one by its id or its number, as in NAME[2]",
                       name);
     *found = all.found;

@@ -222,7 +222,7 @@ static const fw_xml_attribute_row sweep_rows[] = {
      .sentence = "How many values, evenly spaced."},
 };
 
-const fw_xml_element_row fw_device_table_device[] = {
+static const fw_xml_element_row own[] = {
     {"device", "", "name", ROWS(device_rows), .once = true,
      .sentence = "One planar compliant mechanism; xmlns=\"urn:flexwright:device:1\"."},
     {"parameter", "device", "name", FW_SPACE_PARAMETER, .most = 200, ROWS(parameter_rows),
@@ -247,9 +247,8 @@ const fw_xml_element_row fw_device_table_device[] = {
     {0},
 };
 
-static const fw_xml_element_row *const parts[] = {fw_device_table_device, fw_device_table_mechanism,
-                                                  fw_device_table_scene, fw_device_table_effects,
-                                                  NULL};
+static const fw_xml_element_row *const parts[] = {
+    own, fw_device_table_mechanism, fw_device_table_scene, fw_device_table_effects, NULL};
 static const char *const spaces[FW_SPACE_COUNT] = {"name",  "parameter", "flow",       "flexure",
                                                    "body",  "joint",     "spring",     "driver",
                                                    "scene", "tendon",    "comb-drive", "contact"};

@@ -133,7 +133,7 @@ static void compare(const pass *fine, const pass *coarse, differences *d) {
 /* After a rest the two runs may agree by chance on how they meet a load: of 12 000 short ones the
    error was up to 4.6 times their difference in 5 cases; rk4, which knows no error, up to 34 times
    in a few. Test: test_pulse.c. */
-double fw_dynamics_run_margin(const fw_dynamics_controller *control) {
+static double run_margin(const fw_dynamics_controller *control) {
     return control->trust * (!control->problem->sudden         ? 1
                              : control->integrator->fixed_step ? 32
                                                                : 8);
@@ -147,7 +147,7 @@ static double difference_counts(const fw_dynamics_run *r, const pass *fine, cons
     double own = fabs(fabs(p->angle_rad) - fabs(other->angle_rad));
     double energy_balance = r->record.motion->stats.energy_error * fabs(p->angle_rad);
     if (!(r->control.part > 0)) /* never below the energy balance error */
-        return fw_dynamics_run_margin(&r->control) * fmax(own, d->angles[late]) + energy_balance;
+        return run_margin(&r->control) * fmax(own, d->angles[late]) + energy_balance;
     return r->control.part *
                fw_dynamics_tolerance_difference(own, d->sizes[late], d->angles[late]) +
            fw_dynamics_tolerance_energy_ratio(fine->stepper->steps, coarse->stepper->steps) *
@@ -162,7 +162,7 @@ static double difference_counts(const fw_dynamics_run *r, const pass *fine, cons
    Source: tolerance proportionality, Hairer, Norsett and Wanner I, II.4. Test: test_peak.c. */
 static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *coarse) {
     const fw_maths_stepper *s = fine->stepper;
-    r->record.motion->stats.estimate_margin = fw_dynamics_run_margin(&r->control);
+    r->record.motion->stats.estimate_margin = run_margin(&r->control);
     double unit = r->problem.model->scale.time_s, eighth = fw_dynamics_end(&r->problem) / 8;
     differences d;
     compare(fine, coarse, &d);
@@ -181,9 +181,8 @@ static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *co
                        fine->uncertainty[near_zero];
     }
     if (fine->extreme)
-        fw_dynamics_run_take_extremes(&r->record, fw_dynamics_run_margin(&r->control),
-                                      fine->extreme, coarse->extreme, fine->uncertainty[FW_MARKS],
-                                      s->steps);
+        fw_dynamics_run_take_extremes(&r->record, run_margin(&r->control), fine->extreme,
+                                      coarse->extreme, fine->uncertainty[FW_MARKS], s->steps);
 }
 
 /* nobody wants to know: peaks as they came out */
@@ -194,8 +193,8 @@ static void no_estimate(fw_dynamics_run *r, const pass *only) {
         r->record.motion->peak[i].error_rad = HUGE_VAL;
     }
     if (only->extreme)
-        fw_dynamics_run_take_extremes(&r->record, fw_dynamics_run_margin(&r->control),
-                                      only->extreme, only->extreme, HUGE_VAL, 0);
+        fw_dynamics_run_take_extremes(&r->record, run_margin(&r->control), only->extreme,
+                                      only->extreme, HUGE_VAL, 0);
 }
 
 /* ---- tolerances ---- */

@@ -172,8 +172,6 @@ fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t);
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
 fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads);
-/* what differences of the two runs are multiplied with to be errors */
-double fw_dynamics_run_margin(const fw_dynamics_controller *control);
 fw_status fw_dynamics_run_arrays(fw_dynamics_run *r);
 
 /* choose.c: by name, or by the masses; problem.why says so where it is not the default */

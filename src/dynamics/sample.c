@@ -136,7 +136,7 @@ static bool own_forces(fw_dynamics_recorder *record, fw_maths_stepper *s, double
     return true;
 }
 
-static void show(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
     if (!see) return;
@@ -201,7 +201,7 @@ bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
     fw_dynamics_peaks_step(peaks, problem->model, s, theta_end);
     fw_dynamics_run_extremes(record, s, theta_end);
     if (record->full && theta_end == 1) watch_energy(record, s->t, s->y);
-    show(record, s, theta_end);
+    observe_step(record, s, theta_end);
     return !record->full || samples(record, s, theta_end);
 }
 

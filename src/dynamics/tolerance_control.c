@@ -94,7 +94,7 @@ bool fw_dynamics_tolerance_known(const fw_dynamics_problem *problem,
 /* Verdicts stand on their errors: of 400 devices near their limit, factors that serve 99 % left
    three outside their bands, and runs a hundred times apart, whose difference counts as it is, none
    of 60 000 (test_hard_verdict.c, test_peak.c). Loads that may begin at any time are met by chance:
-   likewise, and fw_dynamics_run_margin counts. */
+   likewise, and run_margin of dynamics_simulate.c counts. */
 static bool far_apart(const fw_dynamics_problem *problem) {
     return problem->sudden || problem->options->unsettled;
 }
@@ -221,10 +221,11 @@ double fw_dynamics_run_error_ratio(const fw_dynamics_recorder *record) {
     double wanted = fw_dynamics_tolerance_wanted(record), off = 0;
     if (x.error_rad > 0) off = x.error_rad / (wanted * x.angle_rad);
     if (o->reactions) off = fmax(off, fw_dynamics_run_extremes_off(record) / wanted);
-    double seen = !o->unsettled ? 0
-                                : o->unsettled(record->motion->observed, record->motion->compared,
-                                               record->motion->stats.estimate_margin, wanted);
-    return seen > 1 ? fmax(off, fmax(seen, 5)) : off;
+    double unsettled = !o->unsettled
+                           ? 0
+                           : o->unsettled(record->motion->observed, record->motion->compared,
+                                          record->motion->stats.estimate_margin, wanted);
+    return unsettled > 1 ? fmax(off, fmax(unsettled, 5)) : off;
 }
 
 /* an angle or a force that is round-off has no relative accuracy */

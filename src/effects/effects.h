@@ -146,7 +146,7 @@ typedef struct fw_effect_case { /* what an effect is asked about */
 /* ---- the scene in words, and less of it ---- */
 
 /* Where a row writes its part of the sentence about a scene. The format is that of reports
-   (report/report_page.h): {s} text, {u} a value and its SI unit, {n} a number, {i} a whole number. */
+   (report/report_page.h): {s} text, {u} a value and its SI unit, {n} a number, {i} a whole one. */
 typedef struct fw_effects_words {
     void (*write)(void *context, const char *format, va_list arguments);
     void (*write_law)(void *context,

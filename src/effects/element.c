@@ -13,7 +13,7 @@ typedef struct still { /* the element alone: its ports' bodies are 0, 1, ... */
     fw_effects_port port[PORTS_MOST];
     double q[3 * PORTS_MOST], p[3 * PORTS_MOST], w[3 * PORTS_MOST], f[3 * PORTS_MOST];
     bool on[SWITCHES_MOST];
-    fw_effects_port_state seen;
+    fw_effects_port_state state;
 } still;
 
 bool fw_effects_loads_element_fits(const fw_effects_force_element *e) {
@@ -34,13 +34,13 @@ static void place_as_drawn(const fw_mechanism *m, const fw_effects_force_element
         s->q[3 * i + 2] = m->body[b].phi_rad;
     }
     fw_effects_element_place_ports(&s->e, s->q, NULL, s->p, s->w);
-    s->seen = (fw_effects_port_state){
+    s->state = (fw_effects_port_state){
         .t_s = t_s, .piece_s = piece_s, .load = 1, .p = s->p, .w = s->w, .on = s->on};
     for (int i = 0; i < e->switches; i++)
         s->on[i] = false;
     for (int i = 0; i < e->switches; i++)
-        s->on[i] = e->class_->switch_value && e->class_->switch_value(&s->e, &s->seen, i) > 0;
-    e->class_->force(&s->e, &s->seen, s->f);
+        s->on[i] = e->class_->switch_value && e->class_->switch_value(&s->e, &s->state, i) > 0;
+    e->class_->force(&s->e, &s->state, s->f);
 }
 
 void fw_effects_loads_element_force(const fw_mechanism *m, const fw_effects_force_element *e,
@@ -66,7 +66,7 @@ void fw_effects_loads_element_drag(const fw_mechanism *m, const fw_effects_force
             s.w[3 * i] = strain * (e->port[i].x_m - centre.x);
             s.w[3 * i + 1] = strain * (e->port[i].y_m - centre.y);
         }
-    e->class_->force(&s.e, &s.seen, s.f);
+    e->class_->force(&s.e, &s.state, s.f);
     for (int i = 0; i < 3 * e->ports; i++)
         s.f[i] -= before[i];
     fw_effects_element_add_forces(&s.e, s.q, s.f, local);
@@ -116,8 +116,8 @@ fw_status fw_effects_loads_element_tangent_at(fw_arena *arena, const fw_mechanis
     for (int b = 0; b < m->nbody; b++)
         q[3 * b] = m->body[b].x_m, q[3 * b + 1] = m->body[b].y_m, q[3 * b + 2] = m->body[b].phi_rad;
     place_as_drawn(m, e, t_s, piece_s, &s);
-    *valid = !e->class_->valid || e->class_->valid(&s.e, &s.seen, &why);
-    e->class_->tangent(&s.e, &s.seen, k, c);
+    *valid = !e->class_->valid || e->class_->valid(&s.e, &s.state, &why);
+    e->class_->tangent(&s.e, &s.state, k, c);
     fw_effects_element_spread(e, m->nbody, q, NULL, s.f, k, c, stiffness, damping);
     fw_arena_rewind(arena, mark);
     return FW_OK;

@@ -218,16 +218,16 @@ static double first_swings(const fw_effect_case *c, const fw_effects_envelope *e
 /* bound in the motion of one envelope, over the floor of the other */
 static fw_status in_motion(const fw_effect_case *c, const fw_effects_envelope *e,
                            const fw_effects_loads *rubs, double *value) {
-    fw_effects_envelope seen = *e;
-    const fw_effect_case one = {c->arena, c->mechanism, c->scene, &seen, c->diags};
-    rubbing r = {.c = &one, .e = &seen, .item = rubs->friction, .count = rubs->nfriction};
+    fw_effects_envelope narrowed = *e;
+    const fw_effect_case one = {c->arena, c->mechanism, c->scene, &narrowed, c->diags};
+    rubbing r = {.c = &one, .e = &narrowed, .item = rubs->friction, .count = rubs->nfriction};
     size_t modes = (size_t)e->modes;
     double *force, *passed;
     bool known;
-    seen.floor = c->envelope->floor;
-    FW_NEED(seen.response_bound = fw_arena_array(c->arena, double, modes));
+    narrowed.floor = c->envelope->floor;
+    FW_NEED(narrowed.response_bound = fw_arena_array(c->arena, double, modes));
     for (size_t l = 0; l < modes; l++)
-        seen.response_bound[l] = fmin(e->response_bound[l], first_swings(c, e));
+        narrowed.response_bound[l] = fmin(e->response_bound[l], first_swings(c, e));
     FW_TRY(room(&r));
     FW_NEED(force = fw_arena_array(c->arena, double, modes));
     FW_NEED(passed = fw_arena_array(c->arena, double, modes));

@@ -71,21 +71,21 @@ fw_status fw_effects_modal_loads_breaks(fw_arena *arena, const fw_effects_modal 
 
 typedef struct tally { /* of one modal force, as samples come in */
     double last, second_last, fine, coarse, full, sup, first;
-    int seen;
+    int samples;
 } tally;
 
 static void count_sample(tally *t, double value, double h, bool new_piece) {
-    if (t->seen == 0) {
+    if (t->samples == 0) {
         *t = (tally){.last = value, .second_last = value, .sup = fabs(value), .first = fabs(value)};
-        t->seen = 1;
+        t->samples = 1;
         return;
     }
     t->fine += fabs(value - t->last);
     t->full += 0.5 * h * (fabs(value) + fabs(t->last));
     t->sup = fmax(t->sup, fabs(value));
     t->last = value;
-    t->seen = new_piece ? 1 : t->seen + 1;
-    if (new_piece || t->seen % 2 == 1) {
+    t->samples = new_piece ? 1 : t->samples + 1;
+    if (new_piece || t->samples % 2 == 1) {
         t->coarse += fabs(value - t->second_last);
         t->second_last = value;
     }

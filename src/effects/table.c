@@ -164,12 +164,12 @@ static fw_status explain(const fw_effect_case *c, fw_effect_entry *entry, double
 static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
                                  const fw_effect_choice *choice, bool calm,
                                  fw_effect_entry *entry) {
-    bool seen[ROWS], in;
+    bool settled[ROWS], in;
     double sum = 0;
     for (int i = 0; i < ROWS; i++) {
-        seen[i] = !entry[i].called_for || (calm && rows[i]->calms);
-        if (!seen[i] && fw_effects_hinge_forced(rows[i]->id, choice->hinge, &in)) {
-            seen[i] = true;
+        settled[i] = !entry[i].called_for || (calm && rows[i]->calms);
+        if (!settled[i] && fw_effects_hinge_forced(rows[i]->id, choice->hinge, &in)) {
+            settled[i] = true;
             entry[i].active = in;
             entry[i].reason = fw_effects_hinge_forced_reason(choice);
         }
@@ -183,9 +183,9 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
     for (int k = 0; k < ROWS; k++) {
         int least = -1;
         for (int i = 0; i < ROWS; i++)
-            if (!seen[i] && (least < 0 || entry[i].bound < entry[least].bound)) least = i;
+            if (!settled[i] && (least < 0 || entry[i].bound < entry[least].bound)) least = i;
         if (least < 0) break;
-        seen[least] = true;
+        settled[least] = true;
         double with = sum + entry[least].bound;
         bool first = sum == 0;
         entry[least].active = rows[least]->kept || !(with < accuracy);

@@ -157,9 +157,10 @@ fw_status fw_effects_tendons_pull(const fw_effect_case *c, const fw_effects_enve
         for (size_t l = 0; l < modes && loose[i]; l++)
             mode[l] += fabs(a[i * modes + l]) * pull[i];
     }
-    fw_effect_case seen = *c;
-    seen.envelope = e;
-    if (known) *bound = fw_effects_envelope_mode_answer(&seen, mode, (double)INFINITY) + back;
+    fw_effect_case of_envelope = *c;
+    of_envelope.envelope = e;
+    if (known)
+        *bound = fw_effects_envelope_mode_answer(&of_envelope, mode, (double)INFINITY) + back;
     fw_arena_rewind(c->arena, mark);
     return FW_OK;
 }

@@ -306,32 +306,6 @@ bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {
     return within && (!law->table || fabs(th) < 2 * FW_PI);
 }
 
-static double drift_at(const fw_flexure_hinge_law *law, double th) {
-    fw_flexure_hinge_at at;
-    fw_flexure_hinge_law_at(law, th, &at);
-    return fabs(at.drift_m.value);
-}
-
-/* bisection on the side where it is reached first; the drift grows with |th| */
-double fw_flexure_hinge_drift_reaches(const fw_flexure_hinge_law *law, double gap_m) {
-    double best = (double)NAN;
-    for (int side = -1; side <= 1; side += 2) {
-        double low = 0, high = 0, step = FW_PI / 64;
-        while (high < FW_PI && drift_at(law, side * high) < gap_m)
-            low = high, high += step;
-        if (high >= FW_PI) continue;
-        for (int i = 0; i < 60; i++) {
-            double middle = 0.5 * (low + high);
-            if (drift_at(law, side * middle) < gap_m)
-                low = middle;
-            else
-                high = middle;
-        }
-        if (!(best <= high)) best = high;
-    }
-    return best;
-}
-
 enum { STEPS = 256, HALVINGS = 60 };
 
 /* Pole of the displacement that turns by th and moves W by drift along y of the frame half turned:

@@ -51,10 +51,6 @@ void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexu
                                  const double twist[3], double wrench[3], double tangent[3][3]);
 /* does the law hold at this rotation? not where the flexure is wound up to a full circle */
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double rotation_rad);
-/* least rotation, of either sign, at which a pure moment makes W drift by `gap_m`; NaN: at none
-   below half a turn */
-double fw_flexure_hinge_drift_reaches(const fw_flexure_hinge_law *law, double gap_m);
-
 /* How a hinge's axis drifts, and where its conjugate surfaces meet: by a pure moment and under a
    given force. Theory: docs/theory/axis-drift.md. */
 

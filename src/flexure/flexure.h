@@ -23,7 +23,6 @@ typedef struct fw_flexure_crystal {
 /* axis_rad: the hinge's symmetry axis from [100]; NaN: not known */
 fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double c44_Pa,
                                             double axis_rad);
-double fw_flexure_crystal_youngs_Pa(const fw_flexure_crystal *crystal, double from_100_rad);
 
 /* Hinge mechanics in closed form. Theory: docs/theory/flexure.md; reference: shared hinge tables.
 

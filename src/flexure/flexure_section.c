@@ -314,7 +314,3 @@ fw_flexure_crystal fw_flexure_crystal_cubic(double c11_Pa, double c12_Pa, double
                                 .cos4 = aligned ? cos(4 * axis_rad) : 0,
                                 .sin4 = aligned ? sin(4 * axis_rad) : 0};
 }
-
-double fw_flexure_crystal_youngs_Pa(const fw_flexure_crystal *c, double from_100_rad) {
-    return 1 / (c->a0_per_Pa + c->a1_per_Pa * cos(4 * from_100_rad));
-}

@@ -3,7 +3,7 @@
 #include "flexure/section.h"
 #include <math.h>
 
-/* a row per model; of kinds that are made of lines and arcs (device/flexures.def) it is the path's */
+/* a row per model; kinds that are made of lines and arcs (device/flexures.def) have the path's */
 typedef struct model {
     fw_device_flexure_kind kind;
     void (*shape)(const fw_flexure_input *in, fw_flexure_shape *shape);

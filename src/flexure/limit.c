@@ -139,6 +139,48 @@ static bool yielding(const fw_flexure_limit_input *in, fw_flexure_limits *all,
     return true;
 }
 
+/* Strain life, counted as stress E eps_a, since what a turned strip imposes is a strain:
+     E eps_a(N) = S (N/N1)^b + E eps_f' (2N)^c,   S = sigma1 - E eps_f' (2 N1)^c
+   so that N1 cycles of sigma1 last exactly, whether or not the plastic part is known.
+   in: Pa, cycles, 1; out: Pa, cycles. Valid 1 <= N, S > 0; error: that of the data, a factor of
+   two in life is usual. Cost: two pow; the inverse some six of these.
+   Source: O. H. Basquin, Proc. ASTM 10 (1910) 625; S. S. Manson, NACA TN 2933 (1953); L. F. Coffin,
+   Trans. ASME 76 (1954) 931. Test: test_strain_life.c */
+
+static double plastic_Pa(const fw_flexure_strain_life *law, double cycles) {
+    if (!(law->ductility > 0)) return 0;
+    return law->youngs_Pa * law->ductility * pow(2 * cycles, law->ductility_exponent);
+}
+
+/* elastic part of amplitude_Pa */
+static double elastic_part_Pa(const fw_flexure_strain_life *law) {
+    return law->amplitude_Pa - plastic_Pa(law, law->cycles);
+}
+
+double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles) {
+    return elastic_part_Pa(law) * pow(cycles / law->cycles, law->exponent) +
+           plastic_Pa(law, cycles);
+}
+
+/* Newton on logarithms: ln sigma(ln N) is convex and falls, so that from below the root in N it
+   comes up to it without passing it */
+double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law, double amplitude_Pa) {
+    double s = fabs(amplitude_Pa), b = law->exponent, c = law->ductility_exponent;
+    double elastic = elastic_part_Pa(law);
+    if (!(s > 0)) return (double)INFINITY;
+    double ln = log(law->cycles) + log(s / elastic) / b;
+    if (!(law->ductility > 0)) return exp(ln);
+    ln = fmax(ln, log(s / (law->youngs_Pa * law->ductility)) / c - log(2));
+    for (int i = 0; i < 60; i++) {
+        double e = elastic * exp(b * (ln - log(law->cycles)));
+        double p = law->youngs_Pa * law->ductility * exp(c * (ln + log(2)));
+        double step = log((e + p) / s) * (e + p) / (b * e + c * p);
+        ln -= step;
+        if (!(fabs(step) > 1e-13 * fmax(1, fabs(ln)))) break;
+    }
+    return exp(ln);
+}
+
 /* amplitude that lasts the cycles asked for, once per repetition; the law itself goes to the
    verdict, which counts the cycles of a motion. Data: limit.h */
 static bool fatigue_life(const fw_flexure_limit_input *in, fw_flexure_limits *all,
@@ -163,7 +205,7 @@ static bool fatigue_life(const fw_flexure_limit_input *in, fw_flexure_limits *al
         all->missing_place = in->asked->cycles_place;
         return false;
     }
-    if (!(fw_flexure_strain_life_elastic_Pa(&all->life) > 0)) {
+    if (!(elastic_part_Pa(&all->life) > 0)) {
         all->life.known = false;
         all->missing = "a ductility that leaves some of fatigue-strength elastic";
         all->missing_place = in->asked->cycles_place;
@@ -208,47 +250,6 @@ void fw_flexure_limits_of(const fw_flexure_limit_input *in, fw_flexure_limits *l
 
 const fw_flexure_limit *fw_flexure_limits_governing(const fw_flexure_limits *limits) {
     return limits->governing == FW_NONE ? NULL : &limits->item[limits->governing];
-}
-
-/* Strain life, counted as stress E eps_a, since what a turned strip imposes is a strain:
-     E eps_a(N) = S (N/N1)^b + E eps_f' (2N)^c,   S = sigma1 - E eps_f' (2 N1)^c
-   so that N1 cycles of sigma1 last exactly, whether or not the plastic part is known.
-   in: Pa, cycles, 1; out: Pa, cycles. Valid 1 <= N, S > 0; error: that of the data, a factor of
-   two in life is usual. Cost: two pow; the inverse some six of these.
-   Source: O. H. Basquin, Proc. ASTM 10 (1910) 625; S. S. Manson, NACA TN 2933 (1953); L. F. Coffin,
-   Trans. ASME 76 (1954) 931. Test: test_strain_life.c */
-
-static double plastic_Pa(const fw_flexure_strain_life *law, double cycles) {
-    if (!(law->ductility > 0)) return 0;
-    return law->youngs_Pa * law->ductility * pow(2 * cycles, law->ductility_exponent);
-}
-
-double fw_flexure_strain_life_elastic_Pa(const fw_flexure_strain_life *law) {
-    return law->amplitude_Pa - plastic_Pa(law, law->cycles);
-}
-
-double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles) {
-    return fw_flexure_strain_life_elastic_Pa(law) * pow(cycles / law->cycles, law->exponent) +
-           plastic_Pa(law, cycles);
-}
-
-/* Newton on logarithms: ln sigma(ln N) is convex and falls, so that from below the root in N it
-   comes up to it without passing it */
-double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law, double amplitude_Pa) {
-    double s = fabs(amplitude_Pa), b = law->exponent, c = law->ductility_exponent;
-    double elastic = fw_flexure_strain_life_elastic_Pa(law);
-    if (!(s > 0)) return (double)INFINITY;
-    double ln = log(law->cycles) + log(s / elastic) / b;
-    if (!(law->ductility > 0)) return exp(ln);
-    ln = fmax(ln, log(s / (law->youngs_Pa * law->ductility)) / c - log(2));
-    for (int i = 0; i < 60; i++) {
-        double e = elastic * exp(b * (ln - log(law->cycles)));
-        double p = law->youngs_Pa * law->ductility * exp(c * (ln + log(2)));
-        double step = log((e + p) / s) * (e + p) / (b * e + c * p);
-        ln -= step;
-        if (!(fabs(step) > 1e-13 * fmax(1, fabs(ln)))) break;
-    }
-    return exp(ln);
 }
 
 /* sigma_ar = sqrt(sigma_max sigma_a), sigma_max = sigma_a + |sigma_m|: a strip bends, so that one

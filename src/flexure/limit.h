@@ -18,8 +18,6 @@ typedef struct fw_flexure_strain_life {
     double ductility, ductility_exponent; /* eps_f', c < 0 (Manson, Coffin); 0, 0: elastic only */
 } fw_flexure_strain_life;
 
-/* elastic part of amplitude_Pa */
-double fw_flexure_strain_life_elastic_Pa(const fw_flexure_strain_life *law);
 /* E times the strain amplitude that lasts `cycles` */
 double fw_flexure_strain_life_amplitude_Pa(const fw_flexure_strain_life *law, double cycles);
 double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law,

@@ -164,30 +164,31 @@ static fw_status emit(collector *c, const int *edge, int n) {
     return FW_OK;
 }
 
-/* follows edges from `first_edge`; whenever a node comes again the loop since then is cut off */
-static fw_status follow(collector *c, trail *path, int *seen, const int *first, const int *after,
+/* follows edges from `first_edge`; whenever a node comes again the loop since then is cut off.
+   reached (nodes): edges of the path before it comes to a node, -1 where it does not */
+static fw_status follow(collector *c, trail *path, int *reached, const int *first, const int *after,
                         int first_edge) {
     fw_geometry_graph *g = c->graph;
     int e = first_edge;
     path->count = 0;
-    seen[edge_start(&g->edge[e])] = 0;
+    reached[edge_start(&g->edge[e])] = 0;
     while (true) {
         g->edge[e].used = true;
         path->edge[path->count++] = e;
         int node = edge_end(&g->edge[e]);
-        if (seen[node] >= 0) {
-            int from = seen[node];
+        if (reached[node] >= 0) {
+            int from = reached[node];
             FW_TRY(emit(c, path->edge + from, path->count - from));
             for (int i = from; i < path->count; i++)
-                if (i > from) seen[edge_start(&g->edge[path->edge[i]])] = -1;
+                if (i > from) reached[edge_start(&g->edge[path->edge[i]])] = -1;
             path->count = from;
             if (from == 0) {
-                seen[node] = -1;
+                reached[node] = -1;
                 return FW_OK;
             }
             e = path->edge[from - 1]; /* go on as if the loop had not been there */
         } else
-            seen[node] = path->count;
+            reached[node] = path->count;
         e = next_edge(g, first, after, e);
         if (e < 0) return FW_GEOMETRY;
     }
@@ -205,14 +206,14 @@ static fw_status order_outlines(fw_geometry_graph *g, const collector *c, fw_geo
 fw_status fw_geometry_graph_stitch(fw_geometry_graph *g, fw_geometry_region *out) {
     size_t nodes = (size_t)g->nnode, edges = (size_t)g->nedge; /* all written before it is read */
     int *first = fw_arena_raw(g->arena, nodes * sizeof *first);
-    int *seen = fw_arena_raw(g->arena, nodes * sizeof *seen);
+    int *reached = fw_arena_raw(g->arena, nodes * sizeof *reached);
     int *after = fw_arena_raw(g->arena, edges * sizeof *after);
     trail path = {fw_arena_raw(g->arena, edges * sizeof *path.edge), 0};
     collector c = {g, fw_arena_raw(g->arena, edges * sizeof *c.contour),
                    fw_arena_raw(g->arena, edges * sizeof *c.hole), 0};
-    if (!first || !seen || !after || !path.edge || !c.contour || !c.hole) return FW_NOMEM;
+    if (!first || !reached || !after || !path.edge || !c.contour || !c.hole) return FW_NOMEM;
     for (int i = 0; i < g->nnode; i++)
-        first[i] = seen[i] = -1;
+        first[i] = reached[i] = -1;
     for (int i = g->nedge - 1; i >= 0; i--)
         if (g->edge[i].keep) {
             int node = edge_start(&g->edge[i]);
@@ -220,7 +221,8 @@ fw_status fw_geometry_graph_stitch(fw_geometry_graph *g, fw_geometry_region *out
             first[node] = i;
         }
     for (int i = 0; i < g->nedge; i++)
-        if (g->edge[i].keep && !g->edge[i].used) FW_TRY(follow(&c, &path, seen, first, after, i));
+        if (g->edge[i].keep && !g->edge[i].used)
+            FW_TRY(follow(&c, &path, reached, first, after, i));
     return order_outlines(g, &c, out);
 }
 

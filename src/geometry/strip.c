@@ -175,34 +175,3 @@ bool fw_geometry_strip_crosses(const fw_geometry_strip_piece *piece, int n, int 
             }
     return false;
 }
-
-fw_status fw_geometry_strip_contour(fw_arena *arena, const fw_geometry_strip_piece *piece, int n,
-                                    fw_geometry_pose start, fw_geometry_contour *contour) {
-    fw_geometry_segment left[FW_STRIP_MOST], right[FW_STRIP_MOST];
-    fw_geometry_pose at = start;
-    if (n < 1 || n > FW_STRIP_MOST) return FW_LIMIT;
-    for (int i = 0; i < n; i++) {
-        fw_geometry_strip_shape f;
-        fw_geometry_strip_shape_of(&piece[i], &f);
-        left[i] = fw_geometry_strip_edge(&f, at, 0);
-        right[i] = fw_geometry_strip_edge(&f, at, 1);
-        at = fw_geometry_strip_along(at, piece[i].curvature_per_m, piece[i].length_m);
-    }
-    fw_geometry_outline k = fw_geometry_outline_start(arena, right[0].a);
-    for (int i = 0; i < n; i++) {
-        fw_geometry_vec2 to = i + 1 < n ? right[i + 1].a : right[i].b;
-        if (right[i].kind == FW_LINE)
-            fw_geometry_outline_line(&k, to, 0);
-        else
-            fw_geometry_outline_arc_to(&k, right[i].centre, right[i].sweep_rad, to, 0);
-    }
-    fw_geometry_outline_line(&k, left[n - 1].b, FW_SEGMENT_JOINT);
-    for (int i = n - 1; i >= 0; i--) {
-        if (left[i].kind == FW_LINE)
-            fw_geometry_outline_line(&k, left[i].a, 0);
-        else
-            fw_geometry_outline_arc_to(&k, left[i].centre, -left[i].sweep_rad, left[i].a, 0);
-    }
-    fw_geometry_outline_line(&k, right[0].a, FW_SEGMENT_JOINT);
-    return fw_geometry_outline_close(&k, contour);
-}

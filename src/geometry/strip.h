@@ -54,8 +54,5 @@ void fw_geometry_strip_widths(const fw_geometry_strip_shape *shape, double *leas
 
 /* do two pieces' edges meet other than at a joint of neighbours? *i < *j: which */
 bool fw_geometry_strip_crosses(const fw_geometry_strip_piece *piece, int n, int *i, int *j);
-/* outline, counter-clockwise, with a JOINT segment at either end */
-fw_status fw_geometry_strip_contour(fw_arena *arena, const fw_geometry_strip_piece *piece, int n,
-                                    fw_geometry_pose start, fw_geometry_contour *contour);
 
 #endif

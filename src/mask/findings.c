@@ -111,7 +111,8 @@ int fw_mask_marker_layer(const fw_mask_table *table) {
     return HIGHEST;
 }
 
-fw_geometry_box fw_mask_marker(const fw_mask_finding *f) {
+/* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */
+static fw_geometry_box marker_of(const fw_mask_finding *f) {
     const fw_mask_rule_kind_row *kind = f->rule->kind;
     if (kind->unit == FW_UNIT_SHARE || kind->unit == FW_UNIT_AREA) return f->box;
     double more = fmax(LEAST_M, vec_distance(f->at[0], f->at[1]));
@@ -125,7 +126,7 @@ static int32_t on_grid(double x_dbu) {
 }
 
 static fw_status mark(fw_arena *arena, const fw_mask_finding *f, int layer, fw_mask_shape *out) {
-    fw_geometry_box b = fw_mask_marker(f);
+    fw_geometry_box b = marker_of(f);
     int32_t x0 = on_grid(floor(b.x0 / GRID_M)), x1 = on_grid(ceil(b.x1 / GRID_M));
     int32_t y0 = on_grid(floor(b.y0 / GRID_M)), y1 = on_grid(ceil(b.y1 / GRID_M));
     fw_layout_piece *piece = fw_arena_one(arena, fw_layout_piece);
@@ -276,7 +277,7 @@ static void item(fw_text *out, const fw_mask *mask, const fw_mask_finding *f) {
                    "'</category>\n   <cell>%s</cell>\n   <visited>false</visited>\n"
                    "   <multiplicity>1</multiplicity>\n   <image/>\n   <values>\n",
                    mask->cell);
-    fw_geometry_box b = fw_mask_marker(f);
+    fw_geometry_box b = marker_of(f);
     fw_geometry_vec2 low = {b.x0, b.y0}, high = {b.x1, b.y1};
     bool chord = !vec_same(f->at[0], f->at[1]) && f->rule->kind->unit == FW_UNIT_LENGTH;
     fw_text_add(out, chord ? "    <value>edge: " : "    <value>box: ");

@@ -161,12 +161,6 @@ fw_status fw_mask_rules_chords(fw_mask_rules *rules, const fw_mask_rule *rule,
                                bool (*pick)(const fw_mask_rules *rules,
                                             const fw_mask_rule_finding *f, const void *with),
                                const void *with);
-/* chords between the rule's two layers below its limit, and edges that cross (rule_layers.c) */
-fw_status fw_mask_rules_between(fw_mask_rules *rules, const fw_mask_rule *rule,
-                                fw_mask_rule_search *between);
-/* what was found between layers as places: one alone where a shape crosses, lies in or outside */
-fw_status fw_mask_rules_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
-                                  fw_mask_rule_search *between);
 /* the shape of a layer that holds the point; NULL: none */
 const fw_mask_rule_range *fw_mask_rules_holding(const fw_mask_rules *rules, int layer,
                                                 fw_geometry_vec2 at);
@@ -193,8 +187,6 @@ fw_status fw_mask_rules_tell(fw_mask_rules *rules, fw_diags *diags, int *nbroken
 
 /* the highest layer up to 60 that the table does not use */
 int fw_mask_marker_layer(const fw_mask_table *table);
-/* what a marker covers: the chord, edge, corner or window, and at least 1 um around it */
-fw_geometry_box fw_mask_marker(const fw_mask_finding *finding);
 
 /* ---- rows of a layer table: of <rule> and what is shared with the others ---- */
 

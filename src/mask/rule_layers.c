@@ -54,7 +54,8 @@ static void look_at_ranges(fw_mask_rule_search *out, const fw_mask_rule_search *
     }
 }
 
-fw_status fw_mask_rules_between(fw_mask_rules *rules, const fw_mask_rule *rule,
+/* chords between the rule's two layers below its limit, and edges that cross (rule_layers.c) */
+static fw_status between_layers(fw_mask_rules *rules, const fw_mask_rule *rule,
                                 fw_mask_rule_search *out) {
     const fw_mask_rule_search *a = &rules->search[rule->layer], *b = &rules->search[rule->other];
     int n = a->nrange + b->nrange;
@@ -78,8 +79,9 @@ fw_status fw_mask_rules_between(fw_mask_rules *rules, const fw_mask_rule *rule,
     return out->no_memory ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_mask_rules_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
-                                  fw_mask_rule_search *between) {
+/* what was found between layers as places: one alone where a shape crosses, lies in or outside */
+static fw_status add_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
+                               fw_mask_rule_search *between) {
     fw_mask_rule_finding *place;
     int count;
     if (between->no_memory) return FW_NOMEM;
@@ -168,11 +170,11 @@ static fw_status add_all_outside(fw_mask_rules *rules, const fw_mask_rule *rule,
 
 static fw_status check_enclosure(fw_mask_rules *rules, const fw_mask_rule *rule) {
     fw_mask_rule_search between;
-    FW_TRY(fw_mask_rules_between(rules, rule, &between));
+    FW_TRY(between_layers(rules, rule, &between));
     for (int i = 0; i < between.nfound; i++) /* the other layer is one union */
         between.found[i].shape[1] = -1;
     FW_TRY(add_all_outside(rules, rule, &between));
-    return fw_mask_rules_distances(rules, rule, &between);
+    return add_distances(rules, rule, &between);
 }
 
 const fw_mask_rule_kind_row fw_mask_kind_enclosure = {
@@ -213,11 +215,11 @@ static void add_inside(const fw_mask_rules *rules, int layer, int other, bool tu
 
 static fw_status check_separation(fw_mask_rules *rules, const fw_mask_rule *rule) {
     fw_mask_rule_search between;
-    FW_TRY(fw_mask_rules_between(rules, rule, &between));
+    FW_TRY(between_layers(rules, rule, &between));
     add_inside(rules, rule->layer, rule->other, false, &between);
     add_inside(rules, rule->other, rule->layer, true, &between);
     if (between.no_memory) return FW_NOMEM;
-    return fw_mask_rules_distances(rules, rule, &between);
+    return add_distances(rules, rule, &between);
 }
 
 const fw_mask_rule_kind_row fw_mask_kind_separation = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What kinds of rules share: findings, the chords of a layer, which shape holds a place, islands. */
+/* What kinds of rules share: findings, chords of a layer, which shape holds a place, islands. */
 #include "mask/rule.h"
 #include <stdlib.h>
 

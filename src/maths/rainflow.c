@@ -49,17 +49,17 @@ static bool vertex(const fw_maths_turning *p, double t, double s, double *value)
    O(spacing^3), turns below the gate are lost. Test: test_rainflow.c turning_points_of_a_sine */
 void fw_maths_turning_add(fw_maths_turning *p, fw_arena *arena, double t, double s) {
     double top;
-    if (p->seen >= 2 && vertex(p, t, s, &top)) follow(p, arena, top);
+    if (p->samples >= 2 && vertex(p, t, s, &top)) follow(p, arena, top);
     follow(p, arena, s);
     p->t[0] = p->t[1];
     p->s[0] = p->s[1];
     p->t[1] = t;
     p->s[1] = s;
-    p->seen++;
+    p->samples++;
 }
 
 void fw_maths_turning_jump(fw_maths_turning *p) {
-    p->seen = 0;
+    p->samples = 0;
 }
 
 void fw_maths_turning_end(fw_maths_turning *p, fw_arena *arena) {

@@ -17,7 +17,7 @@ typedef struct fw_maths_turning { /* turning points of a history that comes samp
     double latest;     /* extreme since the last turning point */
     int direction;     /* +1 rising, -1 falling, 0: nothing yet */
     double t[2], s[2]; /* the last two samples */
-    int seen;
+    int samples;
     bool failed; /* no memory */
 } fw_maths_turning;
 

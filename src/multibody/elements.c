@@ -101,9 +101,9 @@ void fw_multibody_element_forces(const fw_multibody_system *sys, const fw_multib
     const double unit = 1 / fw_multibody_newton(m), per_length = 1 / m->scale.length_m;
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
-        const fw_effects_port_state seen = look(sys, pose, e, v);
+        const fw_effects_port_state state = look(sys, pose, e, v);
         double *own = found->element + 3 * e->first_port;
-        e->own->class_->force(e->own, &seen, own);
+        e->own->class_->force(e->own, &state, own);
         for (int k = 0; k < e->own->ports; k++) { /* the ground has no mass terms: 0 */
             const int b = e->body[k];
             const double *r = sys->work->port.arm + 2 * k, *f = own + 3 * k;
@@ -136,8 +136,8 @@ void fw_multibody_element_driven(const fw_multibody_system *sys, const fw_multib
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
         if (!e->own->works) continue;
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        e->own->class_->force(e->own, &seen, sys->work->port.f);
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        e->own->class_->force(e->own, &state, sys->work->port.f);
         push(sys, e, force);
     }
 }
@@ -149,8 +149,8 @@ void fw_multibody_element_slope(const fw_multibody_system *sys, const fw_multibo
         const fw_multibody_element *e = &m->element[i];
         double rate = e->electrodes ? sys->loading.drive_rate : sys->loading.actuation_rate;
         if (!e->own->class_->slope || rate == 0) continue;
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        e->own->class_->slope(e->own, &seen, sys->work->port.f);
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        e->own->class_->slope(e->own, &state, sys->work->port.f);
         for (int k = 0; k < 3 * e->own->ports; k++)
             sys->work->port.f[k] *= rate;
         push(sys, e, force);
@@ -159,12 +159,12 @@ void fw_multibody_element_slope(const fw_multibody_system *sys, const fw_multibo
 
 /* W: what the moving ground gives through the ports on it */
 static double fed_by_ground(const fw_multibody_system *sys, const fw_multibody_element *e,
-                            const fw_effects_port_state *seen) {
+                            const fw_effects_port_state *state) {
     double power = 0, *f = sys->work->port.f;
-    e->own->class_->force(e->own, seen, f);
+    e->own->class_->force(e->own, state, f);
     for (int k = 0; k < e->own->ports; k++)
         if (e->body[k] == sys->model->nbody)
-            power -= f[3 * k] * seen->w[3 * k] + f[3 * k + 1] * seen->w[3 * k + 1];
+            power -= f[3 * k] * state->w[3 * k] + f[3 * k + 1] * state->w[3 * k + 1];
     return power;
 }
 
@@ -177,9 +177,9 @@ void fw_multibody_element_power(const fw_multibody_system *sys, const fw_multibo
         const fw_multibody_element *e = &m->element[i];
         double now[2] = {0, 0};
         if (!e->own->class_->power && !m->stretch.law) continue;
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        if (e->own->class_->power) e->own->class_->power(e->own, &seen, now);
-        if (m->stretch.law) now[1] += fed_by_ground(sys, e, &seen);
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        if (e->own->class_->power) e->own->class_->power(e->own, &state, now);
+        if (m->stretch.law) now[1] += fed_by_ground(sys, e, &state);
         power[0] += unit * now[0], power[1] += unit * now[1];
     }
 }
@@ -192,8 +192,8 @@ double fw_multibody_element_energy(const fw_multibody_system *sys, const fw_mult
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
         if (!e->own->class_->energy || (e->own->works && !driven)) continue;
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        energy += unit * e->own->class_->energy(e->own, &seen);
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        energy += unit * e->own->class_->energy(e->own, &state);
     }
     return energy;
 }
@@ -222,9 +222,9 @@ void fw_multibody_element_tangent(const fw_multibody_system *sys, const fw_multi
         k->pose[i] = m->origin[i] + pose->u[i];
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        e->own->class_->force(e->own, &seen, k->f);
-        e->own->class_->tangent(e->own, &seen, k->stiffness, k->damping);
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        e->own->class_->force(e->own, &state, k->f);
+        e->own->class_->tangent(e->own, &state, k->stiffness, k->damping);
         scale_tangent(sys, 3 * e->own->ports);
         fw_effects_element_spread(&e->scaled, m->nbody, k->pose, v, k->f, k->stiffness, k->damping,
                                   stiffness, damping);
@@ -234,8 +234,8 @@ void fw_multibody_element_tangent(const fw_multibody_system *sys, const fw_multi
 double fw_multibody_element_switch_value(const fw_multibody_system *sys,
                                          const fw_multibody_pose *pose,
                                          const fw_multibody_element *e, int i, const double *v) {
-    const fw_effects_port_state seen = look(sys, pose, e, v);
-    return e->own->class_->switch_value(e->own, &seen, i);
+    const fw_effects_port_state state = look(sys, pose, e, v);
+    return e->own->class_->switch_value(e->own, &state, i);
 }
 
 const fw_effects_force_element *fw_multibody_element_invalid(const fw_multibody_system *sys,
@@ -245,8 +245,8 @@ const fw_effects_force_element *fw_multibody_element_invalid(const fw_multibody_
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
         if (!e->own->class_->valid) continue;
-        const fw_effects_port_state seen = look(sys, pose, e, v);
-        if (!e->own->class_->valid(e->own, &seen, why)) return e->own;
+        const fw_effects_port_state state = look(sys, pose, e, v);
+        if (!e->own->class_->valid(e->own, &state, why)) return e->own;
     }
     return NULL;
 }
@@ -254,6 +254,6 @@ const fw_effects_force_element *fw_multibody_element_invalid(const fw_multibody_
 double fw_multibody_element_pressing(const fw_multibody_system *sys, const fw_multibody_pose *pose,
                                      int i, const double *v) {
     const fw_multibody_element *e = &sys->model->element[i];
-    const fw_effects_port_state seen = look(sys, pose, e, v);
-    return e->own->class_->pressing(e->own, &seen) / fw_multibody_newton(sys->model);
+    const fw_effects_port_state state = look(sys, pose, e, v);
+    return e->own->class_->pressing(e->own, &state) / fw_multibody_newton(sys->model);
 }

@@ -77,9 +77,10 @@ fw_multibody_pull fw_multibody_pull_of(const fw_multibody_system *sys,
                                ux,          uy,          length,      rate};
 }
 
-void fw_multibody_slide_travel(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                               const fw_multibody_slide *s, const double *v, double *travel,
-                               double *rate) {
+/* e.d - free length of a prismatic joint, and its rate */
+static void slide_travel(const fw_multibody_system *sys, const fw_multibody_pose *pose,
+                         const fw_multibody_slide *s, const double *v, double *travel,
+                         double *rate) {
     const fw_multibody_model *m = sys->model;
     double d[2], e[2], n[2], psi_rate = 0;
     const double *arm = pose->arm + 4 * s->block;
@@ -158,7 +159,7 @@ static void springs(const fw_multibody_system *sys, const fw_multibody_pose *pos
         const double *r = pose->arm + 4 * s->block;
         double d[2], e[2], n[2], travel, rate;
         fw_multibody_frame(m, pose, s->block, d, e, n);
-        fw_multibody_slide_travel(sys, pose, s, v, &travel, &rate);
+        slide_travel(sys, pose, s, v, &travel, &rate);
         double f = s->k * travel + s->c * rate;
         push(sys, s->a, r[0] + d[0], r[1] + d[1], f * e[0], f * e[1]);
         push(sys, s->b, r[2], r[3], -f * e[0], -f * e[1]);
@@ -198,7 +199,7 @@ static double taken(const fw_multibody_system *sys, const fw_multibody_pose *pos
         }
     for (int i = 0; i < m->nslide; i++)
         if (m->slide[i].c > 0) {
-            fw_multibody_slide_travel(sys, pose, &m->slide[i], v, &a, &rate);
+            slide_travel(sys, pose, &m->slide[i], v, &a, &rate);
             power += m->slide[i].c * rate * rate;
         }
     return power;
@@ -225,7 +226,7 @@ static double stretch_power(const fw_multibody_system *sys, const fw_multibody_p
         const double *g = s->block + 2 * p->block;
         double d[2], e[2], n[2], travel, rate;
         fw_multibody_frame(m, pose, p->block, d, e, n);
-        fw_multibody_slide_travel(sys, pose, p, v, &travel, &rate);
+        slide_travel(sys, pose, p, v, &travel, &rate);
         power += (p->k * travel + p->c * rate) * speed * (e[0] * g[0] + e[1] * g[1]);
     }
     return power;
@@ -292,7 +293,7 @@ static double stored(const fw_multibody_system *sys, const fw_multibody_pose *po
         energy += 0.5 * m->spring[i].k * stretch * stretch;
     }
     for (int i = 0; i < m->nslide; i++) {
-        fw_multibody_slide_travel(sys, pose, &m->slide[i], v, &stretch, &rate);
+        slide_travel(sys, pose, &m->slide[i], v, &stretch, &rate);
         energy += 0.5 * m->slide[i].k * stretch * stretch;
     }
     return energy + (m->nelement > 0 ? fw_multibody_element_energy(sys, pose, v, true) : 0);

@@ -79,8 +79,5 @@ void fw_multibody_velocity_residual(const fw_multibody_system *sys, const fw_mul
 /* rhs.c: fw_multibody_rhs; false: there are no accelerations. energies: their rates are wanted */
 bool fw_multibody_evaluate(fw_multibody_system *sys, double t, const double *y, bool energies,
                            double *f);
-/* the same at the state of a factor; u of y is the pose's */
-bool fw_multibody_evaluate_factored(fw_multibody_system *sys, const fw_multibody_factor *factor,
-                                    const double *y, bool energies, double *f);
 
 #endif

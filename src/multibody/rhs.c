@@ -56,8 +56,8 @@ static void energy_rates(fw_multibody_system *sys, const fw_multibody_solution *
    y, the factor at its u. Output f (ny). Error: round-off times cond(S). Cost: the method's.
    Source: Lagrange multipliers in index-1 form; Garcia de Jalon and Bayo 1994, ch. 5. Test:
    test_simulate.c (reference six-bar). */
-bool fw_multibody_evaluate_factored(fw_multibody_system *sys, const fw_multibody_factor *factor,
-                                    const double *y, bool energies, double *f) {
+static bool evaluate_factored(fw_multibody_system *sys, const fw_multibody_factor *factor,
+                              const double *y, bool energies, double *f) {
     const fw_multibody_model *m = sys->model;
     const double *v = y + m->nq;
     const fw_multibody_solution *found = fw_multibody_accelerate(sys, factor, v);
@@ -95,7 +95,7 @@ bool fw_multibody_evaluate(fw_multibody_system *sys, double t, const double *y, 
     } else {
         factor = fw_multibody_factorise(sys, fw_multibody_pose_at(sys, t, y));
     }
-    if (factor) return fw_multibody_evaluate_factored(sys, factor, y, energies, f);
+    if (factor) return evaluate_factored(sys, factor, y, energies, f);
     memcpy(f, y + m->nq, (size_t)m->nq * sizeof *f);
     for (int i = m->nq; i < (energies ? m->ny : 2 * m->nq); i++)
         f[i] = (double)NAN;
@@ -160,7 +160,7 @@ bool fw_multibody_project(void *system, double t, double *y, double *f) {
         return false;
     }
     if (sys->friction) fw_multibody_friction_settle(sys, factor, y + sys->model->nq);
-    fw_multibody_evaluate_factored(sys, factor, y, true, f);
+    evaluate_factored(sys, factor, y, true, f);
     return true;
 }
 

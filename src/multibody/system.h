@@ -132,10 +132,6 @@ fw_multibody_pull fw_multibody_pull_of(const fw_multibody_system *sys,
 /* points of a spring that are no farther apart than this coincide: their line means nothing */
 double fw_multibody_spring_round_off(const fw_multibody_model *m, const fw_multibody_pose *pose,
                                      int spring);
-/* e.d - free length of a prismatic joint, and its rate */
-void fw_multibody_slide_travel(const fw_multibody_system *sys, const fw_multibody_pose *pose,
-                               const fw_multibody_slide *slide, const double *v, double *travel,
-                               double *rate);
 /* angle past a stop, positive beyond it, and its rate */
 void fw_multibody_stop_travel(const fw_multibody_model *m, const fw_multibody_pose *pose,
                               const fw_multibody_stop *stop, const double *v, double *past,

@@ -36,13 +36,13 @@ const fw_process_law fw_process_law_arrhenius = {
 /* (1 + kappa A)/(1 + kappa A_ref): the etch slows down with the open area.
    kappa 1/m2, A m2; factor on the time, 1. kappa from two dummy areas.
    Source: Mogab, J. Electrochem. Soc. 124 (1977) 1262. Test: test_law.c, loading. */
-double fw_process_loading_factor(double kappa_per_m2, double area_m2, double reference_m2) {
+static double loading_factor(double kappa_per_m2, double area_m2, double reference_m2) {
     return (1.0 + kappa_per_m2 * area_m2) / (1.0 + kappa_per_m2 * reference_m2);
 }
 
 static fw_status loading_time(fw_process_law_call *call, const double *x, double *result) {
     (void)call;
-    *result = x[0] / x[1] * fw_process_loading_factor(x[2], x[3], x[4]);
+    *result = x[0] / x[1] * loading_factor(x[2], x[3], x[4]);
     return FW_OK;
 }
 
@@ -150,7 +150,7 @@ static fw_status arde_time(fw_process_law_call *call, const double *x, double *r
                          : lag * fw_process_arde_integral(x[WIDTH], x[DEPTH], cylinder);
     *result = (x[DEPTH] + more) / x[RATE];
     if (!isnan(x[LOADING]) && !isnan(x[OPEN_AREA]) && !isnan(x[REFERENCE_AREA]))
-        *result *= fw_process_loading_factor(x[LOADING], x[OPEN_AREA], x[REFERENCE_AREA]);
+        *result *= loading_factor(x[LOADING], x[OPEN_AREA], x[REFERENCE_AREA]);
     return FW_OK;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time laws: one line of time_laws.def each, their rows in law_*.c. A law is a function of named arguments
-   with dimensions; the evaluator adds uncertainty, status, window and what is missing. */
+/* Time laws: one line of time_laws.def each, their rows in law_*.c. A law is a function of named
+   arguments with dimensions; the evaluator adds uncertainty, status, window and what is missing. */
 #ifndef FW_PROCESS_PROCESS_LAW_H
 #define FW_PROCESS_PROCESS_LAW_H
 #include "process/process.h"
@@ -132,8 +132,6 @@ double fw_process_knudsen_slot(double x);
 double fw_process_knudsen_cylinder(double l);
 /* int_0^depth (1/K(z/w) - 1) dz */
 double fw_process_arde_integral(double width_m, double depth_m, bool cylinder);
-/* factor on a time when `area` is open instead of `reference` */
-double fw_process_loading_factor(double kappa_per_m2, double area_m2, double reference_m2);
 /* piecewise linear through n pairs (stride 2: x0 y0 x1 y1 ...), ends where x is NaN. false outside
    the pairs or when they do not rise; *why then says so */
 bool fw_process_table_between(const double *pairs, int n, double x, double *y, const char **why);

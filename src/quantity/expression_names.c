@@ -9,7 +9,7 @@ bool fw_quantity_expression_reserved(const char *name) {
            fw_quantity_unit_symbol(name, n);
 }
 
-static bool seen(const char *const *names, size_t count, const char *name, size_t n) {
+static bool listed(const char *const *names, size_t count, const char *name, size_t n) {
     for (size_t i = 0; i < count; i++)
         if (strlen(names[i]) == n && memcmp(names[i], name, n) == 0) return true;
     return false;
@@ -24,7 +24,7 @@ bool fw_quantity_expression_uses(const char *text, size_t n, const char *const *
                (text[end] == '_' || (text[end] >= '0' && text[end] <= '9') ||
                 (text[end] >= 'a' && text[end] <= 'z') || (text[end] >= 'A' && text[end] <= 'Z')))
             end++;
-        if (end > i && seen(names, count, text + i, end - i)) return true;
+        if (end > i && listed(names, count, text + i, end - i)) return true;
         i = end > i ? end : i + 1;
     }
     return false;
@@ -43,7 +43,7 @@ fw_status fw_quantity_expression_names(fw_arena *arena, const char *text, size_t
             break;
         }
         const char *name = text + t.start;
-        if (t.kind != FW_TOKEN_NAME || seen(list, used, name, t.length)) continue;
+        if (t.kind != FW_TOKEN_NAME || listed(list, used, name, t.length)) continue;
         char *copy = fw_arena_strndup(arena, name, t.length);
         FW_NEED(copy);
         if (fw_quantity_expression_reserved(copy)) continue;

@@ -165,9 +165,9 @@ static int halvings_left(const sample *cell, double h) {
 
 typedef struct piece {
     double start_s, end_s;
-    int cells;    /* a power of two */
-    sample *seen; /* (cells + 1) */
-    int *found;   /* (cells + 1) first look inside each cell, in scan.found */
+    int cells;       /* a power of two */
+    sample *sampled; /* (cells + 1) */
+    int *found;      /* (cells + 1) first look inside each cell, in scan.found */
     double
         *miss; /* (2 cells) of blocks, in heap order: 1, its halves 2 and 3, theirs 4 to 7, ... */
 } piece;
@@ -177,13 +177,13 @@ static fw_status look_over(fw_arena *arena, scan *s, piece *p, double wanted) {
     while (2 * p->cells <= wanted)
         p->cells *= 2;
     size_t cells = (size_t)p->cells;
-    FW_NEED(p->seen = fw_arena_array(arena, sample, cells + 1));
+    FW_NEED(p->sampled = fw_arena_array(arena, sample, cells + 1));
     FW_NEED(p->found = fw_arena_array(arena, int, cells + 1));
     FW_NEED(p->miss = fw_arena_array(arena, double, 2 * cells));
     s->piece_s = p->start_s + (p->end_s - p->start_s) / 2;
     for (int i = 0; i <= p->cells; i++)
         sample_at(s, i == p->cells ? p->end_s : p->start_s + (p->end_s - p->start_s) * i / p->cells,
-                  &p->seen[i]);
+                  &p->sampled[i]);
     return FW_OK;
 }
 
@@ -191,7 +191,7 @@ static void follow_all(scan *s, const piece *p) {
     s->piece_s = p->start_s + (p->end_s - p->start_s) / 2;
     for (int i = 0; i < p->cells; i++) {
         p->found[i] = s->nfound;
-        follow(s, &p->seen[i], &p->seen[i + 1], HALVINGS);
+        follow(s, &p->sampled[i], &p->sampled[i + 1], HALVINGS);
     }
     p->found[p->cells] = s->nfound;
 }
@@ -201,11 +201,11 @@ static void follow_all(scan *s, const piece *p) {
 static void judge(const scan *s, const piece *p) {
     for (int i = 0; i < p->cells; i++) {
         bool agrees = p->found[i] == p->found[i + 1];
-        p->miss[p->cells + i] = agrees ? cell_miss(s, &p->seen[i], &p->seen[i + 1]) : 2;
+        p->miss[p->cells + i] = agrees ? cell_miss(s, &p->sampled[i], &p->sampled[i + 1]) : 2;
     }
     for (int size = 2, first = p->cells / 2; first >= 1; size *= 2, first /= 2)
         for (int i = 0; i < first; i++) {
-            const sample *a = &p->seen[i * size];
+            const sample *a = &p->sampled[i * size];
             int here = first + i;
             double worse = fmax(p->miss[2 * here], p->miss[2 * here + 1]);
             p->miss[here] = worse <= 1 ? worse + joint_miss(s, a, a + size / 2, a + size) : 2;
@@ -213,16 +213,16 @@ static void judge(const scan *s, const piece *p) {
 }
 
 static void write_cell(scan *s, const piece *p, int i) {
-    const sample *a = &p->seen[i], *end = &p->seen[i + 1];
+    const sample *a = &p->sampled[i], *end = &p->sampled[i + 1];
     for (int k = p->found[i]; k <= p->found[i + 1]; k++) {
         const sample *b = k < p->found[i + 1] ? &s->found[k] : end;
-        write_part(s, a, b, halvings_left(&p->seen[i], b->t_s - a->t_s));
+        write_part(s, a, b, halvings_left(&p->sampled[i], b->t_s - a->t_s));
         a = b;
     }
 }
 
 static void write_block(scan *s, const piece *p, int here, int from, int size) {
-    const sample *a = p->seen + from;
+    const sample *a = p->sampled + from;
     if (p->miss[here] <= 1) {
         /* a whole piece that is quiet needs no limit: steps end where it ends */
         double most = stride(s, a[size].t_s - a->t_s, p->miss[here]);

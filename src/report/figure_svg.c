@@ -21,7 +21,7 @@ static const char *tint(int body) {
     return body < 0 ? "#d0d7de" : palette[(unsigned)body % (sizeof palette / sizeof palette[0])];
 }
 
-static fw_geometry_vec2 seen(const pen_t *pen, const double *q, fw_report_figure_point p) {
+static fw_geometry_vec2 in_view(const pen_t *pen, const double *q, fw_report_figure_point p) {
     fw_geometry_vec2 w = fw_report_figure_place(q, p);
     return (fw_geometry_vec2){fw_report_x(pen->view, w.x), fw_report_y(pen->view, w.y)};
 }
@@ -34,8 +34,8 @@ static const double *frame(const pen_t *pen, int i) {
 
 /* half waves that look like a spring at its still length: as many in all frames */
 static int waves_of(const fw_report_figure_part *part, const pen_t *pen) {
-    fw_geometry_vec2 a = seen(pen, pen->still, part->end[0]),
-                     b = seen(pen, pen->still, part->end[1]);
+    fw_geometry_vec2 a = in_view(pen, pen->still, part->end[0]),
+                     b = in_view(pen, pen->still, part->end[1]);
     double n = hypot(b.x - a.x, b.y - a.y) / (1.6 * pen->mark);
     return n > MOST_WAVES ? MOST_WAVES : n > FEWEST_WAVES ? (int)n : FEWEST_WAVES;
 }
@@ -59,15 +59,15 @@ void fw_report_figure_path(const fw_report_figure_part *part, const fw_report_fi
     if (part->noutline) {
         for (int i = 0; i < part->noutline; i++) {
             fw_geometry_vec2 p =
-                seen(pen, q,
-                     (fw_report_figure_point){part->end[0].body, part->outline[i].x,
-                                              part->outline[i].y});
+                in_view(pen, q,
+                        (fw_report_figure_point){part->end[0].body, part->outline[i].x,
+                                                 part->outline[i].y});
             fw_markup(pen->out, "{r}{c} {c}", i ? "L" : "M", p.x, p.y);
         }
         if (part->noutline > 2) fw_text_add(pen->out, "Z");
         return;
     }
-    fw_geometry_vec2 a = seen(pen, q, part->end[0]), b = seen(pen, q, part->end[1]);
+    fw_geometry_vec2 a = in_view(pen, q, part->end[0]), b = in_view(pen, q, part->end[1]);
     if (part->role == FW_FIGURE_SPRING)
         zigzag(pen, a, b, waves_of(part, pen));
     else
@@ -239,12 +239,12 @@ static void turning(const fw_report_figure_part *part, const pen_t *pen) {
 }
 
 static void mark(const fw_report_figure_part *part, const pen_t *pen) {
-    fw_geometry_vec2 p = seen(pen, pen->still, part->end[0]);
+    fw_geometry_vec2 p = in_view(pen, pen->still, part->end[0]);
     fw_svg_open(pen->out, "g transform='translate({c} {c})'", p.x, p.y);
     if (pen->frames && part->end[0].body != FW_GROUND) {
         fw_svg_animate_group(pen->out, "translate", pen->seconds);
         for (int i = 0; i < pen->frames; i++) {
-            p = seen(pen, frame(pen, i), part->end[0]);
+            p = in_view(pen, frame(pen, i), part->end[0]);
             fw_markup(pen->out, "{r}{c} {c}", i ? ";" : "", p.x, p.y);
         }
         fw_svg_finish(pen->out, "/>");

@@ -21,7 +21,7 @@ typedef struct slice {
     double used[GRID + 1][GRID + 1]; /* utilisation at the poses of the grid */
     unsigned char governs[GRID + 1][GRID + 1];
     int next[EDGES]; /* following point of the boundary; -1: none */
-    unsigned char seen[EDGES];
+    unsigned char visited[EDGES];
     double plot_wide, plot_high; /* pixels */
     double x0, y0;               /* upper left corner of the plot, pixels */
     fw_text *out;
@@ -104,14 +104,14 @@ static void march(slice *s) {
 
 static void fill(slice *s) {
     for (int e = 0; e < EDGES; e++)
-        s->seen[e] = 0;
+        s->visited[e] = 0;
     fw_svg_path(s->out, "fill='#eaeef2' fill-rule='evenodd'");
     for (int e = 0; e < EDGES; e++) {
-        if (s->next[e] < 0 || s->seen[e]) continue;
+        if (s->next[e] < 0 || s->visited[e]) continue;
         const char *how = "M";
-        for (int at = e; at >= 0 && !s->seen[at]; at = s->next[at]) {
+        for (int at = e; at >= 0 && !s->visited[at]; at = s->next[at]) {
             double x, y;
-            s->seen[at] = 1;
+            s->visited[at] = 1;
             point(s, at, &x, &y);
             fw_markup(s->out, "{r}{c} {c}", how, x, y);
             how = "L";

@@ -46,8 +46,6 @@ typedef struct fw_statics_stability {
 } fw_statics_stability;
 
 enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations of 30 n^3 */
-/* what grows less has not left a thousandth of its way when the scene ends */
-extern const double fw_statics_stability_growth;
 
 /* Looks along the motion of a scene. *poise is NULL where it is stable, where it has left, and
    where instability lasts too short to grow. Warns with FW-D259; a note says when the mechanism is

@@ -12,7 +12,7 @@ typedef struct fw_statics_node { /* an equilibrium: pose and du/dt, scaled */
 /* largest size of something seen at instants, peaks between them by parabolas */
 typedef struct fw_statics_track {
     double t[2], s[2]; /* the last two */
-    int seen;
+    int samples;
     double most, value, at, between; /* size, with its sign, time, what the parabola adds */
 } fw_statics_track;
 

@@ -153,7 +153,7 @@ static fw_status rows(fw_statics_quasi_static *r) {
 /* sizes at equal or unequal distances; the largest, or the top of the parabola through three */
 static void follow(fw_statics_track *k, double t, double value) {
     double s = fabs(value);
-    if (k->seen >= 2) {
+    if (k->samples >= 2) {
         double a = k->t[1] - k->t[0], b = t - k->t[1], up = k->s[1] - k->s[0], down = s - k->s[1];
         if (a > 0 && b > 0 && up >= 0 && down <= 0 && up - down > 0) {
             double slope = (up * b / a + down * a / b) / (a + b);
@@ -168,7 +168,7 @@ static void follow(fw_statics_track *k, double t, double value) {
     if (s >= k->most - k->between) k->value = value;
     k->t[0] = k->t[1], k->s[0] = k->s[1];
     k->t[1] = t, k->s[1] = s;
-    k->seen++;
+    k->samples++;
 }
 
 /* as in dynamics/extreme.c: pins, then forces, torques and travels of joints, then drivers */
@@ -192,7 +192,7 @@ static void channels(fw_statics_quasi_static *r, double t) {
         follow(k++, t, r->driver[i]);
 }
 
-static void show(fw_statics_quasi_static *r, double t) {
+static void observe_state(fw_statics_quasi_static *r, double t) {
     fw_statics_equilibrium_pose(&r->w, r->w.y, r->q, r->angle);
     fw_statics_equilibrium_reactions(&r->w, r->reaction, r->joint, r->driver);
     if (r->track) channels(r, t);
@@ -212,7 +212,7 @@ static fw_status instants(fw_statics_quasi_static *r) {
         double theta = (double)i / FW_INSTANTS;
         fw_statics_quasi_static_curve(r, theta, r->guess, NULL, NULL);
         FW_TRY(fw_statics_quasi_static_solve(r, r->from.t + theta * h));
-        show(r, r->from.t + theta * h);
+        observe_state(r, r->from.t + theta * h);
     }
     return FW_OK;
 }
@@ -225,8 +225,8 @@ fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r) {
         offer(&r->motion->peak[i], r->angle0[i] + turn_of(r, i, r->from.u), r->from.t, 0);
     int count = r->motion->npin + 3 * r->motion->njoint + r->motion->ndriver;
     for (int i = 0; r->track && i < count; i++)
-        r->track[i].seen = 0;
-    if (r->options->observe || r->track) show(r, r->from.t);
+        r->track[i].samples = 0;
+    if (r->options->observe || r->track) observe_state(r, r->from.t);
     return FW_OK;
 }
 

@@ -21,7 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const double fw_statics_stability_growth = 2;
+/* what grows less has not left a thousandth of its way when the scene ends */
+static const double fw_least_growth = 2;
 static const double fw_left = 0.1;      /* of the way: it has left */
 static const double fw_most_work = 2e8; /* floating-point operations of all looks */
 enum { FW_LEAST_LOOKS = 2, FW_STEADY_LOOKS = 4, FW_MOST_LOOKS = 12, FW_MOST_BREAKS = 4096 };
@@ -297,5 +298,5 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     FW_NEED(k.shape = fw_arena_array(arena, double, n));
     FW_TRY(find_pieces(&k, &loads));
     FW_TRY(look_along(&k));
-    return k.growth >= fw_statics_stability_growth ? conclude(&k, diags, stability) : FW_OK;
+    return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }

@@ -46,7 +46,7 @@ typedef struct fw_verdict_strain_peak {
     double strain, t_s; /* largest so far, and when */
     double between;     /* what the parabola added to the largest sample: the error of the search */
     double t[2], s[2];  /* the last two instants */
-    int seen;
+    int samples;
 } fw_verdict_strain_peak;
 
 typedef struct fw_verdict_strain_monitor { /* of one run */

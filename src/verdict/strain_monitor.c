@@ -42,7 +42,7 @@ double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin) {
     double most = 0;
     for (int k = 0; k < tighter->mechanism->nhinge; k++)
-        if (tighter->hinge[k].seen > 0 && looser->hinge[k].seen > 0)
+        if (tighter->hinge[k].samples > 0 && looser->hinge[k].samples > 0)
             most = fmax(most, fabs(tighter->hinge[k].strain - looser->hinge[k].strain));
     return fw_strains_settle * margin * most;
 }
@@ -72,7 +72,7 @@ static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double be
    in: times s, strains; error O(spacing^3) of the peak's height, and `between` bounds it; cost none
    source: Newton's divided differences; test_watch.c finds_the_peak_between_instants */
 void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double strain) {
-    if (p->seen >= 2) {
+    if (p->samples >= 2) {
         double a = p->t[1] - p->t[0], b = t_s - p->t[1];
         double up = p->s[1] - p->s[0], down = strain - p->s[1];
         if (a > 0.0 && b > 0.0 && up >= 0.0 && down <= 0.0 && up - down > 0.0) {
@@ -87,7 +87,7 @@ void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double st
     p->s[0] = p->s[1];
     p->t[1] = t_s;
     p->s[1] = strain;
-    p->seen++;
+    p->samples++;
 }
 
 static double turned(const fw_mechanism *m, const fw_dynamics_instant *now, int body) {
@@ -118,7 +118,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
             start_counting(w, k);
             continue;
         }
-        if (now->begins) w->hinge[k].seen = 0; /* no parabola across a jump */
+        if (now->begins) w->hinge[k].samples = 0; /* no parabola across a jump */
         fw_verdict_hinge_load load = {
             now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
             now->reaction_N[2 * hinge->pin + 1],

@@ -118,9 +118,9 @@ typedef struct coordinates { /* of the box: how the platform depends on them */
    Rotations of both links from the drawn pose are those of a and b; with Q' the derivative of Q
      a' = (Q'.b)/(a x b),  b' = -(Q'.a)/(a x b)
    in: Q, Q' (n); out: psi of the leg's three hinges (base, elbow, platform), rad, the elbow's
-   place, a x b. Error: proved by maths_interval.h. Out of reach where h^2 < 0. Cost about 80 centred
-   operations, 20 where only the reach is wanted. Source: the velocity of Q = O + a + b, dotted with
-   b and with a. Test: test_loop.c.
+   place, a x b. Error: proved by maths_interval.h. Out of reach where h^2 < 0. Cost about 80
+   centred operations, 20 where only the reach is wanted. Source: the velocity of Q = O + a + b,
+   dotted with b and with a. Test: test_loop.c.
  */
 FW_CENTRED fw_workspace_reached solve(const fw_workspace_leg *leg, fw_workspace_centred2 q,
                                       const fw_workspace_centred2 *dq, const coordinates *on,

@@ -126,7 +126,7 @@ static void read_attributes(fw_xml_reader *r, fw_xml_record *record) {
 
 typedef struct walk {
     fw_xml_reader *r;
-    int seen[FW_ELEMENTS_MOST]; /* per row of the table */
+    int met[FW_ELEMENTS_MOST]; /* per row of the table */
     const fw_xml_element
         *once[FW_ELEMENTS_MOST]; /* the last one of a row that may stand once in its parent */
     bool needs;                  /* some row of the table is one that must be there */
@@ -145,8 +145,8 @@ static bool too_often(walk *w, const fw_xml_element *e, const fw_xml_element_row
         }
         w->once[k] = e;
     }
-    if (row->most == 0 || ++w->seen[k] <= row->most) return false;
-    if (w->seen[k] == row->most + 1)
+    if (row->most == 0 || ++w->met[k] <= row->most) return false;
+    if (w->met[k] == row->most + 1)
         fw_diag_error(r->diags, fw_xml_numbers_of(r, row)->most, e->place,
                       "more than %d <%s> elements; that is the limit", row->most, row->name);
     return true;

@@ -198,17 +198,17 @@ static fw_status check_value(const guard *g, const fw_xml_raw_attribute *a) {
     return check_references(g, a->value, a->value + a->value_length);
 }
 
-static fw_status check_twice(const guard *g, const fw_xml_raw_attribute *seen, int count,
+static fw_status check_twice(const guard *g, const fw_xml_raw_attribute *earlier, int count,
                              const fw_xml_raw_attribute *a) {
     for (int i = 0; i < count; i++)
-        if (seen[i].name_length == a->name_length &&
-            memcmp(g->xml.data + seen[i].name, g->xml.data + a->name, a->name_length) == 0)
+        if (earlier[i].name_length == a->name_length &&
+            memcmp(g->xml.data + earlier[i].name, g->xml.data + a->name, a->name_length) == 0)
             return fw_diag_error(g->diags, 13, place(g, a->name),
                                  "attribute '%.*s' is given twice (first at line %d, column %d); "
                                  "remove one",
                                  (int)(a->name_length < 64 ? a->name_length : 64),
-                                 g->xml.data + a->name, place(g, seen[i].name).line,
-                                 place(g, seen[i].name).column);
+                                 g->xml.data + a->name, place(g, earlier[i].name).line,
+                                 place(g, earlier[i].name).column);
     return FW_OK;
 }
 
@@ -225,7 +225,7 @@ static fw_status check_tag(guard *g) {
                              FW_XML_DEPTH_MOST);
     while (at < g->xml.n && !strchr(" \t\r\n/><", g->xml.data[at]))
         at++;
-    fw_xml_raw_attribute seen[FW_XML_ATTRIBUTES_MOST], a;
+    fw_xml_raw_attribute earlier[FW_XML_ATTRIBUTES_MOST], a;
     int count = 0;
     while (fw_xml_next_attribute(g->xml, at, &a)) {
         if (count == FW_XML_ATTRIBUTES_MOST)
@@ -237,8 +237,8 @@ static fw_status check_tag(guard *g) {
                 "more than %d attributes in the file; the limit keeps reading small",
                 FW_XML_ALL_ATTRIBUTES_MOST);
         FW_TRY(check_value(g, &a));
-        FW_TRY(check_twice(g, seen, count, &a));
-        seen[count++] = a;
+        FW_TRY(check_twice(g, earlier, count, &a));
+        earlier[count++] = a;
         at = a.value + a.value_length + 1;
         if (at > g->xml.n) at = g->xml.n;
     }

@@ -126,20 +126,12 @@ static void gaps_close(void **state) {
         for (int g = 0; g < 4; g++) {
             fw_flexure_hinge_law law = thin(100e-6, angle[i], 1e-6);
             fw_flexure_hinge_at at;
-            double th = fw_flexure_hinge_drift_reaches(&law, gap[g]);
-            fw_flexure_hinge_law_at(&law, th, &at);
-            double other = fabs(at.drift_m.value);
-            fw_flexure_hinge_law_at(&law, -th, &at);
-            assert_near(fmax(other, fabs(at.drift_m.value)), gap[g], 1e-6 * gap[g]);
             /* the table winds the arc and has one decimal */
             fw_flexure_hinge_law_at(&law, (deg[i][g] - 0.06) * degree, &at);
             assert_true(at.drift_m.value < gap[g]);
             fw_flexure_hinge_law_at(&law, (deg[i][g] + 0.06) * degree, &at);
             assert_true(at.drift_m.value > gap[g]);
-            assert_true(th > 0.9 * deg[i][g] * degree && th < (deg[i][g] + 0.06) * degree);
         }
-    fw_flexure_hinge_law stiff = thin(100e-6, 270, 1e-6);
-    assert_true(isnan(fw_flexure_hinge_drift_reaches(&stiff, 1e-3)));
 }
 
 /* derivatives against differences of order 6, through a = 0 and through where the series end */
