@@ -72,7 +72,7 @@ fw_script_test(gate.judge LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/
 fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/reference_check.py
                $<TARGET_FILE:accuracy_reference>)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
-fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR}/tests TIMEOUT 600)
+fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.sanitized build.threads build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
 

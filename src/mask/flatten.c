@@ -133,6 +133,7 @@ fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double toleranc
 void fw_mask_measure_start(fw_mask_measure *m) {
     m->shortest_edge_m = m->sharpest_rad = HUGE_VAL;
     m->sharpest_material_rad = m->sharpest_space_rad = HUGE_VAL;
+    m->edge_m = m->straight = 0;
     m->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 }
 

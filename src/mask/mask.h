@@ -106,8 +106,7 @@ typedef struct fw_mask_measure { /* per layer */
 #define FW_MASK_LOOK_M 100e-6
 
 /* where the edges of biased layers stand in the end, m outside the drawn ones, beside the open
- * field
- */
+   field */
 typedef struct fw_mask_edges {
     double top_m, bottom_m; /* what is known of both faces */
     double least_m, most_m; /* of the top face, at the ends of what is assumed; NaN: no range */

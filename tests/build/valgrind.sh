@@ -1,30 +1,38 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The hard suite, shortened by FW_TEST_QUICK, under valgrind: reads of what was never written, reads
-# and writes beyond what was allocated, leaks. valgrind.sh DIRECTORY-OF-PROGRAMS [case ...]
+# The program and some hard cases, shortened by FW_TEST_QUICK, under valgrind: reads of what was never
+# written, reads and writes beyond what was allocated, leaks. valgrind.sh DIRECTORY-OF-THE-BUILD [case ...]
 set -eu
 cd "$(dirname "$0")/../.."
 command -v valgrind >/dev/null || {
     echo "valgrind is not installed: skipped"
     exit 77
 }
-programs=$1
+build=$1
 shift
-# some forty times slower than alone: the cases that take it longer than fifteen seconds (flat, impacts,
-# memory, redundant; windows, dead_centre, masses, numbers, periods) run when they are named
-[ $# -gt 0 ] || set -- assembly pendulum snap squeezer start stiffness units
-export FW_TEST_QUICK=1
 status=0
-for name in "$@"; do
-    log=$(mktemp)
-    if valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite \
-        "$programs/test_hard_$name" >"$log" 2>&1; then
-        echo "hard.$name: clean"
+log=$(mktemp) out=$(mktemp -d)
+trap 'rm -rf "$log" "$out"' EXIT
+clean() { # NAME COMMAND ...
+    name=$1
+    shift
+    if valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite "$@" >"$log" 2>&1; then
+        echo "$name: clean"
     else
-        echo "hard.$name: FAILED"
+        echo "$name: FAILED"
         cat "$log"
         status=1
     fi
-    rm -f "$log"
+}
+# all rooms: judged, drawn, written; then a motion
+if [ $# -eq 0 ]; then
+    clean plan "$build/flexwright" plan docs/gallery/leaf-four-bar/device.xml --accuracy 3e-2 --advice none -q -o "$out"
+    clean simulate "$build/flexwright" simulate docs/gallery/reference-six-bar/device.xml --accuracy 3e-2 --json
+fi
+# some forty times slower than alone: the others take it longer than ten seconds and run when they are named
+[ $# -gt 0 ] || set -- pendulum snap squeezer
+export FW_TEST_QUICK=1
+for name in "$@"; do
+    clean "hard.$name" "$build/tests/test_hard_$name"
 done
 exit $status

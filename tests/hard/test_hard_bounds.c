@@ -6,7 +6,7 @@
 static void test_bounds_are_honest(void **state) {
     (void)state;
     const char *first = getenv("FW_BOUNDS_FIRST"), *count = getenv("FW_BOUNDS_COUNT");
-    bounds_check(first ? strtoull(first, NULL, 10) : 1000, count ? atoi(count) : 600);
+    bounds_check(first ? strtoull(first, NULL, 10) : 1000, count ? atoi(count) : 200);
 }
 
 int main(void) {

@@ -24,10 +24,10 @@ static double largest_angle(const fw_dynamics_motion *m) {
     return most;
 }
 
-/* 200 of them; a third under a load that swings */
+/* 80 of them; a third under a load that swings */
 static void random_mechanisms(void **state) {
     (void)state;
-    int count = hard_quick() ? 8 : 200, sticking = 0, jams = 0;
+    int count = hard_quick() ? 8 : 80, sticking = 0, jams = 0;
     double energy = 0;
     long events = 0, most = 0;
     for (int c = 0; c < count; c++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A hundred thousand periods of a linkage without damping. Hard because the round-off of some
+/* Twenty thousand periods of a linkage without damping. Hard because the round-off of some
    millions of steps adds up: in the energy, in the phase, and, were it not for the projection, in
    the joints, where it would grow and not merely add. */
 #include "hard.h"
@@ -24,7 +24,7 @@ static rig oscillator(fw_arena *arena, double amplitude, double *omega) {
 
 static void test_periods(void **state) {
     (void)state;
-    long periods = hard_quick() ? 300 : 100000;
+    long periods = hard_quick() ? 300 : 20000;
     double omega, amplitude = 0.8;
     for (int e = 9; e <= 12; e += 3) {
         fw_arena *arena = fw_arena_new(0);

@@ -74,7 +74,7 @@ static void a_verdict_never_flips(void **state) {
     (void)state;
     const char *from = getenv("FW_VERDICT_FIRST"), *count = getenv("FW_VERDICT_COUNT");
     uint64_t first = from ? strtoull(from, NULL, 10) : 1;
-    int most = count ? atoi(count) : hard_quick() ? 20 : 1000;
+    int most = count ? atoi(count) : hard_quick() ? 20 : 300;
     tally n = {0};
     for (int i = 0; i < most; i++)
         one(first + (uint64_t)i, &n);

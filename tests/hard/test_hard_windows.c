@@ -171,7 +171,7 @@ static fw_multibody_method chain_with_shift(void) {
 /* bare model: also at 1e-4, which the program would tighten to 1e-5 */
 static void test_ablation_shift(void **state) {
     (void)state;
-    static const double epsilon[] = {1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 0};
+    static const double epsilon[] = {1e-8, 1e-10, 0};
     static const int row[] = {0, 1, 2, 3, 4};
     const fw_multibody_method method = chain_with_shift();
     int most = hard_quick() ? 2 : 5;
@@ -219,7 +219,7 @@ static void test_every_method(void **state) {
     for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
         int right = 0, refused = 0, wrong = 0;
         const char *said = "";
-        for (int k = 0; k < (hard_quick() ? 1 : 3); k++)
+        for (int k = 0; k < (hard_quick() ? 1 : 2); k++)
             for (int e = 8; e <= 11; e++) {
                 fw_arena *arena = fw_arena_new(0);
                 static char copy[400];

@@ -28,6 +28,7 @@ static fw_design *fresh(const char *file) {
     fw_design_options o = fw_design_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.samples = 51;
+    o.accuracy = 3e-2;
     fw_design *design = fw_design_new(&o);
     if (design && fw_design_read(design, file) != FW_STATUS_OK) {
         fw_design_free(design);
