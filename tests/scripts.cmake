@@ -74,7 +74,7 @@ fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/r
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.sanitized build.threads build.bytes fuzz.device effects.absent PROPERTIES RUN_SERIAL ON)
+set_tests_properties(build.sanitized PROPERTIES RUN_SERIAL ON) # two at a time within
 
 include(serve/serve.cmake)
 include(web/web.cmake)
