@@ -16,6 +16,7 @@ function(fw_script_test name)
 endfunction()
 
 fw_script_test(arch.rooms LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/rooms.py)
+fw_script_test(arch.circles LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/circles.py ${PROJECT_BINARY_DIR})
 fw_script_test(arch.constants LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/constants.py)
 # a law, an effect and a format that the program does not have, each one file and one row
 fw_script_test(arch.additions TIMEOUT 600 COMMAND ${Python3_EXECUTABLE} tests/arch/additions.py ${PROJECT_BINARY_DIR})
