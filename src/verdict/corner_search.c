@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One device at a point of the ranges of a flow: built, judged as closely as its decision needs,
-   and what of it is kept. Theory: docs/theory/as-fabricated.md. */
+   and what of it is kept; then which of these ranges would have to be narrower. Called a corner
+   here, as in the tables of results, even where only one input is off its nominal value.
+   Theory: docs/theory/as-fabricated.md. */
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 
-/* "12.5 um" of an input */
+/* "12.5 um": a value of an input in the unit of its process pack */
 static const char *value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
                               double x) {
     fw_quantity q = input->q;
@@ -16,7 +18,8 @@ static const char *value_text(fw_arena *arena, const fw_verdict_fabrication_inpu
     return fw_arena_printf(arena, "%s%s%s", text, unit ? " " : "", unit ? q.unit : "");
 }
 
-static fw_status describe(fw_verdict_search *s, const double *x, const char **what) {
+/* the inputs that are off their nominal values: "printed edge -0.15 um, thickness 49 um" */
+static fw_status describe(const fw_verdict_search *s, const double *x, const char **what) {
     fw_text text = fw_text_new(s->arena);
     for (int i = 0; i < s->v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &s->v->input[i];
@@ -31,7 +34,11 @@ static fw_status describe(fw_verdict_search *s, const double *x, const char **wh
     return FW_OK;
 }
 
-/* checks of one run: utilisation of each hinge in each scene, and how near pull-in is */
+/* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
+   hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
+   over the one that there is, which like a utilisation is 1 at its limit. Logarithms, because the
+   estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
+   less than 1e-9 of its limit, which no corner brings near it. */
 static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                         double *ln) {
     int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
@@ -44,8 +51,8 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     }
 }
 
-/* the first reason beside the hinges */
-static fw_status take_reason(fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+/* the first reason beside the hinges; the workspace goes before all others */
+static fw_status take_reason(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                              fw_verdict_fabricated_corner *corner) {
     const char *why = NULL;
     for (int i = 0; i < now->nreason && !why; i++) {
@@ -67,7 +74,7 @@ static const char *last_error(const fw_diags *diags) {
 }
 
 /* copies what stays: the run's own arena is given back */
-static fw_status take(fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                       fw_verdict_fabricated_corner *corner, double *ln) {
     for (int k = 0; k < s->v->nhinge; k++) {
         corner->hinge[k] = now->hinge[k];
@@ -79,23 +86,27 @@ static fw_status take(fw_verdict_search *s, const fw_verdict_variant_verdict *no
     return FW_OK;
 }
 
+/* accuracy asked for; 1e-3 is that of a request that names none */
 static double wanted(const fw_verdict_options *o) {
     return o->motion.accuracy > 0 ? o->motion.accuracy : 1e-3;
 }
 
-/* Options of the next look, where numbers may decide: what was asked for, then as much closer as
-   seems to be needed, then as close as it gets. false: there is none. */
+/* Options of the next look at a point that tighter numbers may still decide: first the accuracy
+   that was asked for, then at least ten times tighter and as tight as the bands seem to need, then
+   the tightest there is, to which a step that would end within 3 times of it goes at once. What
+   needs a better model of its hinges stays undecided here. false: no look is left. */
 static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                    fw_verdict_options *options) {
     double asked = wanted(&s->options), had = wanted(options);
-    bool own = s->options.motion.rtol == 0; /* else the accuracy says nothing of the numbers */
+    /* else the caller has set the tolerances of the integrator, and no accuracy goes with them */
+    bool steered = s->options.motion.rtol == 0;
     fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
     if (options->at_a_glance || refinement != FW_REFINE_NUMBERS) return false;
     if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
-    bool coarse = own && had > asked;
+    bool coarse = steered && had > asked;
     double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
     *options = coarse ? s->options : fw_verdict_tighter(&s->options, refinement);
-    if (own && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
+    if (steered && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
     return true;
 }
 
@@ -115,13 +126,15 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     return FW_OK;
 }
 
-/* what the flow makes may be just what was drawn, and that has been judged */
+/* What the flow makes may be just what was drawn: that has been judged, and is not run again. */
 static bool as_drawn(const fw_verdict_fabrication *fabricated) {
     return fabricated->edge_m == 0.0 && fabricated->flare_m == 0.0 &&
            fabricated->thickness_ratio == 1.0 && fabricated->youngs_ratio == 1.0;
 }
 
-static fw_status judge_point(fw_verdict_search *s, fw_arena *scratch, const double *x,
+/* A flexure that is cut through rejects the point; a device that cannot be built or run leaves it
+   inconclusive, with the last error as the reason. */
+static fw_status judge_point(const fw_verdict_search *s, fw_arena *scratch, const double *x,
                              fw_verdict_fabricated_corner *corner, double *ln) {
     fw_verdict_fabrication fabricated = fw_verdict_fabrication_at(s->v->input, s->v->ninput, x);
     fw_verdict_fabricated_device *device = fw_arena_one(scratch, fw_verdict_fabricated_device);
@@ -147,7 +160,8 @@ static fw_status judge_point(fw_verdict_search *s, fw_arena *scratch, const doub
     return FW_OK;
 }
 
-static fw_status run_point(fw_verdict_search *s, const double *x,
+/* runs the device at x into `corner` and ln (ncheck); nothing is added to the search */
+static fw_status run_point(const fw_verdict_search *s, const double *x,
                            fw_verdict_fabricated_corner *corner, double *ln) {
     size_t n = (size_t)s->v->ninput, h = (size_t)s->v->nhinge;
     double *kept;
@@ -169,6 +183,7 @@ static fw_status run_point(fw_verdict_search *s, const double *x,
     return status;
 }
 
+/* bit for bit: where the two are one corner, both were made from the same ends of ranges */
 static bool is_known(const fw_verdict_search *s, const double *x) {
     return s->known && memcmp(s->known->x, x, (size_t)s->v->ninput * sizeof *x) == 0;
 }
@@ -176,7 +191,7 @@ static bool is_known(const fw_verdict_search *s, const double *x) {
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits) {
     fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     int point = fabricated->ncorner;
-    if (point >= FW_MOST_POINTS) return FW_OK;
+    if (point >= FW_MOST_POINTS) return FW_OK; /* never: there is room for all that is ever run */
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
     if (is_known(s, x)) {
         fabricated->corner[point] = *s->known;
@@ -189,13 +204,12 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     return FW_OK;
 }
 
-/* the same without keeping: is it accepted? */
+/* the same without keeping it as a corner: is it accepted? */
 static fw_status point_accepts(const fw_verdict_search *s, const double *x, bool *accepted) {
-    fw_verdict_search quiet = *s;
     fw_verdict_fabricated_corner corner;
     double *ln;
     FW_NEED(ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
-    FW_TRY(run_point(&quiet, x, &corner, ln));
+    FW_TRY(run_point(s, x, &corner, ln));
     *accepted = corner.decision == FW_ACCEPT;
     return FW_OK;
 }
@@ -204,9 +218,9 @@ static fw_status point_accepts(const fw_verdict_search *s, const double *x, bool
    What would have to be known or held better so that everything a flow may make is accepted: the
    one input that does it alone, by how much; else the share of all ranges. */
 
-enum { HALVINGS = 8 };
+enum { HALVINGS = 8 }; /* to 1/256 of a range: what is said is rounded to about a hundredth */
 
-typedef struct box {
+typedef struct box { /* the ranges, made narrower */
     double low[FW_FABRICATION_INPUTS], high[FW_FABRICATION_INPUTS];
 } box;
 
@@ -217,8 +231,10 @@ static box whole(const fw_verdict_variant_verdict *v) {
     return b;
 }
 
-/* every device that was not accepted, moved to where the smaller box ends; the governing one first:
-   it is the likeliest to fail again */
+/* Is all of a smaller box accepted? Every device that was not is moved to where the box ends and is
+   run there. One that was accepted is not run again: the search takes utilisations to be monotone
+   in each input, so that moving it inwards does not make it the worst one. The governing device is
+   the first: it is the likeliest to fail again. */
 static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *accepted) {
     const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     *accepted = true;
@@ -236,6 +252,7 @@ static fw_status box_accepts(const fw_verdict_search *s, const box *b, bool *acc
 
 /* ---- one input alone ---- */
 
+/* the largest check of the governing hinge at the governing point; FW_NONE: no hinge governs */
 static int governing_check(const fw_verdict_search *s) {
     const fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     int checks = s->device->nscene + 1, check = FW_NONE;
@@ -246,23 +263,29 @@ static int governing_check(const fw_verdict_search *s) {
     return check;
 }
 
-/* how much of the governing utilisation an input makes, ln, and at which end; without a check (a
-   flexure is gone) the end that the point is at */
+/* How much an input makes of the governing check, as the change of ln U over its range, and which
+   end of the range is the bad one. Where there is no slope (no hinge governs, because a flexure is
+   gone): by how many micrometres the input has moved edges at the governing point, for it is the
+   edges that cut a flexure through, and the end on whose side that point is. Only the order of the
+   inputs counts: it is that in which they are tried. */
 static double weight(const fw_verdict_search *s, int check, int i, bool *low_is_bad) {
     const fw_verdict_fabrication_input *in = &s->v->input[i];
     double range = in->high - in->low, x = s->fabricated->corner[s->fabricated->at].x[i];
     double slope = check == FW_NONE ? (double)NAN : s->slope[check * s->v->ninput + i];
     *low_is_bad = isnan(slope) || slope == 0.0 ? x < in->nominal : slope < 0.0;
-    if (isnan(slope)) return fabs(x - in->nominal) * fabs(in->edge_m) * 1e6; /* um: edges cut */
+    if (isnan(slope)) return fabs(x - in->nominal) * fabs(in->edge_m) * 1e6;
     return fabs(slope) * range;
 }
 
-/* rounded towards the good end, to a hundredth of the range and better */
+/* rounded towards the good end, so that what is said is accepted: to the power of ten between a
+   thousandth and a hundredth of the range; a value that is round but for 1e-9 of that stays */
 static double rounded(double x, double range, bool up) {
     double unit = pow(10.0, floor(log10(range)) - 2.0);
     return unit * (up ? ceil(x / unit - 1e-9) : floor(x / unit + 1e-9));
 }
 
+/* Moves the bad end of input i towards its good one, by bisection, until all is accepted. *done
+   false: not even the good end alone is enough. */
 static fw_status hold_one(fw_verdict_search *s, int i, bool low_is_bad, bool *done) {
     const fw_verdict_fabrication_input *in = &s->v->input[i];
     double bad = low_is_bad ? in->low : in->high, good = low_is_bad ? in->high : in->low;
@@ -303,8 +326,10 @@ static fw_status report_one(fw_verdict_search *s, bool low_is_bad) {
 
 /* ---- all of them ---- */
 
+/* the share of all ranges, about the nominal values, at which everything is accepted */
 static fw_status hold_all(fw_verdict_search *s) {
     double bad = 1.0, good = 0.0;
+    /* corner 0 is the nominal device: where it is not accepted no share of the ranges is */
     if (s->fabricated->corner[0].decision != FW_ACCEPT) {
         s->fabricated->control =
             "no single input of the flow, even held at its best value, makes the design "
@@ -337,6 +362,7 @@ static fw_status hold_all(fw_verdict_search *s) {
     return FW_OK;
 }
 
+/* the inputs one by one, the one that makes most of the governing check first; then all together */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
     int check = governing_check(s), n = s->v->ninput;
     bool tried[FW_FABRICATION_INPUTS] = {false}, done = false;

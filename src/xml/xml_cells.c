@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of attributes: words, ids, references and expressions with their ranges. */
+/* Values of attributes, read into the cells of a record: words, ids and expressions with their
+   ranges. A mistake is reported once, where it is: what depends on it stays without a value in
+   silence. Numbers of diagnostics that all files share stand here; the others are the table's
+   (fw_xml_numbers). */
 #include "xml/xml_reader.h"
 #include <ctype.h>
 #include <math.h>
@@ -56,6 +59,7 @@ const char *fw_xml_in_unit(char buffer[FW_LABEL], double value, const char *unit
     fw_quantity_unit u = {.factor = 1.0};
     bool pure = !unit || strcmp(unit, "1") == 0;
     if (!pure) fw_quantity_unit_parse(unit, strlen(unit), &u, NULL, NULL);
+    /* 40 bytes hold any number; the rest of the buffer is for the unit */
     fw_number_text(buffer, 40, fw_quantity_unit_from_si(&u, value), 6);
     if (!pure) snprintf(buffer + strlen(buffer), FW_LABEL - strlen(buffer), " %s", unit);
     return buffer;
@@ -99,6 +103,7 @@ static bool id_valid(const char *id, bool hyphen) {
     return true;
 }
 
+/* wanted NULL: any dimension, which comes back in *found */
 static fw_status read_expression(fw_xml_reader *r, const fw_xml_attribute *a,
                                  const fw_quantity_dimension *wanted, fw_quantity_dimension *found,
                                  double *value, fw_quantity_expression_error *error) {
@@ -110,10 +115,11 @@ static fw_status read_expression(fw_xml_reader *r, const fw_xml_attribute *a,
                                            value, error);
 }
 
-/* Is a name unknown, while one that is declared (<parameter>) could not be read? That one is
-   reported, and it may be the one that is used here. */
-static bool may_be_nameless(const fw_xml_reader *r, const fw_xml_attribute *a,
-                            const fw_quantity_expression_error *error) {
+/* Is a name unknown (FW-D22), while that of some <parameter> could not be read? That mistake has
+   been reported, and it may be this very name: to miss it here as well would report one mistake
+   twice. A reserved word, a unit or a function, is never the name of a parameter. */
+static bool may_be_unread_name(const fw_xml_reader *r, const fw_xml_attribute *a,
+                               const fw_quantity_expression_error *error) {
     if (error->number != 22 || !r->table->names || !r->broken[r->table->names]) return false;
     char word[65];
     size_t n = strspn(a->value + error->offset,
@@ -126,19 +132,20 @@ static bool may_be_nameless(const fw_xml_reader *r, const fw_xml_attribute *a,
 
 fw_status fw_xml_expression_report(fw_xml_reader *r, const fw_xml_attribute *a, const char *what,
                                    size_t part, const fw_quantity_expression_error *error) {
-    fw_quantity_expression_error whole = *error;
-    whole.offset += part;
-    if (may_be_nameless(r, a, &whole)) return FW_OK;
-    if (a->place.line == 0)
+    fw_quantity_expression_error in_value = *error;
+    in_value.offset += part;
+    if (may_be_unread_name(r, a, &in_value)) return FW_OK;
+    if (a->place.line == 0) /* from --set: there is no line to point into, so the text is shown */
         fw_diag_error(r->diags, error->number, a->place, "%s=\"%s\": %s", what, a->value,
                       error->message);
     else
-        fw_diag_error(r->diags, error->number, fw_xml_inside(a, whole.offset), "%s: %s", what,
+        fw_diag_error(r->diags, error->number, fw_xml_inside(a, in_value.offset), "%s: %s", what,
                       error->message);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* FW_INPUT: the expression is wrong, and `error` says how */
+/* FW_INPUT: the expression is wrong, and `error` says how. FW_OK with *ok false: nothing is to be
+   said, because the report is full or the expression uses a name whose own value has failed. */
 static fw_status evaluate(fw_xml_reader *r, const fw_xml_attribute *a,
                           const fw_quantity_dimension *wanted, fw_quantity_dimension *found,
                           double *value, bool *ok, fw_quantity_expression_error *error) {
@@ -183,14 +190,16 @@ static int count_unit(const char *text, const char *unit) {
     return count;
 }
 
-/* "20 Cel" is 293.15 K, which as a difference nobody means; "80 Cel - 20 Cel" is 60 K */
+/* "20 Cel" is 293.15 K, which as a difference nobody means; "80 Cel - 20 Cel" is 60 K. Each reading
+   in degrees Celsius brings 273.15 K along, and in a difference they cancel in pairs: so an odd
+   number of them is wrong. An even number may be wrong too (a sum); that is not looked for. */
 static void check_difference(fw_xml_reader *r, const fw_xml_record *record,
                              const fw_xml_attribute_row *row, fw_xml_cell *cell) {
     const char *text = cell->given->value;
-    int points = count_unit(text, "Cel");
+    int readings = count_unit(text, "Cel");
     for (size_t i = 0; i < r->ncelsius; i++)
-        points += fw_quantity_expression_uses(text, strlen(text), &r->celsius[i], 1);
-    if (points % 2 == 0) return;
+        readings += fw_quantity_expression_uses(text, strlen(text), &r->celsius[i], 1);
+    if (readings % 2 == 0) return;
     char label[FW_LABEL];
     cell->ok = false;
     fw_diag_error(
@@ -200,11 +209,13 @@ static void check_difference(fw_xml_reader *r, const fw_xml_record *record,
         fw_xml_label(record, label), row->name);
 }
 
-/* the range, and whether it is whole */
+/* The range, and whether it is whole. A value may be beyond a bound by 1e-12 of it: that is
+   rounding, for "330 deg" in radians need not have the bits of a bound of 330 deg. A lower bound
+   that is itself excluded is taken as it is. */
 static void check_number(fw_xml_reader *r, const fw_xml_record *record,
                          const fw_xml_attribute_row *row, fw_xml_cell *cell) {
-    const double least = row->min - 1e-12 * fabs(row->min); /* a hair beyond a bound is rounding: */
-    const double most = row->max + 1e-12 * fabs(row->max);  /* "330 deg" must pass */
+    const double least = row->min - 1e-12 * fabs(row->min);
+    const double most = row->max + 1e-12 * fabs(row->max);
     if (row->ranged &&
         ((row->open ? cell->number <= row->min : cell->number < least) || cell->number > most)) {
         cell->ok = false;
@@ -219,6 +230,7 @@ static void check_number(fw_xml_reader *r, const fw_xml_record *record,
     }
 }
 
+/* a wrong expression has the table's number where that has one for it, else the expression's own */
 static fw_status read_number(fw_xml_reader *r, const fw_xml_record *record,
                              const fw_xml_attribute_row *row, fw_xml_cell *cell) {
     const fw_xml_numbers *numbers = fw_xml_numbers_of(r, record->row);
@@ -252,12 +264,15 @@ static void read_decimal(fw_xml_reader *r, const fw_xml_record *record,
                       record->row->name, row->name, a->value);
 }
 
+/* text (n) among the words; -1: it is none of them */
 static int word_index(const char *const *words, const char *text, size_t n) {
     for (int i = 0; words[i]; i++)
         if (strlen(words[i]) == n && memcmp(words[i], text, n) == 0) return i;
     return -1;
 }
 
+/* `text` (n) is none of the words: says which there are, and which one it may have been. No such
+   search where the report is full, for it would not be seen. */
 static void say_word(fw_xml_reader *r, const fw_xml_record *record, const fw_xml_attribute_row *row,
                      const fw_xml_attribute *a, const char *text, size_t n) {
     char list[256] = "", wrong[65] = "";
@@ -280,7 +295,7 @@ static void read_word(fw_xml_reader *r, const fw_xml_record *record,
     if (!cell->ok) say_word(r, record, row, a, a->value, strlen(a->value));
 }
 
-/* every wrong one is said */
+/* words with blanks between; every wrong one is reported */
 static void read_words(fw_xml_reader *r, const fw_xml_record *record,
                        const fw_xml_attribute_row *row, fw_xml_cell *cell) {
     const fw_xml_attribute *a = cell->given;
@@ -359,9 +374,10 @@ static fw_status read_cell(fw_xml_reader *r, const fw_xml_record *record, int i)
     case FW_KIND_TIMED:
     case FW_KIND_TABLE:
         cell->ok = true;
-        break; /* references wait until all ids are known, laws until their use is */
+        break; /* References wait until all ids are known; laws and tables in time until it is
+                  known what they drive, and so their dimension. */
     case FW_KIND_ANY:
-        break; /* its dimension is not known here: device/parameter.c */
+        break; /* The value of a parameter: device/parameter.c reads it. */
     }
     return FW_OK;
 }
@@ -370,6 +386,9 @@ static bool is_number(fw_xml_kind kind) {
     return kind == FW_KIND_NUMBER || kind == FW_KIND_DECIMAL;
 }
 
+/* All numbers, or all else. Numbers come second, because expressions use the names that are read
+   first. An element that stands apart is read by a function of its own. A key that failed is noted
+   for its space: whoever misses that id later keeps silent. */
 static fw_status read_cells(fw_xml_reader *r, bool numbers) {
     for (int k = 0; k < r->nrecord; k++) {
         const fw_xml_record *record = &r->record[k];
