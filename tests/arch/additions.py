@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A row is enough: a time law, an effect, a kind of hinge, a method of constrained dynamics, an integrator, a mask format,
-a design rule, a test pattern, a coupon, a command and an endpoint that the program does not have
+a design rule, a test pattern, a coupon, a time law of a process, a command and an endpoint that the program does not have
 (tests/arch/additions/*.patch, each of one new file and one line in a list; an endpoint is a function beside its row) are
 added to a copy of the sources, and everything that should know of them is asked: simulate, the advice of check, hinge,
 the report, tradeoff, --help, the reference page and the page's form.
@@ -252,7 +252,7 @@ def check(copy):
     assert any(m["name"] == "heun" for m in form["integrators"]), form["integrators"]
     pages.append("the page's form")
 
-    # what a laboratory adds: a rule and a pattern of a layer table, a coupon
+    # what a laboratory adds: a rule and a pattern of a layer table, a step's time law, a coupon
     for part in ("processes", "masks"):
         shutil.copytree(ROOT / part, at / part)
     table = at / "masks/al-masked-rie.xml"
@@ -266,6 +266,21 @@ def check(copy):
     certificate = next((out / "masks").glob("*-rie.json")).read_text()
     expect("the certificate", certificate, '"extent"')
     expect("the list of patterns", next((out / "masks").glob("*-coupons.json")).read_text(), "a-block", "block")
+    pack = at / "processes/al-masked-rie.xml"
+    text = pack.read_text()
+    rate = '<time law="rate" overrun="0" k="2"><arg name="thickness" q="litho.resist"/><arg name="rate" q="bake.rate"/>'
+    pack.write_text(text.replace(rate, rate.replace('"rate"', '"twice"', 1)))
+    run("recipe", small, "--flow", "al-masked-rie", "-o", out, "--force")
+    steps = json.loads((out / "recipes/al-masked-rie.json").read_text())["steps"]
+    bake, = (s for s in steps if s["title"] == "Soft bake")
+    assert bake["law"] == "twice" and abs(bake["time_s"]["nominal"] - 240) < 1e-6, bake
+    pages.append("the recipe")
+    pack.write_text(text.replace(rate, rate.replace('"rate"', '"twise"', 1)))
+    said = subprocess.run([program, "recipe", small, "--flow", "al-masked-rie", "-o", out, "--force"],
+                          capture_output=True, text=True)
+    expect("the time law that was meant", said.stderr, "twice")
+    pack.write_text(text)
+
     measured = at / "measured.csv"
     measured.write_text("coupon,feature,drawn_um,measured,u,unit\ncaliper,al.d,,1.02,0.01,um\ncaliper,al.d,,1.03,0.01,um\n")
     pack = at / "laboratory.xml"
