@@ -113,10 +113,18 @@ static fw_status pair(fw_study_problem *p, fw_study_tradeoff *t, const char *met
     return FW_OK;
 }
 
+/* room for all names of a table */
+static const char **names(fw_arena *arena, fw_multibody_method_row (*at)(size_t)) {
+    size_t n = 0;
+    while (at(n).name)
+        n++;
+    return fw_arena_array(arena, const char *, n);
+}
+
 /* methods by what a right-hand side costs */
-static int by_cost(const fw_study_problem *p, const char *name[FW_TRADEOFF_NAMES]) {
+static int by_cost(const fw_study_problem *p, const char **name) {
     int n = 0;
-    for (size_t i = 0; fw_multibody_method_at(i).name && n < FW_TRADEOFF_NAMES; i++) {
+    for (size_t i = 0; fw_multibody_method_at(i).name; i++) {
         int at = n++;
         const char *mine = fw_multibody_method_at(i).name;
         for (; at > 0 && fw_study_cost_rhs(p, name[at - 1]) > fw_study_cost_rhs(p, mine); at--)
@@ -126,9 +134,9 @@ static int by_cost(const fw_study_problem *p, const char *name[FW_TRADEOFF_NAMES
     return n;
 }
 
-static int integrators(const char *name[FW_TRADEOFF_NAMES]) {
+static int integrators(const char **name) {
     int n = 0;
-    for (size_t i = 0; fw_dynamics_integrator_at(i).name && n < FW_TRADEOFF_NAMES; i++)
+    for (size_t i = 0; fw_dynamics_integrator_at(i).name; i++)
         if (strcmp(fw_dynamics_integrator_at(i).name, "auto") != 0)
             name[n++] = fw_dynamics_integrator_at(i).name;
     return n;
@@ -143,7 +151,9 @@ static const char *known_or(const char *name, const char *otherwise, const char 
 }
 
 fw_status fw_study_tradeoff_grid(fw_study_problem *p, fw_study_tradeoff *t) {
-    const char *method[FW_TRADEOFF_NAMES], *integrator[FW_TRADEOFF_NAMES];
+    const char **method, **integrator;
+    FW_NEED(method = names(p->arena, fw_multibody_method_at));
+    FW_NEED(integrator = names(p->arena, fw_dynamics_integrator_at));
     int m = by_cost(p, method), n = integrators(integrator);
     size_t most = (size_t)(m * n) * FW_TRADEOFF_TOLERANCES + (size_t)t->npoint;
     fw_study_tradeoff_point *all = fw_arena_array(p->arena, fw_study_tradeoff_point, most);

@@ -7,7 +7,7 @@
 #define FW_STUDY_TRADEOFF_H
 #include "plan/plan.h"
 
-enum { FW_TRADEOFF_TOLERANCES = 9, FW_TRADEOFF_NAMES = 24 };
+enum { FW_TRADEOFF_TOLERANCES = 9 };
 
 typedef enum fw_study_tradeoff_state {
     FW_TRADEOFF_DONE,
