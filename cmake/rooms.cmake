@@ -54,11 +54,18 @@ endforeach()
 
 # The kernel of the right-hand side once more for lanes of designs, chosen at run time. These may contract
 # products and sums; the kernel of one design, which the room has compiled above, may not.
+set(kernel_level -O3)
+if(FW_SANITIZE)
+    # unrolled lines with a check at each take clang nine minutes; AddressSanitizer sees where a wrong pointer goes
+    set(kernel_level "")
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/multibody/kernel_blocks.c PROPERTIES
+                                COMPILE_OPTIONS -fno-sanitize=pointer-overflow)
+endif()
 function(fw_kernel_lanes name width)
     add_library(fw_kernel_${name} OBJECT ${PROJECT_SOURCE_DIR}/src/multibody/kernel_blocks.c)
     target_compile_definitions(fw_kernel_${name} PRIVATE FW_W=${width} FW_BRIEF=1 FW_CORE=fw_multibody_core_${name}
                                                          FW_CORE_NAME="${name}")
-    target_compile_options(fw_kernel_${name} PRIVATE -O3 -mfma -ffp-contract=fast ${ARGN})
+    target_compile_options(fw_kernel_${name} PRIVATE ${kernel_level} -mfma -ffp-contract=fast ${ARGN})
     target_sources(fw_multibody PRIVATE $<TARGET_OBJECTS:fw_kernel_${name}>)
 endfunction()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
