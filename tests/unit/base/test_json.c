@@ -131,7 +131,7 @@ static unsigned draw(unsigned *seed, unsigned n) {
 /* writes a random value and builds the same one with the other library */
 static json_t *random_value(fw_json *json, const char *key, unsigned *seed, int depth) {
     unsigned kind = draw(seed, depth > 3 ? 4 : 6);
-    char name[8];
+    char name[16];
     if (kind == 0) {
         long value = (long)draw(seed, 100000) - 50000;
         fw_json_whole(json, key, value);
