@@ -72,7 +72,7 @@ def ledger(document, what):
 
 
 for section, command in RUNS:
-    done = subprocess.run([program, *command, "--json"], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([program, *command, "--json"], cwd=ROOT, capture_output=True, text=True, timeout=240)
     if done.returncode not in (0, 1, 4):
         problems.append(f"{' '.join(command)}: status {done.returncode}\n{done.stderr}")
         continue
@@ -86,15 +86,15 @@ with tempfile.TemporaryDirectory() as here:
     log = ["log", SIX, "--flow", "copper-on-porous-silicon", "--run", f"{here}/run.log"]
     for words in ("C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; copper bright in the mould=yes",
                   "C22; start=2026-11-20T10:30; end=2026-11-20T10:52; by=AB; second=CD; tool=p; bath=7; thickness=9; note=x"):
-        subprocess.run([program, *log, "--lot", "7", "--entry", words], cwd=ROOT, capture_output=True, timeout=120)
-    walk(json.loads(subprocess.run([program, *log, "--json"], cwd=ROOT, capture_output=True, timeout=120).stdout), "as-run")
+        subprocess.run([program, *log, "--lot", "7", "--entry", words], cwd=ROOT, capture_output=True, timeout=240)
+    walk(json.loads(subprocess.run([program, *log, "--json"], cwd=ROOT, capture_output=True, timeout=240).stdout), "as-run")
     subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
-                   timeout=120)
+                   timeout=240)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
     walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
     walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.sections.json").read_text()), "sections")
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
-                   timeout=120)
+                   timeout=240)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")
 
 # documents of the page, and requests as they are explained
