@@ -119,12 +119,12 @@ void fw_svg_begin(fw_text *out, const fw_svg_frame *f) {
     fw_text_add(out, ">\n");
 }
 
-void fw_svg_begin_picture(fw_text *out, double width, double height) {
+void fw_svg_begin_picture(fw_text *out, double width, double height, bool file) {
     fw_svg_begin(out, &(fw_svg_frame){.width = width,
                                       .height = height,
                                       .decimals = 2,
                                       .size = FW_SVG_SIZE_BEHIND,
-                                      .file = true,
+                                      .file = file,
                                       .lead = "role='img'",
                                       .font = fw_svg_font_page});
 }

@@ -46,8 +46,8 @@ typedef struct fw_svg_frame {
 extern const char fw_svg_font_page[], fw_svg_font_sheet[], fw_svg_font_step[];
 
 void fw_svg_begin(fw_text *out, const fw_svg_frame *frame);
-/* the frame of a report's picture in a file of its own */
-void fw_svg_begin_picture(fw_text *out, double width, double height);
+/* the frame of a report's picture: in a file of its own, or in a page */
+void fw_svg_begin_picture(fw_text *out, double width, double height, bool file);
 /* a line of its own: what a screen reader says and a pointer shows */
 void fw_svg_title(fw_text *out, const char *format, ...);
 /* fills the picture: viewers with a dark background show it otherwise */

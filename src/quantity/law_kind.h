@@ -66,9 +66,8 @@ struct fw_quantity_law_kind {
     const char *name;   /* as in law="..." */
     const char *factor; /* what it is, for the reference page; `attribute` in back quotes */
     const char *words;  /* in reports, behind "times a NAME": {attribute} stands for its value, and
-                           what is in [] is  left out where the attribute inside has the value that
-                           it
-                           has when it is absent */
+                           what is in [] is left out where the attribute inside has the value that
+                           it has when it is absent */
     const fw_quantity_law_attribute *attribute; /* (attributes) */
     int attributes;
     /* value[0..2]: factor, d/dt, d2/dt2; at a break the limit from the side of piece_s */

@@ -387,7 +387,7 @@ fw_status fw_report_assemble_svg(fw_arena *arena, const fw_report_assembly *in, 
     choose_views(p);
     p[0].mark = p[1].mark = m->nbody > 30 ? 2.5 : m->nbody > 12 ? 4 : 5.5;
     double width = 2 * PANEL + 3 * GUTTER, height = HEAD + p[0].view.height + FOOT;
-    fw_svg_begin_picture(out, width, height);
+    fw_svg_begin_picture(out, width, height, true);
     fw_svg_title(out, "{s}: guess and assembled position", in->device->name);
     fw_svg_paper(out, "#f6f8fa");
     draw_panel(&p[0], "(a)", "guess: as the description states it", GUTTER, out);

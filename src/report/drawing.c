@@ -348,7 +348,7 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
         FW_TRY(fw_report_figure_rest_reach(arena, verdict, &box));
         if (box.x1 >= box.x0) view = fw_report_figure_view(&box, WIDTH);
     }
-    fw_svg_begin_picture(out, view.width, view.height + LEGEND_HEIGHT);
+    fw_svg_begin_picture(out, view.width, view.height + LEGEND_HEIGHT, true);
     fw_svg_title(out, "{r}{s}: hinges coloured by utilisation", fw_report_rejected(verdict),
                  device->name);
     fw_svg_paper(out, "#fff");

@@ -148,7 +148,7 @@ fw_status fw_report_statics_svg(fw_arena *arena, const fw_device *device, const 
                                  .still_s = 1.0,
                                  .ghost = true};
     double height = HEAD + view.height + 26.0;
-    fw_svg_begin_picture(out, view.width, height);
+    fw_svg_begin_picture(out, view.width, height, true);
     fw_svg_title(out, "{s}, scene {s}: equilibrium", device->name, scene->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out, "text x='14' y='25' font-size='14' fill='#1f2328'>{s}, scene {s}: {r}\n",
@@ -329,7 +329,7 @@ fw_status fw_report_load_path_svg(fw_arena *arena, const fw_device *device,
     plot p = {.statics = statics, .path = statics->path, .out = out};
     FW_TRY(choose(arena, device, mechanism, &p));
     range(&p);
-    fw_svg_begin_picture(out, PATH_WIDTH, HEIGHT);
+    fw_svg_begin_picture(out, PATH_WIDTH, HEIGHT, true);
     fw_svg_title(out, "{s}, scene {s}: load path", device->name, scene->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out,
@@ -451,7 +451,7 @@ fw_status fw_report_modes_svg(fw_arena *arena, const fw_device *device, const fw
     double width = columns * (PANEL + GAP) + GAP, high = s.view.height + CAPTION;
     if (width < 480.0) width = 480.0;
     double height = MODE_HEAD + rows * (high + GAP) + 14.0;
-    fw_svg_begin_picture(out, width, height);
+    fw_svg_begin_picture(out, width, height, true);
     fw_svg_title(out, "{s}: modes", device->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(

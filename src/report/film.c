@@ -471,7 +471,7 @@ fw_status fw_report_animation_svg(fw_arena *arena, const fw_device *device, cons
                                  .frames = FRAMES,
                                  .seconds = PLAY_SECONDS};
     double height = HEAD + view.height;
-    fw_svg_begin_picture(out, view.width, height);
+    fw_svg_begin_picture(out, view.width, height, true);
     fw_svg_title(out, "{s}, scene {s}", device->name, scene->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out,

@@ -196,13 +196,7 @@ static void legend(fw_text *out) {
 static fw_status picture(const fw_device *device, const fw_report_hinge *hinge, int count,
                          bool file, fw_text *out) {
     int height = HEADING + count * HIGH + 8;
-    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
-                                      .height = height,
-                                      .decimals = 2,
-                                      .size = FW_SVG_SIZE_BEHIND,
-                                      .file = file,
-                                      .lead = "role='img'",
-                                      .font = fw_svg_font_page});
+    fw_svg_begin_picture(out, WIDTH, height, file);
     fw_svg_title(out, "{s}: hinges", device->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out,

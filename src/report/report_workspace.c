@@ -317,7 +317,7 @@ fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in
         top += 34.0 + height;
     }
     FW_TRY(fw_text_end(&body));
-    fw_svg_begin_picture(out, FW_SLICES_WIDTH, top);
+    fw_svg_begin_picture(out, FW_SLICES_WIDTH, top, true);
     fw_svg_title(out, "{s}: workspace", in->device->name);
     fw_svg_paper(out, "#fff");
     fw_svg_put(out,
@@ -411,12 +411,7 @@ static fw_status reachable(fw_report_page *page, const fw_verdict_variant_verdic
               "m", map->survey.least[2].hi, map->survey.most[2].lo);
     fw_markup_number(page->out, map->survey.exponent, 3);
     fw_text_add(page->out, ".</p>\n<figure class=\"wide\">");
-    fw_svg_begin(page->out, &(fw_svg_frame){.width = FW_SLICES_WIDTH,
-                                            .height = height,
-                                            .decimals = 2,
-                                            .size = FW_SVG_SIZE_BEHIND,
-                                            .lead = "role='img'",
-                                            .font = fw_svg_font_page});
+    fw_svg_begin_picture(page->out, FW_SLICES_WIDTH, height, false);
     fw_svg_title(page->out, "Workspace at constant rotation, x and y in \u00b5m");
     fw_svg_paper(page->out, "#fff");
     fw_text_bytes(page->out, picture.data, picture.length);
