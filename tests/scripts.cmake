@@ -43,6 +43,9 @@ fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_viola
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/fault/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
+# random devices before beams of their own: tests/judge/README.md says how to ask for many
+fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
+               tests/data/hinge)
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
