@@ -115,6 +115,13 @@ typedef struct fw_design_options {
                         or "flexure:ID"; default: radially through the narrowest gap of a hinge */
     const char *advice; /* "auto" (default): for a design that is not accepted, changes that would
                            be are looked for, each one run; "none": the verdict only */
+    /* For fw_design_simulate with a stated rtol. Not 0: the largest forces and travels of joints
+       and the errors of all peaks are found with the motion, as FW_DOCUMENT_SIMULATE_JSON, _TEXT
+       and FW_DOCUMENT_PREVIEW_JSON print them. 0 (default): not before one of these is asked for,
+       which then runs the scene again, to the same bits, and may fail or be cancelled as that call.
+       The motion's own tables need neither. Without rtol these figures are what the tolerance is
+       chosen by, and always found. */
+    int32_t figures;
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:
@@ -177,7 +184,8 @@ FW_API int fw_design_fabricate(fw_design *design);
 
 /* Runs one scene (options.scene), after reading; judging is not needed. Errors as fw_design_judge,
    and FW_STATUS_INPUT when there is no such scene. Again after FW_STATUS_OK: does nothing. Cost for
-   a six-bar: about 10 ms. */
+   a six-bar: about 10 ms; with a stated rtol and without options.figures at most twice what its
+   integration takes (docs/benchmarks.md). */
 FW_API int fw_design_simulate(fw_design *design);
 
 /* Small motions of the mechanism of one scene (options.scene, options.at), after reading: natural

@@ -85,6 +85,11 @@ static int with_design(fw_cli_options *options, computation compute) {
     return fw_cli_session_close(design, options, compute(design, options), 0);
 }
 
+/* what is printed at the end is asked for at once; a file of the motion alone needs no more */
+static bool prints_figures(const fw_cli_options *options) {
+    return options->json || !(options->quiet || fw_cli_session_file_on_stdout(options));
+}
+
 static int simulate(fw_design *design, const fw_cli_options *options) {
     int status = fw_design_simulate(design);
     if (status == FW_STATUS_OK && options->csv)
@@ -100,11 +105,12 @@ static int simulate(fw_design *design, const fw_cli_options *options) {
         status = fw_cli_session_save(design, options->output, file, 3);
     if (status != FW_STATUS_OK) return status;
     if (options->json) return fw_cli_session_print(design, options, FW_DOCUMENT_SIMULATE_JSON);
-    if (options->quiet || fw_cli_session_file_on_stdout(options)) return FW_STATUS_OK;
+    if (!prints_figures(options)) return FW_STATUS_OK;
     return fw_cli_session_print(design, options, FW_DOCUMENT_SIMULATE_TEXT);
 }
 
 int fw_cli_command_simulate(fw_cli_options *options) {
+    options->design.figures = prints_figures(options);
     return with_design(options, simulate);
 }
 

@@ -36,6 +36,9 @@ typedef struct fw_dynamics_motion_options {
     double looser;   /* tolerance of the second run, from which errors are estimated, over that of
                         the answer; 0: as the integrator bears; 1: there is no such run, and
                         errors are infinite */
+    bool alone;      /* with a stated rtol: no second run, and errors are infinite. Everything else
+                        is as with one */
+    bool late_rows;  /* rows of `sample` wait for fw_dynamics_motion_rows where they may */
     long most_steps; /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
@@ -125,6 +128,7 @@ typedef struct fw_dynamics_motion {
     const char *stabilise, *method_report; /* what the method has to say, or NULL */
     void *observed, *compared; /* contexts that saw this motion, and the looser run (NULL: none did;
                                   a sequence of equilibria has no such run) */
+    struct fw_dynamics_late *late; /* rows that wait (fw_dynamics_motion_rows); NULL: none does */
     const fw_effects_loads *loads; /* what acted, for those who look at it again */
     const struct fw_statics_level_step
         *level; /* statics/level.h; NULL: not looked for, or no hinges */
@@ -145,6 +149,13 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
                                         const fw_effect_ledger *ledger,
                                         const fw_effects_loads *loads, fw_diags *diags,
                                         const fw_dynamics_motion **motion);
+/* Asked for with late_rows: rows that lie within steps stay as the dense output has them, without
+   accelerations and forces, until they are asked for here; then they are, to the last bit, what
+   they would have been at once. Only where nothing that acts depends on time or on what happened
+   before. Every other motion has all its rows, and nothing happens. */
+void fw_dynamics_motion_rows(const fw_dynamics_motion *motion, int first, int count);
+/* the same of the rows next to a time */
+void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
 /* estimated relative error of the largest deflection, what was left out included; 0: nothing

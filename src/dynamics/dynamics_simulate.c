@@ -252,7 +252,7 @@ static fw_status tighten(fw_dynamics_run *r) {
     pair two = {.began_s = cpu_seconds()};
     for (;;) {
         FW_TRY(run_fine(r, &two, rtol, two.again ? &two.coarse : NULL, rows));
-        if (o->looser == 1) {
+        if (o->looser == 1 || (o->alone && o->rtol > 0)) {
             no_estimate(r, &two.fine);
             return fw_dynamics_run_report(r, true);
         }
@@ -454,6 +454,7 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
     problem->most_angle = options->most_angle_rad > 0 ? options->most_angle_rad : HUGE_VAL;
     FW_TRY(fw_dynamics_run_prepare(&r, loads));
     FW_TRY(fw_dynamics_integrator_choose(&r, loads, options->integrator));
+    if (options->late_rows) FW_TRY(fw_dynamics_record_late(&r.record));
     FW_TRY(solve(&r));
     FW_TRY(report_method(&r.record));
     fw_dynamics_motion_widen(result);

@@ -186,6 +186,8 @@ fw_status fw_dynamics_integrator_stuck(const fw_dynamics_problem *problem,
 fw_status fw_dynamics_integrator_change(fw_dynamics_run *r);
 
 /* sample.c */
+/* rows wait from now on, where they may */
+fw_status fw_dynamics_record_late(fw_dynamics_recorder *record);
 void fw_dynamics_record_begin(fw_dynamics_recorder *record, const double *y);
 /* everything that looks at the last step, up to theta_end; false: a state cannot be projected */
 bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,

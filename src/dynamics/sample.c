@@ -1,10 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is read off the steps: evenly spaced rows, the observer's instants. All from the dense
-   output; rows are projected like accepted steps. */
+   output; rows are projected like accepted steps, at once or when somebody reads them. */
 #include "multibody/system.h"
 #include "dynamics/run.h"
 #include <math.h>
 #include <string.h>
+
+/* A copy of what a row needs, of a run that is over by then. What waits stands in q and v, scaled
+   as it was integrated. */
+typedef struct fw_dynamics_late {
+    fw_dynamics_problem problem;
+    fw_dynamics_motion_options options;
+    fw_dynamics_recorder record;
+    bool *waits; /* (nsample) */
+} fw_dynamics_late;
 
 /* state y in SI: pose and joint angles */
 static void pose_in_SI(const fw_dynamics_problem *problem, const double *y, double *q,
@@ -50,6 +59,7 @@ static void store(fw_dynamics_recorder *record, double t_s, double t, const doub
                               out->joint_N + row * 3 * (size_t)out->njoint,
                               out->driver_N + row * (size_t)out->ndriver);
     if (out->energy_J) store_energy(record, row, t, y);
+    if (out->late) out->late->waits[row] = false;
     record->row++;
 }
 
@@ -85,6 +95,60 @@ static bool settle(fw_dynamics_recorder *record, double t, double *y) {
     return factor && fw_multibody_project_velocity(sys, factor, y + sys->model->nq);
 }
 
+/* ---- rows that wait ---- */
+
+/* The forces of a kernel are constant: a row is a matter of its own state alone. */
+fw_status fw_dynamics_record_late(fw_dynamics_recorder *record) {
+    const fw_multibody_system *sys = record->problem->system;
+    fw_arena *arena = record->problem->arena;
+    if (!sys->kernel || !sys->projecting || record->motion->energy_J) return FW_OK;
+    fw_dynamics_late *late = fw_arena_one(arena, fw_dynamics_late);
+    FW_NEED(late);
+    FW_NEED(late->waits = fw_arena_array(arena, bool, (size_t)record->motion->nsample));
+    late->problem = *record->problem;
+    late->options = *record->problem->options;
+    late->problem.options = &late->options;
+    late->record = *record;
+    late->record.problem = &late->problem;
+    record->motion->late = late;
+    return FW_OK;
+}
+
+static void wait(fw_dynamics_recorder *record, double t_s) {
+    fw_dynamics_motion *out = record->motion;
+    size_t n = (size_t)record->problem->model->nq, base = (size_t)record->row * n;
+    memcpy(out->q + base, record->state, n * sizeof *out->q);
+    memcpy(out->v + base, record->state + n, n * sizeof *out->v);
+    out->t_s[record->row] = t_s;
+    out->late->waits[record->row++] = true;
+}
+
+/* one that cannot be projected stays as it was integrated */
+static void catch_up(fw_dynamics_late *late, const fw_dynamics_motion *motion, int row) {
+    fw_dynamics_recorder *record = &late->record;
+    size_t n = (size_t)late->problem.model->nq, base = (size_t)row * n;
+    double t_s = motion->t_s[row], t = t_s / late->problem.model->scale.time_s;
+    memset(record->state, 0, (size_t)late->problem.model->ny * sizeof *record->state);
+    memcpy(record->state, motion->q + base, n * sizeof *motion->q);
+    memcpy(record->state + n, motion->v + base, n * sizeof *motion->v);
+    settle(record, t, record->state);
+    record->row = row;
+    store(record, t_s, t, record->state);
+}
+
+void fw_dynamics_motion_rows(const fw_dynamics_motion *motion, int first, int count) {
+    fw_dynamics_late *late = motion->late;
+    for (int row = first; late && row < first + count; row++)
+        if (row >= 0 && row < motion->nsample && late->waits[row]) catch_up(late, motion, row);
+}
+
+void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s) {
+    if (!motion->late || motion->nsample < 1) return;
+    double each =
+        motion->late->problem.scene->duration_s / fmax(1, motion->late->options.samples - 1);
+    fw_dynamics_motion_rows(motion, (int)fmin(t_s / each, motion->nsample) - 1, 4);
+}
+
 static bool samples(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     const fw_multibody_model *m = record->problem->model;
     double reached = theta_end < 1 ? s->t_old + theta_end * s->h : s->t;
@@ -98,6 +162,10 @@ static bool samples(fw_dynamics_recorder *record, fw_maths_stepper *s, double th
             continue;
         }
         fw_maths_stepper_dense(s, fmin(theta_end, (t - s->t_old) / s->h), record->state);
+        if (record->motion->late) {
+            wait(record, t_s);
+            continue;
+        }
         if (!settle(record, t, record->state)) return false;
         store(record, t_s, t, record->state);
     }

@@ -119,7 +119,7 @@ static void prepare(fw_maths_stepper *b) {
 }
 
 static void dense(const fw_maths_stepper *b, double theta, double *y) {
-    fw_maths_ode_nested_dense(b, ROWS, ((const dopri5 *)b)->row, theta, y);
+    fw_ode_nested_dense(b, ROWS, ((const dopri5 *)b)->row, theta, y);
 }
 
 static void component(const fw_maths_stepper *b, int i, double wi, int j, double wj, double theta,

@@ -163,16 +163,3 @@ void fw_maths_ode_hermite_component(const fw_maths_stepper *s, int a, double wa,
     *value = wa * *value + wb * p;
     *slope = wa * *slope + wb * d;
 }
-
-void fw_maths_ode_nested_dense(const fw_maths_stepper *s, int rows, const double *row, double theta,
-                               double *y) {
-    double weight[FW_ODE_NESTED_MOST] = {1};
-    for (int i = 1; i < rows; i++)
-        weight[i] = weight[i - 1] * (i % 2 ? theta : 1 - theta);
-    for (int c = 0; c < s->ode.n; c++) {
-        double sum = 0;
-        for (int i = rows - 1; i >= 0; i--)
-            sum += weight[i] * row[i * s->padded + c];
-        y[c] = sum;
-    }
-}

@@ -185,6 +185,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     m->rtol = o.rtol;
     if (o.accuracy != 0.0) m->accuracy = o.accuracy;
     if (o.samples != 0) m->samples = o.samples;
+    if (o.figures) d->wanted |= FW_WANTED_FIGURES;
     return FW_OK;
 }
 
@@ -396,7 +397,34 @@ static fw_status simulate_work(fw_design *d, void *argument) {
     (void)argument;
     const fw_mechanism *mechanism;
     const fw_device_scene *scene;
-    FW_TRY(fw_plan_simulate(d->plan, &d->motion, &mechanism, &scene));
+    unsigned wanted = d->wanted;
+    FW_TRY(fw_plan_simulate(d->plan, &wanted, &d->motion, &mechanism, &scene));
+    d->known = wanted;
+    return subject(d, mechanism, scene);
+}
+
+/* The scene once more: the same motion, to the last bit. What there was to say of it was said, but
+   what fails now. */
+fw_status fw_plan_design_know(fw_design *d, unsigned wanted) {
+    const fw_dynamics_motion *motion;
+    const fw_mechanism *mechanism;
+    const fw_device_scene *scene;
+    if (!(wanted & ~d->known)) return FW_OK;
+    wanted |= d->known;
+    clock_t start = clock();
+    fw_diags said = d->plan->diags;
+    d->plan->diags = fw_diags_new(d->plan->arena);
+    fw_status status = fw_plan_simulate(d->plan, &wanted, &motion, &mechanism, &scene);
+    fw_diags own = d->plan->diags;
+    d->plan->diags = said;
+    for (size_t i = 0; status != FW_OK && i < own.count; i++)
+        if (own.item[i].severity == FW_ERROR)
+            fw_diag_error(&d->plan->diags, own.item[i].number, own.item[i].place, "%s",
+                          own.item[i].message);
+    FW_TRY(status);
+    d->known = wanted;
+    d->motion = motion;
+    d->simulate_s += seconds_since(start);
     return subject(d, mechanism, scene);
 }
 

@@ -47,6 +47,8 @@ struct fw_design {
     fw_device_set *set;
     int set_capacity;
     const char *wrong_option; /* a sentence, or NULL */
+    unsigned wanted;          /* FW_WANTED_..., of a motion: what is asked for with it */
+    unsigned known;           /* and what is */
     const fw_dynamics_motion *motion;
     const fw_statics_modes *modes;
     const fw_statics *statics;
@@ -76,5 +78,7 @@ fw_status fw_plan_design_usage(fw_design *d, const char *what);
 int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argument),
                        void *argument);
 void fw_plan_design_forget_documents(fw_design *d);
+/* what a document prints of the motion of a simulated scene: asked for now where it is not known */
+fw_status fw_plan_design_know(fw_design *d, unsigned wanted);
 
 #endif

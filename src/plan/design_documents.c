@@ -14,24 +14,32 @@ static fw_status verdict_text(fw_design *d, fw_text *out) {
 }
 
 static fw_status simulate_json(fw_design *d, fw_text *out) {
+    FW_TRY(fw_plan_design_know(d, FW_WANTED_FIGURES));
     return fw_report_simulate_json(d->mechanism, d->motion, out);
 }
 
 static fw_status simulate_text(fw_design *d, fw_text *out) {
+    FW_TRY(fw_plan_design_know(d, FW_WANTED_FIGURES));
     return fw_report_simulate_text(d->scene, d->mechanism, d->motion, out);
 }
 
+/* with all of its rows */
+static const fw_dynamics_motion *whole(const fw_design *d) {
+    fw_dynamics_motion_rows(d->motion, 0, d->motion->nsample);
+    return d->motion;
+}
+
 static fw_status motion_csv(fw_design *d, fw_text *out) {
-    return fw_report_motion_csv(d->mechanism, d->motion, out);
+    return fw_report_motion_csv(d->mechanism, whole(d), out);
 }
 
 static fw_status forces_csv(fw_design *d, fw_text *out) {
-    return fw_report_forces_csv(d->mechanism, d->motion, out);
+    return fw_report_forces_csv(d->mechanism, whole(d), out);
 }
 
 static fw_status animation_svg(fw_design *d, fw_text *out) {
     return fw_report_animation_svg(d->plan->arena, d->plan->device, d->plan->layout, d->mechanism,
-                                   d->motion, d->scene, out);
+                                   whole(d), d->scene, out);
 }
 
 static fw_status modes_json(fw_design *d, fw_text *out) {

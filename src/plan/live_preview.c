@@ -6,6 +6,9 @@
 #include "report/preview.h"
 #include <string.h>
 
+/* a preview shows all of a motion */
+enum { WANTED = FW_WANTED_FIGURES | FW_WANTED_ENERGIES };
+
 /* names and materials of the flows where nothing was judged */
 static fw_status flows_of(fw_plan *plan, bool judged, fw_report_preview *in) {
     in->nflow = plan->nflow;
@@ -155,6 +158,7 @@ static fw_status compose(fw_design *d, fw_status status, fw_text *out) {
 }
 
 fw_status fw_plan_design_preview_json(fw_design *design, fw_text *out) {
+    if (design->done & FW_DONE_SIMULATED) FW_TRY(fw_plan_design_know(design, WANTED));
     return compose(design, FW_OK, out);
 }
 
@@ -196,7 +200,7 @@ static fw_status look(fw_design *d, fw_plan_live_request *request, fw_text *out)
         /* its motions will do for a picture; what cannot be judged can be moved all the same */
         int moved = FW_STATUS_OK;
         if (scenes && !hopeless(status) && (request->full || status != FW_STATUS_OK))
-            moved = fw_design_simulate(d);
+            d->wanted |= WANTED, moved = fw_design_simulate(d);
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;

@@ -74,7 +74,12 @@ typedef struct fw_plan {
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
     int nflow;
     const fw_layout *layout; /* NULL: cannot be drawn */
-    int dies;                /* made at once; 1 without a wafer */
+    struct {                 /* what a scene started from last (fw_plan_start) */
+        const fw_device_scene *scene;
+        const fw_mechanism *mechanism; /* NULL: none did */
+        double moved_m;
+    } start;
+    int dies; /* made at once; 1 without a wafer */
     fw_verdict verdict;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;
@@ -111,8 +116,14 @@ enum { /* what fw_plan_write writes */
 };
 /* the directory appears complete or not at all, with its manifest */
 fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
-/* one scene of one variant, for simulate; *mechanism too */
-fw_status fw_plan_simulate(fw_plan *plan, const fw_dynamics_motion **motion,
+enum {                        /* what is asked of a simulated scene beside its motion */
+       FW_WANTED_FIGURES = 1, /* errors, and largest forces and travels */
+       FW_WANTED_ENERGIES = 2 /* energies and constraint norm of every row */
+};
+/* one scene of one variant, for simulate; *mechanism too. What is wanted besides does not change
+   the motion. Where the tolerance is not stated the figures are what it is chosen by: *wanted then
+   has them too. Without them rows may wait (fw_dynamics_motion_rows). */
+fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_motion **motion,
                            const fw_mechanism **mechanism, const fw_device_scene **scene);
 /* modes and equilibrium likewise */
 fw_status fw_plan_modes(fw_plan *plan, const fw_statics_modes **modes,

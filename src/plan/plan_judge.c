@@ -98,8 +98,17 @@ fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
                         const fw_device_scene **scene, double *moved_m) {
     if (!*scene) *scene = fw_plan_scene(plan);
     if (!*scene) return FW_INPUT;
-    FW_TRY(fw_plan_mechanism(plan, *scene, mechanism));
-    return fw_assembly_assembled(plan->arena, *mechanism, &plan->diags, mechanism, moved_m);
+    if (!plan->start.mechanism || plan->start.scene != *scene) {
+        plan->start.mechanism = NULL;
+        FW_TRY(fw_plan_mechanism(plan, *scene, mechanism));
+        FW_TRY(fw_assembly_assembled(plan->arena, *mechanism, &plan->diags, mechanism,
+                                     &plan->start.moved_m));
+        plan->start.mechanism = *mechanism;
+        plan->start.scene = *scene;
+    }
+    *mechanism = plan->start.mechanism;
+    if (moved_m) *moved_m = plan->start.moved_m;
+    return FW_OK;
 }
 
 /* a tolerance that was asked for and not used */
@@ -129,12 +138,15 @@ static fw_status explain_pull_in(fw_plan *plan, const fw_statics_pull_in *pull_i
     return FW_SOLVER;
 }
 
-fw_status fw_plan_simulate(fw_plan *plan, const fw_dynamics_motion **motion,
+fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_motion **motion,
                            const fw_mechanism **mechanism, const fw_device_scene **scene) {
     *scene = NULL;
     fw_dynamics_motion_options options = plan->options.verdict.motion;
     FW_TRY(fw_plan_start(plan, mechanism, scene, &options.moved_m));
-    options.reactions = options.energies = true;
+    if (!(options.rtol > 0)) *wanted |= FW_WANTED_FIGURES;
+    options.reactions = *wanted & FW_WANTED_FIGURES;
+    options.energies = *wanted & FW_WANTED_ENERGIES;
+    options.alone = options.late_rows = !options.reactions;
     const fw_statics_pull_in *pull_in;     /* it says why a run may end early */
     const fw_statics_stability *stability; /* only its warning */
     FW_TRY(fw_statics_pull_in_find(plan->arena, *mechanism, *scene, &options.effects, &plan->diags,

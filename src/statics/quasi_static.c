@@ -277,7 +277,9 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
         const char *why = integration_asked_for(options);
         if (!why) {
             fw_diags own = fw_diags_new(arena);
-            fw_status status = fw_statics_quasi_static_motion(arena, mechanism, scene, options,
+            fw_dynamics_motion_options whole = *options;
+            whole.reactions |= options->alone; /* its steps are as fine as its forces need */
+            fw_status status = fw_statics_quasi_static_motion(arena, mechanism, scene, &whole,
                                                               &ledger, &loads, &own, motion, &why);
             if (status != FW_SOLVER) {
                 take_messages(&own, diags);
@@ -302,6 +304,12 @@ static bool beyond_limits(const fw_mechanism *m, const fw_dynamics_motion *x) {
         if (fabs(x->peak[m->hinge[k].pin].angle_rad) > m->hinge[k].closed_form.limit_angle_rad)
             return true;
     return false;
+}
+
+/* the level is looked at in the row nearest the largest of these */
+static void rows_of_peaks(const fw_mechanism *m, const fw_dynamics_motion *x) {
+    for (int k = 0; x->late && k < m->nhinge; k++)
+        fw_dynamics_motion_rows_at(x, x->peak[m->hinge[k].pin].t_s);
 }
 
 static fw_status with_level(fw_arena *arena, const fw_dynamics_motion *found,
@@ -374,6 +382,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
         FW_TRY(status);
         if (higher) take_messages(&own, diags);
+        rows_of_peaks(mechanism, found);
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
         FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
         if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;

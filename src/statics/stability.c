@@ -97,6 +97,7 @@ static void place(const looker *k, double t_s, double *u) {
         row = (int)fmin(floor(at), x->nsample - 2);
         part = at - row;
     }
+    fw_dynamics_motion_rows(x, row, 2);
     const double *a = x->q + (size_t)row * n, *b = x->nsample > 1 ? a + n : a;
     for (size_t i = 0; i < n; i++) {
         double unit = i % 3 == 2 ? 1 : k->w.model->scale.length_m;

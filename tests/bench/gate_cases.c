@@ -10,12 +10,15 @@
 #include "flexure/elastica.h"
 #include "flexure/flexure.h"
 #include "dynamics/models.h"
+#include "maths/ode.h"
 #include "multibody/kernel.h"
-#include "plan/plan.h"
+#include "multibody/system.h"
+#include "plan/design.h"
 #include "workspace/reach.h"
 #include "workspace/six_bar_fixture.h"
 #include <stdlib.h>
 
+static const char benchmark_file[] = FW_SOURCE_DATA_DIR "/tests/data/six-bar-benchmark.xml";
 static const char six_bar_file[] = FW_SOURCE_DATA_DIR "/docs/gallery/reference-six-bar/device.xml";
 static const double pi = 3.14159265358979323846;
 
@@ -27,6 +30,8 @@ typedef struct gate {
     fw_multibody_kernel *kernel;
     double *y, *f;
     int ny;
+    fw_maths_stepper *stepper;
+    fw_design *design;
     fw_flexure_input hinge;
     fw_flexure_elastica *beam;
     six_bar_fixture fixture;
@@ -102,6 +107,113 @@ static bool prepare_windows(gate *g) {
     g->r.scene.duration_s = 1;
     g->motion = (fw_dynamics_motion_options){.rtol = 1e-8, .samples = 2};
     return true;
+}
+
+/* ---- the core of a motion, and the public call that gives it ---- */
+
+static const double public_rtol = 3e-9;
+
+/* as dynamics/start.c has it: twice the static response, scaled */
+static bool amplitude_of(gate *g, const fw_multibody_model *m, const fw_effects_loads *loads,
+                         double *amplitude) {
+    double force[15], displacement[15], rotation[6];
+    bool valid;
+    fw_effects_loads_largest_force(&g->r.m, loads, g->r.scene.duration_s, force);
+    if (!must(fw_effects_static_response(g->arena, &g->r.m, loads, force, displacement, rotation,
+                                         &valid)))
+        return false;
+    *amplitude = 0;
+    for (int i = 0; i < 15; i++)
+        *amplitude =
+            fmax(*amplitude, 2 * fabs(displacement[i]) / (i % 3 == 2 ? 1 : m->scale.length_m));
+    return valid && *amplitude < 1;
+}
+
+/* all that a motion needs but its steps */
+static bool prepare_core(gate *g) {
+    g->r = rig_six_bar(g->arena, false);
+    fw_diags *diags = fw_arena_one(g->arena, fw_diags);
+    const fw_effect_choice choice = {0};
+    fw_effect_ledger ledger;
+    fw_effects_loads *loads = fw_arena_one(g->arena, fw_effects_loads);
+    const fw_multibody_model *m = NULL;
+    fw_multibody_system *system = NULL;
+    double q[15], amplitude, *atol;
+    *diags = fw_diags_new(g->arena);
+    for (int b = 0; b < 5; b++) {
+        q[3 * b] = g->r.m.body[b].x_m;
+        q[3 * b + 1] = g->r.m.body[b].y_m;
+        q[3 * b + 2] = g->r.m.body[b].phi_rad;
+    }
+    if (!must(fw_effects_compile(g->arena, &g->r.m, &g->r.scene, &choice, 1e-3, diags, &ledger,
+                                 loads)) ||
+        !must(
+            fw_multibody_model_new(g->arena, &g->r.m, loads, q, g->r.scene.duration_s, NULL, &m)) ||
+        !must(fw_multibody_system_new(g->arena, m, &g->r.m, diags, &system)) || !system->kernel ||
+        !amplitude_of(g, m, loads, &amplitude))
+        return false;
+    system->projecting = true;
+    const fw_maths_ode ode = {.context = system,
+                              .rhs = fw_multibody_rhs,
+                              .lean = fw_multibody_rhs_motion,
+                              .project = fw_multibody_project,
+                              .n = m->ny,
+                              .controlled = 2 * m->nq,
+                              .positions = m->nq};
+    g->ny = m->ny;
+    g->y = fw_arena_array(g->arena, double, (size_t)m->ny);
+    atol = fw_arena_array(g->arena, double, (size_t)m->ny);
+    for (int i = 0; i < m->ny; i++)
+        atol[i] = public_rtol * amplitude;
+    g->used = g->r.scene.duration_s / m->scale.time_s;
+    return must(
+        fw_maths_stepper_new(g->arena, &fw_maths_dop853_row, &ode, public_rtol, atol, &g->stepper));
+}
+
+static bool run_core(gate *g) {
+    fw_maths_stepper_start(g->stepper, 0, g->y, g->used);
+    while (g->stepper->t < g->used)
+        if (fw_maths_stepper_step(g->stepper) != FW_ODE_STEP) return false;
+    return g->stepper->steps == 130; /* as many as the public call makes */
+}
+
+static bool prepare_public(gate *g, int rows, int figures) {
+    fw_design_options o = fw_design_options_default();
+    o.data_directory = FW_SOURCE_DATA_DIR;
+    o.rtol = public_rtol;
+    o.samples = rows;
+    o.figures = figures;
+    g->design = fw_design_new(&o);
+    return g->design &&
+           fw_design_set(g->design, "scene[step]/@duration", "10 ms") == FW_STATUS_OK &&
+           fw_design_read(g->design, benchmark_file) == FW_STATUS_OK;
+}
+
+static bool prepare_bare(gate *g) {
+    return prepare_public(g, 2, 0);
+}
+
+static bool prepare_rows(gate *g) {
+    return prepare_public(g, 1001, 0);
+}
+
+static bool prepare_figures(gate *g) {
+    return prepare_public(g, 1001, 1);
+}
+
+static bool run_public(gate *g) {
+    return fw_design_simulate(g->design) == FW_STATUS_OK && g->design->motion->stats.steps == 130;
+}
+
+static bool prepare_table(gate *g) {
+    return prepare_rows(g) && run_public(g);
+}
+
+static bool run_table(gate *g) {
+    const char *text;
+    size_t length;
+    return fw_design_document(g->design, FW_DOCUMENT_MOTION_CSV, &text, &length) == FW_STATUS_OK &&
+           length > 100000;
 }
 
 /* ---- hinges and workspace ---- */
@@ -242,6 +354,12 @@ static const gate_case cases[] = {
     {"six-bar, 10 ms at rtol 1e-8", prepare_six_bar, run_motion},
     {"Andrews' squeezer, 30 ms at rtol 1e-8", prepare_squeezer, run_motion},
     {"100 four-bar windows, 1 s at rtol 1e-8", prepare_windows, run_motion},
+    {"six-bar, 10 ms at rtol 3e-9: steps alone", prepare_core, run_core},
+    {"six-bar, 10 ms at rtol 3e-9: fw_design_simulate", prepare_bare, run_public},
+    {"six-bar, 10 ms at rtol 3e-9: fw_design_simulate, 1001 rows", prepare_rows, run_public},
+    {"six-bar, 10 ms at rtol 3e-9: fw_design_simulate, 1001 rows and figures", prepare_figures,
+     run_public},
+    {"table of 1001 rows of the six-bar", prepare_table, run_table},
     {"hinge in closed form, 1000 times", prepare_hinge, run_closed_form},
     {"hinge as an exact beam, a loop of 25 loads", prepare_elastica, run_elastica},
     {"workspace to 1 %, proved", prepare_workspace, run_workspace},
@@ -280,6 +398,7 @@ int main(int argc, char **argv) {
         printf("case %s: %d\n", cases[i].name, good);
         all = all && good;
         fw_plan_free(g.plan);
+        fw_design_free(g.design);
         fw_arena_free(g.arena);
     }
     return all ? 0 : 1;

@@ -66,6 +66,20 @@ class Judge(unittest.TestCase):
         del now["cases"]["c"], now["cases"]["a"]
         self.assertEqual(self.status(now), 1)
 
+    def test_what_may_not_cost_more_than_so_many_times_another(self):
+        now = copy.deepcopy(THEN)
+        for dear, cheap, most in gate.RATIOS:
+            now["cases"][cheap] = {"own": 1000, "total": 1000}
+            now["cases"][dear] = {"own": 1, "total": round(1000 * most)}
+            self.assertEqual(gate.judge(now, now)[0], 0)
+            now["cases"][dear]["total"] += 10
+            status, lines = gate.judge(now, now)
+            self.assertEqual((status, len(lines)), (1, 1))
+            self.assertIn(dear, lines[0])
+            del now["cases"][cheap], now["cases"][dear]
+        baseline = gate.json.loads(gate.BASELINE.read_text(encoding="utf-8"))
+        self.assertEqual(len(gate.ratios(baseline)), len(gate.RATIOS))
+
     def test_another_compiler_is_not_compared(self):
         for where, what, other in (("built", "compiler", "GNU 13.1.0"), ("built", "flags", "-O3"), ("built", "type", "Debug")):
             now = changed("a", "own", 2)

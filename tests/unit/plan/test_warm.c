@@ -83,7 +83,8 @@ static const fw_dynamics_motion *motion_of(fw_plan *plan) {
     const fw_dynamics_motion *motion;
     const fw_mechanism *m;
     const fw_device_scene *scene;
-    if (fw_plan_simulate(plan, &motion, &m, &scene) != FW_OK)
+    unsigned wanted = FW_WANTED_FIGURES;
+    if (fw_plan_simulate(plan, &wanted, &motion, &m, &scene) != FW_OK)
         fail_msg("%s", plan->diags.item[0].message);
     return motion;
 }
