@@ -200,6 +200,25 @@ static fw_status of_laboratory(fw_plan *plan) {
     return FW_OK;
 }
 
+/* what holds the required poses */
+static fw_status of_workspace(fw_plan *plan) {
+    for (int i = 0; i < plan->verdict.nvariant; i++) {
+        const fw_workspace_result *w = &plan->verdict.variant[i].workspace;
+        if (!w->required) continue;
+        return assume(
+            plan,
+            "A required pose is held by three actuators of the flow's scenes, each as "
+            "strong as the pose asks, or, where these are not enough, by the wrench on the "
+            "platform besides; without scenes by that wrench or by torques on links. Of all "
+            "that can hold the whole box the worst counts for every hinge. Point springs, "
+            "stops and contacts do not act there. %s",
+            w->certified ? "Rotations, joint forces and strains are bounded by interval "
+                           "arithmetic over every pose."
+                         : "The poses were sampled: nothing is proved.");
+    }
+    return FW_OK;
+}
+
 fw_status fw_plan_assumptions(fw_plan *plan) {
     const fw_verdict_model_errors *e = &fw_verdict_model_error;
     char sf[32];
@@ -219,15 +238,6 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                   "factors, with the joint force's own bending added; 3-D finite elements "
                   "on held-out shapes are within %.1f %%.",
                   100.0 * e->strain));
-    for (int i = 0; i < plan->verdict.nvariant; i++)
-        if (plan->verdict.variant[i].workspace.required) {
-            FW_TRY(assume(plan,
-                          "Over the required workspace only the rotations are known, not "
-                          "the forces that hold the pose: the band is widened by %.0f %%, "
-                          "the most that joint forces added in the reference load cases. "
-                          "The search is dense, not an interval proof.",
-                          100.0 * e->workspace));
-            break;
-        }
+    FW_TRY(of_workspace(plan));
     return as_fabricated(plan);
 }

@@ -396,6 +396,16 @@ static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
     singularities(out, f->mechanism, &map->survey.singular);
 }
 
+/* what the joint force makes of it, under the actuation that is worst for this hinge */
+static void with_force(fw_text *out, const fw_report_workspace_flow *f, int box, int i) {
+    const fw_workspace_strain_proof *p = &f->required->strain[box];
+    int hinge = f->mechanism->pin[i].hinge;
+    if (!p->hold || hinge == FW_NONE) return;
+    double limit = f->map->limit_rad[i] * f->mechanism->hinge[hinge].closed_form.strain_per_rad;
+    fw_text_real(out, "; with its joint force %.1f %%", 100.0 * p->strain[i] / limit);
+    fw_text_add(out, p->proved ? " (proved)" : " (sampled)");
+}
+
 static void required(fw_text *out, const fw_device *d, const fw_report_workspace_flow *f, int k) {
     const fw_device_workspace_box *b = &d->workspace[k];
     const fw_workspace_proof *p = &f->required->proof[k];
@@ -436,6 +446,7 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
             fw_text_add(out, most <= limit ? "within (proved)"
                              : beyond      ? "BEYOND (proved)"
                                            : "undecided");
+            with_force(out, f, k, i);
         }
         fw_text_add(out, "\n");
     }

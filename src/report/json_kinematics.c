@@ -2,6 +2,7 @@
 /* The assembled position with its branches, and the workspace with its certificate, as JSON. */
 #include "report/report.h"
 #include "report/json_parts.h"
+#include "workspace/pose_load.h"
 #include <stdio.h>
 
 /* ---- the assembled position ---- */
@@ -278,7 +279,8 @@ static const char *within(const fw_workspace_proof *p, int hinge, double limit) 
 }
 
 static void hinge_range(fw_json *json, const fw_report_workspace_flow *f,
-                        const fw_workspace_proof *p, int i) {
+                        const fw_workspace_proof *p, const fw_workspace_strain_proof *strain,
+                        int i) {
     double limit = f->map->none ? (double)NAN : f->map->limit_rad[i];
     fw_json_object(json, NULL);
     fw_json_text(json, "id", f->mechanism->pin[i].id);
@@ -287,6 +289,10 @@ static void hinge_range(fw_json *json, const fw_report_workspace_flow *f,
     fw_json_text(json, "within", within(p, i, limit));
     fw_report_json_reals(json, "least_at", p->least[i].pose, 3);
     fw_report_json_reals(json, "most_at", p->most[i].pose, 3);
+    bool loaded = strain->hold && strain->strain[i] > 0.0;
+    fw_json_real(json, "strain", loaded ? strain->strain[i] : (double)NAN);
+    fw_json_truth(json, "strain_certified", strain->proved);
+    fw_json_text(json, "actuation", loaded ? fw_workspace_actuation(strain, i) : NULL);
     fw_json_end(json);
 }
 
@@ -301,7 +307,7 @@ static void required_box(fw_json *json, const fw_report_workspace_flow *f,
     fw_json_truth(json, "certified", p->proved);
     fw_json_list(json, "hinges");
     for (int i = 0; i < FW_SIX && p->proved; i++)
-        hinge_range(json, f, p, i);
+        hinge_range(json, f, p, &f->required->strain[k], i);
     fw_json_end(json);
     if (p->proved)
         regularity(json, f->mechanism, &f->singular[k]);
@@ -375,8 +381,83 @@ static void leg(fw_json *json, const char *key, const fw_workspace_leg *l) {
     fw_json_end(json);
 }
 
+/* one hinge's places and what is claimed of them */
+static void strained_hinge(fw_json *json, const fw_report_workspace_flow *f,
+                           const fw_workspace_strain_proof *p, int i) {
+    const fw_workspace_section *s = &p->hold->section[i];
+    fw_json_object(json, NULL);
+    fw_json_text(json, "id", f->mechanism->pin[i].id);
+    bits_of(json, "stiffness_Nm_per_rad", (double[]){s->spring_Nm_per_rad, s->moment_Nm_per_rad},
+            2);
+    bits_of(json, "axis", s->axis, 2);
+    fw_json_list(json, "stations");
+    for (int k = 0; k < s->n; k++) {
+        const fw_workspace_station *at = &s->station[k];
+        bits_of(json, NULL,
+                (double[]){at->lever_m[0], at->lever_m[1], at->bending_per_Nm, at->axial_per_N}, 4);
+    }
+    fw_json_end(json);
+    bits_of(json, "strain", (double[]){p->most[i].strain.lo, p->strain[i]}, 2);
+    bits_of(json, "pose", p->most[i].pose, 3);
+    fw_json_whole(json, "actuation", p->most[i].grip);
+    fw_json_end(json);
+}
+
+static void certified_actuator(fw_json *json, const fw_workspace_actuator *a) {
+    static const char *const kind[] = {[FW_ACTUATOR_TORQUE] = "torque",
+                                       [FW_ACTUATOR_FORCE] = "force",
+                                       [FW_ACTUATOR_TENDON] = "tendon",
+                                       [FW_ACTUATOR_ELECTRODES] = "electrodes"};
+    fw_json_object(json, NULL);
+    fw_json_text(json, "id", a->id);
+    fw_json_text(json, "kind", kind[a->kind]);
+    fw_json_whole(json, "body", a->body);
+    fw_json_whole(json, "against", a->against);
+    bits_of(json, "direction", a->direction, 2);
+    fw_json_truth(json, "pulls", a->pulls);
+    fw_json_list(json, "points");
+    for (int i = 0; i < a->npoint; i++) {
+        fw_json_object(json, NULL);
+        fw_json_whole(json, "body", a->point[i].body);
+        bits_of(json, "at_m", (double[]){a->point[i].x_m, a->point[i].y_m}, 2);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    fw_json_end(json);
+}
+
+/* what holds the poses, and the strains that nothing of it exceeds */
+static void certified_strain(fw_json *json, const fw_report_workspace_flow *f,
+                             const fw_workspace_strain_proof *p) {
+    if (!p->hold || !p->proved) {
+        fw_json_null(json, "strain");
+        return;
+    }
+    fw_json_object(json, "strain");
+    bits_of(json, "length_m", &p->hold->length_m, 1);
+    fw_json_list(json, "hinges");
+    for (int i = 0; i < FW_SIX; i++)
+        strained_hinge(json, f, p, i);
+    fw_json_end(json);
+    fw_json_list(json, "actuators");
+    for (int i = 0; i < p->hold->nactuator; i++)
+        certified_actuator(json, &p->hold->actuator[i]);
+    fw_json_end(json);
+    fw_json_list(json, "actuations");
+    for (int i = 0; i < p->hold->ngrip; i++) {
+        fw_json_list(json, NULL);
+        for (int k = 0; k < 3; k++)
+            fw_json_whole(json, NULL, p->hold->grip[i].actuator[k]);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    fw_json_text(json, "tree", p->tree);
+    fw_json_end(json);
+}
+
 static void certificate(fw_json *json, const fw_report_workspace_flow *f,
-                        const fw_workspace_loop *loop, const fw_workspace_proof *p) {
+                        const fw_workspace_loop *loop, const fw_workspace_proof *p,
+                        const fw_workspace_strain_proof *strain) {
     fw_json_object(json, NULL);
     fw_json_text(json, "flow", f->flow);
     fw_json_object(json, "mechanism");
@@ -400,6 +481,7 @@ static void certificate(fw_json *json, const fw_report_workspace_flow *f,
     }
     fw_json_end(json);
     fw_json_text(json, "tree", p->tree);
+    certified_strain(json, f, strain);
     fw_json_end(json);
 }
 
@@ -415,7 +497,7 @@ fw_status fw_report_certificate_json(const fw_report_workspace *in, fw_text *out
         if (!fw_workspace_loop_set_up(f->mechanism, &loop)) continue;
         for (int k = 0; k < in->device->nworkspace; k++)
             if (f->required->asked && f->required->asked[k] && f->required->proof[k].proved)
-                certificate(&json, f, &loop, &f->required->proof[k]);
+                certificate(&json, f, &loop, &f->required->proof[k], &f->required->strain[k]);
     }
     fw_json_end(&json);
     fw_json_end(&json);

@@ -171,6 +171,9 @@ static void hinge(fw_json *json, const fw_verdict_hinge_verdict *h) {
     fw_json_text(json, "flow", h->flow);
     fw_report_json_pair(json, "utilisation_band", h->utilisation_low, h->utilisation_high);
     fw_json_text(json, "verdict", word(h->decision));
+    fw_json_text(json, "actuation", h->actuation);
+    fw_json_real(json, "joint_force_N", h->joint_force_N);
+    fw_json_real(json, "over_rotation", h->over_rotation);
     limit(json, h);
 }
 
@@ -214,6 +217,26 @@ static void box(fw_json *json, const fw_device_workspace_box *b,
     fw_json_end(json);
 }
 
+/* which hinge the required poses strain most, and what holds it there */
+static void loads(fw_json *json, const fw_verdict_variant_verdict *v) {
+    for (int i = 0; i < FW_SIX; i++) {
+        const fw_workspace_load *l = &v->workspace.load[i];
+        if (!l->known) continue;
+        fw_json_object(json, NULL);
+        fw_json_text(json, "id", v->mechanism->pin[i].id);
+        fw_json_text(json, "flow", v->variant ? v->variant->flow : NULL);
+        fw_json_real(json, "strain", l->strain);
+        fw_json_real(json, "strain_error", l->error);
+        fw_report_json_reals(json, "pose", (double[]){l->x_m, l->y_m, l->phi_rad}, 3);
+        fw_json_real(json, "angle_rad", l->angle_rad);
+        fw_json_real(json, "joint_force_N", l->force_N);
+        fw_json_real(json, "over_rotation", l->over_rotation);
+        fw_json_real(json, "give", l->give);
+        fw_json_text(json, "actuation", l->actuation);
+        fw_json_end(json);
+    }
+}
+
 static void workspace(fw_json *json, const fw_report_input *in) {
     bool certified = true, any = false;
     double volume = (double)NAN;
@@ -232,6 +255,10 @@ static void workspace(fw_json *json, const fw_report_input *in) {
     fw_json_end(json);
     fw_json_truth(json, "certified", any && certified);
     fw_json_real(json, "volume", volume); /* least of the boxes, m2 rad */
+    fw_json_list(json, "actuation");
+    for (int i = 0; i < in->verdict->nvariant; i++)
+        if (in->verdict->variant[i].workspace.required) loads(json, &in->verdict->variant[i]);
+    fw_json_end(json);
     fw_json_end(json);
 }
 

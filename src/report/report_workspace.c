@@ -365,6 +365,30 @@ static void judgement(fw_text *out, const fw_workspace_result *w) {
                   w->volume_m2_rad * 1e6 * FW_DEG_PER_RAD);
 }
 
+static double strain_limit(const fw_verdict_variant_verdict *v, int pin) {
+    for (int i = 0; i < v->nhinge; i++)
+        if (v->hinge[i].joint == pin) return v->hinge[i].strain_limit;
+    return (double)NAN;
+}
+
+/* one hinge: farthest rotation, and the pose that strains it most; without forces that rotation's */
+static void peak(fw_text *out, const fw_verdict_variant_verdict *v, int k) {
+    const fw_workspace_peak *p = &v->workspace.peak[k];
+    const fw_workspace_load *l = &v->workspace.load[k];
+    double limit = fw_report_pin_limit(v->mechanism, k), by_angle = fabs(p->angle_rad) / limit;
+    double allowed = strain_limit(v, k), u = l->known ? l->strain / allowed : by_angle;
+    fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{D} \u00b1 ",
+              u > 1.0 ? " class=\"bad\"" : "", v->mechanism->pin[k].id, p->angle_rad);
+    fw_markup_number(out, p->error_rad * FW_DEG_PER_RAD, 2);
+    fw_markup(out,
+              "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td><td class=\"n\">{p}</td><td "
+              "class=\"n\">{u}</td><td class=\"n\">{u}</td><td class=\"n\">{u}</td><td "
+              "class=\"n\">{d}</td><td>{s}</td></tr>\n",
+              limit, u, by_angle, l->known ? l->force_N : (double)NAN, "N",
+              l->known ? l->x_m : p->x_m, "m", l->known ? l->y_m : p->y_m, "m",
+              l->known ? l->phi_rad : p->phi_rad, l->actuation ? l->actuation : "not known");
+}
+
 static void peaks(fw_report_page *page, const fw_verdict_variant_verdict *v) {
     fw_text *out = page->out;
     fw_text_add(
@@ -372,20 +396,13 @@ static void peaks(fw_report_page *page, const fw_verdict_variant_verdict *v) {
         "<div class=\"wide\"><table><caption>Worst pose of every hinge</caption><thead>"
         "<tr><th scope=\"col\">Hinge</th><th scope=\"col\" class=\"n\">Angle (\u00b0)</th><th "
         "scope=\"col\" class=\"n\">Limit (\u00b0)</th><th scope=\"col\" class=\"n\">Utilisation"
-        "</th><th scope=\"col\" class=\"n\">Platform x</th><th scope=\"col\" "
-        "class=\"n\">y</th><th scope=\"col\" class=\"n\">rotation</th></tr></thead>"
+        "</th><th scope=\"col\" class=\"n\">of it by rotation</th><th scope=\"col\" "
+        "class=\"n\">Joint force</th><th scope=\"col\" class=\"n\">Platform x</th><th "
+        "scope=\"col\" class=\"n\">y</th><th scope=\"col\" class=\"n\">rotation</th><th "
+        "scope=\"col\">Held by</th></tr></thead>"
         "<tbody>\n");
-    for (int k = 0; k < FW_SIX && k < v->mechanism->npin; k++) {
-        const fw_workspace_peak *p = &v->workspace.peak[k];
-        double limit = fw_report_pin_limit(v->mechanism, k), u = fabs(p->angle_rad) / limit;
-        fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th><td class=\"n\">{D} \u00b1 ",
-                  u > 1.0 ? " class=\"bad\"" : "", v->mechanism->pin[k].id, p->angle_rad);
-        fw_markup_number(out, p->error_rad * FW_DEG_PER_RAD, 2);
-        fw_markup(out,
-                  "</td><td class=\"n\">{D}</td><td class=\"n\">{p}</td><td "
-                  "class=\"n\">{u}</td><td class=\"n\">{u}</td><td class=\"n\">{d}</td></tr>\n",
-                  limit, u, p->x_m, "m", p->y_m, "m", p->phi_rad);
-    }
+    for (int k = 0; k < FW_SIX && k < v->mechanism->npin; k++)
+        peak(out, v, k);
     fw_text_add(out, "</tbody></table></div>\n");
 }
 

@@ -77,6 +77,7 @@ static void governing(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_
         fw_text_real(out, "(its rotation alone would use %.1f %%, the force it carries the rest)\n",
                      100.0 * h->utilisation * (1.0 - h->force_share));
     }
+    if (h->actuation) fw_text_printf(out, "(the pose is held by: %s)\n", h->actuation);
     limit(out, h, in);
     if (h->touches)
         fw_text_printf(out,

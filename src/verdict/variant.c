@@ -122,34 +122,51 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     return FW_OK;
 }
 
-/* of required poses only the rotations are known, so that every repetition is taken to go to the
-   worst one and as far to the other side */
+/* every repetition is taken to go to the worst pose and as far to the other side */
+static void workspace_fatigue(const judged *by, fw_verdict_hinge_verdict *out) {
+    if (!repeats(by)) return;
+    const fw_maths_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
+    const fw_flexure_strain_life *law = &by->hinge->limits.life;
+    const fw_verdict_fatigue f = {fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
+                                  fw_verdict_miner(law, &one, 1, by->repetitions, 1), 1};
+    fatigue(by, &f, out);
+}
+
+/* Peak strain of all required poses, by rotation and the joint forces that hold them. Of the band:
+   the closed form's strain; its stiffness, which the forces go by and the rotations do not; what
+   drift and give of the hinges may add at the worst pose (upward); what the proof leaves open
+   (downward). Where forces cannot be computed a rotation alone accepts nothing. */
 static void judge_workspace(const judged *by, const fw_workspace_result *workspace,
                             fw_verdict_hinge_verdict *out) {
     const fw_workspace_peak *peak = &workspace->peak[by->hinge->pin];
+    const fw_workspace_load *load = &workspace->load[by->hinge->pin];
     const fw_flexure_result *c = &by->hinge->closed_form;
+    double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
     out->scene = "workspace";
     out->peak_angle_rad = peak->angle_rad;
     out->angle_error_rad = peak->error_rad;
     out->t_s = (double)NAN;
-    out->utilisation = fabs(peak->angle_rad) / c->limit_angle_rad;
+    out->utilisation = load->known ? load->strain / out->strain_limit : by_angle;
     out->peak_strain = out->utilisation * out->strain_limit;
-    double numeric = peak->error_rad / c->limit_angle_rad;
-    double model = fw_verdict_model_error.strain + beyond_fit(c);
-    out->numeric = numeric;
-    out->lasting = model + fw_verdict_model_error.workspace;
-    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
-    out->utilisation_high =
-        out->utilisation * (1.0 + model + fw_verdict_model_error.workspace) + numeric;
+    out->actuation = load->actuation;
+    out->joint_force_N = load->known ? load->force_N : (double)NAN;
+    out->over_rotation = load->known ? load->over_rotation : (double)NAN;
+    if (out->utilisation > by_angle) out->force_share = 1.0 - by_angle / out->utilisation;
+    double share =
+        load->known && load->over_rotation > 0.0 ? fabs(1.0 - 1.0 / load->over_rotation) : 0.0;
+    double model = fw_verdict_model_error.strain + beyond_fit(c) +
+                   share * fw_verdict_motion_lasting_error(by->m);
+    double numeric =
+        load->known ? load->error / out->strain_limit : peak->error_rad / c->limit_angle_rad;
+    out->numeric = 0.0; /* no run makes the proof closer */
+    out->lasting = model + load->give;
+    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model - load->give) - numeric);
+    out->utilisation_high = out->utilisation * (1.0 + model + load->give);
+    if (!workspace->certified) out->utilisation_high += numeric;
     chance(by, out);
-    if (repeats(by)) {
-        const fw_maths_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
-        const fw_flexure_strain_life *law = &by->hinge->limits.life;
-        const fw_verdict_fatigue f = {fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
-                                      fw_verdict_miner(law, &one, 1, by->repetitions, 1), 1};
-        fatigue(by, &f, out);
-    }
+    workspace_fatigue(by, out);
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    if (!load->known && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
 }
 
@@ -235,6 +252,8 @@ static fw_verdict_hinge_verdict blank_verdict(const judged *by) {
                                       .limit_Pa = allowed,
                                       .strain_limit = allowed / by->safety_factor / by->youngs_Pa,
                                       .limit_angle_rad = by->hinge->closed_form.limit_angle_rad,
+                                      .joint_force_N = (double)NAN,
+                                      .over_rotation = (double)NAN,
                                       .failure_probability = (double)NAN,
                                       .fatigue_utilisation = (double)NAN,
                                       .damage = (double)NAN,
@@ -259,7 +278,8 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
-    if (v->workspace.required) { /* the poses that can be reached */
+    /* the poses that can be reached; what rides on the six-bar does not bend in them */
+    if (v->workspace.required && by->hinge->pin < FW_SIX) {
         fw_verdict_hinge_verdict now = blank;
         judge_workspace(by, &v->workspace, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);

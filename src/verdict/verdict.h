@@ -30,7 +30,11 @@ typedef struct fw_verdict_hinge_verdict {
     fw_verdict_decision decision;
     int joint;
     double force_share; /* part of the peak strain that the joint force adds to the rotation's */
-    bool touches;       /* the drawn solids meet before the peak angle */
+    /* of the workspace, else NULL and NaN: what holds the worst pose, the joint force there, the
+       strain over that of the rotation there alone */
+    const char *actuation;
+    double joint_force_N, over_rotation;
+    bool touches;                  /* the drawn solids meet before the peak angle */
     const fw_flexure_limit *limit; /* the criterion that governs; NULL: a number without a source */
     double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
@@ -195,9 +199,8 @@ typedef struct fw_verdict_options {
 /* what the model itself may be wrong by, relative, beside the numerical error
    (docs/theory/verdict.md) */
 typedef struct fw_verdict_model_errors {
-    double motion;    /* revolute joints at the elastic centres against geometrically exact beams */
-    double strain;    /* closed-form peak strain against 3-D finite elements */
-    double workspace; /* joint forces are not known for a required pose */
+    double motion; /* revolute joints at the elastic centres against geometrically exact beams */
+    double strain; /* closed-form peak strain against 3-D finite elements */
 } fw_verdict_model_errors;
 extern const fw_verdict_model_errors fw_verdict_model_error;
 /* accuracy of a first look */

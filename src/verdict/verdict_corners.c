@@ -116,13 +116,17 @@ static double largest_run(const fw_verdict_search *s) {
     return most;
 }
 
-/* a utilisation above this may be beyond its limit with the band of the model: wider for a required
-   pose, and outside the fitted range of fillets and arcs (10 % counted for every flexure) */
+/* a utilisation above this may be beyond its limit with the band of the model: for a required pose
+   with what drift and give of the hinges may add, and wider outside the fitted range of fillets and
+   arcs (10 % counted for every flexure) */
 static double near_limit(const fw_verdict_search *s, int check) {
     int scenes = s->device->nscene + 1;
     bool pose = check < s->v->nhinge * scenes && check % scenes == scenes - 1;
     const fw_verdict_model_errors *e = &fw_verdict_model_error;
-    return 0.95 / (1.1 + e->strain + (pose ? e->workspace : e->motion));
+    double give = 0.0;
+    for (int k = 0; k < FW_SIX && pose; k++)
+        give = fmax(give, s->v->workspace.load[k].give);
+    return 0.95 / (1.1 + e->strain + (pose ? give : e->motion));
 }
 
 /* runs the corner of the check whose estimate, with the error seen so far, is highest and either

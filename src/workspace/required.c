@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/loop.h"
+#include "workspace/pose_load.h"
 #include "base/constants.h"
 #include "base/text.h"
 #include <math.h>
@@ -170,7 +170,8 @@ fw_status fw_workspace_certify_box(fw_arena *arena, const fw_workspace_loop *loo
 
 enum { COARSE = 9, FINE = 17, MOST_BOXES = 20000 };
 
-static const double sharpness = 1e-3; /* of the proved ends of ranges, relative */
+/* of the proved ends of ranges, relative; of strains, which a verdict's band holds */
+static const double sharpness = 1e-3, strain_sharpness = 2e-3;
 
 static double along(const fw_workspace_box3 *box, int axis, int i, int n) {
     return box->lo[axis] + (box->hi[axis] - box->lo[axis]) * i / (n - 1);
@@ -260,6 +261,29 @@ static fw_workspace_peak peak_of(const fw_workspace_proof *proof, int hinge) {
     return (fw_workspace_peak){far, fw_up(fabs(far - near)), at->pose[0], at->pose[1], at->pose[2]};
 }
 
+/* strains over one box, and the worst pose so far of every hinge */
+static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
+                            const fw_workspace_box3 *box, fw_workspace_strain_proof *proof,
+                            fw_workspace_result *result) {
+    fw_workspace_hold *hold = fw_arena_one(arena, fw_workspace_hold);
+    fw_workspace_proof_end end;
+    FW_NEED(hold);
+    FW_TRY(fw_workspace_hold_of(arena, m, loop, box, hold));
+    FW_TRY(
+        fw_workspace_certify_strain(arena, hold, box, strain_sharpness, MOST_BOXES, proof, &end));
+    if (end != FW_PROVED) {
+        result->certified = false;
+        FW_TRY(fw_workspace_sample_strain(arena, hold, box, proof));
+    }
+    for (int i = 0; i < FW_SIX; i++) {
+        if (hold->section[i].n == 0 ||
+            (result->load[i].known && !(proof->strain[i] > result->load[i].strain)))
+            continue;
+        FW_TRY(fw_workspace_load_of(arena, hold, m, proof, i, &result->load[i]));
+    }
+    return FW_OK;
+}
+
 /* one required box: proved where that can be, else sampled; false: not reachable */
 static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k,
                          const fw_workspace_loop *loop, const fw_device_workspace_box *asked,
@@ -292,17 +316,21 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
     fw_workspace_proof *proof = fw_arena_array(arena, fw_workspace_proof, n);
     FW_NEED(in_flow);
     FW_NEED(whole);
+    fw_workspace_strain_proof *strain = fw_arena_array(arena, fw_workspace_strain_proof, n);
+    fw_workspace_loop *loop = fw_arena_one(arena, fw_workspace_loop);
     FW_NEED(proof);
+    FW_NEED(strain);
+    FW_NEED(loop);
     *result = (fw_workspace_result){.reachable = true,
                                     .certified = true,
                                     .fail_box = FW_NONE,
                                     .asked = in_flow,
                                     .box_reachable = whole,
-                                    .proof = proof};
+                                    .proof = proof,
+                                    .strain = strain};
     fw_workspace_six_bar k;
-    fw_workspace_loop loop;
     bool known = fw_workspace_six_bar_set_up(m, &k),
-         provable = known && fw_workspace_loop_set_up(m, &loop);
+         provable = known && fw_workspace_loop_set_up(m, loop);
     const char *held = NULL;
     if (known) FW_TRY(fw_workspace_six_bar_foreign_joint(arena, m, &held));
     for (int i = 0; i < m->device->nworkspace; i++) {
@@ -322,7 +350,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_diags
                                  held);
         result->required = true;
         in_flow[i] = true;
-        FW_TRY(one_box(arena, &k, provable ? &loop : NULL, asked, &proof[i], result, &whole[i]));
+        FW_TRY(one_box(arena, &k, provable ? loop : NULL, asked, &proof[i], result, &whole[i]));
+        if (whole[i] && provable && m->nhinge > 0) {
+            const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
+                                           {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+            FW_TRY(one_strain(arena, m, loop, &box, &strain[i], result));
+        }
         if (!whole[i] && result->reachable) {
             result->reachable = false;
             result->fail_box = i;

@@ -38,6 +38,42 @@ typedef struct fw_workspace_proof {
     int leaves;
 } fw_workspace_proof;
 
+/* ---- the strain that the rotations and the joint forces of a required pose make ---- */
+
+typedef struct fw_workspace_hold fw_workspace_hold; /* pose_load.h: what may hold the pose */
+
+typedef struct fw_workspace_strain_extreme { /* a pose, what holds it, and the strain there */
+    double pose[3];
+    int grip; /* of the hold */
+    fw_maths_interval strain;
+} fw_workspace_strain_extreme;
+
+/* At every pose of the box, whatever holds it, hinge i is strained by at most strain[i]. The tree
+   is that of fw_workspace_proof, one of its own. */
+typedef struct fw_workspace_strain_proof {
+    const fw_workspace_hold *hold; /* NULL: nothing is known of the joint forces */
+    bool proved;                   /* else from samples */
+    double strain[FW_SIX];         /* 0 where there is no flexure */
+    fw_workspace_strain_extreme most[FW_SIX];
+    const char *tree;
+    long boxes;
+    int leaves;
+} fw_workspace_strain_proof;
+
+/* what holds the pose that strains the hinge most */
+const char *fw_workspace_actuation(const fw_workspace_strain_proof *proof, int hinge);
+
+typedef struct fw_workspace_load { /* of one hinge, the worst over all required boxes */
+    bool known;                    /* it is a flexure, and the joint forces can be computed */
+    double strain;                 /* certified: proved not to be exceeded */
+    double error;                  /* certified: the truth is at most this much less */
+    double x_m, y_m, phi_rad;      /* where it is nearly reached, and there: */
+    double angle_rad, force_N;
+    double over_rotation;  /* strain over that of the rotation alone */
+    double give;           /* relative: what drift and give of all hinges may add */
+    const char *actuation; /* what holds the pose, the worst that the description allows */
+} fw_workspace_load;
+
 typedef struct fw_workspace_result {
     bool required;                           /* the device asks for one in this flow */
     bool reachable;                          /* all of it can be assembled */
@@ -47,7 +83,9 @@ typedef struct fw_workspace_result {
     int fail_box;                            /* ... of this one of the device's boxes; FW_NONE */
     const bool *asked,
         *box_reachable; /* (device->nworkspace) holds in this flow; all of it reachable */
-    const fw_workspace_proof *proof; /* (device->nworkspace) */
+    const fw_workspace_proof *proof;         /* (device->nworkspace) */
+    const fw_workspace_strain_proof *strain; /* (device->nworkspace) */
+    fw_workspace_load load[FW_SIX];
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;
 

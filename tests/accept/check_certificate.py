@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verifies certificate.json of `flexwright workspace`: for every required box that every pose can be
 assembled on the drawn branch with every hinge's angle in the stated range, and that the ends of the range
-are nearly reached. Standard library only, and nothing of the product: own interval arithmetic, other
+are nearly reached; and that no hinge is strained beyond what is said, whatever of the actuations holds the pose.
+Standard library only, and nothing of the product: own interval arithmetic, other
 formulas (law of cosines and derivatives carried along, where the product has a vector form and Taylor
 remainders), so that a mistake in one of the two shows.
 
@@ -15,6 +16,7 @@ import math
 import sys
 
 INF = math.inf
+next_to = math.nextafter
 
 
 class Refused(Exception):
@@ -46,14 +48,22 @@ class Interval:
         return Interval(-self.hi, -self.lo)
 
     def __add__(self, other):
-        return Interval(down(self.lo + other.lo), up(self.hi + other.hi))
+        return Interval(next_to(self.lo + other.lo, -INF), next_to(self.hi + other.hi, INF))
 
     def __sub__(self, other):
-        return Interval(down(self.lo - other.hi), up(self.hi - other.lo))
+        return Interval(next_to(self.lo - other.hi, -INF), next_to(self.hi - other.lo, INF))
 
     def __mul__(self, other):
-        p = (self.lo * other.lo, self.lo * other.hi, self.hi * other.lo, self.hi * other.hi)
-        return Interval(down(min(p)), up(max(p)))
+        a, b, c, d = self.lo, self.hi, other.lo, other.hi
+        if c == d:
+            if c == 0.0 and math.isfinite(a) and math.isfinite(b):
+                return ZERO
+            p, q = a * c, b * c
+            if p > q:
+                p, q = q, p
+            return Interval(next_to(p, -INF), next_to(q, INF))
+        p = (a * c, a * d, b * c, b * d)
+        return Interval(next_to(min(p), -INF), next_to(max(p), INF))
 
     def __truediv__(self, other):
         if other.lo <= 0 <= other.hi:
@@ -223,9 +233,13 @@ class Mechanism:
 
     def turns(self, box):
         """joint angles A..F over the box as jets"""
+        return self.posture(box)[0]
+
+    def posture(self, box):
+        """joint angles A..F; rotations of the five bodies"""
         axis = [Jet(b, tuple(ONE if i == k else ZERO for k in range(3))) for i, b in enumerate(box)]
         s, c = axis[2].sin(), axis[2].cos()
-        out = [None] * 6
+        out, bodies = [None] * 6, [None, None, axis[2], None, None]
         for number_, leg in enumerate(self.legs):
             x, y = (Interval(t) for t in leg.to)
             qx = axis[0] + Jet(Interval(self.centre[0])) + c.scaled(x) - s.scaled(y)
@@ -233,12 +247,13 @@ class Mechanism:
             alpha, beta = leg.angles(qx, qy)
             first, elbow = wrapped(alpha - leg.drawn[0]), wrapped(beta - leg.drawn[1])
             last = wrapped(axis[2] - first - elbow)
+            bodies[4 if number_ else 0], bodies[3 if number_ else 1] = first, first + elbow
             for place, jet in enumerate((first, elbow, last)):
                 hinge = 5 - place if number_ else place
                 if number_:
                     jet = jet.scaled(Interval(-1.0))
                 out[hinge] = jet + Jet(Interval(self.start[hinge]))
-        return out
+        return out, bodies
 
     def ranges(self, box):
         """enclosures of the joint angles: natural, mean value, and at the corner where all is monotone"""
@@ -268,6 +283,25 @@ def halves(box, axis):
         yield box[:axis] + [part] + box[axis + 1:]
 
 
+def walk(self):
+    """every box of the tree is a leaf, or halved; nothing is left out"""
+    stack = [self.box]
+    for c in self.tree:
+        if not stack:
+            raise Refused("the tree has too many nodes")
+        box = stack.pop()
+        if c == ".":
+            self.leaves += 1
+            self.leaf(box, 0)
+        elif c in "xyp":
+            lower, upper = halves(box, "xyp".index(c))
+            stack += [upper, lower]
+        else:
+            raise Refused("the tree has a node of no kind")
+    if stack:
+        raise Refused("the tree leaves a part of the box out")
+
+
 class Check:
     def __init__(self, data, most):
         self.mechanism = Mechanism(data["mechanism"])
@@ -295,23 +329,6 @@ class Check:
         for part in halves(box, widths.index(max(widths))):
             self.leaf(part, depth + 1)
 
-    def walk(self):
-        stack = [self.box]
-        for c in self.tree:
-            if not stack:
-                raise Refused("the tree has too many nodes")
-            box = stack.pop()
-            if c == ".":
-                self.leaves += 1
-                self.leaf(box, 0)
-            elif c in "xyp":
-                lower, upper = halves(box, "xyp".index(c))
-                stack += [upper, lower]
-            else:
-                raise Refused("the tree has a node of no kind")
-        if stack:
-            raise Refused("the tree leaves a part of the box out")
-
     def ends(self):
         """each end of a range is nearly reached by the pose that is named for it"""
         for hinge, (data, claim) in enumerate(zip(self.hinges, self.claim)):
@@ -331,16 +348,284 @@ class Check:
                     raise Refused("a range is wider than what is reached")
 
 
+GROUND = -1
+
+
+class Vector:
+    """two jets"""
+    __slots__ = ("x", "y")
+
+    def __init__(self, x, y):
+        self.x, self.y = x, y
+
+    def __add__(self, o):
+        return Vector(self.x + o.x, self.y + o.y)
+
+    def __sub__(self, o):
+        return Vector(self.x - o.x, self.y - o.y)
+
+    def times(self, k):
+        return Vector(self.x * k, self.y * k)
+
+    def dot(self, o):
+        return self.x * o.x + self.y * o.y
+
+    def cross(self, o):
+        return self.x * o.y - self.y * o.x
+
+
+def fixed(x, y):
+    return Vector(Jet(Interval(x)), Jet(Interval(y)))
+
+
+def rotated(turn, x, y):
+    """a fixed vector; turn: (cos, sin)"""
+    x, y = Interval(x), Interval(y)
+    return Vector(turn.x.scaled(x) - turn.y.scaled(y), turn.x.scaled(y) + turn.y.scaled(x))
+
+
+def total(jets):
+    out = Jet(ZERO)
+    for jet in jets:
+        out = out + jet
+    return out
+
+
+def determinant(p, q, r):
+    return (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2])
+            + p[2] * (q[0] * r[1] - q[1] * r[0]))
+
+
+class Statics:
+    """Joint forces at the poses of a box. Of every leg the force at its elbow follows from the moments of the lower link
+    about the ground hinge and of the upper one about the platform's (the product takes moments about the elbow)."""
+
+    def __init__(self, mechanism, length, box):
+        self.length = length
+        self.theta, bodies = mechanism.posture(box)
+        self.turn = [Vector(b.cos(), b.sin()) for b in bodies]
+        self.half = [total((p, q)).scaled(Interval(0.5)) for p, q in zip([Jet(ZERO)] + bodies, bodies + [Jet(ZERO)])]
+        left, right = mechanism.legs
+        self.a = [rotated(self.turn[0], *left.a), rotated(self.turn[4], *right.a)]
+        self.b = [rotated(self.turn[1], *left.b), rotated(self.turn[3], *right.b)]
+        pins = []
+        for leg, a, b in zip((left, right), self.a, self.b):
+            ground = fixed(*leg.base)
+            pins.append((ground, ground + a, ground + a + b))
+        self.pin = pins[0] + pins[1][::-1]  # A..F
+        axis = [Jet(v, tuple(ONE if i == k else ZERO for k in range(3))) for i, v in enumerate(box)]
+        self.centre = Vector(axis[0] + Jet(Interval(mechanism.centre[0])), axis[1] + Jet(Interval(mechanism.centre[1])))
+        # of every body a point and where it was drawn, and the hinge that its moments are about
+        drawn = [left.base, (left.base[0] + left.a[0], left.base[1] + left.a[1]), mechanism.centre,
+                 (right.base[0] + right.a[0], right.base[1] + right.a[1]), right.base]
+        self.place = list(zip((self.pin[0], self.pin[1], self.centre, self.pin[4], self.pin[5]), drawn))
+        self.about = (self.pin[0], self.pin[2], self.centre, self.pin[3], self.pin[5])
+
+    def point(self, body, at):
+        if body == GROUND:
+            return fixed(*at)
+        place, drawn = self.place[body]
+        return place + rotated(self.turn[body], at[0] - drawn[0], at[1] - drawn[1])
+
+    def solve(self, moment, force, outer):
+        """moment: of the hinges, or zeros; force, outer: on the bodies, moments about self.about. Joint forces A..F, and
+        what the platform lacks"""
+        zero, m, out = Jet(ZERO), moment, []
+        left = (m[1] - m[0] + outer[0], m[2] - m[1] + outer[1])
+        right = (m[4] - m[5] - outer[4], m[3] - m[4] - outer[3])
+        for a, b, (of_a, of_b) in zip(self.a, self.b, (left, right)):
+            side = a.cross(b)
+            out.append(Vector((b.x * of_a - a.x * of_b) / side, (b.y * of_a - a.y * of_b) / side))
+        r_b, r_e = out
+        forces = [r_b - force[0], r_b, r_b + force[1], r_e - force[3], r_e, r_e + force[4]]
+        push = forces[2] - forces[3] + force[2]
+        turn = ((self.pin[2] - self.centre).cross(forces[2]) - (self.pin[3] - self.centre).cross(forces[3])
+                + m[3] - m[2] + outer[2])
+        scale = Interval(1.0) / self.length
+        return forces, (push.x, push.y, turn.scaled(scale)), zero
+
+    def act(self, actuator):
+        """forces on the five bodies and their moments"""
+        force, outer = [fixed(0.0, 0.0) for _ in range(5)], [Jet(ZERO) for _ in range(5)]
+
+        def push(body, at, f):
+            if body != GROUND:
+                force[body] = force[body] + f
+                outer[body] = outer[body] + (at - self.about[body]).cross(f)
+        kind, points = actuator["kind"], [(p["body"], vector(p["at_m"])) for p in actuator["points"]]
+        x, y = vector(actuator["direction"])
+        if kind == "torque":
+            outer[actuator["body"]] = Jet(self.length)
+        elif kind == "force":
+            push(points[0][0], self.point(*points[0]), fixed(x, y))
+        elif kind == "electrodes":
+            against, at = actuator["against"], self.point(*points[0])
+            f = fixed(x, y) if against == GROUND else rotated(self.turn[against], x, y)
+            push(points[0][0], at, f)
+            push(against, at, fixed(0.0, 0.0) - f)
+        elif kind == "tendon":
+            for p, q in zip(points, points[1:]):
+                if p[0] == q[0]:
+                    continue
+                way = self.point(*q) - self.point(*p)
+                length = (way.x.square() + way.y.square()).root()
+                e = Vector(way.x / length, way.y / length)
+                push(p[0], self.point(*p), e)
+                push(q[0], self.point(*q), fixed(0.0, 0.0) - e)
+        else:
+            raise Refused("an actuator of no kind")
+        return force, outer
+
+
+class Strains:
+    """no hinge is strained beyond the claim at any pose of the box, whatever of the actuations holds it"""
+
+    def __init__(self, data, mechanism, box, most):
+        self.mechanism, self.box, self.most, self.boxes, self.leaves = mechanism, box, most, 0, 0
+        self.length = Interval(number(data["length_m"][0]))
+        self.hinges = []
+        for h in data["hinges"]:
+            spring, own = (number(t) for t in h["stiffness_Nm_per_rad"])
+            stations = [tuple(number(t) for t in s) for s in h["stations"]]
+            if any(s[2] < 0 or s[3] < 0 for s in stations):
+                raise Refused("a station that relieves")
+            self.hinges.append((spring, own, vector(h["axis"]), stations, tuple(number(t) for t in h["strain"])))
+        self.actuators, self.actuations = data["actuators"], data["actuations"]
+        if len(self.hinges) != 6 or not self.actuations:
+            raise Refused("six hinges and something that holds them")
+        self.data, self.tree = data, data["tree"]
+
+    def loads(self, box):
+        """what each actuation makes of the box: of every hinge K theta and its force along and across the axis. None where
+        it would have to pull the wrong way; `certain`: it does not anywhere"""
+        s = Statics(self.mechanism, self.length, box)
+        nothing = [fixed(0.0, 0.0)] * 5, [Jet(ZERO)] * 5
+        moment = [t.scaled(Interval(h[0])) for t, h in zip(s.theta, self.hinges)]
+        own, lacks, zero = s.solve(moment, *nothing)
+        answers = [s.solve([zero] * 6, *s.act(a)) for a in self.actuators]
+        frames = [Vector(h.cos(), h.sin()) for h in s.half]
+        for which in self.actuations:
+            wrench = [answers[i][1] for i in which]
+            below = determinant(*wrench)
+            forces, wrong, certain = list(own), False, True
+            for k, i in enumerate(which):
+                column = [lacks if k == j else w for j, w in enumerate(wrench)]
+                size = (determinant(*column) / below).scaled(Interval(-1.0))
+                if self.actuators[i]["pulls"]:
+                    wrong, certain = wrong or size.v.hi < 0, certain and size.v.lo >= 0
+                forces = [f + g.times(size) for f, g in zip(forces, answers[i][0])]
+            if wrong:
+                yield None
+                continue
+            out = []
+            for f, t, h, frame in zip(forces, s.theta, self.hinges, frames):
+                axis = rotated(frame, *h[2])
+                out.append((t.scaled(Interval(h[1])), axis.dot(f), axis.cross(f), f))
+            yield out, certain
+
+    @staticmethod
+    def station(at, load):
+        """jet of the bending part"""
+        x, y, bending, _ = at
+        return (load[0] - load[1].scaled(Interval(x)) - load[2].scaled(Interval(y))).scaled(Interval(bending))
+
+    @staticmethod
+    def size(load):
+        """upper bound of |F|"""
+        x, y = (max(-j.v.lo, j.v.hi) for j in (load[3].x, load[3].y))
+        return up(math.hypot(x, y), 3)
+
+    def over(self, box, load, middle, hinge, force):
+        """0 where the hinge's strain is below the claim as it stands, else an upper bound of it by the mean value of every
+        station"""
+        worst, claim = 0.0, self.hinges[hinge][4][1]
+        for at in self.hinges[hinge][3]:
+            pull = up(at[3] * force)
+            plain = load[hinge]
+            v = (plain[0].v - plain[1].v * Interval(at[0]) - plain[2].v * Interval(at[1])) * Interval(at[2])
+            if up(max(-v.lo, v.hi) + pull) <= claim:
+                continue
+            bound = self.station(at, load[hinge])
+            mean = self.station(at, middle[hinge]).v
+            for d, b in zip(bound.d, box):
+                mean = mean + d * (b - Interval(0.5 * (b.lo + b.hi)))
+            lo, hi = max(mean.lo, bound.v.lo), min(mean.hi, bound.v.hi)
+            worst = max(worst, up(max(-lo, hi) + pull))
+            if worst > claim:
+                break
+        return worst
+
+    def proved(self, box):
+        try:
+            whole = list(self.loads(box))
+            middle = list(self.loads([Interval(0.5 * (b.lo + b.hi)) for b in box]))
+        except Undecided:
+            return False
+        for one, at in zip(whole, middle):
+            if one is None:
+                continue
+            if at is None:
+                return False
+            for hinge in range(6):
+                load, claim = one[0][hinge], self.hinges[hinge][4][1]
+                # |F| at the middle and what it may grow by, or the range itself
+                grow = sum(max(-d.lo, d.hi) * 0.5 * (b.hi - b.lo) for part in (load[3].x, load[3].y)
+                           for d, b in zip(part.d, box))
+                force = min(self.size(load), up(self.size(at[0][hinge]) + up(grow * (1 + 1e-12))))
+                if self.over(box, one[0], at[0], hinge, force) > claim:
+                    return False
+        return True
+
+    def leaf(self, box, depth):
+        self.boxes += 1
+        if self.boxes > self.most:
+            raise Refused("strains are not proved within %d boxes" % self.most)
+        if self.proved(box):
+            return
+        if depth == 24:
+            raise Refused("strains cannot be proved near " + str([b.lo for b in box]))
+        widths = [(b.hi - b.lo) / max(w.hi - w.lo, 1e-300) for b, w in zip(box, self.box)]
+        for part in halves(box, widths.index(max(widths))):
+            self.leaf(part, depth + 1)
+
+    def ends(self):
+        """each bound is nearly reached by the pose and the actuation that are named for it"""
+        for hinge, data in enumerate(self.data["hinges"]):
+            if not self.hinges[hinge][3]:
+                continue
+            said, claim = self.hinges[hinge][4]
+            pose = [number(t) for t in data["pose"]]
+            if not all(b.lo <= p <= b.hi for b, p in zip(self.box, pose)):
+                raise Refused("the pose of a strain lies outside of the box")
+            found = list(self.loads([Interval(p) for p in pose]))[data["actuation"]]
+            if found is None or not found[1]:
+                raise Refused("that actuation does not hold the pose")
+            load, most = found[0][hinge], 0.0
+            force = math.hypot(load[3].x.v.lo, load[3].y.v.lo)
+            for at in self.hinges[hinge][3]:
+                bent = self.station(at, load).v
+                most = max(most, min(abs(bent.lo), abs(bent.hi)) + at[3] * force)
+            if abs(most - said) > 1e-9 * said or claim > 1.02 * said:
+                raise Refused("a strain is larger than what is reached")
+            if claim < said * (1 - 1e-12):
+                raise Refused("a pose is strained beyond what is said")
+
+
 def check(document, most=200000):
-    """boxes that were looked at, per required box; Refused where something is not proved"""
+    """boxes that were looked at, per required box and for its strains; Refused where something is not proved"""
     if document.get("schema") != "flexwright.workspace-certificate/1":
         raise Refused("not a certificate of a workspace")
     counts = []
     for data in document["boxes"]:
         one = Check(data, most)
-        one.walk()
+        walk(one)
         one.ends()
         counts.append((one.leaves, one.boxes))
+        if data.get("strain"):
+            strains = Strains(data["strain"], one.mechanism, one.box, most)
+            strains.ends()
+            walk(strains)
+            counts.append((strains.leaves, strains.boxes))
     return counts
 
 
@@ -353,7 +638,7 @@ def main():
         return 1
     for leaves, boxes in counts:
         print("proved: %d leaves, %d boxes here" % (leaves, boxes))
-    print("all %d required boxes are proved" % len(counts))
+    print("all %d required boxes and strains are proved" % len(counts))
     return 0
 
 

@@ -103,8 +103,10 @@ class Workspace(InTemporary):
 
 class Certificate(InTemporary):
     def test_accepted(self):
-        counts = check_certificate.check(self.certificate)
-        self.assertEqual(len(counts), 2)
+        changed = copy.deepcopy(self.certificate)
+        self.assertTrue(changed["boxes"][0].pop("strain"))  # takes a minute
+        counts = check_certificate.check(changed)
+        self.assertEqual(len(counts), 3)
 
     def refused(self, change):
         changed = copy.deepcopy(self.certificate)
@@ -130,6 +132,24 @@ class Certificate(InTemporary):
         def change(box):
             claim = box["hinges"][2]["angle_rad"]
             claim[1] = bits(claim[1], lambda v: v * 1.05)
+        self.refused(change)
+
+    def test_other_strain(self):
+        """below what a pose has, far above it, or of another hinge's stiffness"""
+        for factor in (0.99, 1.1):
+            def change(box, factor=factor):
+                claim = box["strain"]["hinges"][2]["strain"]
+                claim[1] = bits(claim[1], lambda v: v * factor)
+            self.refused(change)
+
+        def stiffer(box):
+            spring = box["strain"]["hinges"][1]["stiffness_Nm_per_rad"]
+            spring[0] = bits(spring[0], lambda v: v * 1.01)
+        self.refused(stiffer)
+
+    def test_strain_with_a_part_left_out(self):
+        def change(box):
+            box["strain"]["tree"] = box["strain"]["tree"][:-1]
         self.refused(change)
 
     def test_larger_box(self):

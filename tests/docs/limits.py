@@ -52,6 +52,7 @@ CASES = {
     "Shares of joints that repeat": (LEVER, ("<spring id", '<revolute id="again" a="ground" b="bar" b-y="-0.5 mm"/><spring id'),
                                      "assemble", "redundant here, because other joints already impose it: again"),
     "Certified workspace of anything": (COMB, None, "workspace", "FW-D217"),
+    "What else holds": (SIX, None, "check", "the pose is held by: "),
     "Proof at stretched": (SIX, REACH, "workspace --flow al-masked-rie", "NOT PROVED.*FW-D218|FW-D218.*NOT PROVED"),
     "Scatter of lives": (LEAF, None, "check", r"limit by fracture.*typical: DelRio"),
     "Ranges that a pack does not know": (LEAF, None, "check", "0.99 to 1 is assumed, and the verdict holds there only"),

@@ -127,7 +127,22 @@ def workspace(g):
         answers.update({name: sense * turn for name, turn in zip(names, turns)})
     c = moved(POINTS["C"])
     answers["d"] = hypot(c[0] - POINTS["A"][0], c[1] - POINTS["A"][1])
+    if "opposite" not in g:
+        answers["R_A"] = leg_force(g, workspace({**g, "x": -g["x"], "y": -g["y"], "phi": -g["phi"], "opposite": True}))
     return answers
+
+
+def leg_force(g, angle):
+    """size of the force of the left leg from its hinges' moments, no outer force on its links"""
+    at, phi, link = complex(*POINTS["A"]), 0.0, []
+    for hinge, towards in (("A", "B"), ("B", "C")):
+        phi += angle[hinge]
+        drawn = complex(*POINTS[towards]) - complex(*POINTS[hinge])
+        link.append(drawn * complex(cos(phi), sin(phi)))
+        at += link[-1]
+    m_A, m_B, m_C = (g["K_" + name] * angle[name] for name in "ABC")
+    a, b = link
+    return abs(((m_B - m_A) * b - (m_C - m_B) * a) / (a.conjugate() * b).imag)
 
 
 def workspace_program(run, g):
@@ -136,7 +151,11 @@ def workspace_program(run, g):
     over = found["angle_rad"][1] / workspace(g)["A"] - 1
     if not 0 <= over <= 1e-3:
         raise RuntimeError(f"the proved range of hinge A ends {over} from what a pose in it has")
-    return {"over": over}
+    held = run("check", SIX_BAR, "--json")["workspace"]["actuation"]
+    worst = next(h for h in held if h["id"] == "A" and h["flow"] == "al-masked-rie")
+    if worst["pose"][0] * g["x"] > 0 or worst["actuation"] != "wrench on the platform":
+        raise RuntimeError(f"hinge A is strained most at {worst['pose']} by {worst['actuation']}")
+    return {"over": over, "R_A": worst["joint_force_N"]}
 
 
 def hinge_models(g):

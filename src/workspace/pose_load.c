@@ -1,0 +1,438 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Statics of the six-bar over a box of poses. With m_i = K_i theta_i, f_k the outer force on body
+   k and M_k its moment about hinge B (links AB, BC) or E (links EF, DE), the moments about the
+   elbows of both links of a leg give the leg's force at the ground,
+
+     a x R_A = m_B - m_A + M_AB,   b x R_A = m_C - m_B + M_BC - b x (f_AB + f_BC),
+     R_A = ((a x R_A) b - (b x R_A) a)/(a x b),   R_B = R_A + f_AB,   R_C = R_B + f_BC
+
+   and of the right leg, counted down from the platform,
+
+     a x R_F = m_E - m_F - M_EF,   b x R_F = m_D - m_E - M_DE + b x (f_DE + f_EF),
+     R_E = R_F - f_EF,   R_D = R_E - f_DE.
+
+   Linear in the moments and in the actuators' sizes; the three equations of the platform give
+   these sizes (Cramer). in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us
+   and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
+#include "workspace/pose_load.h"
+#include <math.h>
+
+/* ---- where everything is ---- */
+
+static const double legs_sense[2] = {1.0, -1.0};
+
+/* angle of the vector w from w0, both of the same length, its derivatives given */
+static fw_workspace_jet angle_from(fw_geometry_vec2 w0, fw_workspace_jet2 w,
+                                   const fw_workspace_jet d[3], const double half[3]) {
+    fw_workspace_jet2 from = fw_jet2_exact(w0.x, w0.y);
+    fw_workspace_jet sine = fw_jet2_cross(from, w), cosine = fw_jet2_dot(from, w), out;
+    fw_maths_interval at = fw_centred_direction(sine.v, cosine.v);
+    out.v.m = 0.5 * (at.lo + at.hi);
+    out.v.e = fw_grown(fmax(at.hi - out.v.m, out.v.m - at.lo));
+    out.v.r = (double)INFINITY;
+    for (int i = 0; i < 3; i++)
+        out.d[i] = d[i].v;
+    return fw_jet_tight(out, half);
+}
+
+static fw_workspace_jet2 over_length2(fw_geometry_vec2 w0, fw_workspace_jet2 w,
+                                      fw_maths_centred inverse) {
+    fw_workspace_jet2 from = fw_jet2_exact(w0.x, w0.y);
+    fw_workspace_jet k = {.v = inverse};
+    return (fw_workspace_jet2){fw_jet_mul(fw_jet2_dot(from, w), k),
+                               fw_jet_mul(fw_jet2_cross(from, w), k)};
+}
+
+/* both links of one leg to the platform hinge q (loop.c), and their rotations; false: may be out of
+   reach */
+static bool leg_over(const fw_workspace_leg *leg, int side, fw_workspace_jet2 q,
+                     const fw_workspace_jet2 dq[3], fw_workspace_jet phi,
+                     fw_workspace_pose_load *o) {
+    fw_workspace_jet2 v = fw_jet2_sub(q, fw_jet2_exact(leg->base.x, leg->base.y));
+    fw_workspace_jet d2 = fw_jet2_dot(v, v), inverse = fw_jet_inverse(d2);
+    fw_workspace_jet a2 = {.v = leg->a2}, b2 = {.v = leg->b2};
+    fw_workspace_jet k =
+        fw_jet_scaled(fw_jet_add(fw_jet_exact(1.0), fw_jet_mul(fw_jet_sub(a2, b2), inverse)), 0.5);
+    fw_workspace_jet h2 =
+        fw_jet_tight(fw_jet_sub(fw_jet_mul(a2, inverse), fw_jet_mul(k, k)), o->half);
+    if (!(h2.v.m - h2.v.r > 0.0)) return false;
+    fw_workspace_jet h = fw_jet_scaled(fw_jet_sqrt(h2), -leg->sign);
+    fw_workspace_jet2 a = fw_jet2_add(fw_jet2_times(v, k), fw_jet2_times(fw_jet2_quarter(v), h));
+    a.x = fw_jet_tight(a.x, o->half), a.y = fw_jet_tight(a.y, o->half);
+    fw_workspace_jet2 b = fw_jet2_sub(v, a);
+    b.x = fw_jet_tight(b.x, o->half), b.y = fw_jet_tight(b.y, o->half);
+    o->a[side] = a, o->b[side] = b;
+    o->gain[side] = fw_jet_tight(fw_jet_negated(fw_jet_inverse(fw_jet_mul(h, d2))), o->half);
+    if (!isfinite(o->gain[side].v.r)) return false;
+    fw_workspace_jet of_a[3], of_b[3];
+    for (int i = 0; i < 3; i++) { /* loop.c: of the rotations of both links */
+        of_a[i] = fw_jet_mul(fw_jet2_dot(dq[i], b), o->gain[side]);
+        of_b[i] = fw_jet_negated(fw_jet_mul(fw_jet2_dot(dq[i], a), o->gain[side]));
+    }
+    fw_workspace_jet first = angle_from(leg->a, a, of_a, o->half),
+                     second = angle_from(leg->b, b, of_b, o->half);
+    const int base = side ? 5 : 0, step = side ? -1 : 1;
+    double s = legs_sense[side];
+    o->theta[base] = fw_jet_scaled(first, s);
+    o->theta[base + step] = fw_jet_scaled(fw_jet_sub(second, first), s);
+    o->theta[base + 2 * step] = fw_jet_scaled(fw_jet_sub(phi, second), s);
+    o->turn[side ? 4 : 0] = over_length2(leg->a, a, fw_centred_inverse(leg->a2));
+    o->turn[side ? 3 : 1] = over_length2(leg->b, b, fw_centred_inverse(leg->b2));
+    return true;
+}
+
+/* half of the sum of two rotations, each below half a turn: (1 + u)/|1 + u|, u = both of them */
+static bool half_way(fw_workspace_jet2 a, fw_workspace_jet2 b, const double axis[2],
+                     const double half[3], fw_workspace_jet2 *out) {
+    fw_workspace_jet2 u = fw_jet2_both(a, b);
+    u.x = fw_jet_add(u.x, fw_jet_exact(1.0));
+    fw_workspace_jet n2 = fw_jet_tight(fw_jet_scaled(u.x, 2.0), half);
+    if (!(n2.v.m - n2.v.r > 1e-6)) return false;
+    fw_workspace_jet inverse = fw_jet_inverse(fw_jet_sqrt(n2));
+    *out = fw_jet2_turned(fw_jet2_times(u, inverse), axis[0], axis[1]);
+    return true;
+}
+
+static bool frames(const fw_workspace_hold *hold, fw_workspace_pose_load *o) {
+    const fw_workspace_jet2 still = fw_jet2_exact(1.0, 0.0);
+    for (int i = 0; i < FW_SIX; i++) {
+        if (hold->section[i].n == 0) continue;
+        fw_workspace_jet2 lower = i > 0 ? o->turn[i - 1] : still;
+        fw_workspace_jet2 upper = i < 5 ? o->turn[i] : still;
+        if (!half_way(lower, upper, hold->section[i].axis, o->half, &o->frame[i])) return false;
+    }
+    return true;
+}
+
+/* ---- forces ---- */
+
+typedef struct outer { /* what acts on the five bodies; moments about hold->at */
+    fw_workspace_jet2 force[5];
+    fw_workspace_jet moment[5];
+} outer;
+
+static fw_workspace_jet moment_of(const fw_workspace_hold *hold,
+                                  const fw_workspace_jet theta[FW_SIX], int hinge) {
+    return fw_jet_scaled(theta[hinge], hold->section[hinge].spring_Nm_per_rad);
+}
+
+/* own: the hinges' moments; by: outer forces; one of them is NULL */
+static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                    const fw_workspace_jet *theta, const outer *by, fw_workspace_response *out) {
+    fw_workspace_jet along[2][2], zero = fw_jet_exact(0.0); /* a x R, b x R of both legs */
+    fw_workspace_jet turn = zero;
+    for (int side = 0; side < 2; side++)
+        along[side][0] = along[side][1] = zero;
+    if (theta) {
+        fw_workspace_jet m[FW_SIX];
+        for (int i = 0; i < FW_SIX; i++)
+            m[i] = moment_of(hold, theta, i);
+        along[0][0] = fw_jet_sub(m[1], m[0]), along[0][1] = fw_jet_sub(m[2], m[1]);
+        along[1][0] = fw_jet_sub(m[4], m[5]), along[1][1] = fw_jet_sub(m[3], m[4]);
+        turn = fw_jet_sub(m[3], m[2]);
+    } else {
+        fw_workspace_jet2 left = fw_jet2_add(by->force[0], by->force[1]),
+                          right = fw_jet2_add(by->force[3], by->force[4]);
+        along[0][0] = by->moment[0];
+        along[0][1] = fw_jet_sub(by->moment[1], fw_jet2_cross(o->b[0], left));
+        along[1][0] = fw_jet_negated(by->moment[4]);
+        along[1][1] = fw_jet_sub(fw_jet2_cross(o->b[1], right), by->moment[3]);
+        turn = by->moment[2];
+    }
+    fw_workspace_jet2 ground[2];
+    for (int side = 0; side < 2; side++) {
+        fw_workspace_jet2 r = fw_jet2_sub(fw_jet2_times(o->b[side], along[side][0]),
+                                          fw_jet2_times(o->a[side], along[side][1]));
+        ground[side] = fw_jet2_times(r, o->gain[side]);
+        ground[side].x = fw_jet_tight(ground[side].x, o->half);
+        ground[side].y = fw_jet_tight(ground[side].y, o->half);
+    }
+    fw_workspace_jet2 *r = out->force;
+    r[0] = r[1] = r[2] = ground[0];
+    r[3] = r[4] = r[5] = ground[1];
+    if (by) {
+        r[1] = fw_jet2_add(r[0], by->force[0]);
+        r[2] = fw_jet2_add(r[1], by->force[1]);
+        r[4] = fw_jet2_sub(r[5], by->force[4]);
+        r[3] = fw_jet2_sub(r[4], by->force[3]);
+    }
+    fw_workspace_jet2 push = fw_jet2_sub(r[2], r[3]);
+    if (by) push = fw_jet2_add(push, by->force[2]);
+    turn =
+        fw_jet_add(turn, fw_jet_sub(fw_jet2_cross(o->to[0], r[2]), fw_jet2_cross(o->to[1], r[3])));
+    out->wrench[0] = push.x, out->wrench[1] = push.y;
+    out->wrench[2] = fw_jet_scaled(turn, 1.0 / hold->length_m);
+    out->at_joints = true;
+}
+
+bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                                 const double *shift, fw_workspace_pose_load *o) {
+    const fw_workspace_loop *k = hold->loop;
+    fw_workspace_jet axis[3], s, c;
+    for (int i = 0; i < 3; i++) {
+        double middle = fw_box3_middle(box, i, &o->half[i]);
+        axis[i] = fw_jet_exact(middle);
+        axis[i].v.r = o->half[i];
+        axis[i].d[i].m = 1.0;
+    }
+    s = c = fw_jet_exact(0.0);
+    fw_centred_turn(axis[2].v, &s.v, &c.v);
+    s.d[2] = c.v, c.d[2] = fw_centred_negated(s.v);
+    o->turn[2] = (fw_workspace_jet2){c, s};
+    fw_workspace_jet2 at = {fw_jet_add(fw_jet_exact(k->centre.x), axis[0]),
+                            fw_jet_add(fw_jet_exact(k->centre.y), axis[1])};
+    for (int side = 0; side < 2; side++) {
+        const fw_workspace_leg *leg = &k->leg[side];
+        fw_workspace_jet2 arm = fw_jet2_turned(o->turn[2], leg->to.x, leg->to.y);
+        if (shift) arm = fw_jet2_add(arm, fw_jet2_exact(shift[2 * side], shift[2 * side + 1]));
+        fw_workspace_jet2 dq[3] = {fw_jet2_exact(1.0, 0.0), fw_jet2_exact(0.0, 1.0),
+                                   fw_jet2_quarter(arm)};
+        o->to[side] = arm;
+        if (!leg_over(leg, side, fw_jet2_add(at, arm), dq, axis[2], o)) return false;
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        o->theta[i] = fw_jet_add(o->theta[i], fw_jet_exact(k->start_rad[i]));
+    if (!frames(hold, o)) return false;
+    respond(hold, o, o->theta, NULL, &o->own);
+    return true;
+}
+
+/* ---- actuators ---- */
+
+static fw_workspace_jet2 turn_of(const fw_workspace_pose_load *o, int body) {
+    return body == FW_GROUND ? fw_jet2_exact(1.0, 0.0) : o->turn[body];
+}
+
+/* from the point that moments of the body are about; of the ground: from the origin */
+static fw_workspace_jet2 arm_of(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                                const fw_workspace_body_point *p) {
+    if (p->body == FW_GROUND) return fw_jet2_exact(p->x_m, p->y_m);
+    fw_geometry_vec2 at = hold->at[p->body];
+    return fw_jet2_turned(o->turn[p->body], p->x_m - at.x, p->y_m - at.y);
+}
+
+static fw_workspace_jet2 place_of(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                                  const fw_workspace_body_point *p) {
+    fw_workspace_jet2 arm = arm_of(hold, o, p);
+    if (p->body == FW_GROUND) return arm;
+    const fw_workspace_loop *k = hold->loop;
+    int side = p->body > 2; /* at: B, B, centre, E, E */
+    fw_workspace_jet2 base = fw_jet2_exact(k->leg[side].base.x, k->leg[side].base.y);
+    if (p->body != 2) return fw_jet2_add(fw_jet2_add(base, o->a[side]), arm);
+    return fw_jet2_add(
+        fw_jet2_sub(fw_jet2_add(fw_jet2_add(base, o->a[side]), o->b[side]), o->to[side]), arm);
+}
+
+static void push(outer *on, int body, fw_workspace_jet2 arm, fw_workspace_jet2 force) {
+    if (body == FW_GROUND) return;
+    on->force[body] = fw_jet2_add(on->force[body], force);
+    on->moment[body] = fw_jet_add(on->moment[body], fw_jet2_cross(arm, force));
+}
+
+static void pull_along(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                       const fw_workspace_actuator *by, outer *on) {
+    for (int i = 0; i + 1 < by->npoint; i++) {
+        const fw_workspace_body_point *p = &by->point[i], *q = &by->point[i + 1];
+        if (p->body == q->body) continue; /* within one body nothing is felt */
+        fw_workspace_jet2 way = fw_jet2_sub(place_of(hold, o, q), place_of(hold, o, p));
+        fw_workspace_jet n2 = fw_jet_tight(fw_jet2_dot(way, way), o->half);
+        fw_workspace_jet2 e = fw_jet2_times(way, fw_jet_inverse(fw_jet_sqrt(n2)));
+        push(on, p->body, arm_of(hold, o, p), e);
+        push(on, q->body, arm_of(hold, o, q),
+             (fw_workspace_jet2){fw_jet_negated(e.x), fw_jet_negated(e.y)});
+    }
+}
+
+void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                                const fw_workspace_actuator *by, fw_workspace_response *out) {
+    outer on;
+    *out = (fw_workspace_response){0};
+    if (by->platform) { /* nothing of it reaches a joint by itself */
+        if (by->kind == FW_ACTUATOR_TORQUE)
+            out->wrench[2] = fw_jet_exact(1.0);
+        else
+            out->wrench[0] = fw_jet_exact(by->direction[0]),
+            out->wrench[1] = fw_jet_exact(by->direction[1]);
+        return;
+    }
+    for (int i = 0; i < 5; i++)
+        on.force[i] = fw_jet2_exact(0.0, 0.0), on.moment[i] = fw_jet_exact(0.0);
+    switch (by->kind) {
+    case FW_ACTUATOR_TORQUE:
+        on.moment[by->body] = fw_jet_exact(hold->length_m);
+        break;
+    case FW_ACTUATOR_FORCE:
+        push(&on, by->point->body, arm_of(hold, o, by->point),
+             fw_jet2_exact(by->direction[0], by->direction[1]));
+        break;
+    case FW_ACTUATOR_TENDON:
+        pull_along(hold, o, by, &on);
+        break;
+    case FW_ACTUATOR_ELECTRODES: {
+        fw_workspace_jet2 f =
+            fw_jet2_turned(turn_of(o, by->against), by->direction[0], by->direction[1]);
+        push(&on, by->point->body, arm_of(hold, o, by->point), f);
+        if (by->against == FW_GROUND) break;
+        fw_geometry_vec2 at = hold->at[by->against];
+        const fw_workspace_body_point pivot = {by->against, at.x, at.y};
+        fw_workspace_jet2 arm =
+            fw_jet2_sub(place_of(hold, o, by->point), place_of(hold, o, &pivot));
+        push(&on, by->against, arm, (fw_workspace_jet2){fw_jet_negated(f.x), fw_jet_negated(f.y)});
+        break;
+    }
+    }
+    respond(hold, o, NULL, &on, out);
+}
+
+/* ---- a grip ---- */
+
+static void cross3(const fw_workspace_jet p[3], const fw_workspace_jet q[3],
+                   fw_workspace_jet out[3]) {
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        out[i] = fw_jet_sub(fw_jet_mul(p[j], q[k]), fw_jet_mul(p[k], q[j]));
+    }
+}
+
+static fw_workspace_jet dot3(const fw_workspace_jet p[3], const fw_workspace_jet q[3]) {
+    return fw_jet_add(fw_jet_add(fw_jet_mul(p[0], q[0]), fw_jet_mul(p[1], q[1])),
+                      fw_jet_mul(p[2], q[2]));
+}
+
+bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                              const fw_workspace_response *response, const fw_workspace_grip *grip,
+                              bool *certain, fw_workspace_jet2 force[FW_SIX]) {
+    *certain = true;
+    for (int i = 0; i < FW_SIX; i++)
+        force[i] = o->own.force[i];
+    if (grip->wrench) return true;
+    const fw_workspace_response *r[3];
+    for (int j = 0; j < 3; j++)
+        r[j] = &response[grip->actuator[j]];
+    fw_workspace_jet others[3], by;
+    cross3(r[1]->wrench, r[2]->wrench, others);
+    by = fw_jet_tight(dot3(r[0]->wrench, others), o->half);
+    by = fw_jet_negated(fw_jet_inverse(by));
+    for (int j = 0; j < 3; j++) {
+        bool one_way = hold->actuator[grip->actuator[j]].pulls;
+        if (!r[j]->at_joints && !one_way) continue;
+        if (j > 0) cross3(r[(j + 1) % 3]->wrench, r[(j + 2) % 3]->wrench, others);
+        fw_workspace_jet size = fw_jet_tight(fw_jet_mul(dot3(o->own.wrench, others), by), o->half);
+        fw_maths_interval range = fw_jet_range(&size, o->half);
+        if (one_way && range.hi < 0.0) return false;
+        if (one_way && !(range.lo >= 0.0)) *certain = false;
+        for (int i = 0; i < FW_SIX && r[j]->at_joints; i++)
+            force[i] = fw_jet2_add(force[i], fw_jet2_times(r[j]->force[i], size));
+    }
+    return true;
+}
+
+/* ---- strain ---- */
+
+/* largest size of what lies in the interval, and the least */
+static fw_maths_interval size_of(fw_maths_interval a) {
+    double far = fmax(fabs(a.lo), fabs(a.hi));
+    double near = a.lo > 0.0 ? a.lo : a.hi < 0.0 ? -a.hi : 0.0;
+    return (fw_maths_interval){near, far};
+}
+
+/* m + sum g_i s_i within rest, |s_i| <= 1 across the box; of many stations of one hinge, which are
+   sums of four of these */
+typedef struct plane {
+    double m, g[3], rest;
+} plane;
+
+static plane plane_of(const fw_workspace_jet *a, const double half[3]) {
+    plane p = {.m = a->v.m, .rest = a->v.e};
+    for (int i = 0; i < 3; i++) {
+        p.g[i] = half[i] * a->d[i].m;
+        p.rest += half[i] * 0.5 * (a->d[i].e + a->d[i].r);
+    }
+    p.rest = fw_grown(fw_grown(p.rest));
+    if (a->v.r < p.rest) p = (plane){.m = a->v.m, .rest = a->v.r}; /* the box is too large for it */
+    return p;
+}
+
+typedef struct loaded {       /* of one hinge over one box */
+    plane moment, fx, fy;     /* K theta; force in the frame half turned */
+    plane along;              /* n.F, n the force's direction in the middle: |F| <= n.F + beside */
+    double beside, far, near; /* far and near bound |F| in any case */
+    bool slanted;             /* `along` holds */
+} loaded;
+
+static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
+    fw_maths_interval x = size_of(fw_jet_range(&f->x, half)),
+                      y = size_of(fw_jet_range(&f->y, half));
+    p->far = fw_grown(sqrt(fw_grown(x.hi * x.hi + y.hi * y.hi)));
+    p->near = fmax(fw_down(sqrt(x.lo * x.lo + y.lo * y.lo)) * (1.0 - 1e-15), 0.0);
+    p->slanted = false;
+    double n = hypot(f->x.v.m, f->y.v.m);
+    if (!(n > 0.0) || !isfinite(p->far)) return;
+    double nx = f->x.v.m / n, ny = f->y.v.m / n; /* of length 1 within 2^-51 */
+    fw_workspace_jet along = fw_jet_add(fw_jet_scaled(f->x, nx), fw_jet_scaled(f->y, ny));
+    fw_workspace_jet across = fw_jet_sub(fw_jet_scaled(f->y, nx), fw_jet_scaled(f->x, ny));
+    fw_maths_interval least = fw_jet_range(&along, half),
+                      off = size_of(fw_jet_range(&across, half));
+    if (!(least.lo > 0.0)) return;
+    p->along = plane_of(&along, half);
+    p->beside = fw_grown(fw_grown(0.5 * off.hi * off.hi) / least.lo) + 1e-14 * p->far;
+    p->slanted = true;
+}
+
+/* Range of bending |M - lever.F| + axial |F|. The sums of planes are rounded as numbers are: they
+   err by a few units of the sizes that are added. */
+static fw_maths_interval one_station(const fw_workspace_station *at, const loaded *p,
+                                     double slope[3]) {
+    double w = at->bending_per_Nm, x = at->lever_m[0], y = at->lever_m[1], ax = at->axial_per_N;
+    double m = w * (p->moment.m - x * p->fx.m - y * p->fy.m), g[3], reach = 0.0, size;
+    size = w * (fabs(p->moment.m) + fabs(x * p->fx.m) + fabs(y * p->fy.m));
+    double rest = w * (p->moment.rest + fabs(x) * p->fx.rest + fabs(y) * p->fy.rest);
+    for (int i = 0; i < 3; i++) {
+        g[i] = w * (p->moment.g[i] - x * p->fx.g[i] - y * p->fy.g[i]);
+        size += w * (fabs(p->moment.g[i]) + fabs(x * p->fx.g[i]) + fabs(y * p->fy.g[i]));
+        reach += fabs(g[i]);
+    }
+    double sign = m < 0.0 ? -1.0 : 1.0, slack = (size + rest + ax * p->far) * 0x1p-46;
+    double hi = fabs(m) + reach + rest + ax * p->far + slack;
+    double lo = fabs(m) - reach - rest - slack;
+    lo = (lo > 0.0 ? lo : 0.0) + fw_down(ax * p->near);
+    if (p->slanted) {
+        double q = ax * p->along.m, more = ax * (p->along.rest + p->beside), up = 0.0, down = 0.0;
+        for (int i = 0; i < 3; i++) {
+            up += fabs(g[i] + ax * p->along.g[i]);
+            down += fabs(g[i] - ax * p->along.g[i]);
+        }
+        up = m + q + up + rest + more + slack, down = -m + q + down + rest + more + slack;
+        double most = up > down ? up : down;
+        if (most < hi) hi = most;
+    }
+    for (int i = 0; i < 3; i++)
+        slope[i] = sign * g[i] + (p->slanted ? ax * p->along.g[i] : 0.0);
+    return (fw_maths_interval){lo, hi};
+}
+
+fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
+                                           const fw_workspace_pose_load *o, int hinge,
+                                           const fw_workspace_jet2 *force, double slope[3]) {
+    const fw_workspace_section *s = &hold->section[hinge];
+    fw_maths_interval all = {0.0, 0.0};
+    if (s->n == 0) return all;
+    fw_workspace_jet2 t = o->frame[hinge];
+    fw_workspace_jet along = fw_jet_tight(fw_jet2_dot(t, *force), o->half),
+                     across = fw_jet_tight(fw_jet2_cross(t, *force), o->half),
+                     moment = fw_jet_scaled(o->theta[hinge], s->moment_Nm_per_rad);
+    loaded p = {.moment = plane_of(&moment, o->half),
+                .fx = plane_of(&along, o->half),
+                .fy = plane_of(&across, o->half)};
+    press(force, o->half, &p);
+    for (int i = 0; i < s->n; i++) {
+        double now[3];
+        if (i == s->roots && one_station(&s->inside, &p, now).hi <= all.hi) break;
+        fw_maths_interval one = one_station(&s->station[i], &p, now);
+        if (one.lo > all.lo) all.lo = one.lo;
+        for (int k = 0; k < 3 && slope && one.hi > all.hi; k++)
+            slope[k] = now[k];
+        if (!(one.hi <= all.hi) && !isnan(all.hi)) all.hi = one.hi; /* NaN is kept */
+    }
+    return all;
+}

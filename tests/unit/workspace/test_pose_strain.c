@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Strains over required boxes against poses that are sampled and held by a statics of its own: the
+   equilibrium of all five bodies as one linear system. */
+#include "six_bar_fixture.h"
+#include "test.h"
+#include "workspace/pose_load.h"
+
+static uint64_t seed;
+
+static double unit(void) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
+static double between(double low, double high) {
+    return low + (high - low) * unit();
+}
+
+/* ---- a six-bar with flexures, its links scaled ---- */
+
+typedef struct loaded_six_bar {
+    six_bar_fixture f;
+    fw_device_flexure flexure[6];
+    fw_mechanism_hinge hinge[6];
+    fw_device_scene scene;
+    fw_device_force force[2];
+    fw_device_torque torque[2];
+    fw_device_tendon tendon[4];
+    fw_device_eyelet eyelet[8];
+    fw_device_comb comb;
+} loaded_six_bar;
+
+static void flexures(loaded_six_bar *d, bool drawn) {
+    for (int i = 0; i < 6; i++) {
+        fw_device_flexure *x = &d->flexure[i];
+        bool leaf = unit() < 0.2;
+        *x = (fw_device_flexure){.kind = leaf ? FW_FLEXURE_LEAF : FW_FLEXURE_CSFH,
+                                 .length_m = between(200e-6, 400e-6),
+                                 .angle_rad = leaf ? 0 : between(1.5, 4.5),
+                                 .width_m = between(6e-6, 10e-6),
+                                 .fillet_m = 6e-6};
+        x->radius_m = leaf ? 0 : x->length_m / x->angle_rad;
+        fw_mechanism_hinge *h = &d->hinge[i];
+        *h = (fw_mechanism_hinge){.pin = i, .flexure = i, .first_is_a = unit() < 0.5};
+        h->input = fw_flexure_input_of(x, x->fillet_m);
+        h->input.depth_m = 50e-6, h->input.youngs_Pa = 169e9, h->input.poisson = 0.28;
+        h->input.strength_Pa = 2.5e9, h->input.safety_factor = 1.5;
+        fw_flexure_closed_form(&h->input, &h->closed_form);
+        fw_flexure_hinge_law_of(&h->input, &h->closed_form, &h->law);
+        h->axis_rad = drawn ? between(-3.1, 3.1) : (double)NAN;
+        d->f.pin[i].hinge = i;
+        d->f.pin[i].stiffness_Nm_per_rad = h->closed_form.stiffness_Nm_per_rad * between(0.9, 1.1);
+    }
+    d->f.mechanism.hinge = d->hinge;
+    d->f.mechanism.nhinge = 6;
+    d->f.device.flexure = d->flexure;
+    d->f.device.nflexure = 6;
+    d->f.variant.material.youngs.value = 169e9;
+    d->f.variant.thickness_m = 50e-6;
+}
+
+enum { NO_SCENE, TORQUE_AND_FORCE, TENDONS, ELECTRODES, KINDS };
+
+static void scenes(loaded_six_bar *d, int kind) {
+    static const char *const id[] = {"AB", "BC", "CD", "DE", "EF"};
+    for (int i = 0; i < 5; i++)
+        d->f.body[i].id = id[i];
+    d->f.device.scene = &d->scene;
+    d->f.device.nscene = kind != NO_SCENE;
+    d->scene = (fw_device_scene){
+        .torque = d->torque, .force = d->force, .tendon = d->tendon, .comb = &d->comb};
+    d->torque[0] = (fw_device_torque){.body = 0, .value_Nm = 1e-7};
+    d->torque[1] = (fw_device_torque){.body = 4, .value_Nm = -1e-7};
+    d->force[0] = (fw_device_force){.body = 2, .fx_N = 1e-4, .fy_N = 3e-5};
+    d->force[1] = (fw_device_force){.body = 1, .x_m = 1e-4, .fx_N = 1e-4};
+    d->comb = (fw_device_comb){.body_a = 4, .body_b = 2, .bx_m = 1e-4, .direction_rad = 0.7};
+    for (int i = 0; i < 4; i++) {
+        static const double from[4][2] = {{-2, 1.5}, {2, 1.5}, {-1.5, -1}, {1.5, -1.5}};
+        d->eyelet[2 * i] = (fw_device_eyelet){
+            .body = FW_GROUND, .x_m = from[i][0] * 1e-3, .y_m = from[i][1] * 1e-3};
+        d->eyelet[2 * i + 1] = (fw_device_eyelet){
+            .body = i == 3 ? 3 : 2, .x_m = from[i][0] * 1e-4, .y_m = 1e-4 * (i % 2 ? 1 : -1)};
+        d->tendon[i] = (fw_device_tendon){.id = "t", .eyelet = &d->eyelet[2 * i], .neyelet = 2};
+    }
+    if (kind == TORQUE_AND_FORCE) d->scene.ntorque = 1, d->scene.nforce = 1;
+    if (kind == TENDONS) d->scene.ntendon = 4;
+    if (kind == ELECTRODES) d->scene.ncomb = 1, d->scene.ntorque = 2, d->scene.nforce = 2;
+}
+
+static void make(loaded_six_bar *d, double scale, bool drawn, int kind) {
+    double p[6][2];
+    for (int h = 0; h < 6; h++)
+        for (int k = 0; k < 2; k++)
+            p[h][k] = (six_bar_reference[h][k] + between(-100, 100)) * scale;
+    six_bar_make(&d->f, (const double(*)[2])p);
+    flexures(d, drawn);
+    scenes(d, kind);
+}
+
+/* ---- statics of one pose: 12 components of joint forces and three sizes ---- */
+
+typedef double system15[15][16];
+
+static bool eliminate(system15 a, double x[15]) {
+    for (int c = 0; c < 15; c++) {
+        int best = c;
+        for (int i = c + 1; i < 15; i++)
+            if (fabs(a[i][c]) > fabs(a[best][c])) best = i;
+        if (a[best][c] == 0) return false;
+        for (int j = 0; j < 16; j++) {
+            double t = a[c][j];
+            a[c][j] = a[best][j], a[best][j] = t;
+        }
+        for (int i = 0; i < 15; i++) {
+            double by = i == c ? 0 : a[i][c] / a[c][c];
+            for (int j = c; j < 16 && by != 0; j++)
+                a[i][j] -= by * a[c][j];
+        }
+    }
+    for (int c = 0; c < 15; c++)
+        x[c] = a[c][15] / a[c][c];
+    return true;
+}
+
+typedef struct still_pose {
+    fw_geometry_vec2 pin[6], com[5];
+    double turn[5], theta[6];
+} still_pose;
+
+static fw_geometry_vec2 turned(fw_geometry_vec2 p, double phi) {
+    return (fw_geometry_vec2){cos(phi) * p.x - sin(phi) * p.y, sin(phi) * p.x + cos(phi) * p.y};
+}
+
+/* links one after another from A, by the joint angles of the inverse kinematics */
+static bool stand(const loaded_six_bar *d, const double pose[3], still_pose *s) {
+    int leg;
+    if (!fw_workspace_six_bar_inverse(&d->f.mechanism, pose[0], pose[1], pose[2], s->theta, &leg))
+        return false;
+    fw_geometry_vec2 at = fw_mechanism_pin_place(&d->f.mechanism, &d->f.pin[0], 0);
+    double phi = 0;
+    for (int b = 0; b < 5; b++) {
+        phi += s->theta[b];
+        s->pin[b] = at, s->turn[b] = phi;
+        const fw_mechanism_pin *p = &d->f.pin[b], *q = &d->f.pin[b + 1];
+        fw_geometry_vec2 to = turned((fw_geometry_vec2){-p->bx_m, -p->by_m}, phi);
+        s->com[b] = (fw_geometry_vec2){at.x + to.x, at.y + to.y};
+        to = turned((fw_geometry_vec2){q->ax_m, q->ay_m}, phi);
+        at = (fw_geometry_vec2){s->com[b].x + to.x, s->com[b].y + to.y};
+    }
+    s->pin[5] = at;
+    return true;
+}
+
+static void add(system15 a, int column, int body, fw_geometry_vec2 at, double fx, double fy,
+                double moment) {
+    if (body == FW_GROUND) return;
+    a[3 * body][column] += fx, a[3 * body + 1][column] += fy;
+    a[3 * body + 2][column] += 1e3 * (at.x * fy - at.y * fx + moment);
+}
+
+static fw_geometry_vec2 point(const still_pose *s, int body, double x, double y) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){x, y};
+    fw_geometry_vec2 p = turned((fw_geometry_vec2){x, y}, s->turn[body]);
+    return (fw_geometry_vec2){p.x + s->com[body].x, p.y + s->com[body].y};
+}
+
+/* by the words of the device, found by the actuator's name */
+static void act(const loaded_six_bar *d, const still_pose *s, const fw_workspace_actuator *by,
+                system15 a, int column) {
+    fw_geometry_vec2 none = {0, 0};
+    if (by->kind == FW_ACTUATOR_TORQUE) {
+        add(a, column, by->body, none, 0, 0, 1e-3);
+    } else if (by->kind == FW_ACTUATOR_FORCE) {
+        fw_geometry_vec2 at =
+            by->body == 1 ? point(s, 1, d->force[1].x_m, d->force[1].y_m) : s->com[2];
+        add(a, column, by->body, at, by->direction[0], by->direction[1], 0);
+    } else if (by->kind == FW_ACTUATOR_TENDON) {
+        const fw_device_eyelet *e = NULL;
+        for (int i = 0; i < 4; i++)
+            if (d->eyelet[2 * i].x_m == by->point[0].x_m) e = &d->eyelet[2 * i];
+        fw_geometry_vec2 p = point(s, e[0].body, e[0].x_m, e[0].y_m),
+                         q = point(s, e[1].body, e[1].x_m, e[1].y_m);
+        double l = hypot(q.x - p.x, q.y - p.y);
+        add(a, column, e[1].body, q, (p.x - q.x) / l, (p.y - q.y) / l, 0);
+    } else {
+        double angle = d->comb.direction_rad + s->turn[4];
+        fw_geometry_vec2 at = point(s, 2, d->comb.bx_m, d->comb.by_m);
+        add(a, column, 2, at, cos(angle), sin(angle), 0);
+        add(a, column, 4, at, -cos(angle), -sin(angle), 0);
+    }
+}
+
+/* forces of the joints on their second bodies; false: a tendon or an electrode would push */
+static bool hold_still(const loaded_six_bar *d, const fw_workspace_hold *hold,
+                       const fw_workspace_grip *grip, const still_pose *s, double force[12]) {
+    system15 a = {{0}};
+    double x[15];
+    for (int b = 0; b < 5; b++)
+        for (int end = 0; end < 2; end++) {
+            int i = b + end;
+            double sign = end ? -1 : 1, m = d->f.pin[i].stiffness_Nm_per_rad * s->theta[i];
+            a[3 * b][2 * i] += sign, a[3 * b + 1][2 * i + 1] += sign;
+            a[3 * b + 2][2 * i] -= 1e3 * sign * s->pin[i].y;
+            a[3 * b + 2][2 * i + 1] += 1e3 * sign * s->pin[i].x;
+            a[3 * b + 2][15] += 1e3 * sign * m;
+        }
+    for (int k = 0; k < 3; k++)
+        act(d, s, &hold->actuator[grip->actuator[k]], a, 12 + k);
+    if (!eliminate(a, x)) return false;
+    memcpy(force, x, 12 * sizeof *force);
+    for (int k = 0; k < 3; k++)
+        if (hold->actuator[grip->actuator[k]].pulls && x[12 + k] < 0) return false;
+    return true;
+}
+
+/* eq. 1 and 2 of docs/theory/verdict.md */
+static double strain(const loaded_six_bar *d, const still_pose *s, int i, const double *force) {
+    const fw_mechanism_hinge *h = &d->hinge[i];
+    const fw_flexure_result *c = &h->closed_form;
+    const fw_device_flexure *x = &d->flexure[i];
+    double per = c->strain_per_rad / c->stiffness_Nm_per_rad, size = hypot(force[0], force[1]);
+    double axial = size / (169e9 * x->width_m * 50e-6), m = c->stiffness_Nm_per_rad * s->theta[i];
+    double a = 0.5 * x->angle_rad, r = x->radius_m, most = 0;
+    bool arc = x->kind == FW_FLEXURE_CSFH;
+    if (isnan(h->axis_rad)) {
+        double lever = arc ? hypot(r * cos(a) - c->centre_m, r * sin(a)) : 0.5 * x->length_m;
+        return per * (fabs(m) + lever * size) + axial;
+    }
+    double lower = i > 0 ? s->turn[i - 1] : 0, upper = i < 5 ? s->turn[i] : 0;
+    fw_geometry_vec2 f =
+        turned((fw_geometry_vec2){-force[0], -force[1]}, -(h->axis_rad + 0.5 * (lower + upper)));
+    for (int k = 0; k <= 80; k++) {
+        double part = k / 40.0 - 1, b = part * a;
+        double now = arc ? m + c->centre_m * f.y + r * (f.x * sin(b) - f.y * cos(b))
+                         : m + 0.5 * part * x->length_m * f.x;
+        if (k != 0 && k != 80) now /= fmax(1, c->concentration);
+        most = fmax(most, fabs(now));
+    }
+    return per * most + axial;
+}
+
+/* ---- the tests ---- */
+
+static void sample(const loaded_six_bar *d, const fw_workspace_hold *hold,
+                   const fw_workspace_box3 *box, const fw_workspace_strain_proof *proof,
+                   double most[6]) {
+    int n = test_cases(300, 100);
+    for (int k = 0; k < n; k++) {
+        double pose[3];
+        still_pose s;
+        for (int i = 0; i < 3; i++)
+            pose[i] = k < 8 ? (k >> i & 1 ? box->hi[i] : box->lo[i])
+                            : box->lo[i] + unit() * (box->hi[i] - box->lo[i]);
+        for (int i = 0; i < 3 && k >= 8 && k < 14; i++)
+            pose[i] = proof->most[k - 8].pose[i];
+        assert_true(stand(d, pose, &s));
+        for (int g = 0; g < hold->ngrip; g++) {
+            double force[12];
+            if (!hold_still(d, hold, &hold->grip[g], &s, force)) continue;
+            for (int i = 0; i < 6; i++)
+                most[i] = fmax(most[i], strain(d, &s, i, force + 2 * i));
+        }
+    }
+}
+
+/* the bound is above all samples, and within 1 % of the largest */
+static void bounds_hold_and_are_sharp(void **state) {
+    (void)state;
+    seed = 11;
+    static const double scale[] = {1, 0.45, 0.35};
+    int count = test_cases(40, 12), proved = 0;
+    for (int n = 0; n < count; n++) {
+        loaded_six_bar d = {0};
+        make(&d, scale[n % 3], n % 5 != 4, n % KINDS);
+        fw_workspace_loop loop;
+        assert_true(fw_workspace_loop_set_up(&d.f.mechanism, &loop));
+        double s = scale[n % 3];
+        const fw_workspace_box3 box = {
+            {-between(20e-6, 120e-6) * s, -between(20e-6, 60e-6) * s, -between(0.01, 0.05)},
+            {between(20e-6, 120e-6) * s, between(20e-6, 60e-6) * s, between(0.01, 0.05)}};
+        fw_arena *arena = fw_arena_new(0);
+        fw_workspace_hold hold;
+        fw_workspace_strain_proof proof;
+        fw_workspace_proof_end end;
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        assert_true(hold.ngrip > 0);
+        assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 2e-3, 20000, &proof, &end),
+                         FW_OK);
+        if (end == FW_PROVED) {
+            double most[6] = {0};
+            proved++;
+            sample(&d, &hold, &box, &proof, most);
+            for (int i = 0; i < 6; i++)
+                if (!(most[i] <= proof.strain[i]) || !(most[i] >= 0.99 * proof.strain[i]))
+                    fail_msg("case %d hinge %d: %.9g sampled, %.9g proved", n, i, most[i],
+                             proof.strain[i]);
+        }
+        fw_arena_free(arena);
+    }
+    assert_true(proved >= count * 9 / 10);
+}
+
+/* what the scenes have is used, and what they lack comes from the platform */
+static void grips_of_the_scenes(void **state) {
+    (void)state;
+    static const struct {
+        int kind, nforce, ntorque, ngrip;
+        const char *first;
+    } row[] = {
+        {NO_SCENE, 0, 0, 4, "wrench on the platform"},
+        {TORQUE_AND_FORCE, 0, 0, 0, "wrench on the platform"},
+        /* torques on three bodies, and nothing else */
+        {TORQUE_AND_FORCE, 0, 3, 1, "torque on AB, torque on EF, torque on CD"},
+    };
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++) {
+        loaded_six_bar d = {0};
+        seed = 5;
+        make(&d, 1, true, row[k].kind);
+        fw_device_torque torque[3] = {d.torque[0], d.torque[1], {.body = 2, .value_Nm = 1e-7}};
+        if (row[k].ntorque == 3) d.scene.torque = torque, d.scene.ntorque = 3, d.scene.nforce = 0;
+        fw_workspace_loop loop;
+        assert_true(fw_workspace_loop_set_up(&d.f.mechanism, &loop));
+        const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.02}, {50e-6, 30e-6, 0.02}};
+        fw_arena *arena = fw_arena_new(0);
+        fw_workspace_hold hold;
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+        if (row[k].ngrip > 0) assert_int_equal(hold.ngrip, row[k].ngrip);
+        assert_string_equal(hold.grip[0].name, row[k].first);
+        fw_arena_free(arena);
+    }
+}
+
+/* samples where nothing can be proved: not above the bound, and not far below it */
+static void samples_agree_with_the_proof(void **state) {
+    (void)state;
+    seed = 3;
+    loaded_six_bar d = {0};
+    make(&d, 0.5, true, TORQUE_AND_FORCE);
+    fw_workspace_loop loop;
+    assert_true(fw_workspace_loop_set_up(&d.f.mechanism, &loop));
+    const fw_workspace_box3 box = {{-50e-6, -30e-6, -0.03}, {60e-6, 20e-6, 0.02}};
+    fw_arena *arena = fw_arena_new(0);
+    fw_workspace_hold hold;
+    fw_workspace_strain_proof proof, few, samples;
+    fw_workspace_proof_end end;
+    assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, &hold), FW_OK);
+    assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 1e-3, 20000, &proof, &end),
+                     FW_OK);
+    assert_int_equal(end, FW_PROVED);
+    assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 1e-3, 3, &few, &end), FW_OK);
+    assert_int_equal(end, FW_UNDECIDED);
+    assert_false(few.proved);
+    assert_int_equal(fw_workspace_sample_strain(arena, &hold, &box, &samples), FW_OK);
+    assert_false(samples.proved);
+    for (int i = 0; i < 6; i++)
+        assert_true(samples.strain[i] <= proof.strain[i] * 1.001 &&
+                    samples.strain[i] >= proof.strain[i] * 0.99);
+    fw_arena_free(arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(bounds_hold_and_are_sharp),
+        cmocka_unit_test(grips_of_the_scenes),
+        cmocka_unit_test(samples_agree_with_the_proof),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
