@@ -14,6 +14,8 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_C_VISIBILITY_PRESET hidden)
 if(FW_SANITIZE)
     # -g1: reports show functions and lines, nothing else; it takes a fifth less to compile than -g
-    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+    # object-size, an eighth of the time to compile, foretells what AddressSanitizer sees when it happens
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize=object-size -fno-sanitize-recover=all
+                        -fno-omit-frame-pointer -g1)
     add_link_options(-fsanitize=address,undefined)
 endif()

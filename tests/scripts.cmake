@@ -76,6 +76,7 @@ fw_script_test(gate.judge LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/
 fw_script_test(accuracy.reference COMMAND ${Python3_EXECUTABLE} tests/accuracy/reference_check.py
                $<TARGET_FILE:accuracy_reference>)
 fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
+set_tests_properties(fuzz.device PROPERTIES DEPENDS build.sanitized) # in the same tree
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.sanitized PROPERTIES RUN_SERIAL ON) # two at a time within
@@ -96,3 +97,27 @@ set_tests_properties(accept.masks accept.wafer accept.random accept.selftest PRO
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
 endif()
+
+# `plan` of the gallery, once for those that look at what it gives
+set(FW_PLANS ${PROJECT_BINARY_DIR}/gallery)
+fw_script_test(golden.plans COMMAND tests/golden/plans.sh ${FW_PROGRAM} ${FW_PLANS})
+set_tests_properties(golden.plans PROPERTIES FIXTURES_SETUP gallery)
+set_tests_properties(golden.gallery accept.masks cli.advice PROPERTIES FIXTURES_REQUIRED gallery
+                     ENVIRONMENT FW_GALLERY_PLANS=${FW_PLANS})
+
+# The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
+foreach(cost cli.hinge:60 accept.masks:50 hard.test_hard_verdict:50 hard.valgrind:50 cli.program:50 unit.continuum.test_solid:45
+        unit.continuum.test_continuum:45 hard.test_hard_friction:45 accuracy.survey:40 hard.test_hard_combinations:35
+        hard.test_hard_contact:35 web.page:70 build.threads:50 build.bytes:28 fuzz.device:30 effects.absent:28 docs.json:27
+        accept.wafer:27 cli.advice:20 hard.test_hard_bounds:20 hard.test_hard_windows:20 hard.test_hard_periods:20 serve.robust:20
+        hard.test_hard_surfaces:20 accept.random:20 fault.files:20 cli.tradeoff:19 serve.mutants:18 cli.workspace:17 live.memory:15
+        hard.test_hard_kink:15 unit.plan.test_advice:14 accuracy.reference:14 docs.readme:13 cli.effects:13 cli.limits:11
+        unit.statics.test_bounds:11 fault.memory:10 hard.test_hard_memory:10 whole.dynamics.test_method_motions:9
+        hard.test_hard_nonsmooth:9 whole.plan.test_design:8 gate.counts:8 docs.limits:7)
+    string(REPLACE ":" ";" cost ${cost})
+    list(GET cost 0 name)
+    list(GET cost 1 seconds)
+    if(TEST ${name})
+        set_tests_properties(${name} PROPERTIES COST ${seconds})
+    endif()
+endforeach()

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bytes.py PROGRAM: the masks of the gallery and of a dozen random devices are the same bytes from gcc -O2 (PROGRAM) and from clang
--O1 under the sanitizers (build-asan, where build.sanitized has left it; else clang -O2, in build-clang).
+"""bytes.py PROGRAM: the masks of the gallery and of a dozen random devices are the same bytes from gcc -O2 (PROGRAM) and from clang,
+some rooms -O0 and some -O1, under the sanitizers (build-asan, where build.sanitized has left it; else clang -O2, in build-clang).
 FW_BYTES_LEVELS=1: from clang -O2, gcc -O0 and -O3, too, in directories beside it, which takes some minutes. Only the programs are
 built. Motion is not compared: masks depend on the description and the process alone."""
 import os
@@ -40,7 +40,7 @@ def programs(own):
     found, levels = {"gcc -O2": own}, os.environ.get("FW_BYTES_LEVELS")
     sanitized = ROOT / "build-asan/flexwright"
     if sanitized.exists() and sanitized.stat().st_mtime >= pathlib.Path(own).stat().st_mtime:
-        found["clang -O1, sanitizers"] = sanitized
+        found["clang, sanitizers"] = sanitized
     if levels or len(found) == 1:
         found["clang -O2"] = build("build-clang", "-DCMAKE_C_COMPILER=clang", "-DFW_TESTS=OFF", "-DFW_PAGE=OFF")
     for flags in ("-O0", "-O3") if levels else ():

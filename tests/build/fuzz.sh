@@ -2,15 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A short run of every fuzz harness, from the gallery and the broken files, under ASan and UBSan.
 # RUNS=1000000 tests/build/fuzz.sh for a long one. LIVE_RUNS=3000: the functions behind the page, too, whose
-# harness needs all rooms (some minutes to build); test_live_hostile has a short run of the same.
+# harness needs all rooms; test_live_hostile has a short run of the same.
 set -eu
 cd "$(dirname "$0")/../.."
-cmake -S . -B build-fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DFW_FUZZ=ON -DFW_SANITIZE=ON -DFW_PAGE=OFF >/dev/null
-cmake --build build-fuzz --target fuzz_device ${LIVE_RUNS:+fuzz_live} >/dev/null
+. tools/setup.sh
+. tests/build/sanitized_build.sh
+sanitized_build fuzz_device
+[ -z "${LIVE_RUNS:-}" ] || sanitized_build fuzz_live
 corpus=$(mktemp -d)
 trap 'rm -rf "$corpus"' EXIT
 mkdir "$corpus/device" "$corpus/live"
-cp docs/gallery/*/device.xml tests/bad/*.xml "$corpus/device" 2>/dev/null || true
+cp tests/bad/*.xml "$corpus/device"
+for file in docs/gallery/*/device.xml; do # all of one name
+    cp "$file" "$corpus/device/$(basename "$(dirname "$file")").xml"
+done
 # a byte that chooses the function, then a small mechanism or a whole request
 for file in docs/mechanisms/*.xml tests/data/effect-costs/free.xml; do
     for which in 200 201 202 203; do
@@ -25,7 +30,7 @@ done
 run() { # HARNESS RUNS
     log=$corpus/log
     status=0
-    build-fuzz/tests/fuzz/fuzz_$1 -runs="$2" -timeout=20 -rss_limit_mb=1024 \
+    build-asan/tests/fuzz/fuzz_$1 -runs="$2" -timeout=20 -rss_limit_mb=1024 \
         -dict=tests/fuzz/device.dict -print_final_stats=1 "$corpus/$1" >"$log" 2>&1 || status=$?
     tail -12 "$log"
     return $status

@@ -6,8 +6,8 @@ set -eu
 cd "$(dirname "$0")/../.."
 cmake -S . -B build-threads -G Ninja -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_C_FLAGS_DEBUG="-g1 -O0" -DCMAKE_C_FLAGS=-fsanitize=thread >/dev/null
-cmake --build build-threads --target unit_plan >build-threads/log 2>&1 || {
+cmake --build build-threads --target cancel_threads >build-threads/log 2>&1 || {
     tail -40 build-threads/log
     exit 1
 }
-FW_CANCEL_MOMENTS=2 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/unit_plan test_cancel_threads
+FW_CANCEL_MOMENTS=2 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/cancel_threads

@@ -4,11 +4,17 @@
 # of the gallery are what the program makes today, byte for byte (verdicts: the words and the percentages
 # that it prints; ledgers: the table of simulate for every scene).
 set -eu
+# FW_GALLERY_PLANS: where tests/golden/plans.sh has left them.
 program=$1
 update=${2:-}
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+plans=${FW_GALLERY_PLANS:-}
+[ -n "$plans" ] || {
+    plans=$work/plans
+    tests/golden/plans.sh "$program" "$plans"
+}
 status=0
 keep() { # keep NEW COMMITTED
     if [ -n "$update" ]; then
@@ -21,24 +27,23 @@ keep() { # keep NEW COMMITTED
 }
 for device in docs/gallery/*/device.xml; do
     name=$(basename "$(dirname "$device")")
-    "$program" plan "$device" -o "$work/$name" >"$work/$name.all" 2>/dev/null || [ $? -eq 1 ]
-    sed '/^results:/d' "$work/$name.all" >"$work/$name.txt"
+    sed '/^results:/d' "$plans/$name.said" >"$work/$name.txt"
     keep "$work/$name.txt" "docs/gallery/$name/verdict.txt"
-    keep "$work/$name/device.svg" "docs/gallery/$name/device.svg"
+    keep "$plans/$name/device.svg" "docs/gallery/$name/device.svg"
     sed -n 's/.*<scene name="\([^"]*\)".*/\1/p' "$device" | while read -r scene; do
         echo "scene $scene"
         "$program" simulate "$device" --scene "$scene" 2>/dev/null | sed -n '/^  effect  /,$p'
     done >"$work/$name.ledger"
     keep "$work/$name.ledger" "docs/gallery/$name/ledger.txt"
-    for file in "$work/$name"/masks/*.gds "$work/$name"/masks/*.svg "$work/$name"/masks/*.lyp "$work/$name"/masks/*.lyt; do
+    for file in "$plans/$name"/masks/*.gds "$plans/$name"/masks/*.svg "$plans/$name"/masks/*.lyp "$plans/$name"/masks/*.lyt; do
         case $file in # test dies differ by the die's size and the flow alone: those of one device
         */reference-six-bar/*) ;;
         *-coupons.*) continue ;;
         esac
         [ -f "$file" ] && keep "$file" "masks/gallery/$name/$(basename "$file")"
     done
-    for file in "$work/$name"/recipes/*.html "$work/$name"/recipes/*.csv "$work/$name"/recipes/*.sections.svg \
-        "$work/$name"/recipes/*.stack.svg; do
+    for file in "$plans/$name"/recipes/*.html "$plans/$name"/recipes/*.csv "$plans/$name"/recipes/*.sections.svg \
+        "$plans/$name"/recipes/*.stack.svg; do
         [ -f "$file" ] && keep "$file" "recipes/gallery/$name/$(basename "$file")"
     done
 done
