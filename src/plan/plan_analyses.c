@@ -148,10 +148,18 @@ static void warn(fw_plan *plan, const fw_report_workspace_flow *f) {
     if (f->map->none || v->reached) return;
     char width[32];
     double relative = 100.0 * (v->value.hi - v->value.lo) / v->value.hi;
-    fw_diag_note(&plan->diags, 219, (fw_place){0},
-                 "%s%sthe volume of the workspace is certified to %s %% only",
-                 f->flow ? f->flow : "", f->flow ? ": " : "",
-                 fw_number_text(width, sizeof width, relative, 2));
+    const char *flow = f->flow ? f->flow : "", *colon = f->flow ? ": " : "";
+    fw_number_text(width, sizeof width, relative, 2);
+    if (relative > 1.0)
+        fw_diag_warning(&plan->diags, 219, (fw_place){.file = d->file},
+                        "%s%sthe volume of the workspace is certified to %s %% only: within these "
+                        "limits a leg comes close to stretched or folded, where boxes close in "
+                        "slowly; the truth may lie anywhere in the bracket",
+                        flow, colon, width);
+    else
+        fw_diag_note(&plan->diags, 219, (fw_place){0},
+                     "%s%sthe volume of the workspace is certified to %s %% only", flow, colon,
+                     width);
 }
 
 static fw_status one_flow(fw_plan *plan, const fw_plan_flow *pf, fw_report_workspace_flow *f) {

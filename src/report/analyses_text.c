@@ -369,7 +369,13 @@ static void reachable(fw_text *out, const fw_report_workspace_flow *f) {
     bracket(out, map->volume.value, 1e12, 8);
     fw_text_add(out, " um2 rad = ");
     bracket(out, map->volume.value, 1e12 * FW_DEG_PER_RAD, 8);
+    double relative = (map->volume.value.hi - map->volume.value.lo) / map->volume.value.hi;
     fw_text_printf(out, " um2 deg, %ld boxes\n", map->volume.boxes);
+    if (relative > 0.01) {
+        fw_text_real(out,
+                     "  (certified to %.2g %% only: a leg comes close to stretched or folded)\n",
+                     100.0 * relative);
+    }
     for (int c = 0; c < 3; c++) {
         double factor = c < 2 ? 1e6 : FW_DEG_PER_RAD;
         fw_text_printf(out, "  %-15s from ", unit[c]);

@@ -134,7 +134,7 @@ static void workspace_fatigue(const judged *by, fw_verdict_hinge_verdict *out) {
 
 /* Peak strain of all required poses, by rotation and the joint forces that hold them. Of the band:
    the closed form's strain; its stiffness, which the forces go by and the rotations do not; what
-   drift and give of the hinges may add at the worst pose (upward); what the proof leaves open
+   drift and give of the hinges may add at the worst pose, or take away; what the proof leaves open
    (downward). Where forces cannot be computed a rotation alone accepts nothing. */
 static void judge_workspace(const judged *by, const fw_workspace_result *workspace,
                             fw_verdict_hinge_verdict *out) {
@@ -159,8 +159,8 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     double numeric =
         load->known ? load->error / out->strain_limit : peak->error_rad / c->limit_angle_rad;
     out->numeric = 0.0; /* no run makes the proof closer */
-    out->lasting = model + load->give;
-    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model - load->give) - numeric);
+    out->lasting = model + fmax(load->give, load->relief);
+    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model - load->relief) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model + load->give);
     if (!workspace->certified) out->utilisation_high += numeric;
     chance(by, out);

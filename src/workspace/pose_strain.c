@@ -215,24 +215,54 @@ static double displaced(const worst *w, const double shift[4], fw_workspace_pose
     return 0.5 * (s.lo + s.hi);
 }
 
-/* What drift and give of a hinge move its leg's end by, times how the strain goes with that end:
-   every part taken as if it added. in: m; out: strain. First order. */
-static double given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
-                    const fw_workspace_jet2 *force, const double slope[2]) {
+/* How far a hinge's drift and give move the end that a stiff leg would have, times how the strain
+   goes with that end. A leg that pushes the platform with R gives by C R the other way: its end has
+   to be held that much further along R. The left leg pushes with R, the right one with -R. give:
+   with its sign; drift: the size of what the drift does. in: N, strain/m; out: strain. */
+static void given(const fw_mechanism *m, const fw_workspace_pose_load *load, int i,
+                  const fw_workspace_jet2 *force, const double slope[2], double *give,
+                  double *drift) {
     int k = m->pin[i].hinge;
-    if (k == FW_NONE) return 0.0;
+    if (k == FW_NONE) return;
     const fw_mechanism_hinge *h = &m->hinge[k];
     double theta = load->theta[i].v.m, fx = force->x.v.m, fy = force->y.v.m;
+    double sign = i < 3 ? 1.0 : -1.0, steep = hypot(slope[0], slope[1]);
     fw_flexure_hinge_at at;
-    if (!fw_flexure_hinge_law_holds(&h->law, theta)) return HUGE_VAL;
+    if (!fw_flexure_hinge_law_holds(&h->law, theta)) {
+        *drift = HUGE_VAL;
+        return;
+    }
     fw_flexure_hinge_law_at(&h->law, theta, &at);
-    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value,
-           drift = fabs(at.drift_m.value);
-    if (!isfinite(h->axis_rad))
-        return hypot(slope[0], slope[1]) * (hypot(fx, fy) * fmax(cx, cy) + drift);
+    double cx = 1.0 / at.kx_N_per_m.value, cy = 1.0 / at.ky_N_per_m.value;
+    if (!isfinite(h->axis_rad)) { /* C is known within its two ends, whatever its direction */
+        *give += sign * 0.5 * (cx + cy) * (slope[0] * fx + slope[1] * fy);
+        *drift += steep * (0.5 * fabs(cx - cy) * hypot(fx, fy) + fabs(at.drift_m.value));
+        return;
+    }
     double c = load->frame[i].x.v.m, s = load->frame[i].y.v.m;
-    double along = fabs(c * fx + s * fy) * cx, across = fabs(c * fy - s * fx) * cy + drift;
-    return fabs(c * slope[0] + s * slope[1]) * along + fabs(c * slope[1] - s * slope[0]) * across;
+    double along = c * slope[0] + s * slope[1], across = c * slope[1] - s * slope[0];
+    *give += sign * (along * (c * fx + s * fy) * cx + across * (c * fy - s * fx) * cy);
+    *drift += fabs(across * at.drift_m.value);
+}
+
+/* first order, and its square for what that leaves out */
+static void give_and_drift(const worst *w, const fw_mechanism *m,
+                           const fw_workspace_pose_load *load, const fw_workspace_jet2 *force,
+                           double strain, fw_workspace_load *out) {
+    fw_workspace_pose_load beside;
+    fw_workspace_jet2 other[FW_SIX];
+    double slope[4], step = 1e-4 * w->hold->length_m, give = 0.0, drift = 0.0;
+    for (int i = 0; i < 4; i++) {
+        double up[4] = {0}, down[4] = {0};
+        up[i] = step, down[i] = -step;
+        slope[i] =
+            (displaced(w, up, &beside, other) - displaced(w, down, &beside, other)) / (2.0 * step);
+    }
+    for (int i = 0; i < FW_SIX; i++)
+        given(m, load, i, &force[i], &slope[i < 3 ? 0 : 2], &give, &drift);
+    give /= strain, drift /= strain;
+    out->give = fmin(fmax(give, 0.0) + drift + give * give, 1.0);
+    out->relief = fmin(fmax(-give, 0.0) + drift + give * give, 1.0);
 }
 
 fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
@@ -242,10 +272,10 @@ fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
     *out = (fw_workspace_load){.strain = proof->strain[hinge]};
     if (hold->section[hinge].n == 0) return FW_OK;
     FW_NEED(w.response = fw_arena_array(arena, fw_workspace_response, (size_t)hold->nactuator + 1));
-    fw_workspace_pose_load load, beside;
-    fw_workspace_jet2 force[FW_SIX], other[FW_SIX];
+    fw_workspace_pose_load load;
+    fw_workspace_jet2 force[FW_SIX];
     const double none[4] = {0};
-    double strain = displaced(&w, none, &load, force), slope[4], step = 1e-4 * hold->length_m;
+    double strain = displaced(&w, none, &load, force);
     out->known = true;
     out->error = fmax(out->strain - w.at->strain.lo, 0.0);
     out->x_m = w.at->pose[0], out->y_m = w.at->pose[1], out->phi_rad = w.at->pose[2];
@@ -255,15 +285,6 @@ fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
     out->actuation = hold->grip[w.at->grip].name;
     int k = m->pin[hinge].hinge;
     out->over_rotation = strain / (fabs(out->angle_rad) * m->hinge[k].closed_form.strain_per_rad);
-    for (int i = 0; i < 4; i++) {
-        double up[4] = {0}, down[4] = {0};
-        up[i] = step, down[i] = -step;
-        slope[i] = (displaced(&w, up, &beside, other) - displaced(&w, down, &beside, other)) /
-                   (2.0 * step);
-    }
-    double more = 0.0;
-    for (int i = 0; i < FW_SIX; i++)
-        more += given(m, &load, i, &force[i], &slope[i < 3 ? 0 : 2]);
-    out->give = fmin(more / strain, 1.0);
+    give_and_drift(&w, m, &load, force, strain, out);
     return FW_OK;
 }

@@ -69,8 +69,9 @@ typedef struct fw_workspace_load { /* of one hinge, the worst over all required 
     double error;                  /* certified: the truth is at most this much less */
     double x_m, y_m, phi_rad;      /* where it is nearly reached, and there: */
     double angle_rad, force_N;
-    double over_rotation;  /* strain over that of the rotation alone */
-    double give;           /* relative: what drift and give of all hinges may add */
+    double over_rotation; /* strain over that of the rotation alone */
+    /* relative: what drift and give of all hinges may add, and take away */
+    double give, relief;
     const char *actuation; /* what holds the pose, the worst that the description allows */
 } fw_workspace_load;
 

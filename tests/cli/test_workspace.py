@@ -5,6 +5,7 @@ import copy
 import json
 import math
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -99,6 +100,45 @@ class Workspace(InTemporary):
         result = run("workspace", ROOT / "docs/mechanisms/slider-crank.xml")
         self.assertEqual(result.returncode, 3)
         self.assertIn("FW-D217", result.stderr)
+
+
+def scaled(links, poses):
+    """the reference design with its links scaled, and a required box that is scaled besides; no scenes"""
+    text = GALLERY.read_text()
+    head, rest = text.split("<six-bar>")
+    bar, tail = rest.split("</six-bar>")
+    bar = re.sub(r'\b(x|y|width|height)="([-\d.]+) mm"', lambda m: f'{m[1]}="{float(m[2]) * links:.5f} mm"', bar)
+    bar = re.sub(r' (stiffness|damping|mass|inertia)="[^"]*"', "", bar).replace(' width="link"', "")
+    bar = bar.replace("<link id", '<link mass="0.02 mg" inertia="0.003 mg mm^2" id')
+    bar = bar.replace('<platform id="CD"', '<platform id="CD" mass="0.06 mg" inertia="0.01 mg mm^2"')
+    tail = re.sub(r"<scene.*?</scene>", "", tail, flags=re.S)
+    tail = re.sub(r"<(workspace|die)[^>]*>", "", tail)
+    x, y, turn = 150 * links * poses, 60 * links * poses, 2 * poses
+    box = (f'<workspace x-min="{-x} um" x-max="{x} um" y-min="{-y} um" y-max="{y} um" phi-min="{-turn} deg" '
+           f'phi-max="{turn} deg"/>')
+    head = re.sub(r"<flow[^>]*>", "", head)
+    return head + "<six-bar>" + bar + "</six-bar>" + box + tail
+
+
+class Judged(InTemporary):
+    def test_short_links_are_judged_with_their_forces(self):
+        """accepted by the rotation and 21 % for forces, beyond the limit by the strain"""
+        device = self.here / "scaled.xml"
+        for links, poses, more in ((1, 1.2, 1.2), (0.45, 1.3, 1.6), (0.35, 1.2, 1.8)):
+            device.write_text(scaled(links, poses))
+            result = run("check", device, "--json", "--advice", "none")
+            verdict = json.loads(result.stdout)
+            worst = verdict["governing"]
+            rotation = abs(worst["peak_angle_rad"]) / worst["limit_angle_rad"]
+            self.assertLess(rotation * 1.239, 1)
+            self.assertGreater(worst["over_rotation"], more)
+            self.assertEqual(worst["actuation"], "wrench on the platform")
+            self.assertTrue(verdict["workspace"]["certified"])
+            if links == 1:
+                self.assertEqual(verdict["verdict"], "accept")
+            else:
+                self.assertGreater(worst["utilisation"], 1)
+                self.assertIn(verdict["verdict"], ("inconclusive", "reject"))
 
 
 class Certificate(InTemporary):
