@@ -118,7 +118,6 @@ void beam_shoot(const struct flexure *f, const double p[3], int stresses, struct
 }
 
 int beam_hold(const struct flexure *f, const double where[3], double p[3], struct shot *out) {
-    double before = HUGE_VAL;
     for (int i = 0; i < 30; i++) {
         beam_shoot(f, p, 0, out);
         double a[9], r[3] = {where[0] - out->turn, where[1] - out->x, where[2] - out->y};
@@ -126,11 +125,11 @@ int beam_hold(const struct flexure *f, const double where[3], double p[3], struc
         for (int m = 0; m < 9; m++)
             a[m] = out->by[m / 3][m % 3];
         if (!isfinite(miss) || !solve_dense(3, a, r)) return 1;
-        for (int m = 0; m < 3; m++)
+        for (int m = 0; m < 3; m++) {
             p[m] += r[m];
-        /* positions are known to some 1e-13 um; below that nothing improves */
-        if (miss < 1e-10 || (miss < 1e-8 && miss > 0.2 * before)) return 0;
-        before = miss;
+            out->moment += out->moment_by[m] * r[m];
+        }
+        if (miss < 1e-5) return 0; /* um: what is left is its square */
     }
     return 1;
 }

@@ -49,12 +49,16 @@ class Device:
         all_classes = classes()
         self.topology, self.kind, self.load = wanted or all_classes[seed % len(all_classes)]
         self.h = self.between(20, 60)
-        self.modulus, self.nu = self.between(70e3, 170e3), self.between(0.2, 0.3)
+        self.material = strip.Isotropic(self.between(70e3, 170e3), self.between(0.2, 0.3))
+        if self.kind in STRAIGHT and self.topology not in ("rotation", "four-bar") and self.often(0.25):
+            self.material = strip.Silicon(math.radians(round(self.between(0, 90), 3)))
         self.safety = self.of(1.0, 1.5, 2.0)
         self.strength = self.between(300, 1500)  # MPa
         self.target = self.between(0.9, 1.1)
         self.stated = self.often(0.2) and self.kind in ("leaf", "csfh") and self.load != "heat"
-        self.flexures, self.hinges, self.bodies = {}, [], []
+        self.stated = self.stated and not self.material.crystal
+        self.flexures, self.hinges, self.bodies, self.shapes = {}, [], [], {}
+        self.drawn = self.topology in ("rotation", "four-bar") and self.often(0.3)
         self.loads, self.scene, self.extra = [], "", ""
         getattr(self, self.topology.replace("-", "_"))()
 
@@ -96,7 +100,7 @@ class Device:
             text = '  <flexure id="%s" %s fillet="%s"/>\n' % (name, text, um(fillet))
         else:
             text = '  <flexure id="%s" %s' % (name, text.replace("FILLET", um(fillet)))
-        self.flexures[name] = (text, strip.Strip(pieces, self.modulus, self.nu, h, fillet))
+        self.flexures[name] = (text, strip.Strip(pieces, self.material, h, fillet))
 
     def path(self, t, length):
         piece = strip.Piece
@@ -128,8 +132,14 @@ class Device:
     def rotation(self):
         self.flexure("F", self.kind, self.between(150, 500))
         reach, angle = self.between(150, 700), self.between(0, 2 * math.pi)
+        axis = self.between(-math.pi, math.pi)
+        if self.drawn:  # the ground's side of the hinge lies behind it, the arm's before it
+            reach, axis = self.between(900, 1400), angle - math.pi / 2
+            self.shapes["arm"] = ('width="150 um" plate-width="%s" plate-height="%s" plate-x="%s" plate-y="%s" plate-angle="%.9g deg"'
+                                  % (um(400), um(300), um(reach * math.cos(angle)), um(reach * math.sin(angle)),
+                                     math.degrees(angle)))
         self.body("arm", reach * math.cos(angle), reach * math.sin(angle), 2 * reach, self.between(80, 200))
-        self.hinge("H", "F", 0, 1, 0.0, 0.0, self.between(-math.pi, math.pi))
+        self.hinge("H", "F", 0, 1, 0.0, 0.0, axis)
         # across the arm at its centre, which is what moves most
         self.apply(1, (0.0, 0.0), angle + math.pi / 2)
 
@@ -169,12 +179,15 @@ class Device:
     def four_bar(self):
         width, height = self.between(500, 1200), self.between(500, 1200)
         lean = self.between(-150, 150)
+        if self.drawn:
+            width, height, lean = self.between(1200, 1600), self.between(1200, 1600), 0.0
+            self.shapes = {name: 'width="150 um"' for name in ("left", "coupler", "right")}
         for i in range(4):
             self.flexure("F%d" % i, self.kind, self.between(150, 350))
         self.body("left", lean / 2, height / 2, 80, height)
         self.body("coupler", lean + width / 2, height, width, 150)
         self.body("right", lean / 2 + width, height / 2, 80, height)
-        axis = lambda: self.of(0.0, self.between(-0.5, 0.5))
+        axis = lambda: self.of(0.0, 0.0 if self.drawn else self.between(-0.5, 0.5))
         self.hinge("A", "F0", 0, 1, 0, 0, axis())
         self.hinge("B", "F1", 1, 2, lean, height, axis())
         self.hinge("C", "F2", 3, 2, lean + width, height, axis())
@@ -326,14 +339,15 @@ class Device:
             material = ('strength="%.12g MPa" fatigue-strength="%.12g MPa" fatigue-cycles="1e7" fatigue-exponent="-0.1"'
                         % (3 * self.strength, self.strength / math.sqrt(2) * 10 ** -0.1))
             limits += ' cycles="1e6"'
+        elastic = ('orientation="%.12g deg"' % math.degrees(self.material.first) if self.material.crystal else
+                   'youngs-modulus="%.12g MPa" poisson="%.12g"' % (self.material.mean, self.material.nu))
         out = ['<?xml version="1.0" encoding="UTF-8"?>\n<device xmlns="urn:flexwright:device:1" name="judge-%d">\n' % self.seed,
-               '  <material ref="silicon-100" youngs-modulus="%.12g MPa" poisson="%.12g" thickness="%s" %s/>\n'
-               % (self.modulus, self.nu, um(self.h), material), "  <limits %s/>\n" % limits, '  <flow ref="al-masked-rie"/>\n']
+               '  <material ref="silicon-100" %s thickness="%s" %s/>\n' % (elastic, um(self.h), material), "  <limits %s/>\n" % limits, '  <flow ref="al-masked-rie"/>\n']
         out += [text for text, _ in self.flexures.values()]
         out.append("  <mechanism>\n")
         for name, x, y, mass, inertia in self.bodies:
-            out.append('    <body id="%s" x="%s" y="%s" mass="%.12g ug" inertia="%.12g ug mm^2"/>\n'
-                       % (name, um(x), um(y), mass * 1e9, inertia * 1e3))
+            out.append('    <body id="%s" x="%s" y="%s" mass="%.12g ug" inertia="%.12g ug mm^2" %s/>\n'
+                       % (name, um(x), um(y), mass * 1e9, inertia * 1e3, self.shapes.get(name, "")))
         out += [self.joint(hinge) for hinge in self.hinges]
         out += [joint, "  </mechanism>\n", '  <scene name="s" duration="%.12g s">\n' % duration, scene, "  </scene>\n</device>\n"]
         return "".join(out)

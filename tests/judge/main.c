@@ -29,29 +29,30 @@ static void print(const struct model *model, double share, const struct answer *
     printf("]}\n");
 }
 
-/* The share at which a motion just reaches the stress: secants between what is below and above. */
+/* A share at which a motion reaches the stress within 2 %: secants between what is below and above.
+ * The answer is that of finer steps at that share. */
 static int aim_motion(struct model *model, double stress, double *share, struct answer *out) {
     double low = 0, high = 0, f_low = -1, f_high = 0, at = 1e-4;
     for (int i = 0; i < 40; i++) {
-        if (motion_follow(model, at, 20, stress, out)) {
+        if (motion_follow(model, at, 12, stress, out)) {
             high = at;
             f_high = 1;
         } else {
             double f = out->most / stress - 1;
-            if (fabs(f) < 2e-4) {
+            if (fabs(f) < 0.02) {
                 *share = at;
-                return motion_follow(model, at, 40, stress, out);
+                return motion_follow(model, at, 24, 0, out);
             }
             if (f < 0)
                 low = at, f_low = f;
             else
-                high = at, f_high = f;
+                high = at, f_high = fmin(f, 1);
         }
         if (high <= 0)
-            at *= fmin(30, fmax(1.02, 1 / (1 + f_low)));
+            at *= fmax(1.05, (f_low < -0.9 ? 0.9 : 1) / (1 + f_low));
         else
             at = low + (high - low) * fmin(0.9, fmax(0.1, -f_low / (f_high - f_low)));
-        if (high > 0 && high - low < 1e-6 * high) return 1; /* it jumps there */
+        if (high > 0 && high - low < 1e-3 * high) return 1; /* it jumps there */
     }
     return 1;
 }
@@ -71,7 +72,7 @@ int main(int argc, char **argv) {
         return 0;
     }
     if (!strcmp(argv[1], "at")) {
-        bad = model->duration > 0 ? motion_follow(model, value, 40, 0, &answer)
+        bad = model->duration > 0 ? motion_follow(model, value, 24, 0, &answer)
                                   : statics_follow(model, value, 0, &state, &share, &answer);
     } else if (!strcmp(argv[1], "aim")) {
         bad = model->duration > 0 ? aim_motion(model, value, &share, &answer)

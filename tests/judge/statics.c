@@ -214,10 +214,12 @@ int statics_settle(struct model *model, double share, struct state *state, int *
     size_of(&s);
     for (int round = 0; round < 25; round++) {
         assemble(&s);
+        double miss = 0; /* um, or a hundredth of a radian: of the strips' ends, and of the step */
+        for (int i = s.wrench; i < s.held; i++)
+            miss = fmax(miss, fabs(r[i]) * (i % 3 == 0 ? 100 : 1));
         for (int i = 0; i < s.n; i++)
             r[i] = -r[i];
         *sign = solve_dense(s.n, a, r);
-        double miss = 0;
         for (int i = 0; i < s.wrench; i++)
             miss = fmax(miss, fabs(r[i]) * (i % 3 == 2 ? 100 : 1));
         if (!*sign || !isfinite(miss) || miss > 1e3) return 1;
@@ -227,7 +229,7 @@ int statics_settle(struct model *model, double share, struct state *state, int *
             state->p[i - s.wrench] += r[i];
         for (int i = s.held; i < s.n; i++)
             state->m[i - s.held] += r[i];
-        if (round > 0 && (miss < 1e-9 || (miss < 1e-7 && miss > 0.2 * before))) return 0;
+        if (miss < 1e-8 || (miss < 1e-6 && miss > 0.2 * before)) return 0;
         if (round > 3 && miss > before) return 1;
         before = miss;
     }

@@ -14,6 +14,10 @@ SOLID = (0.02855516205488328, -1.0737488380665015, 0.6523633503234405, 1.6418319
          -1.022453844742767, -0.17006207541829443, -0.4039397363878164, 1.0150954741117886, 3.5202442050434337,
          -0.229232608445042, 0.0026351444026185833, -0.07517024873449059, 0.5676914371281725)
 
+# The same of stress in leaves of silicon, 79 solids, rms 0.57 %, largest 1.4 %.
+CRYSTAL = (0.0905146, -1.82261, 4.03087, -0.462042, 0.385244, -0.426242, 0.0751202, 0, 0, 0, 0, -0.0419877, -0.381635, 0,
+           -0.134527, 0.036277, 0.0468902, 0.154847, 0.00933958, -0.0715618)
+
 
 def tension(x):
     x = min(max(x, TENSION[0][0]), TENSION[-1][0])
@@ -29,11 +33,41 @@ def root_length(t, rho):
     return t * (0.4192 - 0.5972 * x - 0.1167 * x * x)
 
 
-def depth(h, nu, radius, t):
-    """(f, D, inner, outer): cylindrical strip with free edges; a straight strip has D = 1"""
+class Isotropic:
+    crystal = False
+
+    def __init__(self, modulus, nu):
+        self.mean, self.nu = modulus, nu
+
+    def at(self, psi):
+        """modulus, shear modulus, number of Poisson across the depth, modulus over that across the depth"""
+        return self.mean, self.mean / (2 * (1 + self.nu)), self.nu, 1.0
+
+
+class Silicon:
+    """(100) wafer with [100] at an angle from x; constants as in processes/base.xml"""
+
+    crystal = True
+
+    def __init__(self, first):
+        c11, c12, c44 = 165.7e3, 63.9e3, 79.6e3
+        below = (c11 - c12) * (c11 + 2 * c12)
+        self.s11, self.s12, self.s44 = (c11 + c12) / below, -c12 / below, 1 / c44
+        self.s0 = self.s11 - self.s12 - self.s44 / 2
+        self.a0, self.a1, self.first = self.s11 - self.s0 / 4, self.s0 / 4, first
+        self.mean, self.nu = 1 / self.a0, 0.31
+
+    def at(self, psi):
+        c = math.cos(4 * (psi - self.first))
+        e = 1 / (self.a0 + self.a1 * c)
+        return e, 1 / (self.s44 + self.s0 * (1 - c)), math.sqrt(self.s12 ** 2 * e / self.s11), e * self.s11
+
+
+def depth(h, nu, radius, t, stretch=1.0):
+    """(f, D, inner, outer): cylindrical strip with free edges; a straight strip has D = 1. stretch: of an orthotropic strip"""
     if math.isinf(radius):
         return 1.0, 1.0, 1.0, 1.0
-    big = (3 * (1 - nu * nu)) ** 0.25 / math.sqrt(radius * t)
+    big = (3 * (1 - nu * nu) * stretch) ** 0.25 / math.sqrt(radius * t)
     x = big * h
     f = 2 / x * (math.cosh(x) - math.cos(x)) / (math.sinh(x) + math.sin(x))
     s, c, sh, ch = math.sin(x / 2), math.cos(x / 2), math.sinh(x / 2), math.cosh(x / 2)
@@ -45,15 +79,20 @@ def depth(h, nu, radius, t):
     return f, (1 - nu * nu * f) / (1 - nu * nu), inner, outer
 
 
-def bend(x, h, t, nu, radius):
-    """peak of stress (modulus times strain) over M t/(2 I) at a root, on the inner and on the outer face"""
-    f, stiff, _, _ = depth(h, nu, radius, t)
-    w = 0.0 if math.isinf(radius) else t / (3 * radius)
-    n, p, q = nu * f, h / (h + 4 * t), x ** (-2 / 3)
+def bend(x, h, t, nu, n, w):
+    """peak of stress (modulus times strain) at a root over (1 +- w) M t/(2 I D); n = nu f, w = t/(3 r)"""
+    p, q = h / (h + 4 * t), x ** (-2 / 3)
     terms = (1, n * p, n * p * p, n * p ** 3, nu * p * p * q, nu * p ** 3 * q, nu * p * p * x, w, w * p, w * n * x, w * q, x,
              nu * p * p, w * n)
-    k = (0.944 + 0.2113 * q) * (1 + sum(a * b for a, b in zip(SOLID, terms))) / stiff
-    return k * (1 + w), k * (1 - w)
+    return (0.944 + 0.2113 * q) * (1 + sum(a * b for a, b in zip(SOLID, terms)))
+
+
+def bend_crystal(x, h, t, n, w, psi):
+    """the same of silicon's stress; psi: direction of the root's tangent from [100]"""
+    p, q, c, s = h / (h + 4 * t), x ** (-2 / 3), math.cos(4 * psi), abs(math.sin(4 * psi))
+    terms = (1, n * p, n * p * p, n * p ** 3, p * p * q, p ** 3 * q, p * p * x, w, w * p, w * n * x, w * q, x, p * p, w * n,
+             c, c * q, c * x, s, s * q, s * x)
+    return (0.944 + 0.2113 * q) * (1 + sum(a * b for a, b in zip(CRYSTAL, terms)))
 
 
 def circle(points):
@@ -105,48 +144,55 @@ class Piece:
 class Strip:
     """pieces in their order, of a material (modulus, nu) and a depth, with a fillet at either root"""
 
-    def __init__(self, pieces, modulus, nu, h, fillet):
-        self.pieces, self.modulus, self.nu, self.h, self.fillet = pieces, modulus, nu, h, fillet
+    def __init__(self, pieces, material, h, fillet):
+        self.pieces, self.material, self.h, self.fillet = pieces, material, h, fillet
         self.place()
         if self.centre < -1e-6:  # walked from its other end
             self.pieces = [Piece(p.length, -p.curvature, *p.widths[::-1]) for p in pieces[::-1]]
             self.place()
 
     def stiffness(self, piece, t):
-        i = self.h * t ** 3 / 12
-        return self.modulus * i * depth(self.h, self.nu, piece.radius, t)[1]
+        """of the uniform material that the drawing has its centre from"""
+        return self.material.mean * self.h * t ** 3 / 12 * depth(self.h, self.material.nu, piece.radius, t)[1]
 
-    def rows(self, piece, turned):
-        """(steps, length of one, rows of sections at every half step)"""
-        n = max(24, int(math.degrees(abs(piece.curvature) * piece.length) / 4) + 1, int(piece.length / 10) + 1)
-        n = min(n, 80)
+    def rows(self, piece, turned, world):
+        """(steps, length of one, rows of sections at every half step); world: direction of the strip's start"""
+        n = min(48, max(16, int(math.degrees(abs(piece.curvature) * piece.length) / 6) + 1, int(piece.length / 20) + 1))
         out = []
         for i in range(2 * n + 1):
             share = i / (2 * n)
             t = piece.width(share)
-            _, stiff, inner, outer = depth(self.h, self.nu, piece.radius, t)
+            psi = turned + piece.curvature * share * piece.length
+            e, g, nu, ratio = self.material.at(world + psi)
+            _, stiff, inner, outer = depth(self.h, nu, piece.radius, t, ratio)
             w = 0.0 if math.isinf(piece.radius) else t / (3 * piece.radius)
             z = self.h * t * t / 6
             faces = ((1 + w) * inner / stiff / z, (1 - w) * outer / stiff / z)
             left, right = faces if piece.curvature >= 0 else faces[::-1]
-            out.append((turned + piece.curvature * share * piece.length, self.stiffness(piece, t),
-                        self.modulus * self.h * t, 5 / 6 * self.modulus / (2 * (1 + self.nu)) * self.h * t, self.h * t,
-                        left, right))
+            out.append((psi, e * self.h * t ** 3 / 12 * stiff, e * self.h * t, 5 / 6 * g * self.h * t, self.h * t, left, right))
         return n, piece.length / n, out
 
-    def root(self, piece, share):
-        t = piece.width(share)
-        inner, outer = (k / (self.h * t * t / 6) for k in bend(self.fillet / t, self.h, t, self.nu, piece.radius))
+    def root(self, piece, share, psi):
+        t, x, m = piece.width(share), self.fillet / piece.width(share), self.material
+        e, _, nu, ratio = m.at(psi)
+        f, stiff, _, _ = depth(self.h, nu, piece.radius, t, ratio)
+        inertia = self.h * t ** 3 / 12
+        give = root_length(t, self.fillet) / (e * inertia * stiff)
+        if m.crystal:  # the block gives with the mean, and holds the end straight that would bow (least energy)
+            far = min(self.h * f * math.sqrt(m.s11 / (3 * m.s44)), sum(p.length for p in self.pieces) / 3)
+            bowed = m.s12 ** 2 / m.s11 * f * far * far / (far + 0.4192 * t)
+            give += (0.4192 * t * (m.a0 - 1 / e) - bowed) / (inertia * stiff)
+        w = 0.0 if math.isinf(piece.radius) else t / (3 * piece.radius)
+        inner, outer = (k / (self.h * t * t / 6) / stiff * (1 + s * w) for s, k in zip(
+            (1, -1), (bend_crystal(x, self.h, t, nu * f, w, psi - m.first) if m.crystal else
+                      bend(x, self.h, t, nu, nu * f, w),) * 2))
         left, right = (inner, outer) if piece.curvature >= 0 else (outer, inner)
-        return (root_length(t, self.fillet) / self.stiffness(piece, t), left, right,
-                tension(self.fillet / t) / (self.h * t))
+        return give, left, right, tension(x) / (self.h * t)
 
     def place(self):
         """spans, and the frame: ends on the y axis, the centre of elastic weights on the x axis at x >= 0"""
         x = y = turned = 0.0
         weight = wx = wy = 0.0
-        self.spans = []
-
         def add(w, px, py):
             nonlocal weight, wx, wy
             weight, wx, wy = weight + w, wx + w * px, wy + w * py
@@ -154,8 +200,6 @@ class Strip:
         first, last = self.pieces[0], self.pieces[-1]
         add(root_length(first.width(0), self.fillet) / self.stiffness(first, first.width(0)), 0, 0)
         for piece in self.pieces:
-            n, step, rows = self.rows(piece, turned)
-            self.spans.append((n, step, rows))
             many = 400
             for i in range(many):
                 share = (i + 0.5) / many
@@ -185,16 +229,18 @@ class Strip:
         wx, wy = c * cx - s * cy, s * cx + c * cy
         self.direction, self.centre = rotate, wx
         self.start = (-wx, -wy)  # as seen from W
-        self.roots = (self.root(first, 0), self.root(last, 1))
 
     def model(self, a, b, at, axis):
         """lines of the judge's model for a hinge with W at `at` and its axis (rad) from x"""
-        c, s = math.cos(axis), math.sin(axis)
+        c, s, world, turned, spans = math.cos(axis), math.sin(axis), axis + self.direction, 0.0, []
+        for piece in self.pieces:
+            spans.append(self.rows(piece, turned, world))
+            turned += piece.curvature * piece.length
+        roots = self.root(self.pieces[0], 0, world), self.root(self.pieces[-1], 1, world + turned)
         x, y = at[0] + c * self.start[0] - s * self.start[1], at[1] + s * self.start[0] + c * self.start[1]
-        out = ["flexure %d %d %d" % (a, b, len(self.spans)),
-               " %.15g %.15g %.15g" % (x, y, axis + self.direction)]
-        out += [" %.15g %.15g %.15g %.15g" % root for root in self.roots]
-        for n, step, rows in self.spans:
+        out = ["flexure %d %d %d" % (a, b, len(spans)), " %.15g %.15g %.15g" % (x, y, world)]
+        out += [" %.15g %.15g %.15g %.15g" % root for root in roots]
+        for n, step, rows in spans:
             out.append(" %d %.15g" % (n, step))
             out += [" %.12g %.12g %.12g %.12g %.12g %.12g %.12g" % row for row in rows]
         return "\n".join(out) + "\n"
