@@ -217,7 +217,11 @@ class Device:
             self.far = (even(x + point[0] - reach * c), even(y + point[1] - reach * s))
             self.loads.append("rod %d %.15g %.15g %.15g %.15g 1" % ((body,) + point + self.far))
         elif load == "voltage":
-            self.comb = (int(self.between(10, 80)), round(self.between(3, 6), 3), round(self.between(20, 60), 3))
+            # an arm carries its fingers along a circle, and leaves lower what they carry
+            if self.topology == "rotation":
+                self.strength *= 0.15
+            wide = {"rotation": (15, 30), "guided": (6, 12), "folded": (6, 12)}.get(self.topology, (3, 6))
+            self.comb = (int(self.between(10, 80)), round(self.between(*wide), 3), round(self.between(20, 60), 3))
             n, gap, overlap = self.comb
             self.loads.append("comb %d %.15g %.15g %.15g %.15g %.15g %.15g"
                               % ((body,) + point + (direction, 0.5 * EPS0 * self.h * n, gap, overlap)))
@@ -237,12 +241,15 @@ class Device:
                 else:  # cranks turn about their feet, the coupler goes along
                     rise = self.bodies[1][2]
                     foot = (0.0 if k == 1 else x - self.bodies[0][1], 0.0)
-                    v = (1.0, 0.0, 0.0) if k == 2 else ((y - foot[1]) / rise, -(x - foot[0]) / rise, -1 / rise)
+                    v = (1.0, -2 * self.bodies[0][1] / rise, 0.0) if k == 2 else ((y - foot[1]) / rise, -(x - foot[0]) / rise, -1 / rise)
                 self.start.append((who, v))
                 self.loads.append("start %d %.15g %.15g %.15g" % ((k,) + v))
         elif load == "heat":
+            if self.topology == "guided":  # the stage grows with the layer and bends its leaves but little
+                self.strength *= 0.1
             self.expansion = self.between(10e-6, 25e-6)
-            self.substrate = self.expansion * self.between(0, 0.6)
+            # what is held at both ends must be stretched: pressed, it buckles far below any limit
+            self.substrate = self.expansion * (self.between(1.5, 3) if self.topology == "fixed-fixed" else self.between(0, 0.6))
             self.loads.append("heat %.15g %.15g 0 0 0" % (self.expansion, self.substrate))
 
     # ------------------------------------------------------------------ the judge's model

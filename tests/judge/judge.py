@@ -57,7 +57,7 @@ def make(options, seed, wanted, where):
     duration = device.timing(omega[0])
     model.write_text(device.model(duration), encoding="utf-8")
     aim = device.strength_of() * device.target
-    most = {"voltage": 3000, "heat": 2000, "turn": 3, "slide": 500, "rod": 500}.get(device.load, 1e12)
+    most = {"voltage": 9000, "heat": 2900, "turn": 3, "slide": 500, "rod": 500}.get(device.load, 1e12)
     status, out, why, _ = run([options.judge, "aim", model, "%.15g" % aim, "%.15g" % most])
     if status:
         return None, "no load leads there: %s" % (why.strip() or "status %d" % status)

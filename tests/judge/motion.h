@@ -9,8 +9,8 @@
 void motion_frequencies(struct model *model, double *omega);
 
 /* Largest stresses of the motion from rest (or from its velocities) under a share of the loads,
- * with so many steps in a period of the fastest mode; 0 if it could be followed. most > 0 ends a motion
- * that has gone beyond 3 times it. */
+ * with so many steps in a period of the fastest mode; 0 if it could be followed.
+ * most > 0 ends a motion that has gone beyond 3 times it. */
 int motion_follow(struct model *model, double share, int fineness, double most, struct answer *out);
 
 #endif

@@ -38,7 +38,7 @@ static void lever(const struct system *s, int k, const double at[2], double out[
     out[1] = k ? at[1] - s->model->body[k].y - q[1] : 0;
 }
 
-/* The wrench of a root on its body; how it goes with p, the first body's turn and the body's own. */
+/* The wrench of a root on its body; how it goes with p and with the turns of both bodies. */
 static void root_wrench(struct system *s, const struct flexure *f, int k, const double at[2],
                         double sign, const double force[2], double moment,
                         const double moment_by[3], int column) {
@@ -207,6 +207,61 @@ static void assemble(struct system *s) {
     held_rows(s);
 }
 
+/* Eliminates the wrenches from their rows and from those of the bodies, whose own are then minus
+ * the stiffness that they have through the strips. */
+static int condense(struct system *s) {
+    for (int k = s->wrench; k < s->held; k++) {
+        int best = k;
+        for (int i = k + 1; i < s->held; i++)
+            if (fabs(*entry(s, i, k)) > fabs(*entry(s, best, k))) best = i;
+        if (!(fabs(*entry(s, best, k)) > 0)) return 1;
+        for (int j = 0; j < s->n; j++) {
+            double t = *entry(s, k, j);
+            *entry(s, k, j) = *entry(s, best, j);
+            *entry(s, best, j) = t;
+        }
+        for (int i = 0; i < s->held; i++) {
+            if (i >= s->wrench && i <= k) continue;
+            double q = *entry(s, i, k) / *entry(s, k, k);
+            if (q == 0) continue;
+            for (int j = 0; j < s->held; j++)
+                *entry(s, i, j) -= q * *entry(s, k, j);
+        }
+    }
+    return 0;
+}
+
+/* Whether the energy is least: all pivots of the bodies' stiffness are above 0, with far stiffer
+ * springs for what holds them. */
+static int stable(struct system *s) {
+    static double k[9 * BODIES * BODIES];
+    int n = s->wrench;
+    double size[2] = {0}; /* of ways and of turns */
+    assemble(s);
+    if (condense(s)) return 0;
+    for (int i = 0; i < n; i++) {
+        double *most = &size[i % 3 == 2];
+        *most = fmax(*most, fabs(*entry(s, i, i)));
+        for (int j = 0; j < n; j++)
+            k[i * n + j] = -(*entry(s, i, j) + *entry(s, j, i)) / 2;
+    }
+    for (int h = s->held; h < s->n; h++) {
+        double turns = 1;
+        for (int i = 0; i < n; i++)
+            if (i % 3 != 2 && fabs(*entry(s, h, i)) > 1e-9) turns = 0;
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                k[i * n + j] += 1e5 * size[turns > 0] * *entry(s, h, i) * *entry(s, h, j);
+    }
+    for (int p = 0; p < n; p++) {
+        if (!(k[p * n + p] > 0)) return 0;
+        for (int i = p + 1; i < n; i++)
+            for (int j = p + 1; j < n; j++)
+                k[i * n + j] -= k[i * n + p] * k[p * n + j] / k[p * n + p];
+    }
+    return 1;
+}
+
 int statics_settle(struct model *model, double share, struct state *state, int *sign) {
     static double a[UNKNOWNS * UNKNOWNS], r[UNKNOWNS];
     struct system s = {.model = model, .state = state, .share = share, .a = a, .r = r};
@@ -229,7 +284,7 @@ int statics_settle(struct model *model, double share, struct state *state, int *
             state->p[i - s.wrench] += r[i];
         for (int i = s.held; i < s.n; i++)
             state->m[i - s.held] += r[i];
-        if (miss < 1e-8 || (miss < 1e-6 && miss > 0.2 * before)) return 0;
+        if (miss < 1e-8 || (miss < 1e-6 && miss > 0.2 * before)) return stable(&s) ? 0 : 2;
         if (round > 3 && miss > before) return 1;
         before = miss;
     }

@@ -13,7 +13,7 @@ struct answer {
 };
 
 /* Equilibrium at a share of the loads, from the state that is given; the determinant's sign goes to
- * sign. 0 if found. */
+ * sign. 0 if found, 2 if it is not stable. */
 int statics_settle(struct model *model, double share, struct state *state, int *sign);
 
 /* Follows the equilibria from rest until the share, or until the stress, is reached; 0 if it is. */
