@@ -12,6 +12,11 @@ function(fw_script_test name)
     if(NOT ARG_LABEL)
         set(ARG_LABEL full)
     endif()
+    if(ARG_LABEL STREQUAL quick)
+        string(REGEX MATCHALL "TARGET_FILE:[a-z_]+" programs "${ARG_COMMAND}")
+        list(TRANSFORM programs REPLACE "TARGET_FILE:" "")
+        set_property(GLOBAL APPEND PROPERTY FW_QUICK_SCRIPTS ${programs})
+    endif()
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS ${ARG_LABEL})
 endfunction()
 
@@ -25,7 +30,7 @@ fw_script_test(arch.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/n
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
 fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM})
+fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
 fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})
@@ -100,10 +105,15 @@ endif()
 
 # `plan` of the gallery, once for those that look at what it gives
 set(FW_PLANS ${PROJECT_BINARY_DIR}/gallery)
-fw_script_test(golden.plans COMMAND tests/golden/plans.sh ${FW_PROGRAM} ${FW_PLANS})
+fw_script_test(golden.plans COMMAND tests/golden/plans.sh ${FW_PROGRAM} ${FW_PLANS} TIMEOUT 600)
 set_tests_properties(golden.plans PROPERTIES FIXTURES_SETUP gallery)
 set_tests_properties(golden.gallery accept.masks cli.advice PROPERTIES FIXTURES_REQUIRED gallery
                      ENVIRONMENT FW_GALLERY_PLANS=${FW_PLANS})
+
+# what `ctest -L quick` runs
+get_property(programs GLOBAL PROPERTY FW_QUICK_SCRIPTS)
+list(REMOVE_DUPLICATES programs)
+add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
 foreach(cost cli.hinge:60 accept.masks:50 hard.test_hard_verdict:50 hard.valgrind:50 cli.program:50 unit.continuum.test_solid:45
