@@ -116,6 +116,19 @@ static fw_workspace_jet moment_of(const fw_workspace_hold *hold,
     return fw_jet_scaled(theta[hinge], hold->section[hinge].spring_Nm_per_rad);
 }
 
+static bool is_zero(const fw_workspace_jet *a) {
+    return a->v.m == 0.0 && a->v.r <= 1e-290;
+}
+
+/* torques and forces on the links of a leg alone reach its joints */
+static bool acts_on(const outer *by, int side) {
+    bool any = false;
+    for (int i = side ? 3 : 0; i < (side ? 5 : 2); i++)
+        any = any || !is_zero(&by->moment[i]) || !is_zero(&by->force[i].x) ||
+              !is_zero(&by->force[i].y);
+    return any;
+}
+
 /* own: the hinges' moments; by: outer forces; one of them is NULL */
 static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                     const fw_workspace_jet *theta, const outer *by, fw_workspace_response *out) {
@@ -162,7 +175,8 @@ static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load 
         fw_jet_add(turn, fw_jet_sub(fw_jet2_cross(o->to[0], r[2]), fw_jet2_cross(o->to[1], r[3])));
     out->wrench[0] = push.x, out->wrench[1] = push.y;
     out->wrench[2] = fw_jet_scaled(turn, 1.0 / hold->length_m);
-    out->at_joints = true;
+    for (int side = 0; side < 2; side++)
+        out->on_leg[side] = theta || acts_on(by, side);
 }
 
 bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
@@ -301,8 +315,8 @@ static fw_workspace_jet dot3(const fw_workspace_jet p[3], const fw_workspace_jet
 
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
-                              bool *certain, fw_workspace_jet2 force[FW_SIX]) {
-    *certain = true;
+                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]) {
+    *certain = own[0] = own[1] = true;
     for (int i = 0; i < FW_SIX; i++)
         force[i] = o->own.force[i];
     if (grip->wrench) return true;
@@ -315,14 +329,18 @@ bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_
     by = fw_jet_negated(fw_jet_inverse(by));
     for (int j = 0; j < 3; j++) {
         bool one_way = hold->actuator[grip->actuator[j]].pulls;
-        if (!r[j]->at_joints && !one_way) continue;
+        bool reaches = r[j]->on_leg[0] || r[j]->on_leg[1];
+        if (!reaches && !one_way) continue;
         if (j > 0) cross3(r[(j + 1) % 3]->wrench, r[(j + 2) % 3]->wrench, others);
         fw_workspace_jet size = fw_jet_tight(fw_jet_mul(dot3(o->own.wrench, others), by), o->half);
         fw_maths_interval range = fw_jet_range(&size, o->half);
         if (one_way && range.hi < 0.0) return false;
         if (one_way && !(range.lo >= 0.0)) *certain = false;
-        for (int i = 0; i < FW_SIX && r[j]->at_joints; i++)
-            force[i] = fw_jet2_add(force[i], fw_jet2_times(r[j]->force[i], size));
+        for (int i = 0; i < FW_SIX; i++)
+            if (r[j]->on_leg[i > 2])
+                force[i] = fw_jet2_add(force[i], fw_jet2_times(r[j]->force[i], size));
+        for (int side = 0; side < 2; side++)
+            own[side] = own[side] && !r[j]->on_leg[side];
     }
     return true;
 }

@@ -85,7 +85,7 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *mechanism,
 typedef struct fw_workspace_response { /* to one actuator, or to the hinges' own moments */
     fw_workspace_jet2 force[FW_SIX];   /* of hinge i on its second body, N */
     fw_workspace_jet wrench[3];        /* that the platform lacks: N, N, N (times length_m) */
-    bool at_joints;                    /* force is not 0 */
+    bool on_leg[2];                    /* left, right: force is not 0 there */
 } fw_workspace_response;
 
 typedef struct fw_workspace_pose_load {
@@ -106,10 +106,11 @@ bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspa
 void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                                 const fw_workspace_actuator *by, fw_workspace_response *out);
 /* Joint forces under one grip. response: (nactuator). false: this grip would have to push where it
-   only pulls, all over the box (may: at no pose for certain). */
+   only pulls, all over the box; `certain`: at no pose of it. own: of which legs the forces are what
+   they are under a wrench on the platform. */
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
-                              bool *certain, fw_workspace_jet2 force[FW_SIX]);
+                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]);
 /* range that holds the largest strain of a hinge at every pose of the box, and where in the box it
    grows to (signs of its slope; may be NULL) */
 fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,

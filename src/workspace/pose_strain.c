@@ -30,6 +30,11 @@ static bool look(const bounding *b, const fw_workspace_box3 *box, int from, int 
     return true;
 }
 
+/* the leg's forces are those of a wrench on the platform, which was looked at before */
+static bool seen(const bounding *b, int grip, int from, bool own) {
+    return own && from == 0 && grip > 0 && b->hold->grip[0].wrench;
+}
+
 /* strains at one pose, by the grips from..to that certainly hold it */
 static void try_pose(bounding *b, const double pose[3], int from, int to) {
     const fw_workspace_box3 at = {{pose[0], pose[1], pose[2]}, {pose[0], pose[1], pose[2]}};
@@ -37,11 +42,13 @@ static void try_pose(bounding *b, const double pose[3], int from, int to) {
     if (!look(b, &at, from, to, &load, b->at)) return;
     for (int g = from; g <= to; g++) {
         fw_workspace_jet2 force[FW_SIX];
-        bool certain;
-        if (!fw_workspace_pose_forces(b->hold, &load, b->at, &b->hold->grip[g], &certain, force) ||
+        bool certain, own[2];
+        if (!fw_workspace_pose_forces(b->hold, &load, b->at, &b->hold->grip[g], &certain, own,
+                                      force) ||
             !certain)
             continue;
         for (int i = 0; i < FW_SIX; i++) {
+            if (seen(b, g, from, own[i > 2])) continue;
             fw_maths_interval now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], NULL);
             if (!(now.lo > b->found[i])) continue;
             b->found[i] = now.lo;
@@ -55,6 +62,14 @@ static bool close_enough(const bounding *b, int hinge, double far) {
     return far <= b->found[hinge] * (1.0 + b->relative) + 1e-15;
 }
 
+/* a pose of the box may say more than is known: of large boxes only where their bound is near */
+static bool worth(const bounding *b, const fw_workspace_box3 *box, int hinge, double bound) {
+    double most = 0.0;
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, (box->hi[i] - box->lo[i]) / b->size[i]);
+    return isfinite(bound) && (most < 0.2 || bound <= 1.03 * b->found[hinge]);
+}
+
 /* one enclosure of the box: does it say all that is wanted? Where a bound is too far the corner to
    which that strain grows is tried. */
 static bool enough(bounding *b, const fw_workspace_box3 *box) {
@@ -63,16 +78,18 @@ static bool enough(bounding *b, const fw_workspace_box3 *box) {
     double far[FW_SIX] = {0};
     for (int g = 0; g < b->hold->ngrip; g++) {
         fw_workspace_jet2 force[FW_SIX];
-        bool certain;
-        if (!fw_workspace_pose_forces(b->hold, &load, b->over, &b->hold->grip[g], &certain, force))
+        bool certain, own[2];
+        if (!fw_workspace_pose_forces(b->hold, &load, b->over, &b->hold->grip[g], &certain, own,
+                                      force))
             continue;
         for (int i = 0; i < FW_SIX; i++) {
+            if (seen(b, g, 0, own[i > 2])) continue;
             double slope[3] = {0}, corner[3];
             double now = fw_workspace_pose_strain(b->hold, &load, i, &force[i], slope).hi;
             if (!close_enough(b, i, now)) {
                 for (int k = 0; k < 3; k++)
                     corner[k] = slope[k] > 0.0 ? box->hi[k] : box->lo[k];
-                if (isfinite(now)) try_pose(b, corner, g, g);
+                if (worth(b, box, i, now)) try_pose(b, corner, g, g);
                 if (!close_enough(b, i, now)) return false;
             }
             far[i] = fmax(far[i], now);
@@ -204,13 +221,14 @@ static double displaced(const worst *w, const double shift[4], fw_workspace_pose
     const double *p = w->at->pose;
     const fw_workspace_box3 at = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
     const fw_workspace_grip *grip = &w->hold->grip[w->at->grip];
-    bool certain;
+    bool certain, own[2];
     if (!fw_workspace_pose_load_over(w->hold, &at, shift, load)) return 0.0;
     for (int k = 0; k < 3 && !grip->wrench; k++) {
         int i = grip->actuator[k];
         fw_workspace_pose_response(w->hold, load, &w->hold->actuator[i], &w->response[i]);
     }
-    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, force)) return 0.0;
+    if (!fw_workspace_pose_forces(w->hold, load, w->response, grip, &certain, own, force))
+        return 0.0;
     fw_maths_interval s = fw_workspace_pose_strain(w->hold, load, w->hinge, &force[w->hinge], NULL);
     return 0.5 * (s.lo + s.hi);
 }
