@@ -135,8 +135,8 @@ class Device:
         axis = self.between(-math.pi, math.pi)
         if self.drawn:  # the ground's side of the hinge lies behind it, the arm's before it
             reach, axis = self.between(900, 1400), angle - math.pi / 2
-            self.shapes["arm"] = ('width="150 um" plate-width="%s" plate-height="%s" plate-x="%s" plate-y="%s" plate-angle="%.9g deg"'
-                                  % (um(400), um(300), um(reach * math.cos(angle)), um(reach * math.sin(angle)),
+            self.shapes["arm"] = ('width="150 um" plate-width="400 um" plate-height="300 um" plate-x="%s" plate-y="%s" '
+                                  'plate-angle="%.9g deg"' % (um(reach * math.cos(angle)), um(reach * math.sin(angle)),
                                      math.degrees(angle)))
         self.body("arm", reach * math.cos(angle), reach * math.sin(angle), 2 * reach, self.between(80, 200))
         self.hinge("H", "F", 0, 1, 0.0, 0.0, axis)
@@ -241,7 +241,8 @@ class Device:
                 else:  # cranks turn about their feet, the coupler goes along
                     rise = self.bodies[1][2]
                     foot = (0.0 if k == 1 else x - self.bodies[0][1], 0.0)
-                    v = (1.0, -2 * self.bodies[0][1] / rise, 0.0) if k == 2 else ((y - foot[1]) / rise, -(x - foot[0]) / rise, -1 / rise)
+                    crank = (y - foot[1]) / rise, -(x - foot[0]) / rise, -1 / rise
+                    v = (1.0, -2 * self.bodies[0][1] / rise, 0.0) if k == 2 else crank
                 self.start.append((who, v))
                 self.loads.append("start %d %.15g %.15g %.15g" % ((k,) + v))
         elif load == "heat":
@@ -349,7 +350,8 @@ class Device:
         elastic = ('orientation="%.12g deg"' % math.degrees(self.material.first) if self.material.crystal else
                    'youngs-modulus="%.12g MPa" poisson="%.12g"' % (self.material.mean, self.material.nu))
         out = ['<?xml version="1.0" encoding="UTF-8"?>\n<device xmlns="urn:flexwright:device:1" name="judge-%d">\n' % self.seed,
-               '  <material ref="silicon-100" %s thickness="%s" %s/>\n' % (elastic, um(self.h), material), "  <limits %s/>\n" % limits, '  <flow ref="al-masked-rie"/>\n']
+               '  <material ref="silicon-100" %s thickness="%s" %s/>\n' % (elastic, um(self.h), material),
+               "  <limits %s/>\n" % limits, '  <flow ref="al-masked-rie"/>\n']
         out += [text for text, _ in self.flexures.values()]
         out.append("  <mechanism>\n")
         for name, x, y, mass, inertia in self.bodies:

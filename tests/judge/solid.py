@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""solid.py [--judge PROGRAM] [--seed N] [--count N]: leaves of `slide` devices as solids in CalculiX (ccx), in plane stress and at
-finite displacement, with fillets and blocks of five by six widths at both ends; before the judge with plane stress, too.
+"""solid.py [--judge PROGRAM] [--seed N] [--count N]: leaves of `slide` devices as solids in CalculiX (ccx), in plane stress and
+at finite displacement, with fillets and blocks of five by six widths at both ends; before the judge with plane stress, too.
 
 The first block is held at its far face, that of the second is moved across the leaf and kept on its line: what a leaf of a
 guided stage or of a fixed-fixed one meets under a driver, whose stretch and bending both count. Printed: peak stress of the
@@ -132,7 +132,8 @@ def main():
         peak, force = solve(length, t, rho, across)
         stretch = said["wrenches"][0][1]
         ratios.append(peak / said["most"])
-        print("%d: L %.1f t %.2f rho %.2f across %.2f um: stress %.1f MPa, solid over judge %.4f; force along %.4f; stretch has %.0f %%"
+        print("%d: L %.1f t %.2f rho %.2f across %.2f um: stress %.1f MPa, solid over judge %.4f; force along %.4f; "
+              "stretch has %.0f %%"
               % (seed, length, t, rho, across, said["most"], ratios[-1], force / stretch,
                  100 * stretch / t * strip.tension(rho / t) / said["most"]), flush=True)
     print("solid over judge: %.4f to %.4f" % (min(ratios), max(ratios)))
