@@ -365,6 +365,7 @@ static fw_status choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
     r->control.patience = !stiff && m->ny <= 300 ? 5000 + 30 * explicit_ : 0;
     r->control.stable = stable, r->control.needed = explicit_steps(r, &s, time);
     r->control.implicit_cost = stiff || m->ny <= 300 ? p.implicit / p.explicit_ : 0;
+    r->control.chosen_cost = stiff ? p.implicit / p.explicit_ : 0;
     return report_choice(&r->record, &s, stiff, stable, p.implicit / p.explicit_);
 }
 
@@ -393,6 +394,28 @@ fw_status fw_dynamics_integrator_change(fw_dynamics_run *r) {
                 "auto: not stiff at the start, but by %s s explicit steps had become so small that "
                 "%s were not enough; implicit ones pass over what is fast there",
                 at, steps));
+    return FW_OK;
+}
+
+/* An implicit one that was chosen because it passes over what is fast: a tolerance that has to
+   resolve the fast vibrations all the same makes its steps, of order 5, many more than those of
+   order 8 that stability allows. steps: of the run whose tolerance was not tight enough. Test:
+   test_choose.c, implicit_steps_that_grew_too_many. */
+fw_status fw_dynamics_integrator_back(fw_dynamics_run *r, long steps, bool *changed) {
+    double explicit_ = fmax(r->control.needed, r->control.stable);
+    double paid = (double)steps * r->control.chosen_cost;
+    *changed = r->control.integrator == &fw_maths_radau5_row && paid > 2 * explicit_ &&
+               r->control.chosen_cost > 0;
+    if (!*changed) return FW_OK;
+    char times[32];
+    r->control.integrator = &fw_maths_dop853_row;
+    r->record.motion->integrator = r->control.integrator->name;
+    r->control.patience = r->control.implicit_cost = r->control.chosen_cost = 0;
+    FW_NEED(r->record.motion->reason = fw_arena_printf(
+                r->problem.arena,
+                "auto: implicit steps pass over what is fast, but the tolerance needs %ld of them, "
+                "each %s times as expensive as an explicit one, of which stability needs %.0f",
+                steps, fw_number_text(times, sizeof times, paid / (double)steps, 2), explicit_));
     return FW_OK;
 }
 

@@ -351,6 +351,15 @@ static fw_status steer(fw_dynamics_run *r) {
         if (off <= 1 || tolerances.rtol <= fw_dynamics_tolerance_tightest(&r->problem)) {
             return end_tries(r, &two, tolerances.looser, off <= 1);
         }
+        bool back;
+        FW_TRY(fw_dynamics_integrator_back(r, two.fine.stepper->steps, &back));
+        if (back) {
+            two.again = false;
+            tolerances = fw_dynamics_tolerance_start(&r->control, r->control.integrator,
+                                                     fw_dynamics_tolerance_wanted(&r->record));
+            tries = 0;
+            continue;
+        }
         tolerances = fw_dynamics_tolerance_next(&r->control, tolerances, off, tries, &two.again);
         if (two.again) two.coarse = two.fine;
     }

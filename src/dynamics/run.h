@@ -93,8 +93,9 @@ typedef struct fw_dynamics_controller {
     /* the choice of the integrator, and its trial */
     double stable, needed; /* explicit steps that are stable, and that the tolerance needs */
     double implicit_cost;  /* cost of an implicit step in explicit ones; 0: nothing is tried */
-    double patience;       /* steps of one pass after which explicit ones are doubted; 0: never */
-    double given_up_s;     /* and where that was; NaN: it was not */
+    double chosen_cost; /* likewise where an implicit one was chosen; 0: it was not, or is left */
+    double patience;    /* steps of one pass after which explicit ones are doubted; 0: never */
+    double given_up_s;  /* and where that was; NaN: it was not */
     /* the budget */
     long steps;               /* over all passes */
     long taken;               /* in this pass */
@@ -179,6 +180,8 @@ fw_status fw_dynamics_method_choose(fw_dynamics_run *r, const fw_effects_loads *
 /* by name, or by the scene; says why in motion->reason */
 fw_status fw_dynamics_integrator_choose(fw_dynamics_run *r, const fw_effects_loads *loads,
                                         const char *name);
+/* to an explicit one, where implicit steps have become too many for a tolerance */
+fw_status fw_dynamics_integrator_back(fw_dynamics_run *r, long steps, bool *changed);
 /* steps are as short as they are for the sake of stability */
 fw_status fw_dynamics_integrator_stuck(const fw_dynamics_problem *problem,
                                        const fw_maths_stepper *s, bool *stuck);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What must be known before the first step. */
 #include "dynamics/run.h"
+#include "maths/dense.h"
 #include <math.h>
 
 /* ---- size of the motion ---- */
@@ -81,7 +82,7 @@ static fw_status cannot_start(const fw_dynamics_run *r) {
 }
 
 /* Velocities start as if all pins were joints, also those that elements stand for: they then start
-   without a stretch and without its rate, whatever the scene states. */
+   without a stretch, and without its rate where what is stated can be had so (give_way). */
 static fw_status closed_system(fw_dynamics_run *r, const fw_effects_loads *loads,
                                fw_multibody_system **closed) {
     const fw_dynamics_problem *problem = &r->problem;
@@ -108,6 +109,64 @@ static bool onto_joints(fw_multibody_system *sys, const bool *stated, const doub
     return factor && fw_multibody_impact(sys, factor, v);
 }
 
+/* does the motion without stretch leave what was stated? */
+static bool contradicted(int n, const bool *stated, const double *given, const double *v) {
+    double size = 0, moved = 0;
+    for (int i = 0; i < n; i++) {
+        size = fmax(size, fabs(given[i]));
+        if (stated[i]) moved = fmax(moved, fabs(v[i] - given[i]));
+    }
+    return moved > 1e-6 * size;
+}
+
+/* Velocities that flexures can only follow by giving way, as of a stage on leaves: what is stated
+   stays, and the rest gets the velocities whose rate of elastic energy is least, v' K v/2 with K the
+   tangent of the elements: those of a slow displacement,
+
+     (K_uu + e M_uu) v_u = -K_us v_s
+
+   e = 1e-9 of the largest K_ii/M_ii keeps what no element holds where it is; joints are closed
+   afterwards. In and out: scaled. Cost: n^3/3. Test: test_start_velocity.c. */
+static fw_status give_way(fw_dynamics_run *r, const bool *stated, const double *given, double *v) {
+    const fw_multibody_model *m = r->problem.model;
+    fw_multibody_system *sys = r->problem.system;
+    size_t n = (size_t)m->nq;
+    fw_mark mark = fw_arena_mark(r->problem.arena);
+    double *K, *still, *a, *b, most = 0;
+    int *place, *pivot, count = 0;
+    FW_NEED(K = fw_arena_array(r->problem.arena, double, n *n));
+    FW_NEED(still = fw_arena_array(r->problem.arena, double, n));
+    FW_NEED(a = fw_arena_array(r->problem.arena, double, n *n));
+    FW_NEED(b = fw_arena_array(r->problem.arena, double, n));
+    FW_NEED(place = fw_arena_array(r->problem.arena, int, n));
+    FW_NEED(pivot = fw_arena_array(r->problem.arena, int, n));
+    const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, r->problem.start);
+    if (!pose) return FW_OK;
+    fw_multibody_element_tangent(sys, pose, still, K, NULL);
+    for (int i = 0; i < m->nq; i++) {
+        double inverse = i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3];
+        most = fmax(most, fabs(K[(size_t)i * n + (size_t)i]) * inverse);
+        v[i] = given[i];
+        if (!stated[i]) place[count++] = i;
+    }
+    for (int i = 0; i < count; i++) {
+        const double *row = K + (size_t)place[i] * n;
+        double inverse = place[i] % 3 == 2 ? m->jinv[place[i] / 3] : m->minv[place[i] / 3];
+        for (int j = 0; j < count; j++) /* symmetric: rows or columns */
+            a[(size_t)i * (size_t)count + (size_t)j] = row[place[j]];
+        a[(size_t)i * (size_t)count + (size_t)i] += 1e-9 * most / inverse;
+        for (int k = 0; k < m->nq; k++)
+            if (stated[k]) b[i] -= row[k] * given[k];
+    }
+    if (count > 0 && fw_maths_lu_factor(count, a, pivot)) {
+        fw_maths_lu_solve(count, a, pivot, b);
+        for (int i = 0; i < count; i++)
+            v[place[i]] = b[i];
+    }
+    fw_arena_rewind(r->problem.arena, mark);
+    return FW_OK;
+}
+
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads) {
@@ -121,8 +180,11 @@ static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads)
         v[i] = given[i] = loads->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     FW_TRY(closed_system(r, loads, &closed));
     bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
-    if (good && closed != sys)
-        good = onto_joints(sys, stated, NULL, r->problem.start, v, r->record.rate);
+    if (good && closed != sys) {
+        bool gives = contradicted(m->nq, stated, given, v);
+        if (gives) FW_TRY(give_way(r, stated, given, v));
+        good = onto_joints(sys, stated, gives ? given : NULL, r->problem.start, v, r->record.rate);
+    }
     if (!good) return cannot_start(r);
     warn_velocities(r, stated, given, v);
     fw_multibody_set_switches(sys, 0, r->problem.start);

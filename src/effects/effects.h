@@ -35,7 +35,8 @@ typedef struct fw_effect_choice {
     fw_effect_mode mode;
     const char *list;             /* comma separated ids, for FW_EFFECTS_LIST */
     fw_effects_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
-    double below; /* > 0: auto came to this level because the one below was off by so much */
+    double below;    /* > 0: auto came to this level because the one below was off by so much */
+    bool pins_first; /* hinge is REVOLUTE because pins are tried before anything else */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;

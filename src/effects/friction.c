@@ -132,7 +132,7 @@ static void describe(const fw_device *device, const fw_device_scene *s,
         const fw_device_friction_use *f = &s->friction[i];
         fw_effects_say(to, "; friction in {s}, coefficient {n}",
                        f->revolute != FW_NONE ? device->revolute[f->revolute].id
-                                           : device->joint[f->joint].id,
+                                              : device->joint[f->joint].id,
                        f->coefficient);
     }
 }

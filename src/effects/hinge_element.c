@@ -3,17 +3,16 @@
    rotation th = phi_b - phi_a - free angle and the arc's axis half turned, psi = axis + (turn of a
    + turn of b)/2, e = (cos psi, sin psi), n = (-sin psi, cos psi):
 
-     w = e.D,  v = n.D - o drift(o th),  o = 1 where body a has the root at -a, else -1
-     U = K th^2/2 + kx(o th) w^2/2 + ky(o th) v^2/2
+     w = e.D,  v = n.D,  U = U(o th, o w, o v) of flexure/finite_force.c,
+     o = 1 where body a has the root at -a, else -1
 
-   Force -dU/dp, stiffness d2U/dp dp in full, all derivatives of kx, ky and the drift included. The
-   material dissipates in all three deformations alike: forces -tau (kx w' dw/dp + ky v' dv/dp) with
-   tau = c/K of the pin's own viscous damper, which goes on acting on th (joint-damping,
-   material-damping); a damping stated in the file is for the rotation only. All of U is
-   proportional to Young's modulus: warm, it is U (1 + beta dT law(t)), which the law feeds with
-   U beta dT law'; dampers keep their values.
-   Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid until the arc closes to a full
-   circle. Error: see flexure/finite.c. Cost of a force some 850 instructions. Source:
+   Force -dU/dp, stiffness d2U/dp dp in full. The material dissipates in all three deformations
+   alike: forces -tau (kx w' dw/dp + ky z' dz/dp), z = v - o drift(o th), with tau = c/K of the pin's
+   own viscous damper, which goes on acting on th (joint-damping, material-damping); a damping stated
+   in the file is for the rotation only. All of U is proportional to Young's modulus: warm, it is
+   U (1 + beta dT law(t)), which the law feeds with U beta dT law'; dampers keep their values.
+   Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid where the law is. Error: see
+   flexure/finite_force.c. Cost of a force some 1500 instructions. Source:
    docs/theory/effects/nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
 #include "effects/hinge_element.h"
 #include <math.h>
@@ -21,36 +20,39 @@
 
 typedef fw_effects_flexed flexed;
 
-typedef struct bent {               /* values and rates, for what needs no second derivative */
-    double c, n, x, y;              /* of psi, and e.D, n.D */
-    double th, w, v;                /* deformations */
-    double th_rate, w_rate, v_rate; /* and their rates */
-    double kx, kx_slope, ky, ky_slope, drift_slope;
+typedef struct bent {           /* deformations, their rates, and what they store */
+    double c, n, x, y;          /* of psi, and e.D, n.D = w, v */
+    double th, th_rate, w_rate; /* rates: 0 where nothing is dissipated */
+    double z_rate, kx, ky, drift_slope;
+    fw_flexure_hinge_bent law;
 } bent;
 
-static inline bent bend(const flexed *f, const fw_effects_port_state *s) {
-    const double *a = s->p, *b = s->p + 3, *va = s->w, *vb = s->w + 3, o = f->sense;
-    double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
-    double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
+/* rates of w and of z, and the stiffness against them */
+static inline void rates(const flexed *f, const fw_effects_port_state *s, bent *b) {
+    const double *va = s->w, *vb = s->w + 3, o = f->sense;
     double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
-    double th = b[2] - a[2] - f->free_rad, th_rate = vb[2] - va[2];
-    fw_flexure_hinge_at law;
-    fw_flexure_hinge_law_slopes(&f->law, &f->rest, o * th, &law);
-    return (bent){.c = c,
-                  .n = n,
-                  .x = x,
-                  .y = y,
-                  .th = th,
-                  .w = x,
-                  .v = y - o * law.drift_m.value,
-                  .th_rate = th_rate,
-                  .w_rate = c * ux + n * uy + y * turning,
-                  .v_rate = c * uy - n * ux - x * turning - law.drift_m.slope * th_rate,
-                  .kx = law.kx_N_per_m.value,
-                  .kx_slope = o * law.kx_N_per_m.slope,
-                  .ky = law.ky_N_per_m.value,
-                  .ky_slope = o * law.ky_N_per_m.slope,
-                  .drift_slope = law.drift_m.slope};
+    fw_flexure_hinge_at at;
+    fw_flexure_hinge_law_slopes(&f->law, &f->rest, o * b->th, &at);
+    b->th_rate = vb[2] - va[2];
+    b->w_rate = b->c * ux + b->n * uy + b->y * turning;
+    b->drift_slope = at.drift_m.slope;
+    b->z_rate = b->c * uy - b->n * ux - b->x * turning - b->drift_slope * b->th_rate;
+    b->kx = at.kx_N_per_m.value, b->ky = at.ky_N_per_m.value;
+}
+
+static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
+    const double *pa = s->p, *pb = s->p + 3, o = f->sense;
+    double psi = f->axis_rad + 0.5 * (pa[2] + pb[2]), c = cos(psi), n = sin(psi);
+    double dx = pb[0] - pa[0], dy = pb[1] - pa[1];
+    bent b = {.c = c,
+              .n = n,
+              .x = c * dx + n * dy,
+              .y = c * dy - n * dx,
+              .th = pb[2] - pa[2] - f->free_rad};
+    const double at[3] = {o * b.th, o * b.x, o * b.y};
+    if (law) fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &b.law);
+    if (f->loss_s > 0) rates(f, s, &b);
+    return b;
 }
 
 static inline double warmth(const fw_effects_force_element *e, const fw_effects_port_state *s,
@@ -72,16 +74,16 @@ double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effe
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out */
 static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
                               double *f) {
-    const bent b = bend(h, s);
-    double moment = warm * (h->law.stiffness_Nm_per_rad * b.th +
-                            0.5 * (b.kx_slope * b.w * b.w + b.ky_slope * b.v * b.v));
-    double X = b.kx * (warm * b.w + h->loss_s * b.w_rate);
-    double Y = b.ky * (warm * b.v + h->loss_s * b.v_rate);
+    const bent b = bend(h, s, warm != 0);
+    double o = h->sense * warm, lost = h->loss_s * b.ky * b.z_rate;
+    double moment = o * b.law.gradient[0] - lost * b.drift_slope;
+    double X = o * b.law.gradient[1] + h->loss_s * b.kx * b.w_rate;
+    double Y = o * b.law.gradient[2] + lost;
     double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
     f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
     f[3] = -f[0], f[4] = -f[1];
-    f[2] = both + moment - Y * b.drift_slope;
-    f[5] = both - moment + Y * b.drift_slope;
+    f[2] = both + moment;
+    f[5] = both - moment;
 }
 
 static void force(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f) {
@@ -94,31 +96,29 @@ void fw_effects_flexed_force(const fw_effects_flexed *h, const fw_effects_port_s
     modal_load(h, s, warm, f);
 }
 
-static inline double stored(const flexed *h, const bent *b) { /* U where it was made */
-    return 0.5 * (h->law.stiffness_Nm_per_rad * b->th * b->th + b->kx * b->w * b->w +
-                  b->ky * b->v * b->v);
+static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
+    const bent b = bend(e->data, s, true);
+    double rate;
+    return warmth(e, s, &rate) * b.law.energy_J;
 }
 
-static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
-    const flexed *h = e->data;
-    const bent b = bend(h, s);
-    double rate;
-    return warmth(e, s, &rate) * stored(h, &b);
+static double lost_W(const flexed *h, const bent *b) {
+    return h->loss_s * (b->kx * b->w_rate * b->w_rate + b->ky * b->z_rate * b->z_rate);
 }
 
 double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s) {
-    const bent b = bend(h, s);
-    return h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
+    const bent b = bend(h, s, false);
+    return lost_W(h, &b);
 }
 
 static void power(const fw_effects_force_element *e, const fw_effects_port_state *s,
                   double power[2]) {
     const flexed *h = e->data;
-    const bent b = bend(h, s);
-    power[0] = h->loss_s * (b.kx * b.w_rate * b.w_rate + b.ky * b.v_rate * b.v_rate);
+    const bent b = bend(h, s, true);
+    power[0] = lost_W(h, &b);
     double rate;
     warmth(e, s, &rate);
-    power[1] = rate * stored(h, &b);
+    power[1] = rate * b.law.energy_J;
 }
 
 /* ---- the tangent: all second derivatives ---- */
@@ -128,11 +128,6 @@ enum { N = 6 };
 typedef struct strain { /* one of w and v: value, rate, gradient by the ports, second derivative */
     double value, rate, slope[N], curve[N][N];
 } strain;
-
-typedef struct state {
-    fw_flexure_hinge_jet kx, ky, drift;
-    strain w, v;
-} state;
 
 static const double turns[N] = {0, 0, -1, 0, 0, 1};   /* d th */
 static const double half[N] = {0, 0, 0.5, 0, 0, 0.5}; /* d psi */
@@ -156,61 +151,85 @@ static void project(strain *s, double x, double y, double side, const double *li
                 -x * half[i] * half[j] + side * (cross[i] * half[j] + half[i] * cross[j]);
 }
 
-static void deform(const flexed *f, const fw_effects_port_state *s, state *at) {
-    const double *a = s->p, *b = s->p + 3;
-    double psi = f->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
-    double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
-    const double along[N] = {-c, -n, 0, c, n, 0}, across[N] = {n, -c, 0, -n, c, 0};
-    fw_flexure_hinge_at law;
-    fw_flexure_hinge_law_at(&f->law, f->sense * (b[2] - a[2] - f->free_rad), &law);
-    at->kx = seen_from_a(law.kx_N_per_m, f->sense, false);
-    at->ky = seen_from_a(law.ky_N_per_m, f->sense, false);
-    at->drift = seen_from_a(law.drift_m, f->sense, true);
-    project(&at->w, x, y, 1, along, across);
-    project(&at->v, y, x, -1, across, along);
-    at->v.value -= at->drift.value;
+/* the elastic part, with w and v: J' H J + gradient . second derivatives */
+static void add_elastic(const flexed *f, const fw_flexure_hinge_bent *law, const strain *w,
+                        const strain *v, double warm, double *stiffness) {
     for (int i = 0; i < N; i++)
-        at->v.slope[i] -= at->drift.slope * turns[i];
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++)
-            at->v.curve[i][j] -= at->drift.curve * turns[i] * turns[j];
-    at->w.rate = at->v.rate = 0;
-    for (int i = 0; i < N; i++) {
-        at->w.rate += at->w.slope[i] * s->w[i];
-        at->v.rate += at->v.slope[i] * s->w[i];
-    }
+        for (int j = 0; j < N; j++) {
+            const double a[3] = {turns[i], w->slope[i], v->slope[i]};
+            const double b[3] = {turns[j], w->slope[j], v->slope[j]};
+            double sum =
+                f->sense * (law->gradient[1] * w->curve[i][j] + law->gradient[2] * v->curve[i][j]);
+            for (int k = 0; k < 3; k++)
+                for (int l = 0; l < 3; l++)
+                    sum += a[k] * law->hessian[k][l] * b[l];
+            stiffness[N * i + j] = warm * sum;
+        }
 }
 
-/* of k (s + tau s') ds/dp: stiffness and damping, += */
+/* v and its derivatives become those of z = v - drift */
+static void less_drift(strain *v, fw_flexure_hinge_jet drift) {
+    v->value -= drift.value;
+    for (int i = 0; i < N; i++)
+        v->slope[i] -= drift.slope * turns[i];
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            v->curve[i][j] -= drift.curve * turns[i] * turns[j];
+}
+
+static double rate_of(const strain *s, const double *speed) {
+    double rate = 0;
+    for (int i = 0; i < N; i++)
+        rate += s->slope[i] * speed[i];
+    return rate;
+}
+
+/* of tau k s' ds/dp: stiffness and damping, += */
 static void add_strain(const strain *s, fw_flexure_hinge_jet k, double tau, const double *speed,
                        double *stiffness, double *damping) {
-    double pull = s->value + tau * s->rate, turning[N] = {0};
+    double turning[N] = {0};
     for (int j = 0; j < N; j++) /* of s' */
         for (int i = 0; i < N; i++)
             turning[j] += s->curve[i][j] * speed[i];
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++) {
             stiffness[N * i + j] +=
-                k.value * (s->slope[i] * (s->slope[j] + tau * turning[j]) + pull * s->curve[i][j]) +
-                k.slope * (pull * s->slope[i] * turns[j] + s->value * turns[i] * s->slope[j]) +
-                0.5 * k.curve * s->value * s->value * turns[i] * turns[j];
+                tau * (k.value * (s->slope[i] * turning[j] + s->rate * s->curve[i][j]) +
+                       k.slope * s->rate * s->slope[i] * turns[j]);
             damping[N * i + j] += tau * k.value * s->slope[i] * s->slope[j];
         }
 }
 
+static void add_loss(const flexed *h, const fw_effects_port_state *s, strain *w, strain *z,
+                     double *stiffness, double *damping) {
+    fw_flexure_hinge_at law;
+    fw_flexure_hinge_law_at(&h->law, h->sense * (s->p[5] - s->p[2] - h->free_rad), &law);
+    less_drift(z, seen_from_a(law.drift_m, h->sense, true));
+    w->rate = rate_of(w, s->w), z->rate = rate_of(z, s->w);
+    add_strain(w, seen_from_a(law.kx_N_per_m, h->sense, false), h->loss_s, s->w, stiffness,
+               damping);
+    add_strain(z, seen_from_a(law.ky_N_per_m, h->sense, false), h->loss_s, s->w, stiffness,
+               damping);
+}
+
 void fw_effects_flexed_tangent(const fw_effects_flexed *h, const fw_effects_port_state *s,
                                double warm, double *stiffness, double *damping) {
-    state at;
-    deform(h, s, &at);
+    const double *a = s->p, *b = s->p + 3, o = h->sense;
+    double psi = h->axis_rad + 0.5 * (a[2] + b[2]), c = cos(psi), n = sin(psi);
+    double dx = b[0] - a[0], dy = b[1] - a[1], x = c * dx + n * dy, y = c * dy - n * dx;
+    const double along[N] = {-c, -n, 0, c, n, 0}, across[N] = {n, -c, 0, -n, c, 0};
+    const double at[3] = {o * (b[2] - a[2] - h->free_rad), o * x, o * y};
+    strain w, v;
+    fw_flexure_hinge_bent law;
+    project(&w, x, y, 1, along, across);
+    project(&v, y, x, -1, across, along);
     memset(damping, 0, N * N * sizeof *damping);
-    for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++)
-            stiffness[N * i + j] = h->law.stiffness_Nm_per_rad * turns[i] * turns[j];
-    double tau = h->loss_s / warm;
-    add_strain(&at.w, at.kx, tau, s->w, stiffness, damping);
-    add_strain(&at.v, at.ky, tau, s->w, stiffness, damping);
-    for (int i = 0; i < N * N; i++)
-        stiffness[i] *= warm, damping[i] *= warm;
+    memset(stiffness, 0, N * N * sizeof *stiffness);
+    if (warm != 0) {
+        fw_flexure_hinge_law_bend(&h->law, &h->rest, at, true, &law);
+        add_elastic(h, &law, &w, &v, warm, stiffness);
+    }
+    if (h->loss_s > 0) add_loss(h, s, &w, &v, stiffness, damping);
 }
 
 static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,
@@ -222,11 +241,15 @@ static void tangent(const fw_effects_force_element *e, const fw_effects_port_sta
 static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
                   const char **why) {
     const flexed *h = e->data;
-    double th = h->sense * (s->p[5] - s->p[2] - h->free_rad);
-    if (fw_flexure_hinge_law_holds(&h->law, th)) return true;
+    const bent b = bend(h, s, true);
+    if (b.law.holds) return true;
     *why =
-        "the flexure is wound up to a full circle, where its ends would meet; lower the load, or "
-        "make its angle smaller";
+        fw_flexure_hinge_law_holds(&h->law, h->sense * b.th)
+            ? "a flexure is pressed beyond its buckling load, or displaced by four tenths of its "
+              "length, which its closed form does not know; lower the load, or look at "
+              "--hinge-model elastica"
+            : "the flexure is wound up to a full circle, where its ends would meet; lower the "
+              "load, or make its angle smaller";
     return false;
 }
 

@@ -47,7 +47,7 @@ static void take_stiffness(const fw_flexure_elastica_result *r, double k[3][3]) 
 }
 
 bool fw_effects_exact_is_known(const fw_mechanism_hinge *h) {
-    return !h->stated && h->input.length_m > 0 && h->input.width_m > 0 && h->input.depth_m > 0 &&
+    return h->input.length_m > 0 && h->input.width_m > 0 && h->input.depth_m > 0 &&
            h->closed_form.stiffness_Nm_per_rad > 0;
 }
 
@@ -57,6 +57,7 @@ fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
     fw_effects_exact *x = fw_arena_one(arena, fw_effects_exact);
     FW_NEED(x);
     FW_TRY(fw_flexure_beam_of_input(arena, &h->input, c, &x->beam));
+    fw_flexure_beam_scale(&x->beam, h->scale);
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     static const double none[3] = {0};
@@ -194,16 +195,13 @@ static void add_turning(const place *at, const double *w, double warm, double *s
     stiffness[N * t + t] -= warm * (w[1] * at->twist[1] + w[2] * at->twist[2]);
 }
 
-/* of what is dissipated: the closed form's with it less that without */
+/* of what is dissipated: the closed form's alone */
 static void add_loss(const fw_effects_flexed *h, const fw_effects_port_state *s, double *stiffness,
                      double *damping) {
-    double with[N * N], without[N * N], none[N * N];
-    fw_effects_flexed calm = *h;
-    calm.loss_s = 0;
-    fw_effects_flexed_tangent(h, s, 1, with, damping);
-    fw_effects_flexed_tangent(&calm, s, 1, without, none);
+    double lost[N * N];
+    fw_effects_flexed_tangent(h, s, 0, lost, damping);
     for (int i = 0; i < N * N; i++)
-        stiffness[i] += with[i] - without[i];
+        stiffness[i] += lost[i];
 }
 
 static void tangent(const fw_effects_force_element *e, const fw_effects_port_state *s,

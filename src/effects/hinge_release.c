@@ -109,7 +109,8 @@ fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_eff
    hinge to give */
 bool fw_effects_hinge_flexes(const fw_effect_case *c, int hinge) {
     const fw_mechanism_hinge *h = &c->mechanism->hinge[hinge];
-    return fw_effects_hinge_is_known(h) && (!h->stated || touches(c->scene, h->pin));
+    bool stiff = !h->stated || c->mechanism->pin[h->pin].stiffness_Nm_per_rad > 0;
+    return fw_effects_hinge_is_known(h) && (stiff || touches(c->scene, h->pin));
 }
 
 fw_status fw_effects_hinges_flex(const fw_effect_case *c, fw_effects_loads *loads) {

@@ -6,10 +6,11 @@
      torque   F_n d'(o th) - o (1/2) (kx'/kx^2 F_e^2 + ky'/ky^2 F_n^2)  on th
      couple   -(1/2) F_e (F_n (1/ky - 1/kx) + o d)  on both bodies
 
-   (negative gradient of the energy U of hinge_element.c; d: drift). An opening D pushes mode j with
-   -pull_j . D, pull_j the force of the hinge in the mode. F is that of the slow modes as they are
-   and of the others as they follow the loads: pins hold a mechanism without repeated joints
-   whatever the openings are, so that F does not change with them.
+   (negative gradient of the energy U of hinge_element.c; d: drift; and what the hinge shortens by
+   and is stiffened by, flexure/finite_force.c). An opening D pushes mode j with -pull_j . D, pull_j
+   the force of the hinge in the mode. F is that of the slow modes as they are and of the others as
+   they follow the loads: pins hold a mechanism without repeated joints whatever the openings are,
+   so that F does not change with them.
 
    Fast modes ring besides, with F + r, |r| <= ring: what is linear in r comes at their frequencies
    (`wave`), what is quadratic stays (`lasting`). Inputs SI. Exact in the law; first order in the
@@ -71,29 +72,31 @@ fw_status fw_effects_hinge_sources_new(fw_arena *arena, const fw_effects_modal *
     return FW_OK;
 }
 
-/* of a hinge at an instant: its law, and where its axes are */
+/* of a hinge at an instant: where its axes are */
 typedef struct posture {
-    fw_flexure_hinge_at law;
-    double sense, c, s; /* of psi */
+    double rotation, sense, c, s; /* c, s: of psi */
 } posture;
 
 static posture posture_of(const fw_effects_hinge_source *h, double rotation, double turned) {
-    posture p = {.sense = h->sense, .c = cos(turned), .s = sin(turned)};
-    fw_flexure_hinge_law_slopes(&h->hinge->law, &h->rest, h->sense * rotation, &p.law);
-    return p;
+    return (posture){rotation, h->sense, cos(turned), sin(turned)};
 }
 
-/* the parts under a force along e and n as drawn */
+/* the parts under a force along e and n as drawn; infinite where the hinge cannot carry it */
 static void parts_at(const fw_effects_hinge_source *h, const posture *at, double fe, double fn,
                      double *part) {
-    double kx = at->law.kx_N_per_m.value, ky = at->law.ky_N_per_m.value, o = at->sense;
-    double e = at->c * fe + at->s * fn, n = at->c * fn - at->s * fe; /* as turned */
-    double w = e / kx, y = n / ky + o * at->law.drift_m.value;
-    double bend = at->law.kx_N_per_m.slope * (e / kx) * (e / kx) +
-                  at->law.ky_N_per_m.slope * (n / ky) * (n / ky);
+    const fw_flexure_hinge_law *law = &h->hinge->law;
+    double o = at->sense, e = at->c * fe + at->s * fn, n = at->c * fn - at->s * fe; /* as turned */
+    double u[2], moment, pull, th = o * at->rotation;
+    if (!fw_flexure_hinge_law_under(law, &h->rest, th, (const double[2]){o * e, o * n}, u, &moment,
+                                    &pull)) {
+        for (int k = 0; k < FW_HINGE_PARTS; k++)
+            part[k] = (double)INFINITY;
+        return;
+    }
+    double w = o * u[0], y = o * u[1];
     part[0] = at->c * w - at->s * y - h->softness_m_per_N[0] * fe;
     part[1] = at->s * w + at->c * y - h->softness_m_per_N[1] * fn;
-    part[2] = n * at->law.drift_m.slope - 0.5 * o * bend;
+    part[2] = -o * (moment - law->stiffness_Nm_per_rad * th);
     part[3] = -0.5 * (e * y - n * w);
 }
 
@@ -115,7 +118,7 @@ static void open_parts(fw_effects_hinge_source *h, const posture *at, double fe,
             h->lasting[k] = fmax(h->lasting[k], 2 * fabs(0.5 * (plus[k] + minus[k]) - now[k]));
         }
     }
-    double mixed = fabs(1 / at->law.kx_N_per_m.value - 1 / at->law.ky_N_per_m.value);
+    double mixed = fabs(h->softness_m_per_N[0] - h->softness_m_per_N[1]);
     h->lasting[3] = fmax(h->lasting[3], h->ring_N[0] * h->ring_N[1] * mixed);
 }
 
@@ -192,6 +195,10 @@ bool fw_effects_hinge_forced(const char *effect, fw_effects_hinge_model asked, b
 }
 
 const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice) {
+    if (choice->pins_first)
+        return "pins are tried first: their stiffnesses are stated, and what hinges that give "
+               "would "
+               "change is computed at the peak";
     if (choice->hinge == FW_HINGE_REVOLUTE)
         return "ideal pins in place of the hinges were asked for (--hinge-model revolute)";
     if (choice->below > 0)
@@ -219,6 +226,7 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
 static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice *choice,
                             fw_effects_hinge_model used, bool touching) {
     fw_effects_hinge_model asked = choice->hinge;
+    if (choice->pins_first && asked == used) return "tried first, with stated stiffnesses";
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";
     if (asked != FW_HINGE_AUTO)
@@ -232,8 +240,8 @@ static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice
                : "nothing bounds what hinges do besides turning below the accuracy wanted";
 }
 
-/* stated stiffness: the hinge stays what its file says, at every level */
-static fw_status report_stated(const fw_effect_case *c, const char **why) {
+/* hinges of which nothing but a rotation is known */
+static fw_status report_pins(const fw_effect_case *c, const char **why) {
     const fw_mechanism *m = c->mechanism;
     fw_text names = fw_text_new(c->arena);
     int count = 0;
@@ -243,8 +251,8 @@ static fw_status report_stated(const fw_effect_case *c, const char **why) {
     if (count == 0) return FW_OK;
     FW_TRY(fw_text_end(&names));
     FW_NEED(*why = fw_arena_printf(c->arena,
-                                   "%s; %s %s: the file states the stiffness, or the axis is not "
-                                   "known",
+                                   "%s; %s %s: the axis is not known (it is neither drawn nor "
+                                   "stated)",
                                    *why, names.data, count > 1 ? "stay pins" : "stays a pin"));
     return FW_OK;
 }
@@ -266,7 +274,7 @@ fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choic
     ledger->hinge.why = why_used(entry, choice, ledger->hinge.used, touching);
     if (choice->below > 0 && asked == ledger->hinge.used)
         FW_TRY(why_climbed(c, choice, &ledger->hinge.why));
-    FW_TRY(report_stated(c, &ledger->hinge.why));
+    FW_TRY(report_pins(c, &ledger->hinge.why));
     if (ledger->hinge.used != FW_HINGE_ELASTICA) return FW_OK;
     ledger->hinge.error = fw_effects_exact_tolerance;
     if (entry) entry->cost = exact_cost * could(c);

@@ -61,6 +61,9 @@ typedef struct fw_flexure_beam_linear {
 void fw_flexure_beam_of_flexure(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                                 fw_flexure_beam_piece *piece, fw_flexure_beam *out);
 
+/* all of its stiffness times `by`, where above 0 */
+void fw_flexure_beam_scale(fw_flexure_beam *beam, double by);
+
 /* pose at the start of each piece, kinks included, and at the end: npiece + 1 */
 void fw_flexure_beam_poses(const fw_flexure_beam *beam, fw_flexure_beam_pose *out);
 /* at s_m from the start of a piece that starts at `start` */

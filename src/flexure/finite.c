@@ -131,12 +131,6 @@ static inline void shape_far(double x, double sine, double cosine, shape *at) {
                         z.d[2] - 4 * (s.d[1] * s.d[1] + s.d[0] * s.d[2]), over);
 }
 
-/* 1/c with its derivatives by the rotation, c by x = a + q th */
-static inline fw_flexure_hinge_jet inverse(const double c[3], double q) {
-    double k = 1 / c[0], slope = q * c[1] * k;
-    return (fw_flexure_hinge_jet){k, -slope * k, (2 * slope * slope - q * q * c[2] * k) * k};
-}
-
 typedef double pair __attribute__((vector_size(16)));
 
 /* sine and cosine of two angles below 0.8 side by side, by their power series to t^7, t = angle^2:
@@ -170,7 +164,7 @@ INLINE turned turn(const fw_flexure_hinge_rest *rest, double x, double part, dou
 /* Clenshaw's recurrence for a Chebyshev series and its first two derivatives, x = th/(2 pi):
    error 1e-14 of the largest coefficient. Cost 70 ns. Source: Clenshaw 1955. Test: test_path_law.c
  */
-static fw_flexure_hinge_jet series(const double *c, double th) {
+fw_flexure_hinge_jet fw_flexure_hinge_series(const double c[FW_PATH_TERMS], double th) {
     double x = 0.5 * (1 / FW_PI) * th, b1 = 0, b2 = 0, d1 = 0, d2 = 0, e1 = 0, e2 = 0;
     for (int n = FW_PATH_TERMS - 1; n > 0; n--) {
         double e = 4 * d1 + 2 * x * e1 - e2, d = 2 * b1 + 2 * x * d1 - d2;
@@ -183,23 +177,35 @@ static fw_flexure_hinge_jet series(const double *c, double th) {
 }
 
 static fw_flexure_hinge_jet one_over(fw_flexure_hinge_jet c) {
-    const double at[3] = {c.value, c.slope, c.curve};
-    return inverse(at, 1);
+    double k = 1 / c.value, slope = c.slope * k;
+    return (fw_flexure_hinge_jet){k, -slope * k, (2 * slope * slope - c.curve * k) * k};
 }
 
-static turned table_at(const struct fw_flexure_hinge_table *t, double th, fw_flexure_hinge_at *at) {
-    at->kx_N_per_m = one_over(series(t->along_m_per_N, th));
-    at->ky_N_per_m = one_over(series(t->across_m_per_N, th));
-    at->drift_m = series(t->drift_m, th);
+static fw_flexure_hinge_jet sum_of(fw_flexure_hinge_jet a, fw_flexure_hinge_jet b) {
+    return (fw_flexure_hinge_jet){a.value + b.value, a.slope + b.slope, a.curve + b.curve};
+}
+
+static turned table_at(const struct fw_flexure_hinge_table *t, double th,
+                       fw_flexure_hinge_soft *at) {
+    at->bend_x = fw_flexure_hinge_series(t->bend_x, th),
+    at->rest_x = fw_flexure_hinge_series(t->rest_x, th);
+    at->bend_y = fw_flexure_hinge_series(t->bend_y, th),
+    at->rest_y = fw_flexure_hinge_series(t->rest_y, th);
+    at->drift_m = fw_flexure_hinge_series(t->drift_m, th);
     return (turned){.s2 = sin(0.5 * th), .c2 = cos(0.5 * th)};
 }
 
+/* value and derivatives by x as those by th */
+static inline fw_flexure_hinge_jet by_rotation(double value, double slope, double curve, double q) {
+    return (fw_flexure_hinge_jet){value, q * slope, q * q * curve};
+}
+
 /* `second` is a constant where this is expanded: without it no second derivative is worked out */
-INLINE turned law_at(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest, double th,
-                     bool second, fw_flexure_hinge_at *at) {
+INLINE turned soft_at(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest, double th,
+                      bool second, fw_flexure_hinge_soft *at) {
     if (__builtin_expect(law->table != NULL, 0)) return table_at(law->table, th, at);
     double q = 0.5 * law->share, x = law->half_angle_rad + q * th;
-    double p = law->axial_m_per_N, v = law->shear_m_per_N;
+    double p = law->axial_m_per_N, v = law->shear_m_per_N, both = p + v, apart = v - p;
     double root = law->root_m_per_N, share = root * law->share;
     double along = law->bend_m_per_N * (1 + law->uneven_x);
     double across = law->bend_m_per_N * (1 + law->uneven_y);
@@ -210,22 +216,38 @@ INLINE turned law_at(const fw_flexure_hinge_law *law, const fw_flexure_hinge_res
     else
         shape_far(x, tip.sine, tip.cosine, &f);
     const double *s = f.s.d, *g = f.g.d, *h = f.h.d, *z = f.z.d;
-    double cx[3] = {along * g[0] + root * s[0] * s[0] + (p + v) + (v - p) * z[0],
-                    along * g[1] + 2 * root * s[0] * s[1] + (v - p) * z[1], 0};
-    double cy[3] = {across * h[0] + share * s[1] * s[1] + (p + v) - (v - p) * z[0],
-                    across * h[1] + 2 * share * s[1] * s[2] - (v - p) * z[1], 0};
-    if (second) {
-        cx[2] = along * g[2] + 2 * root * (s[1] * s[1] + s[0] * s[2]) + (v - p) * z[2];
-        cy[2] = across * h[2] + 2 * share * (s[2] * s[2] + s[1] * s[3]) - (v - p) * z[2];
-    }
-    at->kx_N_per_m = inverse(cx, q);
-    at->ky_N_per_m = inverse(cy, q);
-    double L = law->length_m, c2 = tip.c2, s2 = tip.s2;
-    at->drift_m.value = L * (s[0] - c2 * rest->sinc - s2 * rest->turn);
-    at->drift_m.slope = L * (q * s[1] + 0.5 * s2 * rest->sinc - 0.5 * c2 * rest->turn);
+    double c2 = second ? 1 : 0; /* of what is not worked out nothing is taken */
+    at->bend_x = by_rotation(along * g[0], along * g[1], c2 * along * g[2], q);
+    at->rest_x =
+        by_rotation(root * s[0] * s[0] + both + apart * z[0], 2 * root * s[0] * s[1] + apart * z[1],
+                    second ? 2 * root * (s[1] * s[1] + s[0] * s[2]) + apart * z[2] : 0, q);
+    at->bend_y =
+        by_rotation(across * h[0] + share * s[1] * s[1], across * h[1] + 2 * share * s[1] * s[2],
+                    second ? across * h[2] + 2 * share * (s[2] * s[2] + s[1] * s[3]) : 0, q);
+    at->rest_y = by_rotation(both - apart * z[0], -apart * z[1], second ? -apart * z[2] : 0, q);
+    double L = law->length_m, c = tip.c2, s2 = tip.s2;
+    at->drift_m.value = L * (s[0] - c * rest->sinc - s2 * rest->turn);
+    at->drift_m.slope = L * (q * s[1] + 0.5 * s2 * rest->sinc - 0.5 * c * rest->turn);
     at->drift_m.curve =
-        second ? L * (q * q * s[2] + 0.25 * c2 * rest->sinc + 0.25 * s2 * rest->turn) : 0;
+        second ? L * (q * q * s[2] + 0.25 * c * rest->sinc + 0.25 * s2 * rest->turn) : 0;
     return tip;
+}
+
+INLINE void law_at(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest, double th,
+                   bool second, fw_flexure_hinge_at *at) {
+    fw_flexure_hinge_soft soft;
+    soft_at(law, rest, th, second, &soft);
+    at->kx_N_per_m = one_over(sum_of(soft.bend_x, soft.rest_x));
+    at->ky_N_per_m = one_over(sum_of(soft.bend_y, soft.rest_y));
+    at->drift_m = soft.drift_m;
+}
+
+void fw_flexure_hinge_law_soft(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                               double th, bool second, fw_flexure_hinge_soft *at) {
+    if (second)
+        soft_at(law, rest, th, true, at);
+    else
+        soft_at(law, rest, th, false, at);
 }
 
 fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law) {
@@ -237,34 +259,6 @@ fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law) 
 void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double th, fw_flexure_hinge_at *at) {
     const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(law);
     law_at(law, &rest, th, true, at);
-}
-
-/* U = K th^2/2 + kx w^2/2 + ky v^2/2 with w = c ux + s uy, y = c uy - s ux, v = y - drift,
-   c, s = cos, sin(th/2):  dw/dth = y/2,  dy/dth = -w/2
-   in: rad, m; out: N m, N and their derivatives, symmetric. Valid and exact as the law is. Cost 60
-   ns. Source: docs/theory/effects/nonlinear-hinge.md. Test: test_finite.c wrench_and_tangent */
-void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
-                                 const double twist[3], double wrench[3], double tangent[3][3]) {
-    fw_flexure_hinge_at at;
-    double th = twist[0];
-    const turned half = law_at(law, rest, th, true, &at);
-    double c = half.c2, s = half.s2;
-    const fw_flexure_hinge_jet *X = &at.kx_N_per_m, *Y = &at.ky_N_per_m, *d = &at.drift_m;
-    double w = c * twist[1] + s * twist[2], y = c * twist[2] - s * twist[1], v = y - d->value;
-    double w1 = 0.5 * y, v1 = -0.5 * w - d->slope, w2 = -0.25 * w, v2 = -0.25 * y - d->curve;
-    double fw = X->value * w, fv = Y->value * v;
-    double fw1 = X->slope * w + X->value * w1, fv1 = Y->slope * v + Y->value * v1;
-    wrench[0] = law->stiffness_Nm_per_rad * th + 0.5 * (X->slope * w * w + Y->slope * v * v) +
-                fw * w1 + fv * v1;
-    wrench[1] = c * fw - s * fv;
-    wrench[2] = s * fw + c * fv;
-    tangent[0][0] = law->stiffness_Nm_per_rad + 0.5 * (X->curve * w * w + Y->curve * v * v) +
-                    X->slope * w * w1 + Y->slope * v * v1 + fw1 * w1 + fv1 * v1 + fw * w2 + fv * v2;
-    tangent[0][1] = tangent[1][0] = c * fw1 - s * fv1 - 0.5 * (s * fw + c * fv);
-    tangent[0][2] = tangent[2][0] = s * fw1 + c * fv1 + 0.5 * (c * fw - s * fv);
-    tangent[1][1] = c * c * X->value + s * s * Y->value;
-    tangent[2][2] = s * s * X->value + c * c * Y->value;
-    tangent[1][2] = tangent[2][1] = c * s * (X->value - Y->value);
 }
 
 void fw_flexure_hinge_law_slopes(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
@@ -301,126 +295,24 @@ void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result
     law->uneven_y = closed_form->uneven_y * y / (1 / more.ky_N_per_m.value - y);
 }
 
+fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
+    law->stiffness_Nm_per_rad *= by;
+    law->bend_m_per_N /= by, law->root_m_per_N /= by;
+    law->axial_m_per_N /= by, law->shear_m_per_N /= by;
+    if (!law->table) return FW_OK;
+    struct fw_flexure_hinge_table *t = fw_arena_one(arena, struct fw_flexure_hinge_table);
+    FW_NEED(t);
+    *t = *law->table;
+    for (int n = 0; n < FW_PATH_TERMS; n++) {
+        t->bend_x[n] /= by, t->bend_y[n] /= by;
+        t->rest_x[n] /= by, t->rest_y[n] /= by;
+        t->pull_x[n] /= by, t->pull_y[n] /= by;
+    }
+    law->table = t;
+    return FW_OK;
+}
+
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {
     bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < FW_PI;
     return within && (!law->table || fabs(th) < 2 * FW_PI);
-}
-
-enum { STEPS = 256, HALVINGS = 60 };
-
-/* Pole of the displacement that turns by th and moves W by drift along y of the frame half turned:
-     p = -drift / (2 sin(th/2)) along x of that frame, -> -drift'(0), nothing, at th = 0
-   To first order in th it is -drift''(0) th/2: what is called the shift of the rotation centre in
-   the literature (Verotti 2016); the error of a pin at W is the drift itself, second order.
-   in: rad, m; out: m. Valid |th| < pi. Exact for the law. Cost 50 ns.
-   Below 1e-5 rad by two terms: the slope at th is drift'(0) + drift''(0) th.
-   source: docs/theory/axis-drift.md eq. 15; test_drift.c pole_stands_still */
-static double pole(const fw_flexure_hinge_at *at, double th) {
-    double s = 2 * sin(0.5 * th);
-    return fabs(th) < 1e-5 ? 0.5 * at->drift_m.curve * th - at->drift_m.slope
-                           : -at->drift_m.value / s;
-}
-
-/* what is left of a gap when the surfaces are displaced by u: gap - |u| cos zeta */
-static double left(const fw_flexure_surfaces *s, double x, double y) {
-    return s->gap_m - hypot(x, y) * cos(s->aside_rad);
-}
-
-/* Displacement of the second body's W in the frame half turned, h = th/2, under a force F that
-   keeps its direction in the first body's frame: w = (Fx cos h + Fy sin h)/kx,  v = (Fy cos h - Fx
-   sin h)/ky + drift in: rad, N; out: m. Error of the law: docs/theory/effects/nonlinear-hinge.md,
-   with the square of the force. Test: test_drift.c under_a_force */
-static void displaced(const fw_flexure_hinge_law *law, double th, const double F[2], double u[2]) {
-    fw_flexure_hinge_at at;
-    fw_flexure_hinge_law_at(law, th, &at);
-    double c = cos(0.5 * th), s = sin(0.5 * th), x = F ? F[0] : 0, y = F ? F[1] : 0;
-    u[0] = (c * x + s * y) / at.kx_N_per_m.value;
-    u[1] = (c * y - s * x) / at.ky_N_per_m.value + at.drift_m.value;
-}
-
-/* the offset o along y of the first body is o (sin h, cos h) in the frame half turned; a point c
-   that both bodies carry parts by (R(h) - R(-h)) c = 2 sin h (-c_y, c_x) */
-static double left_at(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *s, double th,
-                      const double F[2]) {
-    double u[2], h = 0.5 * th;
-    displaced(law, th, F, u);
-    double turn = 2 * sin(h), x = u[0] - turn * s->centre_m[1], y = u[1] + turn * s->centre_m[0];
-    return left(s, x - s->offset_m * sin(h), y - s->offset_m * cos(h));
-}
-
-void fw_flexure_drift_displacement(const fw_flexure_hinge_law *law, double th, const double F[2],
-                                   double u_m[2]) {
-    double u[2], c = cos(0.5 * th), s = sin(0.5 * th);
-    displaced(law, th, F, u);
-    u_m[0] = c * u[0] - s * u[1], u_m[1] = s * u[0] + c * u[1];
-}
-
-fw_flexure_drift_point fw_flexure_drift_at(const fw_flexure_hinge_law *law,
-                                           const fw_flexure_surfaces *surfaces, double th) {
-    fw_flexure_hinge_at at;
-    fw_flexure_hinge_law_at(law, th, &at);
-    return (fw_flexure_drift_point){th, at.drift_m.value, pole(&at, th),
-                                    left_at(law, surfaces, th, NULL)};
-}
-
-void fw_flexure_drift_curve(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *surfaces,
-                            double low_rad, double high_rad, int n, fw_flexure_drift_point *point) {
-    for (int i = 0; i < n; i++) {
-        double part = n > 1 ? (double)i / (n - 1) : 0;
-        point[i] = fw_flexure_drift_at(law, surfaces, low_rad + part * (high_rad - low_rad));
-    }
-}
-
-/* The surfaces meet where |u| cos zeta = gap (radii Rc and Rc + gap about centres u apart).
-   In: rad, m, N; out rad, to 1e-15. Sought from 0 in steps of 0.7 deg, then halved: a touch that
-   ends within one step is missed. After it the hinge is a pin joint of that clearance, which this
-   does not follow (contact.c does). Cost 10 to 20 us.
-   source: docs/theory/axis-drift.md eq. 16; test_drift.c surfaces_meet */
-double fw_flexure_drift_contact_rad(const fw_flexure_hinge_law *law, const fw_flexure_surfaces *s,
-                                    const double F[2], int sense) {
-    double low = 0, step = (sense < 0 ? -FW_PI : FW_PI) / STEPS;
-    if (!(left_at(law, s, 0, F) > 0)) return 0;
-    for (int i = 1; i < STEPS; i++) {
-        double high = i * step;
-        if (left_at(law, s, high, F) > 0) {
-            low = high;
-            continue;
-        }
-        for (int k = 0; k < HALVINGS; k++) {
-            double middle = 0.5 * (low + high);
-            if (left_at(law, s, middle, F) > 0)
-                low = middle;
-            else
-                high = middle;
-        }
-        return high;
-    }
-    return (double)NAN;
-}
-
-/* The drift has one sign for both senses of rotation, 0 at rest: surfaces that are concentric half
-   way of it need half the gap. A pin at (p, 0) from W is off by drift + 2 p sin(th/2): none at th
-   where p is the pole of th.
-   source: docs/theory/axis-drift.md eq. 17; test_drift.c advice_halves_the_gap */
-fw_flexure_drift_advice fw_flexure_drift_advise(const fw_flexure_hinge_law *law, double low_rad,
-                                                double high_rad) {
-    double most = 0, least = 0;
-    fw_flexure_hinge_at at;
-    for (int i = 0; i <= STEPS; i++) {
-        fw_flexure_hinge_law_at(law, low_rad + i * (high_rad - low_rad) / STEPS, &at);
-        most = fmax(most, at.drift_m.value), least = fmin(least, at.drift_m.value);
-    }
-    fw_flexure_drift_advice advice = {.offset_m = 0.5 * (most + least),
-                                      .centred_m = fmax(most, -least)};
-    /* the offset itself turns with the first body: a little more than half is needed */
-    const fw_flexure_surfaces s = {.gap_m = 0, .offset_m = advice.offset_m};
-    for (int i = 0; i <= STEPS; i++) {
-        double th = low_rad + i * (high_rad - low_rad) / STEPS;
-        advice.gap_m = fmax(advice.gap_m, -left_at(law, &s, th, NULL));
-    }
-    double far = high_rad > -low_rad ? high_rad : low_rad, near = far > 0 ? -low_rad : high_rad;
-    fw_flexure_hinge_law_at(law, far, &at);
-    advice.pivot_x_m = pole(&at, far) * (1 - fabs(near / far));
-    if (!isfinite(advice.pivot_x_m)) advice.pivot_x_m = 0;
-    return advice;
 }

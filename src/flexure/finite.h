@@ -36,14 +36,43 @@ typedef struct fw_flexure_hinge_at {
     fw_flexure_hinge_jet drift_m; /* of W on the second body from W on the first, along y */
 } fw_flexure_hinge_at;
 
+/* The same as softness, in its parts, and what a pull along the chord does to them. Along (x) and
+   across (y) the arc's axis, half turned. */
+typedef struct fw_flexure_hinge_soft {
+    fw_flexure_hinge_jet bend_x, bend_y; /* m/N of bending; across with the roots' part */
+    fw_flexure_hinge_jet rest_x, rest_y; /* m/N of axial and shear force; along with the roots' */
+    fw_flexure_hinge_jet drift_m;
+} fw_flexure_hinge_soft;
+void fw_flexure_hinge_law_soft(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                               double rotation_rad, bool second, fw_flexure_hinge_soft *at);
+
 void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result *closed_form,
                              fw_flexure_hinge_law *law);
+/* all of its stiffness times `by` (above 0); a table becomes the law's own */
+fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law, double by);
 void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double rotation_rad,
                              fw_flexure_hinge_at *at);
 /* values and first derivatives alone, for forces; the second ones are not */
 fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law);
 void fw_flexure_hinge_law_slopes(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  double rotation_rad, fw_flexure_hinge_at *at);
+/* ---- finite_force.c: forces of any size ---- */
+
+/* Energy of a flexure and its derivatives by (th, w, v): the rotation, and the displacement of the
+   second body's W from the first one's along and across the axis, in the frame half turned */
+typedef struct fw_flexure_hinge_bent {
+    double energy_J, pull_N; /* pull_N: force across the axis, along the chord */
+    double gradient[3];      /* N m, N, N */
+    double hessian[3][3];    /* only where it was asked for */
+    bool holds; /* within what the law was compared for (finite_force.c); else it goes on, smooth */
+} fw_flexure_hinge_bent;
+void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                               const double at[3], bool hessian, fw_flexure_hinge_bent *out);
+/* (w, v), the moment about th and the pull px F under a force (along, across) that is given; false:
+   no such equilibrium */
+bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                                double rotation_rad, const double force_N[2], double displaced_m[2],
+                                double *moment_Nm, double *pull);
 /* What the hinge does to a twist (theta, ux, uy) of the second body's W against the first one's, u
    in the first body's frame with x along the free arc's axis: wrench (M, Fx, Fy) that it takes, the
    gradient of the energy by the twist, and its symmetric tangent; SI */

@@ -108,3 +108,9 @@ fw_status fw_flexure_beam_of_input(fw_arena *arena, const fw_flexure_input *in,
     fw_flexure_beam_of_flexure(in, closed_form, piece, out);
     return FW_OK;
 }
+
+void fw_flexure_beam_scale(fw_flexure_beam *beam, double by) {
+    if (!(by > 0)) return;
+    beam->youngs_Pa *= by, beam->shear_Pa *= by;
+    beam->a0_per_Pa /= by, beam->a1_per_Pa /= by, beam->lost_per_Pa /= by;
+}

@@ -24,30 +24,23 @@ fw_geometry_vec2 fw_flexure_path_edge(const fw_flexure_course *path, int piece, 
    piece: for pictures */
 double fw_flexure_path_nearest(const fw_flexure_course *path, double x_m, double y_m);
 
-/* ---- strain under a wrench ---- */
-typedef struct fw_flexure_path_point {
-    double x_m, y_m;      /* in the flexure's frame */
-    double strain_per_Nm; /* largest there per section moment; roots with their concentration */
-} fw_flexure_path_point;
-typedef struct fw_flexure_path_strain {
-    fw_flexure_path_point *point; /* (n) along the strip */
-    int n;
-} fw_flexure_path_strain;
-fw_status fw_flexure_path_strain_new(fw_arena *arena, const fw_flexure_input *in,
-                                     fw_flexure_path_strain *out);
-/* (M, Fx, Fy) on the second body at (x, y): largest strain, from 0 to 0.1 % on the safe side */
-double fw_flexure_path_strain_at(const fw_flexure_path_strain *strain, const double at_m[2],
-                                 const double wrench[3]);
-
 /* ---- at finite rotation ---- */
 enum { FW_PATH_TERMS = 32 };
 /* Chebyshev series over |rotation| <= 2 pi */
 struct fw_flexure_hinge_table {
-    double along_m_per_N[FW_PATH_TERMS], across_m_per_N[FW_PATH_TERMS], drift_m[FW_PATH_TERMS];
+    double bend_x[FW_PATH_TERMS], bend_y[FW_PATH_TERMS]; /* m/N: fw_flexure_hinge_soft */
+    double rest_x[FW_PATH_TERMS], rest_y[FW_PATH_TERMS];
+    double drift_m[FW_PATH_TERMS];
+    double pull_x[FW_PATH_TERMS], pull_y[FW_PATH_TERMS]; /* px, py of finite_force.c, 1/N */
 };
+/* value and derivatives of such a series at a rotation */
+fw_flexure_hinge_jet fw_flexure_hinge_series(const double series[FW_PATH_TERMS],
+                                             double rotation_rad);
 typedef struct fw_flexure_path_pose { /* at one rotation, in the frame half turned */
     double c[2][2];                   /* softness along and across, m/N */
-    double drift_m[2];                /* of W of a pure moment */
+    double bend[2]; /* of c[0][0] and c[1][1] what bending does; roots included */
+    double third_xxy, third_yyy; /* of -V3 = (xxy Fx^2 Fy + yyy Fy^3)/2: what pull does to it */
+    double drift_m[2];           /* of W of a pure moment */
 } fw_flexure_path_pose;
 typedef struct fw_flexure_path_way fw_flexure_path_way;
 /* what does not depend on the rotation; fw_flexure_path_pose_at: valid below a full turn, 4 us a

@@ -8,6 +8,11 @@
      c(th)    = int w b b' ds + int (t t'/EA + n n' 6/5/GA) ds,  b = (y, -x) of P(s, th) from its
    own centre int w P/C, all in the frame half turned
 
+   and of the third variation what a pull Fy along the chord does (finite_force.c), with phi_f(s) =
+   int_0^s w (centre - P) x f for f = e, n along the axis and across it
+
+     xxy = int (n.t) phi_e^2 + 2 (e.t) phi_e phi_n ds,   yyy = int (n.t) phi_n^2 ds
+
    drift from the exact kinematics, c from the second variation about that state with the rotation
    held: of one arc that is the law of finite.c. Of c and drift the law takes c_xx, c_yy and the
    drift along y; of a strip that is its own mirror image the rest is 0.
@@ -33,6 +38,7 @@ struct fw_flexure_path_way {
     double *panel_m; /* (n/NODES) length of each panel */
     int n;
     double inside[NODES * NODES]; /* fw_flexure_gauss_integrals */
+    double weight[NODES];         /* of the rule */
     fw_geometry_pose first, last;
     double root[2]; /* shares of the roots */
     double W[2];    /* centre of weights as made */
@@ -89,34 +95,77 @@ static void add_point(wound *o, double weight, double x, double y) {
     o->xx += weight * x * x, o->xy += weight * x * y, o->yy += weight * y * y;
 }
 
+/* one panel of the wound strip: directions and places of its nodes from the place (x, y), which
+   moves on to its end */
+static void wind_panel(const fw_flexure_path_way *way, int first, double th, double c[NODES],
+                       double s[NODES], double px[NODES], double py[NODES], double end[2]) {
+    const knot *at = way->knot + first;
+    double h = way->panel_m[first / NODES], across = 0, up = 0;
+    for (int i = 0; i < NODES; i++) {
+        double psi = at[i].psi_rad + th * at[i].share;
+        c[i] = cos(psi), s[i] = sin(psi);
+        across += at[i].length_m * c[i], up += at[i].length_m * s[i];
+    }
+    for (int i = 0; i < NODES; i++) {
+        px[i] = end[0], py[i] = end[1];
+        for (int j = 0; j < NODES; j++) {
+            px[i] += h * way->inside[i * NODES + j] * c[j];
+            py[i] += h * way->inside[i * NODES + j] * s[j];
+        }
+    }
+    end[0] += across, end[1] += up;
+}
+
 /* the strip wound by th, in the first body's frame with the first end at the origin */
 static wound wind(const fw_flexure_path_way *way, double th) {
     wound o = {0};
-    double x = 0, y = 0, c[NODES], s[NODES];
+    double c[NODES], s[NODES], px[NODES], py[NODES];
     for (int first = 0; first < way->n; first += NODES) {
         const knot *at = way->knot + first;
-        double h = way->panel_m[first / NODES], across = 0, up = 0;
+        wind_panel(way, first, th, c, s, px, py, o.end);
         for (int i = 0; i < NODES; i++) {
-            double psi = at[i].psi_rad + th * at[i].share;
-            c[i] = cos(psi), s[i] = sin(psi);
-            across += at[i].length_m * c[i], up += at[i].length_m * s[i];
             o.axx += at[i].stretch * c[i] * c[i] + at[i].shear * s[i] * s[i];
             o.axy += (at[i].stretch - at[i].shear) * c[i] * s[i];
             o.ayy += at[i].stretch * s[i] * s[i] + at[i].shear * c[i] * c[i];
+            add_point(&o, at[i].weight, px[i], py[i]);
         }
-        for (int i = 0; i < NODES; i++) {
-            double px = x, py = y;
-            for (int j = 0; j < NODES; j++) {
-                px += h * way->inside[i * NODES + j] * c[j];
-                py += h * way->inside[i * NODES + j] * s[j];
-            }
-            add_point(&o, at[i].weight, px, py);
-        }
-        x += across, y += up;
     }
-    o.end[0] = x, o.end[1] = y;
-    add_point(&o, way->root[1], x, y); /* the first root is at the origin */
+    add_point(&o, way->root[1], o.end[0], o.end[1]); /* the first root is at the origin */
     return o;
+}
+
+/* the third variation about that state */
+static void third(const fw_flexure_path_way *way, double th, const double centre[2],
+                  const double *weight, fw_flexure_path_pose *out) {
+    double c[NODES], s[NODES], px[NODES], py[NODES], end[2] = {0};
+    double co = cos(0.5 * th), si = sin(0.5 * th);
+    const double f[2][2] = {{co, si}, {-si, co}};
+    double phi[2]; /* so far: the first root turns, too */
+    for (int k = 0; k < 2; k++)
+        phi[k] = way->total * way->root[0] * (centre[0] * f[k][1] - centre[1] * f[k][0]);
+    out->third_xxy = out->third_yyy = 0;
+    for (int first = 0; first < way->n; first += NODES) {
+        const knot *at = way->knot + first;
+        double turn[2][NODES], now[2][NODES];
+        wind_panel(way, first, th, c, s, px, py, end);
+        for (int k = 0; k < 2; k++)
+            for (int i = 0; i < NODES; i++)
+                turn[k][i] = way->total * at[i].weight *
+                             ((centre[0] - px[i]) * f[k][1] - (centre[1] - py[i]) * f[k][0]);
+        for (int k = 0; k < 2; k++)
+            for (int i = 0; i < NODES; i++) {
+                now[k][i] = phi[k];
+                for (int j = 0; j < NODES; j++)
+                    now[k][i] += way->inside[i * NODES + j] * turn[k][j] / weight[j];
+            }
+        for (int i = 0; i < NODES; i++) {
+            double te = f[0][0] * c[i] + f[0][1] * s[i], tn = f[1][0] * c[i] + f[1][1] * s[i];
+            double e = now[0][i], n = now[1][i], ds = at[i].length_m;
+            out->third_xxy += ds * (tn * e * e + 2 * te * e * n);
+            out->third_yyy += ds * tn * n * n;
+            phi[0] += turn[0][i], phi[1] += turn[1][i];
+        }
+    }
 }
 
 fw_status fw_flexure_path_way_new(fw_arena *arena, const fw_flexure_input *in,
@@ -132,6 +181,8 @@ fw_status fw_flexure_path_way_new(fw_arena *arena, const fw_flexure_input *in,
     FW_NEED(way->panel_m = fw_arena_array(arena, double, (size_t)(p.n * PANELS)));
     fw_flexure_gauss_rule(NODES, node, weight);
     fw_flexure_gauss_integrals(NODES, node, weight, way->inside);
+    for (int i = 0; i < NODES; i++)
+        way->weight[i] = weight[i];
     way->first = p.start[0], way->last = p.start[p.n];
     way->total = lay_knots(way, &p, &m, node, weight);
     for (int end = 0; end < 2; end++) {
@@ -166,6 +217,9 @@ void fw_flexure_path_pose_at(const fw_flexure_path_way *way, double th, fw_flexu
     out->c[0][0] = c * c * xx + 2 * c * s * xy + s * s * yy;
     out->c[1][1] = s * s * xx - 2 * c * s * xy + c * c * yy;
     out->c[0][1] = out->c[1][0] = c * s * (yy - xx) + (c * c - s * s) * xy;
+    double along = c * c * o.axx + 2 * c * s * o.axy + s * s * o.ayy;
+    out->bend[0] = out->c[0][0] - along, out->bend[1] = out->c[1][1] - (o.axx + o.ayy - along);
+    third(way, th, o.centre, way->weight, out);
 }
 
 void fw_flexure_path_left_out(const fw_flexure_path_way *way, double rotation_rad, double *drift_m,
@@ -180,6 +234,17 @@ void fw_flexure_path_left_out(const fw_flexure_path_way *way, double rotation_ra
     }
 }
 
+/* px: d(kx)/dFy less that of the chord, 1/L, times 60 bend_x */
+static double pull_along(const fw_flexure_path_pose *p, double length_m) {
+    return 60 * (p->third_xxy / p->bend[0] - p->bend[0] / length_m);
+}
+
+/* py: 42 third_yyy over bend_y; a straight strip has neither, and px of a leaf */
+static double pull_across(const fw_flexure_path_pose *p, double length_m) {
+    bool straight = p->bend[1] < 1e-12 * p->bend[0];
+    return straight ? pull_along(p, length_m) : 42 * p->third_yyy / p->bend[1];
+}
+
 fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
                               const fw_flexure_result *closed_form, fw_flexure_hinge_law *law) {
     enum { N = FW_PATH_TERMS };
@@ -191,14 +256,19 @@ fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
     FW_NEED(t = fw_arena_one(arena, struct fw_flexure_hinge_table));
     for (int i = 0; i < N; i++)
         fw_flexure_path_pose_at(way, 2 * FW_PI * cos(FW_PI * (i + 0.5) / N), &at[i]);
+    fw_flexure_shape_of(in, &f);
     for (int n = 0; n < N; n++)
         for (int i = 0; i < N; i++) {
             double by = (n ? 2.0 : 1.0) / N * cos(FW_PI * n * (i + 0.5) / N);
-            t->along_m_per_N[n] += by * at[i].c[0][0];
-            t->across_m_per_N[n] += by * at[i].c[1][1];
-            t->drift_m[n] += by * at[i].drift_m[1];
+            const fw_flexure_path_pose *p = &at[i];
+            t->bend_x[n] += by * p->bend[0];
+            t->bend_y[n] += by * p->bend[1];
+            t->rest_x[n] += by * (p->c[0][0] - p->bend[0]);
+            t->rest_y[n] += by * (p->c[1][1] - p->bend[1]);
+            t->drift_m[n] += by * p->drift_m[1];
+            t->pull_x[n] += by * pull_along(p, f.length_m);
+            t->pull_y[n] += by * pull_across(p, f.length_m);
         }
-    fw_flexure_shape_of(in, &f);
     fw_flexure_path_pose_at(way, 0, &at[0]);
     *law = (fw_flexure_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
                                   .half_angle_rad = f.half_angle_rad,

@@ -12,6 +12,7 @@
 #include "flexure/flexure.h"
 #include "flexure/limit.h"
 #include "flexure/path.h"
+#include "flexure/strip_strain.h"
 #include "layout/layout.h"
 
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
@@ -53,10 +54,11 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
     fw_flexure_result closed_form;
     fw_flexure_limits
         limits; /* what it bears; closed_form.limit_angle_rad is that of the governing one */
-    fw_flexure_path_strain
-        section; /* of a flexure that varies (flexure/path.h); n 0: one arc or line */
-    fw_flexure_hinge_law
-        law; /* at finite rotation; its stiffness is the flexure's own, not a stated one */
+    /* strain along it and its law at finite rotation, both with the stated stiffness, if any: all
+       of the flexure's forces are its own times `scale` */
+    fw_flexure_path_strain section;
+    fw_flexure_hinge_law law;
+    double scale; /* stated stiffness over its own; 1: none is stated, or 0 */
     /* the arc as drawn: direction, in the world, from the arc's centre to the middle of the arc
        (leaf: across it); `first` is the body at polar angle -a from there (element frame of
        flexure.h) */
@@ -73,7 +75,7 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
        end that of the other: so do the directions turn */
     double cover_from_rad, cover_to_rad;
     bool convex_is_a;    /* the convex surface belongs to body a */
-    bool stated;         /* the file states the stiffness: the flexure's own law is not asked for */
+    bool stated;         /* the file states the stiffness */
     bool damping_stated; /* and the damping: no loss factor is asked for */
 } fw_mechanism_hinge;
 

@@ -203,7 +203,6 @@ static fw_status varying(const fw_mechanism_builder *b, const fw_device_flexure 
                          fw_mechanism_hinge *hinge) {
     const fw_flexure_path_way *way;
     FW_TRY(fw_flexure_path_law(b->arena, &hinge->input, &hinge->closed_form, &hinge->law));
-    FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, &hinge->section));
     for (int i = 0; i < hinge->section.n; i++)
         hinge->section.point[i].strain_per_Nm *= flared;
     FW_TRY(fw_flexure_path_way_new(b->arena, &hinge->input, &way));
@@ -229,6 +228,7 @@ static fw_status flexure_result(const fw_mechanism_builder *b, int j,
             b->diags, 85, f->place,
             "flexure %s has no finite stiffness; check its length, angle and width",
             fw_mechanism_name_or_none(f->id));
+    FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, result, &hinge->section));
     if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);
     fw_flexure_hinge_law_of(&hinge->input, result, &hinge->law);
     return FW_OK;
@@ -319,6 +319,14 @@ static void move_pin(const fw_mechanism_builder *b, fw_mechanism_hinge *hinge,
     pin->bx_m += hinge->off_b_m.x, pin->by_m += hinge->off_b_m.y;
 }
 
+/* a stated stiffness was measured, or computed better than here: what made it another one than the
+   geometry's makes the strip's other forces others by as much */
+static fw_status scale_hinge(const fw_mechanism_builder *b, double by, fw_mechanism_hinge *hinge) {
+    hinge->scale = by;
+    fw_flexure_path_strain_scale(&hinge->section, by);
+    return fw_flexure_hinge_law_scale(b->arena, &hinge->law, by);
+}
+
 static fw_status build_pin(const fw_mechanism_builder *b, int j) {
     const fw_device_revolute *from = &b->device->revolute[j];
     const fw_mechanism_variant *v = b->variant;
@@ -333,12 +341,14 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
     to->damping_Nms_per_rad = from->damping_Nms_per_rad * v->explicit_damping_scale;
     if (from->flexure != FW_NONE) {
         fw_mechanism_hinge *hinge = &b->mechanism->hinge[b->mechanism->nhinge];
-        *hinge = (fw_mechanism_hinge){.pin = j, .flexure = from->flexure};
+        *hinge = (fw_mechanism_hinge){.pin = j, .flexure = from->flexure, .scale = 1};
         FW_TRY(flexure_result(b, j, from, hinge));
         set_hinge_shape(b, j, from, hinge);
         move_pin(b, hinge, to);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
+        if (to->stiffness_Nm_per_rad > 0)
+            FW_TRY(scale_hinge(b, to->stiffness_Nm_per_rad / own, hinge));
         if (isnan(to->stiffness_Nm_per_rad))
             to->stiffness_Nm_per_rad = own;
         else

@@ -10,10 +10,13 @@
 /* Of an arc of an isotropic material the levels show strain and limit of the printed closed form,
    to its digits (converged solids: 8 % below to 4.3 % above it, below by 12 % where deeper than 10
    t). Elsewhere, where solids are up to 15 % (leaves) and 43 % (silicon) above it, and in every
-   verdict, they are its upper bound over solids (strain_bound_per_rad). */
+   verdict, they are its upper bound over solids (strain_bound_per_rad). The error of the printed
+   one is what it is off by from that bound and from the least below it that the bound allows. */
 static void take_printed(const fw_flexure_input *in, fw_flexure_result *r) {
     if (in->kind != FW_FLEXURE_CSFH || in->crystal.known || !(r->strain_fit_per_rad > 0.0)) return;
-    r->limit_angle_rad *= r->strain_per_rad / r->strain_fit_per_rad;
+    double over = r->strain_fit_per_rad / r->strain_per_rad, e = r->error.strain;
+    r->error.strain = fmax(fabs(over - 1), fabs(over / (1 - e) - 1));
+    r->limit_angle_rad /= over;
     r->strain_per_rad = r->strain_fit_per_rad;
 }
 
@@ -40,8 +43,10 @@ static fw_status closed_form(const fw_plan_ladder_case *c, fw_report_level *row)
    angle as its stiffness, W of the second body where it has drifted to. Its error is that of the
    closed form it is made from, and the drift's 0.006 um of 0.7 against finite elements, 1 % */
 static fw_status compliance(const fw_plan_ladder_case *c, fw_report_level *row) {
-    const fw_flexure_hinge_law *law = &c->hinge->law;
+    fw_flexure_hinge_law unscaled = c->hinge->law; /* a stated stiffness is no level of the ladder */
+    const fw_flexure_hinge_law *law = &unscaled;
     fw_flexure_result own = c->hinge->closed_form;
+    FW_TRY(fw_flexure_hinge_law_scale(c->arena, &unscaled, 1 / c->hinge->scale));
     const fw_flexure_result *r = &own;
     take_printed(&c->hinge->input, &own);
     const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(law);

@@ -361,6 +361,22 @@ static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
     return fw_statics_level_stays(arena, step, why, &own->ledger.hinge);
 }
 
+/* Where a level good to some percent is wanted, as for a verdict, and every flexure's stiffness is
+   stated, pins come first: they cost a tenth, and the step to hinges that give says whether they
+   will do. Not where something acts on hinges that give in another way, or nothing moves. */
+static bool pins_first(const fw_mechanism *m, const fw_device_scene *scene,
+                       const fw_dynamics_motion_options *options) {
+    const fw_effect_choice *asked = &options->effects;
+    if (asked->hinge != FW_HINGE_AUTO || asked->mode != FW_EFFECTS_AUTO || m->nhinge == 0)
+        return false;
+    if (!(options->hinge_accuracy >= 0.01) || scene->ncontact + scene->ntemperature > 0 ||
+        scene->nstress > 0 || scene->ncomb > 0)
+        return false;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return false;
+    return true;
+}
+
 /* with the hinges as they were asked for; auto climbs where the step to the next level is computed
    to change more than the accuracy wanted, and stays where that level has no such motion */
 fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
@@ -373,17 +389,28 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     if (options->hinge_accuracy > 0) accuracy = options->hinge_accuracy;
     *motion = NULL;
     FW_TRY(fw_dynamics_check_request(mechanism, scene, options, diags));
+    bool tried = pins_first(mechanism, scene, options);
+    if (tried) o.effects.hinge = FW_HINGE_REVOLUTE, o.effects.pins_first = true;
     for (;;) {
         const fw_dynamics_motion *found;
         const fw_statics_level_step *step;
         fw_diags own = fw_diags_new(arena);
         bool higher = *motion != NULL;
-        fw_status status = move(arena, mechanism, scene, &o, higher ? &own : diags, &found);
+        fw_status status =
+            move(arena, mechanism, scene, &o, higher || tried ? &own : diags, &found);
+        if (tried && (status == FW_SOLVER || status == FW_INPUT)) { /* pins cannot move it */
+            o.effects = options->effects, tried = false;
+            continue;
+        }
         if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, options, motion);
         FW_TRY(status);
-        if (higher) take_messages(&own, diags);
         rows_of_peaks(mechanism, found);
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
+        if (tried && (!step || step->why_not || !(step->relative < accuracy))) {
+            o.effects = options->effects, tried = false; /* as if they had not been tried */
+            continue;
+        }
+        if (higher || tried) take_messages(&own, diags);
         FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
         if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;
         if (!fw_statics_level_climb(step, accuracy, asked, &o.effects)) return FW_OK;

@@ -61,21 +61,53 @@ static fw_status read_state(const fw_statics_equilibrium *w, fw_statics_level_st
     return FW_OK;
 }
 
-static void compare(const fw_mechanism *m, fw_statics_level_step *step) {
-    double largest = 0;
+/* how far the images of a pin's point on its two bodies are apart: what a flexure is displaced by */
+static double opening(const fw_mechanism_pin *pin, const double *q) {
+    const int body[2] = {pin->body_a, pin->body_b};
+    const double local[2][2] = {{pin->ax_m, pin->ay_m}, {pin->bx_m, pin->by_m}};
+    double x[2], y[2];
+    for (int i = 0; i < 2; i++) {
+        x[i] = local[i][0], y[i] = local[i][1];
+        if (body[i] == FW_GROUND) continue;
+        const double *at = q + 3 * body[i];
+        double c = cos(at[2]), s = sin(at[2]);
+        x[i] = at[0] + c * local[i][0] - s * local[i][1];
+        y[i] = at[1] + s * local[i][0] + c * local[i][1];
+    }
+    return hypot(x[1] - x[0], y[1] - y[0]);
+}
+
+/* Angles count against the largest deflection of any hinge, a displacement across a strip over its
+   length counting as one: a stage on leaves moves and hardly turns any. Places of bodies count
+   against the largest way of any. least: of both, in the rest of a motion. */
+static void compare(const fw_mechanism *m, const double *rest, const double least[2],
+                    fw_statics_level_step *step) {
+    double deflected = least[0], way = least[1], apart = 0;
     step->angle_rad = 0;
     for (int k = 0; k < m->nhinge; k++) {
         int pin = m->hinge[k].pin;
-        largest = fmax(largest, fabs(step->at.angle_rad[pin]));
+        double L = m->hinge[k].law.length_m;
+        for (int up = 0; up < 2; up++) { /* pins may hold a mechanism that flexures let move */
+            const fw_statics_level_state *s = up ? &step->up : &step->at;
+            deflected = fmax(deflected, fabs(s->angle_rad[pin]));
+            if (L > 0) deflected = fmax(deflected, opening(&m->pin[pin], s->q) / L);
+        }
         step->angle_rad =
             fmax(step->angle_rad, fabs(step->up.angle_rad[pin] - step->at.angle_rad[pin]));
     }
-    step->relative = largest > 0 ? step->angle_rad / largest : 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *a = step->at.q + 3 * b, *u = step->up.q + 3 * b;
+        way = fmax(way, hypot(a[0] - rest[3 * b], a[1] - rest[3 * b + 1]));
+        way = fmax(way, hypot(u[0] - rest[3 * b], u[1] - rest[3 * b + 1]));
+        apart = fmax(apart, hypot(u[0] - a[0], u[1] - a[1]));
+    }
+    step->relative =
+        fmax(deflected > 0 ? step->angle_rad / deflected : 0, way > 0 ? apart / way : 0);
 }
 
 /* after both are built: `low` evaluated at its pose, `high` under the same loads */
 static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high,
-                       fw_statics_level_step *step) {
+                       const double least[2], fw_statics_level_step *step) {
     FW_TRY(read_state(low, &step->at));
     place(high, step->at.q, high->y);
     if (!settle(high)) {
@@ -83,7 +115,7 @@ static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high
         return FW_OK;
     }
     FW_TRY(read_state(high, &step->up));
-    compare(low->mechanism, step);
+    compare(low->mechanism, low->q0, least, step);
     return FW_OK;
 }
 
@@ -129,16 +161,39 @@ static fw_status next_loads(fw_arena *arena, const fw_mechanism *m, const fw_dev
 
 /* ---- an instant of a motion ---- */
 
+/* the row in which some hinge is deflected most: turned, or displaced by that share of its length;
+   the peaks of angles are between rows, those of displacements in one */
 static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
-    double largest = -1, t = 0;
-    int best = 0;
+    double largest = -1, t = 0, across = -1;
+    int best = 0, moved = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_dynamics_peak *p = &x->peak[m->hinge[k].pin];
         if (fabs(p->angle_rad) > largest) largest = fabs(p->angle_rad), t = p->t_s;
     }
-    for (int i = 1; i < x->nsample; i++)
+    for (int i = 0; i < x->nsample; i++) {
         if (fabs(x->t_s[i] - t) < fabs(x->t_s[best] - t)) best = i;
-    return best;
+        for (int k = 0; k < m->nhinge; k++) {
+            double L = m->hinge[k].law.length_m;
+            const double *q = x->q + (size_t)i * 3 * (size_t)m->nbody;
+            double share = L > 0 ? opening(&m->pin[m->hinge[k].pin], q) / L : 0;
+            if (share > across) across = share, moved = i;
+        }
+    }
+    return across > largest ? moved : best;
+}
+
+/* largest deflection of a hinge and way of a body in the whole motion: the instant that is looked at
+   may be one where everything is near its rest */
+static void sizes(const fw_mechanism *m, const fw_dynamics_motion *x, const double *rest,
+                  double size[2]) {
+    size[0] = size[1] = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        size[0] = fmax(size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
+    for (int i = 0; i < x->nsample; i++)
+        for (int b = 0; b < m->nbody; b++) {
+            const double *q = x->q + 3 * ((size_t)i * (size_t)m->nbody + (size_t)b);
+            size[1] = fmax(size[1], hypot(q[0] - rest[3 * b], q[1] - rest[3 * b + 1]));
+        }
 }
 
 static fw_status in_time(fw_statics_equilibrium *w, fw_arena *arena, const fw_mechanism *m,
@@ -193,7 +248,9 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     FW_TRY(status);
     if (!x->loads->quasi_static) hand_inertia(&low, &high);
     at_time(&high, step->t_s);
-    return climb(&low, &high, step);
+    double least[2];
+    sizes(m, x, low.q0, least);
+    return climb(&low, &high, least, step);
 }
 
 /* ---- an equilibrium ---- */
@@ -216,7 +273,8 @@ fw_status fw_statics_level_of_equilibrium(fw_statics_equilibrium *w,
     FW_NEED(step);
     *out = step;
     FW_TRY(next_rest(w, step, &high));
-    return step->why_not ? FW_OK : climb(w, &high, step);
+    static const double none[2] = {0};
+    return step->why_not ? FW_OK : climb(w, &high, none, step);
 }
 
 fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative) {

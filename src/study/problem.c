@@ -238,8 +238,8 @@ fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_sett
     point->rtol = s->rtol;
     fw_mark mark = fw_arena_mark(p->arena);
     fw_diags own = fw_diags_new(p->arena);
-    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, p->plan->layout, false, &saw));
-    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, p->plan->layout, false, &looser));
+    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &saw));
+    FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &looser));
     if (p->mechanism->nhinge > 0)
         o.observe = fw_verdict_strain_monitor_record, o.context = &saw, o.other = &looser;
     fw_status status = move(p, s, &o, &own, &motion);

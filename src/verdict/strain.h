@@ -14,36 +14,30 @@ typedef struct fw_verdict_hinge_load {
     double angle_rad;  /* of the pin: phi_b - phi_a - free angle */
     double fx_N, fy_N; /* of the pin on body b, world axes */
     double frame_rad;  /* half the sum of both bodies' rotations since the drawn pose */
+    bool pinned;       /* the force is that of an ideal pin in place of the flexure */
 } fw_verdict_hinge_load;
 
-/* strain at the fillets of the roots at polar angle -a and +a, signed, without what the force pulls
-   along: bending alone, since its sign is what makes cycles */
-void fw_verdict_hinge_root_strains(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
-                                   const fw_layout_hinge_layout *drawn,
-                                   const fw_verdict_hinge_load *load, double strain[2]);
-/* the same with the section moments of an exact beam under this rotation and force; that of the
-   closed form where the beam has no such equilibrium. beam: of fw_verdict_hinge_beam; NULL: closed
-   form */
-double fw_verdict_hinge_strain_exact(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
-                                     const fw_layout_hinge_layout *drawn, fw_flexure_elastica *beam,
-                                     const fw_verdict_hinge_load *load);
-/* *beam NULL: nothing is known of the strip, or its stiffness is stated */
+enum { FW_FACES = 4 }; /* two of either root */
+
+typedef struct fw_verdict_hinge_strains {
+    double peak;  /* largest |strain|, fillets included */
+    double least; /* where the axis is not known: the least that any direction of it has, peak being
+                     the most; else peak */
+    double root[2][2]; /* at both faces of both roots, signed: their sign is what makes cycles */
+    bool held; /* false: beyond the strip's buckling load, of which the closed form knows nothing */
+} fw_verdict_hinge_strains;
+/* beam: of fw_verdict_hinge_beam; NULL, or where it has no such equilibrium: closed form */
+void fw_verdict_hinge_strain(const fw_mechanism_hinge *hinge, fw_flexure_elastica *beam,
+                             const fw_verdict_hinge_load *load, fw_verdict_hinge_strains *out);
+/* *beam NULL: the strip's axis is not known */
 fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *hinge,
                                 fw_flexure_elastica **beam);
-/* largest |section moment| at the roots and inside, of the strip turned by theta under a force on
-   its second body, in the first one's frame; false: no equilibrium. kt: a moment inside counts only
-   where it is kt times those at the roots */
-bool fw_verdict_exact_moments(fw_flexure_elastica *beam, double theta_rad, const double force_N[2],
-                              double kt, double *root_Nm, double *inside_Nm);
-
-/* largest |section moment| at the roots and inside the arc; see verdict_strain.c */
-void fw_verdict_arc_moments(const fw_device_flexure *flexure, double centre_m, double moment_Nm,
-                            double fx_N, double fy_N, double *root_Nm, double *inside_Nm);
 
 /* ---- strain_monitor.c: the peak strain of every hinge, followed along the motion ---- */
 
 typedef struct fw_verdict_strain_peak {
     double strain, t_s; /* largest so far, and when */
+    double least;       /* likewise of what it is at least, where the axis is not known */
     double between;     /* what the parabola added to the largest sample: the error of the search */
     double t[2], s[2];  /* the last two instants */
     int samples;
@@ -51,18 +45,17 @@ typedef struct fw_verdict_strain_peak {
 
 typedef struct fw_verdict_strain_monitor { /* of one run */
     const fw_mechanism *mechanism;
-    const fw_layout *layout; /* NULL: bounds instead of the drawn axis */
     fw_arena *arena;
     fw_flexure_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
+    bool lost;                  /* a hinge was pressed beyond its buckling load */
     bool no_memory; /* for them: strains are those of the closed form, and the run has failed */
-    fw_verdict_strain_peak *hinge; /* (nhinge) */
-    fw_maths_turning (
-        *root)[2]; /* (nhinge) of the strain at either root; NULL: nobody counts cycles */
+    fw_verdict_strain_peak *hinge;      /* (nhinge) */
+    fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
+                                           NULL: nobody counts cycles */
 } fw_verdict_strain_monitor;
 
 /* cycles: also keep the turning points that fatigue needs */
-fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
-                                        const fw_layout *layout, bool cycles,
+fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism, bool cycles,
                                         fw_verdict_strain_monitor *monitor);
 /* an fw_dynamics_observer; context is the monitor */
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *instant);
@@ -73,7 +66,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
    of all hinges counts for each, since one alone may agree by chance. */
 double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin);
-/* that over ten times the accuracy wanted of the lowest limit:
+/* that over thirty times the accuracy wanted (at most 3 %) of the lowest limit:
    fw_dynamics_motion_options.unsettled */
 double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy);
@@ -95,10 +88,10 @@ double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle 
 /* x with fw_verdict_miner(..., 1/x) = 1; 0: nothing is stressed */
 double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
                                       const fw_maths_cycle *cycle, size_t n, double times);
-/* the worse of both roots. root: turning points of their strain, ended here; Pa_per_strain: what
-   makes stresses of them */
+/* the worst face of both roots. root: turning points of their strain, ended here; Pa_per_strain:
+   what makes stresses of them */
 fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *law,
-                                fw_maths_turning root[2], double Pa_per_strain, double times,
+                                fw_maths_turning root[FW_FACES], double Pa_per_strain, double times,
                                 fw_verdict_fatigue *out);
 
 #endif

@@ -4,12 +4,10 @@
 #include "verdict/strain.h"
 #include <math.h>
 
-fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
-                                        const fw_layout *layout, bool cycles,
+fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism, bool cycles,
                                         fw_verdict_strain_monitor *monitor) {
     size_t n = (size_t)mechanism->nhinge;
-    *monitor =
-        (fw_verdict_strain_monitor){.mechanism = mechanism, .layout = layout, .arena = arena};
+    *monitor = (fw_verdict_strain_monitor){.mechanism = mechanism, .arena = arena};
     FW_NEED(monitor->hinge = fw_arena_array(arena, fw_verdict_strain_peak, n));
     if (cycles) FW_NEED(monitor->root = fw_arena_alloc(arena, n, sizeof *monitor->root));
     return FW_OK;
@@ -21,18 +19,17 @@ static const double gate_share = 1e-3;
 
 static void start_counting(fw_verdict_strain_monitor *w, int k) {
     const fw_flexure_result *c = &w->mechanism->hinge[k].closed_form;
-    for (int side = 0; w->root && side < 2; side++)
+    for (int side = 0; w->root && side < FW_FACES; side++)
         w->root[k][side] =
             (fw_maths_turning){.gate = gate_share * c->limit_angle_rad * c->strain_per_rad};
 }
 
-static void count(fw_verdict_strain_monitor *w, int k, const fw_layout_hinge_layout *drawn,
-                  const fw_verdict_hinge_load *load, const fw_dynamics_instant *now) {
-    double strain[2];
-    fw_verdict_hinge_root_strains(w->mechanism, &w->mechanism->hinge[k], drawn, load, strain);
-    for (int side = 0; side < 2; side++) {
+static void count(fw_verdict_strain_monitor *w, int k, const fw_verdict_hinge_strains *strain,
+                  const fw_dynamics_instant *now) {
+    for (int side = 0; side < FW_FACES; side++) {
         if (now->begins) fw_maths_turning_jump(&w->root[k][side]);
-        fw_maths_turning_add(&w->root[k][side], w->arena, now->t_s, strain[side]);
+        fw_maths_turning_add(&w->root[k][side], w->arena, now->t_s,
+                             strain->root[side / 2][side % 2]);
     }
 }
 
@@ -56,7 +53,7 @@ double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *loos
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
     }
     return fw_verdict_strain_monitor_error(monitor, looser, margin) /
-           (fmin(10 * accuracy, 0.03) * limit);
+           (fmin(30 * accuracy, 0.03) * limit);
 }
 
 static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double between) {
@@ -122,13 +119,15 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
         fw_verdict_hinge_load load = {
             now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
             now->reaction_N[2 * hinge->pin + 1],
-            0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b))};
-        const fw_layout_hinge_layout *drawn =
-            w->layout && w->layout->drawn ? &w->layout->hinge[hinge->pin] : NULL;
+            0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b)),
+            now->hinge == FW_HINGE_REVOLUTE};
         fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
-        fw_verdict_strain_peak_add(&w->hinge[k], now->t_s,
-                                   fw_verdict_hinge_strain_exact(m, hinge, drawn, beam, &load));
-        if (w->root) count(w, k, drawn, &load, now);
+        fw_verdict_hinge_strains strain;
+        fw_verdict_hinge_strain(hinge, beam, &load, &strain);
+        fw_verdict_strain_peak_add(&w->hinge[k], now->t_s, strain.peak);
+        w->hinge[k].least = fmax(w->hinge[k].least, strain.least);
+        w->lost = w->lost || !strain.held;
+        if (w->root) count(w, k, &strain, now);
     }
 }
 
@@ -175,10 +174,10 @@ double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
 }
 
 fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *law,
-                                fw_maths_turning root[2], double Pa_per_strain, double times,
+                                fw_maths_turning root[FW_FACES], double Pa_per_strain, double times,
                                 fw_verdict_fatigue *out) {
     *out = (fw_verdict_fatigue){0};
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < FW_FACES; side++) {
         fw_maths_turning *r = &root[side];
         fw_maths_turning_end(r, arena);
         if (r->failed) return FW_NOMEM;

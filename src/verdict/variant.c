@@ -67,13 +67,13 @@ static bool repeats(const judged *by) {
     return by->repetitions > 0 && by->hinge->limits.life.known;
 }
 
-/* strain that the peak has beyond that of either root by bending alone (inside the arc, along the
-   force) is taken to belong to all of the history */
+/* strain that the peak has beyond that of the roots' faces (between the roots) is taken to belong to
+   all of the history */
 static fw_status count_fatigue(fw_arena *arena, const judged *by, fw_maths_turning *root,
                                fw_verdict_hinge_verdict *out) {
     if (!repeats(by) || !root) return FW_OK;
     double most = 0;
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < FW_FACES; side++) {
         most = fmax(most, fabs(root[side].latest));
         for (size_t i = 0; i < root[side].count; i++)
             most = fmax(most, fabs(root[side].value[i]));
@@ -86,9 +86,10 @@ static fw_status count_fatigue(fw_arena *arena, const judged *by, fw_maths_turni
     return FW_OK;
 }
 
-/* utilisation = peak strain (rotation and joint force, fillets included) over the limit strain, and
-   never less than peak angle / limit angle; band = model errors of it, and the numerical errors of
-   the angle over the limit angle and of the search for the strain */
+/* utilisation = peak strain (rotation and force, fillets included) over the limit strain; the limit
+   angle is what a rotation alone would allow. Band = model errors of it, and the numerical errors
+   of the angle over the limit angle and of the search for the strain; without a known axis the low
+   end is that of the kindest direction. */
 static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamics_motion *motion,
                              const fw_verdict_strain_monitor *monitor, int k, const char *scene,
                              fw_verdict_hinge_verdict *out) {
@@ -96,14 +97,13 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     const fw_verdict_strain_peak *strain = &monitor->hinge[k];
     const fw_flexure_result *c = &by->hinge->closed_form;
     double by_angle = fabs(peak->angle_rad) / c->limit_angle_rad;
-    double by_strain = strain->strain / out->strain_limit;
     out->scene = scene;
     out->peak_angle_rad = peak->angle_rad;
     out->angle_error_rad = peak->error_rad;
-    out->utilisation = fmax(by_angle, by_strain);
-    out->peak_strain = out->utilisation * out->strain_limit;
-    out->force_share = by_strain > by_angle ? 1.0 - by_angle / by_strain : 0.0;
-    out->t_s = by_strain > by_angle ? strain->t_s : peak->t_s;
+    out->peak_strain = strain->strain;
+    out->utilisation = strain->strain / out->strain_limit;
+    out->force_share = out->utilisation > by_angle ? 1.0 - by_angle / out->utilisation : 0.0;
+    out->t_s = strain->t_s;
     /* a run that was ended went a whole turn: no error of its own changes that */
     double numeric = motion->ended
                          ? 0.0
@@ -113,7 +113,8 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     double model = fw_verdict_motion_model_error(by->m, motion) + strains;
     out->numeric = numeric;
     out->lasting = fmin(model, fw_verdict_motion_lasting_error(by->m) + strains);
-    out->utilisation_low = fmax(0.0, out->utilisation * (1.0 - model) - numeric);
+    double least = fmin(strain->least, strain->strain) / out->strain_limit;
+    out->utilisation_low = fmax(0.0, least * (1.0 - model) - numeric);
     out->utilisation_high = out->utilisation * (1.0 + model) + numeric;
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
@@ -194,10 +195,10 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
 }
 
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
-static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                            const fw_mechanism *m, const fw_verdict_options *options,
-                            fw_diags *diags, fw_verdict_variant_verdict *v,
-                            fw_verdict_strain_monitor *monitor, fw_verdict_strain_monitor *other) {
+static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_mechanism *m,
+                            const fw_verdict_options *options, fw_diags *diags,
+                            fw_verdict_variant_verdict *v, fw_verdict_strain_monitor *monitor,
+                            fw_verdict_strain_monitor *other) {
     size_t n = (size_t)device->nscene;
     fw_dynamics_motion_options motion = options->motion;
     motion.within_limits = true;
@@ -211,13 +212,11 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
-        FW_TRY(fw_verdict_strain_monitor_new(arena, m, layout, device->limits.cycles > 0,
-                                             &monitor[i]));
+        FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &monitor[i]));
         motion.observe = fw_verdict_strain_monitor_record;
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
         motion.context = &monitor[i];
-        FW_TRY(
-            fw_verdict_strain_monitor_new(arena, m, layout, device->limits.cycles > 0, &other[i]));
+        FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
@@ -316,7 +315,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_strain_monitor *other =
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
-    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
+    FW_TRY(run_scenes(arena, device, m, options, diags, v, monitor, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     for (int k = 0; k < m->nhinge; k++) {

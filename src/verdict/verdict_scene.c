@@ -67,6 +67,7 @@ static fw_status touches(fw_arena *arena, const fw_mechanism *m, const fw_device
     changed.comb = comb;
     quiet.observe = NULL;
     quiet.samples = 2;
+    quiet.hinge_accuracy = 1; /* whether it touches is no matter of a better level of hinges */
     fw_status status = fw_statics_move_scene(arena, m, &changed, &quiet, &own, &motion);
     *does = status == FW_SOLVER && formula_ended(&own);
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;

@@ -4,12 +4,6 @@
 
 enum { INSIDE = 16 }; /* parts of an arc */
 
-/* what the axial stress of a force is multiplied by at a filleted root */
-static double tension(const fw_mechanism_hinge *hinge) {
-    (void)hinge;
-    return 1.0;
-}
-
 static double lever_of(const fw_device_flexure *f, const fw_flexure_result *c) {
     double a = 0.5 * f->angle_rad, off = hypot(c->offset_m[0], c->offset_m[1]);
     double arc = hypot(f->radius_m * cos(a) - c->centre_m, f->radius_m * sin(a));
@@ -35,13 +29,14 @@ static fw_workspace_station place(const double pin[2], double x, double y, doubl
    between two of them |M| is at most r |F| (1 - cos of half their distance) above the larger. All
    of them are below the moment at the arc's centre and r |F|. */
 static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const double pin[2],
-                double bending, double axial, fw_workspace_station *to, fw_workspace_section *out) {
+                double bending, double kt, double axial, fw_workspace_station *to,
+                fw_workspace_section *out) {
     double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending / fmax(1.0, c->concentration);
     double above = r * (1.0 - cos(a / INSIDE)) * inside;
     out->roots = 2;
     out->inside = place(pin, 0.0, 0.0, inside, axial + r * inside);
     for (int side = -1; side <= 1; side += 2)
-        to[out->n++] = place(pin, r * cos(a), side * r * sin(a), bending, axial);
+        to[out->n++] = place(pin, r * cos(a), side * r * sin(a), bending, kt * axial);
     for (int i = 1; i < INSIDE; i++) {
         double b = a * (2.0 * i / INSIDE - 1.0);
         to[out->n++] = place(pin, r * cos(b), r * sin(b), inside, axial + above);
@@ -49,16 +44,16 @@ static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const do
 }
 
 /* of a flexure that varies: between two sections the moment may rise by an eighth of its second
-   difference (fw_flexure_path_strain_at) */
-static int varying(const fw_flexure_path_strain *s, const double pin[2], double axial,
-                   fw_workspace_station *to) {
+   difference */
+static int varying(const fw_flexure_path_strain *s, const double pin[2], fw_workspace_station *to) {
     for (int i = 0; i < s->n; i++) {
         const fw_flexure_path_point *p = &s->point[i];
         double above = 0.0;
         if (i > 0 && i + 1 < s->n)
             above =
                 0.125 * hypot(p[-1].x_m - 2 * p->x_m + p[1].x_m, p[-1].y_m - 2 * p->y_m + p[1].y_m);
-        to[i] = place(pin, p->x_m, p->y_m, p->strain_per_Nm, axial + above * p->strain_per_Nm);
+        to[i] = place(pin, p->x_m, p->y_m, p->strain_per_Nm,
+                      p->strain_per_N + above * p->strain_per_Nm);
     }
     return s->n;
 }
@@ -70,28 +65,31 @@ static fw_status one_section(fw_arena *arena, const fw_mechanism *m, const fw_me
     const fw_device_flexure *f = &m->device->flexure[h->flexure];
     const fw_flexure_result *c = &h->closed_form;
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
-    double bending = c->strain_per_rad / c->stiffness_Nm_per_rad;
+    double scale = h->scale > 0 ? h->scale : 1;
+    double bending = c->strain_per_rad / (scale * c->stiffness_Nm_per_rad);
     double area = fw_device_flexure_narrowest_m(f) * m->variant->thickness_m;
-    double axial = tension(h) / (m->variant->material.youngs.value * area);
+    double axial = 1 / (scale * m->variant->material.youngs.value * area);
+    double kt = fw_flexure_tension_concentration(f->width_m, h->input.fillet_m);
+    bool varies = fw_flexure_input_varies(&h->input);
     size_t most = h->section.n > INSIDE ? (size_t)h->section.n : INSIDE + 1;
     fw_workspace_station *to = fw_arena_array(arena, fw_workspace_station, most);
     FW_NEED(to);
     out->station = to;
-    out->moment_Nm_per_rad = c->stiffness_Nm_per_rad;
+    out->moment_Nm_per_rad = scale * c->stiffness_Nm_per_rad;
     bool drawn = isfinite(h->axis_rad);
     out->axis[0] = drawn ? cos(h->axis_rad) : 1.0, out->axis[1] = drawn ? sin(h->axis_rad) : 0.0;
     if (!drawn) {
-        double lever = h->section.n > 0 ? farthest(&h->section, pin) : lever_of(f, c);
-        to[0] = (fw_workspace_station){{0.0, 0.0}, bending, axial + lever * bending};
+        double lever = varies ? farthest(&h->section, pin) : lever_of(f, c);
+        to[0] = (fw_workspace_station){{0.0, 0.0}, bending, kt * axial + lever * bending};
         out->n = 1;
-    } else if (h->section.n > 0) {
-        out->n = varying(&h->section, pin, axial, to);
+    } else if (varies) {
+        out->n = varying(&h->section, pin, to);
     } else if (f->kind == FW_FLEXURE_CSFH) {
-        arc(f, c, pin, bending, axial, to, out);
+        arc(f, c, pin, bending, kt, axial, to, out);
         return FW_OK;
     } else {
         for (int side = 0; side < 2; side++)
-            to[side] = place(pin, 0.0, (side - 0.5) * f->length_m, bending, axial);
+            to[side] = place(pin, 0.0, (side - 0.5) * f->length_m, bending, kt * axial);
         out->n = 2;
     }
     out->roots = out->n;

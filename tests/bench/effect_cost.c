@@ -5,6 +5,7 @@
        ./effect_cost FILE SCENE COUNT [options] [--then FILE SCENE COUNT [options]]...
 
    --off ID       as if the scene did not call for this effect
+   --pins         hinges stay pins, whatever is known of their strips
    --general      the code for all joints and effects, even where the fast kernel would do
    --stir SIZE    how far the state is from the assembled pose, scaled; default 0.01
    --still        velocities 0: what sticks, sticks
@@ -21,6 +22,7 @@ typedef struct request {
     const char *file, *scene, *off;
     long count;
     bool general, still;
+    bool pins; /* hinges are taken as such, whatever their strips */
     double stir;
 } request;
 
@@ -77,7 +79,7 @@ static const fw_mechanism *mechanism_of(fw_arena *arena, const fw_device *d, fw_
 }
 
 /* all that the scene calls for, but for one effect; says what that is */
-static void compile(const fw_effect_case *c, const char *off, fw_effects_loads *loads) {
+static void compile(const fw_effect_case *c, const char *off, bool pins, fw_effects_loads *loads) {
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     if (fw_effects_loads_new(c->arena, c->mechanism, c->scene, loads) != FW_OK) fail("memory");
@@ -85,6 +87,7 @@ static void compile(const fw_effect_case *c, const char *off, fw_effects_loads *
         if (!row[i]->called_for(c)) continue;
         printf("calls %s %d\n", row[i]->id, row[i]->count ? row[i]->count(c) : 1);
         if (off && strcmp(row[i]->id, off) == 0) continue;
+        if (pins && strcmp(row[i]->id, "nonlinear-hinge") == 0) continue;
         if (row[i]->add(c, loads) != FW_OK) fail(row[i]->id);
     }
 }
@@ -98,7 +101,7 @@ static fw_multibody_system *system_of(fw_arena *arena, const fw_mechanism *mecha
     const fw_multibody_model *m;
     fw_multibody_system *sys;
     if (!loads || !q) fail("memory");
-    compile(&c, r->off, loads);
+    compile(&c, r->off, r->pins, loads);
     for (int b = 0; b < mechanism->nbody; b++) {
         const fw_mechanism_mass *from = &mechanism->body[b];
         q[3 * b] = from->x_m, q[3 * b + 1] = from->y_m, q[3 * b + 2] = from->phi_rad;
@@ -157,6 +160,8 @@ static request request_of(int argc, char **argv, int *at) {
     for (; i < argc && strcmp(argv[i], "--then") != 0; i++)
         if (strcmp(argv[i], "--general") == 0)
             r.general = true;
+        else if (strcmp(argv[i], "--pins") == 0)
+            r.pins = true;
         else if (strcmp(argv[i], "--still") == 0)
             r.still = true;
         else if (strcmp(argv[i], "--off") == 0 && i + 1 < argc)

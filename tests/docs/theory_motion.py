@@ -22,10 +22,14 @@ def verdict(g):
         b = atan2(fx, -fy) + k * pi
         if abs(b) <= g["angle"] / 2:
             inside = max(inside, abs(g["torque"] + hinge["xW"] * fy + g["r"] * (fx * sin(b) - fy * cos(b))))
-    largest = max(abs(moment["low"]), abs(moment["high"]), inside / hinge["Kt"])
-    strain = hinge["bound"] / hinge["K"] * largest + g["force"] / (g["E"] * g["t"] * g["h"])
+    x = g["t"] / g["rho"]
+    tension = 0.4675 + 0.2494 * x ** (2 / 3) + 0.5447 * x**0.3
+    strain = inside / hinge["Kt"] * hinge["bound"] / hinge["K"]
+    for side, b in (("low", -(g["angle"] + theta) / 2), ("high", (g["angle"] + theta) / 2)):  # a root turns with its body
+        axial = -fx * sin(b) + fy * cos(b)
+        strain = max(strain, hinge["bound"] / hinge["K"] * abs(moment[side]) + tension * abs(axial) / (g["E"] * g["t"] * g["h"]))
     limit = g["limit"] / (g["safety"] * g["E"])
-    return {"theta": theta, "Fx": fx, "Fy": fy, **moment, "strain": strain, "U": max(strain, hinge["bound"] * theta) / limit}
+    return {"theta": theta, "Fx": fx, "Fy": fy, **moment, "Ktt": tension, "N": axial, "strain": strain, "U": strain / limit}
 
 
 def verdict_program(run, _):

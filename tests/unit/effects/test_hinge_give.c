@@ -2,6 +2,7 @@
 /* What ideal pins leave out, as hinge_give.c bounds it, against whole motions: the same mechanism
    with hinges as they are and with hinges so stiff and free of drift that they are pins, from rest
    under loads put on at once. */
+#include "flexure/path.h"
 #include "hinge_rigs.h"
 
 static double random_(unsigned *seed) { /* in [-1, 1) */
@@ -13,13 +14,19 @@ static double mass_of(const rig *r, int i) {
     return i % 3 == 2 ? r->body[i / 3].inertia_kg_m2 : r->body[i / 3].mass_kg;
 }
 
-/* hinges that hold W `factor` times as stiffly, without drift, and damp what is left */
+/* hinges that hold W `factor` times as stiffly, without drift and shortening (a table whose series
+   are constants), and damp what is left */
 static void make_pins(rig *r, double factor) {
     for (int i = 0; i < r->m.npin; i++) {
         fw_flexure_hinge_law *law = &r->hinge[i].law;
-        law->bend_m_per_N /= factor, law->root_m_per_N /= factor;
-        law->axial_m_per_N /= factor, law->shear_m_per_N /= factor;
-        law->length_m = 1e-15; /* of the drift alone */
+        fw_flexure_hinge_at at;
+        struct fw_flexure_hinge_table *table =
+            fw_arena_one(r->arena, struct fw_flexure_hinge_table);
+        fw_flexure_hinge_law_at(law, 0, &at);
+        table->bend_x[0] = 1 / (factor * at.kx_N_per_m.value);
+        table->bend_y[0] = 1 / (factor * at.ky_N_per_m.value);
+        law->table = table;
+        law->length_m = 1;
         r->pin[i].damping_Nms_per_rad = 2e-7 * r->pin[i].stiffness_Nm_per_rad;
     }
 }

@@ -49,8 +49,9 @@ static void released_once(void **state) {
     (void)state;
     rig r;
     rig_six_bar(&r, false);
-    r.hinge[2].stated = true;
+    r.hinge[2].axis_rad = (double)NAN;
     r.hinge[3].axis_rad = (double)NAN;
+    r.hinge[4].stated = true; /* another stiffness, the same strip */
     for (int i = 0; i < 6; i++)
         r.pin[i].damping_Nms_per_rad = 1e-12;
     rig_compile(&r);
@@ -69,9 +70,9 @@ static void released_once(void **state) {
     for (int i = 0; i < r.loads.nelement; i++)
         assert_string_equal(r.loads.element[i].id, r.pin[r.loads.element[i].pin].id);
     for (int i = 0; i < 6; i++)
-        r.hinge[i].stated = true;
+        r.hinge[i].stated = true, r.pin[i].stiffness_Nm_per_rad = 0; /* a pin without a spring */
     assert_false(fw_effect_nonlinear_hinge.called_for(&r.c));
-    fw_device_contact_use touch = {.joint = 2};
+    fw_device_contact_use touch = {.joint = 1};
     r.scene.contact = &touch, r.scene.ncontact = 1;
     assert_true(fw_effect_nonlinear_hinge.called_for(&r.c));
     assert_int_equal(fw_effect_nonlinear_hinge.count(&r.c), 1);
@@ -81,31 +82,22 @@ static void released_once(void **state) {
 typedef struct pose { /* of the tables, um and rad: load on body (N, N m), platform */
     int body[2];
     double load[2][3];
-    double law[3], exact[3]; /* this law, and the geometrically exact beams */
-    double off_um;           /* between the two */
+    double exact[3]; /* geometrically exact beams */
 } pose;
 
 static const pose poses[] = {
     {{0, 4},
      {{0, 0, 1.5e-7}, {0, 0, 0.5e-7}},
-     {-155.0400837915246, -21.8362627379247, 0.03650945844046964},
-     {-155.04022506993311, -21.8362154572784, 0.03650960718103183},
-     0.0002},
+     {-155.04022506993311, -21.8362154572784, 0.03650960718103183}},
     {{0, 4},
      {{0, 0, -3e-7}, {0, 0, 3e-7}},
-     {1.3937382066897281, 81.43980570640758, -1.551683685219656e-05},
-     {1.3913825568937488, 81.44031273173971, -1.2500889802526859e-05},
-     0.0025},
+     {1.3913825568937488, 81.44031273173971, -1.2500889802526859e-05}},
     {{2, 2},
      {{150e-6, 0, 0}, {0, 0, 0}},
-     {160.24000618628827, -6.058040243648975, -0.02028279713276589},
-     {160.238868236719, -6.057972332452664, -0.020282277220120427},
-     0.0012},
+     {160.238868236719, -6.057972332452664, -0.020282277220120427}},
     {{2, 2},
      {{0, 0, 3e-7}, {0, 0, 0}},
-     {-40.304818361321765, -4.828695077963516, 0.10959693288363755},
-     {-40.30551076969056, -4.828665370104318, 0.10959798125006724},
-     0.0008},
+     {-40.30551076969056, -4.828665370104318, 0.10959798125006724}},
 };
 
 /* six flexures in two loops: the platform's pose; mirrored, with bodies named the other way round
@@ -124,11 +116,8 @@ static void six_bar_poses(void **state) {
                 load[3 * t->body[k / 3] + k % 3] += t->load[k / 3][k % 3] * (k % 3 == 1 ? 1 : s);
             rig_equilibrium(&r, load, 10, q);
             double x = s * (q[6] - r.body[2].x_m) * 1e6, y = (q[7] - r.body[2].y_m) * 1e6;
-            assert_near(x, t->law[0], 2e-5);
-            assert_near(y, t->law[1], 2e-5);
-            assert_near(s * q[8], t->law[2], 1e-8);
-            assert_true(hypot(x - t->exact[0], y - t->exact[1]) < t->off_um);
-            assert_near(s * q[8], t->exact[2], 4e-6);
+            assert_true(hypot(x - t->exact[0], y - t->exact[1]) < 3e-6);
+            assert_near(s * q[8], t->exact[2], 4e-9);
             fw_arena_free(r.arena);
         }
 }

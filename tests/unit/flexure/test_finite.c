@@ -170,46 +170,6 @@ static void derivatives(void **state) {
         }
 }
 
-static double energy(const fw_flexure_hinge_law *law, const double p[3]) {
-    fw_flexure_hinge_at at;
-    fw_flexure_hinge_law_at(law, p[0], &at);
-    double c = cos(0.5 * p[0]), s = sin(0.5 * p[0]);
-    double w = c * p[1] + s * p[2], v = c * p[2] - s * p[1] - at.drift_m.value;
-    return 0.5 * (law->stiffness_Nm_per_rad * p[0] * p[0] + at.kx_N_per_m.value * w * w +
-                  at.ky_N_per_m.value * v * v);
-}
-
-/* the wrench is the energy's gradient, the tangent the wrench's: differences of order 6 */
-static void wrench_and_tangent(void **state) {
-    (void)state;
-    const double weight[7] = {-1, 9, -45, 0, 45, -9, 1}, size[3] = {1, 1e-5, 1e-5};
-    for (int i = 0; i < 40; i++) {
-        fw_flexure_hinge_law law = example(0.08 * i);
-        const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&law);
-        double p[3] = {0.5 * sin(i), 8e-6 * cos(3 * i), 6e-6 * sin(2 * i)};
-        double F[3], T[3][3], near[3], unused[3][3];
-        fw_flexure_hinge_law_wrench(&law, &rest, p, F, T);
-        double scale = law.stiffness_Nm_per_rad;
-        for (int k = 0; k < 3; k++) {
-            double slope = 0, curve[3] = {0}, h = 1e-3 * size[k];
-            for (int n = -3; n <= 3; n++) {
-                double q[3] = {p[0], p[1], p[2]};
-                q[k] += n * h;
-                slope += weight[n + 3] * energy(&law, q) / (60 * h);
-                fw_flexure_hinge_law_wrench(&law, &rest, q, near, unused);
-                for (int j = 0; j < 3; j++)
-                    curve[j] += weight[n + 3] * near[j] / (60 * h);
-            }
-            assert_near(F[k] * size[k], slope * size[k], 1e-9 * scale);
-            for (int j = 0; j < 3; j++) {
-                assert_near(T[j][k] * size[j] * size[k], curve[j] * size[j] * size[k],
-                            1e-8 * scale);
-                assert_near(T[j][k], T[k][j], 0);
-            }
-        }
-    }
-}
-
 /* large turns leave the short series: same law, to rounding */
 static void far_turns(void **state) {
     (void)state;
@@ -428,7 +388,6 @@ int main(void) {
         cmocka_unit_test(against_the_reference),
         cmocka_unit_test(gaps_close),
         cmocka_unit_test(derivatives),
-        cmocka_unit_test(wrench_and_tangent),
         cmocka_unit_test(far_turns),
         cmocka_unit_test(error_goes_with_the_square_of_the_force),
         cmocka_unit_test(at_rest),

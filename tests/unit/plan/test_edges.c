@@ -11,6 +11,7 @@ static fw_plan *loaded(const char *name) {
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.flow = "al-masked-rie";
     o.force = true;
+    o.verdict.motion.effects.hinge = FW_HINGE_REVOLUTE; /* edges do not ask for more */
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);
     const char *path =

@@ -9,6 +9,7 @@ static fw_plan *loaded(const char *scene, fw_effect_mode mode, double accuracy) 
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.verdict.motion.effects.mode = mode;
+    o.verdict.motion.effects.hinge = FW_HINGE_REVOLUTE;
     o.verdict.motion.accuracy = accuracy;
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);

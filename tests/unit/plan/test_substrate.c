@@ -33,6 +33,7 @@ static fw_plan *loaded(const char *flow, const char *temperature) {
     fw_plan_options o = fw_plan_options_default();
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.verdict.motion.effects.mode = FW_EFFECTS_ALL;
+    o.verdict.motion.effects.hinge = FW_HINGE_REVOLUTE;
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);
     const char *xml = fw_arena_printf(plan->arena, "%s%s%s%s/></scene></device>", before, flow,

@@ -79,7 +79,8 @@ static void utilisation_of_random_cycles(void **state) {
 static void a_history_of_two_roots(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_maths_turning root[2] = {{.gate = 1e-6}, {.gate = 1e-6}};
+    fw_maths_turning root[FW_FACES] = {
+        {.gate = 1e-6}, {.gate = 1e-6}, {.gate = 1e-6}, {.gate = 1e-6}};
     for (int i = 0; i <= 2000; i++) {
         double t = i / 2000.0, s = sin(2 * acos(-1.0) * 10 * t);
         fw_maths_turning_add(&root[0], arena, t, 1e-3 * s);

@@ -225,7 +225,7 @@ static void each_hinge_has_its_own_corner(void **state) {
     (void)state;
     set_up s;
     begin(&s, "120 uN\"/></scene><scene name=\"pull\" duration=\"6 ms\">"
-              "<tendon id=\"T\" stiffness=\"4000 N/m\" damping=\"1e-3 N s/m\" draw=\"27 um\" "
+              "<tendon id=\"T\" stiffness=\"4000 N/m\" damping=\"1e-3 N s/m\" draw=\"23 um\" "
               "law=\"ramp\" "
               "rise=\"4 ms\"><eyelet on=\"a\" x=\"0.2 mm\" y=\"0.1 mm\"/>"
               "<eyelet on=\"b\" x=\"-0.2 mm\" y=\"0.1 mm\"/></tendon>"
