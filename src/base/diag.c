@@ -82,6 +82,23 @@ void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *forma
     va_end(arguments);
 }
 
+static void add_text(fw_diags *diags, fw_severity severity, int number, fw_place place,
+                     const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags, severity, number, place, format, arguments);
+    va_end(arguments);
+}
+
+void fw_diags_add(fw_diags *diags, const fw_diag *d, fw_severity severity) {
+    add_text(diags, severity, d->number, d->place, "%s", d->message);
+}
+
+void fw_diags_take(fw_diags *diags, const fw_diags *from) {
+    for (size_t i = 0; i < from->count; i++)
+        fw_diags_add(diags, &from->item[i], from->item[i].severity);
+}
+
 static void show_line(fw_text *out, const char *source, size_t n, fw_place place) {
     size_t start = 0;
     for (int line = 1; line < place.line; line++) {

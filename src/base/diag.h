@@ -52,6 +52,11 @@ void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *fo
 void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* adds what was said of a try that now counts, as if it had been said here */
+void fw_diags_take(fw_diags *diags, const fw_diags *from);
+/* adds one of another list, as a message of this severity */
+void fw_diags_add(fw_diags *diags, const fw_diag *diag, fw_severity severity);
+
 /* "FILE:LINE:COLUMN: error: message [FW-D041]", one line each, in file order.
    `source` (may be NULL, n bytes) is the text of `file`: places in it are shown with a caret. */
 void fw_diags_print(const fw_diags *diags, fw_text *out, const char *file, const char *source,

@@ -320,7 +320,7 @@ static fw_status try_tolerances(fw_dynamics_run *r, pair *two, fw_dynamics_toler
     r->diags = said;
     if (own.failed) return FW_NOMEM;
     for (size_t i = 0; i < own.count && status != FW_OK && status != FW_SOLVER; i++)
-        fw_diag_error(said, own.item[i].number, own.item[i].place, "%s", own.item[i].message);
+        fw_diags_add(said, &own.item[i], FW_ERROR);
     return said->failed ? FW_NOMEM : status;
 }
 

@@ -46,6 +46,7 @@ typedef struct fw_effects_hinge_use { /* how the hinges were taken */
     const char *why; /* NULL: there are no hinges */
     double error;    /* computed change of the largest hinge angle by the next level, relative; of
                         the elastica what its solver tells; NaN: not computed */
+    bool pins_first; /* pins with stated stiffnesses, tried before anything else */
 } fw_effects_hinge_use;
 
 typedef struct fw_effect_entry { /* a line of the ledger */

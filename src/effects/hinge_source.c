@@ -226,7 +226,7 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
 static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice *choice,
                             fw_effects_hinge_model used, bool touching) {
     fw_effects_hinge_model asked = choice->hinge;
-    if (choice->pins_first && asked == used) return "tried first, with stated stiffnesses";
+    if (choice->pins_first && asked == used) return "pins are what stated stiffnesses describe";
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";
     if (asked != FW_HINGE_AUTO)
@@ -267,7 +267,8 @@ fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choic
         if (strcmp(ledger->item[i].id, "contact") == 0) touching = ledger->item[i].active;
     }
     bool gives = loads->nreleased > 0 && (!entry || entry->active || touching);
-    ledger->hinge = (fw_effects_hinge_use){.used = FW_HINGE_REVOLUTE, .error = (double)NAN};
+    ledger->hinge = (fw_effects_hinge_use){
+        .used = FW_HINGE_REVOLUTE, .error = (double)NAN, .pins_first = choice->pins_first};
     if (c->mechanism->nhinge == 0) return FW_OK;
     if (gives)
         ledger->hinge.used = asked == FW_HINGE_ELASTICA ? FW_HINGE_ELASTICA : FW_HINGE_COMPLIANCE;

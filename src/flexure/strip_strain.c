@@ -119,8 +119,9 @@ void fw_flexure_strip_load_of(const fw_flexure_path_strain *s, const fw_flexure_
     /* a pin's force is taken on the strip as drawn, half turned: nearer to the exact beam */
     double c = rest ? cos(0.5 * th) : 1, n = rest ? sin(0.5 * th) : 0;
     *out = (fw_flexure_strip_load){.rotation_rad = th, .force_N = {X, Y}, .drawn = !rest};
+    out->bend_Nm = law->stiffness_Nm_per_rad * th;
     out->held = !rest || fw_flexure_hinge_law_under(law, rest, th, force_N, u, &moment, &pull);
-    if (!rest || !out->held) u[0] = u[1] = pull = 0, moment = law->stiffness_Nm_per_rad * th;
+    if (!rest || !out->held) u[0] = u[1] = pull = 0, moment = out->bend_Nm;
     out->pull = pull;
     double M = moment - 0.5 * (u[0] * Y - u[1] * X);         /* about the second body's W */
     double ax = p->x_m - s->W_m[0], ay = p->y_m - s->W_m[1]; /* roots from W, as drawn */
@@ -155,6 +156,39 @@ typedef struct arms {
 
 static double about(const arms *f, double x, double y, double part) {
     return y * f->X - x * f->Y - (1 - part) * f->first - part * f->last;
+}
+
+/* Pressed harder than this, M(xi) has its even part from the rotation in place of the mean of the
+   root moments, which is 0 at y = -pi^2 (where a strip free to turn at its ends would buckle):
+
+     M(xi) = A cos z (2 xi - 1) + (M2 - M1)/2 S + 2 e(xi)/(y xi (1 - xi))
+     A from int M/EI ds = K th int ds/EI
+
+   The cosine in the factor of e is in A, too. */
+static const double fw_pressed = -6;
+
+static void pressed(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
+                    const arms *f, double *M) {
+    double half = 0.5 * (load->root_Nm[1] - load->root_Nm[0]), z = 0.5 * sqrt(-load->pull);
+    double turned = 0, one = 0, soft = 0;
+    const int last = s->n - 1;
+    for (int i = 1; i < last; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        double over = load->pull * p->part * (1 - p->part);
+        M[i] = 2 * about(f, p->x_m, p->y_m, p->part) / over;
+    }
+    M[0] = 2 * M[1] - M[2], M[last] = 2 * M[last - 1] - M[last - 2]; /* e there: 0 over 0 */
+    for (int i = 0; i <= last; i++) {
+        const fw_flexure_path_point *p = &s->point[i];
+        double before = i ? p->part - p[-1].part : 0, after = i < last ? p[1].part - p->part : 0;
+        double weight = 0.5 * (before + after) * p->soft_per_Nm;
+        M[i] += half * course_of(load->pull, p->part).odd;
+        soft += weight, turned += weight * M[i];
+        one += weight * cos(z * (2 * p->part - 1));
+    }
+    double A = (load->bend_Nm * soft - turned) / one;
+    for (int i = 0; i <= last; i++)
+        M[i] += A * cos(z * (2 * s->point[i].part - 1));
 }
 
 /* M(xi) of the column, over the strip as drawn */
@@ -231,7 +265,10 @@ void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_s
     double turn[FW_STRIP_PLACES] = {0};
     const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
     if (X != 0 || Y != 0) {
-        column(s, load, &f, M);
+        if (load->pull < fw_pressed)
+            pressed(s, load, &f, M);
+        else
+            column(s, load, &f, M);
         if (!load->drawn) bend_once(s, load, &f, M, turn);
     } else
         for (int i = 0; i < s->n; i++)

@@ -36,6 +36,7 @@ void fw_flexure_path_strain_scale(fw_flexure_path_strain *strip, double by);
 typedef struct fw_flexure_strip_load {
     double rotation_rad;
     double force_N[2]; /* on the second body, along and across the axis in the frame half turned */
+    double bend_Nm;    /* the rotation times the flexure's own stiffness */
     double root_Nm[2]; /* moments at the first and the second root, > 0: as a rotation > 0 */
     double pull;       /* across the axis over EI/L^2, as it acts on what bends */
     bool drawn;        /* the strip is taken as drawn, half turned: of an ideal pin */

@@ -239,17 +239,6 @@ static void keep_inertia(fw_effect_ledger *ledger, fw_effects_loads *loads, cons
     entry->reason = why;
 }
 
-/* what a try that counts had to say */
-static void take_messages(const fw_diags *from, fw_diags *diags) {
-    for (size_t i = 0; i < from->count; i++) {
-        const fw_diag *d = &from->item[i];
-        if (d->severity == FW_ERROR)
-            fw_diag_error(diags, d->number, d->place, "%s", d->message);
-        else if (d->severity == FW_WARNING)
-            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
-    }
-}
-
 /* effects chosen by hand: what that may have cost is said where it is more than was asked for */
 static void report_cost(const fw_device_scene *scene, const fw_effect_ledger *ledger,
                         double accuracy, fw_diags *diags) {
@@ -282,7 +271,7 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
             fw_status status = fw_statics_quasi_static_motion(arena, mechanism, scene, &whole,
                                                               &ledger, &loads, &own, motion, &why);
             if (status != FW_SOLVER) {
-                take_messages(&own, diags);
+                fw_diags_take(diags, &own);
                 if (status == FW_OK && options->effects.mode != FW_EFFECTS_AUTO)
                     report_cost(scene, &ledger, accuracy, diags);
                 return diags->failed ? FW_NOMEM : status;
@@ -361,22 +350,6 @@ static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
     return fw_statics_level_stays(arena, step, why, &own->ledger.hinge);
 }
 
-/* Where a level good to some percent is wanted, as for a verdict, and every flexure's stiffness is
-   stated, pins come first: they cost a tenth, and the step to hinges that give says whether they
-   will do. Not where something acts on hinges that give in another way, or nothing moves. */
-static bool pins_first(const fw_mechanism *m, const fw_device_scene *scene,
-                       const fw_dynamics_motion_options *options) {
-    const fw_effect_choice *asked = &options->effects;
-    if (asked->hinge != FW_HINGE_AUTO || asked->mode != FW_EFFECTS_AUTO || m->nhinge == 0)
-        return false;
-    if (!(options->hinge_accuracy >= 0.01) || scene->ncontact + scene->ntemperature > 0 ||
-        scene->nstress > 0 || scene->ncomb > 0)
-        return false;
-    for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return false;
-    return true;
-}
-
 /* with the hinges as they were asked for; auto climbs where the step to the next level is computed
    to change more than the accuracy wanted, and stays where that level has no such motion */
 fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
@@ -386,10 +359,11 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     fw_dynamics_motion_options o = *options;
     const fw_effect_choice *asked = &options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    if (options->hinge_accuracy > 0) accuracy = options->hinge_accuracy;
+    double stated = fw_statics_level_stated * accuracy;
+    if (options->hinge_accuracy > 0) accuracy = stated = options->hinge_accuracy;
     *motion = NULL;
     FW_TRY(fw_dynamics_check_request(mechanism, scene, options, diags));
-    bool tried = pins_first(mechanism, scene, options);
+    bool tried = fw_statics_level_pins_first(mechanism, scene, asked);
     if (tried) o.effects.hinge = FW_HINGE_REVOLUTE, o.effects.pins_first = true;
     for (;;) {
         const fw_dynamics_motion *found;
@@ -406,11 +380,12 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(status);
         rows_of_peaks(mechanism, found);
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
-        if (tried && (!step || step->why_not || !(step->relative < accuracy))) {
+        if (tried && !fw_statics_level_is_below(step, stated)) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
-        if (higher || tried) take_messages(&own, diags);
+        if (tried) accuracy = stated;
+        if (higher || tried) fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
         if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;
         if (!fw_statics_level_climb(step, accuracy, asked, &o.effects)) return FW_OK;

@@ -152,7 +152,10 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
                            fw_diags *diags, const fw_statics **statics) {
     fw_effect_choice choice = options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    double stated = fw_statics_level_stated * accuracy;
+    bool tried = fw_statics_level_pins_first(mechanism, scene, &choice);
     *statics = NULL;
+    if (tried) choice.hinge = FW_HINGE_REVOLUTE, choice.pins_first = true;
     for (;;) {
         const fw_statics_static_options o = {
             .effects = choice, .path = options->path, .most_points = options->most_points};
@@ -161,9 +164,15 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         const fw_statics *found;
         bool higher = *statics != NULL;
         fw_status status =
-            equilibrium(arena, mechanism, scene, &o, higher ? &own : diags, &found, &step);
+            equilibrium(arena, mechanism, scene, &o, higher || tried ? &own : diags, &found, &step);
         if (higher && status == FW_SOLVER) return stay(arena, statics);
+        if (tried && (status == FW_SOLVER || status == FW_INPUT ||
+                      (status == FW_OK && !fw_statics_level_is_below(step, stated)))) {
+            choice = options->effects, tried = false; /* as if they had not been tried */
+            continue;
+        }
         FW_TRY(status);
+        if (tried) accuracy = stated, fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, options, statics));
         if (!fw_statics_level_climb(step, accuracy, &options->effects, &choice)) return FW_OK;
     }

@@ -293,9 +293,12 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative)
     if (rests ? fw_statics_equilibrium_evaluate(&high) != FW_OK : !settle(&high)) return FW_OK;
     const fw_statics_reduced *a = &w->reduced, *b = &high.reduced;
     double worst = 0;
-    /* those that the mechanism has with pins: what hinges add is far above */
+    /* those that the mechanism has with pins: what hinges add is far above. A stage that pins would
+       hold has none */
     int own = b->dof - 2 * high.model->nreleased;
-    for (int k = 0; k < own && k < a->dof; k++) {
+    if (own != a->dof - 2 * w->model->nreleased || own < 1) own = a->dof == b->dof ? a->dof : 0;
+    if (own == 0) return FW_OK;
+    for (int k = 0; k < own; k++) {
         double x = a->value[k] * fw_statics_equilibrium_per_s2(w),
                y = b->value[k] * fw_statics_equilibrium_per_s2(&high);
         if (x <= 0 || y <= 0) return FW_OK;
@@ -303,6 +306,22 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative)
     }
     *relative = worst;
     return FW_OK;
+}
+
+bool fw_statics_level_pins_first(const fw_mechanism *m, const fw_device_scene *scene,
+                                 const fw_effect_choice *asked) {
+    bool alone = asked->mode == FW_EFFECTS_AUTO || asked->mode == FW_EFFECTS_WHOLE;
+    if (asked->hinge != FW_HINGE_AUTO || !alone || m->nhinge == 0) return false;
+    if (scene &&
+        (scene->ncontact > 0 || scene->ntemperature > 0 || scene->nstress > 0 || scene->ncomb > 0))
+        return false;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return false;
+    return true;
+}
+
+bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy) {
+    return step && !step->why_not && step->relative < accuracy;
 }
 
 bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
@@ -325,11 +344,13 @@ fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *st
     if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
     fw_percent_text(by, sizeof by, step->relative);
     fw_percent_text(wanted, sizeof wanted, accuracy);
-    FW_NEED(use->why =
-                fw_arena_printf(arena,
-                                "%s; the cheapest that is good enough: %s is computed to "
-                                "change %s %%, below the accuracy wanted, %s %%",
-                                use->why, fw_effects_hinge_model_text(step->next), by, wanted));
+    FW_NEED(use->why = fw_arena_printf(arena,
+                                       "%s; the cheapest that is good enough: %s is computed to "
+                                       "change %s %%, below %s, %s %%",
+                                       use->why, fw_effects_hinge_model_text(step->next), by,
+                                       use->pins_first ? "what they are taken to be good to"
+                                                       : "the accuracy wanted",
+                                       wanted));
     return FW_OK;
 }
 

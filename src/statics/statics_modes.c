@@ -395,31 +395,49 @@ fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
     return FW_OK;
 }
 
+static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
+                          const fw_device_scene *scene, const fw_statics_mode_options *options,
+                          const fw_effect_choice *choice, fw_diags *diags,
+                          fw_statics_equilibrium *w, const fw_statics_modes **found) {
+    FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, choice, diags, w));
+    return fw_statics_equilibrium_modes(w, options, found);
+}
+
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,
                                    const fw_statics_mode_options *options, fw_diags *diags,
                                    const fw_statics_modes **modes) {
     fw_effect_choice choice = options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    double stated = fw_statics_level_stated * accuracy;
+    bool tried = fw_statics_level_pins_first(mechanism, scene, &choice);
     *modes = NULL;
+    if (tried) choice.hinge = FW_HINGE_REVOLUTE, choice.pins_first = true;
     for (;;) {
         fw_statics_equilibrium w;
         double relative;
         const fw_statics_modes *found;
-        FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, &choice, diags, &w));
-        FW_TRY(fw_statics_equilibrium_modes(&w, options, &found));
-        FW_TRY(fw_statics_level_of_modes(&w, &relative));
+        fw_diags own = fw_diags_new(arena);
+        fw_status status =
+            modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
+        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative);
+        bool pins_do = status == FW_OK && relative < stated;
+        if (tried && !pins_do && (status == FW_OK || status == FW_SOLVER || status == FW_INPUT)) {
+            choice = options->effects, tried = false; /* as if they had not been tried */
+            continue;
+        }
+        FW_TRY(status);
+        if (tried) accuracy = stated, fw_diags_take(diags, &own);
         const fw_statics_level_step step = {.used = found->ledger.hinge.used,
                                             .next = found->ledger.hinge.used + 1,
                                             .relative = relative,
                                             .why_not = isnan(relative) ? "not computed" : NULL};
         if (fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) continue;
-        fw_statics_modes *own = fw_arena_one(arena, fw_statics_modes);
-        FW_NEED(own);
-        *own = *found;
-        FW_TRY(
-            fw_statics_level_note(arena, &step, accuracy, &options->effects, &own->ledger.hinge));
-        *modes = own;
+        fw_statics_modes *to;
+        FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
+        *to = *found;
+        FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
+        *modes = to;
         return FW_OK;
     }
 }

@@ -127,12 +127,7 @@ static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
     bool fatal = impossible && fw_device_needs_shapes(device);
     for (size_t i = 0; i < drawing.count; i++) {
         const fw_diag *d = &drawing.item[i];
-        if (d->severity == FW_ERROR && fatal)
-            fw_diag_error(diags, d->number, d->place, "%s", d->message);
-        else if (d->severity == FW_NOTE)
-            fw_diag_note(diags, d->number, d->place, "%s", d->message);
-        else
-            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+        fw_diags_add(diags, d, d->severity == FW_ERROR && !fatal ? FW_WARNING : d->severity);
     }
     return fatal ? status : FW_OK;
 }

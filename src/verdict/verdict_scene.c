@@ -42,12 +42,7 @@ static const fw_diag *formula_ended(const fw_diags *diags) {
 static void take_messages(const fw_diags *from, const fw_diag *ended, fw_diags *diags) {
     for (size_t i = 0; i < from->count; i++) {
         const fw_diag *d = &from->item[i];
-        if (d->severity == FW_ERROR && d != ended)
-            fw_diag_error(diags, d->number, d->place, "%s", d->message);
-        else if (d->severity == FW_NOTE)
-            fw_diag_note(diags, d->number, d->place, "%s", d->message);
-        else
-            fw_diag_warning(diags, d->number, d->place, "%s", d->message);
+        fw_diags_add(diags, d, d == ended ? FW_WARNING : d->severity);
     }
 }
 
