@@ -110,6 +110,9 @@ typedef struct fw_dynamics_motion {
     double *joint_N;
     double *driver_N;       /* (nsample x ndriver) N or N m along the driven coordinate */
     fw_dynamics_peak *peak; /* (npin) */
+    /* largest displacement of the ends of a flexure that gives over its length, beside the angles: both
+       are what deflections are */
+    double displaced;
     /* energies asked for, else NULL, as of a sequence of equilibria */
     double *energy_J;        /* (nsample x 4) kinetic, potential, dissipated, work: the first three
                                 less the last one stay what they are */

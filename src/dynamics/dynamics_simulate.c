@@ -53,7 +53,8 @@ static fw_status run_once(fw_dynamics_run *r, double rtol, const pass *other, bo
     FW_NEED(atol = fw_arena_array(r->problem.arena, double, (size_t)m->ny));
     for (int i = 0; i < m->ny; i++)
         atol[i] = fmax(rtol * r->problem.amplitude, 2e-15);
-    FW_TRY(fw_dynamics_peaks_new(r->problem.arena, r->problem.mechanism, r->problem.q0, &p->peaks));
+    FW_TRY(fw_dynamics_peaks_new(r->problem.arena, r->problem.mechanism, r->problem.q0,
+                                 r->problem.model, &p->peaks));
     p->peaks.marked = other ? &other->peaks : NULL;
     p->peaks.sized = r->control.part > 0;
     r->record.extreme = NULL;
@@ -166,6 +167,7 @@ static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *co
     double unit = r->problem.model->scale.time_s, eighth = fw_dynamics_end(&r->problem) / 8;
     differences d;
     compare(fine, coarse, &d);
+    r->record.motion->displaced = fine->peaks.displaced;
     for (int i = 0; i < fine->peaks.npin; i++) {
         fw_dynamics_peak *p = &r->record.motion->peak[i];
         /* who compares again until it comes out small meets luck: errors fall with the tolerance */
@@ -187,6 +189,7 @@ static void estimate_errors(fw_dynamics_run *r, const pass *fine, const pass *co
 
 /* nobody wants to know: peaks as they came out */
 static void no_estimate(fw_dynamics_run *r, const pass *only) {
+    r->record.motion->displaced = only->peaks.displaced;
     for (int i = 0; i < only->peaks.npin; i++) {
         r->record.motion->peak[i] = only->peaks.peak[i];
         r->record.motion->peak[i].t_s *= r->problem.model->scale.time_s;

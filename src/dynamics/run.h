@@ -8,7 +8,12 @@
 #include "maths/ode.h"
 #include "multibody/method.h"
 
-/* extreme.c: angles of pins */
+/* peaks.c: angles of pins, displacements of flexures that give */
+typedef struct fw_dynamics_strip { /* one of those */
+    int body[2];
+    double local[2][2]; /* its point in each body, scaled */
+    double per_length;  /* 1 over its length */
+} fw_dynamics_strip;
 typedef struct fw_dynamics_peaks {
     double *start;          /* (npin of the mechanism) angle at the assembled pose */
     int *a, *b;             /* (npin) bodies */
@@ -19,13 +24,16 @@ typedef struct fw_dynamics_peaks {
     double *size;           /* (nmark x npin) largest sizes of the angles up to there */
     bool sized;             /* those are wanted */
     fw_dynamics_peak *held; /* (npin) work */
-    int nmark;
+    int nmark, nstrip;
+    fw_dynamics_strip *strip; /* (nstrip) */
+    double *rest;             /* (3 nbody) assembled pose, scaled */
+    double displaced;         /* the largest at any step's end */
     const struct fw_dynamics_peaks
         *marked; /* the run that set the instants; NULL: this one sets them */
 } fw_dynamics_peaks;
 enum { FW_MARKS = 16 };
 fw_status fw_dynamics_peaks_new(fw_arena *arena, const fw_mechanism *mechanism, const double *q,
-                                fw_dynamics_peaks *peaks);
+                                const fw_multibody_model *model, fw_dynamics_peaks *peaks);
 double fw_dynamics_peaks_angle(const fw_dynamics_peaks *peaks, int pin, const double *y);
 /* the last step up to theta_end */
 void fw_dynamics_peaks_step(fw_dynamics_peaks *peaks, const fw_multibody_model *m,
@@ -40,7 +48,7 @@ int fw_dynamics_peaks_first_mark(const fw_dynamics_peaks *peaks, const fw_dynami
 /* largest difference of any angle of two runs at mark k; 0 when one of them has none */
 double fw_dynamics_peaks_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
                                int k);
-/* likewise of the largest sizes up to there */
+/* likewise of the largest sizes of angles up to there */
 double fw_dynamics_peaks_sizes_apart(const fw_dynamics_peaks *peaks, const fw_dynamics_peaks *other,
                                      int k);
 

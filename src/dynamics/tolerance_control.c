@@ -199,12 +199,12 @@ double fw_dynamics_tolerance_energy_ratio(long steps, long looser_steps) {
 
 /* Is a motion good enough, and what is said of that. */
 
-typedef struct reached { /* largest values and errors of any pin; force 0 when not asked for */
+typedef struct reached { /* largest deflection, and errors of any pin; force 0 when not asked for */
     double angle_rad, error_rad, force_N, error_N;
 } reached;
 
 static reached what_is_reached(const fw_dynamics_recorder *record) {
-    reached x = {0};
+    reached x = {.angle_rad = record->motion->displaced};
     for (int i = 0; i < record->motion->npin; i++) {
         x.angle_rad = fmax(x.angle_rad, fabs(record->motion->peak[i].angle_rad));
         x.error_rad = fmax(x.error_rad, record->motion->peak[i].error_rad);

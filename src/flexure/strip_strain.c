@@ -261,9 +261,10 @@ static void root_faces(const fw_flexure_path_point *p, double M, double N, doubl
 void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_strip_load *load,
                              fw_flexure_strip_strains *out) {
     const fw_flexure_path_point *first = &s->point[0], *last = &s->point[s->n - 1];
-    double X = load->force_N[0], Y = load->force_N[1], M[FW_STRIP_PLACES];
-    double turn[FW_STRIP_PLACES] = {0};
+    double X = load->force_N[0], Y = load->force_N[1], M[FW_STRIP_PLACES], turn[FW_STRIP_PLACES];
     const arms f = {X, Y, first->y_m * X - first->x_m * Y, last->y_m * X - last->x_m * Y};
+    for (int i = 0; i < s->n; i++)
+        turn[i] = 0;
     if (X != 0 || Y != 0) {
         if (load->pull < fw_pressed)
             pressed(s, load, &f, M);
