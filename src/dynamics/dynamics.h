@@ -157,6 +157,7 @@ fw_status fw_dynamics_simulate_compiled(fw_arena *arena, const fw_mechanism *mec
    they would have been at once. Only where nothing that acts depends on time or on what happened
    before. Every other motion has all its rows, and nothing happens. */
 void fw_dynamics_motion_rows(const fw_dynamics_motion *motion, int first, int count);
+bool fw_dynamics_motion_waits(const fw_dynamics_motion *motion, int row); /* q is none yet */
 /* the same of the rows next to a time */
 void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */

@@ -8,7 +8,7 @@
 #include "maths/ode.h"
 #include "multibody/method.h"
 
-/* peaks.c: angles of pins, displacements of flexures that give */
+/* angle_peaks.c: angles of pins, displacements of flexures that give */
 typedef struct fw_dynamics_strip { /* one of those */
     int body[2];
     double local[2][2]; /* its point in each body, scaled */

@@ -142,6 +142,10 @@ void fw_dynamics_motion_rows(const fw_dynamics_motion *motion, int first, int co
         if (row >= 0 && row < motion->nsample && late->waits[row]) catch_up(late, motion, row);
 }
 
+bool fw_dynamics_motion_waits(const fw_dynamics_motion *motion, int row) {
+    return motion->late && motion->late->waits[row];
+}
+
 void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s) {
     if (!motion->late || motion->nsample < 1) return;
     double each =

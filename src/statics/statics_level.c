@@ -172,7 +172,7 @@ static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
     }
     for (int i = 0; i < x->nsample; i++) {
         if (fabs(x->t_s[i] - t) < fabs(x->t_s[best] - t)) best = i;
-        for (int k = 0; k < m->nhinge; k++) {
+        for (int k = 0; k < m->nhinge && x->loads->nreleased > 0; k++) {
             double L = m->hinge[k].law.length_m;
             const double *q = x->q + (size_t)i * 3 * (size_t)m->nbody;
             double share = L > 0 ? opening(&m->pin[m->hinge[k].pin], q) / L : 0;
@@ -182,15 +182,15 @@ static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
     return across > largest ? moved : best;
 }
 
-/* largest deflection of a hinge and way of a body in the whole motion: the instant that is looked at
-   may be one where everything is near its rest */
+/* Largest deflection of a hinge and way of a body in the whole motion: the instant that is looked at
+   may be one where everything is near its rest. Rows that wait lie between those of the peaks. */
 static void sizes(const fw_mechanism *m, const fw_dynamics_motion *x, const double *rest,
                   double size[2]) {
     size[0] = size[1] = 0;
     for (int k = 0; k < m->nhinge; k++)
         size[0] = fmax(size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
     for (int i = 0; i < x->nsample; i++)
-        for (int b = 0; b < m->nbody; b++) {
+        for (int b = 0; b < m->nbody && !fw_dynamics_motion_waits(x, i); b++) {
             const double *q = x->q + 3 * ((size_t)i * (size_t)m->nbody + (size_t)b);
             size[1] = fmax(size[1], hypot(q[0] - rest[3 * b], q[1] - rest[3 * b + 1]));
         }
