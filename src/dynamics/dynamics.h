@@ -20,7 +20,10 @@ typedef struct fw_dynamics_instant { /* the mechanism at one time, on the dense 
 /* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
    NULL when the run starts (over, with a tighter tolerance) */
 typedef void (*fw_dynamics_observer)(void *context, const fw_dynamics_instant *instant);
-enum { FW_INSTANTS = 12 };
+/* Offered first where a step goes on smoothly: its thirds. True: they were taken, and are enough;
+   false: all instants of the step follow. */
+typedef bool (*fw_dynamics_glance)(void *context, const fw_dynamics_instant *third);
+enum { FW_INSTANTS = 12, FW_THIRDS = 3 };
 
 typedef struct fw_dynamics_motion_options {
     const char *method;     /* a name of fw_multibody_method_at; NULL: chain */
@@ -48,6 +51,7 @@ typedef struct fw_dynamics_motion_options {
     bool within_limits; /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
     fw_dynamics_observer observe; /* NULL: nobody looks */
+    fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */

@@ -208,31 +208,56 @@ static bool own_forces(fw_dynamics_recorder *record, fw_maths_stepper *s, double
     return true;
 }
 
+/* the step that is looked at: forces between a method's own places where it has such */
+typedef struct looked_at {
+    fw_dynamics_recorder *record;
+    fw_maths_stepper *stepper;
+    double theta_end;
+    fw_dynamics_grid grid;
+    bool own;
+} looked_at;
+
+/* in the slot-th of the recorder's arrays */
+static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
+    fw_dynamics_recorder *record = l->record;
+    const fw_dynamics_problem *problem = record->problem;
+    size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
+    double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
+    double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
+    double *force = record->seen_force + slot * 2 * pins;
+    int count = 2 * (int)pins;
+    if (l->own)
+        fw_maths_stepper_dense(l->stepper, theta, record->state);
+    else
+        forces_at(record, l->stepper, theta, force);
+    for (int k = 0; l->own && k < count; k++)
+        force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
+    pose_in_SI(problem, record->state, q, angle);
+    return (fw_dynamics_instant){.t_s = (l->stepper->t_old + theta * l->stepper->h) *
+                                        problem->model->scale.time_s,
+                                 .q = q,
+                                 .angle_rad = angle,
+                                 .reaction_N = force,
+                                 .hinge = record->motion->ledger.hinge.used};
+}
+
 static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
     if (!see) return;
     bool fresh = record->fresh || !(s->t_old > 0);
-    int count = 2 * record->problem->mechanism->npin;
-    fw_dynamics_grid g;
-    bool own = own_forces(record, s, theta_end, &g);
+    looked_at l = {.record = record, .stepper = s, .theta_end = theta_end};
+    l.own = own_forces(record, s, theta_end, &l.grid);
     record->fresh = false;
+    if (record->problem->options->glance && !fresh) {
+        fw_dynamics_instant third[FW_THIRDS];
+        for (int i = 0; i < FW_THIRDS; i++)
+            third[i] = instant_at(&l, (i + 1) * FW_INSTANTS / FW_THIRDS, (size_t)i);
+        if (record->problem->options->glance(context, third)) return;
+    }
     for (int i = fresh ? 0 : 1; i <= FW_INSTANTS; i++) {
-        double part = (double)i / FW_INSTANTS, theta = theta_end * i / FW_INSTANTS;
-        if (own)
-            fw_maths_stepper_dense(s, theta, record->state);
-        else
-            forces_at(record, s, theta, record->seen_force);
-        for (int k = 0; own && k < count; k++)
-            record->seen_force[k] = fw_dynamics_run_between(&g, record->seen_grid + k, count, part);
-        pose_in_SI(record->problem, record->state, record->seen_q, record->seen_angle);
-        const fw_dynamics_instant now = {.t_s = (s->t_old + theta * s->h) *
-                                                record->problem->model->scale.time_s,
-                                         .q = record->seen_q,
-                                         .angle_rad = record->seen_angle,
-                                         .reaction_N = record->seen_force,
-                                         .begins = fresh && i == 0,
-                                         .hinge = record->motion->ledger.hinge.used};
+        fw_dynamics_instant now = instant_at(&l, i, 0);
+        now.begins = fresh && i == 0;
         see(context, &now);
     }
 }

@@ -235,9 +235,9 @@ static fw_status recorder_arrays(fw_dynamics_recorder *record) {
     FW_NEED(record->state = fw_arena_array(arena, double, ny));
     FW_NEED(record->rate = fw_arena_array(arena, double, ny));
     FW_NEED(record->kept = fw_arena_array(arena, double, n));
-    FW_NEED(record->seen_q = fw_arena_array(arena, double, n));
-    FW_NEED(record->seen_angle = fw_arena_array(arena, double, pins));
-    FW_NEED(record->seen_force = fw_arena_array(arena, double, 2 * pins));
+    FW_NEED(record->seen_q = fw_arena_array(arena, double, FW_THIRDS *n));
+    FW_NEED(record->seen_angle = fw_arena_array(arena, double, FW_THIRDS *pins));
+    FW_NEED(record->seen_force = fw_arena_array(arena, double, FW_THIRDS * 2 * pins));
     FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * 2 * pins));
     return problem->options->reactions ? fw_dynamics_run_extremes_new(record) : FW_OK;
 }

@@ -23,21 +23,25 @@ typedef fw_effects_flexed flexed;
 typedef struct bent {           /* deformations, their rates, and what they store */
     double c, n, x, y;          /* of psi, and e.D, n.D = w, v */
     double th, th_rate, w_rate; /* rates: 0 where nothing is dissipated */
-    double z_rate, kx, ky, drift_slope;
+    double z_rate;
     fw_flexure_hinge_bent law;
 } bent;
 
-/* rates of w and of z, and the stiffness against them */
-static inline void rates(const flexed *f, const fw_effects_port_state *s, bent *b) {
-    const double *va = s->w, *vb = s->w + 3, o = f->sense;
-    double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
+/* without the forces of the law */
+static void softness_alone(const flexed *f, bent *b) {
     fw_flexure_hinge_at at;
-    fw_flexure_hinge_law_slopes(&f->law, &f->rest, o * b->th, &at);
+    fw_flexure_hinge_law_slopes(&f->law, &f->rest, f->sense * b->th, &at);
+    b->law.kx_N_per_m = at.kx_N_per_m.value, b->law.ky_N_per_m = at.ky_N_per_m.value;
+    b->law.drift_slope = at.drift_m.slope;
+}
+
+/* rates of w and of z, and the stiffness against them */
+static inline void rates(const fw_effects_port_state *s, bent *b) {
+    const double *va = s->w, *vb = s->w + 3;
+    double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
     b->th_rate = vb[2] - va[2];
     b->w_rate = b->c * ux + b->n * uy + b->y * turning;
-    b->drift_slope = at.drift_m.slope;
-    b->z_rate = b->c * uy - b->n * ux - b->x * turning - b->drift_slope * b->th_rate;
-    b->kx = at.kx_N_per_m.value, b->ky = at.ky_N_per_m.value;
+    b->z_rate = b->c * uy - b->n * ux - b->x * turning - b->law.drift_slope * b->th_rate;
 }
 
 static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
@@ -51,7 +55,10 @@ static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool la
               .th = pb[2] - pa[2] - f->free_rad};
     const double at[3] = {o * b.th, o * b.x, o * b.y};
     if (law) fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &b.law);
-    if (f->loss_s > 0) rates(f, s, &b);
+    if (f->loss_s > 0) {
+        if (!law) softness_alone(f, &b);
+        rates(s, &b);
+    }
     return b;
 }
 
@@ -75,9 +82,9 @@ double fw_effects_flexed_warmth(const fw_effects_force_element *e, const fw_effe
 static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
                               double *f) {
     const bent b = bend(h, s, warm != 0);
-    double o = h->sense * warm, lost = h->loss_s * b.ky * b.z_rate;
-    double moment = o * b.law.gradient[0] - lost * b.drift_slope;
-    double X = o * b.law.gradient[1] + h->loss_s * b.kx * b.w_rate;
+    double o = h->sense * warm, lost = h->loss_s * b.law.ky_N_per_m * b.z_rate;
+    double moment = o * b.law.gradient[0] - lost * b.law.drift_slope;
+    double X = o * b.law.gradient[1] + h->loss_s * b.law.kx_N_per_m * b.w_rate;
     double Y = o * b.law.gradient[2] + lost;
     double both = 0.5 * (Y * b.x - X * b.y); /* half of the couple that the offset makes */
     f[0] = X * b.c - Y * b.n, f[1] = X * b.n + Y * b.c;
@@ -103,7 +110,8 @@ static double energy(const fw_effects_force_element *e, const fw_effects_port_st
 }
 
 static double lost_W(const flexed *h, const bent *b) {
-    return h->loss_s * (b->kx * b->w_rate * b->w_rate + b->ky * b->z_rate * b->z_rate);
+    return h->loss_s *
+           (b->law.kx_N_per_m * b->w_rate * b->w_rate + b->law.ky_N_per_m * b->z_rate * b->z_rate);
 }
 
 double fw_effects_flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s) {

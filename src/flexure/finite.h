@@ -65,6 +65,8 @@ typedef struct fw_flexure_hinge_bent {
     double gradient[3];      /* N m, N, N */
     double hessian[3][3];    /* only where it was asked for */
     bool holds; /* within what the law was compared for (finite_force.c); else it goes on, smooth */
+    /* without force at that rotation: stiffness along and across, slope of the drift */
+    double kx_N_per_m, ky_N_per_m, drift_slope;
 } fw_flexure_hinge_bent;
 void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                const double at[3], bool hessian, fw_flexure_hinge_bent *out);

@@ -240,8 +240,10 @@ INLINE void prepare(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest
     fw_flexure_hinge_law_soft(law, rest, at[0], second, &t->c);
     t->x = wind(law, at[0], second);
     if (law->table) {
-        t->x.alpha = fw_flexure_hinge_series(law->table->pull_x, at[0]);
-        t->x.beta = fw_flexure_hinge_series(law->table->pull_y, at[0]);
+        fw_flexure_hinge_jet pull[2];
+        fw_flexure_hinge_series(law->table->pull_x, law->table->pull_y, law->table->terms, at[0],
+                                second, pull);
+        t->x.alpha = pull[0], t->x.beta = pull[1];
     }
     double half = law->bend_m_per_N > 0 ? 0.25 * law->root_m_per_N / law->bend_m_per_N : 0;
     t->e = law->share * half / 6; /* half: dL/L of one root */
@@ -313,6 +315,9 @@ INLINE void bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *r
     out->gradient[2] = F;
     out->holds = fw_flexure_hinge_law_holds(law, at[0]) && fabs(at[1]) < 0.4 * law->length_m &&
                  fmin(px * F, py * F) > -0.98 * pole_at[0];
+    out->kx_N_per_m = 1 / (t.c.bend_x.value + t.c.rest_x.value);
+    out->ky_N_per_m = 1 / (t.c.bend_y.value + t.c.rest_y.value);
+    out->drift_slope = t.c.drift_m.slope;
     if (!hessian) return;
     (void)slope_of(&t, &s, F, &second);
     double r = t.c.rest_y.value;

@@ -32,13 +32,14 @@ struct fw_flexure_hinge_table {
     double rest_x[FW_PATH_TERMS], rest_y[FW_PATH_TERMS];
     double drift_m[FW_PATH_TERMS];
     double pull_x[FW_PATH_TERMS], pull_y[FW_PATH_TERMS]; /* px, py of finite_force.c, 1/N */
+    int terms; /* behind them all are below 1e-14 of their series */
 };
-/* value and derivatives of such a series at a rotation */
-fw_flexure_hinge_jet fw_flexure_hinge_series(const double series[FW_PATH_TERMS],
-                                             double rotation_rad);
+/* values and derivatives of two such series at a rotation; without `second` no second ones */
+void fw_flexure_hinge_series(const double *first, const double *other, int terms,
+                             double rotation_rad, bool second, fw_flexure_hinge_jet out[2]);
 typedef struct fw_flexure_path_pose { /* at one rotation, in the frame half turned */
     double c[2][2];                   /* softness along and across, m/N */
-    double bend[2]; /* of c[0][0] and c[1][1] what bending does; roots included */
+    double bend[2];                   /* of c[0][0] and c[1][1] what bending does; roots included */
     double third_xxy, third_yyy; /* of -V3 = (xxy Fx^2 Fy + yyy Fy^3)/2: what pull does to it */
     double drift_m[2];           /* of W of a pure moment */
 } fw_flexure_path_pose;

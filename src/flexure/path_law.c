@@ -245,6 +245,24 @@ static double pull_across(const fw_flexure_path_pose *p, double length_m) {
     return straight ? pull_along(p, length_m) : 42 * p->third_yyy / p->bend[1];
 }
 
+static int terms_of(const double *c, int before) {
+    double most = 0;
+    for (int n = 0; n < FW_PATH_TERMS; n++)
+        most = fmax(most, fabs(c[n]));
+    for (int n = FW_PATH_TERMS; n > before; n--)
+        if (fabs(c[n - 1]) > 1e-14 * most) return n;
+    return before;
+}
+
+static int terms_of_all(const struct fw_flexure_hinge_table *t) {
+    const double *const all[] = {t->bend_x,  t->bend_y, t->rest_x, t->rest_y,
+                                 t->drift_m, t->pull_x, t->pull_y};
+    int terms = 1;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        terms = terms_of(all[i], terms);
+    return terms;
+}
+
 fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
                               const fw_flexure_result *closed_form, fw_flexure_hinge_law *law) {
     enum { N = FW_PATH_TERMS };
@@ -269,6 +287,7 @@ fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
             t->pull_x[n] += by * pull_along(p, f.length_m);
             t->pull_y[n] += by * pull_across(p, f.length_m);
         }
+    t->terms = terms_of_all(t);
     fw_flexure_path_pose_at(way, 0, &at[0]);
     *law = (fw_flexure_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
                                   .half_angle_rad = f.half_angle_rad,

@@ -241,7 +241,8 @@ fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_sett
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &saw));
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &looser));
     if (p->mechanism->nhinge > 0)
-        o.observe = fw_verdict_strain_monitor_record, o.context = &saw, o.other = &looser;
+        o.observe = fw_verdict_strain_monitor_record, o.glance = fw_verdict_strain_monitor_glance,
+        o.context = &saw, o.other = &looser;
     fw_status status = move(p, s, &o, &own, &motion);
     if (status == FW_NOMEM || status == FW_CANCELLED || own.failed || saw.no_memory)
         return status == FW_CANCELLED ? status : FW_NOMEM;

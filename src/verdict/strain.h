@@ -59,6 +59,11 @@ fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mec
                                         fw_verdict_strain_monitor *monitor);
 /* an fw_dynamics_observer; context is the monitor */
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *instant);
+/* An fw_dynamics_glance: the thirds of a step are enough where strains are small in it (below 0.6
+   of the peaks so far: within a third of the loosest step, a fifth of an oscillation, none grows
+   by more), or go on so smoothly that the parabola through them is right to 0.3 % of the peak
+   (third difference below 5 %, of which a cubic leaves 6 %). Where cycles are counted none is. */
+bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *third);
 /* Strains of which the numerical error is known from two runs. What stiff axes carry is known less
    well than the rotation: peaks of forces that ride on them come nearer with a tighter tolerance,
    but not at the order of the method. Error: twice what any hinge's largest strain differs by (1.1

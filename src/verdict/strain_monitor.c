@@ -4,6 +4,8 @@
 #include "verdict/strain.h"
 #include <math.h>
 
+enum { FW_GLANCED = 64 }; /* hinges whose thirds are kept; of more all instants are taken */
+
 fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism, bool cycles,
                                         fw_verdict_strain_monitor *monitor) {
     size_t n = (size_t)mechanism->nhinge;
@@ -102,33 +104,70 @@ static fw_status make_beams(fw_verdict_strain_monitor *w) {
     return FW_OK;
 }
 
+static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynamics_instant *now,
+                      fw_verdict_hinge_strains *strain) {
+    const fw_mechanism *m = w->mechanism;
+    const fw_mechanism_hinge *hinge = &m->hinge[k];
+    const fw_mechanism_pin *pin = &m->pin[hinge->pin];
+    const fw_verdict_hinge_load load = {
+        now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
+        now->reaction_N[2 * hinge->pin + 1],
+        0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b)),
+        now->hinge == FW_HINGE_REVOLUTE};
+    fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
+    fw_verdict_hinge_strain(hinge, beam, &load, strain);
+}
+
+static void take(fw_verdict_strain_monitor *w, int k, double t_s,
+                 const fw_verdict_hinge_strains *strain) {
+    fw_verdict_strain_peak_add(&w->hinge[k], t_s, strain->peak);
+    w->hinge[k].least = fmax(w->hinge[k].least, strain->least);
+    w->lost = w->lost || !strain->held;
+}
+
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *now) {
     fw_verdict_strain_monitor *w = context;
-    const fw_mechanism *m = w->mechanism;
     if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
         w->no_memory = make_beams(w) != FW_OK;
-    for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_hinge *hinge = &m->hinge[k];
-        const fw_mechanism_pin *pin = &m->pin[hinge->pin];
+    for (int k = 0; k < w->mechanism->nhinge; k++) {
         if (!now) {
             w->hinge[k] = (fw_verdict_strain_peak){0};
             start_counting(w, k);
             continue;
         }
         if (now->begins) w->hinge[k].samples = 0; /* no parabola across a jump */
-        fw_verdict_hinge_load load = {
-            now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
-            now->reaction_N[2 * hinge->pin + 1],
-            0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b)),
-            now->hinge == FW_HINGE_REVOLUTE};
-        fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
         fw_verdict_hinge_strains strain;
-        fw_verdict_hinge_strain(hinge, beam, &load, &strain);
-        fw_verdict_strain_peak_add(&w->hinge[k], now->t_s, strain.peak);
-        w->hinge[k].least = fmax(w->hinge[k].least, strain.least);
-        w->lost = w->lost || !strain.held;
+        strain_at(w, k, now, &strain);
+        take(w, k, now->t_s, &strain);
         if (w->root) count(w, k, &strain, now);
     }
+}
+
+/* ---- the thirds of a step ---- */
+
+static const double small_share = 0.6, smooth_share = 0.05;
+
+static bool is_enough(const fw_verdict_strain_peak *p, const fw_verdict_hinge_strains *third) {
+    double before = p->s[1], a = third[0].peak, b = third[1].peak, c = third[2].peak;
+    double most = fmax(fmax(before, a), fmax(b, c)), peak = fmax(p->strain, most);
+    return most < small_share * peak || fabs(before - 3 * a + 3 * b - c) < smooth_share * peak;
+}
+
+bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *third) {
+    fw_verdict_strain_monitor *w = context;
+    int n = w->mechanism->nhinge;
+    if (w->root || n > FW_GLANCED) return false;
+    fw_verdict_hinge_strains strain[FW_GLANCED][FW_THIRDS];
+    for (int k = 0; k < n; k++) {
+        if (w->hinge[k].samples < 2) return false;
+        for (int i = 0; i < FW_THIRDS; i++)
+            strain_at(w, k, &third[i], &strain[k][i]);
+        if (!is_enough(&w->hinge[k], strain[k])) return false;
+    }
+    for (int k = 0; k < n; k++)
+        for (int i = 0; i < FW_THIRDS; i++)
+            take(w, k, third[i].t_s, &strain[k][i]);
+    return true;
 }
 
 /* ---- fatigue ---- */

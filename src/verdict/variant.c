@@ -214,6 +214,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &monitor[i]));
         motion.observe = fw_verdict_strain_monitor_record;
+        motion.glance = fw_verdict_strain_monitor_glance;
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
         motion.context = &monitor[i];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
