@@ -24,6 +24,7 @@ typedef struct fw_statics_level_step {
     double angle_rad;    /* largest difference of a hinge's angle */
     double relative;     /* that over the largest hinge angle at the instant; NaN: not computed */
     const char *why_not; /* NULL: computed */
+    bool unknown;        /* not computed, and nothing else bounds what the level used is off by */
 } fw_statics_level_step;
 
 /* of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the

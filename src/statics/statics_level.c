@@ -17,7 +17,7 @@
 #include <string.h>
 
 /* unknowns: more would take longer than the motion itself */
-enum { FW_TRIES = 30, FW_LEVEL_MOST = 180 };
+enum { FW_TRIES = 30, FW_LEVEL_MOST = 300 };
 static const double fw_farthest = 0.5; /* rad or scaled lengths: one step at most */
 
 /* ---- the next level's equilibrium ---- */
@@ -111,7 +111,7 @@ static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high
     FW_TRY(read_state(low, &step->at));
     place(high, step->at.q, high->y);
     if (!settle(high)) {
-        step->why_not = "no equilibrium was found at the next level";
+        step->why_not = "no equilibrium was found at the next level", step->unknown = true;
         return FW_OK;
     }
     FW_TRY(read_state(high, &step->up));
@@ -121,10 +121,21 @@ static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high
 
 /* ---- which level is next ---- */
 
-static bool acts(const fw_effect_ledger *ledger, const char *id) {
+static const fw_effect_entry *entry_of(const fw_effect_ledger *ledger, const char *id) {
     for (int i = 0; i < ledger->count; i++)
-        if (strcmp(ledger->item[i].id, id) == 0) return ledger->item[i].active;
-    return false;
+        if (strcmp(ledger->item[i].id, id) == 0) return &ledger->item[i];
+    return NULL;
+}
+
+static bool acts(const fw_effect_ledger *ledger, const char *id) {
+    const fw_effect_entry *entry = entry_of(ledger, id);
+    return entry && entry->active;
+}
+
+/* pins without a step: known is what they leave out where its bound let auto leave it out */
+static bool pins_unknown(const fw_effect_ledger *ledger) {
+    const fw_effect_entry *entry = entry_of(ledger, "nonlinear-hinge");
+    return entry && entry->called_for && !isfinite(entry->bound);
 }
 
 static fw_statics_level_step *begin(fw_arena *arena, const fw_mechanism *m,
@@ -150,12 +161,13 @@ static fw_status next_loads(fw_arena *arena, const fw_mechanism *m, const fw_dev
     /* what they do to a flexure that gives is not in the loads of a pin */
     bool warm = acts(ledger, "temperature") || acts(ledger, "residual-stress");
     if (3 * m->nbody > FW_LEVEL_MOST)
-        step->why_not = "the mechanism is too large to be examined";
+        step->why_not = "the mechanism is too large to be examined", step->unknown = true;
     else if (step->next == step->used)
         step->why_not = step->used == FW_HINGE_ELASTICA ? "exact beams are the highest level here"
                                                         : "no hinge has a law of its own";
     else if (step->used == FW_HINGE_REVOLUTE && warm)
-        step->why_not = "temperature and residual stress act on hinges that give in another way";
+        step->why_not = "temperature and residual stress act on hinges that give in another way",
+        step->unknown = pins_unknown(ledger);
     return FW_OK;
 }
 
@@ -242,7 +254,7 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     place(&low, x->q + (size_t)row * 3 * (size_t)m->nbody, low.y);
     fw_status status = fw_statics_equilibrium_evaluate(&low);
     if (status == FW_SOLVER) {
-        step->why_not = "the pose of the peak could not be evaluated";
+        step->why_not = "the pose of the peak could not be evaluated", step->unknown = true;
         return FW_OK;
     }
     FW_TRY(status);

@@ -5,9 +5,11 @@
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
        it would touch with voltages higher by what fringe fields can do: inconclusive,
      - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
-       inconclusive.
+       inconclusive,
+     - nothing says what its model of the hinges is off by: inconclusive.
    Test: test_program.py. */
 #include "verdict/verdict_parts.h"
+#include "statics/level.h"
 #include "statics/quasi.h"
 #include <math.h>
 
@@ -166,6 +168,21 @@ static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene,
                stability->text);
 }
 
+/* the step to the next level of hinges is what their model is off by; 2.9 % in its place are of other
+   devices */
+static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
+                             const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
+    const fw_statics_level_step *step = motion->level;
+    if (!step || !step->unknown) return FW_OK;
+    return add(v, scene, 293, FW_INCONCLUSIVE, 0.5,
+               fw_arena_printf(arena,
+                               "what the model of the hinges (%s) is off by in scene %s is not "
+                               "known: %s; lower the load, or ask for exact beams with "
+                               "--hinge-model elastica",
+                               fw_effects_hinge_model_text(step->used), scene->name,
+                               step->why_not));
+}
+
 fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v) {
@@ -185,5 +202,6 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     }
     FW_TRY(status);
     FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
+    FW_TRY(judge_level(arena, scene, v->motion[i], v));
     return judge_stability(arena, scene, v->motion[i], diags, v);
 }
