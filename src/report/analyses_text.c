@@ -62,6 +62,22 @@ static void mode_row(fw_text *out, int number, const fw_statics_mode *m) {
     fw_text_add(out, "\n");
 }
 
+static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
+    char all[32], model[32], stiffness[32];
+    if (!isfinite(modes->frequency_error)) {
+        fw_text_add(out, "what the model of the hinges does to frequencies is not known\n");
+        return;
+    }
+    fw_percent_text(all, sizeof all, modes->frequency_error);
+    fw_percent_text(model, sizeof model, modes->ledger.hinge.error);
+    fw_percent_text(stiffness, sizeof stiffness, modes->stiffness_error);
+    fw_text_printf(out,
+                   "frequencies off by up to %s %%: the model of the hinges %s %%, and half of %s "
+                   "%%, the error of a flexure's stiffness%s\n",
+                   all, model, stiffness,
+                   modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
+}
+
 fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_modes *modes,
                                fw_text *out) {
     fw_text_printf(out, "scene %s, %s\n", scene->name ? scene->name : "(none)",
@@ -77,12 +93,8 @@ fw_status fw_report_modes_text(const fw_device_scene *scene, const fw_statics_mo
         fw_text_printf(out, "\nhinges as %s: %s",
                        fw_effects_hinge_model_text(modes->ledger.hinge.used),
                        modes->ledger.hinge.why);
-        if (isfinite(modes->ledger.hinge.error)) {
-            char by[32];
-            fw_percent_text(by, sizeof by, modes->ledger.hinge.error);
-            fw_text_printf(out, "; frequencies off by up to %s %%", by);
-        }
         fw_text_add(out, "\n");
+        frequencies_off(modes, out);
     }
     return fw_text_end(out);
 }

@@ -229,6 +229,8 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
     fw_json_text(&json, "at", modes->at_equilibrium ? "equilibrium" : "rest");
     fw_json_real(&json, "out_of_rest", modes->out_of_rest);
     fw_json_real(&json, "unit_length_m", modes->unit_length_m);
+    fw_json_real(&json, "frequency_error", modes->frequency_error);
+    fw_json_real(&json, "stiffness_error", modes->stiffness_error);
     rank(&json, &modes->rank);
     by_body(&json, "q", mechanism, modes->q);
     fw_json_list(&json, "modes");

@@ -51,6 +51,10 @@ typedef struct fw_statics_modes {
     double out_of_rest;    /* what a Newton step to equilibrium would move at most, rad or unit
                              lengths; 0 within round-off at an equilibrium, infinite: there is
                              none */
+    /* Relative, of every frequency: what the next model of the hinges changes, and half of the error
+       of a flexure's stiffness against solids (0 where all are stated), since a frequency goes with
+       the root of it. Masses are taken as exact. NaN: not known, infinite never; 0: no flexures */
+    double frequency_error, stiffness_error;
     fw_statics_row_rank rank;
     fw_effect_ledger ledger;
 } fw_statics_modes;

@@ -395,6 +395,14 @@ fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
     return FW_OK;
 }
 
+/* the largest of any flexure: a mode may live in that one alone */
+static double stiffness_error(const fw_mechanism *m) {
+    double most = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
+    return most;
+}
+
 static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
                           const fw_device_scene *scene, const fw_statics_mode_options *options,
                           const fw_effect_choice *choice, fw_diags *diags,
@@ -437,6 +445,9 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
         *to = *found;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
+        to->stiffness_error = stiffness_error(mechanism);
+        to->frequency_error =
+            0.5 * to->stiffness_error + (mechanism->nhinge > 0 ? to->ledger.hinge.error : 0);
         *modes = to;
         return FW_OK;
     }

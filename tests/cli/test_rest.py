@@ -126,6 +126,9 @@ class Modes(InTemporary):
             data = json.loads(self.expect(run("modes", GALLERY, "--scene", "step-load", "--json", *arguments)).stdout)
             self.assertEqual(data["schema"], "flexwright.modes/1")
             self.assertEqual(len(data["modes"]), 3)
+            # its stiffnesses are stated: what is left is how flexures are taken
+            self.assertEqual(data["stiffness_error"], 0)
+            self.assertEqual(data["frequency_error"], data["hinge_model"]["error"])
             for mode, (omega, re, im) in zip(data["modes"], table):
                 self.close(mode["omega_rad_per_s"], 1e3 * omega, 1e-12)
                 self.close(mode["f_Hz"], 1e3 * omega / (2 * math.pi), 1e-12)
@@ -133,6 +136,13 @@ class Modes(InTemporary):
                 self.close(mode["eigenvalue_per_s"][1], 1e3 * im, 1e-12)
                 self.assertEqual(mode["kind"], "oscillation")
                 self.assertEqual(set(mode["shape"]), {"AB", "BC", "CD", "DE", "EF"})
+
+    def test_frequencies_carry_what_the_model_is_uncertain_by(self):
+        result = self.expect(run("modes", HingeModels.LEAF))
+        self.assertRegex(result.stdout, r"frequencies off by up to \d.*: the model of the hinges \d.* %, and half of \d")
+        data = json.loads(self.expect(run("modes", HingeModels.LEAF, "--json")).stdout)
+        self.assertGreater(data["stiffness_error"], 0.01)
+        self.close(data["frequency_error"], data["hinge_model"]["error"] + data["stiffness_error"] / 2, 1e-12)
 
     def test_output_directory_and_text(self):
         out = self.here / "out"
