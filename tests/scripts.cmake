@@ -51,6 +51,7 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
 fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
                tests/data/hinge)
+fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})

@@ -54,6 +54,10 @@ void fw_effects_loads_element_force(const fw_mechanism *m, const fw_effects_forc
         if (e->port[i / 3].body != FW_GROUND) force[3 * e->port[i / 3].body + i % 3] += local[i];
 }
 
+fw_geometry_vec2 fw_effects_element_root(const fw_effects_force_element *e, int port) {
+    return port < 2 ? e->root_m[port] : (fw_geometry_vec2){0, 0};
+}
+
 void fw_effects_loads_element_drag(const fw_mechanism *m, const fw_effects_force_element *e,
                                    double strain, fw_geometry_vec2 centre, double *force) {
     still s;
@@ -63,8 +67,9 @@ void fw_effects_loads_element_drag(const fw_mechanism *m, const fw_effects_force
     memcpy(before, s.f, 3 * (size_t)e->ports * sizeof *before);
     for (int i = 0; i < e->ports; i++)
         if (e->port[i].body == FW_GROUND) {
-            s.w[3 * i] = strain * (e->port[i].x_m - centre.x);
-            s.w[3 * i + 1] = strain * (e->port[i].y_m - centre.y);
+            const fw_geometry_vec2 root = fw_effects_element_root(e, i);
+            s.w[3 * i] = strain * (e->port[i].x_m + root.x - centre.x);
+            s.w[3 * i + 1] = strain * (e->port[i].y_m + root.y - centre.y);
         }
     e->class_->force(&s.e, &s.state, s.f);
     for (int i = 0; i < 3 * e->ports; i++)

@@ -33,6 +33,8 @@ typedef struct fw_effects_port_state { /* what an element sees */
 } fw_effects_port_state;
 
 typedef struct fw_effects_force_element fw_effects_force_element;
+/* of a port: 0 but for those of flexures */
+fw_geometry_vec2 fw_effects_element_root(const fw_effects_force_element *element, int port);
 
 typedef struct fw_effects_element_class {
     const char *effect; /* id of its row in the ledger */
@@ -62,6 +64,9 @@ typedef struct fw_effects_element_class {
 
 enum { FW_ELEMENT_LAWS = 2 };
 struct fw_effects_force_element {
+    /* a strain of its body moves either of the first two ports as it does the point this far from it
+       (fw_mechanism_pin); else 0 */
+    fw_geometry_vec2 root_m[2];
     const fw_effects_element_class *class_;
     const char *id; /* for messages */
     fw_place place;

@@ -57,6 +57,7 @@ fw_status fw_effects_hinge_release(const fw_effect_case *c, fw_effects_loads *lo
     e->pin = h->pin;
     e->port[0] = (fw_effects_port){pin->body_a, pin->ax_m, pin->ay_m};
     e->port[1] = (fw_effects_port){pin->body_b, pin->bx_m, pin->by_m};
+    e->root_m[0] = pin->root_a_m, e->root_m[1] = pin->root_b_m;
     e->size_N_per_m = fmax(at.kx_N_per_m.value, at.ky_N_per_m.value);
     e->dissipates = f->loss_s > 0;
     if (m->device && h->pin < m->device->nrevolute) e->place = m->device->revolute[h->pin].place;

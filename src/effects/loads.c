@@ -252,8 +252,8 @@ static fw_status own_arrays(fw_arena *arena, fw_effects_loads *t) {
 static void strain_ports(const fw_effects_loads *loads, fw_geometry_vec2 centre,
                          fw_effects_force_element *e) {
     for (int i = 0; i < e->ports; i++)
-        fw_mechanism_strain_point(loads->strain, loads->nbody, centre, e->port[i].body,
-                                  &e->port[i].x_m, &e->port[i].y_m);
+        fw_mechanism_strain_pin(loads->strain, loads->nbody, centre, e->port[i].body,
+                                fw_effects_element_root(e, i), &e->port[i].x_m, &e->port[i].y_m);
 }
 
 /* Inputs: loads->strain, dimensionless. Every point of the loads moves with the material

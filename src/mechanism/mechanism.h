@@ -44,6 +44,10 @@ typedef struct
     double ax_m, ay_m, bx_m, by_m;
     double stiffness_Nm_per_rad, damping_Nms_per_rad, free_angle_rad;
     int hinge; /* index into mechanism->hinge, or FW_NONE */
+    /* From the pin to where the flexure begins in each body, in its frame: a body that becomes
+       longer takes the pin along as it does that place, since the flexure itself does not; 0 where
+       there is no flexure or its axis is not known */
+    fw_geometry_vec2 root_a_m, root_b_m;
     /* stops at these joint angles; stiffness 0: none; NaN: not on this side */
     double stop_min_rad, stop_max_rad, stop_stiffness_Nm_per_rad, stop_damping_Nms_per_rad;
 } fw_mechanism_pin;
@@ -115,6 +119,9 @@ fw_geometry_vec2 fw_mechanism_ground_centre(const fw_mechanism *mechanism);
    ground (strain[nbody]) away from the centre */
 void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
                                double *x_m, double *y_m);
+/* the same of one that goes with another place of the body, `root` away from it */
+void fw_mechanism_strain_pin(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
+                             fw_geometry_vec2 root, double *x_m, double *y_m);
 
 /* what the closed form of a joint's flexure takes in this variant: the file's sizes, with the
    fillet that was drawn (layout may be NULL) */

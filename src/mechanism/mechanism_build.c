@@ -319,6 +319,22 @@ static void move_pin(const fw_mechanism_builder *b, fw_mechanism_hinge *hinge,
     pin->bx_m += hinge->off_b_m.x, pin->by_m += hinge->off_b_m.y;
 }
 
+/* the ends of the strip, seen from its centre of compliance */
+static void find_roots(const fw_mechanism_builder *b, const fw_mechanism_hinge *hinge,
+                       fw_mechanism_pin *pin) {
+    const fw_flexure_path_strain *strip = &hinge->section;
+    double c = cos(hinge->axis_rad), s = sin(hinge->axis_rad);
+    if (!isfinite(hinge->axis_rad) || strip->n < 2) return;
+    fw_geometry_vec2 root[2];
+    for (int i = 0; i < 2; i++) {
+        const fw_flexure_path_point *p = &strip->point[i ? strip->n - 1 : 0];
+        double x = p->x_m - strip->W_m[0], y = p->y_m - strip->W_m[1];
+        root[i] = (fw_geometry_vec2){c * x - s * y, s * x + c * y};
+    }
+    pin->root_a_m = turned_back(body_of(b, pin->body_a), root[hinge->first_is_a ? 0 : 1]);
+    pin->root_b_m = turned_back(body_of(b, pin->body_b), root[hinge->first_is_a ? 1 : 0]);
+}
+
 /* a stated stiffness was measured, or computed better than here: what made it another one than the
    geometry's makes the strip's other forces others by as much */
 static fw_status scale_hinge(const fw_mechanism_builder *b, double by, fw_mechanism_hinge *hinge) {
@@ -345,6 +361,7 @@ static fw_status build_pin(const fw_mechanism_builder *b, int j) {
         FW_TRY(flexure_result(b, j, from, hinge));
         set_hinge_shape(b, j, from, hinge);
         move_pin(b, hinge, to);
+        find_roots(b, hinge, to);
         to->hinge = b->mechanism->nhinge++;
         double own = hinge->closed_form.stiffness_Nm_per_rad;
         if (to->stiffness_Nm_per_rad > 0)

@@ -61,10 +61,15 @@ fw_geometry_vec2 fw_mechanism_ground_centre(const fw_mechanism *m) {
 
 void fw_mechanism_strain_point(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
                                double *x_m, double *y_m) {
+    fw_mechanism_strain_pin(strain, nbody, centre, body, (fw_geometry_vec2){0, 0}, x_m, y_m);
+}
+
+void fw_mechanism_strain_pin(const double *strain, int nbody, fw_geometry_vec2 centre, int body,
+                             fw_geometry_vec2 root, double *x_m, double *y_m) {
     bool ground = body == FW_GROUND;
     double e = strain[ground ? nbody : body];
-    *x_m += e * (*x_m - (ground ? centre.x : 0));
-    *y_m += e * (*y_m - (ground ? centre.y : 0));
+    *x_m += e * (*x_m + root.x - (ground ? centre.x : 0));
+    *y_m += e * (*y_m + root.y - (ground ? centre.y : 0));
 }
 
 /* Inputs: strain (nbody + 1), dimensionless; output: a copy that shares what does not change.
@@ -82,8 +87,10 @@ fw_status fw_mechanism_strained(fw_arena *arena, const fw_mechanism *from, const
     for (int i = 0; i < from->npin; i++) {
         fw_mechanism_pin *p = &to->pin[i];
         *p = from->pin[i];
-        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_a, &p->ax_m, &p->ay_m);
-        fw_mechanism_strain_point(strain, from->nbody, centre, p->body_b, &p->bx_m, &p->by_m);
+        fw_mechanism_strain_pin(strain, from->nbody, centre, p->body_a, p->root_a_m, &p->ax_m,
+                                &p->ay_m);
+        fw_mechanism_strain_pin(strain, from->nbody, centre, p->body_b, p->root_b_m, &p->bx_m,
+                                &p->by_m);
     }
     for (int i = 0; i < from->njoint; i++) {
         fw_device_joint *t = &to->joint[i];

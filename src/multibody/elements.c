@@ -69,7 +69,8 @@ static fw_effects_port_state look(const fw_multibody_system *sys, const fw_multi
             p[0] = length * rx, p[1] = length * ry, p[2] = 0;
             w[0] = w[1] = w[2] = 0;
             if (m->stretch.law) { /* and moves */
-                const double local[2] = {at->x_m, at->y_m};
+                const fw_geometry_vec2 root = fw_effects_element_root(e->own, i);
+                const double local[2] = {at->x_m + root.x / length, at->y_m + root.y / length};
                 double gain[2];
                 fw_multibody_stretch_gain(m, local, gain);
                 for (int c = 0; c < 2; c++) {

@@ -443,7 +443,7 @@ fw_status fw_multibody_model_new(fw_arena *arena, const fw_mechanism *mechanism,
     m->size = fmax(m->size, 1);
     if (loads) FW_TRY(set_applied_loads(&b));
     if (loads && loads->stretch.law)
-        FW_TRY(fw_multibody_stretch_new(arena, &loads->stretch, b.centre, m));
+        FW_TRY(fw_multibody_stretch_new(arena, mechanism, &loads->stretch, b.centre, m));
     if (loads) FW_TRY(fw_multibody_friction_joints(arena, mechanism, loads, m));
     set_energy_integrals(m);
     FW_TRY(fw_multibody_chain_compile(arena, m));

@@ -40,8 +40,9 @@ typedef struct fw_multibody_scratch {
 fw_status fw_multibody_elements_new(fw_arena *arena, fw_multibody_model *m,
                                     const fw_effects_loads *loads, fw_geometry_vec2 centre);
 /* stretch.c: centre: m, origin of the scaled coordinates. After blocks and springs. */
-fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_effects_stretch *from,
-                                   fw_geometry_vec2 centre, fw_multibody_model *m);
+fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_effects_stretch *from, fw_geometry_vec2 centre,
+                                   fw_multibody_model *m);
 /* multibody_friction.c: joints with friction; after blocks */
 fw_status fw_multibody_friction_joints(fw_arena *arena, const fw_mechanism *mechanism,
                                        const fw_effects_loads *loads, fw_multibody_model *m);

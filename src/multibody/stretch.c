@@ -4,7 +4,7 @@
 
      g law(t),   g = s (p_b - centre) where b is the ground, -s (p_a - centre) where a is,
 
-   so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
+   (of a flexure that a pin stands for p is where the strip begins), so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
    move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
    feeds in goes to the energy balance: lambda . Psi_t of the joints (rhs.c), and that of springs
    and slides (forces.c). Test: test_constraints.c, test_temperature.c. */
@@ -15,16 +15,25 @@ void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2
         gain[k] = m->stretch.strain * (local[k] - m->stretch.centre[k]);
 }
 
+/* of a point that goes with one `root_m` away from it: a pin that a flexure stands for */
+static void gain_of_pin(const fw_multibody_model *m, const double local[2],
+                        const fw_geometry_vec2 *root_m, double gain[2]) {
+    const double at[2] = {local[0] + (root_m ? root_m->x / m->scale.length_m : 0),
+                          local[1] + (root_m ? root_m->y / m->scale.length_m : 0)};
+    fw_multibody_stretch_gain(m, at, gain);
+}
+
 /* g of every block: of b's point, less that of a's */
-static void gain_of_blocks(fw_multibody_model *m) {
+static void gain_of_blocks(const fw_mechanism *mechanism, fw_multibody_model *m) {
     fw_multibody_stretch *s = &m->stretch;
     for (int i = 0; i < m->nblock; i++) {
         const fw_multibody_block *b = &m->block[i];
+        const fw_mechanism_pin *pin = b->pin != FW_NONE ? &mechanism->pin[b->pin] : NULL;
         double *g = s->block + 2 * i;
         if (b->b == m->nbody) {
-            fw_multibody_stretch_gain(m, m->local + 4 * i + 2, g);
+            gain_of_pin(m, m->local + 4 * i + 2, pin ? &pin->root_b_m : NULL, g);
         } else if (b->a == m->nbody) {
-            fw_multibody_stretch_gain(m, m->local + 4 * i, g);
+            gain_of_pin(m, m->local + 4 * i, pin ? &pin->root_a_m : NULL, g);
             g[0] = -g[0], g[1] = -g[1];
         }
     }
@@ -40,15 +49,16 @@ static void gain_of_springs(fw_multibody_model *m) {
     }
 }
 
-fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_effects_stretch *from,
-                                   fw_geometry_vec2 centre, fw_multibody_model *m) {
+fw_status fw_multibody_stretch_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                   const fw_effects_stretch *from, fw_geometry_vec2 centre,
+                                   fw_multibody_model *m) {
     fw_multibody_stretch *s = &m->stretch;
     s->strain = from->strain;
     s->centre[0] = (from->centre_m.x - centre.x) / m->scale.length_m;
     s->centre[1] = (from->centre_m.y - centre.y) / m->scale.length_m;
     FW_NEED(s->block = fw_arena_array(arena, double, 2 * (size_t)m->nblock));
     FW_NEED(s->spring = fw_arena_array(arena, double, 4 * (size_t)m->nspring));
-    gain_of_blocks(m);
+    gain_of_blocks(mechanism, m);
     gain_of_springs(m);
     s->law = from->law;
     m->driven = true;
