@@ -17,18 +17,29 @@
 #include <string.h>
 
 /* unknowns: more would take longer than the motion itself */
-enum { FW_TRIES = 30, FW_LEVEL_MOST = 300 };
+enum { FW_TRIES = 30, FW_HALVINGS = 6, FW_LEVEL_MOST = 300 };
 static const double fw_farthest = 0.5; /* rad or scaled lengths: one step at most */
 
 /* ---- the next level's equilibrium ---- */
 
+/* part of the last step back, where the new level does not reach so far */
+static bool step_back(fw_statics_equilibrium *w, double part) {
+    for (int half = 0; half < FW_HALVINGS; half++) {
+        part /= 2;
+        for (int k = 0; k < w->model->nq; k++)
+            w->y[k] -= part * w->step[k];
+        if (fw_statics_equilibrium_evaluate(w) == FW_OK) return true;
+    }
+    return false;
+}
+
 static bool settle(fw_statics_equilibrium *w) {
-    double before = (double)INFINITY;
+    double before = (double)INFINITY, part = 0;
     for (int i = 0; i < FW_TRIES; i++) {
-        if (fw_statics_equilibrium_evaluate(w) != FW_OK) return false;
+        if (fw_statics_equilibrium_evaluate(w) != FW_OK && !step_back(w, part)) return false;
         double most = fw_statics_equilibrium_newton(w, w->step);
         if (!isfinite(most)) return false;
-        double part = fmin(1, fw_farthest / fmax(most, 1e-300));
+        part = fmin(1, fw_farthest / fmax(most, 1e-300));
         for (int k = 0; k < w->model->nq; k++)
             w->y[k] += part * w->step[k];
         if (most <= 1e-11 ||
@@ -105,13 +116,28 @@ static void compare(const fw_mechanism *m, const double *rest, const double leas
         fmax(deflected > 0 ? step->angle_rad / deflected : 0, way > 0 ? apart / way : 0);
 }
 
+/* ---- what is known without it ---- */
+
+static const fw_effect_entry *entry_of(const fw_effect_ledger *ledger, const char *id) {
+    for (int i = 0; i < ledger->count; i++)
+        if (strcmp(ledger->item[i].id, id) == 0) return &ledger->item[i];
+    return NULL;
+}
+
+/* pins without a step: known is what they leave out where its bound let auto leave it out */
+static bool pins_unknown(const fw_effect_ledger *ledger) {
+    const fw_effect_entry *entry = entry_of(ledger, "nonlinear-hinge");
+    return entry && entry->called_for && !isfinite(entry->bound);
+}
+
 /* after both are built: `low` evaluated at its pose, `high` under the same loads */
 static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high,
                        const double least[2], fw_statics_level_step *step) {
     FW_TRY(read_state(low, &step->at));
     place(high, step->at.q, high->y);
     if (!settle(high)) {
-        step->why_not = "no equilibrium was found at the next level", step->unknown = true;
+        step->why_not = "no equilibrium was found at the next level";
+        step->unknown = step->used != FW_HINGE_REVOLUTE || pins_unknown(&low->ledger);
         return FW_OK;
     }
     FW_TRY(read_state(high, &step->up));
@@ -121,21 +147,9 @@ static fw_status climb(fw_statics_equilibrium *low, fw_statics_equilibrium *high
 
 /* ---- which level is next ---- */
 
-static const fw_effect_entry *entry_of(const fw_effect_ledger *ledger, const char *id) {
-    for (int i = 0; i < ledger->count; i++)
-        if (strcmp(ledger->item[i].id, id) == 0) return &ledger->item[i];
-    return NULL;
-}
-
 static bool acts(const fw_effect_ledger *ledger, const char *id) {
     const fw_effect_entry *entry = entry_of(ledger, id);
     return entry && entry->active;
-}
-
-/* pins without a step: known is what they leave out where its bound let auto leave it out */
-static bool pins_unknown(const fw_effect_ledger *ledger) {
-    const fw_effect_entry *entry = entry_of(ledger, "nonlinear-hinge");
-    return entry && entry->called_for && !isfinite(entry->bound);
 }
 
 static fw_statics_level_step *begin(fw_arena *arena, const fw_mechanism *m,
@@ -250,6 +264,7 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     if (step->why_not) return FW_OK;
     FW_TRY(in_time(&low, arena, m, scene, &loads, &own));
     FW_TRY(in_time(&high, arena, m, scene, &up, &own));
+    low.ledger = x->ledger;
     at_time(&low, step->t_s);
     place(&low, x->q + (size_t)row * 3 * (size_t)m->nbody, low.y);
     fw_status status = fw_statics_equilibrium_evaluate(&low);
