@@ -10,9 +10,9 @@
    material dissipates and what temperature does are as in hinge_element.c: the closed form's kx, ky
    and drift are good enough for a loss.
 
-   Every solution starts from the unloaded beam, so that the force depends on the pose alone, to the
-   last bit: not on the way there, nor on what was asked for before. That costs no more than a start
-   from the last pose (5.7 against 5.1 us). What is kept is the answer for the last pose, which
+   Every solution starts near the wrench of the closed form for this pose, or where that does not lead
+   to it from the unloaded beam, so that the force depends on the pose alone, to the last bit: not on
+   the way there, nor on what was asked for before. What is kept is the answer for the last pose, which
    force, tangent and energy all ask for in turn.
    Inputs p in m and rad; outputs N, N m. Valid where the beam has an equilibrium on its primary
    branch for the pose (`valid` says where not; the force is then that of the closed form, so that a
@@ -113,8 +113,10 @@ static bool hardly_bent(fw_effects_exact *x) {
 }
 
 /* the beam at this place; false: it has no equilibrium there */
-static bool solve(fw_effects_exact *x, const double twist[3]) {
+static bool solve(const fw_effects_flexed *h, const double twist[3]) {
+    fw_effects_exact *x = h->exact;
     fw_flexure_elastica_result r;
+    double near[3], unused[3][3];
     if (x->asked && x->twist[0] == twist[0] && x->twist[1] == twist[1] && x->twist[2] == twist[2])
         return x->held;
     x->asked = true;
@@ -122,7 +124,8 @@ static bool solve(fw_effects_exact *x, const double twist[3]) {
     memcpy(x->twist, twist, sizeof x->twist);
     if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->length_m) < linear)
         return x->held = hardly_bent(x);
-    fw_flexure_elastica_of_twist(x->solver, twist, fw_effects_exact_tolerance, false, &r);
+    fw_flexure_hinge_law_wrench(&h->law, &h->rest, twist, near, unused);
+    fw_flexure_elastica_near(x->solver, twist, near, fw_effects_exact_tolerance, &r);
     x->held = good(&r, x->length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
     take_stiffness(&r, x->k);
@@ -133,7 +136,7 @@ static void force(const fw_effects_force_element *e, const fw_effects_port_state
     const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
     double rate, warm = fw_effects_flexed_warmth(e, s, &rate);
-    if (!solve(h->exact, at.twist)) {
+    if (!solve(h, at.twist)) {
         fw_effects_flexed_force(h, s, warm, f);
         return;
     }
@@ -150,7 +153,7 @@ static double stored(const fw_effects_flexed *h,
                      const fw_effects_port_state *s) { /* U where it was made */
     fw_effects_exact *x = h->exact;
     const place at = place_of(h, s->p);
-    if (!solve(x, at.twist)) return (double)NAN;
+    if (!solve(h, at.twist)) return (double)NAN;
     if (!x->weighed) x->energy_J = fw_flexure_elastica_energy_J(x->solver);
     x->weighed = true;
     return x->energy_J;
@@ -209,7 +212,7 @@ static void tangent(const fw_effects_force_element *e, const fw_effects_port_sta
     const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
     double rate, warm = fw_effects_flexed_warmth(e, s, &rate), j[3][N];
-    if (!solve(h->exact, at.twist)) {
+    if (!solve(h, at.twist)) {
         fw_effects_flexed_tangent(h, s, warm, stiffness, damping);
         return;
     }
@@ -231,7 +234,7 @@ static bool valid(const fw_effects_force_element *e, const fw_effects_port_state
                   const char **why) {
     const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
-    if (solve(h->exact, at.twist)) return true;
+    if (solve(h, at.twist)) return true;
     *why = "the flexure as an exact beam has no equilibrium that can be reached from rest with its "
            "ends in that place: it would buckle or close; lower the load, or look at "
            "--hinge-model compliance";

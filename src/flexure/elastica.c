@@ -5,6 +5,8 @@
 #include "maths/dense.h"
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 /* ---- the result ---- */
 
@@ -36,7 +38,7 @@ static void tangent_of(const fw_flexure_end_state *end, double k[3][3]) {
 }
 
 typedef struct errors {
-    double twist[3], wrench[3], mesh, whole; /* mesh: without rounding */
+    double twist[3], wrench[3], mesh, round, whole; /* mesh, round: without the other */
 } errors;
 
 static double relative(const double twist[3], const double wrench[3], const double *value) {
@@ -58,6 +60,9 @@ static void judge(const fw_flexure_newton *fine, const double *coarse, const fw_
     }
     rounding(k, round[0], round[1]);
     out->mesh = relative(out->twist, out->wrench, fine->end.value);
+    for (int i = 0; i < 3; i++)
+        round[g->given[i] / 3][g->given[i] % 3] = 0;
+    out->round = relative(round[0], round[1], fine->end.value);
     for (int i = 0; i < 3; i++)
         out->twist[i] += round[0][i], out->wrench[i] += round[1][i];
     for (int i = 0; i < 3; i++)
@@ -128,7 +133,8 @@ static void refine(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, 
         e->sign = n->stability < 0 ? -1 : 1;
         out->mesh = e->mesh[level + 1].count;
         out->code = err.whole <= w->tolerance ? FW_ELASTICA_OK : FW_ELASTICA_ROUGH;
-        if (err.mesh <= w->tolerance) return;
+        if (getenv("FW_T")) fprintf(stderr," [level %d mesh %g whole %g]\n",level,err.mesh,err.whole);
+        if (err.whole <= w->tolerance || err.mesh <= err.round) return; /* no mesh rounds less */
     }
 }
 
@@ -150,6 +156,23 @@ static double stop_before(fw_flexure_elastica *e, int level, const fw_flexure_go
     }
     out->code = FW_ELASTICA_FAILED;
     return 0;
+}
+
+/* the coarsest mesh that resolves how a strip bends near its roots under the force guessed, over
+   lengths of 1/sqrt(F): of h^2 F above this Newton's method over 8 nodes comes near slowly or not */
+static const double fw_resolved = 40;
+
+static int first_level(fw_flexure_elastica *e, const double *guess) {
+    if (!guess) return 0;
+    double force = hypot(guess[1], guess[2]), most = 0;
+    for (int n = 0; n < e->mesh[0].count; n++) {
+        const fw_flexure_element *el = &e->mesh[0].element[n];
+        most = fmax(most, force * el->h * el->turn); /* turn: h over EI */
+    }
+    int level = 0;
+    for (; level < FW_LEVELS - 2 && most > fw_resolved; level++)
+        most *= 0.25;
+    return level;
 }
 
 static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
@@ -176,8 +199,8 @@ static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
    rounding; the true one is smaller by orders. Cost: tests/bench/bench_hinge.c. Source: Reissner,
    ZAMP 23 (1972) 795; Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1 and VI.4;
    docs/theory/beams.md. Test: test_elastica.c, test_elastica_bench.c */
-void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
-                               double tolerance, bool warm, fw_flexure_elastica_result *out) {
+static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, double tolerance,
+                 bool warm, const double *guess, fw_flexure_elastica_result *out) {
     fw_flexure_goal g = {0}, part = {0};
     fw_flexure_newton n = {0};
     *out = (fw_flexure_elastica_result){.code = FW_ELASTICA_LOOSE};
@@ -187,13 +210,14 @@ void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica
     fw_flexure_elastica_unloaded(e, &g);
     if (e->unloaded == 0 && !warm) return;
     fw_flexure_way w = {.warm = warm,
+                        .guess = guess,
                         .tolerance = fmax(tolerance, 1e-13),
                         .sign = e->unloaded == 0 ? 0
                                 : warm           ? e->sign
                                                  : 1};
     double reached = -1;
     bool found = false;
-    for (int level = warm ? e->solved - 1 : 0; level < FW_LEVELS - 1; level++) {
+    for (int level = warm ? e->solved - 1 : first_level(e, guess); level < FW_LEVELS - 1; level++) {
         fw_flexure_mesh_fill(e, level);
         part = g;
         found = fw_flexure_elastica_reach(e, level, &part, &w, &n);
@@ -214,6 +238,21 @@ void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica
     out->reached = out->code == FW_ELASTICA_LIMIT ? reached : found ? 1 : 0;
     out->passes = e->passes;
     out->steps = w.steps;
+}
+
+void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                               double tolerance, bool warm, fw_flexure_elastica_result *out) {
+    find(e, task, tolerance, warm, NULL, out);
+}
+
+void fw_flexure_elastica_near(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
+                              double tolerance, fw_flexure_elastica_result *out) {
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                           {twist[0], twist[1], twist[2]}};
+    double guess[3];
+    for (int i = 0; i < 3; i++)
+        guess[i] = wrench[i] / unit(e, FW_END_M + i);
+    find(e, &task, tolerance, false, guess, out);
 }
 
 void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,
@@ -262,6 +301,11 @@ fw_status fw_flexure_elastica_new(fw_arena *arena, const fw_flexure_beam *beam,
     fw_flexure_beam_compliance(beam, &e->linear);
     e->length_m = e->linear.length_m;
     e->soft = e->linear.c[0][0];
+    double mean = 0.5 * (e->linear.c[1][1] + e->linear.c[2][2]);
+    double off = hypot(0.5 * (e->linear.c[1][1] - e->linear.c[2][2]), e->linear.c[1][2]);
+    /* of the force that a rounded place asks for, over the largest stiffness; none: inextensible */
+    double stiff = beam->inextensible ? 0 : e->soft * e->length_m * e->length_m / (mean - off);
+    e->floor = 16 * DBL_EPSILON * stiff;
     FW_NEED(e->pose = fw_arena_array(arena, fw_flexure_beam_pose, (size_t)beam->npiece + 1));
     fw_flexure_beam_poses(beam, e->pose);
     const double *point = point_m ? point_m : e->linear.centre_m;

@@ -66,6 +66,9 @@ void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica
                                double tolerance, bool warm, fw_flexure_elastica_result *out);
 void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,
                                   bool warm, fw_flexure_elastica_result *out);
+/* from the unloaded beam; first of all near a wrench that another law says for this twist */
+void fw_flexure_elastica_near(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
+                              double tolerance, fw_flexure_elastica_result *out);
 void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
                                    bool warm, fw_flexure_elastica_result *out);
 
@@ -80,6 +83,9 @@ typedef struct fw_flexure_elastica_state {
 } fw_flexure_elastica_state;
 
 void fw_flexure_elastica_at(fw_flexure_elastica *e, double s_m, fw_flexure_elastica_state *out);
+/* moment and axial force at n places, ascending, 0..1 of the length; much cheaper than each by itself */
+void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part, double *moment_Nm,
+                               double *axial_N);
 void fw_flexure_elastica_peak_strain(fw_flexure_elastica *e,
                                      fw_flexure_elastica_state *out); /* the larger |strain| */
 double fw_flexure_elastica_energy_J(fw_flexure_elastica *e);

@@ -14,6 +14,7 @@ typedef struct fw_flexure_rule {
     fw_nodes column[FW_NODES]; /* [j][i]: integral of Lagrange polynomial j to node i */
     fw_nodes node, weight;
     double finer[2][FW_NODES][FW_NODES + 2]; /* start, nodes, end to the nodes of both halves */
+    double place[FW_NODES + 2], between[FW_NODES + 2]; /* start, nodes, end; barycentric weights */
 } fw_flexure_rule;
 
 /* what is carried along the beam: value and derivatives by the unknowns */
@@ -43,6 +44,8 @@ typedef struct fw_flexure_mesh {
     fw_flexure_element *element;
     bool made;                          /* tables filled */
     double end, end_by[1 + FW_UNKNOWN]; /* phi at the end */
+    double turn, turn_by[1 + FW_UNKNOWN]; /* of the second body: that and what its root gives */
+    double kept;                          /* turn to go back to */
 } fw_flexure_mesh;
 
 struct fw_flexure_elastica {
@@ -52,6 +55,7 @@ struct fw_flexure_elastica {
     fw_flexure_mesh mesh[FW_LEVELS];
     int *per_piece;             /* elements of each piece on the coarsest mesh */
     fw_flexure_beam_pose *pose; /* starts of the pieces */
+    double floor; /* what rounding leaves of a change: more where the strip is stiff along its chord */
     double length_m, soft;      /* units: l, C_theta */
     double root[2];             /* rotation per moment */
     double arm[2];              /* from the end to the point that is watched, as made */
@@ -94,6 +98,7 @@ typedef struct fw_flexure_newton {
     double tolerance; /* on the change that would come next, over the largest rotation */
     double last;      /* on the last change itself, so that the tangent is as good */
     double contract;  /* largest quotient of two changes */
+    double loose;     /* below it a change need not fall against the one before */
     double sign;      /* wanted of the determinant, 0: any */
     double square;    /* a change over the square of the one before; 0: not known. In and out */
     /* out: */
@@ -103,6 +108,7 @@ typedef struct fw_flexure_newton {
 
 typedef struct fw_flexure_way {
     bool warm;
+    const double *guess; /* (3) of the wrench at the end, for a twist that is given; NULL: none */
     double tolerance;
     double sign;
     double reached;

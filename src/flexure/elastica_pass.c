@@ -141,12 +141,17 @@ void fw_flexure_elastica_begin(const fw_flexure_elastica *e, fw_flexure_carried 
 }
 
 /* from the end of the beam to the point that is watched: the second root turns by root M, the arm
-   a with it; moment about the point: M - a x F */
-static void move_to_point(const fw_flexure_elastica *e, const fw_flexure_carried *c,
+   a with it; moment about the point: M - a x F. The arm is linearised about the turn th0 that the line
+   has now, as the sections are about theirs: what is carried along a pulled strip under an unknown
+   that is hardly wrong turns its end by exp(sqrt F) times as much. */
+static void move_to_point(const fw_flexure_elastica *e, const fw_flexure_carried *c, double th0,
                           fw_flexure_end_state *end) {
-    double th = c->value[PHI] + e->root[1] * c->value[MOMENT];
-    double sine = sin(th), half = sin(0.5 * th), less = 2 * half * half;
-    double ux = -less * e->arm[0] - sine * e->arm[1], uy = sine * e->arm[0] - less * e->arm[1];
+    double th = c->value[PHI] + e->root[1] * c->value[MOMENT], more = th - th0;
+    double sine = sin(th0), half = sin(0.5 * th0), less = 2 * half * half;
+    double vx = e->arm[0] - less * e->arm[0] - sine * e->arm[1];
+    double vy = e->arm[1] + sine * e->arm[0] - less * e->arm[1]; /* a at th0 */
+    double ux = -less * e->arm[0] - sine * e->arm[1] - more * vy;
+    double uy = sine * e->arm[0] - less * e->arm[1] + more * vx;
     double ax = e->arm[0] + ux, ay = e->arm[1] + uy, fx = e->p[1], fy = e->p[2];
     end->value[FW_END_THETA] = th;
     end->value[FW_END_UX] = c->value[X] + ux;
@@ -157,10 +162,10 @@ static void move_to_point(const fw_flexure_elastica *e, const fw_flexure_carried
     for (int k = 0; k < FW_UNKNOWN; k++) {
         double turn = c->by[PHI][k] + e->root[1] * c->by[MOMENT][k];
         end->by[FW_END_THETA][k] = turn;
-        end->by[FW_END_UX][k] = c->by[X][k] - ay * turn;
-        end->by[FW_END_UY][k] = c->by[Y][k] + ax * turn;
+        end->by[FW_END_UX][k] = c->by[X][k] - vy * turn;
+        end->by[FW_END_UY][k] = c->by[Y][k] + vx * turn;
         end->by[FW_END_M][k] =
-            c->by[MOMENT][k] + turn * (ay * fy + ax * fx) + (k == 1 ? ay : 0) - (k == 2 ? ax : 0);
+            c->by[MOMENT][k] + turn * (vy * fy + vx * fx) + (k == 1 ? ay : 0) - (k == 2 ? ax : 0);
         end->by[FW_END_FX][k] = k == 1;
         end->by[FW_END_FY][k] = k == 2;
     }
@@ -175,7 +180,10 @@ void fw_flexure_mesh_pass(fw_flexure_elastica *e, int level, fw_flexure_end_stat
     mesh->end_by[0] = c.value[PHI];
     for (int k = 0; k < FW_UNKNOWN; k++)
         mesh->end_by[1 + k] = c.by[PHI][k];
-    move_to_point(e, &c, end);
+    move_to_point(e, &c, mesh->turn, end);
+    mesh->turn_by[0] = end->value[FW_END_THETA];
+    for (int k = 0; k < FW_UNKNOWN; k++)
+        mesh->turn_by[1 + k] = end->by[FW_END_THETA][k];
     e->passes += mesh->count;
 }
 
@@ -198,6 +206,9 @@ double fw_flexure_mesh_update(fw_flexure_elastica *e, int level, const double *d
             *span = fabs(el->phi[i]) > *span ? fabs(el->phi[i]) : *span;
         }
     }
+    double turn = mesh->turn;
+    mesh->turn = applied(mesh->turn_by, dp);
+    most = fmax(most, fabs(mesh->turn - turn));
     mesh->end = applied(mesh->end_by, dp); /* a number that is none anywhere comes to here */
     if (!isfinite(mesh->end)) most = (double)INFINITY;
     for (int k = 0; k < FW_UNKNOWN; k++) {
@@ -229,6 +240,12 @@ void fw_flexure_rule_fill(fw_flexure_rule *rule) {
         rule->weight[i] = weight[i];
         for (int j = 0; j < FW_NODES; j++)
             rule->column[j][i] = a[i * FW_NODES + j];
+    }
+    for (int k = 0; k < FW_NODES + 2; k++) {
+        rule->place[k] = z[k];
+        rule->between[k] = 1;
+        for (int i = 0; i < FW_NODES + 2; i++)
+            if (i != k) rule->between[k] /= z[k] - z[i];
     }
     for (int half = 0; half < 2; half++)
         for (int i = 0; i < FW_NODES; i++)
@@ -296,6 +313,7 @@ void fw_flexure_mesh_refine(fw_flexure_elastica *e, int level) {
     const fw_flexure_mesh *from = &e->mesh[level];
     fw_flexure_mesh *to = &e->mesh[level + 1];
     fw_flexure_mesh_fill(e, level + 1);
+    to->turn = from->turn;
     for (int n = 0; n < from->count; n++) {
         double z[FW_NODES + 2];
         const fw_flexure_element *el = &from->element[n];

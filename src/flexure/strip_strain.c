@@ -295,19 +295,18 @@ void fw_flexure_strip_strain(const fw_flexure_path_strain *s, const fw_flexure_s
 
 void fw_flexure_strip_strain_exact(const fw_flexure_path_strain *s, fw_flexure_elastica *beam,
                                    fw_flexure_strip_strains *out) {
-    double length = fw_flexure_elastica_linear(beam)->length_m, M[2] = {0};
+    double part[FW_STRIP_PLACES], M[FW_STRIP_PLACES], N[FW_STRIP_PLACES];
+    for (int i = 0; i < s->n; i++)
+        part[i] = s->point[i].part, M[i] = N[i] = 0;
+    fw_flexure_elastica_along(beam, s->n, part, M, N);
+    root_faces(&s->point[0], M[0], N[0], out->root[0]);
+    root_faces(&s->point[s->n - 1], M[s->n - 1], N[s->n - 1], out->root[1]);
     out->peak = 0;
     for (int i = 0; i < s->n; i++) {
         const fw_flexure_path_point *p = &s->point[i];
-        fw_flexure_elastica_state at;
-        fw_flexure_elastica_at(beam, p->part * length, &at);
-        if (i == 0) root_faces(p, at.moment_Nm, at.axial_N, out->root[0]);
-        if (i == s->n - 1) root_faces(p, at.moment_Nm, at.axial_N, out->root[1]);
-        out->peak = fmax(out->peak, p->strain_per_Nm * fabs(at.moment_Nm) +
-                                        p->strain_per_N * fabs(at.axial_N));
+        out->peak = fmax(out->peak, p->strain_per_Nm * fabs(M[i]) + p->strain_per_N * fabs(N[i]));
         if (i > 1)
             out->peak =
-                fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[0], M[1], at.moment_Nm));
-        M[0] = M[1], M[1] = at.moment_Nm;
+                fmax(out->peak, s->point[i - 1].strain_per_Nm * crest(M[i - 2], M[i - 1], M[i]));
     }
 }

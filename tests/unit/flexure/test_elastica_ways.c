@@ -242,6 +242,37 @@ static void inside_a_wound_arc(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* sections by the polynomials of the solution against those integrated afresh, of any beam at any
+   load, ends and corners of pieces among them */
+static void forces_along_are_those_at(void **state) {
+    (void)state;
+    enum { PLACES = 41 };
+    for (int n = 0; n < 40; n++) {
+        rig r;
+        fw_flexure_elastica_result at;
+        double part[PLACES], M[PLACES], N[PLACES], most = 0, pull = 0;
+        wild(&r);
+        const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_FX, FW_END_FY},
+                                               {uniform(-0.6, 0.6),
+                                                uniform(-2, 2) / (r.soft * r.length),
+                                                uniform(-2, 2) / (r.soft * r.length)}};
+        fw_flexure_elastica_solve(r.e, &task, 1e-9, false, &at);
+        if (at.code > FW_ELASTICA_ROUGH) continue;
+        for (int i = 0; i < PLACES; i++)
+            part[i] = i / (PLACES - 1.0);
+        fw_flexure_elastica_along(r.e, PLACES, part, M, N);
+        for (int i = 0; i < PLACES; i++)
+            most = fmax(most, fabs(M[i])), pull = fmax(pull, fabs(N[i]));
+        for (int i = 0; i < PLACES; i++) {
+            fw_flexure_elastica_state in;
+            fw_flexure_elastica_at(r.e, part[i] * r.length, &in);
+            assert_near(M[i], in.moment_Nm, 2e-7 * most);
+            assert_near(N[i], in.axial_N, 2e-7 * pull);
+        }
+        fw_arena_free(r.arena);
+    }
+}
+
 /* the peak against 4000 places and the ends of the pieces; every section in
  * balance with the end */
 static void inside_any_beam(void **state) {
@@ -363,6 +394,7 @@ int main(void) {
         cmocka_unit_test(primary_branch),         cmocka_unit_test(inside_a_wound_arc),
         cmocka_unit_test(inside_any_beam),        cmocka_unit_test(nothing_gives_nothing),
         cmocka_unit_test(what_is_refused),        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(forces_along_are_those_at), /* last: it draws from the same numbers */
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
