@@ -16,14 +16,14 @@
    force, tangent and energy all ask for in turn.
    Inputs p in m and rad; outputs N, N m. Valid where the beam has an equilibrium on its primary
    branch for the pose (`valid` says where not; the force is then that of the closed form, so that a
-   search can turn back). Error: relative 1e-9, told by the solver. Cost 6 us per pose. Source:
+   search can turn back). Error: relative 1e-8, told by the solver. Cost 6 us per pose. Source:
    docs/theory/hinge-models.md. Test: test_hinge_exact.c, test_hinge_models.c. */
 #include "effects/hinge_element.h"
 #include "flexure/elastica.h"
 #include <math.h>
 #include <string.h>
 
-const double fw_effects_exact_tolerance = 1e-9;
+const double fw_effects_exact_tolerance = 1e-8;
 /* where rounding leaves more than the tolerance, as in a beam that is hardly bent or a leaf that is
    stiff along its chord: of the wrench that deflects it by a thousandth of itself */
 static const double rough = 1e-6, deflected = 1e-3;
@@ -125,7 +125,9 @@ static bool solve(const fw_effects_flexed *h, const double twist[3]) {
     if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->length_m) < linear)
         return x->held = hardly_bent(x);
     fw_flexure_hinge_law_wrench(&h->law, &h->rest, twist, near, unused);
-    fw_flexure_elastica_near(x->solver, twist, near, fw_effects_exact_tolerance, &r);
+    const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                           {twist[0], twist[1], twist[2]}};
+    fw_flexure_elastica_near(x->solver, &task, twist, near, fw_effects_exact_tolerance, &r);
     x->held = good(&r, x->length_m);
     memcpy(x->wrench, r.wrench, sizeof x->wrench);
     take_stiffness(&r, x->k);

@@ -164,7 +164,7 @@ static const double fw_resolved = 40;
 
 static int first_level(fw_flexure_elastica *e, const double *guess) {
     if (!guess) return 0;
-    double force = hypot(guess[1], guess[2]), most = 0;
+    double force = hypot(guess[FW_END_FX], guess[FW_END_FY]), most = 0;
     for (int n = 0; n < e->mesh[0].count; n++) {
         const fw_flexure_element *el = &e->mesh[0].element[n];
         most = fmax(most, force * el->h * el->turn); /* turn: h over EI */
@@ -200,8 +200,9 @@ static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
    ZAMP 23 (1972) 795; Hairer, Lubich and Wanner, Geometric Numerical Integration, II.1 and VI.4;
    docs/theory/beams.md. Test: test_elastica.c, test_elastica_bench.c */
 static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, double tolerance,
-                 bool warm, const double *guess, fw_flexure_elastica_result *out) {
-    fw_flexure_goal g = {0}, part = {0};
+                 bool warm, const double *guess, const double *soft,
+                 fw_flexure_elastica_result *out) {
+    fw_flexure_goal g = {.eased = soft, .soft = {soft ? soft[0] : 1, soft ? soft[1] : 0}}, part = g;
     fw_flexure_newton n = {0};
     *out = (fw_flexure_elastica_result){.code = FW_ELASTICA_LOOSE};
     e->passes = 0;
@@ -242,17 +243,33 @@ static void find(fw_flexure_elastica *e, const fw_flexure_elastica_task *task, d
 
 void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
                                double tolerance, bool warm, fw_flexure_elastica_result *out) {
-    find(e, task, tolerance, warm, NULL, out);
+    find(e, task, tolerance, warm, NULL, NULL, out);
 }
 
-void fw_flexure_elastica_near(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
-                              double tolerance, fw_flexure_elastica_result *out) {
+static void without_units(const fw_flexure_elastica *e, const double twist[3],
+                          const double wrench[3], double guess[6]) {
+    for (int i = 0; i < 3; i++) {
+        guess[i] = twist[i] / unit(e, i);
+        guess[3 + i] = wrench[i] / unit(e, 3 + i);
+    }
+}
+
+void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                              const double twist[3], const double wrench[3], double tolerance,
+                              fw_flexure_elastica_result *out) {
+    double guess[6];
+    without_units(e, twist, wrench, guess);
+    find(e, task, tolerance, false, guess, NULL, out);
+}
+
+void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
+                              const double along[2], double tolerance,
+                              fw_flexure_elastica_result *out) {
     const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
                                            {twist[0], twist[1], twist[2]}};
-    double guess[3];
-    for (int i = 0; i < 3; i++)
-        guess[i] = wrench[i] / unit(e, FW_END_M + i);
-    find(e, &task, tolerance, false, guess, out);
+    double guess[6];
+    without_units(e, twist, wrench, guess);
+    find(e, &task, tolerance, false, guess, along, out);
 }
 
 void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,

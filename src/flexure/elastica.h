@@ -66,9 +66,17 @@ void fw_flexure_elastica_solve(fw_flexure_elastica *e, const fw_flexure_elastica
                                double tolerance, bool warm, fw_flexure_elastica_result *out);
 void fw_flexure_elastica_of_twist(fw_flexure_elastica *e, const double twist[3], double tolerance,
                                   bool warm, fw_flexure_elastica_result *out);
-/* from the unloaded beam; first of all near a wrench that another law says for this twist */
-void fw_flexure_elastica_near(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
-                              double tolerance, fw_flexure_elastica_result *out);
+/* First of all near the state of another law, then as above. Where not all of the place is given the
+   state found may be one that only what else holds the body keeps: pressed beyond its buckling load. */
+void fw_flexure_elastica_near(fw_flexure_elastica *e, const fw_flexure_elastica_task *task,
+                              const double twist[3], const double wrench[3], double tolerance,
+                              fw_flexure_elastica_result *out);
+/* Where other flexures hold the bodies: given are the rotation, the displacement along a direction
+   (unit vector) and the force across it; twist and wrench have these, and the rest of another law.
+   Only near that; section forces are those of the state, the result's twist across is not. */
+void fw_flexure_elastica_held(fw_flexure_elastica *e, const double twist[3], const double wrench[3],
+                              const double along[2], double tolerance,
+                              fw_flexure_elastica_result *out);
 void fw_flexure_elastica_of_wrench(fw_flexure_elastica *e, const double wrench[3], double tolerance,
                                    bool warm, fw_flexure_elastica_result *out);
 

@@ -108,7 +108,7 @@ typedef struct fw_flexure_newton {
 
 typedef struct fw_flexure_way {
     bool warm;
-    const double *guess; /* (3) of the wrench at the end, for a twist that is given; NULL: none */
+    const double *guess; /* (6) twist and wrench of another law; NULL: none */
     double tolerance;
     double sign;
     double reached;

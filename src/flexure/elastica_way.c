@@ -149,17 +149,17 @@ static void set_pulled(fw_flexure_elastica *e, int level, double first, double l
     mesh->turn = phi + e->root[1] * last;
 }
 
-/* Near a wrench that another law says for the twist given: the wound line, or that of a column where
-   it is pulled, under its force across the direction that gives, with the moment that the first root
-   then has, M + (W - start + u) x F, and from there as in ease_in. A leaf that is stretched has so
-   large a force that from the wound beam alone Newton's method finds it by load steps only, some 80
-   passes instead of 5. */
-static bool begin_near(fw_flexure_elastica *e, int level, const fw_flexure_goal *g,
-                       const double guess[3]) {
-    double theta, ux, uy, fx = guess[1], fy = guess[2], turn = 0;
-    if (e->hinged || !gives(g, FW_END_THETA, &theta) || !gives(g, FW_END_UX, &ux) ||
-        !gives(g, FW_END_UY, &uy))
-        return false;
+/* Near the twist and the wrench of another law: the wound line, or that of a column where it is
+   pulled, under its force across the direction that gives, with the moment that the first root then
+   has, M + (W - start + u) x F, and from there as in ease_in. A leaf that is stretched has so large a
+   force that from the wound beam alone Newton's method finds it by load steps only, some 80 passes
+   instead of 5. */
+static bool begin_near(fw_flexure_elastica *e, int level, const double guess[6]) {
+    double theta = guess[FW_END_THETA], ux = guess[FW_END_UX], uy = guess[FW_END_UY], turn = 0;
+    double fx = guess[FW_END_FX], fy = guess[FW_END_FY], moment = guess[FW_END_M];
+    const fw_flexure_goal place = {.given = {FW_END_THETA, FW_END_UX, FW_END_UY},
+                                   .value = {theta, ux, uy}};
+    if (e->hinged) return false;
     set_moment(e, level, theta);
     for (int n = 0; n < e->mesh[level].count; n++)
         turn += e->mesh[level].element[n].turn;
@@ -168,11 +168,11 @@ static bool begin_near(fw_flexure_elastica *e, int level, const fw_flexure_goal 
     double wy = (e->linear.end.y_m - e->pose[0].y_m) / e->length_m + e->arm[1] + uy;
     double ax = cos(theta) * e->arm[0] - sin(theta) * e->arm[1], cx = wx - ax;
     double ay = sin(theta) * e->arm[0] + cos(theta) * e->arm[1], cy = wy - ay;
-    double first = guess[0] + wx * fy - wy * fx, last = guess[0] + ax * fy - ay * fx;
+    double first = moment + wx * fy - wy * fx, last = moment + ax * fy - ay * fx;
     double pull = turn * (fx * cx + fy * cy) / hypot(cx, cy);
     if (pull > 1 && fabs(e->linear.turn_rad) < 1e-9) set_pulled(e, level, first, last, pull);
     e->p[0] = first, e->p[1] = fx, e->p[2] = fy;
-    return ease_in(e, level, g, theta, near);
+    return ease_in(e, level, &place, theta, near);
 }
 
 static void keep(fw_flexure_elastica *e, int level) {
@@ -270,7 +270,7 @@ static bool from_last(fw_flexure_elastica *e, int level, const fw_flexure_goal *
            fw_flexure_newton_run(e, level, g, n);
 }
 
-/* a solution on this mesh: from the last one, near the wrench guessed, from the wound beam, or along
+/* a solution on this mesh: from the last one, near the state guessed, from the wound beam, or along
    the branch; false: none. Where the branch ends before, w->reached is below 1 and g holds that part
    of the values. */
 bool fw_flexure_elastica_reach(fw_flexure_elastica *e, int level, fw_flexure_goal *g,
@@ -284,9 +284,14 @@ bool fw_flexure_elastica_reach(fw_flexure_elastica *e, int level, fw_flexure_goa
     if (w->warm && (e->unloaded == 0 || w->sign < 0)) return false; /* no other way to it */
     w->warm = false;
     w->sign = 1;
-    n->sign = 1, n->loose = near;
-    if (w->guess && begin_near(e, level, g, w->guess) && fw_flexure_newton_run(e, level, g, n))
+    /* a force may be given that only the other ends of bodies bear: the guess says which way it is */
+    bool placed = index_of(g, FW_END_UX) >= 0 && index_of(g, FW_END_UY) >= 0;
+    n->sign = placed && !g->eased, n->loose = near;
+    if (w->guess && begin_near(e, level, w->guess) && fw_flexure_newton_run(e, level, g, n)) {
+        w->sign = n->sign;
         return true;
+    }
+    if (g->eased) return false;
     begin_wound(e, level, g);
     *n = direct;
     n->sign = 1;

@@ -75,6 +75,11 @@ void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure
 bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                 double rotation_rad, const double force_N[2], double displaced_m[2],
                                 double *moment_Nm, double *pull);
+/* (w, v) and the rest where w is known and the force along is not needed; false: pressed beyond the
+   buckling load of clamped ends */
+bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                               double rotation_rad, double pull_N, double w_m,
+                               double displaced_m[2], double *moment_Nm, double *pull);
 /* What the hinge does to a twist (theta, ux, uy) of the second body's W against the first one's, u
    in the first body's frame with x along the free arc's axis: wrench (M, Fx, Fy) that it takes, the
    gradient of the energy by the twist, and its symmetric tangent; SI */

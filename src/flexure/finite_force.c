@@ -339,6 +339,17 @@ void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure
         bend(law, rest, at, false, out);
 }
 
+/* (w, v), dU/dth and the pull of a state whose w and F are known */
+static void known(const fw_flexure_hinge_law *law, terms *t, state *s, double th, double F,
+                  double displaced_m[2], double *moment_Nm, double *pull) {
+    double second;
+    shorten_more(t, F, &s->s);
+    displaced_m[0] = t->w;
+    displaced_m[1] = -slope_of(t, s, F, &second); /* dPhi/dF = 0 at v */
+    *moment_Nm = law->stiffness_Nm_per_rad * th + by_rotation(t, s, F).one;
+    *pull = t->x.alpha.value * F;
+}
+
 /* The same from the other side: (w, v) and dU/dth under a force (along, across) that is given. The
    pull F is then known, so that only w is sought, by Newton's method; h and g make it stiffer as it
    grows. in: rad, N; out: m, N m; false: no such equilibrium below the buckling load. Test:
@@ -348,7 +359,7 @@ bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexur
                                 double *moment_Nm, double *pull) {
     terms t;
     state s;
-    double low, high, F = force_N[1], second, w = 0;
+    double low, high, F = force_N[1], w = 0;
     prepare(law, rest, (const double[3]){th, 0, 0}, false, &t);
     between_poles(&t, &low, &high);
     if (!(F > low && F < high)) return false;
@@ -362,14 +373,27 @@ bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexur
         w += step;
         if (fabs(step) > 1e-12 * fabs(w)) continue;
         t.w = w;
-        shorten_more(&t, F, &s.s);
-        displaced_m[0] = w;
-        displaced_m[1] = -slope_of(&t, &s, F, &second); /* dPhi/dF = 0 at v */
-        *moment_Nm = law->stiffness_Nm_per_rad * th + by_rotation(&t, &s, F).one;
-        *pull = t.x.alpha.value * F;
+        known(law, &t, &s, th, F, displaced_m, moment_Nm, pull);
         return true;
     }
     return false;
+}
+
+/* Where other flexures hold the bodies: the pull and w are given, not what it takes to keep them. in:
+   rad, N, m; false: pressed by more than the buckling load with both ends clamped. Test:
+   test_finite_force.c held_by_others */
+bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
+                               double th, double pull_N, double w_m, double displaced_m[2],
+                               double *moment_Nm, double *pull) {
+    terms t;
+    state s;
+    double low, high;
+    prepare(law, rest, (const double[3]){th, w_m, 0}, false, &t);
+    between_poles(&t, &low, &high);
+    if (!(pull_N > low && pull_N < high) || !(fabs(w_m) < law->length_m)) return false;
+    look(&t, pull_N, &s);
+    known(law, &t, &s, th, pull_N, displaced_m, moment_Nm, pull);
+    return true;
 }
 
 /* w = c ux + s uy, v = c uy - s ux with c, s = cos, sin(th/2):  dw/dth = v/2,  dv/dth = -w/2

@@ -113,14 +113,16 @@ void fw_flexure_path_strain_scale(fw_flexure_path_strain *s, double by) {
 
 void fw_flexure_strip_load_of(const fw_flexure_path_strain *s, const fw_flexure_hinge_law *law,
                               const fw_flexure_hinge_rest *rest, double th, const double force_N[2],
-                              fw_flexure_strip_load *out) {
+                              const double *along_m, fw_flexure_strip_load *out) {
     const fw_flexure_path_point *p = &s->point[0], *q = &s->point[s->n - 1];
     double X = force_N[0], Y = force_N[1], u[2], moment, pull;
     /* a pin's force is taken on the strip as drawn, half turned: nearer to the exact beam */
     double c = rest ? cos(0.5 * th) : 1, n = rest ? sin(0.5 * th) : 0;
     *out = (fw_flexure_strip_load){.rotation_rad = th, .force_N = {X, Y}, .drawn = !rest};
     out->bend_Nm = law->stiffness_Nm_per_rad * th;
-    out->held = !rest || fw_flexure_hinge_law_under(law, rest, th, force_N, u, &moment, &pull);
+    out->held =
+        !rest || fw_flexure_hinge_law_under(law, rest, th, force_N, u, &moment, &pull) ||
+        (along_m && fw_flexure_hinge_law_held(law, rest, th, Y, *along_m, u, &moment, &pull));
     if (!rest || !out->held) u[0] = u[1] = pull = 0, moment = out->bend_Nm;
     out->pull = pull;
     double M = moment - 0.5 * (u[0] * Y - u[1] * X);         /* about the second body's W */

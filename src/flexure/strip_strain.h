@@ -42,10 +42,13 @@ typedef struct fw_flexure_strip_load {
     bool drawn;        /* the strip is taken as drawn, half turned: of an ideal pin */
     bool held; /* false: beyond the buckling load; the rest is then as without displacement */
 } fw_flexure_strip_load;
-/* by the law of finite.h; rest NULL: of an ideal pin, whose W is one place whatever the force */
+/* By the law of finite.h; rest NULL: of an ideal pin, whose W is one place whatever the force.
+   along_m: how far the second body's W is from the first's along the axis half turned, for a strip
+   that the force alone would buckle and other flexures hold; NULL: not known */
 void fw_flexure_strip_load_of(const fw_flexure_path_strain *strip, const fw_flexure_hinge_law *law,
                               const fw_flexure_hinge_rest *rest, double rotation_rad,
-                              const double force_N[2], fw_flexure_strip_load *out);
+                              const double force_N[2], const double *along_m,
+                              fw_flexure_strip_load *out);
 
 typedef struct fw_flexure_strip_strains {
     double peak;       /* largest |strain|, fillets included */

@@ -141,6 +141,7 @@ static void prepare(fw_maths_stepper *b) {
                                             : s->k + (size_t)dop_d_stage[j] * width;
     for (size_t m = 0; m < 4; m++)
         s->kernel->combine(b->padded, h, DOP_DENSE, dop_d[m], stage, s->zero, r + (4 + m) * width);
+    fw_ode_nested_tame(b, ROWS, r);
 }
 
 static void dense(const fw_maths_stepper *b, double theta, double *y) {

@@ -116,6 +116,7 @@ static void prepare(fw_maths_stepper *b) {
         r[3 * width + c] = difference - b->h * b->f[c] - bend;
     }
     s->kernel->combine(b->padded, b->h, DOPRI_STAGES, dopri_d, s->stage, s->zero, r + 4 * width);
+    fw_ode_nested_tame(b, ROWS, r);
 }
 
 static void dense(const fw_maths_stepper *b, double theta, double *y) {

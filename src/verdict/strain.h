@@ -15,7 +15,14 @@ typedef struct fw_verdict_hinge_load {
     double fx_N, fy_N; /* of the pin on body b, world axes */
     double frame_rad;  /* half the sum of both bodies' rotations since the drawn pose */
     bool pinned;       /* the force is that of an ideal pin in place of the flexure */
+    /* pin on b from pin on a, world axes; NaN: not known. Of use where a strip is pressed beyond what
+       it bears alone and other flexures hold it */
+    double apart_m[2];
 } fw_verdict_hinge_load;
+/* of hinge k at the poses q (3 nbody: m, rad) */
+fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k, const double *q,
+                                               double angle_rad, const double force_N[2],
+                                               fw_effects_hinge_model level);
 
 enum { FW_FACES = 4 }; /* two of either root */
 

@@ -89,10 +89,6 @@ void fw_verdict_strain_peak_add(fw_verdict_strain_peak *p, double t_s, double st
     p->samples++;
 }
 
-static double turned(const fw_mechanism *m, const fw_dynamics_instant *now, int body) {
-    return body == FW_GROUND ? 0.0 : now->q[3 * body + 2] - m->body[body].phi_rad;
-}
-
 /* they take 50 kB each: only where a run has hinges as beams */
 static fw_status make_beams(fw_verdict_strain_monitor *w) {
     const fw_mechanism *m = w->mechanism;
@@ -108,12 +104,9 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
                       fw_verdict_hinge_strains *strain) {
     const fw_mechanism *m = w->mechanism;
     const fw_mechanism_hinge *hinge = &m->hinge[k];
-    const fw_mechanism_pin *pin = &m->pin[hinge->pin];
-    const fw_verdict_hinge_load load = {
-        now->angle_rad[hinge->pin], now->reaction_N[2 * hinge->pin],
-        now->reaction_N[2 * hinge->pin + 1],
-        0.5 * (turned(m, now, pin->body_a) + turned(m, now, pin->body_b)),
-        now->hinge == FW_HINGE_REVOLUTE};
+    const fw_verdict_hinge_load load =
+        fw_verdict_hinge_load_at(m, k, now->q, now->angle_rad[hinge->pin],
+                                 now->reaction_N + 2 * hinge->pin, now->hinge);
     fw_flexure_elastica *beam = w->beam && now->hinge == FW_HINGE_ELASTICA ? w->beam[k] : NULL;
     fw_verdict_hinge_strain(hinge, beam, &load, strain);
 }

@@ -12,6 +12,9 @@ static const double tolerance = 1e-8;
    force is more than 1/cos(pi/DIRECTIONS) of what it is along the nearer one */
 enum { DIRECTIONS = 24 };
 static const double between_directions = 1.0087;
+/* of y = F L^2/EI along a strip: from here on the force alone hardly says how far it is bent (at
+   -pi^2, with ends that do not turn, not at all), and the place of its ends is taken instead */
+static const double pressed = -6;
 
 fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
                                 fw_flexure_elastica **out) {
@@ -27,16 +30,31 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
 }
 
 /* The beam turned by theta under a dead force at W on its second body, in the first one's frame.
-   Error 1e-8. Cost 6 us, and 0.3 us a section. Source: Reissner, ZAMP 23 (1972);
+   Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
+   form's. Error 1e-8. Cost 6 us, and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
 static bool by_beam(const fw_mechanism_hinge *h, fw_flexure_elastica *beam, double th,
-                    const double along[2], fw_flexure_strip_strains *out) {
+                    const double along[2], const double *apart_m, fw_flexure_strip_strains *out) {
     double c = cos(0.5 * th), s = sin(0.5 * th);
     const fw_flexure_elastica_task task = {
         {FW_END_THETA, FW_END_FX, FW_END_FY},
         {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
-    fw_flexure_elastica_result r;
-    fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&h->law);
+    fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
+    double u[2], moment, pull;
+    bool under = fw_flexure_hinge_law_under(&h->law, &rest, th, along, u, &moment, &pull);
+    bool held = (!under || pull < pressed) && apart_m &&
+                fw_flexure_hinge_law_held(&h->law, &rest, th, along[1], *apart_m, u, &moment, &pull);
+    if (under || held) {
+        const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
+        const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]),
+                                  task.value[1], task.value[2]};
+        if (held)
+            fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
+        else
+            fw_flexure_elastica_near(beam, &task, twist, wrench, tolerance, &r);
+    } else
+        fw_flexure_elastica_solve(beam, &task, tolerance, false, &r);
     if (r.code != FW_ELASTICA_OK && r.code != FW_ELASTICA_ROUGH) return false;
     fw_flexure_strip_strain_exact(&h->section, beam, out);
     return true;
@@ -52,10 +70,13 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
     double c = cos(axis_rad), s = sin(axis_rad), by = -sense;
     const double along[2] = {by * (c * load->fx_N + s * load->fy_N),
                              by * (c * load->fy_N - s * load->fx_N)};
-    if (beam && by_beam(h, beam, th, along, out)) return true;
+    double apart = sense * (c * load->apart_m[0] + s * load->apart_m[1]);
+    const double *known = isfinite(apart) ? &apart : NULL;
+    if (beam && by_beam(h, beam, th, along, known, out)) return true;
     const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&h->law);
     fw_flexure_strip_load strip;
-    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, &strip);
+    fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
+                             &strip);
     fw_flexure_strip_strain(&h->section, &strip, out);
     return strip.held;
 }
@@ -89,15 +110,34 @@ static double turned(const fw_mechanism *m, const double *q, int body) {
     return body == FW_GROUND ? 0 : q[3 * body + 2] - m->body[body].phi_rad;
 }
 
+static void pin_on(const double *q, int body, double x, double y, double at[2]) {
+    const double none[3] = {0}, *p = body == FW_GROUND ? none : q + 3 * body;
+    double c = cos(p[2]), s = sin(p[2]);
+    at[0] = p[0] + c * x - s * y, at[1] = p[1] + s * x + c * y;
+}
+
+fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *m, int k, const double *q,
+                                               double angle_rad, const double force_N[2],
+                                               fw_effects_hinge_model level) {
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+    double a[2], b[2];
+    pin_on(q, pin->body_a, pin->ax_m, pin->ay_m, a);
+    pin_on(q, pin->body_b, pin->bx_m, pin->by_m, b);
+    return (fw_verdict_hinge_load){
+        .angle_rad = angle_rad,
+        .fx_N = force_N[0],
+        .fy_N = force_N[1],
+        .frame_rad = 0.5 * (turned(m, q, pin->body_a) + turned(m, q, pin->body_b)),
+        .pinned = level == FW_HINGE_REVOLUTE,
+        .apart_m = {b[0] - a[0], b[1] - a[1]}};
+}
+
 static void strains(const fw_mechanism *m, fw_effects_hinge_model level,
                     fw_flexure_elastica *const *beam, const fw_statics_level_state *at) {
     for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        const double *force = at->reaction_N + 2 * m->hinge[k].pin;
-        const fw_verdict_hinge_load load = {
-            at->angle_rad[m->hinge[k].pin], force[0], force[1],
-            0.5 * (turned(m, at->q, pin->body_a) + turned(m, at->q, pin->body_b)),
-            level == FW_HINGE_REVOLUTE};
+        int pin = m->hinge[k].pin;
+        const fw_verdict_hinge_load load = fw_verdict_hinge_load_at(
+            m, k, at->q, at->angle_rad[pin], at->reaction_N + 2 * pin, level);
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&m->hinge[k], level == FW_HINGE_ELASTICA ? beam[k] : NULL, &load,
                                 &s);

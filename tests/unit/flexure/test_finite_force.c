@@ -232,11 +232,54 @@ static void guided_and_held(void **state) {
     assert_true(held >= 40);
 }
 
+/* a leaf pressed beyond what it bears alone, that others hold: where its ends are says what is in it,
+   to the law by the pull, to the exact beam by the force across */
+static void held_by_others(void **state) {
+    (void)state;
+    int beyond = 0;
+    for (int i = 1; i <= 24; i++) {
+        strip s = strip_of(0, 1 / 60.0, i % 2 ? 0.5 : -1);
+        double th = (i % 3 - 1) * degree, EI = s.closed.stiffness_Nm_per_rad * s.in.length_m;
+        double most = i * EI / (s.in.length_m * s.in.length_m); /* y to 24, and w to 2.4 widths */
+        double w = 0.1 * i * s.in.width_m, u[2], moment, pull;
+        if (!fw_flexure_hinge_law_held(&s.law, &s.rest, th, -most, w, u, &moment, &pull))
+            fail_msg("not held at y = -%d", i);
+        fw_flexure_hinge_bent b;
+        fw_flexure_hinge_law_bend(&s.law, &s.rest, (const double[3]){th, w, u[1]}, false, &b);
+        assert_relative(b.pull_N, -most, 1e-8);
+        assert_relative(b.gradient[0], moment, 1e-8);
+        double v[2], other, alone;
+        const double force[2] = {b.gradient[1], b.gradient[2]};
+        beyond += !fw_flexure_hinge_law_under(&s.law, &s.rest, th, force, v, &other, &alone);
+        double co = cos(0.5 * th), si = sin(0.5 * th);
+        const double twist[3] = {th, co * w - si * u[1], si * w + co * u[1]};
+        const double wrench[3] = {moment - 0.5 * (w * force[1] - u[1] * force[0]),
+                                  co * force[0] - si * force[1], si * force[0] + co * force[1]};
+        fw_flexure_elastica_result r[2];
+        double part[3] = {0, 0.3, 1}, M[2][3], N[2][3];
+        fw_flexure_elastica_held(s.beam, twist, wrench, (const double[2]){co, si}, 1e-8, &r[0]);
+        assert_true(r[0].code <= FW_ELASTICA_ROUGH);
+        fw_flexure_elastica_along(s.beam, 3, part, M[0], N[0]);
+        /* its own place is one that has this force across */
+        const fw_flexure_elastica_task place = {{FW_END_THETA, FW_END_UX, FW_END_UY},
+                                                {r[0].twist[0], r[0].twist[1], r[0].twist[2]}};
+        fw_flexure_elastica_near(s.beam, &place, twist, wrench, 1e-8, &r[1]);
+        assert_true(r[1].code <= FW_ELASTICA_ROUGH);
+        fw_flexure_elastica_along(s.beam, 3, part, M[1], N[1]);
+        for (int k = 0; k < 3; k++) {
+            assert_relative(N[0][k], -most, 0.003); /* tilted by what the strip is bent */
+            assert_near(M[0][k], M[1][k], 0.02 * fabs(M[0][0]));
+        }
+        fw_arena_free(s.arena);
+    }
+    assert_true(beyond > 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(derivatives),     cmocka_unit_test(wrench_and_tangent),
         cmocka_unit_test(small_forces),    cmocka_unit_test(against_the_exact_beam),
-        cmocka_unit_test(guided_and_held),
+        cmocka_unit_test(guided_and_held), cmocka_unit_test(held_by_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

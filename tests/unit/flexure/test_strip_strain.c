@@ -65,7 +65,7 @@ static void as_the_exact_beam(void **state) {
         fw_flexure_elastica_solve(solver, &task, 1e-9, false, &r);
         fw_flexure_strip_strains exact, own;
         fw_flexure_strip_load load;
-        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, &load);
+        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, NULL, &load);
         fw_flexure_strip_strain(&strip, &load, &own);
         if (r.code == FW_ELASTICA_OK || r.code == FW_ELASTICA_ROUGH) {
             fw_flexure_strip_strain_exact(&strip, solver, &exact);
@@ -105,7 +105,7 @@ static void pressed(void **state) {
         const double F[2] = {0, y * EI_per_L2};
         fw_flexure_strip_load load;
         fw_flexure_strip_strains own;
-        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, &load);
+        fw_flexure_strip_load_of(&strip, &law, &rest, th, F, NULL, &load);
         fw_flexure_strip_strain(&strip, &load, &own);
         double z = 0.5 * sqrt(-y), M = c.stiffness_Nm_per_rad * th * z / sin(z);
         double press = strip.point[0].strain_per_N * fabs(F[1]);

@@ -150,6 +150,40 @@ static void test_dense_follows_the_tolerance(void **state) {
     }
 }
 
+/* beside cos t a stiff oscillator that is at rest but for rounding: u'' = -(300)^2 u */
+static void at_rest_rhs(void *context, double t, const double *y, double *f) {
+    (void)context;
+    f[0] = y[2], f[1] = y[3];
+    f[2] = -cos(t), f[3] = -9e4 * y[1];
+}
+
+/* a step that is 300 times too long for it ends within the tolerance; inside it stays as near to
+   nothing, and the other component is as exact as before */
+static void test_rounding_does_not_grow_inside(void **state) {
+    (void)state;
+    const char *names[] = {"dop853", "dopri5"};
+    const fw_maths_ode ode = {.rhs = at_rest_rhs, .n = 4, .controlled = 4, .positions = 2};
+    for (int k = 0; k < 2; k++) {
+        fw_arena *arena = fw_arena_new(0);
+        const fw_maths_stepper_row *row = fw_maths_stepper_find(names[k]);
+        fw_maths_stepper *s = new_stepper(arena, row, &ode, 1e-3);
+        double y[8] = {1, k ? 1e-22 : 1e-27}, inside = 0, ends = 0;
+        fw_maths_stepper_start(s, 0, y, 1);
+        s->h_next = 1;
+        assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
+        assert_near(s->h, 1, 0);
+        ends = fabs(s->y[1]) + fabs(s->f[1]) * s->h;
+        for (double theta = 0.05; theta < 1; theta += 0.05) {
+            fw_maths_stepper_dense(s, theta, y);
+            inside = fmax(inside, fabs(y[1]));
+            assert_near(y[0], cos(theta), 2e-4);
+        }
+        assert_true(ends > 1e-16 && inside <= 4 * ends);
+        fw_maths_stepper_free(s);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_first_order_problem),
@@ -157,6 +191,7 @@ int main(void) {
         cmocka_unit_test(test_dense_order_first),
         cmocka_unit_test(test_dense_order_second),
         cmocka_unit_test(test_dense_follows_the_tolerance),
+        cmocka_unit_test(test_rounding_does_not_grow_inside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
