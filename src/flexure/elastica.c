@@ -133,7 +133,8 @@ static void refine(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, 
         e->sign = n->stability < 0 ? -1 : 1;
         out->mesh = e->mesh[level + 1].count;
         out->code = err.whole <= w->tolerance ? FW_ELASTICA_OK : FW_ELASTICA_ROUGH;
-        if (getenv("FW_T")) fprintf(stderr," [level %d mesh %g whole %g]\n",level,err.mesh,err.whole);
+        if (getenv("FW_T"))
+            fprintf(stderr, " [level %d mesh %g whole %g]\n", level, err.mesh, err.whole);
         if (err.whole <= w->tolerance || err.mesh <= err.round) return; /* no mesh rounds less */
     }
 }

@@ -42,8 +42,8 @@ typedef struct fw_flexure_element {
 typedef struct fw_flexure_mesh {
     int count;
     fw_flexure_element *element;
-    bool made;                          /* tables filled */
-    double end, end_by[1 + FW_UNKNOWN]; /* phi at the end */
+    bool made;                            /* tables filled */
+    double end, end_by[1 + FW_UNKNOWN];   /* phi at the end */
     double turn, turn_by[1 + FW_UNKNOWN]; /* of the second body: that and what its root gives */
     double kept;                          /* turn to go back to */
 } fw_flexure_mesh;
@@ -55,10 +55,11 @@ struct fw_flexure_elastica {
     fw_flexure_mesh mesh[FW_LEVELS];
     int *per_piece;             /* elements of each piece on the coarsest mesh */
     fw_flexure_beam_pose *pose; /* starts of the pieces */
-    double floor; /* what rounding leaves of a change: more where the strip is stiff along its chord */
-    double length_m, soft;      /* units: l, C_theta */
-    double root[2];             /* rotation per moment */
-    double arm[2];              /* from the end to the point that is watched, as made */
+    double
+        floor; /* what rounding leaves of a change: more where the strip is stiff along its chord */
+    double length_m, soft; /* units: l, C_theta */
+    double root[2];        /* rotation per moment */
+    double arm[2];         /* from the end to the point that is watched, as made */
     bool hinged;
     double p[FW_UNKNOWN], kept[FW_UNKNOWN]; /* moment (hinged: rotation) at the start, Fx, Fy */
     int solved;                             /* level of the last solution, -1: none */

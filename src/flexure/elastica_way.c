@@ -139,7 +139,8 @@ static void set_pulled(fw_flexure_elastica *e, int level, double first, double l
         el->phi = (fw_nodes){0} + phi;
         for (int j = 0; j < FW_NODES; j++) {
             double x = s + el->h * e->rule.node[j];
-            double from = exp(-z * x) - exp(-z * (2 - x)), to = exp(-z * (1 - x)) - exp(-z * (1 + x));
+            double from = exp(-z * x) - exp(-z * (2 - x)),
+                   to = exp(-z * (1 - x)) - exp(-z * (1 + x));
             double slope = el->bend[j] * over * (first * from + last * to);
             el->phi += el->h * slope * e->rule.column[j];
             phi += el->once_end[j] * slope;
@@ -438,10 +439,11 @@ static void on_curve(const fw_flexure_rule *r, const curve *c, double z, double 
    Error: polynomials of order 10 over an element, 1e-7 of the largest moment where the solution has
    1e-9. Cost 0.1 us a place and a pass over the mesh. Source: Berrut and Trefethen, SIAM Review 46
    (2004) 501. Test: test_elastica_ways.c forces_along_are_those_at */
-void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part,
-                               double *moment_Nm, double *axial_N) {
+void fw_flexure_elastica_along(fw_flexure_elastica *e, int n, const double *part, double *moment_Nm,
+                               double *axial_N) {
     const fw_flexure_mesh *mesh = e->solved < 0 ? NULL : &e->mesh[e->solved];
-    double before = 0, fx = e->p[1] / (e->soft * e->length_m), fy = e->p[2] / (e->soft * e->length_m);
+    double before = 0, fx = e->p[1] / (e->soft * e->length_m),
+           fy = e->p[2] / (e->soft * e->length_m);
     fw_flexure_carried at;
     if (mesh) fw_flexure_elastica_begin(e, &at);
     for (int i = 0, k = 0; mesh && k < mesh->count; before += mesh->element[k++].h) {

@@ -20,8 +20,9 @@ typedef struct fw_verdict_hinge_load {
     double apart_m[2];
 } fw_verdict_hinge_load;
 /* of hinge k at the poses q (3 nbody: m, rad) */
-fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k, const double *q,
-                                               double angle_rad, const double force_N[2],
+fw_verdict_hinge_load fw_verdict_hinge_load_at(const fw_mechanism *mechanism, int k,
+                                               const double *q, double angle_rad,
+                                               const double force_N[2],
                                                fw_effects_hinge_model level);
 
 enum { FW_FACES = 4 }; /* two of either root */

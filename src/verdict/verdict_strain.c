@@ -43,12 +43,13 @@ static bool by_beam(const fw_mechanism_hinge *h, fw_flexure_elastica *beam, doub
     fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
     double u[2], moment, pull;
     bool under = fw_flexure_hinge_law_under(&h->law, &rest, th, along, u, &moment, &pull);
-    bool held = (!under || pull < pressed) && apart_m &&
-                fw_flexure_hinge_law_held(&h->law, &rest, th, along[1], *apart_m, u, &moment, &pull);
+    bool held =
+        (!under || pull < pressed) && apart_m &&
+        fw_flexure_hinge_law_held(&h->law, &rest, th, along[1], *apart_m, u, &moment, &pull);
     if (under || held) {
         const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
-        const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]),
-                                  task.value[1], task.value[2]};
+        const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
+                                  task.value[2]};
         if (held)
             fw_flexure_elastica_held(beam, twist, wrench, (const double[2]){c, s}, tolerance, &r);
         else

@@ -62,6 +62,12 @@ def make(options, seed, wanted, where):
     if status:
         return None, "no load leads there: %s" % (why.strip() or "status %d" % status)
     found = json.loads(out)
+    if not device.moving:  # loads soften some devices: slow is what is slow there, too
+        if not found["omega"] > 0:
+            return None, "no stiffness under the load"
+        # and what is soft answers more by as much to the little that inertia adds
+        soft = min(omega[0], found["omega"])
+        duration = device.timing(soft * soft / omega[0])
     truths = [f["stress"] / device.strength_of() for f in found["flexures"]]
     return (device, found["share"], duration, truths, found), ""
 

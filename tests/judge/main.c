@@ -12,9 +12,15 @@
 
 #include "motion.h"
 
-static void print(const struct model *model, double share, const struct answer *answer,
+static void print(struct model *model, double share, const struct answer *answer,
                   const struct state *state) {
-    printf("{\"share\": %.15g, \"most\": %.12g, \"flexures\": [", share, answer->most);
+    double stiffness[9 * BODIES * BODIES], omega[3 * BODIES] = {0};
+    printf("{\"share\": %.15g, \"most\": %.12g, ", share, answer->most);
+    if (!(model->duration > 0) && !statics_stiffness_at(model, share, state, stiffness)) {
+        motion_frequencies_of(model, stiffness, omega);
+        printf("\"omega\": %.12g, ", omega[0]); /* the lowest there */
+    }
+    printf("\"flexures\": [");
     for (int i = 0; i < model->flexures; i++)
         printf("%s{\"stress\": %.12g, \"roots\": %.12g, \"at\": %d}", i ? ", " : "",
                answer->stress[i], answer->roots[i], answer->at[i]);

@@ -41,8 +41,12 @@ static double mass(const struct model *model, int i) {
 
 void motion_frequencies(struct model *model, double *omega) {
     double k[FREE * FREE];
-    int n = 3 * model->bodies;
     statics_stiffness(model, k);
+    motion_frequencies_of(model, k, omega);
+}
+
+void motion_frequencies_of(struct model *model, double *k, double *omega) {
+    int n = 3 * model->bodies;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++) {
             double both = (k[i * n + j] + k[j * n + i]) / 2;

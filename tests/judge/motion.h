@@ -7,6 +7,8 @@
 
 /* Angular frequencies at rest, rising, 1/s; 3 for every body. */
 void motion_frequencies(struct model *model, double *omega);
+/* Those of a stiffness, which is spoilt. */
+void motion_frequencies_of(struct model *model, double *k, double *omega);
 
 /* Largest stresses of the motion from rest (or from its velocities) under a share of the loads,
  * with so many steps in a period of the fastest mode; 0 if it could be followed.

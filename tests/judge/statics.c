@@ -231,14 +231,12 @@ static int condense(struct system *s) {
     return 0;
 }
 
-/* Whether the energy is least: all pivots of the bodies' stiffness are above 0, with far stiffer
- * springs for what holds them. */
-static int stable(struct system *s) {
-    static double k[9 * BODIES * BODIES];
+/* The bodies' stiffness, with far stiffer springs for what holds them. */
+static int stiffness_now(struct system *s, double *k) {
     int n = s->wrench;
     double size[2] = {0}; /* of ways and of turns */
     assemble(s);
-    if (condense(s)) return 0;
+    if (condense(s)) return 1;
     for (int i = 0; i < n; i++) {
         double *most = &size[i % 3 == 2];
         *most = fmax(*most, fabs(*entry(s, i, i)));
@@ -253,6 +251,14 @@ static int stable(struct system *s) {
             for (int j = 0; j < n; j++)
                 k[i * n + j] += 1e5 * size[turns > 0] * *entry(s, h, i) * *entry(s, h, j);
     }
+    return 0;
+}
+
+/* Whether the energy is least: all pivots of that stiffness are above 0. */
+static int stable(struct system *s) {
+    static double k[9 * BODIES * BODIES];
+    int n = s->wrench;
+    if (stiffness_now(s, k)) return 0;
     for (int p = 0; p < n; p++) {
         if (!(k[p * n + p] > 0)) return 0;
         for (int i = p + 1; i < n; i++)
@@ -289,6 +295,13 @@ int statics_settle(struct model *model, double share, struct state *state, int *
         before = miss;
     }
     return 1;
+}
+
+int statics_stiffness_at(struct model *model, double share, const struct state *state, double *k) {
+    static double a[UNKNOWNS * UNKNOWNS], r[UNKNOWNS];
+    struct system s = {.model = model, .state = state, .share = share, .a = a, .r = r};
+    size_of(&s);
+    return stiffness_now(&s, k);
 }
 
 void statics_answer(const struct model *model, const struct state *state, struct answer *out) {

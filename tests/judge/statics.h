@@ -22,6 +22,9 @@ int statics_follow(struct model *model, double share, double stress, struct stat
 
 void statics_answer(const struct model *model, const struct state *state, struct answer *out);
 
+/* Stiffness of a state under a share of the loads, as below; what is held counts as very stiff. */
+int statics_stiffness_at(struct model *model, double share, const struct state *state, double *k);
+
 /* Stiffness at rest on the poses of the bodies (3 bodies squared, rows one behind the other). */
 void statics_stiffness(struct model *model, double *k);
 

@@ -389,11 +389,16 @@ static void memory_runs_out(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_are_told),        cmocka_unit_test(warm_is_cold),
-        cmocka_unit_test(leaves_are_met_at_once), cmocka_unit_test(limits_are_told),
-        cmocka_unit_test(primary_branch),         cmocka_unit_test(inside_a_wound_arc),
-        cmocka_unit_test(inside_any_beam),        cmocka_unit_test(nothing_gives_nothing),
-        cmocka_unit_test(what_is_refused),        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(errors_are_told),
+        cmocka_unit_test(warm_is_cold),
+        cmocka_unit_test(leaves_are_met_at_once),
+        cmocka_unit_test(limits_are_told),
+        cmocka_unit_test(primary_branch),
+        cmocka_unit_test(inside_a_wound_arc),
+        cmocka_unit_test(inside_any_beam),
+        cmocka_unit_test(nothing_gives_nothing),
+        cmocka_unit_test(what_is_refused),
+        cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(forces_along_are_those_at), /* last: it draws from the same numbers */
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

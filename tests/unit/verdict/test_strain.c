@@ -93,9 +93,12 @@ static void section_moments_of_a_whole_six_bar(void **state) {
     /* the tables' beam has no depth */
     h.law.stiffness_Nm_per_rad = 764912.2e-12 * 147079.09 / 169000.0;
     for (size_t i = 0; i < sizeof reference / sizeof reference[0]; i++) {
-        const fw_verdict_hinge_load load = {reference[i].angle_rad, 1e-6 * reference[i].fx_uN,
-                                            1e-6 * reference[i].fy_uN, reference[i].turned_rad,
-                                            true, {NAN, NAN}};
+        const fw_verdict_hinge_load load = {reference[i].angle_rad,
+                                            1e-6 * reference[i].fx_uN,
+                                            1e-6 * reference[i].fy_uN,
+                                            reference[i].turned_rad,
+                                            true,
+                                            {NAN, NAN}};
         fw_verdict_hinge_strains s;
         fw_verdict_hinge_strain(&h, NULL, &load, &s);
         double largest = 1e12 * s.peak;
