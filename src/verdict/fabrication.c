@@ -21,7 +21,12 @@ fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_in
 static void change_variant(fw_mechanism_variant *v, const fw_verdict_fabrication *fabricated) {
     double stiff = fabricated->thickness_ratio * fabricated->youngs_ratio;
     v->thickness_m *= fabricated->thickness_ratio;
-    v->material.youngs.value *= fabricated->youngs_ratio;
+    fw_device_material *m = &v->material;
+    m->youngs.value *= fabricated->youngs_ratio;
+    /* of a crystal all directions alike: what is known is by how much the stiffness may be off */
+    m->c11.value *= fabricated->youngs_ratio;
+    m->c12.value *= fabricated->youngs_ratio;
+    m->c44.value *= fabricated->youngs_ratio;
     v->explicit_mass_scale *= fabricated->thickness_ratio;
     v->explicit_stiffness_scale *= stiff;
     v->explicit_damping_scale *= sqrt(stiff * fabricated->thickness_ratio);

@@ -177,6 +177,41 @@ static void what_is_made_follows_the_edges(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* a crystal's corner of Young's modulus is one of all its constants: stiffness goes with it, and a
+   stated force strains as before */
+static void a_crystal_has_a_modulus_too(void **state) {
+    (void)state;
+    set_up s;
+    begin(&s, "0.02 mN");
+    s.variant.material.c11 = known(165.7e9, "Pa");
+    s.variant.material.c12 = known(63.9e9, "Pa");
+    s.variant.material.c44 = known(79.6e9, "Pa");
+    fw_verdict_fabricated_device d[2];
+    const fw_mechanism *m[2];
+    for (int k = 0; k < 2; k++) {
+        const fw_verdict_fabrication fabricated = {0, 0, 1, k ? 1.1 : 1};
+        assert_int_equal(
+            fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &fabricated, &d[k]),
+            FW_OK);
+        assert_int_equal(
+            fw_mechanism_build(s.arena, &d[k].device, NULL, &d[k].variant, &s.diags, &m[k]), FW_OK);
+    }
+    for (int k = 0; k < 2; k++) {
+        const fw_mechanism_hinge *soft = &m[0]->hinge[k], *stiff = &m[1]->hinge[k];
+        assert_true(soft->input.crystal.known);
+        assert_relative(stiff->closed_form.stiffness_Nm_per_rad,
+                        1.1 * soft->closed_form.stiffness_Nm_per_rad, 1e-12);
+        assert_relative(1.1 * stiff->section.point[0].strain_per_Nm,
+                        soft->section.point[0].strain_per_Nm, 1e-12);
+        assert_relative(1.1 * stiff->law.bend_m_per_N, soft->law.bend_m_per_N, 1e-12);
+        assert_relative(1.1 * stiff->closed_form.limit_angle_rad, soft->closed_form.limit_angle_rad,
+                        1e-12);
+    }
+    assert_relative(m[1]->pin[0].stiffness_Nm_per_rad, 1.1 * m[0]->pin[0].stiffness_Nm_per_rad,
+                    1e-12);
+    fw_arena_free(s.arena);
+}
+
 /* no corner, run or not, is above the stated bound; the tightest that was run is the worst of all;
    accepted only where all are */
 static void no_corner_is_worse(void **state) {
@@ -408,6 +443,7 @@ static void drawn_only_when_asked(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_made_follows_the_edges),
+        cmocka_unit_test(a_crystal_has_a_modulus_too),
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(each_hinge_has_its_own_corner),
         cmocka_unit_test(sigma_is_first_order),
