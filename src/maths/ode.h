@@ -168,11 +168,12 @@ static inline void fw_ode_nested_dense(const fw_maths_stepper *s, int rows, cons
     }
 }
 /* Components whose rows from the fifth on are more than `fw_ode_wild` times the first difference and
-   the two slopes (sums of squares) keep the cubic alone. Where an explicit step is long against a
-   stiff direction that is at rest, rounding grows by (h lambda)^8 to the end and by (h lambda)^11
-   between: 1e-22 m became 4e-12 m there, within the tolerance, and 170 um between. A sine of two
-   radians a step has 0.4. */
-static const double fw_ode_wild = 8;
+   the two slopes (sums of squares), and more than `fw_ode_seen` tolerances, keep the cubic alone.
+   Where an explicit step is long against a stiff direction that is at rest, rounding grows by
+   (h lambda)^8 to the end and by (h lambda)^11 between: 1e-22 m became 4e-12 m there, within the
+   tolerance, and 170 um between. A sine of two radians a step has 0.4; a body that rattles in a hole
+   has up to some thousand where the polynomial is right. */
+static const double fw_ode_wild = 1e5, fw_ode_seen = 1000;
 static inline void fw_ode_nested_tame(const fw_maths_stepper *s, int rows, double *row) {
     typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
     const size_t width = (size_t)s->padded, n = (size_t)s->ode.n;
@@ -183,9 +184,13 @@ static inline void fw_ode_nested_tame(const fw_maths_stepper *s, int rows, doubl
             *(i < 4 ? &low : &high) += r * r;
         }
         high -= fw_ode_wild * fw_ode_wild * low;
-        for (size_t k = 0; k < 4; k++)
-            for (size_t i = 4; high[k] > 0 && i < (size_t)rows; i++)
+        for (size_t k = 0; k < 4 && c + k < n; k++) {
+            double much =
+                s->tolerance[c + k] + s->rtol * (row[c + k] < 0 ? -row[c + k] : row[c + k]);
+            much *= fw_ode_seen;
+            for (size_t i = 4; high[k] > much * much && i < (size_t)rows; i++)
                 row[i * width + c + k] = 0;
+        }
     }
 }
 static inline void fw_ode_nested_component(const fw_maths_stepper *s, int rows, const double *row,
