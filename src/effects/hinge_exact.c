@@ -10,10 +10,10 @@
    material dissipates and what temperature does are as in hinge_element.c: the closed form's kx, ky
    and drift are good enough for a loss.
 
-   Every solution starts near the wrench of the closed form for this pose, or where that does not lead
-   to it from the unloaded beam, so that the force depends on the pose alone, to the last bit: not on
-   the way there, nor on what was asked for before. What is kept is the answer for the last pose, which
-   force, tangent and energy all ask for in turn.
+   Every solution starts near the wrench of the closed form for this pose, or where that does not
+   lead to it from the unloaded beam, so that the force depends on the pose alone, to the last bit:
+   not on the way there, nor on what was asked for before. What is kept is the answer for the last
+   pose, which force, tangent and energy all ask for in turn.
    Inputs p in m and rad; outputs N, N m. Valid where the beam has an equilibrium on its primary
    branch for the pose (`valid` says where not; the force is then that of the closed form, so that a
    search can turn back). Error: relative 1e-8, told by the solver. Cost 6 us per pose. Source:
@@ -116,7 +116,7 @@ static bool hardly_bent(fw_effects_exact *x) {
 static bool solve(const fw_effects_flexed *h, const double twist[3]) {
     fw_effects_exact *x = h->exact;
     fw_flexure_elastica_result r;
-    double near[3], unused[3][3];
+    double near[3];
     if (x->asked && x->twist[0] == twist[0] && x->twist[1] == twist[1] && x->twist[2] == twist[2])
         return x->held;
     x->asked = true;
@@ -124,7 +124,7 @@ static bool solve(const fw_effects_flexed *h, const double twist[3]) {
     memcpy(x->twist, twist, sizeof x->twist);
     if (fmax(fabs(twist[0]), hypot(twist[1], twist[2]) / x->length_m) < linear)
         return x->held = hardly_bent(x);
-    fw_flexure_hinge_law_wrench(&h->law, &h->rest, twist, near, unused);
+    fw_flexure_hinge_law_wrench(&h->law, &h->rest, twist, near, NULL);
     const fw_flexure_elastica_task task = {{FW_END_THETA, FW_END_UX, FW_END_UY},
                                            {twist[0], twist[1], twist[2]}};
     fw_flexure_elastica_near(x->solver, &task, twist, near, fw_effects_exact_tolerance, &r);

@@ -5,8 +5,6 @@
 #include "maths/dense.h"
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 /* ---- the result ---- */
 
@@ -133,8 +131,6 @@ static void refine(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, 
         e->sign = n->stability < 0 ? -1 : 1;
         out->mesh = e->mesh[level + 1].count;
         out->code = err.whole <= w->tolerance ? FW_ELASTICA_OK : FW_ELASTICA_ROUGH;
-        if (getenv("FW_T"))
-            fprintf(stderr, " [level %d mesh %g whole %g]\n", level, err.mesh, err.whole);
         if (err.whole <= w->tolerance || err.mesh <= err.round) return; /* no mesh rounds less */
     }
 }
@@ -191,8 +187,8 @@ static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
 /* Equations: elastica_pass.c. Unknown are the rotations at the nodes and p: the moment at the first
    root and the force. In: three of (theta, ux, uy, M, Fx, Fy); SI. Out: the other three, the
    tangent stiffness, errors.
-   From the unloaded beam: Newton's method from the beam wound by a moment alone, and where that
-   does not contract at once load steps from nothing, so that what is found is the primary branch. A
+   Where another law's state is given Newton's method begins there. From the unloaded beam: it begins
+   from the beam wound by a moment alone, and where that does not contract at once load steps from nothing, so that what is found is the primary branch. A
    step is refused when two changes in a row do not fall to a quarter or the determinant changes
    sign; a branch that cannot be followed further is tried again on the next meshes before it is
    called a limit. Valid for any rotation and load that the finest mesh resolves (16 elements a
@@ -307,6 +303,18 @@ static fw_status meshes(fw_arena *arena, fw_flexure_elastica *e) {
     return FW_OK;
 }
 
+/* principal compliances of W */
+static void find_stiff_direction(fw_flexure_elastica *e) {
+    const double slender = 100; /* arcs have 24 at most, leaves (L/t)^2 */
+    double(*c)[3] = e->linear.c, half = 0.5 * (c[1][1] - c[2][2]);
+    double mean = 0.5 * (c[1][1] + c[2][2]), off = hypot(half, c[1][2]);
+    e->stiff = !(mean + off < slender * (mean - off));
+    e->twice_soft_rad = atan2(c[1][2], half);
+    /* of the force that a rounded place asks for, over the largest stiffness; none: inextensible */
+    double most = e->beam->inextensible ? 0 : e->soft * e->length_m * e->length_m / (mean - off);
+    e->floor = 16 * DBL_EPSILON * most;
+}
+
 fw_status fw_flexure_elastica_new(fw_arena *arena, const fw_flexure_beam *beam,
                                   const double *point_m, bool hinged, fw_flexure_elastica **out) {
     fw_flexure_elastica *e = fw_arena_one(arena, fw_flexure_elastica);
@@ -319,11 +327,7 @@ fw_status fw_flexure_elastica_new(fw_arena *arena, const fw_flexure_beam *beam,
     fw_flexure_beam_compliance(beam, &e->linear);
     e->length_m = e->linear.length_m;
     e->soft = e->linear.c[0][0];
-    double mean = 0.5 * (e->linear.c[1][1] + e->linear.c[2][2]);
-    double off = hypot(0.5 * (e->linear.c[1][1] - e->linear.c[2][2]), e->linear.c[1][2]);
-    /* of the force that a rounded place asks for, over the largest stiffness; none: inextensible */
-    double stiff = beam->inextensible ? 0 : e->soft * e->length_m * e->length_m / (mean - off);
-    e->floor = 16 * DBL_EPSILON * stiff;
+    find_stiff_direction(e);
     FW_NEED(e->pose = fw_arena_array(arena, fw_flexure_beam_pose, (size_t)beam->npiece + 1));
     fw_flexure_beam_poses(beam, e->pose);
     const double *point = point_m ? point_m : e->linear.centre_m;

@@ -55,8 +55,9 @@ struct fw_flexure_elastica {
     fw_flexure_mesh mesh[FW_LEVELS];
     int *per_piece;             /* elements of each piece on the coarsest mesh */
     fw_flexure_beam_pose *pose; /* starts of the pieces */
-    double
-        floor; /* what rounding leaves of a change: more where the strip is stiff along its chord */
+    double floor; /* what rounding leaves of a change: more where it is stiff along its chord */
+    bool stiff;   /* it hardly stretches: stiffnesses of W differ a hundredfold */
+    double twice_soft_rad; /* twice the angle of the direction in which W is softest */
     double length_m, soft; /* units: l, C_theta */
     double root[2];        /* rotation per moment */
     double arm[2];         /* from the end to the point that is watched, as made */

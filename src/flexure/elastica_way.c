@@ -102,11 +102,8 @@ static void set_moment(fw_flexure_elastica *e, int level, double moment) {
    turned with the second body, and the force across is left as it is. */
 static bool ease_in(fw_flexure_elastica *e, int level, const fw_flexure_goal *g, double turn,
                     double loose) {
-    const double stiff = 100; /* arcs have 24 at most, leaves (L/t)^2 */
-    double(*c)[3] = e->linear.c, half = 0.5 * (c[1][1] - c[2][2]);
-    double mean = 0.5 * (c[1][1] + c[2][2]), off = hypot(half, c[1][2]);
-    double angle = 0.5 * (atan2(c[1][2], half) + turn);
-    if (mean + off < stiff * (mean - off)) return true;
+    double angle = 0.5 * (e->twice_soft_rad + turn);
+    if (!e->stiff) return true;
     if (index_of(g, FW_END_UX) < 0 || index_of(g, FW_END_UY) < 0) return true;
     fw_flexure_goal easy = *g;
     easy.eased = true;

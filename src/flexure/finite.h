@@ -82,7 +82,7 @@ bool fw_flexure_hinge_law_held(const fw_flexure_hinge_law *law, const fw_flexure
                                double displaced_m[2], double *moment_Nm, double *pull);
 /* What the hinge does to a twist (theta, ux, uy) of the second body's W against the first one's, u
    in the first body's frame with x along the free arc's axis: wrench (M, Fx, Fy) that it takes, the
-   gradient of the energy by the twist, and its symmetric tangent; SI */
+   gradient of the energy by the twist, and its symmetric tangent (NULL: not asked for); SI */
 void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  const double twist[3], double wrench[3], double tangent[3][3]);
 /* does the law hold at this rotation? not where the flexure is wound up to a full circle */

@@ -404,7 +404,7 @@ void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexu
     fw_flexure_hinge_bent b;
     double th = twist[0], c = cos(0.5 * th), s = sin(0.5 * th);
     double w = c * twist[1] + s * twist[2], v = c * twist[2] - s * twist[1];
-    fw_flexure_hinge_law_bend(law, rest, (const double[3]){th, w, v}, true, &b);
+    fw_flexure_hinge_law_bend(law, rest, (const double[3]){th, w, v}, tangent != NULL, &b);
     const double *g = b.gradient;
     const double j[3][3] = {
         {1, 0, 0}, {0.5 * v, c, s}, {-0.5 * w, -s, c}}; /* d(th, w, v)/d twist */
@@ -412,13 +412,15 @@ void fw_flexure_hinge_law_wrench(const fw_flexure_hinge_law *law, const fw_flexu
         wrench[i] = 0;
         for (int k = 0; k < 3; k++)
             wrench[i] += g[k] * j[k][i];
+    }
+    if (!tangent) return;
+    for (int i = 0; i < 3; i++)
         for (int m = 0; m < 3; m++) {
             tangent[i][m] = 0;
             for (int k = 0; k < 3; k++)
                 for (int l = 0; l < 3; l++)
                     tangent[i][m] += j[k][i] * b.hessian[k][l] * j[l][m];
         }
-    }
     tangent[0][0] -= 0.25 * (g[1] * w + g[2] * v);
     const double wx = -0.5 * s, wy = 0.5 * c; /* d2w/dth du; of v: -wy, wx */
     tangent[0][1] += g[1] * wx - g[2] * wy, tangent[0][2] += g[1] * wy + g[2] * wx;

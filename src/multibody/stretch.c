@@ -4,8 +4,8 @@
 
      g law(t),   g = s (p_b - centre) where b is the ground, -s (p_a - centre) where a is,
 
-   (of a flexure that a pin stands for p is where the strip begins), so that Psi_t and Psi_tt follow from d' += g law', d'' += g law''; ends of springs on the ground
-   move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
+   (p of a pin that stands for a flexure is where the strip begins), so that Psi_t and Psi_tt follow
+   from d' += g law', d'' += g law''; ends of springs on the ground move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
    feeds in goes to the energy balance: lambda . Psi_t of the joints (rhs.c), and that of springs
    and slides (forces.c). Test: test_constraints.c, test_temperature.c. */
 #include "multibody/multibody_scratch.h"
@@ -15,7 +15,7 @@ void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2
         gain[k] = m->stretch.strain * (local[k] - m->stretch.centre[k]);
 }
 
-/* of a point that goes with one `root_m` away from it: a pin that a flexure stands for */
+/* of a point that goes with one `root_m` away from it: a pin that stands for a flexure */
 static void gain_of_pin(const fw_multibody_model *m, const double local[2],
                         const fw_geometry_vec2 *root_m, double gain[2]) {
     const double at[2] = {local[0] + (root_m ? root_m->x / m->scale.length_m : 0),

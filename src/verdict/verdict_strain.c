@@ -33,19 +33,18 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *h,
    Where the strip is pressed, more than one equilibrium has this force: it is that near the closed
    form's. Error 1e-8. Cost 6 us, and 0.1 us a section. Source: Reissner, ZAMP 23 (1972);
    docs/theory/hinge-models.md. Test: test_strain_exact.c. */
-static bool by_beam(const fw_mechanism_hinge *h, fw_flexure_elastica *beam, double th,
-                    const double along[2], const double *apart_m, fw_flexure_strip_strains *out) {
+static bool by_beam(const fw_mechanism_hinge *h, const fw_flexure_hinge_rest *rest,
+                    fw_flexure_elastica *beam, double th, const double along[2],
+                    const double *apart_m, fw_flexure_strip_strains *out) {
     double c = cos(0.5 * th), s = sin(0.5 * th);
     const fw_flexure_elastica_task task = {
         {FW_END_THETA, FW_END_FX, FW_END_FY},
         {th, c * along[0] - s * along[1], s * along[0] + c * along[1]}};
-    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&h->law);
     fw_flexure_elastica_result r = {.code = FW_ELASTICA_FAILED};
     double u[2], moment, pull;
-    bool under = fw_flexure_hinge_law_under(&h->law, &rest, th, along, u, &moment, &pull);
-    bool held =
-        (!under || pull < pressed) && apart_m &&
-        fw_flexure_hinge_law_held(&h->law, &rest, th, along[1], *apart_m, u, &moment, &pull);
+    bool under = fw_flexure_hinge_law_under(&h->law, rest, th, along, u, &moment, &pull);
+    bool held = (!under || pull < pressed) && apart_m &&
+                fw_flexure_hinge_law_held(&h->law, rest, th, along[1], *apart_m, u, &moment, &pull);
     if (under || held) {
         const double twist[3] = {th, c * u[0] - s * u[1], s * u[0] + c * u[1]};
         const double wrench[3] = {moment - 0.5 * (u[0] * along[1] - u[1] * along[0]), task.value[1],
@@ -73,8 +72,8 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
                              by * (c * load->fy_N - s * load->fx_N)};
     double apart = sense * (c * load->apart_m[0] + s * load->apart_m[1]);
     const double *known = isfinite(apart) ? &apart : NULL;
-    if (beam && by_beam(h, beam, th, along, known, out)) return true;
     const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(&h->law);
+    if (beam && by_beam(h, &rest, beam, th, along, known, out)) return true;
     fw_flexure_strip_load strip;
     fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along, known,
                              &strip);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a layer is anchored to comes from its flow. A portal whose posts stand WIDE apart: its
    ground shrinks against a layer that expands more, and both posts lean by half of what that is
-   between their flexures' roots over their height (they are held apart by a beam of the layer). The modulus is stated, so that the pins of
-   silicon are where they are drawn. */
+   between their flexures' roots over their height (they are held apart by a beam of the layer). The
+   modulus is stated, so that the pins of silicon are where they are drawn. */
 #include "plan/plan.h"
 #include "test.h"
 #include <math.h>
