@@ -208,6 +208,12 @@ FW_API int fw_design_statics(fw_design *design);
    rates that do not fit. Other errors as fw_design_simulate. Cost for a six-bar: about 5 ms. */
 FW_API int fw_design_assemble(fw_design *design);
 
+/* 1 where a message of what was computed says that the result is not to be relied on: the motion or
+   equilibrium is of another start than the stated one (poses that were far from closing, initial
+   velocities that the joints forbid), or the energy of a motion does not add up. Else 0. The
+   commands then end with 4. */
+FW_API int fw_design_unreliable(const fw_design *design);
+
 /* The set of platform poses of a <six-bar> that the elastic limits leave, in every flow: volume,
    areas at constant rotation, extents, singular poses; and the required boxes, proved by interval
    arithmetic where that can be. After reading. FW_STATUS_INPUT where the mechanism is no <six-bar>;

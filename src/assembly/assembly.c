@@ -323,9 +323,9 @@ static char *amount(char *to, size_t n, double metres, double radian, double siz
     return to;
 }
 
-/* a guess that was far off may have led to another assembly than was meant: that is a warning */
-static void report_moved(const fw_mechanism *m, const fw_assembly_joint_gap *gap, const double *q,
-                         double size, fw_diags *diags) {
+/* a guess that was far off may have led to another assembly than was meant: that is unreliable */
+    static void report_moved(const fw_mechanism *m, const fw_assembly_joint_gap *gap,
+                             const double *q, double size, fw_diags *diags) {
     double moved = 0, turned = 0, open = 0, askew = 0;
     for (int b = 0; b < m->nbody; b++) {
         moved = fmax(moved, hypot(q[3 * b] - m->body[b].x_m, q[3 * b + 1] - m->body[b].y_m));
@@ -343,7 +343,10 @@ static void report_moved(const fw_mechanism *m, const fw_assembly_joint_gap *gap
              "`flexwright assemble` lists the closed poses",
              amount(before, sizeof before, open, askew, size, unit),
              amount(way, sizeof way, moved, turned, size, unit));
-    if (fmax(moved, turned * size) > 1e-6 * size)
+    double most = fmax(moved, turned * size);
+    if (most > fw_assembly_another_start * size)
+        fw_diag_unreliable(diags, 115, place, "%s; another branch may have been meant", text);
+    else if (most > 1e-6 * size)
         fw_diag_warning(diags, 115, place, "%s", text);
     else
         fw_diag_note(diags, 115, place, "%s", text);

@@ -8,6 +8,12 @@
 #define FW_ASSEMBLY_ASSEMBLY_H
 #include "multibody/model.h"
 
+/* A pose that joints correct by more than this part of the mechanism's size, or a velocity by more
+   than this part of the largest, is another start than the one that was stated: what follows from
+   it is not an answer to the question (FW-D106, FW-D115). Digits left out when poses were typed are
+   far below, another branch is far above. */
+static const double fw_assembly_another_start = 0.01;
+
 /* a pin, a joint or a driver, and how far it is from what it asks */
 typedef struct fw_assembly_joint_gap {
     const char *id;

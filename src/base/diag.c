@@ -32,9 +32,10 @@ fw_diags fw_diags_new(fw_arena *arena) {
     return (fw_diags){.arena = arena};
 }
 
-static void add(fw_diags *diags, fw_severity severity, int number, fw_place place,
-                const char *format, va_list arguments) {
-    if (severity == FW_ERROR) diags->errors++;
+/* kind: number, severity, place and unreliable */
+static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
+    if (kind.severity == FW_ERROR) diags->errors++;
+    if (kind.unreliable) diags->unreliable++;
     if (diags->count == FW_DIAG_MOST) {
         diags->dropped++;
         return;
@@ -52,18 +53,19 @@ static void add(fw_diags *diags, fw_severity severity, int number, fw_place plac
     }
     char buffer[2048];
     vsnprintf(buffer, sizeof buffer, format, arguments);
-    char *message = fw_arena_strdup(diags->arena, buffer);
-    if (!message) {
+    kind.message = fw_arena_strdup(diags->arena, buffer);
+    if (!kind.message) {
         diags->failed = 1;
         return;
     }
-    diags->item[diags->count++] = (fw_diag){number, severity, place, message};
+    diags->item[diags->count++] = kind;
 }
 
 fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    add(diags, FW_ERROR, number, place, format, arguments);
+    add(diags, (fw_diag){.number = number, .severity = FW_ERROR, .place = place}, format,
+        arguments);
     va_end(arguments);
     return diags->failed ? FW_NOMEM : FW_INPUT;
 }
@@ -71,27 +73,40 @@ fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char 
 void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    add(diags, FW_WARNING, number, place, format, arguments);
+    add(diags, (fw_diag){.number = number, .severity = FW_WARNING, .place = place}, format,
+        arguments);
+    va_end(arguments);
+}
+
+void fw_diag_unreliable(fw_diags *diags, int number, fw_place place, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    add(diags,
+        (fw_diag){.number = number, .severity = FW_WARNING, .place = place, .unreliable = true},
+        format, arguments);
     va_end(arguments);
 }
 
 void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    add(diags, FW_NOTE, number, place, format, arguments);
+    add(diags, (fw_diag){.number = number, .severity = FW_NOTE, .place = place}, format, arguments);
     va_end(arguments);
 }
 
-static void add_text(fw_diags *diags, fw_severity severity, int number, fw_place place,
-                     const char *format, ...) {
+static void add_text(fw_diags *diags, fw_diag kind, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    add(diags, severity, number, place, format, arguments);
+    add(diags, kind, format, arguments);
     va_end(arguments);
 }
 
 void fw_diags_add(fw_diags *diags, const fw_diag *d, fw_severity severity) {
-    add_text(diags, severity, d->number, d->place, "%s", d->message);
+    fw_diag kind = {.number = d->number,
+                    .severity = severity,
+                    .place = d->place,
+                    .unreliable = d->unreliable && severity == d->severity};
+    add_text(diags, kind, "%s", d->message);
 }
 
 void fw_diags_take(fw_diags *diags, const fw_diags *from) {

@@ -30,14 +30,16 @@ typedef struct fw_diag {
     fw_severity severity;
     fw_place place;
     const char *message;
+    bool unreliable; /* a warning after which the result is not to be relied on */
 } fw_diag;
 
 typedef struct fw_diags {
     fw_arena *arena;
     fw_diag *item; /* (count) */
     size_t count, capacity;
-    size_t errors, dropped; /* dropped: beyond the first FW_DIAG_MOST */
-    int failed;             /* memory was short while collecting */
+    size_t errors, unreliable;
+    size_t dropped; /* beyond the first FW_DIAG_MOST */
+    int failed;     /* memory was short while collecting */
 } fw_diags;
 
 enum { FW_DIAG_MOST = 100 };
@@ -48,6 +50,10 @@ fw_diags fw_diags_new(fw_arena *arena);
 fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void fw_diag_warning(fw_diags *diags, int number, fw_place place, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* A warning that the result is of another start than the stated one, or wrong in itself: there is
+   an answer, but not the one that was asked for, so a command does not end with 0. */
+void fw_diag_unreliable(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -82,7 +82,8 @@ static int with_design(fw_cli_options *options, computation compute) {
     int exit_status;
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
-    return fw_cli_session_close(design, options, compute(design, options), 0);
+    int status = compute(design, options);
+    return fw_cli_session_close(design, options, status, fw_design_unreliable(design) ? 4 : 0);
 }
 
 /* what is printed at the end is asked for at once; a file of the motion alone needs no more */

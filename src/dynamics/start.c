@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What must be known before the first step. */
+#include "assembly/assembly.h"
 #include "dynamics/run.h"
 #include "maths/dense.h"
 #include <math.h>
@@ -64,12 +65,13 @@ static void warn_velocities(fw_dynamics_run *r, const bool *stated, const double
     double before = fw_multibody_kinetic_energy(r->problem.model, given),
            after = fw_multibody_kinetic_energy(r->problem.model, v);
     char most[32], energy[32];
-    fw_diag_warning(r->diags, 106, r->problem.scene->place,
-                    "initial velocities of scene %s contradict the joints; they were changed by up "
-                    "to %s %% to fit, the kinetic energy by %s %%",
-                    fw_dynamics_scene_name(&r->problem),
-                    fw_number_text(most, sizeof most, 100 * moved / size, 3),
-                    fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
+    (moved > fw_assembly_another_start * size ? fw_diag_unreliable : fw_diag_warning)(
+        r->diags, 106, r->problem.scene->place,
+        "initial velocities of scene %s contradict the joints; they were changed by up "
+        "to %s %% to fit, the kinetic energy by %s %%",
+        fw_dynamics_scene_name(&r->problem),
+        fw_number_text(most, sizeof most, 100 * moved / size, 3),
+        fw_number_text(energy, sizeof energy, 100 * (after - before) / before, 3));
 }
 
 static fw_status cannot_start(const fw_dynamics_run *r) {

@@ -274,13 +274,14 @@ static void warn_energy(const fw_dynamics_run *r) {
     double off = r->record.motion->stats.energy_error;
     char a[32], b[32];
     if (!(off > energy_allowed(&r->record))) return;
-    fw_diag_warning(r->diags, 241, r->problem.scene->place,
-                    "scene %s: the energy balance error is %s of the largest energy, far more "
-                    "than the tolerance %s explains; this motion is not reliable: use another "
-                    "--method or --integrator",
-                    r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
-                    fw_number_text(a, sizeof a, off, 2),
-                    fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
+    r->record.motion->stats.energy_violated = true;
+    fw_diag_unreliable(r->diags, 241, r->problem.scene->place,
+                       "scene %s: the energy balance error is %s of the largest energy, far more "
+                       "than the tolerance %s explains; this motion is not reliable: use another "
+                       "--method or --integrator",
+                       r->problem.scene->name ? r->problem.scene->name : "(unnamed)",
+                       fw_number_text(a, sizeof a, off, 2),
+                       fw_number_text(b, sizeof b, r->record.motion->stats.rtol, 2));
 }
 
 /* what was chosen and why */

@@ -428,6 +428,10 @@ fw_status fw_plan_design_know(fw_design *d, unsigned wanted) {
     return subject(d, mechanism, scene);
 }
 
+int fw_design_unreliable(const fw_design *design) {
+    return design && design->plan && design->plan->diags.unreliable > 0;
+}
+
 int fw_design_simulate(fw_design *design) {
     return stage(design, FW_DONE_READ, "read a description before simulating it", FW_DONE_SIMULATED,
                  simulate_work);

@@ -223,6 +223,20 @@ class Plan(InTemporary):
         self.assertEqual(verdict["reasons"], [])
         self.assertGreater(verdict["hinges"][0]["peak_angle_rad"], 1)
 
+    def test_another_start_than_the_stated_one_is_not_accepted(self):
+        def started(velocity):
+            device = self.arm(f'<scene name="thrown" duration="5 ms"><initial body="arm" {velocity}/></scene>')
+            checked = run("check", device, "--hinge-model", "revolute", "--json", "--advice", "none")
+            return checked.returncode, [r["code"] for r in json.loads(checked.stdout)["reasons"]], \
+                run("simulate", device, "--hinge-model", "revolute")
+        status, reasons, motion = started('omega="1 rad/s"')
+        self.assertEqual((status, reasons, motion.returncode), (0, [], 0))
+        # a pin at the middle of the drawing lets nothing move along the arm
+        status, reasons, motion = started('vx="1 m/s" vy="0 m/s" omega="1 rad/s"')
+        self.assertEqual((status, reasons, motion.returncode), (4, ["FW-D106"], 4))
+        self.assertIn("FW-D106", motion.stderr)
+        self.assertIn('"schema"', run("simulate", self.here / "device.xml", "--hinge-model", "revolute", "--json").stdout)
+
     def test_pull_in_within_the_fringe_fields_is_not_accepted(self):
         slow = 'law="ramp" rise="45 ms"'
         self.assertEqual(self.judged(self.arm(self.plate("a", 24, slow, "50 ms")), 0)["reasons"], [])
