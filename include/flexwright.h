@@ -279,7 +279,7 @@ enum {                                    /* what it is; what must have been cal
        FW_DOCUMENT_WORKSPACE_TEXT = 24, /* for a terminal; workspace */
        FW_DOCUMENT_WORKSPACE_SVG = 25,  /* slices at constant rotation; workspace */
        /* proofs of the required boxes, to be verified by other programs: schema
-          flexwright.workspace-certificate/1; workspace */
+          flexwright.workspace-certificate/2; workspace */
        FW_DOCUMENT_CERTIFICATE_JSON = 26,
        /* elements and attributes of descriptions, methods, integrators, effects and so on, for
           forms and editors: schema flexwright.table/1; nothing */

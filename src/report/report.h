@@ -218,7 +218,7 @@ typedef struct fw_report_workspace {
 fw_status fw_report_workspace_text(const fw_report_workspace *in, fw_text *out);
 /* schema flexwright.workspace/1 */
 fw_status fw_report_workspace_json(const fw_report_workspace *in, fw_text *out);
-/* schema flexwright.workspace-certificate/1: what tests/accept/check_certificate.py verifies */
+/* schema flexwright.workspace-certificate/2: what tests/accept/check_certificate.py verifies */
 fw_status fw_report_certificate_json(const fw_report_workspace *in, fw_text *out);
 /* slices at constant rotation, their boundary coloured by the hinge that is at its limit */
 fw_status fw_report_workspace_svg(fw_arena *arena, const fw_report_workspace *in, fw_text *out);

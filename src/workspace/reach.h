@@ -40,6 +40,20 @@ typedef struct fw_workspace_proof_effort {
 fw_status fw_workspace_reach_volume(fw_arena *arena, const fw_workspace_loop *loop,
                                     const fw_workspace_reach_limits *limits,
                                     fw_workspace_proof_effort effort, fw_workspace_measure *volume);
+/* What a checker needs besides mechanism, limits and bracket: the box of rotations of A, B, C (rad)
+   and the tree of its halvings (reach_tree.h): a node is i (inside), o (outside), c (a leaf that is
+   cut) or h (halved along all three coordinates, its eight parts follow). A box without width in a
+   coordinate, where the limits leave nothing, has the tree o. */
+typedef struct fw_workspace_volume_proof {
+    fw_workspace_box3 box;
+    const char *tree;
+} fw_workspace_volume_proof;
+
+/* the same bits as fw_workspace_reach_volume, and what proves them */
+fw_status fw_workspace_reach_certify(fw_arena *arena, const fw_workspace_loop *loop,
+                                     const fw_workspace_reach_limits *limits,
+                                     fw_workspace_proof_effort effort, fw_workspace_measure *volume,
+                                     fw_workspace_volume_proof *proof);
 fw_status fw_workspace_reach_area(fw_arena *arena, const fw_workspace_loop *loop,
                                   const fw_workspace_reach_limits *limits, double phi_rad,
                                   fw_workspace_proof_effort effort, fw_workspace_measure *area);

@@ -295,7 +295,8 @@ fw_status fw_workspace_reach_survey(const fw_arena *arena, const fw_workspace_lo
     return FW_OK;
 }
 
-const fw_workspace_effort fw_workspace_usual = {.relative = 2e-3, .most = 400000, .level = 6};
+const fw_workspace_effort fw_workspace_usual = {
+    .relative = 2e-3, .most = 400000, .level = 6, .certified = true};
 const fw_workspace_effort fw_workspace_quick = {.relative = 1e-2, .most = 80000, .level = 5};
 
 static const double slice_relative = 1e-3, extent_relative = 1e-3;
@@ -328,9 +329,12 @@ fw_status fw_workspace_map_make(fw_arena *arena, const fw_mechanism *m, fw_works
         return FW_OK;
     }
     map->limits = fw_workspace_limits_symmetric(map->limit_rad);
-    FW_TRY(fw_workspace_reach_volume(arena, &map->loop, &map->limits,
-                                     (fw_workspace_proof_effort){effort.relative, effort.most},
-                                     &map->volume));
+    const fw_workspace_proof_effort wanted = {effort.relative, effort.most};
+    if (effort.certified)
+        FW_TRY(fw_workspace_reach_certify(arena, &map->loop, &map->limits, wanted, &map->volume,
+                                          &map->proof));
+    else
+        FW_TRY(fw_workspace_reach_volume(arena, &map->loop, &map->limits, wanted, &map->volume));
     FW_TRY(fw_workspace_reach_survey(arena, &map->loop, &map->limits, effort.level, &map->survey));
     FW_TRY(fw_workspace_reach_extents(arena, &map->loop, &map->limits, extent_relative,
                                       EXTENT_BOXES, &map->survey));

@@ -63,7 +63,8 @@ typedef struct fw_workspace_map {
     fw_workspace_loop loop;
     double limit_rad[FW_SIX];
     fw_workspace_reach_limits limits;
-    fw_workspace_measure volume; /* m2 rad */
+    fw_workspace_measure volume;     /* m2 rad */
+    fw_workspace_volume_proof proof; /* of it; no tree where the effort asks for none */
     fw_workspace_survey survey;
     /* at 0 and at a third and two thirds of the way to the ends */
     fw_workspace_slice slice[FW_SLICES];
@@ -73,6 +74,7 @@ typedef struct fw_workspace_effort {
     double relative; /* width wanted of the volume */
     long most;       /* boxes for it */
     int level;       /* of the survey */
+    bool certified;  /* the volume's tree is kept for the certificate */
 } fw_workspace_effort;
 extern const fw_workspace_effort fw_workspace_usual; /* some 0.2 s */
 extern const fw_workspace_effort fw_workspace_quick; /* some 50 ms, for the report */

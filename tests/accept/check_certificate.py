@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verifies certificate.json of `flexwright workspace`: for every required box that every pose can be
 assembled on the drawn branch with every hinge's angle in the stated range, and that the ends of the range
-are nearly reached; and that no hinge is strained beyond what is said, whatever of the actuations holds the pose.
+are nearly reached; and that no hinge is strained beyond what is said, whatever of the actuations holds the pose;
+and, in check_volume.py, that the reachable volume lies in the stated bracket.
 Standard library only, and nothing of the product: own interval arithmetic, other
 formulas (law of cosines and derivatives carried along, where the product has a vector form and Taylor
 remainders), so that a mistake in one of the two shows.
@@ -15,12 +16,11 @@ import json
 import math
 import sys
 
+import check_volume
+from claims import Refused, number, vector
+
 INF = math.inf
 next_to = math.nextafter
-
-
-class Refused(Exception):
-    """the certificate does not prove what it says"""
 
 
 def down(x, n=1):
@@ -160,20 +160,6 @@ def direction(y, x, near):
     value = Interval(down(min(corners), 3), up(max(corners), 3)) + Interval(down(own, 3), up(own, 3))
     n = u.v.square() + v.v.square()
     return Jet(value, tuple((u.v * b - v.v * a) / n for a, b in zip(u.d, v.d)))
-
-
-def number(text):
-    if not isinstance(text, str):
-        raise Refused("numbers are written as their bits")
-    value = float.fromhex(text)
-    if not math.isfinite(value):
-        raise Refused("a number is not finite")
-    return value
-
-
-def vector(pair):
-    x, y = (number(t) for t in pair)
-    return x, y
 
 
 class Leg:
@@ -613,7 +599,7 @@ class Strains:
 
 def check(document, most=200000):
     """boxes that were looked at, per required box and for its strains; Refused where something is not proved"""
-    if document.get("schema") != "flexwright.workspace-certificate/1":
+    if document.get("schema") != "flexwright.workspace-certificate/2":
         raise Refused("not a certificate of a workspace")
     counts = []
     for data in document["boxes"]:
@@ -629,10 +615,32 @@ def check(document, most=200000):
     return counts
 
 
+def check_volumes(document, most=20000):
+    """per flow: its name, why it has no volume, or what proved it (check_volume.Volume) and the own bracket in m2 rad"""
+    found = []
+    for data in document["volumes"]:
+        if data["volume"] is None:
+            if not data["none"]:
+                raise Refused("no volume, and no reason")
+            found.append((data["flow"], data["none"], None))
+        else:
+            found.append((data["flow"], *check_volume.check(data["volume"], most)))
+    if not found:
+        raise Refused("no flow has a volume")
+    return found
+
+
 def main():
     try:
         with open(sys.argv[1], encoding="utf-8") as file:
-            counts = check(json.load(file))
+            document = json.load(file)
+        counts = check(document)
+        for flow, volume, bracket in check_volumes(document):
+            if bracket is None:
+                print("%s: no volume: %s" % (flow, volume))
+                continue
+            print("%s: the volume lies in [%.7g, %.7g] m2 rad as stated: %d leaves, %d boxes here, own bracket "
+                  "[%.7g, %.7g]" % (flow, *volume.claim, volume.leaves, volume.boxes, *bracket))
     except (Refused, Undecided, KeyError, TypeError, ValueError, OverflowError) as why:
         print("REFUSED: %s: %s" % (type(why).__name__, why))
         return 1

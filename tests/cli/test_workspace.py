@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The workspace through the program; its certificate verified, and refused when it was changed."""
+import cmath
 import copy
 import json
 import math
 import pathlib
+import random
 import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import xml.etree.ElementTree as tree
 
 from common import GALLERY, ROOT, run
 
 sys.path.insert(0, str(ROOT / "tests/accept"))
 import check_certificate  # noqa: E402
+import check_volume  # noqa: E402
 from check_certificate import Refused, Undecided  # noqa: E402
 
 
@@ -240,6 +244,200 @@ class Certificate(InTemporary):
         self.refused(change)
         with self.assertRaises(Refused):
             check_certificate.check({"schema": "flexwright.workspace/1", "boxes": []})
+
+
+def certificate_of(device, where, *more):
+    run("workspace", device, "-o", where, "-q", *more)
+    return json.loads((where / "certificate.json").read_text())
+
+
+def leaf(tree, kind, n):
+    """place of the n-th node of this kind"""
+    return [m.start() for m in re.finditer(kind, tree)][n]
+
+
+def behind(tree, node):
+    """place behind a node and all that is below it"""
+    open_ = 1
+    while open_:
+        open_ += 7 if tree[node] == "h" else -1
+        node += 1
+    return node
+
+
+class Volume(InTemporary):
+    def accepted(self, certificate, **more):
+        return [(flow, volume, own) for flow, volume, own in check_certificate.check_volumes(certificate, **more)]
+
+    def test_the_reported_bracket_is_proved(self):
+        found = self.accepted(self.certificate)
+        self.assertEqual([f[0] for f in found], [f["flow"] for f in self.data["flows"]])
+        for (_, volume, (low, high)), flow in zip(found, self.data["flows"]):
+            claim = flow["reachable"]["volume"]["m2_rad"]
+            self.assertEqual(list(volume.claim), claim)
+            self.assertTrue(claim[0] <= low < high <= claim[1])
+        self.assertLess((self.out / "certificate.json").stat().st_size, 1e6)
+
+    def test_stretched_legs(self):
+        """limits that let both legs be stretched, two hinges turn by more than half a turn altogether"""
+        for strength, width in (("6", 1.05), ("9", 2)):
+            device = self.here / f"wide-{strength}.xml"
+            device.write_text(GALLERY.read_text().replace('strength="2.5 GPa"', f'strength="{strength} GPa"'))
+            flow = ("--flow", "al-masked-rie")
+            (_, volume, own), = self.accepted(certificate_of(device, self.here / f"wide-{strength}", *flow))
+            self.assertGreater(volume.claim[1], width * volume.claim[0])
+            self.assertTrue(volume.claim[0] <= own[0] < own[1] <= volume.claim[1])
+
+    def test_another_device(self):
+        found = self.accepted(certificate_of(ROOT / "docs/gallery/four-tendons/device.xml", self.here / "four"))
+        self.assertEqual(len(found), 1)
+
+    def test_no_volume_has_a_reason(self):
+        device = self.here / "held.xml"
+        text = GALLERY.read_text().replace(' flexure="E"', "")
+        device.write_text(text)
+        certificate = certificate_of(device, self.here / "held")
+        for found in self.accepted(certificate):
+            self.assertIn("elastic limit", found[1])
+            self.assertIsNone(found[2])
+        certificate["volumes"][0]["none"] = None
+        with self.assertRaises(Refused):
+            self.accepted(certificate)
+        with self.assertRaises(Refused):
+            self.accepted({"volumes": []})
+
+    def smaller(self):
+        """the flow whose limits are the smaller ones"""
+        return copy.deepcopy(self.certificate["volumes"][1]["volume"])
+
+    def refused(self, change, why=None):
+        data = self.smaller()
+        change(data)
+        with self.assertRaises((Refused, KeyError, ValueError)) as caught:
+            check_volume.check(data, most=1000)
+        if why:
+            self.assertIn(why, str(caught.exception))
+
+    def test_another_bracket(self):
+        """narrower, wider than nothing, beside the truth; what no bracket changes is looked at once"""
+        volume = check_volume.Volume(self.smaller(), 60000)
+        volume.walk()
+        low, high = volume.claim
+        self.assertTrue(volume.against((low * 0.999, high * 1.001)))
+        middle = 0.5 * (low + high)
+        for claim in ((middle, high), (low, middle), (middle, middle), (high, high * 1.01), (low * 0.99, low),
+                      (high, low), (0.0, 0.0), (-high, -low)):
+            with self.assertRaises(Refused, msg=str(claim)):
+                volume.against(claim)
+
+    def test_another_limit(self):
+        for hinge in range(6):
+            for end in (0, 1):
+                for factor in (0.99, 1.01):
+                    def change(data, hinge=hinge, end=end, factor=factor):
+                        limit = data["limits_rad"][hinge]
+                        limit[end] = bits(limit[end], lambda v: v * factor)
+                    self.refused(change, "box")
+
+    def test_another_box(self):
+        for axis in range(3):
+            for end in (0, 1):
+                for factor in (1 - 1e-6, 1 + 1e-6):
+                    def change(data, axis=axis, end=end, factor=factor):
+                        side = data["joint_box"][axis]
+                        side[end] = bits(side[end], lambda v: v * factor)
+                    self.refused(change, "limits of A, B, C")
+
+    def test_another_mechanism(self):
+        for side in ("left", "right"):
+            for key in ("base_m", "first_m", "second_m", "platform_m"):
+                def change(data, side=side, key=key):
+                    place = data["mechanism"][side][key]
+                    place[0] = bits(place[0], lambda v: v + 5e-6)
+                self.refused(change, "does not close")
+            for keys in (("first_m", "second_m"), ("base_m", "first_m"), ("second_m", "platform_m")):
+                def both(data, side=side, keys=keys):  # closes again, but is another mechanism
+                    for key, step in zip(keys, (2e-5, 2e-5 if keys[1] == "platform_m" else -2e-5)):
+                        place = data["mechanism"][side][key]
+                        place[1] = bits(place[1], lambda v, step=step: v + step)
+                self.refused(both)
+
+        def start(data):
+            start = data["mechanism"]["start_rad"]
+            start[4] = bits(start[4], lambda v: v + 1e-3)
+        self.refused(start)
+
+    def test_a_node_is_something_else(self):
+        for kind, other, why in (("o", "i", "not inside"), ("i", "o", "not outside")):
+            for n in (1, 1000, -1):
+                def change(data, kind=kind, other=other, n=n):
+                    at = leaf(data["tree"], kind, n)
+                    data["tree"] = data["tree"][:at] + other + data["tree"][at + 1:]
+                self.refused(change, why)
+            # some boxes that were cut are all inside or outside, but not twenty of them
+            self.refused(lambda data, other=other: data.update(tree=data["tree"].replace("c", other, 20)), why)
+
+    def test_a_subtree_is_missing(self):
+        for n in (1, 40, 400):
+            for instead in ("", "o", "i", "h"):
+                def change(data, n=n, instead=instead):
+                    at = leaf(data["tree"], "h", n)
+                    data["tree"] = data["tree"][:at] + instead + data["tree"][behind(data["tree"], at):]
+                self.refused(change)
+        self.refused(lambda data: data.update(tree=data["tree"][:-1]), "leaves a part")
+        self.refused(lambda data: data.update(tree=data["tree"] + "o"), "too many")
+        self.refused(lambda data: data.update(tree="x"), "of no kind")
+        self.refused(lambda data: data.update(tree=""), "leaves a part")
+        self.refused(lambda data: data.update(tree="c"), "proved is only")
+
+    def test_not_a_number(self):
+        for key in ("limits_rad", "joint_box"):
+            def change(data, key=key):
+                data[key][2][1] = "nan"
+            self.refused(change)
+        self.refused(lambda data: data.pop("limits_rad"))
+        self.refused(lambda data: data["m2_rad"].append("0x1p-3"))
+
+    def test_limits_without_angles(self):
+        """what the checker says of a point of the box is what angles say, also of wide limits and of stretched legs"""
+        numbers = random.Random(8)
+        for wide in (0.1, 0.5, 1.5, 2.9):
+            data = self.smaller()
+            data["limits_rad"] = [[(-wide).hex(), wide.hex()]] * 6
+            data["joint_box"] = [[(-wide).hex(), wide.hex()]] * 3
+            with unittest.mock.patch.object(check_volume.Volume, "covered"):
+                volume = check_volume.Volume(data, 1000)
+            volume.box, volume.empty, inside = [(-wide, wide)] * 3, False, 0
+            for _ in range(3000):
+                place = [numbers.randrange(1 << 40) for _ in range(3)]
+                psi = [wide * ((2 * i + 1) / (1 << 40) - 1) for i in place]
+                said = volume.judged(place, 40, volume.conditions)[0]
+                self.assertEqual(said, "i" if by_angles(data["mechanism"], psi, wide) else "o")
+                inside += said == "i"
+            self.assertGreater(inside, 300)
+
+
+def by_angles(mechanism, psi, limit):
+    """the right leg within the limits, by the law of cosines"""
+    def place(side, key):
+        return complex(*map(float.fromhex, mechanism[side][key + "_m"]))
+
+    def turn(z):
+        return cmath.phase(z)
+    base, a, b = (place("right", key) for key in ("base", "first", "second"))
+    start = list(map(float.fromhex, mechanism["start_rad"]))
+    rotation = [cmath.exp(1j * sum(psi[:n + 1])) for n in range(3)]
+    d = (place("left", "base") + place("left", "first") * rotation[0] + place("left", "second") * rotation[1]
+         + (place("right", "platform") - place("left", "platform")) * rotation[2])
+    v, drawn = d - base, turn(b / a)
+    cosine = (abs(v) ** 2 - abs(a) ** 2 - abs(b) ** 2) / (2 * abs(a) * abs(b))
+    if abs(cosine) > 1:
+        return False
+    elbow = math.copysign(math.acos(cosine), drawn)
+    first = v / (abs(a) + abs(b) * cmath.exp(1j * elbow))
+    second = first * cmath.exp(1j * elbow) * abs(b)
+    angles = (turn(second / b / rotation[2]), drawn - elbow, turn(a / first))  # of the joints D, E, F
+    return all(-limit <= angle + start[3 + i] <= limit for i, angle in enumerate(angles))
 
 
 if __name__ == "__main__":

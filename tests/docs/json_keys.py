@@ -91,6 +91,8 @@ with tempfile.TemporaryDirectory() as here:
     subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
                    timeout=240)
     walk(json.loads((pathlib.Path(here) / "o/manifest.json").read_text()), "manifest")
+    subprocess.run([program, "workspace", SIX, "-q", "-o", f"{here}/s"], cwd=ROOT, capture_output=True, timeout=240)
+    walk(json.loads((pathlib.Path(here) / "s/certificate.json").read_text()), "workspace-certificate")
     walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
     walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.sections.json").read_text()), "sections")
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random six-bars with random, one-sided limits: what is proved of boxes, against plain inverse
    kinematics and Monte Carlo. */
-#include "workspace/reach.h"
+#include "workspace/reach_tree.h"
 #include "six_bar_fixture.h"
 #include "test.h"
 
@@ -202,11 +202,86 @@ static void stretched_legs_end_the_branch(void **state) {
     fw_arena_free(arena);
 }
 
+/* ---- the tree that the certificate has ---- */
+
+static const char *behind(const char *node) {
+    const char *next = node + 1;
+    for (int part = 0; *node == FW_NODE_HALVED && part < 8; part++)
+        next = behind(next);
+    return next;
+}
+
+/* what the tree says of the leaf that a point is in */
+static char leaf_at(const fw_workspace_volume_proof *proof, const double q[3]) {
+    fw_workspace_box3 box = proof->box;
+    const char *node = proof->tree;
+    while (*node == FW_NODE_HALVED) {
+        int part = 0;
+        for (int k = 0; k < 3; k++) {
+            double middle = 0.5 * (box.lo[k] + box.hi[k]);
+            if (q[k] > middle) part |= 1 << k;
+            *(q[k] > middle ? &box.lo[k] : &box.hi[k]) = middle;
+        }
+        node++;
+        for (; part > 0; part--)
+            node = behind(node);
+    }
+    return *node;
+}
+
+/* no pose is where its leaf says that it is not; returns how many leaves said something */
+static long tree_holds(const subject *s, const fw_workspace_volume_proof *proof, int points) {
+    long told = 0;
+    assert_int_equal(*behind(proof->tree), '\0');
+    assert_int_equal(strspn(proof->tree, "ioch"), strlen(proof->tree));
+    for (int n = 0; n < points; n++) {
+        double q[3], pose[3];
+        for (int k = 0; k < 3; k++)
+            q[k] = proof->box.lo[k] + unit() * (proof->box.hi[k] - proof->box.lo[k]);
+        forward(s, q, pose);
+        char leaf = leaf_at(proof, q);
+        if (leaf == FW_NODE_INSIDE) assert_true(plain(s, pose));
+        if (leaf == FW_NODE_OUTSIDE) assert_false(plain(s, pose));
+        told += leaf != FW_NODE_CUT;
+    }
+    return told;
+}
+
+/* the search that keeps its tree gives the same bits as the one that does not; the leaves of the
+   tree hold for random six-bars, where legs may be stretched, and where nothing is left */
+static void trees_agree_with_plain_kinematics(void **state) {
+    (void)state;
+    seed = 24;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_workspace_proof_effort effort = {1e-2, 20000};
+    int count = test_cases(40, 8);
+    for (int i = 0; i < count; i++) {
+        subject s;
+        if (!strewn(&s, i == 0 ? 0 : 200, i == 0 ? 1.5 : 0.2)) continue;
+        fw_workspace_measure v, same;
+        fw_workspace_volume_proof proof;
+        assert_int_equal(fw_workspace_reach_certify(arena, &s.loop, &s.limits, effort, &v, &proof),
+                         FW_OK);
+        assert_int_equal(fw_workspace_reach_volume(arena, &s.loop, &s.limits, effort, &same),
+                         FW_OK);
+        assert_true(v.value.lo == same.value.lo && v.value.hi == same.value.hi);
+        assert_true(v.boxes == same.boxes && v.level == same.level && v.reached == same.reached);
+        assert_true(tree_holds(&s, &proof, 1500) > (i == 0 ? 0 : 450));
+        s.limits.low_rad[1] = 0.2, s.limits.high_rad[1] = 0.1;
+        assert_int_equal(fw_workspace_reach_certify(arena, &s.loop, &s.limits, effort, &v, &proof),
+                         FW_OK);
+        assert_true(v.value.hi == 0.0);
+        assert_string_equal(proof.tree, "o");
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes_agree_with_plain_kinematics),
         cmocka_unit_test(volume_against_monte_carlo),
         cmocka_unit_test(stretched_legs_end_the_branch),
+        cmocka_unit_test(trees_agree_with_plain_kinematics),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
