@@ -32,8 +32,8 @@ static void modal_load_of(const fw_effect_case *c, const fw_device_base_motion *
     }
 }
 
-/* Sum over the shakes of the envelope's answer to -m a on every body, with the size and variation
-   of the law, and to what the joint forces that carry them do to the stiffness meanwhile. Inputs
+/* Sum over the shakes of the envelope's answer to -m a on every body, in angles and in displacement,
+   with the size and variation of the law, and to what the joint forces that carry them do to the stiffness meanwhile. Inputs
    SI; output dimensionless. Valid where the envelope is. Cost modes x bodies each. Test:
    test_base_motion.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
@@ -61,6 +61,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         modal_load_of(c, b, size.most, force, mode);
         FW_TRY(fw_effects_envelope_softening(c, force, &part));
         sum += fw_effects_envelope_mode_answer(c, mode, size.variation / size.most) +
+               fw_effects_envelope_displaced(c, force, size.variation / size.most) +
                (fw_quantity_law_is_constant(b->law) ? fw_effects_envelope_stiffness(c, part)
                                                     : fw_effects_envelope_varying(c, part));
     }

@@ -333,6 +333,24 @@ double fw_effects_envelope_mode_answer(const fw_effect_case *c, const double *mo
     return most / e->floor * e->margin;
 }
 
+/* a strip of length L that is displaced by d across itself bends as much at its roots as one that is
+   turned by 6 d/L (both roots clamped: 6 EI d/L^2 against EI theta/L) */
+double fw_effects_envelope_displaced(const fw_effect_case *c, const double *force,
+                                     double variation) {
+    const fw_mechanism *m = c->mechanism;
+    const fw_effects_envelope *e = c->envelope;
+    double all = 0, softest = 0;
+    if (!e->valid) return (double)INFINITY;
+    for (int b = 0; b < m->nbody; b++)
+        all += hypot(force[3 * b], force[3 * b + 1]);
+    for (int h = 0; h < m->nhinge; h++) {
+        const fw_flexure_result *r = &m->hinge[h].closed_form;
+        double k = m->hinge[h].scale * fmin(r->kx_N_per_m, r->ky_N_per_m);
+        softest = fmax(softest, 6 / (k * m->hinge[h].input.length_m));
+    }
+    return softest > 0 ? (1 + variation) * all * softest / e->floor : 0;
+}
+
 double fw_effects_envelope_answer(const fw_effect_case *c, const double *force, double variation) {
     const fw_effects_envelope *e = c->envelope;
     if (!e->valid) return (double)INFINITY;

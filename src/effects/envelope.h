@@ -64,6 +64,13 @@ double fw_effects_envelope_answer(const fw_effect_case *c, const double *force, 
 /* the same for modal forces (modes) that are known: shape . force of what is added */
 double fw_effects_envelope_mode_answer(const fw_effect_case *c, const double *mode,
                                        double variation);
+/* The same in displacement, where flexures give: hinges that stand side by side move without a turn,
+   and what is deflected there is not in the angles. All of the force (n, N) through the softest flexure,
+   as the angle that strains it as much, (1 + variation) 6 F/(k L) with k the least translational
+   stiffness and L the length, relative to `floor`; 0 without flexures. Cost n + hinges. Test:
+   test_base_motion.c */
+double fw_effects_envelope_displaced(const fw_effect_case *c, const double *force,
+                                     double variation);
 /* modal forces (modes) += of the dampers in `loads` at the largest rates: where the motion is
    linear as they act between the modes, where it is not those of the pins by the fastest */
 fw_status fw_effects_envelope_dampers(const fw_effect_case *c, const fw_effects_loads *loads,

@@ -15,7 +15,7 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     return FW_OK;
 }
 
-/* The answer of the modes to the weights, put on at once, and to what the joint forces that carry
+/* The answer of the modes to the weights, put on at once, in angles and in displacement, and to what the joint forces that carry
    them take from the stiffness (a weight along a mast moves nothing and still makes it soft).
    Inputs m in kg, g in m/s2; output dimensionless; conservative for small motions. Cost modes times
    bodies. Test: test_effects.c, test_bounds.c. */
@@ -41,7 +41,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         for (int k = 0; k < e->n; k++)
             mode[j] += e->shape[(size_t)j * (size_t)e->n + (size_t)k] * force[k];
     FW_TRY(fw_effects_envelope_softening(c, force, &part));
-    *value = fw_effects_envelope_mode_answer(c, mode, 1) + fw_effects_envelope_stiffness(c, part);
+    *value = fw_effects_envelope_mode_answer(c, mode, 1) +
+             fw_effects_envelope_displaced(c, force, 1) + fw_effects_envelope_stiffness(c, part);
     fw_arena_rewind(c->arena, mark);
     *reason = isfinite(*value)
                   ? "weight: answer of the modes to it, put on at once, and to what it takes from "

@@ -222,6 +222,8 @@ typedef struct walk {
     swing *mode;                   /* (modes) */
     double *left, *middle, *right; /* (modes) forces in a cell */
     double *free_rad;              /* (npin) deflection as drawn */
+    double *travel;                /* (modes) largest translation of a body per length of the
+                                      mechanism: what turns a billion times less is rounding */
     double nonlinearity, best, second;
     bool constant; /* no modal load has a law: left, middle and right are all the same */
 } walk;
@@ -278,14 +280,16 @@ static void cell(walk *w, double t, double h, double piece) {
 static void see(walk *w, double t, double piece) {
     const fw_effects_modal *o = w->o;
     size_t pins = (size_t)o->mechanism->npin;
+    double rounding = 0;
     for (size_t j = 0; j < (size_t)o->modes; j++) {
         swing *x = &w->mode[j];
         x->nonlinearity_of =
             x->off + x->size * fmin(2, w->nonlinearity * (1 + 0.5 * o->omega[j] * t));
+        rounding += 1e-9 * w->travel[j] * x->size;
     }
     for (size_t i = 0; i < pins; i++) {
         double angle = w->free_rad[i] + fw_effects_modal_shifted(o, (int)i, t, piece),
-               off = w->second;
+               off = w->second + rounding;
         for (size_t j = 0; j < (size_t)o->modes; j++) {
             const swing *x = &w->mode[j];
             double turn = o->turn[j * pins + i];
@@ -341,8 +345,14 @@ fw_status fw_effects_modal_floor(fw_arena *arena, const fw_effects_modal *o,
     FW_NEED(w.free_rad = fw_arena_array(arena, double, (size_t)o->mechanism->npin));
     for (int i = 0; i < o->mechanism->npin; i++)
         w.free_rad[i] = fw_effects_pin_deflection(o->mechanism, i);
-    for (size_t j = 0; j < m; j++)
+    FW_NEED(w.travel = fw_arena_array(arena, double, m));
+    for (size_t j = 0; j < m; j++) {
         w.mode[j].v = o->velocity[j];
+        for (int k = 0; k < o->n; k++)
+            if (k % 3 != 2)
+                w.travel[j] = fmax(w.travel[j], fabs(o->shape[j * (size_t)o->n + (size_t)k]));
+        w.travel[j] /= o->linear.length_m;
+    }
     FW_TRY(fw_effects_modal_loads_breaks(arena, o, modal_loads, &t_s, &count));
     w.constant = true;
     for (int i = 0; i < modal_loads->count; i++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Follows the equilibria of a scene through its time, step by step (quasi_static_step.c), and says
    whether a scene moves like that or with inertia. Test: test_quasi.c. */
+#include "assembly/assembly.h"
 #include "statics/quasi_static.h"
 #include "base/sort.h"
 #include "quantity/law_kind.h"
@@ -380,7 +381,9 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(status);
         rows_of_peaks(mechanism, found);
         FW_TRY(fw_statics_level_of_motion(arena, mechanism, scene, found, &step));
-        if (tried && !fw_statics_level_is_below(step, stated)) {
+        /* pins that take a stated velocity away cannot say what flexures make of it */
+        bool elsewhere = found->stats.velocity_moved > fw_assembly_another_start;
+        if (tried && (elsewhere || !fw_statics_level_is_below(step, stated))) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
