@@ -105,7 +105,7 @@ fw_status fw_cli_decks(fw_plan *plan, const char *directory, double refinement, 
             FW_TRY(one_hinge(&w, h));
         for (int s = 0; s < device->nscene; s++)
             if (fw_device_in_flow(device->scene[s].flow, variant->flow))
-                FW_TRY(whole_mechanism(&w, &device->scene[s]));
+                FW_TRY(whole_mechanism(&w, &w.mechanism->device->scene[s]));
     }
     return FW_OK;
 }

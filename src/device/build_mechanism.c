@@ -237,6 +237,7 @@ static void check_mass(fw_device_reader *r, const fw_xml_record *record, bool sh
 }
 
 static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) {
+    static const char *const centre[] = {"com-x", "com-y"};
     bool wide = fw_xml_given(record, "plate-width"), high = fw_xml_given(record, "plate-height");
     char label[FW_LABEL];
     if (wide != high)
@@ -251,6 +252,8 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
                         .x_m = fw_xml_number_of(record, "x"),
                         .y_m = fw_xml_number_of(record, "y"),
                         .phi_rad = fw_xml_number_or(record, "phi", 0.0),
+                        .com_x_m = fw_xml_number_of(record, "com-x"),
+                        .com_y_m = fw_xml_number_of(record, "com-y"),
                         .width_m = fw_xml_number_of(record, "width"),
                         .plate_width_m = fw_xml_number_of(record, "plate-width"),
                         .plate_height_m = fw_xml_number_of(record, "plate-height"),
@@ -259,6 +262,13 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
                         .plate_angle_rad = fw_xml_number_or(record, "plate-angle", 0.0),
                         .place = record->element->place,
                         .width_place = fw_xml_place_of(record, "width")};
+    for (int k = 0; k < 2; k++)
+        if (fw_xml_given(record, centre[k]) && !fw_xml_given(record, "mass"))
+            fw_diag_error(
+                r->diags, 64, fw_xml_place_of(record, centre[k]),
+                "%s: %s is of a stated mass, but the body has none: its centre of mass is "
+                "that of its drawn shape; add mass and inertia, or remove it",
+                fw_xml_label(record, label), centre[k]);
     if (wide && high) {
         b.plate_x_m = fw_xml_number_or(record, "plate-x", b.x_m);
         b.plate_y_m = fw_xml_number_or(record, "plate-y", b.y_m);
@@ -399,6 +409,8 @@ static fw_device_body six_bar_body(fw_device_reader *r, const parts *p, int i) {
                         .inertia_kg_m2 = none,
                         .x_m = none,
                         .y_m = none,
+                        .com_x_m = none,
+                        .com_y_m = none,
                         .width_m = none,
                         .plate_width_m = none,
                         .plate_height_m = none,

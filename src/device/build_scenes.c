@@ -396,6 +396,11 @@ fw_status fw_device_own_scene(fw_arena *arena, fw_device_scene *s) {
     for (int k = 0; k < KINDS; k++)
         if (kinds[k].own) FW_NEED(kinds[k].own(arena, s));
     FW_NEED(own_part(arena, s));
+    for (int i = 0; i < s->ntendon; i++) {
+        fw_device_tendon *t = &s->tendon[i];
+        size_t n = (size_t)t->neyelet;
+        FW_NEED(t->eyelet = fw_arena_grow(arena, t->eyelet, n, n, sizeof *t->eyelet));
+    }
     for (int i = 0; i < s->npart; i++) {
         fw_device_scene_part *p = &s->part[i];
         size_t n = (size_t)p->count;

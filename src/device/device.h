@@ -66,8 +66,11 @@ double fw_device_flexure_narrowest_m(const fw_device_flexure *flexure);
 
 typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     const char *id;
-    double mass_kg, inertia_kg_m2; /* NaN: from the laid-out shape */
-    double x_m, y_m, phi_rad;      /* pose of the centre of mass; x, y NaN: from the shape */
+    double mass_kg, inertia_kg_m2; /* NaN: from the laid-out shape; about the centre of mass */
+    double x_m, y_m, phi_rad;      /* pose of the reference frame, in which points of the body are
+                                      stated; x, y NaN: at the centroid of the laid-out shape */
+    double com_x_m, com_y_m; /* centre of mass in that frame; NaN: where the mass is stated the
+                                      frame's origin, else the centroid of the laid-out shape */
     double vx_m_per_s, vy_m_per_s, omega_rad_per_s; /* initial velocities are in the scene */
     double width_m;                       /* of the bars that join its hinges; NaN: not drawn */
     double plate_width_m, plate_height_m; /* a rectangle about plate_x, plate_y; NaN: none */
@@ -318,7 +321,7 @@ typedef struct fw_device_scene {
     int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair, npart;
     fw_place place;
 } fw_device_scene;
-/* the scene gets arrays of its own, which may be changed; FW_NOMEM */
+/* the scene gets arrays of its own, which may be changed, its tendons their eyelets; FW_NOMEM */
 fw_status fw_device_own_scene(fw_arena *arena, fw_device_scene *scene);
 
 typedef struct fw_device_workspace_box { /* <workspace>: platform poses relative to the drawn one */
@@ -425,6 +428,18 @@ fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, siz
 bool fw_device_in_flow(const char *asked, const char *flow);
 /* some mass, inertia or centre of mass is not stated: it comes from the drawn shape */
 bool fw_device_needs_shapes(const fw_device *device);
+
+/* A body's reference frame moves over it: its origin comes to the point `by` (m, in the frame's own
+   axes) and to the world position `to`, and all points of the body are stated anew, so that nothing
+   but numbers of the description changes. */
+typedef struct fw_device_frame_move {
+    fw_geometry_vec2 by, to;
+} fw_device_frame_move;
+/* move (nbody); bodies whose `by` is 0 keep their frame as it is. *moved is a copy that shares what
+   does not change. Places in the world, angles and directions stay. Exact but for one rounding of
+   each number. FW_NOMEM. Test: tests/cli/test_frames.py */
+fw_status fw_device_move_frames(fw_arena *arena, const fw_device *device,
+                                const fw_device_frame_move *move, const fw_device **moved);
 
 /* generated from the one table of elements and attributes */
 fw_status fw_device_reference_markdown(fw_text *out);

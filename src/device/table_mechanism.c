@@ -30,9 +30,9 @@ static const fw_xml_attribute_row link_rows[] = {
     {"inertia", D_INERTIA, SOME_INERTIA, .fallback = "from the drawn shape",
      .sentence = "Moment of inertia about the centre of mass; together with mass."},
     {"x", POSITION, .fallback = "midpoint of its hinges",
-     .sentence = "Centre of mass, when mass is given."},
+     .sentence = "Reference frame and centre of mass, when mass is given."},
     {"y", POSITION, .fallback = "midpoint of its hinges",
-     .sentence = "Centre of mass, when mass is given."},
+     .sentence = "Reference frame and centre of mass, when mass is given."},
 };
 static const fw_xml_attribute_row platform_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = platform_names, .sentence = "Always CD."},
@@ -55,9 +55,15 @@ static const fw_xml_attribute_row body_rows[] = {
      .sentence = "Mass; together with inertia."},
     {"inertia", ANY_INERTIA, .fallback = "from the drawn shape",
      .sentence = "Moment of inertia about the centre of mass; together with mass."},
-    {"x", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
-    {"y", PLACE, REQUIRED, .sentence = "Centre of mass; local coordinates start here."},
-    {"phi", TURNS, .fallback = "0 deg", .sentence = "Angle of the body's own axes."},
+    {"x", PLACE, REQUIRED,
+     .sentence = "Origin of the body's reference frame, in which its points are stated."},
+    {"y", PLACE, REQUIRED,
+     .sentence = "Origin of the body's reference frame, in which its points are stated."},
+    {"phi", TURNS, .fallback = "0 deg", .sentence = "Angle of that frame's axes."},
+    {"com-x", PLACE, .fallback = "0 mm with mass, else the drawn shape's centroid",
+     .sentence = "Centre of mass in the body's frame; together with mass."},
+    {"com-y", PLACE, .fallback = "0 mm with mass, else the drawn shape's centroid",
+     .sentence = "Centre of mass in the body's frame; together with mass."},
     {"width", SIZE, .fallback = "not drawn",
      .sentence = "Of the bars that join its hinges. A plate has no bars: there it bounds the width "
                  "of the necks that lead into the plate."},
@@ -71,21 +77,16 @@ static const fw_xml_attribute_row body_rows[] = {
     {"a", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                            \
      .sentence = "What it holds on to: a body, or ground."},                                       \
         {"a-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence =                                                                               \
-             "Point a: from the centre of mass, in the body's axes; on ground in the world."},     \
+         .sentence = "Point a in the body's frame; on ground in the world."},                      \
         {"a-y", PLACE, .fallback = "0 mm",                                                         \
-         .sentence =                                                                               \
-             "Point a: from the centre of mass, in the body's axes; on ground in the world."},     \
+         .sentence = "Point a in the body's frame; on ground in the world."},                      \
         {"b", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                        \
          .sentence = "What it holds: another body, or ground."},                                   \
         {"b-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence =                                                                               \
-             "Point b: from the centre of mass, in the body's axes; on ground in the world."},     \
+         .sentence = "Point b in the body's frame; on ground in the world."},                      \
     {                                                                                              \
-        "b-y", PLACE,                                                                              \
-            .fallback = "0 mm",                                                                    \
-            .sentence =                                                                            \
-                "Point b: from the centre of mass, in the body's axes; on ground in the world."    \
+        "b-y", PLACE, .fallback = "0 mm",                                                          \
+                      .sentence = "Point b in the body's frame; on ground in the world."           \
     }
 static const fw_xml_attribute_row revolute_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},

@@ -13,10 +13,8 @@ static const fw_xml_attribute_row scene_rows[] = {
 };
 static const fw_xml_attribute_row force_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it pulls."},
-    {"x", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, from its centre of mass."},
-    {"y", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, from its centre of mass."},
+    {"x", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
+    {"y", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
     {"fx", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's x axis."},
     {"fy", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's y axis."},
 };
@@ -64,7 +62,7 @@ static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
 #define D_STRESS    .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "MPa"
 #define D_STRESS_SLOPE                                                                             \
     .kind = FW_KIND_NUMBER, .dimension = {-2, 1, -2, 0, 0, 0, 0}, .unit = "MPa/um"
-#define BODY_POINT_X "Point in the body's frame, from its centre of mass; on ground in the world."
+#define BODY_POINT_X "Point in the body's frame; on ground in the world."
 
 /* ---- actuators ---- */
 
@@ -110,11 +108,9 @@ static const fw_xml_attribute_row comb_rows[] = {
     {"against", REF(FW_SPACE_BODY), .ground = true, .fallback = "ground",
      .sentence = "What carries the stator."},
     {"x", PLACE, .fallback = "0 mm",
-     .sentence = "comb: middle of the overlap; plate: of the rotor's face. In the rotor's frame, "
-                 "from its centre of mass."},
+     .sentence = "comb: middle of the overlap; plate: of the rotor's face. In the rotor's frame."},
     {"y", PLACE, .fallback = "0 mm",
-     .sentence = "comb: middle of the overlap; plate: of the rotor's face. In the rotor's frame, "
-                 "from its centre of mass."},
+     .sentence = "comb: middle of the overlap; plate: of the rotor's face. In the rotor's frame."},
     {"direction", TURNS, REQUIRED,
      .sentence = "In the frame of the stator, from its x axis. comb: where the rotor is pulled to, "
                  "along the fingers; plate: from rotor to stator, across the gap."},
@@ -241,9 +237,9 @@ static const fw_xml_attribute_row air_rows[] = {
     {"area", D_AREA, ABOVE(0, 0.1, "without a face there is nothing to act on; " WAFER),
      .fallback = "of the drawn shape", .sentence = "slide, drag: of the body's face; needs on."},
     {"x", PLACE, .fallback = "0 mm",
-     .sentence = "squeeze: middle of the wall, in the body's frame from its centre of mass."},
+     .sentence = "squeeze: middle of the wall, in the body's frame."},
     {"y", PLACE, .fallback = "0 mm",
-     .sentence = "squeeze: middle of the wall, in the body's frame from its centre of mass."},
+     .sentence = "squeeze: middle of the wall, in the body's frame."},
     {"direction", TURNS, .fallback = "0 deg",
      .sentence = "squeeze: where the wall faces, from the x axis of the body."},
     {"length", D_LENGTH, .unit = "um", ABOVE(0, 0.3, "a wall needs a length; " WAFER),

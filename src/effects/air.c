@@ -42,11 +42,14 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 
 /* ---- bound: |force| <= c times the largest speed that the envelope allows ---- */
 
+/* at the centroid of the face, which turns about the centre of mass where the two are apart */
 static void add_damper(const fw_effect_case *c, int body, fw_effects_damper d, double *force) {
     const double *speed = c->envelope->speed + 3 * body;
-    force[3 * body] += d.force_Ns_per_m * speed[0];
-    force[3 * body + 1] += d.force_Ns_per_m * speed[1];
-    force[3 * body + 2] += d.couple_Nms * speed[2];
+    const fw_geometry_vec2 at = fw_effects_air_centre(c->mechanism, body);
+    double arm = hypot(at.x, at.y), most = hypot(speed[0], speed[1]) + arm * speed[2];
+    force[3 * body] += d.force_Ns_per_m * (arm > 0 ? most : speed[0]);
+    force[3 * body + 1] += d.force_Ns_per_m * (arm > 0 ? most : speed[1]);
+    force[3 * body + 2] += d.couple_Nms * speed[2] + arm * d.force_Ns_per_m * most;
 }
 
 /* how far or fast a point of a body can move, arm in m; way: reach or speed (3 nbody) */

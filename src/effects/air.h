@@ -25,6 +25,8 @@ typedef struct fw_effects_face { /* of a body seen from above */
 /* stated, or as drawn; area NaN where neither is known */
 fw_effects_face fw_effects_air_face(const fw_mechanism *mechanism, const fw_device_air *air,
                                     int body);
+/* where the air acts on it: the centroid of its shape, from its centre of mass */
+fw_geometry_vec2 fw_effects_air_centre(const fw_mechanism *mechanism, int body);
 
 /* film of `gap` between the face of a body and the ground below it */
 fw_effects_damper fw_effects_air_slide(const fw_effects_gas *gas, const fw_effects_face *face,

@@ -50,6 +50,10 @@ fw_effects_face fw_effects_air_face(const fw_mechanism *m, const fw_device_air *
                              sqrt(scale) * drawn->perimeter_m};
 }
 
+fw_geometry_vec2 fw_effects_air_centre(const fw_mechanism *m, int body) {
+    return m->shape ? m->shape[body].centroid : (fw_geometry_vec2){0, 0};
+}
+
 /* ---- squeeze film ---- */
 
 static const double slip = 9.638, slip_power = 1.159;
@@ -191,10 +195,10 @@ fw_status fw_effects_air_squeeze_add(const fw_effect_case *c, fw_effects_loads *
 /* Couette film: the air between the face of a body and the plane below it is sheared. With the gap
    g, viscosity mu_eff and the velocity field v + omega x r of the face,
 
-     force -mu_eff A/g v at the centre of mass,   couple -mu_eff I_p/g omega,
+     force -mu_eff A/g v at the face's centroid,   couple -mu_eff I_p/g omega,
      mu_eff = mu/(1 + 2 Kn),   Kn = mean free path/g   (slip on both walls)
 
-   A area, I_p polar moment about the centre of mass; the plane takes the opposite. Source: Couette
+   A area, I_p polar moment about the centroid; the plane takes the opposite. Source: Couette
    flow with first-order slip, e.g. Veijola and Turowski, J. Microelectromech. Syst. 10 (2001) 263.
    Valid while the gap is small against the penetration depth sqrt(2 nu/omega) and the face's size;
    accommodation 1. For Kn >> 1 it becomes the free-molecular mu A/(2 path) v. Test: test_air.c. */
@@ -273,8 +277,10 @@ fw_status fw_effects_air_slide_add(const fw_effect_case *c, fw_effects_loads *lo
     *data = fw_effects_air_slide(&gas, &face, air->gap_m);
     e->id = at->id;
     e->place = air->place;
-    e->port[0] = (fw_effects_port){body, 0, 0};
-    e->port[1] = (fw_effects_port){FW_GROUND, at->x_m, at->y_m};
+    const fw_geometry_vec2 centre = fw_effects_air_centre(c->mechanism, body),
+                           over = fw_mechanism_local_place(c->mechanism, body, centre.x, centre.y);
+    e->port[0] = (fw_effects_port){body, centre.x, centre.y};
+    e->port[1] = (fw_effects_port){FW_GROUND, over.x, over.y};
     e->dissipates = true;
     e->data = data;
     return FW_OK;
@@ -339,10 +345,11 @@ fw_status fw_effects_air_drag_add(const fw_effect_case *c, fw_effects_loads *loa
     FW_NEED(data && e);
     const fw_effects_gas gas = fw_effects_gas_of(air);
     const fw_effects_face face = fw_effects_air_face(c->mechanism, air, body);
+    const fw_geometry_vec2 centre = fw_effects_air_centre(c->mechanism, body);
     *data = fw_effects_air_drag(&gas, &face);
     e->id = c->mechanism->body[body].id;
     e->place = air->place;
-    e->port[0] = (fw_effects_port){body, 0, 0};
+    e->port[0] = (fw_effects_port){body, centre.x, centre.y};
     e->dissipates = true;
     e->data = data;
     return FW_OK;

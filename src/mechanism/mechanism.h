@@ -29,12 +29,15 @@ typedef struct fw_mechanism_mass { /* per body */
     const char *id;
     double mass_kg, inertia_kg_m2;
     double x_m, y_m, phi_rad; /* initial pose of the centre of mass */
+    fw_geometry_vec2 frame; /* origin of the body's reference frame, seen from the centre of mass in
+                                 the body's axes, which are those of the frame */
 } fw_mechanism_mass;
 
 typedef struct
-    fw_mechanism_shape { /* per body, as drawn: area, its polar second moment about the centre of
-                             mass, perimeter; NaN where it is not drawn */
+    fw_mechanism_shape { /* per body, as drawn: area, its polar second moment about its centroid,
+                             perimeter; NaN where it is not drawn */
     double area_m2, polar_m4, perimeter_m;
+    fw_geometry_vec2 centroid; /* from the centre of mass, in the body's axes; 0 where not drawn */
 } fw_mechanism_shape;
 
 typedef struct
@@ -84,6 +87,8 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
 } fw_mechanism_hinge;
 
 typedef struct fw_mechanism {
+    /* the description with the frames of all bodies at their centres of mass: what it says of a point
+       of a body, here and in its scenes, goes with poses of centres of mass */
     const fw_device *device;
     const fw_mechanism_variant *variant;
     fw_mechanism_mass *body;   /* (nbody) */
@@ -97,6 +102,24 @@ typedef struct fw_mechanism {
     fw_mechanism_hinge *hinge; /* (nhinge) */
     int nbody, npin, njoint, ndriver, nspring, nhinge;
 } fw_mechanism;
+
+/* the same scene of the mechanism's own description, whose points go with centres of mass; a scene
+   that is not of `device` stays what it is */
+const fw_device_scene *fw_mechanism_scene(const fw_mechanism *mechanism, const fw_device *device,
+                                          const fw_device_scene *scene);
+
+/* pose (x, y, phi) of a body's reference frame, from that of its centre of mass */
+void fw_mechanism_frame_pose(const fw_mechanism_mass *body, const double centre[3],
+                             double frame[3]);
+/* velocity (or a small displacement) of its origin and of the body, from that of the centre of mass
+   at rotation phi: v' = v + omega x r */
+void fw_mechanism_frame_velocity(const fw_mechanism_mass *body, double phi_rad,
+                                 const double centre[3], double frame[3]);
+/* acceleration of its origin and of the body, which turns at omega: a' = a + alpha x r - omega^2 r
+ */
+void fw_mechanism_frame_acceleration(const fw_mechanism_mass *body, double phi_rad,
+                                     double omega_rad_per_s, const double centre[3],
+                                     double frame[3]);
 
 /* world position, in the drawn pose, that body a (side 0) or body b (side 1) gives to a pin */
 fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *mechanism, const fw_mechanism_pin *pin,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/constants.h"
 #include "flexure/flexure.h"
+#include "geometry/segment.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -32,8 +33,71 @@ static fw_status need_property(const fw_mechanism_builder *b, const fw_quantity 
 
 /* ---- bodies ---- */
 
+/* the description's frame of a body in the world; where its origin is not stated, at the centroid of
+   what is drawn */
+static fw_geometry_vec2 frame_of(const fw_device_body *from, const fw_layout_body_layout *shape) {
+    return (fw_geometry_vec2){isnan(from->x_m) && shape ? shape->centroid.x : from->x_m,
+                              isnan(from->y_m) && shape ? shape->centroid.y : from->y_m};
+}
+
+/* from one world point to another, in axes that are turned */
+static fw_geometry_vec2 in_axes(fw_geometry_vec2 to, fw_geometry_vec2 from, double turn_rad) {
+    return fw_geometry_vec_rotate((fw_geometry_vec2){to.x - from.x, to.y - from.y}, -turn_rad);
+}
+
+/* The centre of mass, from the frame's origin in its axes: of a stated mass where it is stated, or
+   that origin; of what is drawn its centroid. */
+static fw_geometry_vec2 centre_in_frame(const fw_device_body *from,
+                                        const fw_layout_body_layout *shape) {
+    if (!isnan(from->mass_kg))
+        return (fw_geometry_vec2){isnan(from->com_x_m) ? 0 : from->com_x_m,
+                                  isnan(from->com_y_m) ? 0 : from->com_y_m};
+    fw_geometry_vec2 frame = frame_of(from, shape);
+    return in_axes(shape->centroid, frame, from->phi_rad);
+}
+
+static void place_body(const fw_device_body *from, const fw_layout_body_layout *shape,
+                       fw_mechanism_mass *to, fw_mechanism_shape *drawn) {
+    fw_geometry_vec2 frame = frame_of(from, shape), centre = centre_in_frame(from, shape);
+    fw_geometry_vec2 way = fw_geometry_vec_rotate(centre, from->phi_rad);
+    fw_geometry_vec2 at = {frame.x + way.x, frame.y + way.y};
+    bool is_centroid = shape && isnan(from->mass_kg);
+    if (is_centroid) at = shape->centroid; /* without the way there and back */
+    to->x_m = at.x, to->y_m = at.y;
+    to->frame = (fw_geometry_vec2){-centre.x, -centre.y};
+    if (shape && !is_centroid) drawn->centroid = in_axes(shape->centroid, at, from->phi_rad);
+}
+
 /* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
    J = rho h I_p, centre of mass = centroid */
+/* the file's numbers win, but what the drawing contradicts is worth a word, once */
+static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *from,
+                         const fw_layout_body_layout *shape, const fw_mechanism_mass *to,
+                         const fw_mechanism_shape *drawn) {
+    const fw_quantity *density = &b->variant->material.density;
+    if (isnan(from->mass_kg) || !shape || density->unknown ||
+        fw_mechanism_said_already(b->diags, 256, from->place))
+        return;
+    double surface = density->value * b->variant->thickness_m, mass = surface * shape->area_m2;
+    double away = hypot(drawn->centroid.x, drawn->centroid.y);
+    double inertia = surface * shape->polar_m4 + mass * away * away;
+    if (fabs(to->mass_kg - mass) <= 0.05 * mass &&
+        fabs(to->inertia_kg_m2 - inertia) <= 0.1 * inertia &&
+        away <= 0.02 * sqrt(shape->polar_m4 / shape->area_m2))
+        return;
+    char text[5][32];
+    fw_diag_note(b->diags, 256, from->place,
+                 "body %s states %s kg and %s kg m2; what is drawn of it has %s kg and, about the "
+                 "same centre, %s kg m2, and its centroid is %s m from there: the stated values "
+                 "hold; leave mass and inertia out to take those of the drawing",
+                 fw_mechanism_name_or_none(from->id),
+                 fw_number_text(text[0], sizeof text[0], to->mass_kg, 4),
+                 fw_number_text(text[1], sizeof text[1], to->inertia_kg_m2, 4),
+                 fw_number_text(text[2], sizeof text[2], mass, 4),
+                 fw_number_text(text[3], sizeof text[3], inertia, 4),
+                 fw_number_text(text[4], sizeof text[4], away, 3));
+}
+
 static fw_status build_body(const fw_mechanism_builder *b, int i) {
     const fw_device_body *from = &b->device->body[i];
     const fw_layout_body_layout *shape =
@@ -44,13 +108,13 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
     *to = (fw_mechanism_mass){.id = from->id,
                               .mass_kg = from->mass_kg * v->explicit_mass_scale,
                               .inertia_kg_m2 = from->inertia_kg_m2 * v->explicit_mass_scale,
-                              .x_m = from->x_m,
-                              .y_m = from->y_m,
                               .phi_rad = from->phi_rad};
     b->mechanism->shape[i] = (fw_mechanism_shape){shape ? shape->area_m2 : (double)NAN,
                                                   shape ? shape->polar_m4 : (double)NAN,
-                                                  shape ? shape->perimeter_m : (double)NAN};
-    bool needs = isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(to->x_m) || isnan(to->y_m);
+                                                  shape ? shape->perimeter_m : (double)NAN,
+                                                  {0, 0}};
+    bool needs =
+        isnan(to->mass_kg) || isnan(to->inertia_kg_m2) || isnan(from->x_m) || isnan(from->y_m);
     if (needs && !shape)
         return fw_diag_error(b->diags, 82, from->place,
                              "body %s has no shape that could give its mass, inertia and position; "
@@ -63,8 +127,8 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
         if (isnan(to->mass_kg)) to->mass_kg = surface * shape->area_m2;
         if (isnan(to->inertia_kg_m2)) to->inertia_kg_m2 = surface * shape->polar_m4;
     }
-    if (isnan(to->x_m)) to->x_m = shape->centroid.x;
-    if (isnan(to->y_m)) to->y_m = shape->centroid.y;
+    place_body(from, shape, to, &b->mechanism->shape[i]);
+    compare_mass(b, from, shape, to, &b->mechanism->shape[i]);
     const double pose[3] = {to->x_m, to->y_m, to->phi_rad};
     char mass[32], inertia[32];
     if (!(to->mass_kg > 0) || !(to->inertia_kg_m2 > 0) || !isfinite(to->mass_kg) ||
@@ -77,6 +141,22 @@ static fw_status build_body(const fw_mechanism_builder *b, int i) {
     if (!fw_mechanism_all_finite(pose, 3))
         return fw_diag_error(b->diags, 83, from->place, "the pose of body %s is not finite",
                              fw_mechanism_name_or_none(from->id));
+    return FW_OK;
+}
+
+/* what is said of points of bodies is said from their centres of mass from here on */
+static fw_status refer_to_centres(fw_mechanism_builder *b) {
+    fw_device_frame_move *move;
+    bool any = false;
+    FW_NEED(move = fw_arena_array(b->arena, fw_device_frame_move, (size_t)b->mechanism->nbody));
+    for (int i = 0; i < b->mechanism->nbody; i++) {
+        const fw_mechanism_mass *body = &b->mechanism->body[i];
+        move[i].by = (fw_geometry_vec2){-body->frame.x, -body->frame.y};
+        move[i].to = (fw_geometry_vec2){body->x_m, body->y_m};
+        any = any || body->frame.x != 0 || body->frame.y != 0;
+    }
+    if (any) FW_TRY(fw_device_move_frames(b->arena, b->device, move, &b->device));
+    b->mechanism->device = b->device;
     return FW_OK;
 }
 
@@ -398,7 +478,6 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     fw_mechanism_builder b = {arena, device, layout, variant, diags, m};
     *mechanism = NULL;
     FW_TRY(check_variant(&b));
-    m->device = device;
     m->variant = variant;
     FW_NEED(m->body = fw_arena_array(arena, fw_mechanism_mass, (size_t)device->nbody));
     FW_NEED(m->shape = fw_arena_array(arena, fw_mechanism_shape, (size_t)device->nbody));
@@ -416,6 +495,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     for (int i = 0; i < m->nbody; i++)
         status = keep_going(status, build_body(&b, i));
     if (status != FW_OK) return status; /* the rest would only repeat what is missing here */
+    FW_TRY(refer_to_centres(&b));
     for (int j = 0; j < m->npin; j++)
         status = keep_going(status, build_pin(&b, j));
     for (int i = 0; i < m->nspring; i++)

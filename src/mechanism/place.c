@@ -11,6 +11,45 @@ fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geome
                               body->y_m + s * local.x + c * local.y};
 }
 
+const fw_device_scene *fw_mechanism_scene(const fw_mechanism *m, const fw_device *device,
+                                          const fw_device_scene *scene) {
+    for (int i = 0; i < device->nscene; i++)
+        if (&device->scene[i] == scene) return &m->device->scene[i];
+    return scene;
+}
+
+/* arm from the centre of mass to the frame's origin in the world; (0, 0) without a sine where it is
+   that */
+static fw_geometry_vec2 arm_of(const fw_mechanism_mass *body, double phi_rad) {
+    const fw_geometry_vec2 f = body->frame;
+    if (f.x == 0 && f.y == 0) return f;
+    double c = cos(phi_rad), s = sin(phi_rad);
+    return (fw_geometry_vec2){c * f.x - s * f.y, s * f.x + c * f.y};
+}
+
+void fw_mechanism_frame_pose(const fw_mechanism_mass *body, const double centre[3],
+                             double frame[3]) {
+    const fw_geometry_vec2 r = arm_of(body, centre[2]);
+    frame[0] = centre[0] + r.x;
+    frame[1] = centre[1] + r.y;
+    frame[2] = centre[2];
+}
+
+void fw_mechanism_frame_velocity(const fw_mechanism_mass *body, double phi_rad,
+                                 const double centre[3], double frame[3]) {
+    fw_mechanism_frame_acceleration(body, phi_rad, 0, centre, frame);
+}
+
+void fw_mechanism_frame_acceleration(const fw_mechanism_mass *body, double phi_rad,
+                                     double omega_rad_per_s, const double centre[3],
+                                     double frame[3]) {
+    const fw_geometry_vec2 r = arm_of(body, phi_rad);
+    double w2 = omega_rad_per_s * omega_rad_per_s;
+    frame[0] = centre[0] - centre[2] * r.y - w2 * r.x;
+    frame[1] = centre[1] + centre[2] * r.x - w2 * r.y;
+    frame[2] = centre[2];
+}
+
 fw_geometry_vec2 fw_mechanism_local_place(const fw_mechanism *m, int body, double x_m, double y_m) {
     return fw_mechanism_body_point(body == FW_GROUND ? NULL : &m->body[body],
                                    (fw_geometry_vec2){x_m, y_m});

@@ -110,7 +110,8 @@ static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
         for (int i = 0; i < plan->nflow; i++) {
             const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
             if (!v->motion || !v->motion[k]) continue;
-            in->mechanism = v->mechanism, in->motion = v->motion[k], in->scene = scene;
+            in->mechanism = v->mechanism, in->motion = v->motion[k];
+            in->scene = &v->mechanism->device->scene[k];
             return;
         }
     }

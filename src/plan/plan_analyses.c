@@ -92,6 +92,7 @@ fw_status fw_plan_assemble(fw_plan *plan, fw_plan_assembly *out) {
         if (!out->scene) return FW_INPUT; /* said there */
     }
     FW_TRY(fw_plan_mechanism(plan, out->scene, &out->mechanism));
+    out->scene = fw_mechanism_scene(out->mechanism, plan->device, out->scene);
     FW_NEED(q = fw_arena_array(plan->arena, double, 3 * (size_t)out->mechanism->nbody));
     guess_of(out->mechanism, q);
     fw_assembly *assembly = NULL;

@@ -107,6 +107,7 @@ fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
         plan->start.scene = *scene;
     }
     *mechanism = plan->start.mechanism;
+    *scene = fw_mechanism_scene(*mechanism, plan->device, *scene);
     if (moved_m) *moved_m = plan->start.moved_m;
     return FW_OK;
 }

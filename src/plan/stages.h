@@ -54,6 +54,7 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
 
 /* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if
    possible */
+/* *scene: NULL, or one of the description; then that of the mechanism */
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
                         const fw_device_scene **scene, double *moved_m);
 

@@ -230,9 +230,11 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *s
                    length.unit, length.unit);
     for (int b = 0; b < m->nbody; b++) {
         fw_text_printf(out, "  %-8s ", m->body[b].id);
-        column(out, s->q[3 * b] * length.per_si);
-        column(out, s->q[3 * b + 1] * length.per_si);
-        column(out, degrees(s->q[3 * b + 2]));
+        double frame[3];
+        fw_mechanism_frame_pose(&m->body[b], s->q + 3 * b, frame);
+        column(out, frame[0] * length.per_si);
+        column(out, frame[1] * length.per_si);
+        column(out, degrees(frame[2]));
         fw_text_add(out, "\n");
     }
     if (m->npin > 0)
@@ -283,7 +285,11 @@ static void cells(fw_text *out, const double *value, int count) {
 
 static void row(const fw_mechanism *m, const double *q, const double *angle, const double *force,
                 const double *joint, const double *driver, fw_text *out) {
-    cells(out, q, 3 * m->nbody);
+    for (int b = 0; b < m->nbody; b++) {
+        double frame[3];
+        fw_mechanism_frame_pose(&m->body[b], q + 3 * b, frame);
+        cells(out, frame, 3);
+    }
     for (int k = 0; k < m->npin; k++) {
         const double value[3] = {angle[k], force[2 * k], force[2 * k + 1]};
         cells(out, value, 3);

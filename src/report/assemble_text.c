@@ -60,9 +60,11 @@ static void body_table(const fw_report_assembly *in, double size, fw_text *out) 
         unit, unit, unit);
     for (int b = 0; b < a->nbody; b++) {
         fw_text_printf(out, "  %-8s", name_of(in->mechanism->body[b].id));
-        fw_text_real(out, "%12.4f", a->after[3 * b] * factor);
-        fw_text_real(out, "%13.4f", a->after[3 * b + 1] * factor);
-        fw_text_real(out, "%13.5f", degrees(a->after[3 * b + 2]));
+        double frame[3];
+        fw_mechanism_frame_pose(&in->mechanism->body[b], a->after + 3 * b, frame);
+        fw_text_real(out, "%12.4f", frame[0] * factor);
+        fw_text_real(out, "%13.4f", frame[1] * factor);
+        fw_text_real(out, "%13.5f", degrees(frame[2]));
         fw_text_real(out, "%13.4f", a->moved_m[b] * factor);
         fw_text_real(out, "%13.5f\n", degrees(a->turned_rad[b]));
     }
@@ -182,10 +184,13 @@ static void velocities(const fw_report_assembly *in, double size, fw_text *out) 
                    "alpha rad/s2\n",
                    unit, unit, unit, unit);
     for (int b = 0; b < m->nbody; b++) {
+        double v[3], a[3], phi = in->assembly->after[3 * b + 2];
+        fw_mechanism_frame_velocity(&m->body[b], phi, k->v + 3 * b, v);
+        fw_mechanism_frame_acceleration(&m->body[b], phi, k->v[3 * b + 2], k->a + 3 * b, a);
         fw_text_printf(out, "  %-8s", name_of(m->body[b].id));
         for (int c = 0; c < 6; c++) {
             bool turns = c % 3 == 2;
-            double value = (c < 3 ? k->v : k->a)[3 * b + c % 3];
+            double value = c < 3 ? v[c] : a[c - 3];
             value = clean(value, most[c / 3] / (turns ? size : 1));
             fw_text_real(out, "%13.5g", value * (turns ? 1 : factor));
         }

@@ -9,13 +9,6 @@ static const char *known(const char *id) {
     return id ? id : "?";
 }
 
-static void triples(fw_json *json, const char *key, const fw_mechanism *m, const double *value) {
-    fw_json_object(json, key);
-    for (int b = 0; b < m->nbody; b++)
-        fw_report_json_reals(json, known(m->body[b].id), value + 3 * (size_t)b, 3);
-    fw_json_end(json);
-}
-
 static void bodies(fw_json *json, const fw_report_assembly *in) {
     const fw_assembly *a = in->assembly;
     fw_json_list(json, "bodies");
@@ -91,7 +84,7 @@ static void alternatives(fw_json *json, const fw_report_assembly *in) {
         for (int e = 0; e < a->nelbow; e++)
             if (other->side[e] != a->elbow[e].found) fw_json_text(json, NULL, a->elbow[e].id);
         fw_json_end(json);
-        triples(json, "q", in->mechanism, other->q);
+        fw_report_json_poses(json, "q", in->mechanism, other->q);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -149,8 +142,9 @@ fw_status fw_report_assemble_json(const fw_report_assembly *in, fw_text *out) {
     fw_json_real(&json, "moved_m", a->most_moved_m);
     fw_json_real(&json, "turned_rad", a->most_turned_rad);
     fw_json_real(&json, "distance_m", a->distance_m);
-    triples(&json, "before", in->mechanism, a->before);
-    triples(&json, "after", in->mechanism, a->after);
+    fw_report_json_poses(&json, "before", in->mechanism, a->before);
+    fw_report_json_poses(&json, "after", in->mechanism, a->after);
+    fw_report_json_centres(&json, in->mechanism, a->after);
     bodies(&json, in);
     gaps(&json, a);
     if (in->closed) {
@@ -164,8 +158,9 @@ fw_status fw_report_assemble_json(const fw_report_assembly *in, fw_text *out) {
         independent(&json, in->kinematics);
     }
     if (in->kinematics && in->motion) {
-        triples(&json, "velocity", in->mechanism, in->kinematics->v);
-        triples(&json, "acceleration", in->mechanism, in->kinematics->a);
+        const fw_assembly_kinematics *k = in->kinematics;
+        fw_report_json_velocities(&json, "velocity", in->mechanism, a->after, k->v);
+        fw_report_json_accelerations(&json, "acceleration", in->mechanism, a->after, k->v, k->a);
         forces(&json, in);
     }
     fw_json_end(&json);

@@ -5,15 +5,6 @@
 
 /* ---- parts ---- */
 
-/* {"BODY": [x, y, phi]} from 3 numbers per body */
-static void by_body(fw_json *json, const char *key, const fw_mechanism *mechanism,
-                    const double *triples) {
-    fw_json_object(json, key);
-    for (int b = 0; b < mechanism->nbody; b++)
-        fw_report_json_reals(json, mechanism->body[b].id, triples + 3 * (size_t)b, 3);
-    fw_json_end(json);
-}
-
 static void effects(fw_json *json, const fw_effect_ledger *ledger) {
     fw_json_list(json, "effects");
     fw_report_json_effects(json, ledger, NULL, NULL);
@@ -156,9 +147,11 @@ static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_d
     size_t last = 3 * (size_t)m->nbody * (size_t)(m->nsample - 1);
     fw_json_object(json, "final");
     fw_json_real(json, "t_s", m->t_s[m->nsample - 1]);
-    by_body(json, "q", mechanism, m->q + last);
-    by_body(json, "v", mechanism, m->v + last);
-    by_body(json, "a", mechanism, m->accel + last);
+    const double *q = m->q + last, *v = m->v + last;
+    fw_report_json_poses(json, "q", mechanism, q);
+    fw_report_json_velocities(json, "v", mechanism, q, v);
+    fw_report_json_accelerations(json, "a", mechanism, q, v, m->accel + last);
+    fw_report_json_centres(json, mechanism, q);
     fw_json_end(json);
 }
 
@@ -188,22 +181,28 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynami
 /* ---- modes ---- */
 
 /* {"BODY": [[re, im], [re, im], [re, im]]} */
-static void complex_shape(fw_json *json, const fw_mechanism *m, const double *shape) {
+static void complex_shape(fw_json *json, const fw_mechanism *m, const double *q,
+                          const double *shape) {
     if (!shape) {
         fw_json_null(json, "damped_shape");
         return;
     }
     fw_json_object(json, "damped_shape");
     for (int b = 0; b < m->nbody; b++) {
+        double part[2][3];
+        for (int i = 0; i < 2; i++)
+            fw_mechanism_frame_velocity(&m->body[b], q[3 * b + 2], shape + 3 * (i * m->nbody + b),
+                                        part[i]);
         fw_json_list(json, m->body[b].id);
-        for (int k = 3 * b; k < 3 * b + 3; k++)
-            fw_report_json_pair(json, NULL, shape[k], shape[3 * m->nbody + k]);
+        for (int k = 0; k < 3; k++)
+            fw_report_json_pair(json, NULL, part[0][k], part[1][k]);
         fw_json_end(json);
     }
     fw_json_end(json);
 }
 
-static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_statics_mode *m) {
+static void one_mode(fw_json *json, const fw_mechanism *mechanism, const double *q,
+                     const fw_statics_mode *m) {
     const double(*e)[2] = m->eigenvalue_per_s;
     fw_json_object(json, NULL);
     fw_json_real(json, "f_Hz", m->f_Hz);
@@ -215,8 +214,8 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_stat
     fw_json_real(json, "stiffness_per_s2", m->stiffness_per_s2);
     fw_json_real(json, "modal_mass_kg_m2", m->modal_mass_kg_m2);
     fw_json_text(json, "bodies", m->bodies);
-    by_body(json, "shape", mechanism, m->shape);
-    complex_shape(json, mechanism, m->damped);
+    fw_report_json_velocities(json, "shape", mechanism, q, m->shape);
+    complex_shape(json, mechanism, q, m->damped);
     fw_json_end(json);
 }
 
@@ -232,10 +231,11 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
     fw_json_real(&json, "frequency_error", modes->frequency_error);
     fw_json_real(&json, "stiffness_error", modes->stiffness_error);
     rank(&json, &modes->rank);
-    by_body(&json, "q", mechanism, modes->q);
+    fw_report_json_poses(&json, "q", mechanism, modes->q);
+    fw_report_json_centres(&json, mechanism, modes->q);
     fw_json_list(&json, "modes");
     for (int i = 0; i < modes->count; i++)
-        one_mode(&json, mechanism, &modes->mode[i]);
+        one_mode(&json, mechanism, modes->q, &modes->mode[i]);
     fw_json_end(&json);
     hinge_model(&json, mechanism, &modes->ledger.hinge, NULL);
     effects(&json, &modes->ledger);
@@ -309,7 +309,7 @@ static void path_events(fw_json *json, const fw_mechanism *m, const fw_statics *
         fw_json_text(json, "element", p->which[i] == FW_NONE ? NULL : s->active[p->which[i]].id);
         fw_json_real(json, "snaps_by_m", p->snap_m[i]);
         fw_json_real(json, "snaps_by_rad", p->snap_rad[i]);
-        by_body(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
+        fw_report_json_poses(json, "q", m, p->q + (size_t)i * 3 * (size_t)p->nbody);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -358,7 +358,8 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
     fw_json_real(&json, "residual", s->residual);
     fw_json_whole(&json, "iterations", s->iterations);
     rank(&json, &s->rank);
-    by_body(&json, "q", mechanism, s->q);
+    fw_report_json_poses(&json, "q", mechanism, s->q);
+    fw_report_json_centres(&json, mechanism, s->q);
     rest_hinges(&json, mechanism, s);
     rest_joints(&json, mechanism, s->joint_N);
     rest_drivers(&json, mechanism, s->driver_N);

@@ -35,9 +35,12 @@ void fw_report_json_effects(fw_json *json, const fw_effect_ledger *ledger, const
 static void changed_bodies(fw_json *json, const fw_mechanism *m, const fw_statics_level_step *s) {
     fw_json_object(json, "dq");
     for (int b = 0; b < m->nbody; b++) {
+        double at[3], up[3];
+        fw_mechanism_frame_pose(&m->body[b], s->at.q + 3 * (size_t)b, at);
+        fw_mechanism_frame_pose(&m->body[b], s->up.q + 3 * (size_t)b, up);
         fw_json_list(json, m->body[b].id);
-        for (int k = 3 * b; k < 3 * b + 3; k++)
-            fw_json_real(json, NULL, s->up.q[k] - s->at.q[k]);
+        for (int k = 0; k < 3; k++)
+            fw_json_real(json, NULL, up[k] - at[k]);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -124,4 +127,51 @@ void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b) {
     fw_json_whole(out, NULL, a);
     fw_json_whole(out, NULL, b);
     fw_json_end(out);
+}
+
+/* ---- bodies by their reference frames ---- */
+
+static const char *body_id(const fw_mechanism *m, int b) {
+    return m->body[b].id ? m->body[b].id : "?";
+}
+
+void fw_report_json_poses(fw_json *json, const char *key, const fw_mechanism *m, const double *q) {
+    fw_json_object(json, key);
+    for (int b = 0; b < m->nbody; b++) {
+        double frame[3];
+        fw_mechanism_frame_pose(&m->body[b], q + 3 * (size_t)b, frame);
+        fw_report_json_reals(json, body_id(m, b), frame, 3);
+    }
+    fw_json_end(json);
+}
+
+void fw_report_json_centres(fw_json *json, const fw_mechanism *m, const double *q) {
+    fw_json_object(json, "com");
+    for (int b = 0; b < m->nbody; b++)
+        fw_report_json_reals(json, body_id(m, b), q + 3 * (size_t)b, 2);
+    fw_json_end(json);
+}
+
+void fw_report_json_velocities(fw_json *json, const char *key, const fw_mechanism *m,
+                               const double *q, const double *v) {
+    fw_json_object(json, key);
+    for (int b = 0; b < m->nbody; b++) {
+        double frame[3];
+        size_t at = 3 * (size_t)b;
+        fw_mechanism_frame_velocity(&m->body[b], q[at + 2], v + at, frame);
+        fw_report_json_reals(json, body_id(m, b), frame, 3);
+    }
+    fw_json_end(json);
+}
+
+void fw_report_json_accelerations(fw_json *json, const char *key, const fw_mechanism *m,
+                                  const double *q, const double *v, const double *a) {
+    fw_json_object(json, key);
+    for (int b = 0; b < m->nbody; b++) {
+        double frame[3];
+        size_t at = 3 * (size_t)b;
+        fw_mechanism_frame_acceleration(&m->body[b], q[at + 2], v[at + 2], a + at, frame);
+        fw_report_json_reals(json, body_id(m, b), frame, 3);
+    }
+    fw_json_end(json);
 }

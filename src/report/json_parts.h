@@ -13,6 +13,17 @@
 void fw_report_json_pair(fw_json *json, const char *key, double a, double b);
 /* [a, b, ...] */
 void fw_report_json_reals(fw_json *json, const char *key, const double *value, int count);
+/* {"BODY": [x, y, phi]}: poses of reference frames, from those of centres of mass */
+void fw_report_json_poses(fw_json *json, const char *key, const fw_mechanism *mechanism,
+                          const double *q);
+/* "com": {"BODY": [x, y]}: centres of mass */
+void fw_report_json_centres(fw_json *json, const fw_mechanism *mechanism, const double *q);
+/* {"BODY": [vx, vy, omega]}: velocities, or small displacements, of the frames' origins */
+void fw_report_json_velocities(fw_json *json, const char *key, const fw_mechanism *mechanism,
+                               const double *q, const double *v);
+/* {"BODY": [ax, ay, alpha]} */
+void fw_report_json_accelerations(fw_json *json, const char *key, const fw_mechanism *mechanism,
+                                  const double *q, const double *v, const double *a);
 /* one object per line of the ledger, into a list; scene and flow are added where they are given */
 void fw_report_json_effects(fw_json *json, const fw_effect_ledger *ledger, const char *scene,
                             const char *flow);

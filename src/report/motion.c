@@ -231,7 +231,7 @@ static fw_status player(fw_report_page *page, const fw_verdict_variant_verdict *
                         int number) {
     const fw_dynamics_motion *motion = variant->motion[scene];
     const fw_mechanism *mechanism = variant->mechanism;
-    const fw_device_scene *s = &page->in->device->scene[scene];
+    const fw_device_scene *s = &mechanism->device->scene[scene];
     fw_report_worst worst = fw_report_motion_worst(mechanism, motion);
     fw_report_bends bends;
     FW_TRY(fw_report_bends_make(page->arena, page->in->device, page->in->layout, &bends));

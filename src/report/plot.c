@@ -296,24 +296,44 @@ static void cell(fw_text *out, double value) {
     if (isfinite(value)) fw_text_number(out, value, 17);
 }
 
+/* columns of a centre of mass that is not the origin of its body's frame */
+static int extra(const fw_mechanism_mass *body) {
+    return body->frame.x != 0 || body->frame.y != 0 ? 2 : 0;
+}
+
+/* per body its frame's pose and velocities, and where the centre of mass is apart from it that */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                fw_text *out) {
     static const char *const suffix[] = {".x_m",        ".y_m",        ".phi_rad",
-                                         ".vx_m_per_s", ".vy_m_per_s", ".omega_rad_per_s"};
+                                         ".vx_m_per_s", ".vy_m_per_s", ".omega_rad_per_s",
+                                         ".com_x_m",    ".com_y_m"};
     fw_text_add(out, "t_s");
     for (int b = 0; b < motion->nbody; b++)
-        for (int k = 0; k < 6; k++)
+        for (int k = 0; k < 6 + extra(&mechanism->body[b]); k++)
             name(out, mechanism->body[b].id, suffix[k]);
     fw_text_add(out, "\n");
     size_t wide = 3 * (size_t)motion->nbody;
     for (int i = 0; i < motion->nsample && !out->failed; i++) {
         cell(out, motion->t_s[i]);
-        for (int b = 0; b < motion->nbody; b++)
-            for (int k = 0; k < 6; k++) {
-                const double *from = k < 3 ? motion->q : motion->v;
-                fw_text_add(out, ",");
-                cell(out, from[(size_t)i * wide + 3 * (size_t)b + (size_t)(k % 3)]);
+        for (int b = 0; b < motion->nbody; b++) {
+            const fw_mechanism_mass *body = &mechanism->body[b];
+            size_t at = (size_t)i * wide + 3 * (size_t)b;
+            const double *q = motion->q + at, *v = motion->v + at;
+            double frame[6];
+            if (extra(body)) {
+                fw_mechanism_frame_pose(body, q, frame);
+                fw_mechanism_frame_velocity(body, q[2], v, frame + 3);
+                q = frame, v = frame + 3;
             }
+            for (int k = 0; k < 6; k++) {
+                fw_text_add(out, ",");
+                cell(out, k < 3 ? q[k] : v[k - 3]);
+            }
+            for (int k = 0; k < extra(body); k++) {
+                fw_text_add(out, ",");
+                cell(out, motion->q[at + (size_t)k]);
+            }
+        }
         fw_text_add(out, "\n");
     }
     return fw_text_end(out);
@@ -339,12 +359,21 @@ fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_dynamics_
     const struct {
         const double *value;
         int wide;
-    } part[] = {{motion->accel, 3 * motion->nbody},
-                {motion->reaction_N, 2 * motion->npin},
+    } part[] = {{motion->reaction_N, 2 * motion->npin},
                 {motion->joint_N, 3 * motion->njoint},
                 {motion->driver_N, motion->ndriver}};
     for (int i = 0; i < motion->nsample && !out->failed; i++) {
         cell(out, motion->t_s[i]);
+        for (int b = 0; b < motion->nbody; b++) {
+            size_t at = 3 * ((size_t)i * (size_t)motion->nbody + (size_t)b);
+            double value[3];
+            fw_mechanism_frame_acceleration(&mechanism->body[b], motion->q[at + 2],
+                                            motion->v[at + 2], motion->accel + at, value);
+            for (int k = 0; k < 3; k++) {
+                fw_text_add(out, ",");
+                cell(out, value[k]);
+            }
+        }
         for (size_t k = 0; k < sizeof part / sizeof part[0]; k++)
             for (int c = 0; c < part[k].wide; c++) {
                 fw_text_add(out, ",");

@@ -137,7 +137,7 @@ static fw_status fabricated_answer(const fw_study_problem *p, const fw_verdict_v
         status = fw_assembly_assembled(p->arena, built, &own, &q.mechanism, &q.moved_m);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     if (status != FW_OK || q.mechanism->npin != p->mechanism->npin) return FW_OK;
-    q.scene = &d.device.scene[p->scene - p->plan->device->scene];
+    q.scene = fw_mechanism_scene(q.mechanism, p->mechanism->device, p->scene);
     status = fw_study_problem_compile(&q);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     return status == FW_OK ? answer(&q, point) : FW_OK;

@@ -210,7 +210,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, FW_REASONS * n + 1)); /* as made */
     for (size_t i = 0; i < n; i++) {
-        const fw_device_scene *scene = &device->scene[i];
+        const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &monitor[i]));
         motion.observe = fw_verdict_strain_monitor_record;

@@ -15,7 +15,7 @@ page = (ROOT / "docs/reference/json.md").read_text()
 sections = {name: set(re.findall(r"`(\w+)`", text))
             for name, text in re.findall(r"^## ([^\n]+)\n(.*?)(?=^## |\Z)", page, re.M | re.S)}
 # keys of these objects are ids of bodies and joints
-BY_ID = {"q", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
+BY_ID = {"q", "com", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
          "driver_N_or_Nm", "limit_rad", "boundary_share", "dq"}
 SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model"}
 problems, seen, documents = [], {}, 0

@@ -447,7 +447,7 @@ static void test_joints(void **state) {
         /* a plate welded to the piston at 30 degrees, and a rod from it to the ground */
         fw_mechanism_mass *body = fw_arena_array(arena, fw_mechanism_mass, 4);
         memcpy(body, r.m.body, 3 * sizeof *body);
-        body[3] = (fw_mechanism_mass){"plate", 0.2, 1e-4, 0.2, 0.05, 0};
+        body[3] = (fw_mechanism_mass){"plate", 0.2, 1e-4, 0.2, 0.05, 0, {0, 0}};
         r.m.body = body, r.m.nbody = 4;
         joint[1] = (fw_device_joint){.id = "W",
                                      .kind = FW_JOINT_WELD,

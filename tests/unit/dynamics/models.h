@@ -24,7 +24,7 @@ static inline rig rig_new(fw_arena *arena, int nbody, int npin, int nspring) {
 
 static inline void rig_body(rig *r, const char *id, double mass, double inertia, double x, double y,
                             double phi) {
-    r->m.body[r->m.nbody++] = (fw_mechanism_mass){id, mass, inertia, x, y, phi};
+    r->m.body[r->m.nbody++] = (fw_mechanism_mass){id, mass, inertia, x, y, phi, {0, 0}};
 }
 
 /* pin at a world point; bodies must be there already */

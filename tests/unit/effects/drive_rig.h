@@ -34,9 +34,9 @@ static inline void rig_new(rig *r, uint64_t seed) {
     r->arena = fw_arena_new(0);
     r->diags = fw_diags_new(r->arena);
     r->random = seed;
-    r->body[0] = (fw_mechanism_mass){"first", 2e-8, 3e-15, 1e-3, 0.2e-3, 0.3};
-    r->body[1] = (fw_mechanism_mass){"second", 1e-8, 2e-15, -0.4e-3, 0.9e-3, -1.1};
-    r->body[2] = (fw_mechanism_mass){"third", 1e-8, 2e-15, 0.4e-3, -0.9e-3, 0};
+    r->body[0] = (fw_mechanism_mass){"first", 2e-8, 3e-15, 1e-3, 0.2e-3, 0.3, {0, 0}};
+    r->body[1] = (fw_mechanism_mass){"second", 1e-8, 2e-15, -0.4e-3, 0.9e-3, -1.1, {0, 0}};
+    r->body[2] = (fw_mechanism_mass){"third", 1e-8, 2e-15, 0.4e-3, -0.9e-3, 0, {0, 0}};
     r->variant.thickness_m = 50e-6;
     r->m = (fw_mechanism){.body = r->body, .nbody = RIG_BODIES, .variant = &r->variant};
     r->scene = (fw_device_scene){.name = "s", .duration_s = 1e-3};

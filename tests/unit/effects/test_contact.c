@@ -14,7 +14,7 @@ static double random_(unsigned *seed) { /* in [-1, 1) */
 static void rig_lever(rig *r, double axis, bool first_is_a, bool convex_is_a, double from,
                       double to) {
     rig_new(r, 1, 1);
-    r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
+    r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 1e-15, 1e-4, 2e-4, 0.3, {0, 0}};
     rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){1e-4, 2e-4}, axis, first_is_a);
     r->pin[0].free_angle_rad = 0.3; /* drawn as it is free */
     r->hinge[0].convex_is_a = convex_is_a;

@@ -16,7 +16,7 @@ typedef struct lever {
 
 static void lever_new(lever *s, double k, double c) {
     memset(s, 0, sizeof *s);
-    s->body[0] = (fw_mechanism_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->body[0] = (fw_mechanism_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0, {0, 0}};
     s->pin[0] = (fw_mechanism_pin){.id = "O",
                                    .body_a = FW_GROUND,
                                    .body_b = 0,
@@ -312,7 +312,7 @@ static void test_choices(void **state) {
 static void test_static_response(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-    fw_mechanism_mass body[2] = {{"a", 1, 1, 1, 0, 0}, {"b", 1, 1, 3, 0, 0}};
+    fw_mechanism_mass body[2] = {{"a", 1, 1, 1, 0, 0, {0, 0}}, {"b", 1, 1, 3, 0, 0, {0, 0}}};
     fw_mechanism_pin pin[2] = {{.body_a = FW_GROUND, .body_b = 0, .bx_m = -1},
                                {.body_a = 0, .body_b = 1, .ax_m = 1, .bx_m = -1}};
     fw_device_spring spring[1] = {{.body_a = FW_GROUND,

@@ -18,7 +18,7 @@ typedef struct arm {
 
 static void arm_new(arm *s) {
     memset(s, 0, sizeof *s);
-    s->body[0] = (fw_mechanism_mass){"arm", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->body[0] = (fw_mechanism_mass){"arm", 2e-8, 3e-15, 1e-3, 0, 0, {0, 0}};
     for (int i = 0; i < 2; i++)
         s->pin[i] = (fw_mechanism_pin){
             .id = i ? "B" : "A", .body_a = FW_GROUND, .body_b = 0, .bx_m = -1e-3, .hinge = FW_NONE};

@@ -81,7 +81,7 @@ static void trio_new(trio *t, bool six_bar, double mass_factor, double end_s) {
             rig_six_bar(r, false);
         else {
             rig_new(r, 1, 1);
-            r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
+            r->body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0, {0, 0}};
             rig_hinge(r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.9, true);
         }
         for (int b = 0; b < r->m.nbody; b++)

@@ -15,7 +15,7 @@ static void as_the_element(void **state) {
     for (int i = 0; i < 400; i++) {
         rig r;
         rig_new(&r, 1, 1);
-        r.body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0};
+        r.body[0] = (fw_mechanism_mass){"lever", 1e-8, 8e-16, 5e-4, 1e-4, 0, {0, 0}};
         double axis = 3 * random_(&seed);
         rig_hinge(&r, 0, "H", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, axis, i % 2);
         if (i % 3 == 0) r.hinge[0].law.half_angle_rad = 0; /* a leaf: 1000 times as stiff along */

@@ -27,7 +27,7 @@ typedef struct lever { /* a bar on the ground, torsion spring and damper, torque
 static void lever_new(lever *s, double c) {
     memset(s, 0, sizeof *s);
     s->arena = fw_arena_new(0);
-    s->body[0] = (fw_mechanism_mass){"lever", mass, own, arm, 0, 0};
+    s->body[0] = (fw_mechanism_mass){"lever", mass, own, arm, 0, 0, {0, 0}};
     s->pin[0] = (fw_mechanism_pin){.id = "O",
                                    .body_a = FW_GROUND,
                                    .body_b = 0,

@@ -6,8 +6,8 @@ static const double nan_ = (double)NAN;
 /* two links; the estimate of the mechanism is in both pins */
 static void rig_chain(rig *r, fw_device_material_damping *use) {
     rig_new(r, 2, 2);
-    r->body[0] = (fw_mechanism_mass){"a", 2e-8, 3e-15, 5e-4, 0, 0};
-    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, 15e-4, 0, 0};
+    r->body[0] = (fw_mechanism_mass){"a", 2e-8, 3e-15, 5e-4, 0, 0, {0, 0}};
+    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, 15e-4, 0, 0, {0, 0}};
     rig_hinge(r, 0, "A", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.4, true);
     rig_hinge(r, 1, "B", 0, 1, (fw_geometry_vec2){1e-3, 0}, 0.4, true);
     r->pin[0].damping_Nms_per_rad = r->pin[1].damping_Nms_per_rad = 1e-12;
@@ -98,7 +98,7 @@ static void a_swinging_lever(void **state) {
         fw_device_material_damping use = {.loss_factor = eta, .frequency_Hz = nan_};
         rig r;
         rig_new(&r, 1, 1);
-        r.body[0] = (fw_mechanism_mass){"a", 1e-9, 3e-15, 5e-4, 0, 0};
+        r.body[0] = (fw_mechanism_mass){"a", 1e-9, 3e-15, 5e-4, 0, 0, {0, 0}};
         rig_hinge(&r, 0, "A", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0.4, true);
         r.scene.damping = &use, r.scene.ndamping = 1;
         compile(&r);

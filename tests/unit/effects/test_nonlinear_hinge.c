@@ -15,8 +15,8 @@ static void element_laws(void **state) {
     for (int i = 0; i < 60; i++) {
         rig r;
         rig_new(&r, 2, 1);
-        r.body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
-        r.body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
+        r.body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3, {0, 0}};
+        r.body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2, {0, 0}};
         rig_hinge(&r, 0, "H", 0, 1, (fw_geometry_vec2){1e-4, 1e-4}, 4 * random_(&seed), i % 2 == 0);
         fw_flexure_hinge_law *law = &r.hinge[0].law;
         if (i % 3 == 0) law->half_angle_rad = 0;

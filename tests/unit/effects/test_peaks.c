@@ -22,7 +22,7 @@ static void row_new(row *x, int bodies, double zeta) {
     rig_new(&x->r, bodies, bodies);
     x->r.m.nhinge = 0;
     for (int b = 0; b < bodies; b++) {
-        x->r.body[b] = (fw_mechanism_mass){"link", mass, inertia, (2 * b + 1) * arm, 0, 0};
+        x->r.body[b] = (fw_mechanism_mass){"link", mass, inertia, (2 * b + 1) * arm, 0, 0, {0, 0}};
         x->r.pin[b] = (fw_mechanism_pin){.id = "p",
                                          .body_a = b - 1,
                                          .body_b = b,

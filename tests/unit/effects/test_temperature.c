@@ -24,7 +24,7 @@ static void stand_new(stand *s) {
     s->arena = fw_arena_new(0);
     s->diags = fw_diags_new(s->arena);
     for (int i = 0; i < 2; i++) {
-        s->body[i] = (fw_mechanism_mass){"b", 1, 1, i + 0.5, 0, 0.2 * i};
+        s->body[i] = (fw_mechanism_mass){"b", 1, 1, i + 0.5, 0, 0.2 * i, {0, 0}};
         s->pin[i] = (fw_mechanism_pin){.id = "A",
                                        .body_a = i - 1,
                                        .body_b = i,

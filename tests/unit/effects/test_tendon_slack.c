@@ -21,7 +21,7 @@ typedef struct lever {
 static void lever_new(lever *s, double torque) {
     memset(s, 0, sizeof *s);
     s->arena = fw_arena_new(0);
-    s->body[0] = (fw_mechanism_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0};
+    s->body[0] = (fw_mechanism_mass){"lever", 2e-8, 3e-15, 1e-3, 0, 0, {0, 0}};
     s->pin[0] = (fw_mechanism_pin){.id = "O",
                                    .body_a = FW_GROUND,
                                    .body_b = 0,

@@ -29,9 +29,9 @@ static void bench_new(bench *b) {
     memset(b, 0, sizeof *b);
     b->arena = fw_arena_new(0);
     b->diags = fw_diags_new(b->arena);
-    b->body[0] = (fw_mechanism_mass){"a", 2, 0.3, 1.0, 0.5, 0.4};
-    b->body[1] = (fw_mechanism_mass){"b", 1, 0.2, 3.0, 1.5, -0.3};
-    b->body[2] = (fw_mechanism_mass){"c", 3, 0.5, -1.0, 2.0, 1.1};
+    b->body[0] = (fw_mechanism_mass){"a", 2, 0.3, 1.0, 0.5, 0.4, {0, 0}};
+    b->body[1] = (fw_mechanism_mass){"b", 1, 0.2, 3.0, 1.5, -0.3, {0, 0}};
+    b->body[2] = (fw_mechanism_mass){"c", 3, 0.5, -1.0, 2.0, 1.1, {0, 0}};
     for (int i = 0; i < 4; i++)
         b->pin[i] = (fw_mechanism_pin){
             .body_a = FW_GROUND, .hinge = FW_NONE, .stop_min_rad = none, .stop_max_rad = none};
@@ -353,8 +353,8 @@ static void response_of_levers_and_a_rod(void **state) {
     bench_new(&b);
     double u[9], turn[4];
     b.m.nbody = 2;
-    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5 * cos(0.4), 0.5 * sin(0.4), 0.4};
-    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 3 + 0.5 * cos(-0.3), 0.5 * sin(-0.3), -0.3};
+    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5 * cos(0.4), 0.5 * sin(0.4), 0.4, {0, 0}};
+    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 3 + 0.5 * cos(-0.3), 0.5 * sin(-0.3), -0.3, {0, 0}};
     for (int i = 0; i < 2; i++) {
         b.pin[i].body_b = i, b.pin[i].ax_m = 3 * i, b.pin[i].bx_m = -0.5;
         b.pin[i].stiffness_Nm_per_rad = i ? 20 : 10;
@@ -397,8 +397,8 @@ static void response_of_a_weld(void **state) {
     bench_new(&b);
     double u[9], turn[4];
     b.m.nbody = 2;
-    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5, 0, 0};
-    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 1.75, 0, 0.9};
+    b.body[0] = (fw_mechanism_mass){"a", 1, 1, 0.5, 0, 0, {0, 0}};
+    b.body[1] = (fw_mechanism_mass){"b", 1, 1, 1.75, 0, 0.9, {0, 0}};
     b.pin[0].body_b = 0, b.pin[0].bx_m = -0.5, b.pin[0].stiffness_Nm_per_rad = 40;
     b.m.npin = 1;
     b.joint[0] = (fw_device_joint){.kind = FW_JOINT_WELD,

@@ -11,8 +11,8 @@ static double random_(unsigned *seed) { /* in [-1, 1) */
 
 static void one_hinge(rig *r, int i, unsigned *seed) {
     rig_new(r, 2, 1);
-    r->body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3};
-    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2};
+    r->body[0] = (fw_mechanism_mass){"a", 1e-8, 1e-15, 1e-4, 2e-4, 0.3, {0, 0}};
+    r->body[1] = (fw_mechanism_mass){"b", 1e-8, 1e-15, -1e-4, 3e-4, -0.2, {0, 0}};
     rig_hinge(r, 0, "H", 0, 1, (fw_geometry_vec2){1e-4, 1e-4}, 4 * random_(seed), i % 2 == 0);
     r->pin[0].free_angle_rad = 0.05;
     r->pin[0].damping_Nms_per_rad = i % 3 == 0 ? 0 : 1e-10;

@@ -22,7 +22,8 @@ static void toy_new(toy *t, uint64_t seed) {
     *t = (toy){.m = {.nbody = BODIES, .npin = PINS, .njoint = 1, .nspring = 1}};
     t->m.body = t->body, t->m.pin = t->pin, t->m.joint = t->joint, t->m.spring = t->spring;
     for (int i = 0; i < BODIES; i++)
-        t->body[i] = (fw_mechanism_mass){"b", 1, 1, number(&seed), number(&seed), number(&seed)};
+        t->body[i] =
+            (fw_mechanism_mass){"b", 1, 1, number(&seed), number(&seed), number(&seed), {0, 0}};
     for (int i = 0; i < PINS; i++)
         t->pin[i] = (fw_mechanism_pin){.body_a = i - 1,
                                        .body_b = i < BODIES ? i : FW_GROUND,

@@ -331,7 +331,8 @@ static void fixture_mechanism(fw_arena *arena, fixture *f, int i, double limit) 
     double q[3 * FIVE];
     fixture_pose(0.0, 0.0, 0.0, q);
     for (int b = 0; b < FIVE; b++)
-        m->body[b] = (fw_mechanism_mass){fixture_link[b], 2e-8, 3e-15, q[3 * b], q[3 * b + 1], 0.0};
+        m->body[b] =
+            (fw_mechanism_mass){fixture_link[b], 2e-8, 3e-15, q[3 * b], q[3 * b + 1], 0.0, {0, 0}};
     for (int j = 0; j < SIX; j++) {
         m->pin[j] = (fw_mechanism_pin){.id = fixture_name[j],
                                        .body_a = f->device.revolute[j].body_a,

@@ -12,7 +12,7 @@ static const fw_dynamics_motion *moved(rig *r, fw_effects_hinge_model hinge) {
     return x;
 }
 
-static const fw_mechanism_mass block = {"stage", 1e-8, 1e-15, 0, 0, 0};
+static const fw_mechanism_mass block = {"stage", 1e-8, 1e-15, 0, 0, 0, {0, 0}};
 
 /* a stage on two flexures of the ground: with pins it could not move; it starts as stated */
 static void a_stage_starts_as_stated(void **state) {
@@ -69,7 +69,7 @@ static void a_lever_turns_about_its_hinge(void **state) {
     (void)state;
     rig r;
     rig_new(&r, 1, 1);
-    r.body[0] = (fw_mechanism_mass){"lever", 1e-8, 1e-15, 5e-4, 0, 0};
+    r.body[0] = (fw_mechanism_mass){"lever", 1e-8, 1e-15, 5e-4, 0, 0, {0, 0}};
     rig_hinge(&r, 0, "A", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0, true);
     fw_device_initial start = {.body = 0, .omega_rad_per_s = 30, .moves_free = true};
     r.scene.initial = &start, r.scene.ninitial = 1;

@@ -17,8 +17,8 @@ typedef struct bench {
 /* a weld, a rod and a slide between two bodies, all of them closed */
 static void bench_new(bench *b) {
     memset(b, 0, sizeof *b);
-    b->body[0] = (fw_mechanism_mass){"a", 1e-6, 1e-12, 1e-3, 0, 0.5};
-    b->body[1] = (fw_mechanism_mass){"b", 1e-6, 1e-12, 4e-3, 1e-3, 0.2};
+    b->body[0] = (fw_mechanism_mass){"a", 1e-6, 1e-12, 1e-3, 0, 0.5, {0, 0}};
+    b->body[1] = (fw_mechanism_mass){"b", 1e-6, 1e-12, 4e-3, 1e-3, 0.2, {0, 0}};
     double c = cos(0.5), s = sin(0.5), x = 3e-3, y = 1e-3;
     double lx = c * x + s * y, ly = -s * x + c * y; /* centre of b in the frame of a */
     b->joint[0] = (fw_device_joint){.id = "weld",

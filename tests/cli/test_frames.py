@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A body's x, y, phi are its reference frame and nothing else: moved over the body, with all points stated anew, it changes
+no result beyond round-off. Mass and centre of mass come from what is drawn, or are stated."""
+import json
+import math
+import pathlib
+import random
+import re
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from common import ROOT, run
+
+NAMES = "{urn:flexwright:device:1}"
+# attributes that name a body, and the point that goes with each
+POINTS = {"revolute": {"a": "a-", "b": "b-"}, "prismatic": {"a": "a-", "b": "b-"}, "distance": {"a": "a-", "b": "b-"},
+          "weld": {"a": "a-", "b": "b-"}, "spring": {"a": "a-", "b": "b-"}, "contact": {"a": "a-", "b": "b-"},
+          "force": {"on": ""}, "eyelet": {"on": ""}, "comb-drive": {"on": ""}, "air": {"on": ""}}
+
+
+def moved(text, shift):
+    """the description with each body's frame moved by shift[id] (um, in the frame's axes; all phi are 0)"""
+    tree.register_namespace("", NAMES[1:-1])
+    root = tree.fromstring(text)
+    for body in root.iter(NAMES + "body"):
+        if "plate-width" in body.attrib:
+            for axis in "xy":
+                body.attrib.setdefault("plate-" + axis, body.attrib[axis])
+        for axis, by in zip("xy", shift.get(body.attrib["id"], (0, 0))):
+            body.attrib[axis] = "(%s) + (%.17g um)" % (body.attrib[axis], by)
+            if "mass" in body.attrib:
+                body.attrib["com-" + axis] = "(%s) - (%.17g um)" % (body.attrib.get("com-" + axis, "0 mm"), by)
+    for element in root.iter():
+        for who, prefix in POINTS.get(element.tag.removeprefix(NAMES), {}).items():
+            if element.tag == NAMES + "air" and element.attrib["kind"] != "squeeze":
+                continue
+            for axis, by in zip("xy", shift.get(element.attrib.get(who), (0, 0))):
+                element.attrib[prefix + axis] = "(%s) - (%.17g um)" % (element.attrib.get(prefix + axis, "0 mm"), by)
+    return tree.tostring(root, encoding="unicode")
+
+
+def numbers(value, path="", out=None):
+    """every number of a document by its path"""
+    out = {} if out is None else out
+    if isinstance(value, dict):
+        for key, item in value.items():
+            numbers(item, path + "/" + key, out)
+    elif isinstance(value, list):
+        for key, item in enumerate(value):
+            numbers(item, "%s/%d" % (path, key), out)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        out[path] = value
+    return out
+
+
+class Frames(unittest.TestCase):
+    def setUp(self):
+        self.kept = tempfile.TemporaryDirectory()
+        self.addCleanup(self.kept.cleanup)
+
+    def file(self, text):
+        path = pathlib.Path(self.kept.name) / "device.xml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def answer(self, text, *command):
+        result = run(command[0], self.file(text), *command[1:], "--json")
+        self.assertIn(result.returncode, (0, 1, 4), result.stderr)
+        return json.loads(result.stdout)
+
+    def same(self, a, b, within, skip):
+        a, b = numbers(a), numbers(b)
+        self.assertEqual(set(a), set(b))
+        sizes = {}
+        for path, value in a.items():  # as small as rounding of the largest of its kind
+            kind = re.sub(r"/\d+", "", path)
+            sizes[kind] = max(sizes.get(kind, 0), abs(value))
+        for path, value in a.items():
+            if not re.search(skip, path):
+                self.assertLessEqual(abs(value - b[path]), within * sizes[re.sub(r"/\d+", "", path)], path)
+
+    SKIP = r"cpu_s|steps|rhs|residual|constraint|velocity_norm|energy_error|assembly_moved|estimated|error|iterations|looser|boxes|out_of_rest|velocity_moved"
+
+    def test_moved_frames_change_nothing(self):
+        draw = random.Random(19)
+        for name in ("comb-stage", "copper-nodder", "leaf-four-bar", "free-form-four-bar"):
+            text = (ROOT / "docs/gallery" / name / "device.xml").read_text(encoding="utf-8")
+            ids = re.findall(r'<body id="(\w+)"', text)
+            shift = {i: (draw.uniform(-300, 300), draw.uniform(-300, 300)) for i in ids}
+            other = moved(text, shift)
+            for command, within in ((("statics",), 1e-8), (("modes",), 1e-7),
+                                    (("check", "--corners", "none", "--advice", "none"), 1e-3)):
+                a, b = self.answer(text, *command), self.answer(other, *command)
+                for document in (a, b):  # the frame's own poses are compared below
+                    if "q" in document:
+                        self.frames(document, shift if document is b else {})
+                self.same(a, b, within, self.SKIP + r"|/q/|/(damped_)?shape/|/path/events/\d+/q")
+
+    def frames(self, document, shift):
+        """the centre of mass is where it is, seen from the frame"""
+        for body, (x, y, phi) in document["q"].items():
+            dx, dy = (1e-6 * v for v in shift.get(body, (0, 0)))
+            document["q"][body] = [x - math.cos(phi) * dx + math.sin(phi) * dy, y - math.sin(phi) * dx - math.cos(phi) * dy,
+                                   phi]
+        document["frame"] = document.pop("q")
+
+    EVERYTHING = """<device xmlns="urn:flexwright:device:1" name="everything">
+<mechanism>
+<body id="arm" mass="1 mg" inertia="1 mg mm^2" x="1 mm" y="0 mm"/>
+<body id="slide" mass="2 mg" inertia="1 mg mm^2" x="2.5 mm" y="0.5 mm" com-x="0.1 mm"/>
+<body id="end" mass="1 mg" inertia="0.5 mg mm^2" x="3 mm" y="2 mm"/>
+<revolute id="pin" a="ground" b="arm" b-x="-1 mm" stiffness="1e-6 N m/rad"/>
+<prismatic id="guide" a="arm" a-x="1 mm" a-y="0.2 mm" b="slide" b-x="-0.5 mm" b-y="-0.3 mm" axis="10 deg" stiffness="20 N/m"/>
+<weld id="weld" a="slide" a-x="0.2 mm" a-y="0.7 mm" b="end" b-x="-0.3 mm" b-y="-0.8 mm"/>
+<spring id="spring" a="arm" a-x="0.3 mm" a-y="0.1 mm" b="ground" b-x="0 mm" b-y="3 mm" stiffness="5 N/m"/>
+</mechanism>
+<scene name="all" duration="3 ms">
+<force on="arm" x="0.5 mm" y="-0.1 mm" fx="0.01 mN" fy="-0.02 mN"/>
+<torque on="slide" value="0.01 uN m"/>
+<initial body="arm" omega="2 rad/s"/>
+<tendon id="T" pull="0.05 mN"><eyelet on="end" x="0.1 mm" y="0.2 mm"/><eyelet on="arm" x="0.2 mm" y="0.4 mm"/>
+<eyelet on="ground" x="-1 mm" y="2 mm"/></tendon>
+<contact id="C" a="end" a-x="0.1 mm" b="ground" b-x="3.2 mm" b-y="2.1 mm" side="outside" distance="0.1 mm" stiffness="1 N/m"/>
+<base-motion ax="3 m/s^2"/><gravity gy="-9.81 m/s^2"/>
+</scene></device>"""
+
+    def test_points_of_every_element_go_with_the_frame(self):
+        shift = {"arm": (120, -70), "slide": (-310, 45), "end": (11, 230)}
+        other = moved(self.EVERYTHING, shift)
+        for command, within in ((("statics",), 1e-7), (("simulate", "--rtol", "1e-11"), 1e-6)):
+            a, b = self.answer(self.EVERYTHING, *command), self.answer(other, *command)
+            for document in (a, b):
+                state = document if "q" in document else document["final"]
+                self.frames(state, shift if document is b else {})
+                state.pop("v", None), state.pop("a", None)
+            self.same(a, b, within, self.SKIP + "|jacobians|factorisations|projections|rejected|/t_s$")
+
+    def test_masks_are_the_same_bytes(self):
+        text = (ROOT / "docs/gallery/free-form-four-bar/device.xml").read_text(encoding="utf-8")
+        other = moved(text, {"crank": (0, 200), "coupler": (-100, 50), "rocker": (13, 17)})
+        files = []
+        for one, which in ((text, "a"), (other, "b")):
+            where = pathlib.Path(self.kept.name) / which
+            self.assertEqual(run("mask", self.file(one), "-o", where).returncode, 0)
+            files.append({f.name: f.read_bytes() for f in where.rglob("*.gds")})
+        self.assertEqual(files[0].keys(), files[1].keys())
+        for name, content in files[0].items():
+            self.assertEqual(content, files[1][name], name)
+
+    PADDLE = """<device xmlns="urn:flexwright:device:1" name="paddle">
+<material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+<flexure id="f" kind="leaf" length="300 um" width="6 um" gap="10 um"/>
+<mechanism>
+<body id="paddle" {mass}x="0 mm" y="{y} mm" plate-width="0.6 mm" plate-height="0.8 mm" plate-x="0 mm" plate-y="0.8 mm"/>
+<revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="paddle" b-x="0 mm" b-y="-{y} mm" hinge="f"/>
+</mechanism>
+<scene name="shock" duration="2 ms"><base-motion ax="20000 m/s^2" law="half-sine" rise="0.2 ms"/></scene></device>"""
+
+    def test_a_paddle_swings_as_it_is_drawn_wherever_its_frame_is(self):
+        said = [self.answer(self.PADDLE.format(y=y, mass=""), "check", "--corners", "none", "--advice", "none")
+                for y in (0.8, 0.3, 0.05)]
+        modes = [self.answer(self.PADDLE.format(y=y, mass=""), "modes") for y in (0.8, 0.3, 0.05)]
+        for other, mode in zip(said[1:], modes[1:]):
+            self.assertEqual(other["verdict"], said[0]["verdict"])
+            self.assertAlmostEqual(other["hinges"][0]["utilisation"] / said[0]["hinges"][0]["utilisation"], 1, delta=1e-3)
+            self.assertAlmostEqual(mode["modes"][0]["f_Hz"] / modes[0]["modes"][0]["f_Hz"], 1, delta=1e-9)
+            self.assertEqual(list(mode["com"]), ["paddle"])
+            for k in range(2):
+                self.assertAlmostEqual(mode["com"]["paddle"][k], modes[0]["com"]["paddle"][k], delta=1e-15)
+
+    def test_a_stated_mass_is_at_the_frame_or_where_it_is_said(self):
+        mass = 'mass="0.05 mg" inertia="0.004 mg mm^2" '
+        frequency = {}
+        for y, com in ((0.8, ""), (0.3, ""), (0.3, 'com-y="0.5 mm" ')):
+            document = self.answer(self.PADDLE.format(y=y, mass=mass + com), "modes")
+            frequency[y, com] = document["modes"][0]["f_Hz"]
+            self.assertAlmostEqual(document["com"]["paddle"][1], 1e-3 * (y + (0.5 if com else 0)), delta=1e-12)
+        self.assertGreater(frequency[0.3, ""], 1.5 * frequency[0.8, ""])
+        self.assertAlmostEqual(frequency[0.3, 'com-y="0.5 mm" '] / frequency[0.8, ""], 1, delta=1e-9)
+
+    def test_a_centre_of_mass_needs_a_mass(self):
+        result = run("check", self.file(self.PADDLE.format(y=0.8, mass='com-x="1 um" ')))
+        self.assertEqual(result.returncode, 3)
+        self.assertRegex(result.stderr, r"device.xml:5:\d+: error: .*com-x.*FW-D064")
+
+    def test_columns_name_frames_and_centres_of_mass(self):
+        header = run("simulate", self.file(self.PADDLE.format(y=0.3, mass="")), "--csv", "-",
+                     "--samples", "3").stdout.splitlines()[0]
+        self.assertEqual(header.split(",")[1:4] + header.split(",")[-2:],
+                         ["paddle.x_m", "paddle.y_m", "paddle.phi_rad", "paddle.com_x_m", "paddle.com_y_m"])
+
+
+if __name__ == "__main__":
+    unittest.main()
