@@ -483,7 +483,8 @@ static const fw_cli_option_row table[] = {
     {"animate", 0, "FILE", "an SVG that plays by itself; - is standard output", FW_OPT_SIMULATE,
      take_animate},
     {"independent", 0, "LIST",
-     "independent coordinates like AB.phi,CD.x (BODY.x, BODY.y: of its centre of mass); default by pivoting",
+     "independent coordinates like AB.phi,CD.x (BODY.x, BODY.y: of its centre of mass); default by "
+     "pivoting",
      FW_OPT_ASSEMBLE, take_independent},
     {"rates", 0, "LIST", "their rates, like \"10 rad/s,0.2 mm/s\"; default 0", FW_OPT_ASSEMBLE,
      take_rates},
