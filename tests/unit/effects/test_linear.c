@@ -52,7 +52,7 @@ typedef struct pair { /* two bars in a row from the ground; the element at the s
 } pair;
 
 static void pair_new(pair *p) {
-    *p = (pair){.body = {{"a", 2, 0.3, 0.5, 0, 0}, {"b", 1, 0.1, 1.5, 0, 0}}};
+    *p = (pair){.body = {{"a", 2, 0.3, 0.5, 0, 0, {0, 0}}, {"b", 1, 0.1, 1.5, 0, 0, {0, 0}}}};
     p->pin[0] = (fw_mechanism_pin){.body_a = FW_GROUND, .body_b = 0, .bx_m = -0.5};
     p->pin[1] = (fw_mechanism_pin){.body_a = 0, .body_b = 1, .ax_m = 0.5, .bx_m = -0.5};
     p->torsion[0] = (fw_effects_torsion){0, FW_GROUND, 0, 10, 0, 0};
