@@ -14,7 +14,7 @@
 
 static void print(struct model *model, double share, const struct answer *answer,
                   const struct state *state) {
-    double stiffness[9 * BODIES * BODIES], omega[3 * BODIES] = {0};
+    double stiffness[9 * BODIES * BODIES], omega[3 * BODIES] = {0}, force[3 * (BODIES + 1)] = {0};
     printf("{\"share\": %.15g, \"most\": %.12g, ", share, answer->most);
     if (!(model->duration > 0) && !statics_stiffness_at(model, share, state, stiffness)) {
         motion_frequencies_of(model, stiffness, omega);
@@ -32,6 +32,11 @@ static void print(struct model *model, double share, const struct answer *answer
     for (int i = 0; i < model->flexures; i++)
         printf("%s[%.12g, %.12g, %.12g]", i ? ", " : "", state->p[3 * i], state->p[3 * i + 1],
                state->p[3 * i + 2]);
+    printf("], \"loads\": ["); /* on the bodies, about their centres */
+    model_loads(model, state->q, share, 0, force);
+    for (int k = 1; k <= model->bodies; k++)
+        printf("%s[%.12g, %.12g, %.12g]", k > 1 ? ", " : "", force[3 * k], force[3 * k + 1],
+               force[3 * k + 2]);
     printf("]}\n");
 }
 
