@@ -174,7 +174,7 @@ static fw_status diagnostics_text(fw_design *d, fw_text *out) {
     shown.item = item;
     shown.count = 0;
     for (size_t i = 0; i < p->diags.count; i++)
-        if (wanted(p->diags.item[i].severity, d->style.detail))
+        if (p->diags.item[i].unreliable || wanted(p->diags.item[i].severity, d->style.detail))
             item[shown.count++] = p->diags.item[i];
     fw_diags_print(&shown, out, p->source_file, p->source, p->source_length, d->style.colour);
     return fw_text_end(out);

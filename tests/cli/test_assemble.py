@@ -78,6 +78,7 @@ class Assemble(unittest.TestCase):
 
     def test_simulate_starts_there(self):
         assembled = self.document(STREWN)
+        self.assertIn("FW-D115", run("simulate", STREWN, "-q").stderr)  # what ends with 4 says why
         result = run("simulate", STREWN, "--csv", "-", "--samples", "2", "-v")
         self.assertEqual(result.returncode, 4, result.stderr)  # another branch may have been meant
         self.assertIn("FW-D115", result.stderr)
