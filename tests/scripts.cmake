@@ -52,7 +52,7 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
 fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
                tests/data/hinge)
-# a seed is the same device on every machine; what a run of two thousand says is in tests/judge/README.md
+# a seed is the same device on every machine; what a long run says is in tests/judge/README.md
 fw_script_test(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>
                --program ${FW_PROGRAM} --seed 7001 --count 24)
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})

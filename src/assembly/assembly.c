@@ -324,8 +324,8 @@ static char *amount(char *to, size_t n, double metres, double radian, double siz
 }
 
 /* a guess that was far off may have led to another assembly than was meant: that is unreliable */
-    static void report_moved(const fw_mechanism *m, const fw_assembly_joint_gap *gap,
-                             const double *q, double size, fw_diags *diags) {
+static void report_moved(const fw_mechanism *m, const fw_assembly_joint_gap *gap, const double *q,
+                         double size, fw_diags *diags) {
     double moved = 0, turned = 0, open = 0, askew = 0;
     for (int b = 0; b < m->nbody; b++) {
         moved = fmax(moved, hypot(q[3 * b] - m->body[b].x_m, q[3 * b + 1] - m->body[b].y_m));

@@ -90,7 +90,6 @@ typedef struct fw_dynamics_motion_stats {
     double max_velocity_norm;       /* |G q'| likewise, scaled */
     double energy_error;     /* |T + V + dissipated - work| / largest energy; dimensionless. Of a
                                 row of equilibria: the largest T, which is left out, / largest V */
-    bool energy_violated;    /* far beyond what the tolerance explains: the motion is not reliable */
     double rtol;             /* used */
     double largest_energy_J; /* that energy */
     double assembly_moved_m; /* largest correction of the initial position */

@@ -274,7 +274,6 @@ static void warn_energy(const fw_dynamics_run *r) {
     double off = r->record.motion->stats.energy_error;
     char a[32], b[32];
     if (!(off > energy_allowed(&r->record))) return;
-    r->record.motion->stats.energy_violated = true;
     fw_diag_unreliable(r->diags, 241, r->problem.scene->place,
                        "scene %s: the energy balance error is %s of the largest energy, far more "
                        "than the tolerance %s explains; this motion is not reliable: use another "

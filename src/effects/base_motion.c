@@ -33,9 +33,9 @@ static void modal_load_of(const fw_effect_case *c, const fw_device_base_motion *
 }
 
 /* Sum over the shakes of the envelope's answer to -m a on every body, in angles and in displacement,
-   with the size and variation of the law, and to what the joint forces that carry them do to the stiffness meanwhile. Inputs
-   SI; output dimensionless. Valid where the envelope is. Cost modes x bodies each. Test:
-   test_base_motion.c, test_bounds.c. */
+   with the size and variation of the law, and to what the joint forces that carry them do to the
+   stiffness meanwhile. Inputs SI; output dimensionless. Valid where the envelope is. Cost modes x
+   bodies each. Test: test_base_motion.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_effects_envelope *e = c->envelope;
     *value = (double)INFINITY;

@@ -65,10 +65,10 @@ double fw_effects_envelope_answer(const fw_effect_case *c, const double *force, 
 double fw_effects_envelope_mode_answer(const fw_effect_case *c, const double *mode,
                                        double variation);
 /* The same in displacement, where flexures give: hinges that stand side by side move without a turn,
-   and what is deflected there is not in the angles. All of the force (n, N) through the softest flexure,
-   as the angle that strains it as much, (1 + variation) 6 F/(k L) with k the least translational
-   stiffness and L the length, relative to `floor`; 0 without flexures. Cost n + hinges. Test:
-   test_base_motion.c */
+   and what is deflected there is not in the angles. All of the force (n, N) through the softest
+   flexure, as the angle that strains it as much, (1 + variation) 6 F/(k L) with k the least
+   translational stiffness and L the length, relative to `floor`; 0 without flexures. Cost n +
+   hinges. Test: test_displaced.c; tests/judge/examples (a stage between two leaves) */
 double fw_effects_envelope_displaced(const fw_effect_case *c, const double *force,
                                      double variation);
 /* modal forces (modes) += of the dampers in `loads` at the largest rates: where the motion is

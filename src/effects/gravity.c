@@ -15,9 +15,9 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     return FW_OK;
 }
 
-/* The answer of the modes to the weights, put on at once, in angles and in displacement, and to what the joint forces that carry
-   them take from the stiffness (a weight along a mast moves nothing and still makes it soft).
-   Inputs m in kg, g in m/s2; output dimensionless; conservative for small motions. Cost modes times
+/* The answer of the modes to the weights, put on at once, in angles and in displacement, and to
+   what the joint forces that carry them take from the stiffness (a weight along a mast moves
+   nothing and still makes it soft). Inputs m in kg, g in m/s2; output dimensionless; conservative for small motions. Cost modes times
    bodies. Test: test_effects.c, test_bounds.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_mechanism *m = c->mechanism;

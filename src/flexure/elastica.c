@@ -188,8 +188,8 @@ static bool sensible(const fw_flexure_elastica_task *task, fw_flexure_goal *g,
    root and the force. In: three of (theta, ux, uy, M, Fx, Fy); SI. Out: the other three, the
    tangent stiffness, errors.
    Where another law's state is given Newton's method begins there. From the unloaded beam: it begins
-   from the beam wound by a moment alone, and where that does not contract at once load steps from nothing, so that what is found is the primary branch. A
-   step is refused when two changes in a row do not fall to a quarter or the determinant changes
+   from the beam wound by a moment alone, and where that does not contract at once load steps from
+   nothing, so that what is found is the primary branch. A step is refused when two changes in a row do not fall to a quarter or the determinant changes
    sign; a branch that cannot be followed further is tried again on the next meshes before it is
    called a limit. Valid for any rotation and load that the finest mesh resolves (16 elements a
    piece). Error: that of the coarser of two meshes, given with the result of the finer, plus

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/constants.h"
 #include "flexure/flexure.h"
-#include "geometry/segment.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -40,36 +39,29 @@ static fw_geometry_vec2 frame_of(const fw_device_body *from, const fw_layout_bod
                               isnan(from->y_m) && shape ? shape->centroid.y : from->y_m};
 }
 
-/* from one world point to another, in axes that are turned */
-static fw_geometry_vec2 in_axes(fw_geometry_vec2 to, fw_geometry_vec2 from, double turn_rad) {
-    return fw_geometry_vec_rotate((fw_geometry_vec2){to.x - from.x, to.y - from.y}, -turn_rad);
+static fw_geometry_vec2 to_local(const fw_mechanism_mass *m, fw_geometry_vec2 world) {
+    if (!m) return world;
+    double c = cos(m->phi_rad), s = sin(m->phi_rad);
+    double dx = world.x - m->x_m, dy = world.y - m->y_m;
+    return (fw_geometry_vec2){c * dx + s * dy, -s * dx + c * dy};
 }
 
-/* The centre of mass, from the frame's origin in its axes: of a stated mass where it is stated, or
-   that origin; of what is drawn its centroid. */
-static fw_geometry_vec2 centre_in_frame(const fw_device_body *from,
-                                        const fw_layout_body_layout *shape) {
-    if (!isnan(from->mass_kg))
-        return (fw_geometry_vec2){isnan(from->com_x_m) ? 0 : from->com_x_m,
-                                  isnan(from->com_y_m) ? 0 : from->com_y_m};
-    fw_geometry_vec2 frame = frame_of(from, shape);
-    return in_axes(shape->centroid, frame, from->phi_rad);
-}
-
+/* The centre of mass: of a stated mass where it is stated, or at the frame's origin; of what is
+   drawn its centroid. */
 static void place_body(const fw_device_body *from, const fw_layout_body_layout *shape,
                        fw_mechanism_mass *to, fw_mechanism_shape *drawn) {
-    fw_geometry_vec2 frame = frame_of(from, shape), centre = centre_in_frame(from, shape);
-    fw_geometry_vec2 way = fw_geometry_vec_rotate(centre, from->phi_rad);
-    fw_geometry_vec2 at = {frame.x + way.x, frame.y + way.y};
-    bool is_centroid = shape && isnan(from->mass_kg);
-    if (is_centroid) at = shape->centroid; /* without the way there and back */
+    const fw_geometry_vec2 origin = frame_of(from, shape);
+    const fw_mechanism_mass frame = {.x_m = origin.x, .y_m = origin.y, .phi_rad = from->phi_rad};
+    const bool stated = !isnan(from->mass_kg);
+    fw_geometry_vec2 centre = {isnan(from->com_x_m) ? 0 : from->com_x_m,
+                               isnan(from->com_y_m) ? 0 : from->com_y_m};
+    if (!stated) centre = to_local(&frame, shape->centroid);
+    const fw_geometry_vec2 at = stated ? fw_mechanism_body_point(&frame, centre) : shape->centroid;
     to->x_m = at.x, to->y_m = at.y;
     to->frame = (fw_geometry_vec2){-centre.x, -centre.y};
-    if (shape && !is_centroid) drawn->centroid = in_axes(shape->centroid, at, from->phi_rad);
+    if (shape && stated) drawn->centroid = to_local(to, shape->centroid);
 }
 
-/* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
-   J = rho h I_p, centre of mass = centroid */
 /* the file's numbers win, but what the drawing contradicts is worth a word, once */
 static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *from,
                          const fw_layout_body_layout *shape, const fw_mechanism_mass *to,
@@ -98,6 +90,8 @@ static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *fr
                  fw_number_text(text[4], sizeof text[4], away, 3));
 }
 
+/* explicit values scaled by the variant's scales; NaN ones from the outline: m = rho h A,
+   J = rho h I_p, centre of mass = centroid */
 static fw_status build_body(const fw_mechanism_builder *b, int i) {
     const fw_device_body *from = &b->device->body[i];
     const fw_layout_body_layout *shape =
@@ -164,13 +158,6 @@ static fw_status refer_to_centres(fw_mechanism_builder *b) {
 
 static const fw_mechanism_mass *body_of(const fw_mechanism_builder *b, int index) {
     return index == FW_GROUND ? NULL : &b->mechanism->body[index];
-}
-
-static fw_geometry_vec2 to_local(const fw_mechanism_mass *m, fw_geometry_vec2 world) {
-    if (!m) return world;
-    double c = cos(m->phi_rad), s = sin(m->phi_rad);
-    double dx = world.x - m->x_m, dy = world.y - m->y_m;
-    return (fw_geometry_vec2){c * dx + s * dy, -s * dx + c * dy};
 }
 
 static bool known(fw_geometry_vec2 p) {

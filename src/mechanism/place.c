@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where points of a mechanism are: in the drawn pose, and on bodies and ground that have become
    longer. */
+#include "geometry/segment.h"
 #include "mechanism/builder.h"
 #include <math.h>
 
@@ -22,9 +23,7 @@ const fw_device_scene *fw_mechanism_scene(const fw_mechanism *m, const fw_device
    that */
 static fw_geometry_vec2 arm_of(const fw_mechanism_mass *body, double phi_rad) {
     const fw_geometry_vec2 f = body->frame;
-    if (f.x == 0 && f.y == 0) return f;
-    double c = cos(phi_rad), s = sin(phi_rad);
-    return (fw_geometry_vec2){c * f.x - s * f.y, s * f.x + c * f.y};
+    return f.x == 0 && f.y == 0 ? f : fw_geometry_vec_rotate(f, phi_rad);
 }
 
 void fw_mechanism_frame_pose(const fw_mechanism_mass *body, const double centre[3],

@@ -5,9 +5,9 @@
      g law(t),   g = s (p_b - centre) where b is the ground, -s (p_a - centre) where a is,
 
    (p of a pin that stands for a flexure is where the strip begins), so that Psi_t and Psi_tt follow
-   from d' += g law', d'' += g law''; ends of springs on the ground move likewise. A pose holds the ground of its time. Scaled units. Exact. What the moving ground
-   feeds in goes to the energy balance: lambda . Psi_t of the joints (rhs.c), and that of springs
-   and slides (forces.c). Test: test_constraints.c, test_temperature.c. */
+   from d' += g law', d'' += g law''; ends of springs on the ground move likewise. A pose holds the
+   ground of its time. Scaled units. Exact. What the moving ground feeds in goes to the energy
+   balance: lambda . Psi_t of the joints (rhs.c), and that of springs and slides (forces.c). Test: test_constraints.c, test_temperature.c. */
 #include "multibody/multibody_scratch.h"
 
 void fw_multibody_stretch_gain(const fw_multibody_model *m, const double local[2], double gain[2]) {

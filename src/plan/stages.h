@@ -52,9 +52,8 @@ fw_status fw_plan_mechanism(fw_plan *plan, const fw_device_scene *scene,
                             const fw_mechanism **mechanism);
 fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *pf);
 
-/* *scene, or where that is NULL the one asked for, else the first; its mechanism, drawn if
-   possible */
-/* *scene: NULL, or one of the description; then that of the mechanism */
+/* *scene of the description, or where that is NULL the one asked for, else the first; its mechanism,
+   drawn if possible. *scene becomes that of the mechanism */
 fw_status fw_plan_start(fw_plan *plan, const fw_mechanism **mechanism,
                         const fw_device_scene **scene, double *moved_m);
 

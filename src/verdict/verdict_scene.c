@@ -10,7 +10,6 @@
      - it does not start as stated, or its energy does not add up: inconclusive.
    Test: test_program.py. */
 #include "verdict/verdict_parts.h"
-#include "assembly/assembly.h"
 #include "statics/level.h"
 #include "statics/quasi.h"
 #include <math.h>
@@ -185,26 +184,15 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                                step->why_not));
 }
 
-/* the motion is not of the velocities that were stated, or not of this mechanism at all */
-static fw_status judge_motion(fw_arena *arena, const fw_device_scene *scene,
-                              const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
-    char off[32];
-    if (motion->stats.velocity_moved > fw_assembly_another_start)
-        FW_TRY(add(v, scene, 106, FW_INCONCLUSIVE, 0.5,
-                   fw_arena_printf(
-                       arena,
-                       "the initial velocities of scene %s contradict the joints and were "
-                       "changed by up to %s %%: the motion is of another start than the "
-                       "stated one; state velocities that the joints allow",
-                       scene->name,
-                       fw_number_text(off, sizeof off, 100 * motion->stats.velocity_moved, 3))));
-    if (!motion->stats.energy_violated) return FW_OK;
-    return add(v, scene, 241, FW_INCONCLUSIVE, 0.5,
-               fw_arena_printf(
-                   arena,
-                   "the energy of scene %s does not add up (%s of its largest energy): its "
-                   "motion is not reliable; use another --method or --integrator",
-                   scene->name, fw_number_text(off, sizeof off, motion->stats.energy_error, 2)));
+/* what the run itself says is not to be relied on: another start than the stated one, an energy that
+   does not add up */
+static fw_status judge_reliability(const fw_device_scene *scene, const fw_diags *said,
+                                   fw_verdict_variant_verdict *v) {
+    for (size_t i = 0; i < said->count; i++)
+        if (said->item[i].unreliable)
+            FW_TRY(
+                add(v, scene, said->item[i].number, FW_INCONCLUSIVE, 0.5, said->item[i].message));
+    return FW_OK;
 }
 
 fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
@@ -227,6 +215,6 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(status);
     FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
-    FW_TRY(judge_motion(arena, scene, v->motion[i], v));
+    FW_TRY(judge_reliability(scene, &own, v));
     return judge_stability(arena, scene, v->motion[i], diags, v);
 }
