@@ -244,8 +244,9 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
         fw_diag_error(r->diags, 64, fw_xml_place_of(record, wide ? "plate-width" : "plate-height"),
                       "%s: plate-width and plate-height belong together; add the other",
                       fw_xml_label(record, label));
-    check_mass(r, record, fw_xml_given(record, "width") || wide || high,
-               "width (bars to its joints) or plate-width and plate-height");
+    int shapes = fw_device_shapes_given(record);
+    check_mass(r, record, fw_xml_given(record, "width") || wide || high || shapes > 0,
+               "width (bars to its joints), plate-width and plate-height, or an <outline>");
     fw_device_body b = {.id = fw_xml_text_of(record, "id"),
                         .mass_kg = fw_xml_number_of(record, "mass"),
                         .inertia_kg_m2 = fw_xml_number_of(record, "inertia"),
@@ -260,6 +261,7 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
                         .plate_x_m = (double)NAN,
                         .plate_y_m = (double)NAN,
                         .plate_angle_rad = fw_xml_number_or(record, "plate-angle", 0.0),
+                        .nshape = shapes, /* until they are built */
                         .place = record->element->place,
                         .width_place = fw_xml_place_of(record, "width")};
     for (int k = 0; k < 2; k++)
@@ -298,8 +300,10 @@ static void check_present(fw_device_reader *r) {
 fw_status fw_device_build_mechanism(fw_device_reader *r) {
     fw_device *d = r->device;
     for (int i = 0; i < r->xml.nrecord; i++)
-        if (fw_xml_is(&r->xml.record[i], "body"))
-            d->body[d->nbody++] = body_of(r, &r->xml.record[i]);
+        if (fw_xml_is(&r->xml.record[i], "body")) {
+            d->body[d->nbody] = body_of(r, &r->xml.record[i]);
+            FW_TRY(fw_device_build_shapes(r, &r->xml.record[i], &d->body[d->nbody++]));
+        }
     check_present(r);
     return build_joints(r);
 }

@@ -40,5 +40,5 @@ double fw_device_flexure_narrowest_m(const fw_device_flexure *f) {
 }
 
 bool fw_device_body_drawn(const fw_device_body *body) {
-    return !isnan(body->width_m) || !isnan(body->plate_width_m);
+    return !isnan(body->width_m) || !isnan(body->plate_width_m) || body->nshape > 0;
 }

@@ -64,6 +64,16 @@ int fw_device_flexure_pieces(const fw_device_flexure *flexure, fw_geometry_strip
 bool fw_device_flexure_varies(const fw_device_flexure *flexure);
 double fw_device_flexure_narrowest_m(const fw_device_flexure *flexure);
 
+/* <outline>, <plate>, <bar>, <disc> or <lettering> of a body; of several copies each is one */
+typedef struct fw_device_shape {
+    fw_geometry_contour contour; /* in the body's frame, counter-clockwise; count 0: lettering */
+    bool hole;                   /* cut out of the body */
+    const char *text;            /* of lettering, whose lower left corner is at `pose` */
+    double height_m;
+    fw_geometry_pose pose; /* in the body's frame */
+    fw_place place;
+} fw_device_shape;
+
 typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     const char *id;
     double mass_kg, inertia_kg_m2; /* NaN: from the laid-out shape; about the centre of mass */
@@ -75,6 +85,8 @@ typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     double width_m;                       /* of the bars that join its hinges; NaN: not drawn */
     double plate_width_m, plate_height_m; /* a rectangle about plate_x, plate_y; NaN: none */
     double plate_x_m, plate_y_m, plate_angle_rad;
+    const fw_device_shape *shape; /* (nshape) what else is drawn of it, in the order of the file */
+    int nshape;
     bool platform;
     fw_place place, width_place;
 } fw_device_body;
@@ -416,6 +428,13 @@ typedef struct fw_device_set { /* --set PATH=VALUE */
     const char *path, *value;
 } fw_device_set;
 
+/* Reads the files that a description names (drawings), by their names as it states them: relative,
+   without "..", not longer than 255 bytes. What cannot be read is reported at `asked`. */
+typedef struct fw_device_files {
+    fw_status (*read)(void *of, const char *name, fw_place asked, const char **data, size_t *n);
+    void *of;
+} fw_device_files;
+
 /* reads and checks; all mistakes are in diags. FW_INPUT when there is an error: *device is then
    NULL, or what could be understood, good for looking up further references and for nothing else.
    `file` names the text in diagnostics. --set PATH is a parameter's name, or ELEMENT[ID]/@ATTRIBUTE
@@ -423,6 +442,10 @@ typedef struct fw_device_set { /* --set PATH=VALUE */
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                          const fw_device_set *set, int nset, fw_diags *diags,
                          const fw_device **device);
+/* the same; files NULL: a description that names files is refused (FW-D311) */
+fw_status fw_device_read_with(fw_arena *arena, const char *file, const char *xml, size_t n,
+                              const fw_device_set *set, int nset, const fw_device_files *files,
+                              fw_diags *diags, const fw_device **device);
 
 /* a scene or workspace that asks for a flow (NULL: any) holds in this one (NULL: none) */
 bool fw_device_in_flow(const char *asked, const char *flow);

@@ -39,6 +39,12 @@ static fw_status build(fw_device_reader *r) {
 fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                          const fw_device_set *set, int nset, fw_diags *diags,
                          const fw_device **device) {
+    return fw_device_read_with(arena, file, xml, n, set, nset, NULL, diags, device);
+}
+
+fw_status fw_device_read_with(fw_arena *arena, const char *file, const char *xml, size_t n,
+                              const fw_device_set *set, int nset, const fw_device_files *files,
+                              fw_diags *diags, const fw_device **device) {
     *device = NULL;
     size_t before = diags->errors;
     fw_device *d = fw_arena_one(arena, fw_device);
@@ -46,7 +52,8 @@ fw_status fw_device_read(fw_arena *arena, const char *file, const char *xml, siz
     fw_device_reader r = {.xml = {.arena = arena, .diags = diags, .table = &fw_device_table},
                           .arena = arena,
                           .diags = diags,
-                          .device = d};
+                          .device = d,
+                          .files = files};
     FW_TRY(fw_xml_read(arena, file, xml, n, diags, &r.xml.root));
     FW_NEED(d->source = fw_arena_strndup(arena, xml, n));
     FW_NEED(d->file = fw_arena_strdup(arena, file ? file : ""));

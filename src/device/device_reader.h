@@ -27,6 +27,7 @@ typedef struct fw_device_reader {
     fw_quantity_name_value *name; /* parameters with a value, those of xml.names */
     fw_device_id_index index[FW_SPACE_COUNT];
     fw_device *device;
+    const fw_device_files *files; /* NULL: none are opened */
 } fw_device_reader;
 
 /* parameter.c: steps between those of xml/xml_reader.h */
@@ -67,7 +68,12 @@ bool fw_device_refused(fw_device_reader *r, const fw_xml_record *record, int num
 bool fw_device_needed(fw_device_reader *r, const fw_xml_record *record, int number,
                       const char *const *names, int n, const char *why);
 
-bool fw_device_body_drawn(const fw_device_body *body); /* it has a width or a plate: device.c */
+/* it has a width, a plate or shapes: device.c */
+bool fw_device_body_drawn(const fw_device_body *body);
+/* build_shapes.c: how many elements in the record of a <body> are drawn; then what they are */
+int fw_device_shapes_given(const fw_xml_record *record);
+fw_status fw_device_build_shapes(fw_device_reader *r, const fw_xml_record *record,
+                                 fw_device_body *body);
 
 /* One function per element of <scene>: build_scenes.c, build_surroundings.c. Private to device/. */
 

@@ -24,8 +24,8 @@ typedef enum fw_device_space { /* ids are unique within one of these */
 } fw_device_space;
 
 /* each ends with a row without a name */
-extern const fw_xml_element_row fw_device_table_mechanism[], fw_device_table_scene[],
-    fw_device_table_effects[];
+extern const fw_xml_element_row fw_device_table_mechanism[], fw_device_table_shapes[],
+    fw_device_table_scene[], fw_device_table_effects[];
 extern const fw_xml_table fw_device_table;
 
 /* What the rows of the table are written with: dimensions, ranges with their reasons, and the

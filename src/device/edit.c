@@ -220,7 +220,8 @@ static fw_status splice(const editor *e, size_t from, size_t to, const fw_text *
 static fw_status check_attribute(const editor *e, const fw_xml_element *element, const char *name) {
     const char *names[FW_ATTRIBUTES_MOST];
     size_t n = 0;
-    const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, element->name);
+    const fw_xml_element_row *row = fw_xml_row_in(&fw_device_table, element->name,
+                                                  element->parent ? element->parent->name : "");
     if (!name_valid(name)) return refuse(e, "no attribute can be called", name);
     fw_xml_attributes all = {0};
     if (row) FW_TRY(fw_xml_attributes_of(e->arena, row, &all));

@@ -13,13 +13,30 @@ static void restate(moves move, int body, double *x_m, double *y_m) {
     *y_m -= move[body].by.y;
 }
 
-static void restate_bodies(fw_device *d, moves move) {
+static fw_status restate_shapes(fw_arena *arena, fw_device_body *body, fw_geometry_vec2 by) {
+    fw_device_shape *shape;
+    size_t n = (size_t)body->nshape;
+    FW_NEED(shape = fw_arena_grow(arena, body->shape, n, n, sizeof *shape));
+    for (int i = 0; i < body->nshape; i++) {
+        const fw_geometry_pose back = {-by.x, -by.y, 0};
+        shape[i].pose.x_m -= by.x;
+        shape[i].pose.y_m -= by.y;
+        FW_TRY(fw_geometry_contour_transform(arena, &body->shape[i].contour, back, false,
+                                             &shape[i].contour));
+    }
+    body->shape = shape;
+    return FW_OK;
+}
+
+static fw_status restate_bodies(fw_arena *arena, fw_device *d, moves move) {
     for (int b = 0; b < d->nbody; b++) {
         fw_device_body *body = &d->body[b];
         if (move[b].by.x == 0 && move[b].by.y == 0) continue;
         body->x_m = move[b].to.x, body->y_m = move[b].to.y;
         restate(move, b, &body->com_x_m, &body->com_y_m);
+        if (body->nshape > 0) FW_TRY(restate_shapes(arena, body, move[b].by));
     }
+    return FW_OK;
 }
 
 static void restate_joints(fw_device *d, moves move) {
@@ -85,7 +102,7 @@ fw_status fw_device_move_frames(fw_arena *arena, const fw_device *device,
     FW_NEED(d->joint = fw_arena_grow(arena, d->joint, j, j, sizeof *d->joint));
     FW_NEED(d->spring = fw_arena_grow(arena, d->spring, p, p, sizeof *d->spring));
     FW_NEED(d->scene = fw_arena_grow(arena, d->scene, s, s, sizeof *d->scene));
-    restate_bodies(d, move);
+    FW_TRY(restate_bodies(arena, d, move));
     restate_joints(d, move);
     for (int i = 0; i < d->nscene; i++) {
         FW_TRY(fw_device_own_scene(arena, &d->scene[i]));

@@ -65,8 +65,8 @@ static const fw_xml_attribute_row body_rows[] = {
     {"com-y", PLACE, .fallback = "0 mm with mass, else the drawn shape's centroid",
      .sentence = "Centre of mass in the body's frame; together with mass."},
     {"width", SIZE, .fallback = "not drawn",
-     .sentence = "Of the bars that join its hinges. A plate has no bars: there it bounds the width "
-                 "of the necks that lead into the plate."},
+     .sentence = "Of the bars that join its hinges. With plate-width there are no bars: it bounds "
+                 "the width of the necks that lead into the plate."},
     {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
     {"plate-height", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-width."},
     {"plate-x", PLACE, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},
@@ -169,7 +169,8 @@ const fw_xml_element_row fw_device_table_mechanism[] = {
     {"mechanism", "device", .once = true,
      .sentence = "Any planar mechanism; with <six-bar> it adds to that and may use its ids."},
     {"body", "mechanism", "id", FW_SPACE_BODY, .most = 50000, ROWS(body_rows),
-     .sentence = "A rigid body; it needs mass and inertia, or a shape."},
+     .sentence = "A rigid body; it needs mass and inertia, or a shape: width, plate-width and "
+                 "plate-height, or elements inside it."},
     {"revolute", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(revolute_rows),
      .sentence = "A pin on which b turns against a. Its angle is phi_b - phi_a - free-angle; a "
                  "spring, a damper and stops may act on it."},

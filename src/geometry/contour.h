@@ -20,6 +20,7 @@ enum {
     FW_SEGMENT_JOINT = 1, /* shared with the neighbouring piece: its end corners stay as they are */
     FW_SEGMENT_THROUGH = 16, /* besides: at either end the edge runs on in the neighbouring piece on
                                 the same line or circle, not square to the joint */
+    FW_SEGMENT_DRAWN = 32,   /* as somebody drew it: a corner between two of them stays */
 };
 
 typedef struct fw_geometry_segment {
@@ -118,6 +119,9 @@ double fw_geometry_contour_clearance(const fw_geometry_contour *contour, bool in
    boxes are nearer than that */
 double fw_geometry_contour_clearance_below(const fw_geometry_contour *contour, bool inside,
                                            double limit_m, int *i, int *j);
+/* the same without pairs of segments that both have a flag of `except` */
+double fw_geometry_contour_clearance_except(const fw_geometry_contour *contour, bool inside,
+                                            double limit_m, unsigned except, int *i, int *j);
 
 /* ---- changing ---- */
 fw_status fw_geometry_contour_transform(fw_arena *arena, const fw_geometry_contour *contour,
@@ -135,7 +139,8 @@ fw_status fw_geometry_region_boolean(fw_arena *arena, const fw_geometry_region *
                                      const fw_geometry_region *q, fw_geometry_boolean op,
                                      fw_geometry_region *out);
 /* rounds corners with tangent arcs: convex corners (material angle < 180) with `convex_m`, concave
-   ones with `concave_m`; radius 0 leaves them. A corner next to a JOINT segment stays. A segment
+   ones with `concave_m`; radius 0 leaves them. A corner next to a JOINT segment stays, and so does
+   one between two DRAWN ones. A segment
    between two corners of one side that is too short for both (and shorter than the radius, turns up
    to 120 degrees together) is left out: the rounding touches its neighbours. Where neighbouring
    segments are else too short the radius shrinks, never below a quarter, else FW_GEOMETRY with the

@@ -205,6 +205,7 @@ enum { BOXED = 128, SPAN = 8 };
 typedef struct search {
     const fw_geometry_contour *contour;
     bool inside;
+    unsigned except; /* flags: pairs that share one of them do not count */
 } search;
 
 static const fw_geometry_segment *around(const fw_geometry_contour *contour, int i) {
@@ -359,7 +360,12 @@ typedef struct nearest { /* the shortest chord so far, and between which segment
     int i, j;
 } nearest;
 
+static bool excepted(const search *in, int p, int q) {
+    return in->contour->segment[p].flags & in->contour->segment[q].flags & in->except;
+}
+
 static void look_at_pair(const search *in, int p, int q, double gap, nearest *best) {
+    if (excepted(in, p, q)) return;
     double here = pair_clearance(in, p, q, best->least, gap);
     if (here < best->least) *best = (nearest){here, p, q};
 }
@@ -375,7 +381,7 @@ static void look_beyond(const search *in, int p, const fw_geometry_box *box, int
     const fw_geometry_contour *c = in->contour;
     fw_geometry_box own = p < boxed ? box[p] : fw_segment_box(&c->segment[p]);
     double alone = own_clearance(&c->segment[p], in->inside);
-    if (alone < best->least) *best = (nearest){alone, p, p};
+    if (alone < best->least && !excepted(in, p, p)) *best = (nearest){alone, p, p};
     int end = p == 0 ? c->count - 1 : c->count;
     for (int q = p + 2; q < end; q++) {
         if (q % SPAN == 0 && q + SPAN <= boxed &&
@@ -398,7 +404,12 @@ static void look_beyond(const search *in, int p, const fw_geometry_box *box, int
 
 double fw_geometry_contour_clearance_below(const fw_geometry_contour *contour, bool inside,
                                            double limit_m, int *i, int *j) {
-    search in = {contour, inside};
+    return fw_geometry_contour_clearance_except(contour, inside, limit_m, 0, i, j);
+}
+
+double fw_geometry_contour_clearance_except(const fw_geometry_contour *contour, bool inside,
+                                            double limit_m, unsigned except, int *i, int *j) {
+    search in = {contour, inside, except};
     nearest best = {limit_m, -1, -1};
     int n = contour->count, boxed = n < BOXED ? n : BOXED;
     fw_geometry_box box[BOXED],

@@ -324,7 +324,8 @@ static void plan_corner(const fw_geometry_segment *before, const fw_geometry_seg
     *f = (fillet){.factor = 1, .scale = 1, .side = left ? 1 : -1};
     f->radius_m = left ? convex_m : concave_m;
     f->wanted = is_corner(sine, cosine) && f->radius_m > FW_COINCIDENT_M &&
-                !((before->flags | after->flags) & FW_SEGMENT_JOINT);
+                !((before->flags | after->flags) & FW_SEGMENT_JOINT) &&
+                !(before->flags & after->flags & FW_SEGMENT_DRAWN);
 }
 
 /* is segment s too short for the rounding circles at its two ends, but one circle of that radius

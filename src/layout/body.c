@@ -111,11 +111,18 @@ static fw_status draw_link(fw_layout_drawing *d, int body, const int joint[2],
     return close_bar(d, w, side[0]->direction, p, n, bar);
 }
 
-/* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a part of a body;
-   the pieces that are left are appended */
-static fw_status cut_free(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
-                          const int *skip, int nskip, parts *out) {
-    fw_geometry_region region = {(fw_geometry_contour *)part, 1};
+static bool reaches(const fw_geometry_region *region, const fw_geometry_contour *disc,
+                    fw_geometry_vec2 centre) {
+    for (int i = 0; i < region->count; i++)
+        if (fw_geometry_contour_contains(&region->contour[i], centre) ||
+            fw_geometry_contour_distance_below(&region->contour[i], disc, 1e-9, NULL, NULL) <= 0.0)
+            return true;
+    return false;
+}
+
+/* cuts the keep-out discs of the given hinges (all but those in `skip`) out of a region */
+static fw_status cut_discs(fw_layout_drawing *d, int body, const int *skip, int nskip,
+                           fw_geometry_region *region) {
     for (int j = 0; j < d->device->nrevolute; j++) {
         const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         bool own = false;
@@ -126,13 +133,19 @@ static fw_status cut_free(fw_layout_drawing *d, int body, const fw_geometry_cont
         double radius = h->keep_out_m;
         if (h->lower == body || h->upper == body) radius += side_of(d, j, body)->form.wider_m;
         FW_TRY(fw_geometry_contour_disc(d->arena, h->centre, radius, &disc));
-        if (!fw_geometry_contour_contains(part, h->centre) &&
-            fw_geometry_contour_distance_below(part, &disc, 1e-9, NULL, NULL) > 0.0)
-            continue;
+        if (!reaches(region, &disc, h->centre)) continue;
         fw_geometry_region hole = {&disc, 1}, left;
-        FW_TRY(fw_geometry_region_boolean(d->arena, &region, &hole, FW_DIFFERENCE, &left));
-        region = left;
+        FW_TRY(fw_geometry_region_boolean(d->arena, region, &hole, FW_DIFFERENCE, &left));
+        *region = left;
     }
+    return FW_OK;
+}
+
+/* the same of a part of a body; the pieces that are left are appended */
+static fw_status cut_free(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                          const int *skip, int nskip, parts *out) {
+    fw_geometry_region region = {(fw_geometry_contour *)part, 1};
+    FW_TRY(cut_discs(d, body, skip, nskip, &region));
     for (int i = 0; i < region.count && out->count < MOST_PARTS; i++)
         out->item[out->count++] = region.contour[i];
     return FW_OK;
@@ -210,6 +223,32 @@ static fw_status unite_parts(fw_layout_drawing *d, int body, const fw_geometry_c
     return FW_OK;
 }
 
+/* What is drawn of a body with shapes: they come first and keep their edges, hinges cut free; then
+   parts are united with them one by one, and holes are cut out and opened. */
+static fw_status unite_with_shapes(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
+                                   int npart, fw_geometry_contour *out) {
+    fw_geometry_region region = d->shapes[body].solid;
+    int outer = 0;
+    FW_TRY(cut_discs(d, body, NULL, 0, &region));
+    for (int i = 0; i < npart; i++) {
+        fw_geometry_region next = {(fw_geometry_contour *)&part[i], 1}, both;
+        FW_TRY(fw_geometry_region_boolean(d->arena, &region, &next, FW_UNION, &both));
+        region = both;
+    }
+    for (int i = 0; i < region.count; i++)
+        outer += fw_geometry_contour_area(&region.contour[i]) > 0.0;
+    if (outer != 1)
+        return fw_layout_shape_refuse(
+            d, 318, fw_layout_body_place(d, body), body,
+            outer ? "what is drawn falls apart, or hinges cut it into pieces; join the parts, or "
+                    "move them away from the hinge"
+                  : "nothing of what is drawn is left beside its hinges",
+            outer ? region.contour[1].segment[0].a
+                  : fw_v(d->device->body[body].x_m, d->device->body[body].y_m));
+    FW_TRY(fw_layout_shapes_pierce(d, body, &region));
+    return fw_layout_holes_open(d, body, &region, out, &d->caps[body]);
+}
+
 /* Corners of 10 um; where the parts are too small for that, 5, 2.5 or 1.25 um for the whole body.
    Fillets at the roots and conjugate surfaces meet their neighbours smoothly or keep their arcs. */
 fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry_contour *in,
@@ -246,12 +285,14 @@ static fw_status unite_all(fw_layout_drawing *d, const work *w) {
     FW_NEED(all = fw_arena_one(d->arena, parts));
     if (has_plate(d, w->body))
         FW_TRY(plate_parts(d, w->body, all));
-    else
+    else if (!fw_layout_only_shapes(d->device, w->body))
         FW_TRY(bar_parts(d, w->body, w->joint, w->njoint, all));
     for (int i = 0; i < w->njoint; i++)
         all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
     for (int i = 0; i < w->nextra; i++)
         all->item[all->count++] = w->extra[i];
+    if (fw_layout_has_shapes(d->device, w->body))
+        return unite_with_shapes(d, w->body, all->item, all->count, &d->raw[w->slot]);
     FW_TRY(unite_parts(d, w->body, all->item, all->count, &d->raw[w->slot]));
     d->nlug = w->first_lug;
     if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
@@ -283,7 +324,8 @@ static double share(const flaw *f) {
 static flaw narrowest(const fw_geometry_contour *c, bool inside, double limit_m) {
     int i, j;
     flaw f = {HUGE_VAL, limit_m, inside ? "width" : "space", {0.0, 0.0}};
-    double least = fw_geometry_contour_clearance_below(c, inside, limit_m, &i, &j);
+    double least =
+        fw_geometry_contour_clearance_except(c, inside, limit_m, FW_SEGMENT_DRAWN, &i, &j);
     if (i < 0) return f;
     fw_geometry_vec2 other;
     f.value_m = least;
@@ -312,13 +354,14 @@ static flaw worst_of(const fw_geometry_contour *c) {
     for (int i = 0; i < c->count; i++) {
         const fw_geometry_segment *s = &c->segment[i];
         flaw arc = {s->radius, arc_limit(c, i), "radius", s->a};
-        if (s->kind == FW_ARC && share(&arc) < share(&worst)) worst = arc;
+        if (s->kind == FW_ARC && !(s->flags & FW_SEGMENT_DRAWN) && share(&arc) < share(&worst))
+            worst = arc;
     }
     return worst;
 }
 
 /* The least of width, space and radius, each over its limit; >= 1 is good, and says nothing more.
- */
+   What a description draws is its own affair: the rules of the masks judge it. */
 double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *where) {
     flaw worst = worst_of(c);
     if (isfinite(worst.value_m)) *where = worst.where;
@@ -448,6 +491,26 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
     return FW_GEOMETRY;
 }
 
+fw_status fw_layout_body_measure(fw_layout_drawing *d, int body, const fw_geometry_contour *extra,
+                                 int nextra) {
+    int ncap = d->caps ? d->caps[body].count : 0, n = 0;
+    fw_geometry_contour *part;
+    FW_NEED(part = fw_arena_array(d->arena, fw_geometry_contour, (size_t)(ncap + nextra) + 1));
+    part[n++] = d->plain[body];
+    double perimeter = fw_geometry_contour_perimeter(&part[0]);
+    for (int i = 0; i < ncap + nextra; i++) { /* their cuts are no edges, here and there */
+        const fw_geometry_contour *cap = i < ncap ? &d->caps[body].contour[i] : &extra[i - ncap];
+        part[n++] = *cap;
+        perimeter += fw_geometry_contour_perimeter(cap) -
+                     2.0 * (fw_geometry_segment_length(&cap->segment[1]) +
+                            fw_geometry_segment_length(&cap->segment[3]));
+    }
+    fw_geometry_region region = {part, n};
+    fw_geometry_moments m = fw_geometry_region_moments(&region);
+    d->layout->body[body] = (fw_layout_body_layout){m.area_m2, perimeter, m.centroid, m.polar_m4};
+    return FW_OK;
+}
+
 /* raw (united) and plain (rounded) outline of one body, and its moments. `extra` are parts that
    only the base has. Half of each adjacent flexure's mass is not added: it is about 1 % of a
    link's. */
@@ -470,9 +533,5 @@ fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
     }
     FW_TRY(draw_soundly(d, &w));
     if (body < 0) return FW_OK;
-    fw_geometry_region region = {&d->plain[slot], 1};
-    fw_geometry_moments m = fw_geometry_region_moments(&region);
-    d->layout->body[body] = (fw_layout_body_layout){
-        m.area_m2, fw_geometry_contour_perimeter(&d->plain[slot]), m.centroid, m.polar_m4};
-    return FW_OK;
+    return fw_layout_body_measure(d, body, NULL, 0);
 }

@@ -113,6 +113,7 @@ typedef struct fw_layout_side { /* one body at one hinge */
     /* the neck ends in this plate, `plate_at_m` from W; NULL: in a bar */
     const fw_device_body *plate;
     double plate_at_m;
+    double drawn_at_m; /* from W to where the neck may end in the body's shapes; 0: it has others */
     double neck_m;     /* half width of the neck between ring and bar */
     double far_m;      /* the same on the side away from the bulge */
     double corner_m;   /* where far_m > neck_m: of the plate's corner, along `direction` */
@@ -167,6 +168,10 @@ typedef struct fw_layout_comb_plan { /* one drive; several scenes may use it */
     fw_geometry_vec2 letter_at;
 } fw_layout_comb_plan;
 
+typedef struct fw_layout_shapes {   /* what the description draws of a body, in the world */
+    fw_geometry_region solid, hole; /* holes counter-clockwise as well */
+} fw_layout_shapes;
+
 typedef struct fw_layout_drawing {
     fw_arena *arena;
     const fw_device *device;
@@ -181,8 +186,10 @@ typedef struct fw_layout_drawing {
     fw_geometry_contour *plain; /* (nslot) rounded, without tethers */
     /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
     fw_geometry_contour *held;
-    double *corner_m; /* (nslot) radius of the rounded corners */
-    bool *beside;     /* (nbody) the hub stands beside the hinges; NULL: nowhere */
+    double *corner_m;         /* (nslot) radius of the rounded corners */
+    bool *beside;             /* (nbody) the hub stands beside the hinges; NULL: nowhere */
+    fw_layout_shapes *shapes; /* (nbody); NULL: no body has any */
+    fw_geometry_region *caps; /* (nbody) what closes the cuts to holes of bodies again */
     int nslot;
     fw_geometry_contour *lug; /* (nlug) of the platforms, for the tethers to avoid */
     int nlug;
@@ -249,6 +256,28 @@ double fw_layout_body_soundness(const fw_geometry_contour *c, fw_geometry_vec2 *
 /* shift_m: of the places along their edges */
 fw_status fw_layout_platform_lugs(fw_layout_drawing *d, int body, double shift_m,
                                   fw_geometry_contour *lug, int *nlug);
+
+/* ---- what a description draws of a body: shape.c, opening.c, body.c ---- */
+bool fw_layout_has_shapes(const fw_device *device, int body);
+bool fw_layout_only_shapes(const fw_device *device, int body); /* neither width nor plate */
+/* all bodies; refusals are diagnostics (FW-D316, FW-D318) and FW_GEOMETRY */
+fw_status fw_layout_shapes_unite(fw_layout_drawing *d);
+/* cuts the holes of the description out of what is drawn of a body */
+fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_region *all);
+/* unit vector from W and where from W the neck, `half_m` wide to either side, may begin to end in
+   what is drawn, at least clear_m; false: nowhere within reach */
+bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
+                               double clear_m, double half_m, fw_geometry_vec2 *direction,
+                               double *begins_m);
+/* error `number`: "BODY: WHAT, near (x, y) um" */
+fw_status fw_layout_shape_refuse(fw_layout_drawing *d, int number, fw_place place, int body,
+                                 const char *what, fw_geometry_vec2 at);
+/* one outer outline, then holes, to one outline with cuts, and the caps that close them */
+fw_status fw_layout_holes_open(fw_layout_drawing *d, int body, const fw_geometry_region *all,
+                               fw_geometry_contour *outline, fw_geometry_region *caps);
+/* area, edges and moments of outline, caps, and `extra` caps (nextra) of eyelets */
+fw_status fw_layout_body_measure(fw_layout_drawing *d, int body, const fw_geometry_contour *extra,
+                                 int nextra);
 
 /* collects the eyelets and drives of all scenes, each place once */
 fw_status fw_layout_actuators_plan(fw_layout_drawing *d);

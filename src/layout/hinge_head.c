@@ -248,6 +248,9 @@ void fw_layout_neck_choose(fw_layout_side *side, double keep_out_m) {
                                   rule->neck_rings * side->ring_out_m);
     side->far_m = side->neck_m;
     side->neck_end_m = keep_out_m + rule->neck_beyond_m + c->longer_m;
+    if (side->drawn_at_m > 0.0)
+        side->neck_end_m =
+            fmax(side->drawn_at_m, keep_out_m + c->wider_m) + rule->neck_into_plate_m + c->longer_m;
     if (!side->plate) return;
     double disc = keep_out_m + c->wider_m;
     side->neck_end_m =

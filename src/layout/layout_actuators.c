@@ -309,25 +309,16 @@ static fw_status dress(fw_layout_drawing *d, int body) {
     return rounds(d, body, body, &raw, 0.0, &good);
 }
 
-/* area and moments of outline and caps; their cuts are no edges */
+/* with the caps of its eyelets */
 static fw_status measure(fw_layout_drawing *d, int body) {
-    fw_geometry_contour *part;
-    int n = 1;
-    FW_NEED(part = fw_arena_array(d->arena, fw_geometry_contour, (size_t)d->neyelet + 1));
-    part[0] = d->plain[body];
-    double perimeter = fw_geometry_contour_perimeter(&part[0]);
+    fw_geometry_contour *cap;
+    int n = 0;
+    FW_NEED(cap = fw_arena_array(d->arena, fw_geometry_contour, (size_t)d->neyelet));
     for (int i = 0; i < d->neyelet; i++) {
-        const fw_geometry_contour *cap = &d->eyelet[i].cap;
-        if (d->eyelet[i].off || d->eyelet[i].eyelet->body != body || cap->count == 0) continue;
-        part[n++] = *cap;
-        perimeter += fw_geometry_contour_perimeter(cap) -
-                     2.0 * (fw_geometry_segment_length(&cap->segment[1]) +
-                            fw_geometry_segment_length(&cap->segment[3]));
+        const fw_layout_eyelet_plan *e = &d->eyelet[i];
+        if (!e->off && e->eyelet->body == body && e->cap.count > 0) cap[n++] = e->cap;
     }
-    fw_geometry_region region = {part, n};
-    fw_geometry_moments m = fw_geometry_region_moments(&region);
-    d->layout->body[body] = (fw_layout_body_layout){m.area_m2, perimeter, m.centroid, m.polar_m4};
-    return FW_OK;
+    return fw_layout_body_measure(d, body, cap, n);
 }
 
 static bool carries(const fw_layout_drawing *d, int body) {

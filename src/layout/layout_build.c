@@ -19,11 +19,13 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
         int n = fw_layout_body_joints(device, i, NULL, 0);
         bool plate = b->plate_width_m > 0.0 && b->plate_height_m > 0.0 &&
                      isfinite(b->plate_x_m + b->plate_y_m + b->plate_angle_rad);
-        if (!(b->width_m > 0.0 || plate))
-            why = fw_arena_printf(arena, "body %s has neither a width nor a plate", b->id);
+        bool shapes = fw_layout_only_shapes(device, i) && isfinite(b->x_m + b->y_m + b->phi_rad);
+        if (!(b->width_m > 0.0 || plate || shapes))
+            why = fw_arena_printf(arena, "body %s has neither a width, a plate nor an outline",
+                                  b->id);
         else if (!isnan(b->plate_width_m) && !plate)
             why = fw_arena_printf(arena, "the plate of body %s lacks its size or place", b->id);
-        else if (!plate && (n == 0 || (n == 1 && !isfinite(b->x_m + b->y_m))))
+        else if (!plate && !shapes && (n == 0 || (n == 1 && !isfinite(b->x_m + b->y_m))))
             why =
                 fw_arena_printf(arena, "body %s has a width, but no second hinge to reach", b->id);
         else
@@ -48,8 +50,11 @@ static fw_status add_bodies(fw_layout_drawing *d) {
         int body = s < d->device->nbody ? s : FW_GROUND;
         const fw_geometry_contour *whole = fw_layout_drawing_outline(d, s);
         if (whole->count == 0) continue;
-        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE,
-                                     fw_layout_body_label(d, body), whole));
+        const char *label = fw_layout_body_label(d, body);
+        FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, label, whole));
+        for (int i = 0; d->caps && body >= 0 && i < d->caps[body].count; i++)
+            FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, label,
+                                         &d->caps[body].contour[i]));
     }
     for (int i = 0; i < d->nattachment; i++) {
         const fw_layout_attachment *a = &d->attachment[i];
@@ -117,7 +122,7 @@ static fw_status draw_ground(fw_layout_drawing *d, fw_status *base) {
 }
 
 static bool has_hub(const fw_device *device, int body) {
-    return isnan(device->body[body].plate_width_m) &&
+    return isnan(device->body[body].plate_width_m) && !fw_layout_only_shapes(device, body) &&
            fw_layout_body_joints(device, body, NULL, 0) > 2;
 }
 
@@ -156,6 +161,8 @@ static fw_status draw(fw_layout_drawing *d) {
     FW_NEED(d->plain = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->held = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
+    FW_NEED(d->caps = fw_arena_array(d->arena, fw_geometry_region, (size_t)device->nbody));
+    FW_TRY(fw_layout_shapes_unite(d));
     FW_TRY(choose_hubs(d));
     FW_TRY(fw_layout_hinges_plan(d));
     FW_TRY(fw_layout_actuators_plan(d));

@@ -91,7 +91,7 @@ static double half_width(const fw_layout_drawing *d, int body) {
         const fw_device_body *b = &device->body[body];
         double plate = fw_layout_rule.neck_plate_share * fmin(b->plate_width_m, b->plate_height_m),
                wide = 0.5 * b->width_m;
-        if (isnan(plate)) return wide;
+        if (isnan(plate)) return isnan(wide) ? 0.5 * fw_layout_rule.neck_width_m : wide;
         return fmin(isnan(wide) ? 0.5 * fw_layout_rule.neck_width_m : wide, plate);
     }
     double widest = 0.0;
@@ -131,12 +131,89 @@ static double choose_axis(const fw_layout_drawing *d, int joint, fw_geometry_vec
     return angle_of(side);
 }
 
-static void choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *plan,
-                         double *axis) {
+/* ---- the rings ---- */
+
+/* radii about W, from inside: flexure, free width, convex ring, gap, concave ring */
+typedef struct rings {
+    double convex_in_m, convex_out_m, concave_in_m, concave_out_m;
+} rings;
+
+static rings rings_of(const fw_layout_hinge_plan *plan, double gap) {
+    const fw_layout_hinge_shape *s = &plan->shape[0], *t = &plan->shape[1];
+    const fw_layout_rules *rule = &fw_layout_rule;
+    double free_width =
+        fmin(fmax(rule->ring_free_sizes * s->size_m, rule->ring_free_m), rule->ring_free_most_m);
+    double sized = fmin(fmax(rule->ring_sizes * s->size_m, rule->ring_least_m), rule->ring_m);
+    double thick = fmax(rule->ring_widths * fmax(s->width_m, t->width_m), sized);
+    double reach = fmax(fmax(s->reach_m, fw_norm(s->inner_corner)),
+                        fmax(t->reach_m, fw_norm(t->inner_corner)));
+    rings r = {.convex_in_m = reach + free_width};
+    r.convex_out_m = r.convex_in_m + thick;
+    r.concave_in_m = r.convex_out_m + (gap > 0.0 ? gap : rule->corner_m);
+    r.concave_out_m = r.concave_in_m + thick;
+    return r;
+}
+
+static double keep_out_of(const fw_layout_hinge_plan *plan, double gap) {
+    return rings_of(plan, gap).concave_out_m + fw_layout_rule.beside_ring_m;
+}
+
+static void choose_rings(fw_layout_hinge_plan *plan, double gap) {
+    rings r = rings_of(plan, gap);
+    fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
+    in->ring_in_m = r.convex_in_m;
+    in->ring_out_m = r.convex_out_m;
+    out->ring_in_m = r.concave_in_m;
+    out->ring_out_m = r.concave_out_m;
+    for (int i = 0; i < 2; i++)
+        fw_layout_neck_choose(&plan->side[i], keep_out_of(plan, gap));
+}
+
+typedef struct way { /* from a hinge into one of its bodies */
+    fw_geometry_vec2 direction;
+    double half_m, drawn_at_m; /* as of fw_layout_side */
+} way;
+
+/* what is drawn of a body lies where its shortest neck finds it; where a wide neck does not, a
+   narrower one is tried */
+static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layout_hinge_plan *plan,
+                        way *to) {
+    static const double narrower[] = {1.0, 0.7, 0.5, 0.3};
+    const fw_device *device = d->device;
+    const fw_device_revolute *j = &device->revolute[joint];
+    fw_geometry_vec2 w = fw_layout_joint_point(device, joint);
+    *to = (way){.half_m = half_width(d, body)};
+    if (!fw_layout_only_shapes(device, body)) {
+        to->direction = fw_towards(w, body_target(d, body, joint));
+        return FW_OK;
+    }
+    double keep_out = keep_out_of(plan, device->flexure[j->flexure].gap_m), wide = to->half_m;
+    for (size_t i = 0; i < sizeof narrower / sizeof narrower[0]; i++) {
+        to->half_m = narrower[i] * wide;
+        if (fw_layout_shape_direction(d, body, w, keep_out, to->half_m, &to->direction,
+                                      &to->drawn_at_m))
+            return FW_OK;
+    }
+    char x[32], y[32], r[32], least[32];
+    fw_diag_error(d->diags, 317, j->place,
+                  "hinge %s at (%s, %s) um hangs in the air: no straight neck of %s um width finds "
+                  "what is drawn of body %s, starting from the hinge's free circle of radius %s "
+                  "um; draw the body nearer to the hinge, or give it a width for bars between its "
+                  "hinges",
+                  j->id, fw_layout_um(x, w.x), fw_layout_um(y, w.y),
+                  fw_layout_um(least, 2.0 * to->half_m), device->body[body].id,
+                  fw_layout_um(r, keep_out));
+    return FW_GEOMETRY;
+}
+
+static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *plan,
+                              double *axis) {
     const fw_device_revolute *j = &d->device->revolute[joint];
     fw_geometry_vec2 w = fw_layout_joint_point(d->device, joint);
-    fw_geometry_vec2 da = fw_towards(w, body_target(d, j->body_a, joint));
-    fw_geometry_vec2 db = fw_towards(w, body_target(d, j->body_b, joint));
+    way to_a, to_b;
+    FW_TRY(way_to(d, j->body_a, joint, plan, &to_a));
+    FW_TRY(way_to(d, j->body_b, joint, plan, &to_b));
+    fw_geometry_vec2 da = to_a.direction, db = to_b.direction;
     *axis = choose_axis(d, joint, da, db);
     fw_geometry_vec2 n = fw_polar(*axis);
     bool a_up = cross(n, da) >= cross(n, db);
@@ -145,11 +222,12 @@ static void choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *
         bool is_a = (i == 1) == a_up;
         side->body = is_a ? j->body_a : j->body_b;
         side->direction = is_a ? da : db;
-        side->half_width_m = half_width(d, side->body);
+        side->half_width_m = is_a ? to_a.half_m : to_b.half_m;
         side->form = fw_layout_head_form(0);
         if (side->body >= 0 && !isnan(d->device->body[side->body].plate_width_m))
             side->plate = &d->device->body[side->body];
         if (side->plate) side->plate_at_m = plate_begins(side->plate, w, side->direction);
+        side->drawn_at_m = is_a ? to_a.drawn_at_m : to_b.drawn_at_m;
         side->local = (fw_layout_local){w, n.x, n.y, i == 0};
         double up = cross(n, side->direction), along = fw_dot(n, side->direction);
         side->own_rad = atan2(i == 0 ? -up : up, along);
@@ -158,27 +236,7 @@ static void choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *
     int low = fw_layout_steps_to_ground(d->device, plan->side[0].body);
     int high = fw_layout_steps_to_ground(d->device, plan->side[1].body);
     plan->convex = low == high ? plan->side[1].body > plan->side[0].body : high > low;
-}
-
-/* ---- the rings ---- */
-
-/* radii about W, from inside: flexure, free width, convex ring, gap, concave ring */
-static void choose_rings(fw_layout_hinge_plan *plan, double gap) {
-    const fw_layout_hinge_shape *s = &plan->shape[0], *t = &plan->shape[1];
-    const fw_layout_rules *rule = &fw_layout_rule;
-    double free_width =
-        fmin(fmax(rule->ring_free_sizes * s->size_m, rule->ring_free_m), rule->ring_free_most_m);
-    double sized = fmin(fmax(rule->ring_sizes * s->size_m, rule->ring_least_m), rule->ring_m);
-    double thick = fmax(rule->ring_widths * fmax(s->width_m, t->width_m), sized);
-    fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
-    double reach = fmax(fmax(s->reach_m, fw_norm(s->inner_corner)),
-                        fmax(t->reach_m, fw_norm(t->inner_corner)));
-    in->ring_in_m = reach + free_width;
-    in->ring_out_m = in->ring_in_m + thick;
-    out->ring_in_m = in->ring_out_m + (gap > 0.0 ? gap : rule->corner_m);
-    out->ring_out_m = out->ring_in_m + thick;
-    for (int i = 0; i < 2; i++)
-        fw_layout_neck_choose(&plan->side[i], out->ring_out_m + rule->beside_ring_m);
+    return FW_OK;
 }
 
 /* A ring runs on past the bulge until the other body's stem (inside) or bar (outside) is the free
@@ -264,7 +322,7 @@ static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
                       "no room for two root blocks 8 um apart and their fillets; lengthen the "
                       "flexure, or make it thinner or its angle smaller");
     if (!fillet_fits(d, joint, plan->shape[0].fillet_m)) return FW_GEOMETRY;
-    choose_sides(d, joint, plan, &axis);
+    FW_TRY(choose_sides(d, joint, plan, &axis));
     choose_rings(plan, f->gap_m);
     double facing = choose_ring_ends(plan, f->gap_m);
     if (f->gap_m > 0.0 && facing < fw_layout_rule.facing_least_rad)

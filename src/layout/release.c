@@ -238,6 +238,9 @@ static void along_body(grid *g) {
     if (b->plate_width_m > 0.0) {
         g->origin = fw_v(b->plate_x_m, b->plate_y_m);
         g->x = fw_polar(b->plate_angle_rad);
+    } else if (fw_layout_only_shapes(device, g->body)) {
+        g->origin = fw_v(b->x_m, b->y_m);
+        g->x = fw_polar(b->phi_rad);
     } else {
         fw_geometry_vec2 p = g->d->layout->hinge[joint[0]].centre;
         fw_geometry_vec2 q = n > 1 ? g->d->layout->hinge[joint[1]].centre : g->before.segment[0].a;

@@ -240,28 +240,62 @@ static fw_status hold_bar(fw_layout_drawing *d, int body, int *held) {
     return FW_OK;
 }
 
-/* what a broken tether leaves standing is in nobody's way and everything is held: the platforms,
-   or, without one, the bodies furthest from the ground; the links between hang on their hinges */
+/* Two fingers to what a description draws of a body: on the nearest side of the window where that
+   works, else on any two, from places in the inner part of the body's own extent */
+static fw_status hold_shapes(fw_layout_drawing *d, int body, int *held) {
+    static const double place[] = {0.5, 0.35, 0.65, 0.25, 0.75};
+    const double into = 30e-6, apart = 0.25;
+    fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
+    fw_layout_window_side order[4];
+    double taken = HUGE_VAL; /* share of the place that has a finger on this side */
+    sides_by_distance(d->layout, d->layout->body[body].centroid, order);
+    for (int s = 0; s < 4 && *held < 2; s++, taken = HUGE_VAL) {
+        bool up = order[s] == FW_LEFT || order[s] == FW_RIGHT;
+        fw_geometry_vec2 out = fw_layout_window_outward(order[s]);
+        for (size_t i = 0; i < sizeof place / sizeof place[0] && *held < 2; i++) {
+            double along =
+                up ? box.y0 + place[i] * (box.y1 - box.y0) : box.x0 + place[i] * (box.x1 - box.x0);
+            fw_geometry_vec2 edge = fw_layout_window_point(d->layout, order[s], along, 0.0);
+            fw_layout_ray_hit hit =
+                fw_layout_first_hit(&d->plain[body], edge, fw_v(-out.x, -out.y));
+            bool done;
+            if (hit.segment < 0 || fabs(place[i] - taken) < apart) continue;
+            FW_TRY(try_finger(d, body, order[s], fw_add(hit.at, -into, out), &done));
+            if (done) taken = place[i];
+            *held += done;
+        }
+    }
+    return FW_OK;
+}
+
+static bool is_heavy(const fw_device *device, int body) {
+    return !isnan(device->body[body].plate_width_m) || fw_layout_has_shapes(device, body);
+}
+
+/* what a broken tether leaves standing is in nobody's way and everything is held: platforms and
+   bodies of shapes or, without one, the bodies furthest from the ground; the links between hang on
+   their hinges */
 static bool needs_tether(const fw_device *device, int body) {
     int most = 0;
     bool plates = false;
     for (int b = 0; b < device->nbody; b++) {
-        plates = plates || !isnan(device->body[b].plate_width_m);
+        plates = plates || is_heavy(device, b);
         int steps = fw_layout_steps_to_ground(device, b);
         most = steps > most ? steps : most;
     }
-    return plates ? !isnan(device->body[body].plate_width_m)
-                  : fw_layout_steps_to_ground(device, body) == most;
+    return plates ? is_heavy(device, body) : fw_layout_steps_to_ground(device, body) == most;
 }
 
 /* a body that no finger reaches freely stays without; a platform without is worth a warning */
 fw_status fw_layout_tethers_draw(fw_layout_drawing *d) {
     if (!d->device->die.tethers) return FW_OK;
     for (int b = 0; b < d->device->nbody; b++) {
-        bool plate = !isnan(d->device->body[b].plate_width_m);
+        bool plate = is_heavy(d->device, b);
         int held = 0;
         if (!needs_tether(d->device, b)) continue;
-        if (plate)
+        if (fw_layout_has_shapes(d->device, b))
+            FW_TRY(hold_shapes(d, b, &held));
+        else if (plate)
             FW_TRY(hold_plate(d, b, &held));
         else
             FW_TRY(hold_bar(d, b, &held));

@@ -9,7 +9,18 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_BYTES = 8 * 1024 * 1024, MOST_PACK_BYTES = 1024 * 1024, MOST_PACKS = 8 };
+enum {
+    MOST_BYTES = 8 * 1024 * 1024,
+    MOST_PACK_BYTES = 1024 * 1024,
+    MOST_PACKS = 8,
+    MOST_DRAWINGS = 32
+};
+
+struct fw_plan_drawing {
+    const char *name, *data;
+    size_t n;
+};
+typedef struct fw_plan_drawing fw_plan_drawing_file;
 
 struct fw_plan_lab {
     const char *file, *xml;
@@ -28,6 +39,58 @@ static fw_status remember_input(fw_plan *plan, const char *name, const char *dat
     FW_NEED(input->sha256);
     plan->ninput++;
     return FW_OK;
+}
+
+/* a drawing that the description names, from beside the device file; what it says of itself is
+   checked before (device/build_shapes.c). Read once, remembered for the manifest. */
+static fw_status read_drawing(void *of, const char *name, fw_place asked, const char **data,
+                              size_t *n) {
+    fw_plan *plan = of;
+    for (int i = 0; i < plan->ndrawing; i++)
+        if (strcmp(plan->drawing[i].name, name) == 0) {
+            *data = plan->drawing[i].data;
+            *n = plan->drawing[i].n;
+            return FW_OK;
+        }
+    if (!plan->drawing)
+        FW_NEED(plan->drawing = fw_arena_array(plan->arena, fw_plan_drawing_file, MOST_DRAWINGS));
+    if (plan->ndrawing == MOST_DRAWINGS)
+        return fw_diag_error(&plan->diags, 319, asked,
+                             "a device names more than %d drawings; draw several layers in one",
+                             (int)MOST_DRAWINGS);
+    fw_plan_drawing_file *drawing = &plan->drawing[plan->ndrawing];
+    const char *path = fw_arena_printf(plan->arena, "%s/%s", plan->directory, name);
+    char *bytes;
+    FW_NEED(path);
+    FW_NEED(drawing->name = fw_arena_strdup(plan->arena, name));
+    fw_diags why = fw_diags_new(plan->arena); /* it names the machine's path */
+    fw_status status = fw_input_read(plan->arena, path, MOST_BYTES, &why, &bytes, &drawing->n);
+    if (status != FW_OK && status != FW_NOMEM)
+        return fw_diag_error(&plan->diags, 310, asked,
+                             "the drawing %s beside the device file %s; correct the name, or put "
+                             "it there",
+                             name, why.count > 0 ? why.item[0].message : "cannot be read");
+    FW_TRY(status);
+    *data = drawing->data = bytes;
+    *n = drawing->n;
+    plan->ndrawing++;
+    return remember_input(plan, drawing->name, bytes, drawing->n);
+}
+
+static fw_device_files files_of(fw_plan *plan) {
+    return (fw_device_files){read_drawing, plan};
+}
+
+/* what fw_device_read_with takes: NULL where no drawings are opened */
+static const fw_device_files *files_or_none(const fw_plan *plan, const fw_device_files *files) {
+    return plan->directory ? files : NULL;
+}
+
+fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
+                               fw_diags *diags, const fw_device **device) {
+    fw_device_files files = files_of(plan);
+    return fw_device_read_with(arena, plan->source_file, plan->source, plan->source_length, set,
+                               nset, files_or_none(plan, &files), diags, device);
 }
 
 static fw_status read_packs(fw_plan *plan) {
@@ -332,8 +395,7 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
     other.arena = arena;
     other.diags = fw_diags_new(arena);
     other.flow = flow;
-    FW_TRY(fw_device_read(arena, plan->source_file, plan->source, plan->source_length, sets,
-                          plan->options.nset + 1, &other.diags, device));
+    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + 1, &other.diags, device));
     other.device = *device;
     fw_device_material own;
     FW_TRY(own_material(&other, &own));
@@ -350,7 +412,11 @@ fw_status fw_plan_load(fw_plan *plan, const char *path) {
     char *xml;
     size_t n;
     FW_TRY(fw_input_read(plan->arena, path, MOST_BYTES, &plan->diags, &xml, &n));
-    return fw_plan_load_memory(plan, strcmp(path, "-") == 0 ? "standard input" : path, xml, n);
+    if (strcmp(path, "-") == 0) return fw_plan_load_memory(plan, "standard input", xml, n);
+    const char *slash = strrchr(path, '/');
+    size_t up_to = !slash ? 0 : slash == path ? 1 : (size_t)(slash - path);
+    FW_NEED(plan->directory = slash ? fw_arena_strndup(plan->arena, path, up_to) : ".");
+    return fw_plan_load_memory(plan, path, xml, n);
 }
 
 /* what the device names in the data directory, all of it, also when the device has other
@@ -392,8 +458,8 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     const char *base = strrchr(file, '/');
     FW_TRY(remember_input(plan, base ? base + 1 : file, xml, n));
     const fw_device *device = NULL;
-    fw_status read = fw_device_read(plan->arena, file, xml, n, plan->options.set,
-                                    plan->options.nset, &plan->diags, &device);
+    fw_status read = fw_plan_device_again(plan, plan->arena, plan->options.set, plan->options.nset,
+                                          &plan->diags, &device);
     if (read != FW_OK && (read != FW_INPUT || !device)) return read;
     char *base_xml;
     plan->base_file = "processes/base.xml";

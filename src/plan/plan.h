@@ -85,8 +85,11 @@ typedef struct fw_plan {
     int nassumption, assumption_capacity;
     int files_written; /* by the last fw_plan_write, the manifest not counted; 0: no directory made
                         */
-    fw_plan_input_file input[16];
+    fw_plan_input_file input[64];
     int ninput;
+    const char *directory; /* of the device file: drawings lie there; NULL: none are opened */
+    struct fw_plan_drawing *drawing; /* (ndrawing) as read, each once */
+    int ndrawing;
     struct fw_plan_lab *lab; /* (nlab) laboratory packs as read */
     int nlab;
     const char *base_file, *base_xml;
@@ -97,9 +100,10 @@ typedef struct fw_plan {
 
 fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */
 void fw_plan_free(fw_plan *plan);                     /* NULL allowed */
-/* reads the device ("-": standard input) and the packs it refers to */
+/* reads the device ("-": standard input), the drawings beside it and the packs it refers to */
 fw_status fw_plan_load(fw_plan *plan, const char *path);
-/* the same from n bytes that a NUL follows and that live as long as the plan; `file` names them */
+/* the same from n bytes that a NUL follows and that live as long as the plan; `file` names them.
+   No drawings are opened */
 fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, size_t n);
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows */
 fw_status fw_plan_judge(fw_plan *plan);

@@ -56,9 +56,8 @@ static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_geometry_box 
     fw_device_set *set;
     double value[2];
     FW_TRY(fw_plan_sweep_settings(plan, v, &set, value));
-    fw_status status =
-        fw_device_read(arena, plan->source_file, plan->source, plan->source_length, set,
-                       plan->options.nset + plan->device->wafer.nsweep, &silent, &device);
+    fw_status status = fw_plan_device_again(
+        plan, arena, set, plan->options.nset + plan->device->wafer.nsweep, &silent, &device);
     if (status == FW_OK) status = fw_layout_build(arena, device, &silent, &layout);
     if (status == FW_OK && layout->drawn) {
         die->x1 = fmax(die->x1, die->x0 + layout->die.x1 - layout->die.x0);

@@ -12,6 +12,9 @@ fw_status fw_plan_need_material(fw_plan *plan);
    what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
                            const fw_device **device, fw_verdict_variant_verdict *variant);
+/* the description's text read once more with other settings, and the drawings that it names */
+fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
+                               fw_diags *diags, const fw_device **device);
 /* the variant of a flow, and what that may make of a device that is not drawn yet */
 fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);

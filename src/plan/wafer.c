@@ -23,6 +23,9 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     fw_plan *step = plan->step[v] = fw_plan_new(&options);
     FW_NEED(step);
     fw_arena_stop_with(step->arena, fw_arena_request(plan->arena));
+    step->directory = plan->directory;
+    step->drawing = plan->drawing;
+    step->ndrawing = plan->ndrawing;
     fw_status status =
         fw_plan_load_memory(step, plan->source_file, plan->source, plan->source_length);
     if (status == FW_OK) status = fw_plan_judge(step);

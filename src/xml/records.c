@@ -38,6 +38,19 @@ bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent) {
     return false;
 }
 
+int fw_xml_row_index_in(const fw_xml_table *table, const char *name, const char *parent) {
+    int i = 0;
+    for (int k = 0; table->part[k]; k++)
+        for (const fw_xml_element_row *row = table->part[k]; row->name; row++, i++)
+            if (strcmp(row->name, name) == 0 && fw_xml_row_inside(row, parent)) return i;
+    return fw_xml_row_index(table, name);
+}
+
+const fw_xml_element_row *fw_xml_row_in(const fw_xml_table *table, const char *name,
+                                        const char *parent) {
+    return fw_xml_row_at(table, fw_xml_row_index_in(table, name, parent));
+}
+
 /* ---- from elements to records ---- */
 
 static void unknown_element(fw_xml_reader *r, const fw_xml_element *e,
@@ -202,9 +215,9 @@ static fw_status add_record(fw_xml_reader *r, fw_xml_element *e, const fw_xml_el
 static const fw_xml_element_row *row_of(walk *w, const fw_xml_element *e,
                                         const fw_xml_element_row *inside) {
     fw_xml_reader *r = w->r;
-    int index = fw_xml_row_index(r->table, e->name);
-    const fw_xml_element_row *row = fw_xml_row_at(r->table, index);
     const char *parent = inside ? inside->name : "";
+    int index = fw_xml_row_index_in(r->table, e->name, parent);
+    const fw_xml_element_row *row = fw_xml_row_at(r->table, index);
     if (!row) {
         unknown_element(r, e, inside);
         return NULL;

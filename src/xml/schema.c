@@ -3,6 +3,7 @@
    does not use them), reference pages, and a list in JSON for forms. */
 #include "base/json.h"
 #include "xml/xml_reader.h"
+#include <stdio.h>
 #include <string.h>
 
 static bool is_expression(fw_xml_kind kind) {
@@ -54,10 +55,20 @@ static void schema_attribute(fw_text *out, const fw_xml_attribute_row *a) {
     fw_text_printf(out, "</attribute>%s\n", close);
 }
 
+/* an element's definition has its name; of several rows with one name the later ones have their
+   parent's besides */
+static const char *definition_of(const fw_xml_table *table, const fw_xml_element_row *row,
+                                 char name[FW_LABEL]) {
+    if (fw_xml_row_find(table, row->name) == row) return row->name;
+    snprintf(name, FW_LABEL, "%s.%.*s", row->name, (int)strcspn(row->parent, " "), row->parent);
+    return name;
+}
+
 /* in any order; how often each may stand only where some row says so */
 static void schema_children(const fw_xml_table *table, const fw_xml_element_row *parent,
                             fw_text *out) {
     const fw_xml_element_row *row;
+    char name[FW_LABEL];
     int count = 0;
     bool counted = false;
     for (int i = 0; (row = fw_xml_row_at(table, i)) != NULL; i++) {
@@ -75,9 +86,10 @@ static void schema_children(const fw_xml_table *table, const fw_xml_element_row 
                             : row->needed              ? "oneOrMore"
                                                        : "zeroOrMore";
         if (often[0])
-            fw_text_printf(out, "        <%s><ref name=\"%s\"/></%s>\n", often, row->name, often);
+            fw_text_printf(out, "        <%s><ref name=\"%s\"/></%s>\n", often,
+                           definition_of(table, row, name), often);
         else
-            fw_text_printf(out, "        <ref name=\"%s\"/>\n", row->name);
+            fw_text_printf(out, "        <ref name=\"%s\"/>\n", definition_of(table, row, name));
     }
     if (counted && parent->text) fw_text_add(out, "        <text/>\n");
     fw_text_add(out, counted ? "      </interleave>\n" : "      </choice></zeroOrMore>\n");
@@ -94,8 +106,9 @@ fw_status fw_xml_schema(const fw_xml_table *table, fw_text *out) {
                    "  <start><ref name=\"%s\"/></start>\n",
                    table->source, table->urn, table->root);
     for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
-        fw_text_printf(out, "  <define name=\"%s\">\n    <element name=\"%s\">\n", e->name,
-                       e->name);
+        char name[FW_LABEL];
+        fw_text_printf(out, "  <define name=\"%s\">\n    <element name=\"%s\">\n",
+                       definition_of(table, e, name), e->name);
         fw_xml_attributes all;
         FW_TRY(fw_xml_attributes_of(out->arena, e, &all));
         for (int k = 0; k < all.count; k++)

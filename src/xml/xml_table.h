@@ -110,6 +110,11 @@ int fw_xml_row_index(const fw_xml_table *table, const char *name); /* or -1 */
 const fw_xml_element_row *fw_xml_row_find(const fw_xml_table *table,
                                           const char *name);               /* or NULL */
 bool fw_xml_row_inside(const fw_xml_element_row *row, const char *parent); /* may it stand there? */
+/* Elements of one name that stand in different parents have a row each: the one that may stand in
+   this parent, else the first of that name; -1, NULL: there is none */
+int fw_xml_row_index_in(const fw_xml_table *table, const char *name, const char *parent);
+const fw_xml_element_row *fw_xml_row_in(const fw_xml_table *table, const char *name,
+                                        const char *parent);
 /* xml_quantity.c: of the element's row, those of laws included; in the arena where there are
    such */
 fw_status fw_xml_attributes_of(fw_arena *arena, const fw_xml_element_row *row,

@@ -23,12 +23,14 @@ export class Form {
     }
 
     start(table) {
-        this.rows = new Map(table.elements.map((e) => [e.name, e]));
+        this.elements = table.elements;
+        this.rows = new Map(table.elements.toReversed().map((e) => [e.name, e])); // of several with one name the first
         this.update();
     }
 
-    row(name) {
-        return this.rows.get(name) ?? { name, attributes: [], sentence: "" };
+    /** Elements of one name have a row for each parent; without a parent, or in another one, the first. */
+    row(name, parent) {
+        return this.elements.find((e) => e.name === name && mayStandIn(e, parent)) ?? this.rows.get(name) ?? { name, attributes: [], sentence: "" };
     }
 
     update() {
@@ -109,8 +111,8 @@ export class Form {
 
     // ---- elements ----
 
-    #element(element, top = false) {
-        const row = this.row(element.name);
+    #element(element, top = false, parent = "") {
+        const row = this.row(element.name, parent);
         const path = element.path;
         const body = h("div", { class: "element-body" });
         const details = h("details", { class: "element", open: top || this.opened.has(path) },
@@ -134,7 +136,7 @@ export class Form {
     }
 
     #children(element) {
-        return element.children.filter((c) => !(c.name === "parameter" && element === this.root)).map((c) => this.#element(c));
+        return element.children.filter((c) => !(c.name === "parameter" && element === this.root)).map((c) => this.#element(c, false, element.name));
     }
 
     #attributes(element, row) {
@@ -184,10 +186,10 @@ export class Form {
 
     #tools(element, row, top) {
         const add = h("select", { "aria-label": `Add an element to ${element.name}`, class: "add" });
-        const kinds = [...this.rows.values()].filter((r) => mayStandIn(r, element.name) && !(r.once && element.children.some((c) => c.name === r.name)));
+        const kinds = this.elements.filter((r) => mayStandIn(r, element.name) && !(r.once && element.children.some((c) => c.name === r.name)));
         setOptions(add, [["", "Add…"], ...kinds.map((r) => [r.name, r.name, r.sentence])], "");
         add.addEventListener("change", () => {
-            const kind = this.rows.get(add.value);
+            const kind = kinds.find((r) => r.name === add.value);
             add.value = "";
             if (kind) this.#add(element, kind);
         });

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holes of any shape in a body's outline. An outline has no holes, so each is reached by a cut from
+   a straight place of the edge, and a piece of its own, the cap, closes the cut again, as at
+   eyelets: outline and caps share the two sides of the cut bit for bit (JOINT, THROUGH), and their
+   union is the body with its holes.
+
+     outline   ... edge to P1 | P1 Q1 | the hole's edge from Q1 round to Q2 | Q2 P2 | edge from P2
+     cap       edge P1 P2 | P2 Q2 | the hole's edge Q2 Q1 | Q1 P1
+
+   Holes near the edge come first; one behind another is opened through it. Of all cuts that start
+   square to a hole's edge the shortest is taken that leaves through one edge within 45 degrees of
+   square, stays away from eyelets and electrodes and from holes that are still closed. Cuts are 12 um
+   wide; where none fits 8, then 4 um. In: outer outline and holes (clockwise). Cost: places on the
+   holes' edges times segments. Test: test_shapes.c */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "layout/draw.h"
+#include <math.h>
+
+/* half the width of a cut, and how much of its edge is left beside it at the outline, at the hole */
+typedef struct cut_size {
+    double half_m, beside_m, rim_m;
+} cut_size;
+static const cut_size sizes[] = {{6e-6, 16e-6, 2e-6}, {4e-6, 8e-6, 1e-6}, {2e-6, 4e-6, 0.5e-6}};
+enum { SIZES = 3, PLACES = 5, ARC_PLACES = 24 };
+static const double CLEAR_M = 6e-6, LONGEST_M = 5e-3;
+
+typedef struct cut {
+    int segment, edge;           /* of the hole, of the outline */
+    fw_geometry_vec2 q[2], p[2]; /* on the hole, on the edge; right and left of the way out */
+    double length_m;
+} cut;
+
+typedef struct opening {
+    fw_layout_drawing *d;
+    int body;
+    fw_geometry_contour outline;
+    fw_geometry_contour *hole; /* (nhole) those that are not open yet */
+    int nhole;
+} opening;
+
+static fw_geometry_segment side_of_cut(fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    return (fw_geometry_segment){
+        .kind = FW_LINE, .flags = FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH, .a = a, .b = b};
+}
+
+/* the two places on a hole's segment, `half` to either side of the ray from `m` along u */
+static bool foot_on_hole(const fw_geometry_segment *s, fw_geometry_vec2 m, fw_geometry_vec2 u,
+                         double half, double rim, fw_geometry_vec2 q[2]) {
+    fw_geometry_vec2 v = fw_left(u);
+    for (int k = 0; k < 2; k++) {
+        double aside = k == 0 ? -half : half;
+        if (s->kind == FW_LINE)
+            q[k] = fw_add(m, aside, v);
+        else {
+            double out = fw_dot(fw_sub(m, s->centre), u) < 0 ? -1.0 : 1.0;
+            double in = s->radius * s->radius - half * half;
+            if (!(in > 0.5 * s->radius * s->radius)) return false;
+            q[k] = fw_add(fw_add(s->centre, out * sqrt(in), u), aside, v);
+        }
+        double length = fw_geometry_segment_length(s), t = fw_geometry_segment_parameter(s, q[k]);
+        if (t * length < rim || (1 - t) * length < rim) return false;
+    }
+    return fw_geometry_segment_parameter(s, q[1]) < fw_geometry_segment_parameter(s, q[0]);
+}
+
+/* both sides of the cut, and what is left beside it, leave through one edge */
+static bool leaves(const fw_geometry_contour *c, fw_geometry_vec2 u, const cut_size *size, cut *k) {
+    fw_geometry_vec2 v = fw_left(u);
+    for (int i = 0; i < 2; i++) {
+        fw_layout_ray_hit hit = fw_layout_first_hit(c, k->q[i], u);
+        if (hit.segment < 0 || hit.far_m > LONGEST_M || hit.far_m < 1e-6) return false;
+        if (i == 0) k->edge = hit.segment;
+        if (hit.segment != k->edge) return false;
+        k->p[i] = hit.at;
+        k->length_m = i == 0 ? hit.far_m : fmax(k->length_m, hit.far_m);
+        const fw_geometry_segment *s = &c->segment[k->edge];
+        double t = fw_geometry_segment_parameter(s, hit.at);
+        if (s->flags & FW_SEGMENT_JOINT) return false;
+        if (fw_dot(fw_geometry_segment_tangent(s, t), v) < 0.7) return false;
+    }
+    const fw_geometry_segment *s = &c->segment[k->edge];
+    double length = fw_geometry_segment_length(s);
+    double t0 = fw_geometry_segment_parameter(s, k->p[0]),
+           t1 = fw_geometry_segment_parameter(s, k->p[1]);
+    return t0 < t1 && t0 * length >= size->beside_m && (1 - t1) * length >= size->beside_m;
+}
+
+static bool near_disc(const fw_geometry_contour *way, fw_geometry_vec2 at, double radius) {
+    if (fw_geometry_contour_contains(way, at)) return true;
+    for (int i = 0; i < way->count; i++) {
+        double t;
+        fw_geometry_vec2 on;
+        if (fw_geometry_segment_nearest(&way->segment[i], at, &t, &on) < radius) return true;
+    }
+    return false;
+}
+
+/* the place of a point that the description states on the body */
+static fw_geometry_vec2 placed(const fw_layout_drawing *d, int body, double x, double y) {
+    const fw_device_body *b = &d->device->body[body];
+    fw_layout_local local = {fw_v(b->x_m, b->y_m), cos(b->phi_rad), sin(b->phi_rad), false};
+    return fw_layout_local_point(&local, fw_v(x, y));
+}
+
+/* eyelets and electrodes that will be united with the body, holes that are closed, and hinges */
+static bool in_the_way(const opening *o, const fw_geometry_contour *way) {
+    const fw_layout_drawing *d = o->d;
+    for (int i = 0; i < o->nhole; i++)
+        if (fw_geometry_contour_distance_below(way, &o->hole[i], CLEAR_M, NULL, NULL) < CLEAR_M)
+            return true;
+    for (int i = 0; i < d->neyelet; i++) {
+        const fw_layout_eyelet_plan *e = &d->eyelet[i];
+        if (e->eyelet->body != o->body) continue;
+        fw_geometry_vec2 at = placed(d, o->body, e->eyelet->x_m, e->eyelet->y_m);
+        if (near_disc(way, at, 0.5 * e->hole_m + e->ring_m + 60e-6)) return true;
+    }
+    for (int i = 0; i < d->ncomb; i++) {
+        const fw_device_comb *c = d->comb[i].comb;
+        if (c->body_b != o->body) continue;
+        double wide = c->kind == FW_ELECTRODES_COMB
+                          ? 2.0 * c->fingers * (d->comb[i].width_m + c->gap_m)
+                          : d->comb[i].length_m;
+        double reach = fmax(0.5 * wide, d->comb[i].length_m) + 120e-6;
+        if (near_disc(way, placed(d, o->body, c->bx_m, c->by_m), reach)) return true;
+    }
+    return false;
+}
+
+static fw_status is_free(opening *o, const cut *k, bool *is) {
+    fw_geometry_contour way;
+    fw_mark mark = fw_arena_mark(o->d->arena);
+    fw_geometry_outline w = fw_geometry_outline_start(o->d->arena, k->q[0]);
+    fw_geometry_outline_line(&w, k->p[0], 0);
+    fw_geometry_outline_line(&w, k->p[1], 0);
+    fw_geometry_outline_line(&w, k->q[1], 0);
+    FW_TRY(fw_geometry_outline_close(&w, &way));
+    *is = !in_the_way(o, &way);
+    fw_arena_rewind(o->d->arena, mark);
+    return FW_OK;
+}
+
+/* the shortest cut of one size; best->segment -1: none */
+static fw_status find_cut(opening *o, const fw_geometry_contour *hole, const cut_size *size,
+                          cut *best) {
+    best->segment = -1;
+    best->length_m = HUGE_VAL;
+    for (int i = 0; i < hole->count; i++) {
+        const fw_geometry_segment *s = &hole->segment[i];
+        int places = s->kind == FW_ARC ? ARC_PLACES : PLACES;
+        if (fw_geometry_segment_length(s) < 2.0 * (size->half_m + size->rim_m)) continue;
+        for (int n = 0; n < places; n++) {
+            double t = (n + 0.5) / places;
+            fw_geometry_vec2 m = fw_geometry_segment_point(s, t),
+                             u = fw_left(fw_geometry_segment_tangent(s, t));
+            cut k = {.segment = i};
+            bool is = false;
+            if (!foot_on_hole(s, m, u, size->half_m, size->rim_m, k.q) ||
+                !leaves(&o->outline, u, size, &k) || k.length_m >= best->length_m - 1e-9)
+                continue;
+            FW_TRY(is_free(o, &k, &is));
+            if (is) *best = k;
+        }
+    }
+    return FW_OK;
+}
+
+/* the part of the hole's edge from Q1 round to Q2 */
+static int go_round(const fw_geometry_contour *hole, const cut *k, fw_geometry_segment *out) {
+    const fw_geometry_segment *s = &hole->segment[k->segment];
+    double t1 = fw_geometry_segment_parameter(s, k->q[0]),
+           t2 = fw_geometry_segment_parameter(s, k->q[1]);
+    int n = 0;
+    out[n++] = fw_geometry_segment_cut(s, t1, k->q[0], 1.0, s->b);
+    for (int i = 1; i < hole->count; i++)
+        out[n++] = hole->segment[(k->segment + i) % hole->count];
+    out[n++] = fw_geometry_segment_cut(s, 0.0, s->a, t2, k->q[1]);
+    return n;
+}
+
+static fw_status splice(opening *o, const fw_geometry_contour *hole, const cut *k,
+                        fw_geometry_contour *cap) {
+    const fw_geometry_contour *from = &o->outline;
+    const fw_geometry_segment *edge = &from->segment[k->edge], *s = &hole->segment[k->segment];
+    double t1 = fw_geometry_segment_parameter(edge, k->p[0]),
+           t2 = fw_geometry_segment_parameter(edge, k->p[1]);
+    size_t room = (size_t)(from->count + hole->count + 5);
+    fw_geometry_contour to = {0};
+    FW_NEED(to.segment = fw_arena_array(o->d->arena, fw_geometry_segment, room));
+    FW_NEED(cap->segment = fw_arena_array(o->d->arena, fw_geometry_segment, 4));
+    for (int i = 0; i < from->count; i++) {
+        if (i != k->edge) {
+            to.segment[to.count++] = from->segment[i];
+            continue;
+        }
+        to.segment[to.count++] = fw_geometry_segment_cut(edge, 0.0, edge->a, t1, k->p[0]);
+        to.segment[to.count++] = side_of_cut(k->p[0], k->q[0]);
+        to.count += go_round(hole, k, to.segment + to.count);
+        to.segment[to.count++] = side_of_cut(k->q[1], k->p[1]);
+        to.segment[to.count++] = fw_geometry_segment_cut(edge, t2, k->p[1], 1.0, edge->b);
+    }
+    double u1 = fw_geometry_segment_parameter(s, k->q[0]),
+           u2 = fw_geometry_segment_parameter(s, k->q[1]);
+    cap->count = 4;
+    cap->segment[0] = fw_geometry_segment_cut(edge, t1, k->p[0], t2, k->p[1]);
+    cap->segment[1] = side_of_cut(k->p[1], k->q[1]);
+    cap->segment[2] = fw_geometry_segment_cut(s, u2, k->q[1], u1, k->q[0]);
+    cap->segment[3] = side_of_cut(k->q[0], k->p[0]);
+    o->outline = to;
+    return FW_OK;
+}
+
+/* the hole nearest to the edge comes first; deterministic, of equally near ones the earlier */
+static void sort_holes(opening *o) {
+    for (int i = 0; i < o->nhole; i++) {
+        int best = i;
+        double least = HUGE_VAL;
+        for (int k = i; k < o->nhole; k++) {
+            double far =
+                fw_geometry_contour_distance_below(&o->outline, &o->hole[k], least, NULL, NULL);
+            if (far < least - 1e-9) least = far, best = k;
+        }
+        fw_geometry_contour first = o->hole[best];
+        for (int k = best; k > i; k--)
+            o->hole[k] = o->hole[k - 1];
+        o->hole[i] = first;
+    }
+}
+
+/* opens the first hole that any cut reaches; *done false: there is none */
+static fw_status open_one(opening *o, fw_geometry_contour *cap, bool *done) {
+    *done = false;
+    for (int size = 0; size < SIZES && !*done; size++)
+        for (int i = 0; i < o->nhole && !*done; i++) {
+            fw_geometry_contour hole = o->hole[i];
+            cut best;
+            for (int k = i; k + 1 < o->nhole; k++)
+                o->hole[k] = o->hole[k + 1];
+            o->nhole--; /* it is not in its own way */
+            FW_TRY(find_cut(o, &hole, &sizes[size], &best));
+            *done = best.segment >= 0;
+            if (*done) {
+                FW_TRY(splice(o, &hole, &best, cap));
+                break;
+            }
+            for (int k = o->nhole++; k > i; k--)
+                o->hole[k] = o->hole[k - 1];
+            o->hole[i] = hole;
+        }
+    return FW_OK;
+}
+
+fw_status fw_layout_holes_open(fw_layout_drawing *d, int body, const fw_geometry_region *all,
+                               fw_geometry_contour *outline, fw_geometry_region *caps) {
+    opening o = {.d = d, .body = body, .outline = all->contour[0]};
+    size_t n = (size_t)all->count;
+    FW_NEED(o.hole = fw_arena_array(d->arena, fw_geometry_contour, n));
+    FW_NEED(caps->contour = fw_arena_array(d->arena, fw_geometry_contour, n));
+    caps->count = 0;
+    for (int i = 1; i < all->count; i++)
+        o.hole[o.nhole++] = all->contour[i];
+    sort_holes(&o);
+    while (o.nhole > 0) {
+        bool done;
+        FW_TRY(open_one(&o, &caps->contour[caps->count], &done));
+        if (!done)
+            return fw_layout_shape_refuse(
+                d, 316, fw_layout_body_place(d, body), body,
+                "a hole has no straight way of 4 um width to a straight place of the edge, from "
+                "where it could be opened; move it or make it smaller",
+                o.hole[0].segment[0].a);
+        caps->count++;
+    }
+    *outline = o.outline;
+    return FW_OK;
+}

@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a description draws of a body (fw_device_shape): its union in the world, what is cut out of
+   it, and in which direction the neck of a hinge finds it. docs/theory/layout.md, section 9. */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "layout/draw.h"
+#include "layout/layout_text.h"
+#include <math.h>
+
+static const double FARTHEST_M = 600e-6; /* of a neck, from its hinge's free circle */
+static const double STEP_M = 10e-6;      /* of the search along it */
+static const double SAME_STEP_M = 20e-6; /* necks that differ by less are equally long */
+static const double BESIDE_M = 2e-6;     /* of the neck's edges that lie inside, too */
+enum { DIRECTIONS = 64 };
+
+bool fw_layout_has_shapes(const fw_device *device, int body) {
+    return body >= 0 && device->body[body].nshape > 0;
+}
+
+/* only shapes: neither bars nor a plate of the body's own */
+bool fw_layout_only_shapes(const fw_device *device, int body) {
+    return fw_layout_has_shapes(device, body) && isnan(device->body[body].width_m) &&
+           isnan(device->body[body].plate_width_m);
+}
+
+/* ---- union ---- */
+
+static fw_status to_world(fw_layout_drawing *d, int body, const fw_geometry_contour *own,
+                          fw_geometry_contour *out) {
+    const fw_device_body *b = &d->device->body[body];
+    FW_TRY(fw_geometry_contour_transform(
+        d->arena, own, (fw_geometry_pose){b->x_m, b->y_m, b->phi_rad}, false, out));
+    for (int i = 0; i < out->count; i++)
+        out->segment[i].flags |= FW_SEGMENT_DRAWN;
+    return FW_OK;
+}
+
+fw_status fw_layout_shape_refuse(fw_layout_drawing *d, int number, fw_place place, int body,
+                                 const char *what, fw_geometry_vec2 at) {
+    char x[32], y[32];
+    const char *label = fw_layout_body_label(d, body);
+    FW_NEED(label);
+    fw_diag_error(d->diags, number, place, "%s: %s, near (%s, %s) um", label, what,
+                  fw_layout_um(x, at.x), fw_layout_um(y, at.y));
+    return FW_GEOMETRY;
+}
+
+static fw_status unite(fw_layout_drawing *d, int body, const fw_device_shape *shape,
+                       const fw_geometry_contour *with, fw_geometry_region *all) {
+    fw_geometry_region one = {(fw_geometry_contour *)with, 1}, both;
+    if (all->count == 0) {
+        FW_NEED(all->contour = fw_arena_array(d->arena, fw_geometry_contour, 1));
+        all->contour[all->count++] = *with;
+        return FW_OK;
+    }
+    fw_status status = fw_geometry_region_boolean(d->arena, all, &one, FW_UNION, &both);
+    if (status == FW_GEOMETRY)
+        return fw_layout_shape_refuse(
+            d, 318, shape->place, body,
+            "an edge of this shape nearly coincides with one drawn before, so that they cannot be "
+            "united; move it by some nanometres",
+            with->segment[0].a);
+    if (status == FW_OK) *all = both;
+    return status;
+}
+
+/* the letters as outlines that are cut out */
+static fw_status unite_lettering(fw_layout_drawing *d, int body, const fw_device_shape *shape,
+                                 fw_geometry_region *holes) {
+    fw_layout_piece *piece = NULL;
+    int n = 0, capacity = 0;
+    const fw_device_body *b = &d->device->body[body];
+    FW_TRY(fw_layout_text(d->arena, shape->text, (fw_geometry_vec2){0, 0}, shape->height_m,
+                          shape->height_m / 9, FW_ROLE_TEXT, "", &piece, &n, &capacity));
+    if (n == 0)
+        return fw_layout_shape_refuse(d, 316, shape->place, body, "the lettering has no letters",
+                                      fw_v(b->x_m, b->y_m));
+    for (int i = 0; i < n; i++) {
+        fw_geometry_contour placed, world;
+        FW_TRY(fw_geometry_contour_transform(d->arena, &piece[i].contour, shape->pose, false,
+                                             &placed));
+        FW_TRY(to_world(d, body, &placed, &world));
+        FW_TRY(unite(d, body, shape, &world, holes));
+    }
+    return FW_OK;
+}
+
+/* the place of the shape that is cut out, for messages about a hole */
+static fw_place hole_place(const fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
+    for (int i = 0; i < b->nshape; i++)
+        if (b->shape[i].hole) return b->shape[i].place;
+    return b->place;
+}
+
+static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
+    const fw_device_body *b = &d->device->body[body];
+    for (int i = 0; i < b->nshape; i++) {
+        const fw_device_shape *shape = &b->shape[i];
+        fw_geometry_contour world;
+        if (shape->text) {
+            FW_TRY(unite_lettering(d, body, shape, &s->hole));
+            continue;
+        }
+        FW_TRY(to_world(d, body, &shape->contour, &world));
+        FW_TRY(unite(d, body, shape, &world, shape->hole ? &s->hole : &s->solid));
+    }
+    for (int i = 0; i < s->hole.count; i++)
+        if (fw_geometry_contour_area(&s->hole.contour[i]) < 0)
+            return fw_layout_shape_refuse(d, 316, hole_place(d, body), body,
+                                          "its holes together surround a part that would fall out",
+                                          s->hole.contour[i].segment[0].a);
+    return FW_OK;
+}
+
+fw_status fw_layout_shapes_unite(fw_layout_drawing *d) {
+    const fw_device *device = d->device;
+    fw_status status = FW_OK;
+    bool any = false;
+    for (int b = 0; b < device->nbody; b++)
+        any = any || fw_layout_has_shapes(device, b);
+    if (!any) return FW_OK;
+    FW_NEED(d->shapes = fw_arena_array(d->arena, fw_layout_shapes, (size_t)device->nbody));
+    for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
+        fw_status one = gather(d, b, &d->shapes[b]);
+        if (one != FW_OK && one != FW_GEOMETRY) return one;
+        if (one == FW_GEOMETRY) status = one;
+    }
+    return status;
+}
+
+/* ---- what is cut out ---- */
+
+static bool is_clear_of_hinges(const fw_layout_drawing *d, int body, const fw_geometry_contour *c,
+                               fw_geometry_vec2 *at) {
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[j];
+        const fw_layout_hinge_plan *plan = &d->hinge[j];
+        for (int i = 0; i < c->count; i++) {
+            double t;
+            if (fw_geometry_segment_nearest(&c->segment[i], h->centre, &t, at) < h->keep_out_m)
+                return false;
+        }
+        for (int k = 0; k < 2; k++) {
+            const fw_geometry_contour *head = &plan->side[k].head;
+            if (plan->side[k].body != body) continue;
+            if (fw_geometry_contour_distance_below(head, c, 1e-9, NULL, at) < 1e-9 ||
+                fw_geometry_contour_contains(head, c->segment[0].a)) {
+                *at = c->segment[0].a;
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* a hole inside all that is drawn, clear of its edges */
+static fw_status check_hole(fw_layout_drawing *d, int body, const fw_geometry_region *all,
+                            const fw_geometry_contour *hole) {
+    fw_geometry_vec2 at = hole->segment[0].a;
+    fw_place place = hole_place(d, body);
+    const double rim = fw_layout_rule.own_width_m - 0.4e-6; /* 4 um, as the rules of every mask */
+    int around = 0;
+    for (int i = 0; i < all->count; i++) {
+        const fw_geometry_contour *c = &all->contour[i];
+        bool in = fw_geometry_contour_contains(c, hole->segment[0].a);
+        around += in ? (fw_geometry_contour_area(c) > 0 ? 1 : -1) : 0;
+        if (fw_geometry_contour_distance_below(c, hole, rim, NULL, &at) < rim)
+            return fw_layout_shape_refuse(d, 316, place, body,
+                                          "a hole meets the edge of what is drawn, or comes nearer "
+                                          "to it than 4 um",
+                                          at);
+    }
+    if (around != 1)
+        return fw_layout_shape_refuse(d, 316, place, body, "a hole lies outside of what is drawn",
+                                      at);
+    if (!is_clear_of_hinges(d, body, hole, &at))
+        return fw_layout_shape_refuse(d, 316, place, body,
+                                      "a hole reaches into what belongs to a hinge", at);
+    return FW_OK;
+}
+
+fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_region *all) {
+    fw_geometry_region *hole = &d->shapes[body].hole, left;
+    for (int i = 0; i < hole->count; i++)
+        FW_TRY(check_hole(d, body, all, &hole->contour[i]));
+    if (hole->count == 0) return FW_OK;
+    FW_TRY(fw_geometry_region_boolean(d->arena, all, hole, FW_DIFFERENCE, &left));
+    *all = left;
+    return FW_OK;
+}
+
+/* ---- the way of a neck ---- */
+
+static bool holds(const fw_geometry_region *r, fw_geometry_vec2 p) {
+    int winding = 0;
+    for (int i = 0; i < r->count; i++)
+        winding += fw_geometry_contour_winding(&r->contour[i], p);
+    return winding > 0;
+}
+
+static bool is_solid(const fw_layout_shapes *s, fw_geometry_vec2 p) {
+    return holds(&s->solid, p) && !holds(&s->hole, p);
+}
+
+/* the neck across `length` from `from` on lies in what is drawn, with all of its width */
+static bool lies_in(const fw_layout_shapes *s, fw_geometry_vec2 w, fw_geometry_vec2 u, double from,
+                    double length, double half) {
+    fw_geometry_vec2 v = fw_left(u);
+    for (double t = from; t <= from + length + 1e-12; t += 0.5 * STEP_M)
+        for (int k = -1; k <= 1; k++)
+            if (!is_solid(s, fw_add(fw_add(w, t, u), k * half, v))) return false;
+    return true;
+}
+
+/* how far from W the neck may end in what is drawn; HUGE_VAL: it does not get there */
+static double reach_along(const fw_layout_shapes *s, fw_geometry_vec2 w, fw_geometry_vec2 u,
+                          double clear, double half, double most) {
+    const double deep = fw_layout_rule.neck_into_plate_m;
+    for (double t = clear; t < most; t += STEP_M) {
+        if (!is_solid(s, fw_add(w, t, u))) continue;
+        if (lies_in(s, w, u, t, deep, half + BESIDE_M)) return t;
+    }
+    return HUGE_VAL;
+}
+
+static fw_geometry_vec2 nearest_point(const fw_layout_shapes *s, fw_geometry_vec2 w) {
+    double least = HUGE_VAL;
+    fw_geometry_vec2 best = w;
+    for (int i = 0; i < s->solid.count; i++)
+        for (int k = 0; k < s->solid.contour[i].count; k++) {
+            double t;
+            fw_geometry_vec2 at;
+            double far = fw_geometry_segment_nearest(&s->solid.contour[i].segment[k], w, &t, &at);
+            if (far < least - 1e-12) least = far, best = at;
+        }
+    return best;
+}
+
+/* Of 64 directions, from the one straight to the nearest edge (W outside) or to the centroid (W
+   inside) on, that of the shortest neck; of equally long ones the first, of two as far off as each
+   other the one nearer to the centroid, so that mirrored bodies get mirrored necks. */
+bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
+                               double clear_m, double half_m, fw_geometry_vec2 *direction,
+                               double *begins_m) {
+    const fw_layout_shapes *s = &d->shapes[body];
+    fw_geometry_vec2 middle = fw_geometry_region_moments(&s->solid).centroid;
+    bool inside = is_solid(s, w);
+    fw_geometry_vec2 base = fw_towards(w, inside ? middle : nearest_point(s, w));
+    fw_geometry_vec2 to = fw_towards(w, middle);
+    double side = vec_cross(base, to) < 0 ? -1.0 : 1.0, best = clear_m + FARTHEST_M;
+    bool found = false;
+    for (int k = 0; k < DIRECTIONS; k++) {
+        double turn = side * ((k + 1) / 2) * (k % 2 ? 1 : -1) * 2.0 * FW_PI / DIRECTIONS;
+        fw_geometry_vec2 u = turn == 0 ? base : fw_geometry_vec_rotate(base, turn);
+        double most = found ? best - SAME_STEP_M : best;
+        double far = reach_along(s, w, u, clear_m, half_m, most);
+        if (!(far < most)) continue;
+        best = far, found = true;
+        *direction = u;
+        *begins_m = far;
+    }
+    return found;
+}
