@@ -85,12 +85,23 @@ static fw_status unite_lettering(fw_layout_drawing *d, int body, const fw_device
     return FW_OK;
 }
 
-/* the place of the shape that is cut out, for messages about a hole */
-static fw_place hole_place(const fw_layout_drawing *d, int body) {
+/* the place of the shape whose edge is at a point, for messages about a hole; else of lettering */
+static fw_place hole_place(fw_layout_drawing *d, int body, fw_geometry_vec2 at) {
     const fw_device_body *b = &d->device->body[body];
-    for (int i = 0; i < b->nshape; i++)
-        if (b->shape[i].hole) return b->shape[i].place;
-    return b->place;
+    fw_place place = b->place;
+    double least = HUGE_VAL;
+    for (int i = 0; i < b->nshape; i++) {
+        const fw_device_shape *shape = &b->shape[i];
+        fw_geometry_contour world = {0};
+        double far = 1e-7, t; /* of letters, whose outlines are made elsewhere */
+        fw_geometry_vec2 on;
+        if (!shape->hole) continue;
+        if (!shape->text && to_world(d, body, &shape->contour, &world) == FW_OK) far = HUGE_VAL;
+        for (int k = 0; k < world.count; k++)
+            far = fmin(far, fw_geometry_segment_nearest(&world.segment[k], at, &t, &on));
+        if (far < least) least = far, place = shape->place;
+    }
+    return place;
 }
 
 static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
@@ -107,9 +118,10 @@ static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
     }
     for (int i = 0; i < s->hole.count; i++)
         if (fw_geometry_contour_area(&s->hole.contour[i]) < 0)
-            return fw_layout_shape_refuse(d, 316, hole_place(d, body), body,
-                                          "its holes together surround a part that would fall out",
-                                          s->hole.contour[i].segment[0].a);
+            return fw_layout_shape_refuse(
+                d, 316, hole_place(d, body, s->hole.contour[i].segment[0].a), body,
+                "its holes together surround a part that would fall out",
+                s->hole.contour[i].segment[0].a);
     return FW_OK;
 }
 
@@ -154,30 +166,34 @@ static bool is_clear_of_hinges(const fw_layout_drawing *d, int body, const fw_ge
     return true;
 }
 
-/* a hole inside all that is drawn, clear of its edges */
-static fw_status check_hole(fw_layout_drawing *d, int body, const fw_geometry_region *all,
-                            const fw_geometry_contour *hole) {
-    fw_geometry_vec2 at = hole->segment[0].a;
-    fw_place place = hole_place(d, body);
+/* a hole inside all that is drawn, clear of its edges; else *at: where not, and *why */
+static bool hole_fits(const fw_layout_drawing *d, int body, const fw_geometry_region *all,
+                      const fw_geometry_contour *hole, fw_geometry_vec2 *at, const char **why) {
     const double rim = fw_layout_rule.own_width_m - 0.4e-6; /* 4 um, as the rules of every mask */
     int around = 0;
+    *at = hole->segment[0].a;
     for (int i = 0; i < all->count; i++) {
         const fw_geometry_contour *c = &all->contour[i];
+        fw_geometry_vec2 near;
         bool in = fw_geometry_contour_contains(c, hole->segment[0].a);
         around += in ? (fw_geometry_contour_area(c) > 0 ? 1 : -1) : 0;
-        if (fw_geometry_contour_distance_below(c, hole, rim, NULL, &at) < rim)
-            return fw_layout_shape_refuse(d, 316, place, body,
-                                          "a hole meets the edge of what is drawn, or comes nearer "
-                                          "to it than 4 um",
-                                          at);
+        if (fw_geometry_contour_distance_below(c, hole, rim, NULL, &near) >= rim) continue;
+        *at = near;
+        *why = "a hole meets the edge of what is drawn, or comes nearer to it than 4 um";
+        return false;
     }
-    if (around != 1)
-        return fw_layout_shape_refuse(d, 316, place, body, "a hole lies outside of what is drawn",
-                                      at);
-    if (!is_clear_of_hinges(d, body, hole, &at))
-        return fw_layout_shape_refuse(d, 316, place, body,
-                                      "a hole reaches into what belongs to a hinge", at);
-    return FW_OK;
+    *why = "a hole lies outside of what is drawn";
+    if (around != 1) return false;
+    *why = "a hole reaches into what belongs to a hinge";
+    return is_clear_of_hinges(d, body, hole, at);
+}
+
+static fw_status check_hole(fw_layout_drawing *d, int body, const fw_geometry_region *all,
+                            const fw_geometry_contour *hole) {
+    fw_geometry_vec2 at;
+    const char *why;
+    if (hole_fits(d, body, all, hole, &at, &why)) return FW_OK;
+    return fw_layout_shape_refuse(d, 316, hole_place(d, body, hole->segment[0].a), body, why, at);
 }
 
 fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_region *all) {

@@ -223,9 +223,16 @@ static const fw_xml_element_row *row_of(walk *w, const fw_xml_element *e,
         return NULL;
     }
     if (!fw_xml_row_inside(row, parent)) {
+        char where[256] = "";
+        size_t used = 0;
+        const fw_xml_element_row *other;
+        for (int i = 0; (other = fw_xml_row_at(r->table, i)) != NULL; i++)
+            if (strcmp(other->name, e->name) == 0 && used < sizeof where - 1)
+                used += (size_t)snprintf(where + used, sizeof where - used, "%s<%s>",
+                                         used ? " or " : "",
+                                         other->parent[0] ? other->parent : "nothing");
         fw_diag_error(r->diags, fw_xml_numbers_of(r, inside)->misplaced, e->place,
-                      "<%s> may not stand inside <%s>; move it into <%s>", e->name, parent,
-                      row->parent[0] ? row->parent : "nothing");
+                      "<%s> may not stand inside <%s>; move it into %s", e->name, parent, where);
         r->unknown_element = true;
         r->broken[row->space] = true;
         return NULL;

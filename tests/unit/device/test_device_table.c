@@ -39,8 +39,10 @@ static void rows_are_complete(void **state) {
     int count = 0;
     assert_null(fw_xml_row_at(&fw_device_table, -1));
     for (int i = 0; (e = fw_xml_row_at(&fw_device_table, i)) != NULL; i++, count++) {
-        assert_int_equal(fw_xml_row_index(&fw_device_table, e->name), i);
-        assert_ptr_equal(fw_xml_row_find(&fw_device_table, e->name), e); /* names are unique */
+        /* a name is unique in its parent; by itself it finds the first */
+        assert_int_equal(fw_xml_row_index_in(&fw_device_table, e->name, e->parent), i);
+        assert_ptr_equal(fw_xml_row_in(&fw_device_table, e->name, e->parent), e);
+        assert_string_equal(fw_xml_row_find(&fw_device_table, e->name)->name, e->name);
         assert_true(e->parent[0] == '\0' || fw_xml_row_find(&fw_device_table, e->parent));
         assert_non_null(e->sentence);
         assert_true(e->nattribute <= FW_ATTRIBUTES_MOST);
