@@ -17,13 +17,15 @@
 #include "layout/draw.h"
 #include <math.h>
 
-/* half the width of a cut, and how much of its edge is left beside it at the outline, at the hole */
+/* half the width of a cut, and how much of its edge is left beside it at the outline, at the hole:
+   what a process bias takes off either end must leave an edge */
 typedef struct cut_size {
     double half_m, beside_m, rim_m;
 } cut_size;
-static const cut_size sizes[] = {{6e-6, 16e-6, 2e-6}, {4e-6, 8e-6, 1e-6}, {2e-6, 4e-6, 0.5e-6}};
+static const cut_size sizes[] = {{6e-6, 16e-6, 3e-6}, {4e-6, 8e-6, 3e-6}, {2e-6, 4e-6, 3e-6}};
 enum { SIZES = 3, PLACES = 5, ARC_PLACES = 24 };
 static const double CLEAR_M = 6e-6, LONGEST_M = 5e-3;
+static const double NEAR_M = 2.5e-6; /* of a cut's sides from other edges: two biases, and some */
 
 typedef struct cut {
     int segment, edge;           /* of the hole, of the outline */
@@ -79,11 +81,27 @@ static bool leaves(const fw_geometry_contour *c, fw_geometry_vec2 u, const cut_s
         if (s->flags & FW_SEGMENT_JOINT) return false;
         if (fw_dot(fw_geometry_segment_tangent(s, t), v) < 0.7) return false;
     }
+    for (int i = 0; i < 2; i++) { /* and nothing else of the outline is near */
+        fw_geometry_vec2 beside = fw_add(k->q[i], i == 0 ? -NEAR_M : NEAR_M, v);
+        if (fw_layout_first_hit(c, beside, u).segment != k->edge) return false;
+    }
     const fw_geometry_segment *s = &c->segment[k->edge];
     double length = fw_geometry_segment_length(s);
     double t0 = fw_geometry_segment_parameter(s, k->p[0]),
            t1 = fw_geometry_segment_parameter(s, k->p[1]);
     return t0 < t1 && t0 * length >= size->beside_m && (1 - t1) * length >= size->beside_m;
+}
+
+/* does a cut come near to the hole that it begins at? */
+static bool near_own_hole(const fw_geometry_contour *hole, const cut *k) {
+    for (int i = 0; i < hole->count; i++)
+        for (int n = 0; n < 2 && i != k->segment; n++) {
+            const fw_geometry_segment side = side_of_cut(k->q[n], k->p[n]);
+            fw_geometry_vec2 a, b;
+            if (fw_geometry_segment_distance(&side, &hole->segment[i], &a, &b) < NEAR_M)
+                return true;
+        }
+    return false;
 }
 
 static bool near_disc(const fw_geometry_contour *way, fw_geometry_vec2 at, double radius) {
@@ -156,7 +174,8 @@ static fw_status find_cut(opening *o, const fw_geometry_contour *hole, const cut
             cut k = {.segment = i};
             bool is = false;
             if (!foot_on_hole(s, m, u, size->half_m, size->rim_m, k.q) ||
-                !leaves(&o->outline, u, size, &k) || k.length_m >= best->length_m - 1e-9)
+                !leaves(&o->outline, u, size, &k) || k.length_m >= best->length_m - 1e-9 ||
+                near_own_hole(hole, &k))
                 continue;
             FW_TRY(is_free(o, &k, &is));
             if (is) *best = k;

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies that a description draws: areas against closed forms, holes and their caps, mirror images,
+   what stands on such bodies, and hinges that find them. */
+#include "geometry/segment.h"
+#include "layout/layout.h"
+#include "test.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define UM 1e-6
+
+typedef struct drawn {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_device *device;
+    const fw_layout *layout;
+} drawn;
+
+static const char head[] =
+    "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
+    "thickness=\"50 um\"/><flexure id=\"f\" kind=\"csfh\" radius=\"80 um\" angle=\"240 deg\" "
+    "width=\"8 um\" gap=\"8 um\"/><mechanism>";
+#define BODY(shapes)                                                                               \
+    "<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\">" shapes "</body><revolute id=\"A\" a=\"ground\" "     \
+    "b=\"jaw\" hinge=\"f\"/>"
+#define PLATE     "<plate x=\"700 um\" width=\"1000 um\" height=\"300 um\"/>"
+#define NO_TETHER "<die tethers=\"no\"/>"
+
+static drawn draw(const char *mechanism, const char *rest) {
+    drawn d = {.arena = fw_arena_new(0)};
+    static char xml[16384];
+    snprintf(xml, sizeof xml, "%s%s</mechanism>%s</device>", head, mechanism, rest);
+    d.diags = fw_diags_new(d.arena);
+    fw_status status =
+        fw_device_read(d.arena, "t.xml", xml, strlen(xml), NULL, 0, &d.diags, &d.device);
+    if (status == FW_OK) status = fw_layout_build(d.arena, d.device, &d.diags, &d.layout);
+    size_t holes = 0; /* release holes for which there is no room are no fault */
+    for (size_t i = 0; i < d.diags.count; i++)
+        holes += d.diags.item[i].number == 189;
+    if (status != FW_OK || !d.layout->drawn || d.diags.count > holes)
+        fail_msg("%s: %s", fw_status_text(status),
+                 d.diags.count ? d.diags.item[0].message : "not drawn");
+    return d;
+}
+
+static double area_of(const char *mechanism) {
+    drawn d = draw(mechanism, NO_TETHER);
+    double area = d.layout->body[0].area_m2;
+    fw_arena_free(d.arena);
+    return area / (UM * UM);
+}
+
+/* what is added or cut out changes the area by its own, to rounding */
+static void areas_follow(void **state) {
+    (void)state;
+    double plain = area_of(BODY(PLATE));
+    static const struct {
+        const char *mechanism;
+        double more; /* um2 */
+    } with[] = {
+        {BODY(PLATE "<disc x=\"700 um\" radius=\"40 um\" hole=\"yes\"/>"), -M_PI * 1600},
+        {BODY(PLATE "<disc x=\"1200 um\" radius=\"60 um\"/>"), 0.5 * M_PI * 3600},
+        {BODY(PLATE "<bar x=\"500 um\" y=\"100 um\" to-x=\"500 um\" to-y=\"250 um\" width=\"20 "
+                    "um\" copies=\"6\" pitch-x=\"40 um\"/>"),
+         6 * 20 * 100},
+        {BODY(PLATE "<bar x=\"500 um\" y=\"100 um\" to-x=\"500 um\" to-y=\"250 um\" width=\"20 "
+                    "um\" ends=\"round\" copies=\"6\" pitch-x=\"40 um\" symmetry=\"x\"/>"),
+         12 * (20 * 100 + 0.5 * M_PI * 100)},
+        {BODY(PLATE "<plate x=\"800 um\" width=\"100 um\" height=\"80 um\" corner=\"10 um\" "
+                    "hole=\"yes\"/>"),
+         -(100 * 80 - (4 - M_PI) * 100)},
+        /* a notch of two lines and an arc in a frame of its own, turned and placed */
+        {BODY(PLATE "<outline x=\"800 um\" y=\"20 um\" angle=\"30 deg\" hole=\"yes\"><line "
+                    "to-x=\"100 um\" to-y=\"0 um\"/><line to-x=\"100 um\" to-y=\"50 um\"/><arc "
+                    "to-x=\"0 um\" to-y=\"50 um\" radius=\"50 um\" turn=\"left\"/><line to-x=\"0 "
+                    "um\" to-y=\"0 um\"/></outline>"),
+         -(100 * 50 + 0.5 * M_PI * 2500)},
+        /* L: 9 + 5 cells of 8 um, J of 6 + ... is counted by its font: I, two serifs and a stem */
+        {BODY(PLATE "<lettering text=\"LI\" x=\"700 um\" height=\"72 um\"/>"),
+         -(9 + 5 + 9 + 4) * 64},
+        /* a frame of four plates encloses a hole that nobody drew as one */
+        {BODY(PLATE "<plate x=\"1300 um\" y=\"100 um\" width=\"200 um\" height=\"20 um\" "
+                    "symmetry=\"x\"/><plate x=\"1390 um\" width=\"20 um\" height=\"220 um\"/>"),
+         2 * 200 * 20 + 20 * 180},
+    };
+    for (size_t i = 0; i < sizeof with / sizeof with[0]; i++) {
+        double more = area_of(with[i].mechanism) - plain;
+        if (fabs(more - with[i].more) > 1e-7 * fabs(with[i].more))
+            fail_msg("case %zu: %.9g um2 more, not %.9g", i, more, with[i].more);
+    }
+}
+
+/* the pieces of a body */
+static fw_geometry_region pieces(const drawn *d, int body) {
+    fw_geometry_region r = {
+        fw_arena_array(d->arena, fw_geometry_contour, (size_t)d->layout->npiece), 0};
+    for (int i = 0; i < d->layout->npiece; i++)
+        if (d->layout->piece[i].body == body && d->layout->piece[i].role == FW_ROLE_STRUCTURE)
+            r.contour[r.count++] = d->layout->piece[i].contour;
+    return r;
+}
+
+#define RICH                                                                                       \
+    BODY(PLATE                                                                                     \
+         "<disc x=\"600 um\" radius=\"40 um\" hole=\"yes\"/><disc x=\"900 um\" radius=\"25 "       \
+         "um\" hole=\"yes\" copies=\"4\" pitch-x=\"70 um\"/><lettering text=\"FLEX 08\" "          \
+         "x=\"680 um\" y=\"60 um\" height=\"63 um\"/><bar x=\"500 um\" y=\"-100 um\" "             \
+         "to-x=\"500 um\" to-y=\"-250 um\" width=\"20 um\" copies=\"12\" pitch-x=\"40 um\"/>"      \
+         "<lettering text=\"A B\" x=\"420 um\" y=\"-130 um\" height=\"90 um\" angle=\"90 deg\"/>")
+
+/* moments are those of the pieces; these do not overlap, for their union has no less area; and a
+   bias moves them alike */
+static void pieces_are_the_body(void **state) {
+    (void)state;
+    drawn d = draw(RICH, NO_TETHER);
+    fw_geometry_region all = pieces(&d, 0), sum = {all.contour, 1};
+    const fw_layout_body_layout *b = &d.layout->body[0];
+    assert_true(all.count > 12); /* five holes and nine letters, a cap each */
+    fw_geometry_moments m = fw_geometry_region_moments(&all);
+    assert_relative(b->area_m2, m.area_m2, 1e-12);
+    assert_near(b->centroid.x, m.centroid.x, 1e-15);
+    assert_near(b->centroid.y, m.centroid.y, 1e-15);
+    assert_relative(b->polar_m4, m.polar_m4, 1e-12);
+    for (int i = 1; i < all.count; i++) {
+        fw_geometry_region one = {&all.contour[i], 1}, both;
+        if (fw_geometry_region_boolean(d.arena, &sum, &one, FW_UNION, &both) != FW_OK)
+            fail_msg("piece %d near (%g, %g)", i, one.contour->segment[0].a.x,
+                     one.contour->segment[0].a.y);
+        sum = both;
+    }
+    assert_relative(fw_geometry_region_moments(&sum).area_m2, b->area_m2, 1e-9);
+    assert_int_equal(sum.contour[0].count > 0 && fw_geometry_contour_area(&sum.contour[1]) < 0, 1);
+    double edge = 0;
+    for (int i = 0; i < sum.count; i++)
+        edge += fw_geometry_contour_perimeter(&sum.contour[i]);
+    assert_relative(b->perimeter_m, edge, 1e-9);
+    static const double bias[] = {1.1 * UM, -0.5 * UM};
+    for (int k = 0; k < 2; k++) {
+        double moved = 0;
+        for (int i = 0; i < all.count; i++) {
+            fw_geometry_contour c;
+            int p = -1, q = -1;
+            if (fw_geometry_contour_offset(d.arena, &all.contour[i], bias[k], &c, &p, &q) != FW_OK)
+                fail_msg("piece %d of %d segments: %d and %d", i, all.contour[i].count, p, q);
+            moved += fw_geometry_contour_area(&c);
+        }
+        /* the edge times the bias, and what corners add: no cut has opened or overlaps */
+        assert_near(moved - b->area_m2, edge * bias[k], 400 * bias[k] * bias[k]);
+    }
+    fw_arena_free(d.arena);
+}
+
+/* a body drawn as its mirror image has its neck, its area and its centroid mirrored; one whose frame
+   lies elsewhere is the same body */
+static void mirrored_and_moved(void **state) {
+    (void)state;
+#define WEDGE                                                                                      \
+    "<line to-x=\"900 um\" to-y=\"0 um\"/><arc to-x=\"1000 um\" to-y=\"100 um\" radius=\"100 "     \
+    "um\" "                                                                                        \
+    "turn=\"left\"/><line to-x=\"0 um\" to-y=\"240 um\"/><line to-x=\"0 um\" to-y=\"0 "            \
+    "um\"/></outline>"
+    static const char *const as[] = {
+        BODY("<outline x=\"200 um\" y=\"-100 um\">" WEDGE),
+        BODY("<outline x=\"-200 um\" y=\"-100 um\" mirror=\"y\">" WEDGE),
+        "<body id=\"jaw\" x=\"0.3 mm\" y=\"-0.2 mm\" phi=\"90 deg\"><outline x=\"100 um\" y=\"100 "
+        "um\" angle=\"-90 deg\">" WEDGE "</body><revolute id=\"A\" a=\"ground\" b=\"jaw\" "
+        "b-x=\"0.2 mm\" b-y=\"0.3 mm\" hinge=\"f\"/>",
+    };
+    static const double sign[3][2] = {{1, 1}, {-1, 1}, {1, 1}};
+    fw_layout_body_layout first = {0};
+    for (int i = 0; i < 3; i++) {
+        drawn d = draw(as[i], NO_TETHER);
+        fw_layout_body_layout b = d.layout->body[0];
+        if (i == 0) first = b;
+        assert_relative(b.area_m2, first.area_m2, 1e-11);
+        assert_near(b.centroid.x, sign[i][0] * first.centroid.x, 1e-12);
+        assert_near(b.centroid.y, sign[i][1] * first.centroid.y, 1e-12);
+        assert_relative(b.polar_m4, first.polar_m4, 1e-9);
+        fw_arena_free(d.arena);
+    }
+}
+
+/* eyelets, electrodes, release holes and tethers on a body with holes: all are drawn, and nothing
+   overlaps */
+static void what_stands_on_it(void **state) {
+    (void)state;
+    static const char rest[] =
+        "<scene name=\"s\" duration=\"1 ms\"><tendon id=\"T\" pull=\"1 uN\"><eyelet on=\"jaw\" "
+        "x=\"600 um\" y=\"60 um\"/><eyelet on=\"ground\" x=\"0.6 mm\" y=\"0.5 mm\"/></tendon>"
+        "<comb-drive kind=\"comb\" id=\"C\" on=\"jaw\" against=\"ground\" x=\"1300 um\" y=\"0 um\" "
+        "direction=\"0 deg\" fingers=\"10\" gap=\"8 um\" overlap=\"30 um\" voltage=\"10 V\"/>"
+        "</scene><die release-pitch=\"70 um\"/>";
+    drawn d = draw(BODY(PLATE "<disc x=\"800 um\" y=\"30 um\" radius=\"40 um\" hole=\"yes\"/><disc "
+                              "x=\"600 um\" y=\"-60 um\" radius=\"30 um\" hole=\"yes\"/>"),
+                   rest);
+    fw_geometry_region all = pieces(&d, 0), sum = {all.contour, 1};
+    assert_true(all.count > 30); /* release holes, each with a cap */
+    for (int i = 1; i < all.count; i++) {
+        fw_geometry_region one = {&all.contour[i], 1}, both;
+        assert_int_equal(fw_geometry_region_boolean(d.arena, &sum, &one, FW_UNION, &both), FW_OK);
+        sum = both;
+    }
+    double area = fw_geometry_region_moments(&all).area_m2;
+    assert_relative(fw_geometry_region_moments(&sum).area_m2, area, 1e-9);
+    fw_arena_free(d.arena);
+}
+
+/* bars between hinges and shapes together; and shapes alone between two hinges */
+static void between_hinges(void **state) {
+    (void)state;
+#define TWO(body, shapes)                                                                          \
+    "<body id=\"crank\" x=\"0 mm\" y=\"0.75 mm\" width=\"120 um\"/><body id=\"rod\" x=\"0.9 mm\" " \
+    "y=\"1.5 mm\"" body ">" shapes "</body><body id=\"rocker\" x=\"1.8 mm\" y=\"0.75 mm\" "        \
+    "width=\"120 um\"/><revolute id=\"A\" a=\"ground\" b=\"crank\" b-y=\"-0.75 mm\" "              \
+    "hinge=\"f\"/><revolute id=\"B\" a=\"crank\" a-y=\"0.75 mm\" b=\"rod\" b-x=\"-0.9 mm\" "       \
+    "hinge=\"f\"/><revolute id=\"C\" a=\"rod\" a-x=\"0.9 mm\" b=\"rocker\" b-y=\"0.75 mm\" "       \
+    "hinge=\"f\"/><revolute id=\"D\" a=\"rocker\" a-y=\"-0.75 mm\" b=\"ground\" b-x=\"1.8 mm\" "   \
+    "hinge=\"f\"/>"
+    drawn plain = draw(TWO(" width=\"120 um\"", ""), NO_TETHER);
+    drawn with = draw(TWO(" width=\"120 um\"", "<disc radius=\"150 um\"/>"), NO_TETHER);
+    drawn alone = draw(TWO("", "<plate width=\"1200 um\" height=\"150 um\"/>"), NO_TETHER);
+    double bar = 120 * UM, r = 150 * UM, half = asin(0.5 * bar / r);
+    double disc = M_PI * r * r, inside = 2 * (half * r * r + 0.5 * bar * r * cos(half));
+    /* the disc beyond the bar; its four corners with the bar are rounded */
+    assert_near(with.layout->body[1].area_m2 - plain.layout->body[1].area_m2, disc - inside,
+                4 * 100 * UM * UM);
+    assert_true(alone.layout->body[1].area_m2 > 1200 * 150 * UM * UM);
+    fw_arena_free(plain.arena);
+    fw_arena_free(with.arena);
+    fw_arena_free(alone.arena);
+}
+
+static void memory_runs_out(void **state) {
+    (void)state;
+    static char xml[16384];
+    snprintf(xml, sizeof xml, "%s%s</mechanism></device>", head,
+             BODY(PLATE "<disc x=\"800 um\" radius=\"40 um\" hole=\"yes\"/><lettering text=\"I\" "
+                        "x=\"600 um\"/>"));
+    bool done = false;
+    for (long n = 1; !done; n += 1 + n / 8) {
+        fw_arena *arena = fw_arena_new(0);
+        fw_diags diags = fw_diags_new(arena);
+        const fw_device *device = NULL;
+        const fw_layout *layout = NULL;
+        fw_arena_fail_at(n, 1);
+        fw_status s = fw_device_read(arena, "t.xml", xml, strlen(xml), NULL, 0, &diags, &device);
+        if (s == FW_OK) s = fw_layout_build(arena, device, &diags, &layout);
+        fw_arena_fail_at(0, 0);
+        if (s != FW_OK && s != FW_NOMEM) fail_msg("allocation %ld: %s", n, fw_status_text(s));
+        done = s == FW_OK;
+        fw_arena_free(arena);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(areas_follow),       cmocka_unit_test(pieces_are_the_body),
+        cmocka_unit_test(mirrored_and_moved), cmocka_unit_test(what_stands_on_it),
+        cmocka_unit_test(between_hinges),     cmocka_unit_test(memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
