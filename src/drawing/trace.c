@@ -52,6 +52,17 @@ static bool crosses(const fw_geometry_contour *c, const fw_geometry_box *box, in
     return false;
 }
 
+/* begins at its least corner, from the left and then from below: what is drawn is the same wherever
+   the pen was put down */
+static void begin_at_least(fw_geometry_contour *c, fw_geometry_segment *spare) {
+    int least = 0, n = c->count;
+    for (int i = 1; i < n; i++)
+        if (vec_before(c->segment[i].a, c->segment[least].a)) least = i;
+    for (int i = 0; i < n; i++)
+        spare[i] = c->segment[(least + i) % n];
+    c->segment = spare;
+}
+
 fw_status fw_drawing_trace(fw_arena *arena, fw_geometry_vec2 start, const fw_drawing_piece *piece,
                            int n, fw_geometry_contour *out, fw_drawing_flaw *flaw) {
     *out = (fw_geometry_contour){0};
@@ -80,8 +91,11 @@ fw_status fw_drawing_trace(fw_arena *arena, fw_geometry_vec2 start, const fw_dra
     double area = fw_geometry_contour_area(&made);
     if (fabs(area) <= FW_DRAWING_SAME_M * fw_geometry_contour_perimeter(&made))
         return flawed(flaw, FW_DRAWING_FLAT, 0, 0, start);
-    if (area < 0) return fw_geometry_contour_reverse(arena, &made, out);
+    fw_geometry_segment *spare = fw_arena_array(arena, fw_geometry_segment, (size_t)n);
+    FW_NEED(spare);
     *out = made;
+    if (area < 0) FW_TRY(fw_geometry_contour_reverse(arena, &made, out));
+    begin_at_least(out, spare);
     return FW_OK;
 }
 

@@ -240,10 +240,26 @@ static fw_status hold_bar(fw_layout_drawing *d, int body, int *held) {
     return FW_OK;
 }
 
+/* where a line straight inwards from a side meets the body, if its edge is one there and beside; a
+   stub near a corner that somebody drew would leave a slit. Segment -1: it is not */
+static fw_layout_ray_hit smooth_edge(const fw_layout_drawing *d, int body,
+                                     fw_layout_window_side side, double along) {
+    const double beside = 30e-6;
+    fw_geometry_vec2 out = fw_layout_window_outward(side), in = fw_v(-out.x, -out.y);
+    fw_layout_ray_hit hit[3];
+    for (int k = 0; k < 3; k++) {
+        double at = along + (k - 1) * beside;
+        hit[k] = fw_layout_first_hit(&d->plain[body],
+                                     fw_layout_window_point(d->layout, side, at, 0.0), in);
+    }
+    if (hit[0].segment != hit[1].segment || hit[2].segment != hit[1].segment) hit[1].segment = -1;
+    return hit[1];
+}
+
 /* Two fingers to what a description draws of a body: on the nearest side of the window where that
    works, else on any two, from places in the inner part of the body's own extent */
 static fw_status hold_shapes(fw_layout_drawing *d, int body, int *held) {
-    static const double place[] = {0.5, 0.35, 0.65, 0.25, 0.75};
+    static const double place[] = {0.5, 0.35, 0.65, 0.25, 0.75, 0.42, 0.58, 0.3, 0.7, 0.2, 0.8};
     const double into = 30e-6, apart = 0.25;
     fw_geometry_box box = fw_geometry_contour_box(&d->plain[body]);
     fw_layout_window_side order[4];
@@ -255,9 +271,7 @@ static fw_status hold_shapes(fw_layout_drawing *d, int body, int *held) {
         for (size_t i = 0; i < sizeof place / sizeof place[0] && *held < 2; i++) {
             double along =
                 up ? box.y0 + place[i] * (box.y1 - box.y0) : box.x0 + place[i] * (box.x1 - box.x0);
-            fw_geometry_vec2 edge = fw_layout_window_point(d->layout, order[s], along, 0.0);
-            fw_layout_ray_hit hit =
-                fw_layout_first_hit(&d->plain[body], edge, fw_v(-out.x, -out.y));
+            fw_layout_ray_hit hit = smooth_edge(d, body, order[s], along);
             bool done;
             if (hit.segment < 0 || fabs(place[i] - taken) < apart) continue;
             FW_TRY(try_finger(d, body, order[s], fw_add(hit.at, -into, out), &done));

@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawn bodies from the command line: a jaw as an outline, as plates, as DXF and as GDSII is one jaw, to the byte of its mask; the
+manifest has the drawing's hash; what is wrong with a drawing is said at its place, and nothing beside the device file is opened."""
+import hashlib
+import json
+import pathlib
+import random
+import struct
+import tempfile
+import unittest
+
+from common import ROOT, run
+
+DEVICE = """<device xmlns="urn:flexwright:device:1" name="jaw">
+<material ref="silicon-100" thickness="50 um"/>
+<flow ref="al-masked-rie"/>
+<flexure id="f" kind="csfh" radius="80 um" angle="240 deg" width="8 um" gap="10 um"/>
+<mechanism>
+<body id="jaw" x="0 mm" y="0.1 mm">
+%s
+</body>
+<revolute id="A" a="ground" b="jaw" b-y="-0.1 mm" hinge="f"/>
+</mechanism>
+<scene name="push" duration="2 ms"><force on="jaw" x="1 mm" fy="5 uN"/></scene>
+</device>
+"""
+
+
+def outline(points):
+    lines = "".join('<line to-x="%.17g um" to-y="%.17g um"/>' % p for p in points[1:] + points[:1])
+    return '<outline start-x="%.17g um" start-y="%.17g um">%s</outline>' % (*points[0], lines)
+
+
+def dxf(points, unit=13, scale=1):
+    vertices = "".join("10\n%.17g\n20\n%.17g\n" % (x * scale, y * scale) for x, y in points)
+    return ("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n%d\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\njaw\n90\n%d\n70\n1\n"
+            % (unit, len(points))) + vertices + "0\nENDSEC\n0\nEOF\n"
+
+
+def lines(points):
+    """the same as single lines in any order and direction"""
+    out, ends = "", list(zip(points, points[1:] + points[:1]))
+    random.Random(3).shuffle(ends)
+    for i, (a, b) in enumerate(ends):
+        a, b = (a, b) if i % 2 else (b, a)
+        out += "0\nLINE\n8\njaw\n10\n%.17g\n20\n%.17g\n11\n%.17g\n21\n%.17g\n" % (*a, *b)
+    return "0\nSECTION\n2\nENTITIES\n" + out + "0\nENDSEC\n0\nEOF\n"
+
+
+def real8(value):
+    exponent = 0
+    while value >= 1:
+        value, exponent = value / 16, exponent + 1
+    while value < 1 / 16:
+        value, exponent = value * 16, exponent - 1
+    return struct.pack(">Q", (exponent + 64) << 56 | round(value * 2**56))
+
+
+def record(kind, data=b""):
+    return struct.pack(">HH", 4 + len(data), kind) + data
+
+
+def gds(*polygons):
+    day = struct.pack(">12h", *[2026, 1, 1, 0, 0, 0] * 2)
+    out = record(0x0002, struct.pack(">h", 600)) + record(0x0102, day) + record(0x0206, b"LIB\0")
+    out += record(0x0305, real8(1e-3) + real8(1e-9)) + record(0x0502, day) + record(0x0606, b"JAW\0")
+    for points in polygons:
+        xy = b"".join(struct.pack(">ii", round(1000 * x), round(1000 * y)) for x, y in points + points[:1])
+        out += record(0x0800) + record(0x0d02, struct.pack(">h", 3)) + record(0x0e02, struct.pack(">h", 0))
+        out += record(0x1003, xy) + record(0x1100)
+    return out + record(0x0700) + record(0x0400)
+
+
+def stairs(seed):
+    """a jaw of plates that stand on each other from the hinge on, and its outline; um, on the grid"""
+    draw = random.Random(seed)
+    x, steps = 150, []
+    for i in range(draw.randint(2, 5)):  # every other one wide, so that no step is too small for a mask
+        wide = 70 * (i % 2)
+        steps.append((x, x + draw.randint(150, 350), -100 - draw.randint(40, 90) - wide, -100 + draw.randint(40, 90) + wide))
+        x = steps[-1][1]
+    points = [p for x0, x1, low, _ in steps for p in ((x0, low), (x1, low))]
+    points += [p for x0, x1, _, high in reversed(steps) for p in ((x1, high), (x0, high))]
+    plates = "".join('<plate x="%.17g um" y="%.17g um" width="%d um" height="%d um"/>' % ((x0 + x1) / 2, (low + high) / 2, x1 - x0, high - low)
+                     for x0, x1, low, high in steps)
+    return points, plates
+
+
+class Shapes(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.at = pathlib.Path(kept.name)
+
+    def device(self, shapes):
+        path = self.at / "device.xml"
+        path.write_text(DEVICE % shapes, encoding="utf-8")
+        return path
+
+    def mask(self, shapes):
+        out = self.at / "out"
+        result = run("mask", self.device(shapes), "-o", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        inputs = {i["name"]: i for i in json.loads((out / "manifest.json").read_text())["inputs"]}
+        return (out / "masks/al-masked-rie.gds").read_bytes(), inputs
+
+    def modes(self, shapes):
+        return json.loads(run("modes", self.device(shapes), "--json").stdout)["modes"]
+
+    def test_four_ways_are_one_jaw(self):
+        for seed in range(4):
+            points, plates = stairs(seed)
+            files = {"jaw.dxf": dxf(points).encode(), "mm.dxf": dxf(points, 4, 1e-3).encode(), "lines.dxf": lines(points).encode(),
+                     "jaw.gds": gds(points), "parts.gds": gds(*[[(a, c), (b, c), (b, d), (a, d)] for a, b, c, d in boxes(plates)])}
+            for name, data in files.items():
+                (self.at / name).write_bytes(data)
+            first, _ = self.mask(outline(points))
+            ways = [plates, *('<outline file="%s"%s/>' % (n, ' unit="um"' if n == "lines.dxf" else "") for n in files)]
+            frequencies = [m["f_Hz"] for m in self.modes(outline(points))]
+            for way in ways:
+                other, inputs = self.mask(way)
+                self.assertEqual(first, other, way)
+                for name in files:
+                    if name in way:
+                        self.assertEqual(inputs[name]["sha256"], hashlib.sha256(files[name]).hexdigest())
+                for a, b in zip(frequencies, (m["f_Hz"] for m in self.modes(way))):
+                    self.assertAlmostEqual(a / b, 1, delta=1e-9)
+
+    def refused(self, shapes, place, number, says):
+        result = run("check", self.device(shapes))
+        self.assertEqual(result.returncode, 3, result.stdout)
+        self.assertIn(place, result.stderr)
+        self.assertIn("[FW-D%d]" % number, result.stderr)
+        self.assertIn(says, result.stderr)
+        self.assertEqual(result.stderr.count("[FW-D"), 1, result.stderr)
+
+    def test_what_is_wrong_is_said_at_its_place(self):
+        points, _ = stairs(1)
+        (self.at / "jaw.dxf").write_text(dxf(points))
+        (self.at / "open.dxf").write_text(dxf(points).replace("\n70\n1\n", "\n70\n0\n"))
+        (self.at / "jaw.txt").write_text("no drawing\n")
+        (self.at / "secret").mkdir()
+        here = "device.xml:7:16: error"
+        self.refused('<outline file="no.dxf"/>', here, 310, "No such file")
+        self.refused('<outline file="secret"/>', here, 310, "directory")
+        self.refused('<outline file="../jaw.dxf"/>', here, 310, "..")
+        self.refused('<outline file="%s/jaw.dxf"/>' % self.at, here, 310, "relative")
+        self.refused('<outline file="jaw.dxf" unit="mm"/>', "device.xml:7:31: error", 313, "drawn in um")
+        self.refused('<outline file="jaw.dxf" layer="other"/>', "device.xml:7:32: error", 314, "no closed line")
+        self.refused('<outline file="open.dxf"/>', "open.dxf:15:1: error", 315, "ends at")
+        self.refused('<outline file="jaw.txt"/>', "jaw.txt:1:1: error", 312, "group code")
+
+    def test_no_file_is_opened_for_a_text(self):
+        points, _ = stairs(1)
+        (self.at / "jaw.dxf").write_text(dxf(points))
+        text = DEVICE % '<outline file="jaw.dxf"/>'
+        result = run("check", "-", input=text, cwd=self.at)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("[FW-D311]", result.stderr)
+
+    def test_the_gripper_is_a_device_for_both_flows(self):
+        result = run("check", ROOT / "docs/gallery/free-form-gripper/device.xml", "--json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(json.loads(result.stdout)["verdict"], "accept")
+
+
+def boxes(plates):
+    import re
+    for x, y, w, h in re.findall(r'x="(\S+) um" y="(\S+) um" width="(\d+) um" height="(\d+) um"', plates):
+        x, y, w, h = float(x), float(y), int(w), int(h)
+        yield x - w / 2, x + w / 2, y - h / 2, y + h / 2
+
+
+unittest.main()
