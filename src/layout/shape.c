@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a description draws of a body (fw_device_shape): its union in the world, what is cut out of
-   it, and in which direction the neck of a hinge finds it. docs/theory/layout.md, section 9. */
+   it, and in which direction the neck of a hinge finds it. docs/theory/layout.md, section 11. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"

@@ -169,6 +169,7 @@ def layout(g):
     step = 2 * (g["w"] + g["gap"])
     return {"g": ahead, "cut": a - ahead, "most": min((inner**2 - (corner + 1e-6) ** 2) / (2 * inner), 0.3 * inner),
             "first": -(g["n"] - 1) / 2 * step, "last": g["n"] / 2 * step, "far": g["p"] / sqrt(2) - g["D"] / 2,
+            "sweep": 2 * asin(g["c"] / 2 / g["R"]), "beside": sqrt(g["R"] ** 2 - g["c"] ** 2 / 4),
             "theta": g["strain"] * 2 * g["L"] / g["O"] * (1 - g["wp"] ** 2 / (2 * g["L"] ** 2)) / (1 + 4 / 3 * (g["wp"] / g["O"]) ** 2)}
 
 
