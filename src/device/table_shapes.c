@@ -102,7 +102,8 @@ static const fw_xml_attribute_row disc_rows[] = {
     REPEATS,
 };
 static const fw_xml_attribute_row lettering_rows[] = {
-    {"text", TEXT, REQUIRED, .sentence = "Letters, digits and . , - + = / _ ( ) : % #"},
+    {"text", TEXT, REQUIRED,
+     .sentence = "Of letters, digits and . , - + = / _ ( ) : % #; any other is drawn as a star."},
     {"x", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"y", POSITION, .fallback = "0 mm", .sentence = "Its lower left corner in the body's frame."},
     {"height", D_LENGTH, .unit = "um",
