@@ -262,6 +262,8 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
                         .plate_y_m = (double)NAN,
                         .plate_angle_rad = fw_xml_number_or(record, "plate-angle", 0.0),
                         .nshape = shapes, /* until they are built */
+                        .inner_corner_m = fw_xml_number_or(record, "inner-corner", 0.0),
+                        .inner_corner_place = fw_xml_place_of(record, "inner-corner"),
                         .place = record->element->place,
                         .width_place = fw_xml_place_of(record, "width")};
     for (int k = 0; k < 2; k++)
@@ -275,6 +277,11 @@ static fw_device_body body_of(fw_device_reader *r, const fw_xml_record *record) 
         b.plate_x_m = fw_xml_number_or(record, "plate-x", b.x_m);
         b.plate_y_m = fw_xml_number_or(record, "plate-y", b.y_m);
     }
+    if (fw_xml_given(record, "inner-corner") && shapes == 0)
+        fw_diag_error(r->diags, 309, fw_xml_place_of(record, "inner-corner"),
+                      "%s: inner-corner is of shapes inside the body, and there are none; remove "
+                      "it, or draw an <outline>",
+                      fw_xml_label(record, label));
     if (fw_device_body_drawn(&b)) {
         check_on_wafer(r, record, "x", b.x_m);
         check_on_wafer(r, record, "y", b.y_m);

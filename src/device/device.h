@@ -87,6 +87,8 @@ typedef struct fw_device_body { /* <body>, or a link of <six-bar> */
     double plate_x_m, plate_y_m, plate_angle_rad;
     const fw_device_shape *shape; /* (nshape) what else is drawn of it, in the order of the file */
     int nshape;
+    double inner_corner_m; /* of their union; 0: sharp */
+    fw_place inner_corner_place;
     bool platform;
     fw_place place, width_place;
 } fw_device_body;

@@ -67,6 +67,10 @@ static const fw_xml_attribute_row body_rows[] = {
     {"width", SIZE, .fallback = "not drawn",
      .sentence = "Of the bars that join its hinges. With plate-width there are no bars: it bounds "
                  "the width of the necks that lead into the plate."},
+    {"inner-corner", GAP, .fallback = "0 um: sharp, as drawn",
+     .sentence =
+         "Radius with which inward corners of the shapes inside it are rounded, those where "
+         "two shapes meet as well."},
     {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
     {"plate-height", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-width."},
     {"plate-x", PLACE, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},

@@ -104,6 +104,44 @@ static fw_place hole_place(fw_layout_drawing *d, int body, fw_geometry_vec2 at) 
     return place;
 }
 
+/* what rounding makes smaller than stated is refused */
+static bool is_round(const fw_geometry_contour *before, const fw_geometry_contour *after,
+                     double radius_m, fw_geometry_vec2 *where) {
+    for (int i = 0; i < after->count; i++) {
+        const fw_geometry_segment *s = &after->segment[i];
+        bool there = s->kind != FW_ARC || s->sweep_rad > 0 || s->radius >= radius_m * (1 - 1e-9);
+        for (int k = 0; k < before->count && !there; k++)
+            there = before->segment[k].kind == FW_ARC &&
+                    fw_norm(fw_sub(before->segment[k].centre, s->centre)) < FW_COINCIDENT_M;
+        *where = s->a;
+        if (!there) return false;
+    }
+    return true;
+}
+
+/* inward corners of the union, by the body's inner-corner */
+static fw_status round_inward(fw_layout_drawing *d, int body, fw_geometry_region *all) {
+    const fw_device_body *b = &d->device->body[body];
+    for (int i = 0; i < all->count && b->inner_corner_m > 0; i++) {
+        fw_geometry_contour *c = &all->contour[i], round;
+        fw_geometry_vec2 where = c->segment[0].a;
+        for (int k = 0; k < c->count; k++)
+            c->segment[k].flags &= ~(unsigned)FW_SEGMENT_DRAWN;
+        fw_status status =
+            fw_geometry_contour_round(d->arena, c, 0.0, b->inner_corner_m, &round, &where);
+        if (status == FW_GEOMETRY ||
+            (status == FW_OK && !is_round(c, &round, b->inner_corner_m, &where)))
+            return fw_layout_shape_refuse(
+                d, 308, b->inner_corner_place, body,
+                "there is no room for this radius at an inward corner; make it smaller", where);
+        FW_TRY(status);
+        *c = round;
+        for (int k = 0; k < c->count; k++)
+            c->segment[k].flags |= FW_SEGMENT_DRAWN;
+    }
+    return FW_OK;
+}
+
 static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
     const fw_device_body *b = &d->device->body[body];
     for (int i = 0; i < b->nshape; i++) {
@@ -116,6 +154,7 @@ static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
         FW_TRY(to_world(d, body, &shape->contour, &world));
         FW_TRY(unite(d, body, shape, &world, shape->hole ? &s->hole : &s->solid));
     }
+    FW_TRY(round_inward(d, body, &s->solid));
     for (int i = 0; i < s->hole.count; i++)
         if (fw_geometry_contour_area(&s->hole.contour[i]) < 0)
             return fw_layout_shape_refuse(

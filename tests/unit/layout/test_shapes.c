@@ -79,6 +79,11 @@ static void areas_follow(void **state) {
         /* L: 9 + 5 cells of 8 um, J of 6 + ... is counted by its font: I, two serifs and a stem */
         {BODY(PLATE "<lettering text=\"LI\" x=\"700 um\" height=\"72 um\"/>"),
          -(9 + 5 + 9 + 4) * 64},
+        /* four inward corners of 90 degrees, rounded by 12 um */
+        {"<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\" inner-corner=\"12 um\">" PLATE
+         "<plate x=\"800 um\" width=\"100 um\" height=\"500 um\"/></body><revolute id=\"A\" "
+         "a=\"ground\" b=\"jaw\" hinge=\"f\"/>",
+         100 * 200 + (4 - M_PI) * 144},
         /* a frame of four plates encloses a hole that nobody drew as one */
         {BODY(PLATE "<plate x=\"1300 um\" y=\"100 um\" width=\"200 um\" height=\"20 um\" "
                     "symmetry=\"x\"/><plate x=\"1390 um\" width=\"20 um\" height=\"220 um\"/>"),
