@@ -57,7 +57,7 @@ static bool foot_on_hole(const fw_geometry_segment *s, fw_geometry_vec2 m, fw_ge
         else {
             double out = fw_dot(fw_sub(m, s->centre), u) < 0 ? -1.0 : 1.0;
             double in = s->radius * s->radius - half * half;
-            if (!(in > 0.5 * s->radius * s->radius)) return false;
+            if (!(in > 0.7 * s->radius * s->radius)) return false; /* within 33 degrees of square */
             q[k] = fw_add(fw_add(s->centre, out * sqrt(in), u), aside, v);
         }
         double length = fw_geometry_segment_length(s), t = fw_geometry_segment_parameter(s, q[k]);
