@@ -4,52 +4,22 @@
    sweep, so arcs of polylines are exact. Source: AutoCAD DXF Reference, u18_1_h. */
 #include "base/constants.h"
 #include "base/text.h"
-#include "drawing/drawing.h"
+#include "drawing/dxf.h"
 #include "geometry/segment.h"
 #include <math.h>
 #include <string.h>
 
 enum { LINE_MOST = 2048, LAYER_MOST = 256 };
-#define FARTHEST_M 0.3 /* wafers are at most 300 mm wide */
 
-typedef struct pair {
-    int code;
-    const char *value; /* (length) */
-    size_t length;
-    int line; /* of the code, from 1 */
-} pair;
-
-typedef struct edge {      /* of the pool from which outlines are put together */
-    fw_geometry_vec2 a, b; /* in units of the file */
-    double sweep_rad;
-    int line;
-    bool used;
-} edge;
+typedef fw_drawing_pair pair;
+typedef fw_drawing_edge edge;
+typedef fw_drawing_run closed;
+typedef fw_drawing_dxf reader;
 
 typedef struct vertex {
     fw_geometry_vec2 at;
     double bulge;
 } vertex;
-
-typedef struct closed {
-    int first, count, line; /* of edges */
-} closed;
-
-typedef struct reader {
-    fw_arena *arena;
-    fw_diags *diags;
-    const fw_drawing_asked *asked;
-    const char *at, *end;
-    int line;
-    pair now;
-    bool failed, over; /* nothing more can be read; the text is at its end */
-    int insunits;      /* -1: not said */
-    const char *layer; /* the only one so far that had something; NULL */
-    edge *edge;        /* (nedge) */
-    int nedge, edge_room;
-    closed *closed; /* (nclosed) runs of edges that are closed as they are */
-    int nclosed, closed_room;
-} reader;
 
 static fw_place place_at(const reader *r, int line) {
     return (fw_place){r->asked->file, line, 1};
@@ -400,182 +370,6 @@ static fw_status read_section(reader *r) {
     return FW_OK;
 }
 
-/* ---- units ---- */
-
-static const struct {
-    int code;
-    double metres;
-    const char *name;
-} units[] = {{1, 25.4e-3, "inches"},
-             {2, 0.3048, "feet"},
-             {4, 1e-3, "mm"},
-             {5, 1e-2, "cm"},
-             {6, 1, "m"},
-             {8, 25.4e-9, "microinches"},
-             {9, 25.4e-6, "mils"},
-             {11, 1e-10, "Angstrom"},
-             {12, 1e-9, "nm"},
-             {13, 1e-6, "um"},
-             {14, 0.1, "dm"}};
-
-/* NaN: reported */
-static double unit_of(reader *r) {
-    const fw_drawing_asked *asked = r->asked;
-    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
-        if (units[i].code != r->insunits) continue;
-        if (!asked->unit || fabs(asked->unit_m - units[i].metres) < 1e-9 * units[i].metres)
-            return units[i].metres;
-        fw_diag_error(r->diags, 313, asked->unit_place,
-                      "unit=\"%s\", but %s says that it is drawn in %s ($INSUNITS %d); leave unit "
-                      "out, or correct the drawing",
-                      asked->unit, asked->file, units[i].name, r->insunits);
-        return (double)NAN;
-    }
-    if (asked->unit) return asked->unit_m;
-    fw_diag_error(r->diags, 313, asked->place,
-                  "%s does not say what its unit is (no $INSUNITS that is known); add "
-                  "unit=\"um\" or whatever it is drawn in",
-                  asked->file);
-    return (double)NAN;
-}
-
-/* ---- outlines ---- */
-
-static fw_geometry_vec2 scaled(fw_geometry_vec2 p, double by) {
-    return (fw_geometry_vec2){p.x * by, p.y * by};
-}
-
-static bool scale_edges(reader *r, double unit_m) {
-    for (int i = 0; i < r->nedge; i++) {
-        edge *e = &r->edge[i];
-        e->a = scaled(e->a, unit_m);
-        e->b = scaled(e->b, unit_m);
-        double most = fmax(fmax(fabs(e->a.x), fabs(e->a.y)), fmax(fabs(e->b.x), fabs(e->b.y)));
-        if (most <= FARTHEST_M) continue;
-        fw_diag_error(r->diags, 313, place_at(r, e->line),
-                      "it lies farther than 300 mm from the origin, wider than any wafer; correct "
-                      "the unit or the drawing");
-        return false;
-    }
-    return true;
-}
-
-/* the pieces of one outline to *out; FW_INPUT: reported */
-static fw_status trace(reader *r, const fw_drawing_piece *piece, int n, fw_geometry_vec2 start,
-                       int line, fw_drawing *out) {
-    fw_drawing_flaw flaw;
-    if (out->count == FW_DRAWING_OUTLINES_MOST)
-        return fw_diag_error(r->diags, 319, place_at(r, line),
-                             "more than %d outlines are taken from one file",
-                             (int)FW_DRAWING_OUTLINES_MOST);
-    fw_drawing_outline *o = &out->outline[out->count];
-    fw_status status = fw_drawing_trace(r->arena, start, piece, n, &o->contour, &flaw);
-    if (status == FW_GEOMETRY) {
-        const char *what = fw_drawing_flaw_text(r->arena, &flaw);
-        FW_NEED(what);
-        return fw_diag_error(r->diags, 315, place_at(r, line),
-                             "the closed line that begins here %s; repair the drawing", what);
-    }
-    FW_TRY(status);
-    o->line = line;
-    out->count++;
-    return FW_OK;
-}
-
-/* the next edge, used or not, from where a chain ends; -1: none, -2: several */
-static int next_in_chain(const reader *r, fw_geometry_vec2 at, bool *backwards) {
-    int found = -1;
-    for (int i = 0; i < r->nedge; i++) {
-        if (r->edge[i].used) continue;
-        bool forth = vec_distance(r->edge[i].a, at) <= FW_DRAWING_SAME_M;
-        bool back = vec_distance(r->edge[i].b, at) <= FW_DRAWING_SAME_M;
-        if (!forth && !back) continue;
-        if (found >= 0) return -2;
-        found = i;
-        *backwards = !forth;
-    }
-    return found;
-}
-
-static fw_status say_open(reader *r, int line, fw_geometry_vec2 at, bool several) {
-    char x[32], y[32];
-    return fw_diag_error(r->diags, 315, place_at(r, line),
-                         "the chain of lines and arcs that begins here %s at (%s, %s) um, ends "
-                         "being joined that lie within 1 nm; close the line in the drawing",
-                         several ? "meets more than one other" : "ends",
-                         fw_number_text(x, sizeof x, at.x * 1e6, 8),
-                         fw_number_text(y, sizeof y, at.y * 1e6, 8));
-}
-
-static fw_status put_together(reader *r, fw_drawing_piece *piece, fw_drawing *out) {
-    for (int i = 0; i < r->nedge; i++) {
-        edge *first = &r->edge[i];
-        if (first->used) continue;
-        int n = 0;
-        fw_geometry_vec2 at = first->b;
-        first->used = true;
-        piece[n++] = (fw_drawing_piece){at, first->sweep_rad};
-        while (vec_distance(at, first->a) > FW_DRAWING_SAME_M) {
-            bool backwards = false;
-            int k = next_in_chain(r, at, &backwards);
-            if (k < 0) return say_open(r, first->line, at, k == -2);
-            edge *e = &r->edge[k];
-            e->used = true;
-            at = backwards ? e->a : e->b;
-            piece[n++] = (fw_drawing_piece){at, backwards ? -e->sweep_rad : e->sweep_rad};
-        }
-        FW_TRY(trace(r, piece, n, first->a, first->line, out));
-    }
-    return FW_OK;
-}
-
-/* An outline within another is a hole; one within a hole would be an island that nothing holds.
-   Those that cross are one part each. */
-static fw_status find_holes(reader *r, fw_drawing *d) {
-    for (int i = 0; i < d->count; i++) {
-        int around = 0;
-        const fw_geometry_contour *own = &d->outline[i].contour;
-        fw_geometry_box box = fw_geometry_contour_box(own);
-        for (int k = 0; k < d->count; k++) {
-            const fw_geometry_contour *other = &d->outline[k].contour;
-            fw_geometry_box wide = fw_geometry_contour_box(other);
-            if (k == i || box.x0 < wide.x0 || box.x1 > wide.x1 || box.y0 < wide.y0 ||
-                box.y1 > wide.y1)
-                continue;
-            around += fw_geometry_contour_contains(other, own->segment[0].a) &&
-                      fw_geometry_contour_distance_below(own, other, 1e-9, NULL, NULL) > 0;
-        }
-        if (around > 1)
-            return fw_diag_error(r->diags, 315, place_at(r, d->outline[i].line),
-                                 "the closed line that begins here lies within a hole, an island "
-                                 "that nothing holds; remove it, or put it on another layer");
-        d->outline[i].hole = around == 1;
-    }
-    return FW_OK;
-}
-
-static fw_status make_outlines(reader *r, fw_drawing *out) {
-    size_t room = (size_t)r->nclosed + (size_t)r->nedge;
-    fw_drawing_piece *piece;
-    FW_NEED(out->outline = fw_arena_array(r->arena, fw_drawing_outline, room));
-    FW_NEED(piece = fw_arena_array(r->arena, fw_drawing_piece, (size_t)r->nedge));
-    for (int i = 0; i < r->nclosed; i++) {
-        const closed *c = &r->closed[i];
-        for (int k = 0; k < c->count; k++)
-            piece[k] = (fw_drawing_piece){r->edge[c->first + k].b, r->edge[c->first + k].sweep_rad};
-        FW_TRY(trace(r, piece, c->count, r->edge[c->first].a, c->line, out));
-    }
-    FW_TRY(put_together(r, piece, out));
-    if (out->count == 0)
-        return fw_diag_error(r->diags, 314,
-                             r->asked->layer ? r->asked->layer_place : r->asked->place,
-                             "%s has no closed line%s%s%s; draw one as a polyline, or as lines and "
-                             "arcs that meet",
-                             r->asked->file, r->asked->layer ? " on layer '" : "",
-                             r->asked->layer ? r->asked->layer : "", r->asked->layer ? "'" : "");
-    return find_holes(r, out);
-}
-
 fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
                               const fw_drawing_asked *asked, fw_diags *diags, fw_drawing *out) {
     reader r = {.arena = arena,
@@ -590,7 +384,5 @@ fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
     if (!r.failed && r.line == 0) damaged(&r, 1, "it is empty");
     if (!r.failed && r.over) damaged(&r, r.line, "it does not end with EOF");
     if (r.failed) return FW_INPUT;
-    double unit_m = unit_of(&r);
-    if (isnan(unit_m) || !scale_edges(&r, unit_m)) return FW_INPUT;
-    return make_outlines(&r, out);
+    return fw_drawing_dxf_outlines(&r, out);
 }
