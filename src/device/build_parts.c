@@ -62,6 +62,8 @@ static void build_limits(fw_device_reader *r, const fw_xml_record *record) {
     d->limits = (fw_device_limits_asked){
         .cycles = fw_xml_number_of(record, "cycles"),
         .failure_probability = fw_xml_number_of(record, "failure-probability"),
+        .clearance_m = fw_xml_number_of(record, "clearance"),
+        .clearance_place = fw_xml_place_of(record, "clearance"),
         .survival = survival && strcmp(survival, "yes") == 0,
         .cycles_place = fw_xml_place_of(record, "cycles"),
         .probability_place = fw_xml_place_of(record, "failure-probability")};
@@ -138,7 +140,7 @@ fw_status fw_device_build_parts(fw_device_reader *r) {
     fw_device *d = r->device;
     double nan_ = (double)NAN;
     d->safety_factor = 1.5;
-    d->limits = (fw_device_limits_asked){.cycles = nan_, .failure_probability = nan_};
+    d->limits = (fw_device_limits_asked){.cycles = nan_, .failure_probability = nan_, .clearance_m = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
     d->die = (fw_device_die){.width_m = nan_,

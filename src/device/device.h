@@ -392,7 +392,8 @@ typedef struct fw_device_limits_asked { /* <limits>, beside the safety factor */
     double cycles;                      /* repetitions of every scene; NaN: static */
     double failure_probability; /* of the whole device, of what fractures; likewise: not asked */
     bool survival;              /* the 0.2 % offset, not the proportional limit */
-    fw_place cycles_place, probability_place;
+    double clearance_m; /* of everything that moves from what it may meet; NaN: they do not meet */
+    fw_place cycles_place, probability_place, clearance_place;
 } fw_device_limits_asked;
 
 typedef struct fw_device {

@@ -99,6 +99,9 @@ static const fw_xml_attribute_row limits_rows[] = {
      ABOVE(0, 0.5, "never is not to be had, and a device that more often breaks than not is none"),
      .fallback = "none: the material's plain strength",
      .sentence = "Of the whole device, of a material that fractures: its Weibull data then rule."},
+    {"clearance", SIZE, .fallback = "none: parts that move do not meet",
+     .sentence = "That everything that moves keeps from whatever it may meet, in every scene and "
+                 "required pose, as drawn and as made."},
     {"survival", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
      .sentence = "yes: metals may pass their proportional limit up to the 0.2 % offset, as in a "
                  "shock behind which accuracy does not matter."},

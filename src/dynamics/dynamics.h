@@ -25,6 +25,18 @@ typedef void (*fw_dynamics_observer)(void *context, const fw_dynamics_instant *i
 typedef bool (*fw_dynamics_glance)(void *context, const fw_dynamics_instant *third);
 enum { FW_INSTANTS = 12, FW_THIRDS = 3 };
 
+enum { FW_PIECE_NODES = 8 };
+/* A part of the motion between two instants in which every coordinate is one polynomial in time, of
+   degree nodes - 1: that through its values at equally spaced instants, ends included. Pieces follow
+   each other in time; where one begins elsewhere than the last one ended, the motion jumps. */
+typedef struct fw_dynamics_piece {
+    double from_s, to_s;
+    int nodes;       /* at most FW_PIECE_NODES */
+    const double *q; /* (nodes x 3 nbody) m, rad */
+} fw_dynamics_piece;
+/* with NULL when the run starts (over); of the contexts of the observer */
+typedef void (*fw_dynamics_tracer)(void *context, const fw_dynamics_piece *piece);
+
 typedef struct fw_dynamics_motion_options {
     const char *method;     /* a name of fw_multibody_method_at; NULL: chain */
     const char *integrator; /* a name of fw_dynamics_integrator_at; NULL: auto */
@@ -52,6 +64,7 @@ typedef struct fw_dynamics_motion_options {
                             of them: a verdict does not need it */
     fw_dynamics_observer observe; /* NULL: nobody looks */
     fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
+    fw_dynamics_tracer trace; /* NULL: nobody wants the pieces */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */

@@ -186,6 +186,35 @@ static void show_start(fw_dynamics_recorder *record) {
     void *context;
     fw_dynamics_observer see = observer(record, &context);
     if (see) see(context, NULL);
+    if (see && record->problem->options->trace) record->problem->options->trace(context, NULL);
+}
+
+/* The dense output of a step as polynomials: interpolated exactly by as many values as its degree
+   asks for, of each part where it is made of several. */
+static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {
+    const fw_dynamics_problem *problem = record->problem;
+    const fw_maths_stepper_row *row = s->row;
+    void *context;
+    size_t n = (size_t)problem->model->nq;
+    int parts = row->dense_parts > 0 ? row->dense_parts : 1;
+    int nodes = row->dense_order_u > 5 ? FW_PIECE_NODES : 6; /* quintics at most */
+    if (!observer(record, &context) || !problem->options->trace) return;
+    for (int k = 0; k < parts; k++) {
+        double from = (double)k / parts, to = fmin(theta_end, (k + 1.0) / parts);
+        if (!(to > from)) return;
+        for (int i = 0; i < nodes; i++) {
+            double theta = from + (to - from) * i / (nodes - 1);
+            fw_maths_stepper_dense(s, theta, record->state);
+            pose_in_SI(problem, record->state, record->seen_piece + (size_t)i * n,
+                       record->seen_angle);
+        }
+        double unit = problem->model->scale.time_s;
+        const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
+                                         .to_s = (s->t_old + to * s->h) * unit,
+                                         .nodes = nodes,
+                                         .q = record->seen_piece};
+        problem->options->trace(context, &piece);
+    }
 }
 
 static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta,
@@ -299,6 +328,7 @@ bool fw_dynamics_record_step(fw_dynamics_recorder *record, fw_maths_stepper *s,
     fw_dynamics_run_extremes(record, s, theta_end);
     if (record->full && theta_end == 1) watch_energy(record, s->t, s->y);
     observe_step(record, s, theta_end);
+    trace_step(record, s, theta_end);
     return !record->full || samples(record, s, theta_end);
 }
 

@@ -68,6 +68,9 @@ typedef struct fw_layout {
     fw_geometry_box die;           /* outline of the chip with its lane */
     fw_geometry_box window;        /* inner edge of the frame */
     double narrowest_gap_m;        /* least distance between pieces that move apart */
+    /* walls stand out from what is drawn by edge_m, and by the flare beside it at one face: 0 as
+       drawn (verdict/verdict_fabrication.h) */
+    double edge_m, flare_m;
     bool fill;                     /* the flow's thief and fill are wanted in the window */
 } fw_layout;
 

@@ -304,6 +304,7 @@ static void component(const fw_maths_stepper *b, int i, double wi, int j, double
                                                             .destroy = destroy,                    \
                                                             .dense_order = 3,                      \
                                                             .dense_order_u = 5,                    \
+                                                            .dense_parts = PIECES,                 \
                                                             __VA_ARGS__}
 
 ROW(rkf45, .name = "gsl-rkf45", .summary = "GSL's Runge-Kutta-Fehlberg 4(5)", .order = 5);

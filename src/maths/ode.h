@@ -50,6 +50,9 @@ typedef struct
     bool fixed_step;     /* takes fw_maths_stepper.h_fixed and knows no error */
     bool second_order;   /* only for problems with positions */
     bool variable_order; /* `order` is the highest, chosen by the error */
+    /* the dense output is one polynomial, or as many of equal length, at most; 0: one. Their degree
+       is dense_order_u, or 5 where that is less */
+    int dense_parts;
     /* right-hand sides over those that it counts, and in a step, for limits of what a run may cost;
        0: as others of its kind (study/problem.c) */
     double rhs_per_count, rhs_per_step;

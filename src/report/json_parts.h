@@ -57,4 +57,7 @@ void fw_report_preview_attached_box(const fw_mechanism *mechanism, fw_geometry_b
 void fw_report_preview_scene_box(const fw_mechanism *mechanism, const fw_device_scene *scene,
                                  fw_geometry_box *box);
 
+/* json_clearance.c: the list "clearances" of every scene and required box */
+void fw_report_json_clearances(fw_json *json, const fw_verdict *verdict);
+
 #endif

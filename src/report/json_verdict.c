@@ -423,6 +423,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     hinge_models(&json, input);
     pull_ins(&json, input);
     reasons(&json, v);
+    fw_report_json_clearances(&json, v);
     accuracy(&json, v);
     advice(&json, v);
     fw_json_truth(&json, "advice_verified", v->advice_verified);

@@ -171,6 +171,7 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
 }
 
 static fw_status copy(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                      const fw_verdict_fabrication *fabricated,
                       fw_verdict_fabricated_device *out) {
     fw_device *d = &out->device;
     size_t f = (size_t)device->nflexure, j = (size_t)device->nrevolute, b = (size_t)device->nbody;
@@ -184,6 +185,8 @@ static fw_status copy(fw_arena *arena, const fw_device *device, const fw_layout 
     fw_layout *l = &out->layout;
     *l = *layout;
     out->drawn = l;
+    l->edge_m = fabricated->edge_m;
+    l->flare_m = fabricated->flare_m;
     if (!layout->drawn) return FW_OK;
     FW_NEED(l->hinge = fw_arena_grow(arena, l->hinge, j, j, sizeof *l->hinge));
     FW_NEED(l->body = fw_arena_grow(arena, l->body, b, b, sizeof *l->body));
@@ -196,7 +199,7 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
                                        fw_verdict_fabricated_device *out) {
     *out = (fw_verdict_fabricated_device){.variant = *variant};
     bool drawn = layout && layout->drawn;
-    FW_TRY(copy(arena, device, layout, out));
+    FW_TRY(copy(arena, device, layout, fabricated, out));
     change_variant(&out->variant, fabricated);
     for (int i = 0; i < device->nflexure; i++)
         FW_TRY(change_flexure(arena, fabricated, &out->device.flexure[i], &out->gone));

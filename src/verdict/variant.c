@@ -2,6 +2,7 @@
 #include "verdict/verdict_parts.h"
 #include "base/constants.h"
 #include "verdict/strain.h"
+#include "verdict/verdict_clearance.h"
 #include <math.h>
 
 static fw_verdict_decision decide(double low, double high) {
@@ -195,8 +196,9 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
 }
 
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
-static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_mechanism *m,
-                            const fw_verdict_options *options, fw_diags *diags,
+static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                            const fw_mechanism *m, const fw_verdict_options *options,
+                            fw_diags *diags,
                             fw_verdict_variant_verdict *v, fw_verdict_strain_monitor *monitor,
                             fw_verdict_strain_monitor *other) {
     size_t n = (size_t)device->nscene;
@@ -208,7 +210,10 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, FW_REASONS * n + 1)); /* as made */
+    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 1; /* as made */
+    FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
+    fw_verdict_clearance_watch watch[2];
+    FW_TRY(fw_verdict_clearance_begin(arena, layout, m, watch, v));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -217,13 +222,18 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         motion.glance = fw_verdict_strain_monitor_glance;
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
         motion.context = &monitor[i];
+        motion.trace = fw_verdict_clearance_trace;
+        monitor[i].clearance = &watch[0];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
+        other[i].clearance = &watch[1];
+        FW_TRY(fw_verdict_clearance_scene(scene, watch));
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, options->at_a_glance, v));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;
@@ -316,7 +326,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_strain_monitor *other =
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
-    FW_TRY(run_scenes(arena, device, m, options, diags, v, monitor, other));
+    FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     for (int k = 0; k < m->nhinge; k++) {

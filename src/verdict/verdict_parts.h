@@ -29,7 +29,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 6 }; /* of one scene at most */
+enum { FW_REASONS = 7 }; /* of one scene at most */
 
 /* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
    effect ends), pull_in[i], and reasons of v */

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How near does anything that moves come to anything that it may meet: over a whole motion, between
+   its samples too, and over boxes of poses. Distances are those of the outlines as drawn, at poses
+   of the bodies; what a flow makes of the walls comes off them (verdict/).
+
+   Theory: docs/theory/clearance.md. */
+#ifndef FW_CLEARANCE_CLEARANCE_H
+#define FW_CLEARANCE_CLEARANCE_H
+#include "dynamics/dynamics.h"
+#include "layout/layout.h"
+#include "mechanism/mechanism.h"
+#include <math.h>
+
+/* ---- clearance_things.c: what may meet what ---- */
+
+/* a part of an outline, where it is drawn */
+typedef struct fw_clearance_edge {
+    fw_geometry_segment segment;
+    int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
+    int held;  /* of a tether: the body that it holds; FW_NONE: none */
+    const char *label;
+} fw_clearance_edge;
+
+/* what moves as one: a body (0 .. nbody - 1) or, last, all that stands on the ground */
+typedef struct fw_clearance_solid {
+    fw_clearance_edge *edge; /* (count) */
+    int count;
+    fw_geometry_box box;
+    fw_geometry_vec2 centre; /* of mass, as drawn: what poses refer to */
+    double turned_rad;       /* its pose as drawn */
+} fw_clearance_solid;
+
+typedef struct fw_clearance_things {
+    fw_clearance_solid *solid; /* (nbody + 1) */
+    int nbody;
+} fw_clearance_things;
+
+/* Outlines of bodies with their halves of hinges, rotor fingers, eyelets and stubs; frame, base,
+   anchors, tethers and stators. Lanes, lettering and marks are no walls. */
+fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
+                                 const fw_mechanism *mechanism, fw_clearance_things *things);
+
+/* ---- clearance_path.c: a motion as polynomials ---- */
+
+enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
+
+typedef struct fw_clearance_path { /* pieces of one motion, one after the other */
+    int nq, npiece, capacity;
+    int *nodes;   /* (capacity) coefficients of a piece: its degree and one */
+    double *t_s;  /* (capacity x 2) from, to */
+    double *bern; /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
+    int of;       /* nodes that `fit` is for; 0: none yet */
+    double fit[FW_CLEARANCE_NODES][FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
+} fw_clearance_path;
+
+fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path);
+bool fw_clearance_path_full(const fw_clearance_path *path);
+void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *piece);
+
+/* part of a path: whole pieces, or of one piece the part from `from` to `to` */
+typedef struct fw_clearance_span {
+    int first, last; /* pieces, both included */
+    double from, to; /* 0..1 of the only piece; of several: 0, 1 */
+} fw_clearance_span;
+/* coefficients of a coordinate over a part of a piece */
+void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
+                            double out[FW_CLEARANCE_NODES]);
+double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta);
+
+typedef struct fw_clearance_pose { /* of a solid's centre of mass; the ground's never changes */
+    double x_m, y_m, phi_rad;
+} fw_clearance_pose;
+
+typedef struct fw_clearance_meet { /* the nearest places of two outlines at a pose of each */
+    double distance_m;             /* 0: they meet */
+    fw_geometry_vec2 at_a, at_b;   /* world */
+    const char *a, *b;             /* labels */
+} fw_clearance_meet;
+
+/* ---- clearance_motion.c: the least clearance over a motion ---- */
+
+typedef struct fw_clearance_least {
+    bool known;          /* something moved against something else */
+    double low_m, m;     /* proved lower bound; found at t_s */
+    fw_clearance_meet at;
+    double t_s;
+    int a, b;            /* bodies; FW_GROUND */
+    fw_clearance_pose pose[2]; /* there */
+    double moved_m;      /* how far the pair moved against each other at most */
+    double start_m;      /* distance of the pair where the motion begins */
+    double share;        /* of that: where they meet first; 1: they do not */
+    long looked;         /* distances that were computed */
+    bool given_up;       /* too many: low_m is what was proved by then */
+} fw_clearance_least;
+
+/* before anything was looked at */
+static inline fw_clearance_least fw_clearance_nothing(void) {
+    return (fw_clearance_least){.low_m = HUGE_VAL, .m = HUGE_VAL, .share = 1};
+}
+
+typedef struct fw_clearance_wish {
+    const bool *may_meet; /* (nsolid x nsolid) pairs of which nothing is said; NULL: none */
+    double relative;      /* error wanted of the least clearance, beside 1 nm */
+    double enough_m;      /* farther apart is not looked at closely; HUGE_VAL: it is */
+    long most;            /* distances */
+} fw_clearance_wish;
+
+/* looks at everything in the path and keeps the least of it and of what `least` has; the path may
+   then be used again */
+fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *things,
+                               const fw_clearance_path *path, const fw_clearance_wish *wish,
+                               fw_clearance_least *least);
+
+#endif

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two solids, the edges of them that may come near each other, and how far poses may let them come.
+   Private to the room and its tests. */
+#ifndef FW_CLEARANCE_CLEARANCE_PAIR_H
+#define FW_CLEARANCE_CLEARANCE_PAIR_H
+#include "clearance/clearance.h"
+#include "maths/maths_interval.h"
+
+typedef struct fw_clearance_pair {
+    const fw_clearance_things *things;
+    int a, b; /* solids; nbody: the ground */
+    const fw_clearance_edge **edge[2];
+    int count[2];
+    fw_geometry_box *box;    /* (count[0]) of the first one's edges */
+    fw_geometry_box *run;    /* of every eight of these */
+    fw_geometry_box whole;   /* of all of them */
+    fw_geometry_vec2 centre; /* in the first solid as drawn: the middle of its edges */
+    double reach_m;          /* of these edges about it */
+    double arm_m[2];         /* farthest edge from the solid's own centre of mass */
+} fw_clearance_pair;
+
+fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearance_pose pose,
+                                    fw_geometry_vec2 drawn);
+fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
+                                fw_clearance_pair *pair);
+bool fw_clearance_may_meet(const fw_clearance_pair *pair, const fw_clearance_edge *p,
+                           const fw_clearance_edge *q);
+void fw_clearance_pair_boxes(fw_clearance_pair *pair);
+void fw_clearance_pair_measure(fw_clearance_pair *pair);
+/* kept: work, (count[0]) */
+void fw_clearance_pair_narrow(fw_clearance_pair *pair, const fw_clearance_pose pose[2],
+                              double near_m, double slack_m, bool *kept);
+/* least distance at these poses of the two solids where it is below the limit, else the limit */
+double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
+                                  double limit_m, fw_clearance_meet *meet);
+
+/* ---- clearance_slack.c: poses that are not quite known ---- */
+
+/* no two edges are nearer than at the middle poses by more than this, for every pose that is a
+   convex combination of those that were added */
+typedef struct fw_clearance_slack {
+    fw_clearance_pose middle[2];
+    fw_geometry_vec2 lever[2]; /* J(c - x), of both solids at their middle poses */
+    double linear_m, turn_rad[2];
+} fw_clearance_slack;
+void fw_clearance_slack_begin(const fw_clearance_pair *pair, const fw_clearance_pose middle[2],
+                              fw_clearance_slack *slack);
+void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
+                            fw_clearance_slack *slack);
+double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
+
+#endif

@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What of a drawing may meet what: the outlines of every body and of all that stands, cut where
+   they enter the region of a hinge. */
+#include "clearance/clearance.h"
+#include "geometry/segment.h"
+#include <math.h>
+
+enum { ROOM = 64 };
+
+typedef struct building {
+    fw_arena *arena;
+    const fw_layout *layout;
+    const fw_device *device;
+    fw_clearance_things *things;
+    int *room; /* (nbody + 1) */
+} building;
+
+static int solid_of(const building *b, int body) {
+    return body >= 0 && body < b->things->nbody ? body : b->things->nbody;
+}
+
+static bool belongs(const fw_layout_hinge_layout *h, int body) {
+    return h->drawn && (h->lower == body || h->upper == body);
+}
+
+static fw_status keep(building *b, int solid, const fw_clearance_edge *edge) {
+    fw_clearance_solid *s = &b->things->solid[solid];
+    if (s->count == b->room[solid]) {
+        int more = b->room[solid] ? 2 * b->room[solid] : ROOM;
+        FW_NEED(s->edge = fw_arena_grow(b->arena, s->edge, (size_t)s->count, (size_t)more,
+                                        sizeof *s->edge));
+        b->room[solid] = more;
+    }
+    s->edge[s->count++] = *edge;
+    return FW_OK;
+}
+
+/* Parts of a segment inside and outside of one hinge's circle. The hinge's own verdict judges what
+   happens inside (touches, free_rad). A JOINT there is no edge: the flexure goes on from it. */
+static fw_status cut(building *b, int solid, int joint, fw_clearance_edge edge) {
+    const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
+    const fw_geometry_segment whole = edge.segment;
+    const double r = h->keep_out_m;
+    fw_geometry_vec2 east = {h->centre.x + r, h->centre.y};
+    const fw_geometry_segment circle = {.kind = FW_ARC,
+                                        .a = east,
+                                        .b = east,
+                                        .centre = h->centre,
+                                        .radius = r,
+                                        .sweep_rad = FW_TURN};
+    fw_geometry_hit hit[FW_MOST_HITS];
+    double t[FW_MOST_HITS + 2] = {0};
+    int n = fw_geometry_segment_intersect(&whole, &circle, hit), m = 1;
+    for (int i = 0; i < n; i++)
+        if (hit[i].tp > 1e-9 && hit[i].tp < 1 - 1e-9) {
+            int k = m++;
+            for (; k > 1 && t[k - 1] > hit[i].tp; k--)
+                t[k] = t[k - 1];
+            t[k] = hit[i].tp;
+        }
+    t[m] = 1;
+    for (int i = 0; i < m; i++) {
+        if (!(t[i + 1] > t[i])) continue;
+        fw_geometry_vec2 p = fw_geometry_segment_point(&whole, t[i]),
+                         q = fw_geometry_segment_point(&whole, t[i + 1]);
+        fw_geometry_vec2 middle = fw_geometry_segment_point(&whole, 0.5 * (t[i] + t[i + 1]));
+        edge.segment = m == 1 ? whole : fw_geometry_segment_cut(&whole, t[i], p, t[i + 1], q);
+        edge.hinge = vec_distance(middle, h->centre) < r ? joint : FW_NONE;
+        if (edge.hinge != FW_NONE && (whole.flags & FW_SEGMENT_JOINT)) continue;
+        FW_TRY(keep(b, solid, &edge));
+    }
+    return FW_OK;
+}
+
+/* circles of hinges lie apart (FW-D125): an edge that crosses two of them is cut by one after the
+   other */
+static fw_status add(building *b, int solid, int body, const fw_clearance_edge *edge) {
+    fw_geometry_box box = fw_segment_box(&edge->segment);
+    int first = b->things->solid[solid].count, joint = 0;
+    FW_TRY(keep(b, solid, edge));
+    for (; joint < b->device->nrevolute; joint++) {
+        const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
+        const fw_geometry_box at = {h->centre.x, h->centre.y, h->centre.x, h->centre.y};
+        if (!belongs(h, body) || fw_box_gap(box, at) >= h->keep_out_m) continue;
+        int last = b->things->solid[solid].count;
+        for (int i = first; i < last; i++) { /* cut parts go behind, this one is taken out */
+            fw_clearance_edge whole = b->things->solid[solid].edge[i];
+            if (whole.hinge == FW_NONE)
+                FW_TRY(cut(b, solid, joint, whole));
+            else
+                FW_TRY(keep(b, solid, &whole));
+        }
+        fw_clearance_solid *s = &b->things->solid[solid];
+        for (int i = last; i < s->count; i++)
+            s->edge[first + i - last] = s->edge[i];
+        s->count = first + s->count - last;
+    }
+    return FW_OK;
+}
+
+/* the body that a tether ends at: they share a JOINT, end for end */
+static int held_by(const building *b, const fw_geometry_contour *tether) {
+    for (int i = 0; i < b->layout->npiece; i++) {
+        const fw_layout_piece *p = &b->layout->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
+        for (int j = 0; j < p->contour.count; j++) {
+            const fw_geometry_segment *s = &p->contour.segment[j];
+            for (int k = 0; (s->flags & FW_SEGMENT_JOINT) && k < tether->count; k++) {
+                const fw_geometry_segment *t = &tether->segment[k];
+                if ((t->flags & FW_SEGMENT_JOINT) && vec_same(s->a, t->b) && vec_same(s->b, t->a))
+                    return p->body;
+            }
+        }
+    }
+    return FW_NONE;
+}
+
+static bool is_wall(const fw_layout_piece *p) {
+    switch (p->role) {
+    case FW_ROLE_STRUCTURE:
+    case FW_ROLE_FRAME:
+    case FW_ROLE_TETHER:
+        return p->body >= 0 || p->body == FW_GROUND || p->body == FW_ISLAND;
+    case FW_ROLE_FLEXURE: /* bends: a thing of its own */
+    case FW_ROLE_TEXT:
+    case FW_ROLE_MARK:
+    case FW_ROLE_DICING:
+    case FW_ROLE_BACK:
+    case FW_ROLE_COUNT:
+        break;
+    }
+    return false;
+}
+
+static fw_status add_piece(building *b, const fw_layout_piece *p) {
+    int solid = solid_of(b, p->body);
+    fw_clearance_edge edge = {.hinge = FW_NONE, .held = FW_NONE, .label = p->label};
+    if (p->role == FW_ROLE_TETHER) edge.held = held_by(b, &p->contour);
+    for (int i = 0; i < p->contour.count; i++) {
+        edge.segment = p->contour.segment[i];
+        FW_TRY(add(b, solid, solid < b->things->nbody ? solid : FW_GROUND, &edge));
+    }
+    return FW_OK;
+}
+
+/* As drawn; the mechanism says where centres of mass are. Cost: every segment against every hinge
+   of its body. Test: test_clearance.c */
+fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
+                                 const fw_mechanism *m, fw_clearance_things *things) {
+    size_t n = (size_t)m->nbody + 1;
+    building b = {.arena = arena, .layout = layout, .device = m->device, .things = things};
+    *things = (fw_clearance_things){.nbody = m->nbody};
+    FW_NEED(things->solid = fw_arena_array(arena, fw_clearance_solid, n));
+    FW_NEED(b.room = fw_arena_array(arena, int, n));
+    for (int i = 0; i < layout->npiece; i++)
+        if (is_wall(&layout->piece[i])) FW_TRY(add_piece(&b, &layout->piece[i]));
+    for (size_t i = 0; i < n; i++) {
+        fw_clearance_solid *s = &things->solid[i];
+        if (i + 1 < n) {
+            s->centre = (fw_geometry_vec2){m->body[i].x_m, m->body[i].y_m};
+            s->turned_rad = m->body[i].phi_rad;
+        }
+        for (int k = 0; k < s->count; k++) {
+            fw_geometry_box box = fw_segment_box(&s->edge[k].segment);
+            s->box = k ? fw_box_join(s->box, box) : box;
+        }
+    }
+    return FW_OK;
+}

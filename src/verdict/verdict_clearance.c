@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Clearances of a motion, judged. What clearance/ proves holds for the outlines as drawn and the
+   motion as computed. Of the band: walls as they are made come nearer by 2 edge + |flare|; a motion
+   that is off by the share e (its numbers, and what its model of the hinges is off by) moves every
+   part by at most e times as far as the pair has moved against each other. Theory:
+   docs/theory/clearance.md, section 5. Test: test_verdict_clearance.c, tests/clearance/ */
+#include "verdict/verdict_clearance.h"
+#include "base/text.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+
+/* of the least clearance, beside 1 nm; distances that may be computed for one scene */
+static const double fw_clearance_relative = 2e-3;
+static const long fw_clearance_most = 200000;
+
+fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
+                                     const fw_mechanism *m, fw_verdict_clearance_watch watch[2],
+                                     fw_verdict_variant_verdict *v) {
+    fw_clearance_things *things;
+    size_t most = (size_t)m->device->nscene + (size_t)m->device->nworkspace;
+    size_t solids = (size_t)m->nbody + 1;
+    watch[0] = watch[1] = (fw_verdict_clearance_watch){.things = NULL};
+    v->nclearance = 0;
+    v->things = NULL;
+    if (!layout || !layout->drawn) return FW_OK;
+    FW_NEED(v->clearance = fw_arena_array(arena, fw_verdict_clearance, most));
+    FW_NEED(things = fw_arena_one(arena, fw_clearance_things));
+    FW_TRY(fw_clearance_things_of(arena, layout, m, things));
+    v->things = things;
+    bool *may_meet = fw_arena_array(arena, bool, solids * solids);
+    FW_NEED(may_meet);
+    for (int i = 0; i < 2; i++) {
+        watch[i].things = things;
+        watch[i].arena = arena;
+        watch[i].wish = (fw_clearance_wish){.may_meet = may_meet,
+                                            .relative = fw_clearance_relative,
+                                            .enough_m = HUGE_VAL,
+                                            .most = fw_clearance_most};
+        FW_TRY(fw_clearance_path_new(arena, m->nbody, &watch[i].path));
+    }
+    return FW_OK;
+}
+
+/* pairs of which the scene says itself what happens when they touch; the conjugate surfaces of a
+   hinge are no edges here at all */
+fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
+                                     fw_verdict_clearance_watch watch[2]) {
+    const fw_clearance_things *things = watch[0].things;
+    if (!things) return FW_OK;
+    const int n = things->nbody + 1;
+    bool *may_meet = (bool *)watch[0].wish.may_meet; /* ours: of both watches */
+    for (int i = 0; i < n * n; i++)
+        may_meet[i] = false;
+    for (int i = 0; i < scene->ncontact; i++) {
+        const fw_device_contact_use *c = &scene->contact[i];
+        if (c->joint != FW_NONE) continue;
+        int a = c->body_a == FW_GROUND ? n - 1 : c->body_a,
+            b = c->body_b == FW_GROUND ? n - 1 : c->body_b;
+        may_meet[a * n + b] = may_meet[b * n + a] = true;
+    }
+    return FW_OK;
+}
+
+static void empty(fw_verdict_clearance_watch *w) {
+    w->path.npiece = 0;
+}
+
+/* what is in the path so far leaves it */
+static fw_status consume(fw_verdict_clearance_watch *w) {
+    if (w->path.npiece > 0)
+        FW_TRY(fw_clearance_of_path(w->arena, w->things, &w->path, &w->wish, &w->least));
+    empty(w);
+    return FW_OK;
+}
+
+void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
+    fw_verdict_clearance_watch *w = ((fw_verdict_strain_monitor *)context)->clearance;
+    if (!w || !w->things) return;
+    if (!piece) {
+        empty(w);
+        w->least = fw_clearance_nothing();
+        w->status = FW_OK;
+        return;
+    }
+    if (w->status == FW_OK && fw_clearance_path_full(&w->path)) w->status = consume(w);
+    if (w->status == FW_OK) fw_clearance_path_add(&w->path, piece);
+}
+
+/* ---- judged ---- */
+
+static double walls(const fw_layout *layout) {
+    return 2 * layout->edge_m + fabs(layout->flare_m);
+}
+
+/* The share of its motion with which the pair keeps what is asked for: where it meets, that is known;
+   else the distance is taken to fall in proportion */
+static double keep_of(const fw_verdict_clearance *c, double target_m) {
+    const fw_clearance_least *l = &c->least;
+    if (l->m <= 0) return l->share;
+    double lost = l->start_m - l->m;
+    return lost > 0 ? fmin(1, fmax(0, (l->start_m - target_m) / lost)) : 0.5;
+}
+
+/* A pair that meets after a share of its motion is rejected where it would meet with a motion less by
+   its error, too. */
+static void decide(fw_verdict_clearance *c, double off) {
+    const fw_clearance_least *l = &c->least;
+    double band = off * l->moved_m;
+    c->m = l->m - c->wall_m;
+    c->low_m = l->low_m - c->wall_m - band;
+    c->high_m = c->m + band;
+    bool meet = l->m <= 0;
+    bool enough = c->required_m > 0 ? c->low_m >= c->required_m : c->low_m > 0;
+    bool less = c->required_m > 0 ? c->high_m < c->required_m : c->high_m < 0;
+    if (meet) less = less || l->share * (1 + off) < 1;
+    if (meet && less) c->high_m = fmin(c->high_m, c->m);
+    c->decision = enough ? FW_ACCEPT : less ? FW_REJECT : FW_INCONCLUSIVE;
+    c->keep = keep_of(c, c->required_m + c->wall_m);
+}
+
+static const char *micrometres(char text[32], double m) {
+    return fw_number_text(text, 32, 1e6 * m, 3);
+}
+
+static const char *name_of(const char *label) {
+    return label ? label : "a part";
+}
+
+/* "link AB and the frame meet", "... come within 3.2 um of each other" */
+static const char *what_happens(fw_arena *arena, const fw_verdict_clearance *c) {
+    const fw_clearance_least *l = &c->least;
+    char drawn[32], made[32], low[32], high[32], asked[32];
+    if (l->m <= 0) return "meet";
+    const char *text = fw_arena_printf(arena, "come within %s um of each other as drawn",
+                                       micrometres(drawn, l->m));
+    if (text && c->wall_m != 0)
+        text = fw_arena_printf(arena, "%s, %s um as made", text, micrometres(made, c->m));
+    if (text)
+        text = fw_arena_printf(arena, "%s (%s to %s um with the errors of the motion)", text,
+                               micrometres(low, c->low_m), micrometres(high, c->high_m));
+    if (text && c->required_m > 0)
+        text = fw_arena_printf(arena, "%s, and %s um are asked for", text,
+                               micrometres(asked, c->required_m));
+    return text;
+}
+
+static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
+                          const char **text) {
+    const fw_clearance_least *l = &c->least;
+    char x[32], y[32], share[32];
+    const char *what = what_happens(arena, c);
+    FW_NEED(what);
+    fw_number_text(share, sizeof share, 100 * c->keep, 3);
+    const char *then =
+        l->m <= 0 || c->keep < 1
+            ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
+                              c->required_m > 0 ? "they keep it" : "they would just not meet")
+            : "";
+    FW_NEED(then);
+    FW_NEED(*text = fw_arena_printf(
+                arena,
+                "%s and %s %s in %s, at (%s, %s) um%s: draw them further apart or let them move "
+                "less%s",
+                name_of(l->at.a), name_of(l->at.b), what, where,
+                fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
+                fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then,
+                c->box == FW_NONE ? "; where they are to meet, give the scene a <contact>" : ""));
+    return FW_OK;
+}
+
+static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
+                             fw_verdict_variant_verdict *v) {
+    const char *text;
+    if (c->decision == FW_ACCEPT) return FW_OK;
+    FW_TRY(sentence(arena, c, where, &text));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = c->scene,
+                                                  .flow = c->flow,
+                                                  .number = c->least.given_up ? 295 : 294,
+                                                  .decision = c->decision,
+                                                  .keep = fmin(fmax(0.98 * c->keep, 1e-3), 0.99),
+                                                  .text = text};
+    return FW_OK;
+}
+
+static double required(const fw_device *device) {
+    return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
+}
+
+fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
+                                     const fw_layout *layout, bool at_a_glance,
+                                     fw_verdict_variant_verdict *v) {
+    const fw_dynamics_motion *motion = v->motion[i];
+    if (!v->things || !motion || motion->ended || !motion->observed) return FW_OK;
+    fw_verdict_clearance_watch *w = ((fw_verdict_strain_monitor *)motion->observed)->clearance;
+    (void)at_a_glance;
+    FW_TRY(w->status);
+    FW_TRY(consume(w));
+    if (!w->least.known) return FW_OK; /* nothing moves against anything */
+    fw_verdict_clearance *c = &v->clearance[v->nclearance++];
+    *c = (fw_verdict_clearance){.scene = scene->name,
+                                .flow = v->mechanism->variant->flow,
+                                .box = FW_NONE,
+                                .least = w->least,
+                                .wall_m = walls(layout),
+                                .required_m = required(v->mechanism->device)};
+    double off = fw_verdict_motion_model_error(v->mechanism, motion) +
+                 fw_dynamics_motion_estimated(motion);
+    decide(c, isfinite(off) ? off : 1);
+    char t[32];
+    const char *where = fw_arena_printf(arena, "scene %s after %s ms", scene->name,
+                                        fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));
+    FW_NEED(where);
+    return give_reason(arena, c, where, v);
+}

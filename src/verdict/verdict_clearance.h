@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What clearance/ finds, judged: bands, what is asked for, and reasons. Private to the room. */
+#ifndef FW_VERDICT_VERDICT_CLEARANCE_H
+#define FW_VERDICT_VERDICT_CLEARANCE_H
+#include "verdict/verdict.h"
+
+typedef struct fw_verdict_clearance_watch { /* of one run of a scene */
+    const fw_clearance_things *things;      /* NULL: nothing is drawn */
+    fw_arena *arena;
+    fw_clearance_path path;
+    fw_clearance_wish wish;
+    fw_clearance_least least; /* of what has left the path */
+    fw_status status;
+} fw_verdict_clearance_watch;
+
+/* room for all scenes of a variant; layout may be NULL */
+fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
+                                     const fw_mechanism *mechanism,
+                                     fw_verdict_clearance_watch watch[2],
+                                     fw_verdict_variant_verdict *v);
+/* which pairs the scene lets meet */
+fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
+                                     fw_verdict_clearance_watch watch[2]);
+/* an fw_dynamics_tracer; context is the strain monitor */
+void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
+/* scene i, whose motion is v->motion[i]: its clearance, and a reason where it is not accepted */
+fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
+                                     const fw_layout *layout, bool at_a_glance,
+                                     fw_verdict_variant_verdict *v);
+
+#endif
