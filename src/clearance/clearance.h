@@ -17,6 +17,7 @@
 typedef struct fw_clearance_edge {
     fw_geometry_segment segment;
     int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
+    int other; /* the solid on the other side of that hinge; FW_NONE */
     int held;  /* of a tether: the body that it holds; FW_NONE: none */
     const char *label;
 } fw_clearance_edge;
@@ -50,7 +51,8 @@ typedef struct fw_clearance_path { /* pieces of one motion, one after the other 
     double *t_s;  /* (capacity x 2) from, to */
     double *bern; /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
     int of;       /* nodes that `fit` is for; 0: none yet */
-    double fit[FW_CLEARANCE_NODES][FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
+    double fit[FW_CLEARANCE_NODES]
+              [FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
 } fw_clearance_path;
 
 fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path);
@@ -80,17 +82,18 @@ typedef struct fw_clearance_meet { /* the nearest places of two outlines at a po
 /* ---- clearance_motion.c: the least clearance over a motion ---- */
 
 typedef struct fw_clearance_least {
-    bool known;          /* something moved against something else */
-    double low_m, m;     /* proved lower bound; found at t_s */
+    bool known;      /* something moved against something else */
+    double low_m, m; /* proved lower bound; found at t_s */
     fw_clearance_meet at;
     double t_s;
-    int a, b;            /* bodies; FW_GROUND */
+    double platform[3];        /* of a box of poses: its displacement there, m, m, rad */
+    int a, b;                  /* bodies; FW_GROUND */
     fw_clearance_pose pose[2]; /* there */
-    double moved_m;      /* how far the pair moved against each other at most */
-    double start_m;      /* distance of the pair where the motion begins */
-    double share;        /* of that: where they meet first; 1: they do not */
-    long looked;         /* distances that were computed */
-    bool given_up;       /* too many: low_m is what was proved by then */
+    double moved_m;            /* how far the pair moved against each other at most */
+    double start_m;            /* distance of the pair where the motion begins */
+    double share;              /* of that: where they meet first; 1: they do not */
+    long looked;               /* distances that were computed */
+    bool given_up;             /* too many: low_m is what was proved by then */
 } fw_clearance_least;
 
 /* before anything was looked at */
@@ -102,7 +105,8 @@ typedef struct fw_clearance_wish {
     const bool *may_meet; /* (nsolid x nsolid) pairs of which nothing is said; NULL: none */
     double relative;      /* error wanted of the least clearance, beside 1 nm */
     double enough_m;      /* farther apart is not looked at closely; HUGE_VAL: it is */
-    long most;            /* distances */
+    double needed_m;      /* a bound below this decides nothing yet, */
+    long most, most_ever; /* so many distances, and as many while it decides nothing */
 } fw_clearance_wish;
 
 /* looks at everything in the path and keeps the least of it and of what `least` has; the path may
@@ -110,5 +114,15 @@ typedef struct fw_clearance_wish {
 fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *things,
                                const fw_clearance_path *path, const fw_clearance_wish *wish,
                                fw_clearance_least *least);
+
+/* ---- clearance_box.c: the least clearance over a required box of the six-bar's poses ---- */
+
+/* Every pose of the box, on the drawn branch. What rides on the six-bar without being of it is not
+   looked at: its pose is not the platform's matter. false in *known: no such proof for this
+   mechanism */
+fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things,
+                              const fw_mechanism *mechanism, const fw_device_workspace_box *box,
+                              const fw_clearance_wish *wish, fw_clearance_least *least,
+                              bool *known);
 
 #endif

@@ -39,10 +39,11 @@ static fw_geometry_segment moved_segment(const seen *by, const fw_geometry_segme
     return out;
 }
 
+/* Of two solids with a hinge between them, what lies inside the hinge's circle and what does not can
+   not meet: they turn about the circle's centre. What lies inside is the hinge's own matter. */
 bool fw_clearance_may_meet(const fw_clearance_pair *pair, const fw_clearance_edge *p,
                            const fw_clearance_edge *q) {
-    bool same_hinge = p->hinge != FW_NONE && p->hinge == q->hinge;
-    return !same_hinge && p->held != pair->b && q->held != pair->a;
+    return p->other != pair->b && q->other != pair->a && p->held != pair->b && q->held != pair->a;
 }
 
 void fw_clearance_pair_boxes(fw_clearance_pair *pair) {

@@ -49,4 +49,35 @@ void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_po
                             fw_clearance_slack *slack);
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
 
+/* ---- clearance_search.c: the least over all poses of a domain ---- */
+
+typedef struct fw_clearance_region { /* a part of a domain */
+    fw_clearance_span span;          /* of a motion */
+    double low[3], high[3];          /* of a box of the platform's poses: m, m, rad */
+} fw_clearance_region;
+
+typedef struct fw_clearance_domain {
+    const void *context;
+    /* poses in the region, and by how much the pair may be nearer in it than at these; false: not
+       bounded, and an infinite slack then says that there is no pose at all */
+    bool (*bound)(const void *context, const fw_clearance_pair *pair,
+                  const fw_clearance_region *region, fw_clearance_pose middle[2], double *slack_m);
+    /* how far the pair is moved against each other, at most, from the first pose */
+    double (*moved)(const void *context, const fw_clearance_pair *pair,
+                    const fw_clearance_region *all);
+    /* a pose of the region (part 0: the first one), into at->pose and what says which it is; false:
+       there is none */
+    bool (*pose)(const void *context, const fw_clearance_pair *pair,
+                 const fw_clearance_region *region, double part, fw_clearance_least *at);
+    bool (*halve)(const void *context, const fw_clearance_region *region,
+                  fw_clearance_region half[2]); /* false: too small */
+    /* NULL: there is no order */
+    void (*first_meeting)(const void *context, const fw_clearance_pair *pair,
+                          const fw_clearance_region *all, fw_clearance_least *least);
+} fw_clearance_domain;
+
+fw_status fw_clearance_search(fw_arena *arena, const fw_clearance_things *things,
+                              const fw_clearance_domain *domain, const fw_clearance_region *all,
+                              const fw_clearance_wish *wish, fw_clearance_least *least);
+
 #endif

@@ -23,8 +23,7 @@ void fw_clearance_slack_begin(const fw_clearance_pair *pair, const fw_clearance_
     *slack = (fw_clearance_slack){.middle = {middle[0], middle[1]}};
     fw_geometry_vec2 c = fw_clearance_place(a, middle[0], pair->centre);
     for (int k = 0; k < 2; k++)
-        slack->lever[k] =
-            vec_left(vec_sub(c, (fw_geometry_vec2){middle[k].x_m, middle[k].y_m}));
+        slack->lever[k] = vec_left(vec_sub(c, (fw_geometry_vec2){middle[k].x_m, middle[k].y_m}));
 }
 
 void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],

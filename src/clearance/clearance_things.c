@@ -6,6 +6,7 @@
 #include <math.h>
 
 enum { ROOM = 64 };
+static const double fw_on_circle_m = 1e-7;
 
 typedef struct building {
     fw_arena *arena;
@@ -40,7 +41,7 @@ static fw_status keep(building *b, int solid, const fw_clearance_edge *edge) {
 static fw_status cut(building *b, int solid, int joint, fw_clearance_edge edge) {
     const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
     const fw_geometry_segment whole = edge.segment;
-    const double r = h->keep_out_m;
+    const double r = h->keep_out_m + fw_on_circle_m; /* bodies are cut out along the circle */
     fw_geometry_vec2 east = {h->centre.x + r, h->centre.y};
     const fw_geometry_segment circle = {.kind = FW_ARC,
                                         .a = east,
@@ -66,6 +67,9 @@ static fw_status cut(building *b, int solid, int joint, fw_clearance_edge edge) 
         fw_geometry_vec2 middle = fw_geometry_segment_point(&whole, 0.5 * (t[i] + t[i + 1]));
         edge.segment = m == 1 ? whole : fw_geometry_segment_cut(&whole, t[i], p, t[i + 1], q);
         edge.hinge = vec_distance(middle, h->centre) < r ? joint : FW_NONE;
+        edge.other = FW_NONE;
+        if (edge.hinge != FW_NONE)
+            edge.other = solid_of(b, solid_of(b, h->lower) == solid ? h->upper : h->lower);
         if (edge.hinge != FW_NONE && (whole.flags & FW_SEGMENT_JOINT)) continue;
         FW_TRY(keep(b, solid, &edge));
     }
@@ -81,7 +85,7 @@ static fw_status add(building *b, int solid, int body, const fw_clearance_edge *
     for (; joint < b->device->nrevolute; joint++) {
         const fw_layout_hinge_layout *h = &b->layout->hinge[joint];
         const fw_geometry_box at = {h->centre.x, h->centre.y, h->centre.x, h->centre.y};
-        if (!belongs(h, body) || fw_box_gap(box, at) >= h->keep_out_m) continue;
+        if (!belongs(h, body) || fw_box_gap(box, at) > h->keep_out_m) continue;
         int last = b->things->solid[solid].count;
         for (int i = first; i < last; i++) { /* cut parts go behind, this one is taken out */
             fw_clearance_edge whole = b->things->solid[solid].edge[i];
@@ -134,7 +138,8 @@ static bool is_wall(const fw_layout_piece *p) {
 
 static fw_status add_piece(building *b, const fw_layout_piece *p) {
     int solid = solid_of(b, p->body);
-    fw_clearance_edge edge = {.hinge = FW_NONE, .held = FW_NONE, .label = p->label};
+    fw_clearance_edge edge = {
+        .hinge = FW_NONE, .other = FW_NONE, .held = FW_NONE, .label = p->label};
     if (p->role == FW_ROLE_TETHER) edge.held = held_by(b, &p->contour);
     for (int i = 0; i < p->contour.count; i++) {
         edge.segment = p->contour.segment[i];
@@ -145,8 +150,8 @@ static fw_status add_piece(building *b, const fw_layout_piece *p) {
 
 /* As drawn; the mechanism says where centres of mass are. Cost: every segment against every hinge
    of its body. Test: test_clearance.c */
-fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
-                                 const fw_mechanism *m, fw_clearance_things *things) {
+fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
+                                 fw_clearance_things *things) {
     size_t n = (size_t)m->nbody + 1;
     building b = {.arena = arena, .layout = layout, .device = m->device, .things = things};
     *things = (fw_clearance_things){.nbody = m->nbody};

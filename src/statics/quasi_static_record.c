@@ -31,7 +31,7 @@ fw_status fw_statics_quasi_static_arrays(fw_statics_quasi_static *r) {
     FW_NEED(m->driver_N = fw_arena_array(arena, double, rows *drivers));
     FW_NEED(m->peak = fw_arena_array(arena, fw_dynamics_peak, pins));
     FW_NEED(r->q = fw_arena_array(arena, double, n));
-    FW_NEED(r->piece_q = fw_arena_array(arena, double, FW_PIECE_NODES * n));
+    FW_NEED(r->piece_q = fw_arena_array(arena, double, FW_PIECE_NODES *n));
     FW_NEED(r->angle = fw_arena_array(arena, double, pins));
     FW_NEED(r->angle0 = fw_arena_array(arena, double, pins));
     FW_NEED(r->reaction = fw_arena_array(arena, double, 2 * pins));
@@ -241,10 +241,8 @@ static void trace(fw_statics_quasi_static *r) {
         fw_statics_equilibrium_pose(&r->w, r->guess, r->piece_q + (size_t)(i * r->w.model->nq),
                                     r->angle);
     }
-    const fw_dynamics_piece piece = {.from_s = r->from.t * unit,
-                                     .to_s = r->to.t * unit,
-                                     .nodes = NODES,
-                                     .q = r->piece_q};
+    const fw_dynamics_piece piece = {
+        .from_s = r->from.t * unit, .to_s = r->to.t * unit, .nodes = NODES, .q = r->piece_q};
     r->options->trace(r->options->context, &piece);
 }
 

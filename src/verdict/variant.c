@@ -198,9 +198,8 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
-                            fw_diags *diags,
-                            fw_verdict_variant_verdict *v, fw_verdict_strain_monitor *monitor,
-                            fw_verdict_strain_monitor *other) {
+                            fw_diags *diags, fw_verdict_variant_verdict *v,
+                            fw_verdict_strain_monitor *monitor, fw_verdict_strain_monitor *other) {
     size_t n = (size_t)device->nscene;
     fw_dynamics_motion_options motion = options->motion;
     motion.within_limits = true;
@@ -328,6 +327,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(monitor && other ? monitor : NULL);
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
+    FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, v));
 
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];

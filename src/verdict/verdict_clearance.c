@@ -5,14 +5,36 @@
    part by at most e times as far as the pair has moved against each other. Theory:
    docs/theory/clearance.md, section 5. Test: test_verdict_clearance.c, tests/clearance/ */
 #include "verdict/verdict_clearance.h"
+#include "base/constants.h"
 #include "base/text.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 
-/* of the least clearance, beside 1 nm; distances that may be computed for one scene */
+/* of the least clearance, beside 1 nm; distances that are computed for it, and
+   while nothing is decided */
 static const double fw_clearance_relative = 2e-3;
-static const long fw_clearance_most = 200000;
+enum { MOST = 2000, MOST_EVER = 100000 };
+
+static double required(const fw_device *device) {
+    return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
+}
+
+static double walls(const fw_layout *layout) {
+    return 2 * layout->edge_m + fabs(layout->flare_m);
+}
+
+/* a bound that is above what is asked for by a tenth of it is enough, and by 1 um where nothing is */
+static fw_clearance_wish wish_of(const fw_device *device, const fw_layout *layout,
+                                 const bool *may_meet) {
+    double asked = required(device);
+    return (fw_clearance_wish){.may_meet = may_meet,
+                               .relative = fw_clearance_relative,
+                               .enough_m = HUGE_VAL,
+                               .needed_m = walls(layout) + asked + fmax(1e-6, 0.1 * asked),
+                               .most = MOST,
+                               .most_ever = MOST_EVER};
+}
 
 fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
                                      const fw_mechanism *m, fw_verdict_clearance_watch watch[2],
@@ -28,15 +50,12 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
     FW_NEED(things = fw_arena_one(arena, fw_clearance_things));
     FW_TRY(fw_clearance_things_of(arena, layout, m, things));
     v->things = things;
-    bool *may_meet = fw_arena_array(arena, bool, solids * solids);
+    bool *may_meet = fw_arena_array(arena, bool, solids *solids);
     FW_NEED(may_meet);
     for (int i = 0; i < 2; i++) {
         watch[i].things = things;
         watch[i].arena = arena;
-        watch[i].wish = (fw_clearance_wish){.may_meet = may_meet,
-                                            .relative = fw_clearance_relative,
-                                            .enough_m = HUGE_VAL,
-                                            .most = fw_clearance_most};
+        watch[i].wish = wish_of(m->device, layout, may_meet);
         FW_TRY(fw_clearance_path_new(arena, m->nbody, &watch[i].path));
     }
     return FW_OK;
@@ -88,10 +107,6 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
 }
 
 /* ---- judged ---- */
-
-static double walls(const fw_layout *layout) {
-    return 2 * layout->edge_m + fabs(layout->flare_m);
-}
 
 /* The share of its motion with which the pair keeps what is asked for: where it meets, that is known;
    else the distance is taken to fall in proportion */
@@ -153,7 +168,7 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
     FW_NEED(what);
     fw_number_text(share, sizeof share, 100 * c->keep, 3);
     const char *then =
-        l->m <= 0 || c->keep < 1
+        c->box == FW_NONE && (l->m <= 0 || c->keep < 1)
             ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
                               c->required_m > 0 ? "they keep it" : "they would just not meet")
             : "";
@@ -183,10 +198,6 @@ static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, con
     return FW_OK;
 }
 
-static double required(const fw_device *device) {
-    return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
-}
-
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
                                      const fw_layout *layout, bool at_a_glance,
                                      fw_verdict_variant_verdict *v) {
@@ -204,12 +215,44 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .least = w->least,
                                 .wall_m = walls(layout),
                                 .required_m = required(v->mechanism->device)};
-    double off = fw_verdict_motion_model_error(v->mechanism, motion) +
-                 fw_dynamics_motion_estimated(motion);
+    double off =
+        fw_verdict_motion_model_error(v->mechanism, motion) + fw_dynamics_motion_estimated(motion);
     decide(c, isfinite(off) ? off : 1);
     char t[32];
     const char *where = fw_arena_printf(arena, "scene %s after %s ms", scene->name,
                                         fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));
     FW_NEED(where);
     return give_reason(arena, c, where, v);
+}
+
+/* Required poses are what the platform is asked to take: their only errors are those of the walls. */
+fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
+                                     const fw_layout *layout, fw_verdict_variant_verdict *v) {
+    for (int i = 0; v->things && v->workspace.required && i < device->nworkspace; i++) {
+        const fw_device_workspace_box *asked = &device->workspace[i];
+        bool known;
+        if (!v->workspace.asked[i] || !v->workspace.box_reachable[i]) continue;
+        const fw_clearance_wish wish = wish_of(device, layout, NULL);
+        fw_clearance_least least = fw_clearance_nothing();
+        FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known));
+        if (!known || !least.known) continue;
+        fw_verdict_clearance *c = &v->clearance[v->nclearance++];
+        *c = (fw_verdict_clearance){.scene = "workspace",
+                                    .flow = v->mechanism->variant->flow,
+                                    .box = i,
+                                    .least = least,
+                                    .wall_m = walls(layout),
+                                    .required_m = required(device)};
+        decide(c, 0);
+        if (least.m <= 0) c->decision = FW_REJECT; /* a pose that is required meets */
+        char x[32], y[32], phi[32];
+        const char *where =
+            fw_arena_printf(arena, "the required pose dx = %s um, dy = %s um, turned by %s deg",
+                            fw_number_text(x, sizeof x, 1e6 * least.platform[0], 4),
+                            fw_number_text(y, sizeof y, 1e6 * least.platform[1], 4),
+                            fw_number_text(phi, sizeof phi, FW_DEG_PER_RAD * least.platform[2], 3));
+        FW_NEED(where);
+        FW_TRY(give_reason(arena, c, where, v));
+    }
+    return FW_OK;
 }

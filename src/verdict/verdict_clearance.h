@@ -27,5 +27,8 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
                                      const fw_layout *layout, bool at_a_glance,
                                      fw_verdict_variant_verdict *v);
+/* every required box of the flow that can be reached as a whole; after fw_workspace_required */
+fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
+                                     const fw_layout *layout, fw_verdict_variant_verdict *v);
 
 #endif

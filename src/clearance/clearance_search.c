@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Branch and bound over all pairs of solids at once, the least bound first: over a motion's time or a
+   box of poses alike. */
+#include "clearance/clearance_pair.h"
+#include "geometry/segment.h"
+#include <math.h>
+
+typedef struct node {
+    double low_m; /* proved of this pair in this region */
+    int pair;
+    fw_clearance_region region;
+} node;
+
+typedef struct search {
+    fw_arena *arena;
+    const fw_clearance_domain *domain;
+    const fw_clearance_things *things;
+    const fw_clearance_wish *wish;
+    fw_clearance_least *least;
+    fw_clearance_pair *pair; /* (npair) */
+    double *moved_m;         /* (npair) */
+    bool *narrowed;          /* (npair) */
+    bool *kept;              /* work */
+    int npair;
+    node *heap; /* (count) the least first */
+    int count, room;
+    double open_m; /* the least bound of regions that could not be halved any more */
+} search;
+
+/* ---- the heap ---- */
+
+static fw_status push(search *s, const node *n) {
+    if (s->count == s->room) {
+        int more = s->room ? 2 * s->room : 256;
+        FW_NEED(s->heap = fw_arena_grow(s->arena, s->heap, (size_t)s->count, (size_t)more,
+                                        sizeof *s->heap));
+        s->room = more;
+    }
+    int i = s->count++;
+    for (; i > 0 && s->heap[(i - 1) / 2].low_m > n->low_m; i = (i - 1) / 2)
+        s->heap[i] = s->heap[(i - 1) / 2];
+    s->heap[i] = *n;
+    return FW_OK;
+}
+
+static node pop(search *s) {
+    node top = s->heap[0], last = s->heap[--s->count];
+    int i = 0;
+    for (int child = 1; child < s->count; child = 2 * i + 1) {
+        if (child + 1 < s->count && s->heap[child + 1].low_m < s->heap[child].low_m) child++;
+        if (s->heap[child].low_m >= last.low_m) break;
+        s->heap[i] = s->heap[child];
+        i = child;
+    }
+    s->heap[i] = last;
+    return top;
+}
+
+/* ---- what is found ---- */
+
+static double tolerance(const search *s) {
+    return fmax(1e-9, s->wish->relative * s->least->m);
+}
+
+/* farther apart than this decides nothing */
+static double bar(const search *s) {
+    if (!s->least->known) return s->wish->enough_m;
+    return fmin(s->least->m - tolerance(s), s->wish->enough_m);
+}
+
+static void look(search *s, int p, const fw_clearance_region *region, double part) {
+    const fw_clearance_pair *pair = &s->pair[p];
+    fw_clearance_least *least = s->least, now = {.known = true};
+    fw_clearance_meet meet = {.a = NULL};
+    if (!s->domain->pose(s->domain->context, pair, region, part, &now)) return;
+    least->looked++;
+    double limit = least->known ? least->m : HUGE_VAL;
+    double d = fw_clearance_pair_distance(pair, now.pose, limit, &meet);
+    if (!(d < limit)) return;
+    int ground = s->things->nbody;
+    now.m = d;
+    now.low_m = least->low_m;
+    now.at = meet;
+    now.a = pair->a == ground ? FW_GROUND : pair->a;
+    now.b = pair->b == ground ? FW_GROUND : pair->b;
+    now.moved_m = s->moved_m[p];
+    now.share = 1;
+    now.looked = least->looked;
+    now.given_up = least->given_up;
+    *least = now;
+}
+
+/* ---- pairs ---- */
+
+static double boxes_apart(const search *s, const fw_clearance_pair *pair,
+                          const fw_clearance_pose middle[2]) {
+    fw_geometry_box box[2];
+    for (int k = 0; k < 2; k++) {
+        const fw_clearance_solid *solid = &s->things->solid[k ? pair->b : pair->a];
+        fw_geometry_box b = solid->box;
+        fw_geometry_vec2 corner[4] = {{b.x0, b.y0}, {b.x1, b.y0}, {b.x1, b.y1}, {b.x0, b.y1}};
+        for (int i = 0; i < 4; i++) {
+            fw_geometry_vec2 p = fw_clearance_place(solid, middle[k], corner[i]);
+            fw_geometry_box at = {p.x, p.y, p.x, p.y};
+            box[k] = i ? fw_box_join(box[k], at) : at;
+        }
+    }
+    return fw_box_gap(box[0], box[1]);
+}
+
+/* a pair of which nothing moves against the other is no clearance of the motion */
+static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int b) {
+    const int nsolid = s->things->nbody + 1;
+    if (s->things->solid[a].count == 0 || s->things->solid[b].count == 0) return FW_OK;
+    if (s->wish->may_meet && s->wish->may_meet[a * nsolid + b]) return FW_OK;
+    const double still_m = 1e-10;
+    fw_clearance_pair *pair = &s->pair[s->npair];
+    fw_clearance_pose middle[2];
+    double slack;
+    FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, pair));
+    node first = {.low_m = 0, .pair = s->npair, .region = *all};
+    if (s->domain->bound(s->domain->context, pair, all, middle, &slack)) {
+        if (slack < still_m) return FW_OK;
+        first.low_m = fmax(0, boxes_apart(s, pair, middle) - slack);
+    }
+    s->moved_m[s->npair] = s->domain->moved(s->domain->context, pair, all);
+    s->npair++;
+    return push(s, &first);
+}
+
+/* Only edges that may come as near as the least that is known matter from here on. */
+static void narrow(search *s, int p, const fw_clearance_region *region) {
+    fw_clearance_pair *pair = &s->pair[p];
+    fw_clearance_pose middle[2];
+    double slack;
+    look(s, p, region, 0);
+    look(s, p, region, 1);
+    look(s, p, region, 0.5);
+    s->narrowed[p] = true;
+    if (!s->domain->bound(s->domain->context, pair, region, middle, &slack)) return;
+    double near = fmin(s->least->known ? s->least->m : HUGE_VAL, s->wish->enough_m);
+    if (isfinite(near + slack)) fw_clearance_pair_narrow(pair, middle, near, slack, s->kept);
+}
+
+/* ---- the search ---- */
+
+static fw_status examine(search *s, const node *n) {
+    if (!s->narrowed[n->pair]) narrow(s, n->pair, &n->region);
+    const fw_clearance_pair *pair = &s->pair[n->pair];
+    fw_clearance_pose middle[2];
+    double slack, low = n->low_m;
+    if (pair->count[0] == 0 || pair->count[1] == 0 || low >= bar(s)) return FW_OK;
+    if (s->domain->bound(s->domain->context, pair, &n->region, middle, &slack) && isfinite(slack)) {
+        s->least->looked++;
+        low = fmax(low, fw_clearance_pair_distance(pair, middle, bar(s) + slack, NULL) - slack);
+    } else if (!isfinite(slack)) { /* nothing is there */
+        return FW_OK;
+    }
+    if (low >= bar(s)) return FW_OK;
+    look(s, n->pair, &n->region, 0.5);
+    if (low >= bar(s)) return FW_OK;
+    fw_clearance_region half[2];
+    if (!s->domain->halve(s->domain->context, &n->region, half)) {
+        s->open_m = fmin(s->open_m, low);
+        return FW_OK;
+    }
+    for (int i = 0; i < 2; i++) {
+        const node next = {.low_m = low, .pair = n->pair, .region = half[i]};
+        FW_TRY(push(s, &next));
+    }
+    return FW_OK;
+}
+
+static int pair_of(const search *s, const fw_clearance_least *least) {
+    int ground = s->things->nbody;
+    int a = least->a == FW_GROUND ? ground : least->a,
+        b = least->b == FW_GROUND ? ground : least->b;
+    for (int i = 0; i < s->npair; i++)
+        if (s->pair[i].a == a && s->pair[i].b == b) return i;
+    return FW_NONE;
+}
+
+static fw_status run(search *s, const fw_clearance_region *all) {
+    fw_clearance_least *least = s->least;
+    const double before = least->known ? least->m : HUGE_VAL;
+    const long before_looked = least->looked;
+    for (; s->count > 0 && s->heap[0].low_m < bar(s);) {
+        if (least->known && least->m <= 0) break;
+        bool undecided = s->heap[0].low_m < s->wish->needed_m;
+        long most = undecided ? s->wish->most_ever : s->wish->most;
+        if (least->looked - before_looked >= most || fw_arena_cancelled(s->arena)) {
+            least->given_up = undecided;
+            break;
+        }
+        const node n = pop(s);
+        FW_TRY(examine(s, &n));
+    }
+    if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
+    if (s->count > 0) s->open_m = fmin(s->open_m, s->heap[0].low_m);
+    least->low_m = fmax(0, fmin(least->low_m, fmin(s->open_m, bar(s))));
+    int p = least->known && least->m < before ? pair_of(s, least) : FW_NONE;
+    if (p == FW_NONE) return FW_OK;
+    fw_clearance_least start = {.known = true};
+    if (s->domain->pose(s->domain->context, &s->pair[p], all, 0, &start))
+        least->start_m = fw_clearance_pair_distance(&s->pair[p], start.pose, HUGE_VAL, NULL);
+    if (least->m <= 0 && s->domain->first_meeting)
+        s->domain->first_meeting(s->domain->context, &s->pair[p], all, least);
+    return FW_OK;
+}
+
+/* Least over all pairs of solids and all poses of a domain of their distance d:
+     d >= D(middle) - slack   over a region (clearance_slack.c), d at a pose >= the least.
+   Regions of all pairs lie in one heap; the one with the least bound is looked at next and halved,
+   until no bound is below the least distance found by more than the error wanted. In: things, a
+   domain and all of it (m, rad); out: least, its bound, pair, places. Error: least.m - least.low_m
+   <= max(1 nm, relative * m), proved, unless given up. Cost: a slack and a distance
+   (clearance_pair.c) for every region that is looked at. Source: docs/theory/clearance.md.
+   Test: test_clearance.c, tests/clearance/ */
+fw_status fw_clearance_search(fw_arena *arena, const fw_clearance_things *things,
+                              const fw_clearance_domain *domain, const fw_clearance_region *all,
+                              const fw_clearance_wish *wish, fw_clearance_least *least) {
+    size_t n = (size_t)things->nbody + 1, pairs = n * (n - 1) / 2, edges = 1;
+    fw_arena *work = fw_arena_part(arena, 0);
+    fw_status status = FW_OK;
+    FW_NEED(work);
+    search s = {.arena = work,
+                .domain = domain,
+                .things = things,
+                .wish = wish,
+                .least = least,
+                .open_m = HUGE_VAL};
+    for (size_t i = 0; i < n; i++)
+        edges += (size_t)things->solid[i].count;
+    s.pair = fw_arena_array(work, fw_clearance_pair, pairs);
+    s.moved_m = fw_arena_array(work, double, pairs);
+    s.narrowed = fw_arena_array(work, bool, pairs);
+    s.kept = fw_arena_array(work, bool, edges);
+    if (!s.pair || !s.moved_m || !s.narrowed || !s.kept) status = FW_NOMEM;
+    for (size_t a = 0; a < n && status == FW_OK; a++)
+        for (size_t b = a + 1; b < n && status == FW_OK; b++)
+            status = add_pair(&s, all, (int)a, (int)b);
+    if (status == FW_OK) status = run(&s, all);
+    fw_arena_free(work);
+    return status;
+}
