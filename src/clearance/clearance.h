@@ -82,8 +82,10 @@ typedef struct fw_clearance_meet { /* the nearest places of two outlines at a po
 /* ---- clearance_motion.c: the least clearance over a motion ---- */
 
 typedef struct fw_clearance_least {
-    bool known;      /* something moved against something else */
-    double low_m, m; /* proved lower bound; found at t_s */
+    bool known;    /* something moved against something else */
+    double m;      /* distance of the pair of which the least is left, where it is */
+    double left_m; /* that less what the motion may be off by there; -HUGE_VAL: they meet */
+    double low_m;  /* proved: no pair has less left anywhere */
     fw_clearance_meet at;
     double t_s;
     double platform[3];        /* of a box of poses: its displacement there, m, m, rad */
@@ -98,13 +100,15 @@ typedef struct fw_clearance_least {
 
 /* before anything was looked at */
 static inline fw_clearance_least fw_clearance_nothing(void) {
-    return (fw_clearance_least){.low_m = HUGE_VAL, .m = HUGE_VAL, .share = 1};
+    return (fw_clearance_least){.low_m = HUGE_VAL, .m = HUGE_VAL, .left_m = HUGE_VAL, .share = 1};
 }
 
 typedef struct fw_clearance_wish {
     const bool *may_meet; /* (nsolid x nsolid) pairs of which nothing is said; NULL: none */
     double relative;      /* error wanted of the least clearance, beside 1 nm */
-    double enough_m;      /* farther apart is not looked at closely; HUGE_VAL: it is */
+    double off;           /* of what a pair is moved by the motion may be off by so much */
+    double enough_m;      /* a bound of this is enough, and the least is then not looked for;
+                             HUGE_VAL: it is */
     double needed_m;      /* a bound below this decides nothing yet, */
     long most, most_ever; /* so many distances, and as many while it decides nothing */
 } fw_clearance_wish;

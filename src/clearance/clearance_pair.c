@@ -55,6 +55,42 @@ void fw_clearance_pair_boxes(fw_clearance_pair *pair) {
     }
 }
 
+/* two lines that do not cross: an end of one and its foot on the other */
+static double line_distance(const fw_geometry_segment *p, const fw_geometry_segment *q,
+                            double least, fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q) {
+    double square = least * least, t;
+    for (int end = 0; end < 2; end++) {
+        fw_geometry_vec2 from = end ? p->b : p->a, foot = vec_line_foot(q->a, q->b, from, &t);
+        fw_geometry_vec2 d = vec_sub(from, foot);
+        if (vec_dot(d, d) < square) square = vec_dot(d, d), *at_p = from, *at_q = foot;
+        from = end ? q->b : q->a;
+        foot = vec_line_foot(p->a, p->b, from, &t);
+        d = vec_sub(from, foot);
+        if (vec_dot(d, d) < square) square = vec_dot(d, d), *at_p = foot, *at_q = from;
+    }
+    return sqrt(square);
+}
+
+/* where it is below `least`; what has its boxes apart does not cross. gap: of the boxes */
+static double edge_distance(const fw_geometry_segment *p, fw_geometry_box p_box,
+                            const fw_geometry_segment *q, fw_geometry_box q_box, double least,
+                            fw_geometry_vec2 *at_p, fw_geometry_vec2 *at_q) {
+    double gap = fw_box_gap(p_box, q_box);
+    bool lines = p->kind == FW_LINE && q->kind == FW_LINE;
+    if (gap <= 10 * FW_COINCIDENT_M) return fw_geometry_segment_distance(p, q, at_p, at_q);
+    if (lines) return line_distance(p, q, least, at_p, at_q);
+    if (fw_geometry_segment_clear_of(p, &q_box) >= least ||
+        fw_geometry_segment_clear_of(q, &p_box) >= least)
+        return least;
+    fw_geometry_chord chord[FW_MOST_CHORDS];
+    int n = fw_geometry_segment_chords(p, q, chord);
+    for (int i = 0; i < n; i++) {
+        double d = vec_distance(chord[i].at_p, chord[i].at_q);
+        if (d < least) least = d, *at_p = chord[i].at_p, *at_q = chord[i].at_q;
+    }
+    return least;
+}
+
 /* D = least |p - q| over all edges p of the first solid and q of the second that may meet. In the
    first one's frame as drawn, so that its boxes stay. Error: that of fw_geometry_segment_distance,
    1e-15 m beside rounding of places (1e-18 m per mm of turn). Cost: a box for every edge of the
@@ -80,7 +116,7 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
             const fw_clearance_edge *e = pair->edge[0][i];
             if (!fw_clearance_may_meet(pair, e, f)) continue;
             fw_geometry_vec2 here, across;
-            double d = fw_geometry_segment_distance(&e->segment, &there, &here, &across);
+            double d = edge_distance(&e->segment, pair->box[i], &there, box, least, &here, &across);
             if (d >= least) continue;
             least = d, p = here, q = across, at_p = e, at_q = f;
         }

@@ -13,7 +13,7 @@ fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *p
     *path = (fw_clearance_path){.nq = 3 * nbody, .capacity = (int)n};
     FW_NEED(path->nodes = fw_arena_array(arena, int, n));
     FW_NEED(path->t_s = fw_arena_array(arena, double, 2 * n));
-    FW_NEED(path->bern = fw_arena_array(arena, double, n *(size_t)path->nq *NODES));
+    FW_NEED(path->bern = fw_arena_raw(arena, n * each));
     return FW_OK;
 }
 

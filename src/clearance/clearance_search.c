@@ -6,7 +6,8 @@
 #include <math.h>
 
 typedef struct node {
-    double low_m; /* proved of this pair in this region */
+    double low_m; /* proved of this pair in this region; below 0: nothing is */
+    double key_m;
     int pair;
     fw_clearance_region region;
 } node;
@@ -37,7 +38,7 @@ static fw_status push(search *s, const node *n) {
         s->room = more;
     }
     int i = s->count++;
-    for (; i > 0 && s->heap[(i - 1) / 2].low_m > n->low_m; i = (i - 1) / 2)
+    for (; i > 0 && s->heap[(i - 1) / 2].key_m > n->key_m; i = (i - 1) / 2)
         s->heap[i] = s->heap[(i - 1) / 2];
     s->heap[i] = *n;
     return FW_OK;
@@ -47,8 +48,8 @@ static node pop(search *s) {
     node top = s->heap[0], last = s->heap[--s->count];
     int i = 0;
     for (int child = 1; child < s->count; child = 2 * i + 1) {
-        if (child + 1 < s->count && s->heap[child + 1].low_m < s->heap[child].low_m) child++;
-        if (s->heap[child].low_m >= last.low_m) break;
+        if (child + 1 < s->count && s->heap[child + 1].key_m < s->heap[child].key_m) child++;
+        if (s->heap[child].key_m >= last.key_m) break;
         s->heap[i] = s->heap[child];
         i = child;
     }
@@ -58,14 +59,26 @@ static node pop(search *s) {
 
 /* ---- what is found ---- */
 
-static double tolerance(const search *s) {
-    return fmax(1e-9, s->wish->relative * s->least->m);
+/* what the motion may be off by comes off the distance: the least of that is looked for */
+static double lost(const search *s, int p) {
+    return s->wish->off * s->moved_m[p];
 }
 
-/* farther apart than this decides nothing */
+static double tolerance(const search *s) {
+    return fmax(1e-9, s->wish->relative * fabs(s->least->left_m));
+}
+
+/* more than this left decides nothing any more */
 static double bar(const search *s) {
-    if (!s->least->known) return s->wish->enough_m;
-    return fmin(s->least->m - tolerance(s), s->wish->enough_m);
+    double enough = s->wish->enough_m;
+    return s->least->known ? fmin(s->least->left_m - tolerance(s), enough) : enough;
+}
+
+/* Where two parts are not proved to be apart that comes first: whether they meet is more than how
+   near they come. */
+static double key_of(const search *s, int p, double low_m) {
+    const double first_m = 1;
+    return low_m - lost(s, p) - (low_m > 0 ? 0 : first_m);
 }
 
 static void look(search *s, int p, const fw_clearance_region *region, double part) {
@@ -74,9 +87,10 @@ static void look(search *s, int p, const fw_clearance_region *region, double par
     fw_clearance_meet meet = {.a = NULL};
     if (!s->domain->pose(s->domain->context, pair, region, part, &now)) return;
     least->looked++;
-    double limit = least->known ? least->m : HUGE_VAL;
+    double limit = least->known ? fmax(1e-12, least->left_m + lost(s, p)) : HUGE_VAL;
     double d = fw_clearance_pair_distance(pair, now.pose, limit, &meet);
     if (!(d < limit)) return;
+    now.left_m = d > 0 ? d - lost(s, p) : -HUGE_VAL;
     int ground = s->things->nbody;
     now.m = d;
     now.low_m = least->low_m;
@@ -118,12 +132,13 @@ static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int 
     fw_clearance_pose middle[2];
     double slack;
     FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, pair));
-    node first = {.low_m = 0, .pair = s->npair, .region = *all};
+    node first = {.low_m = -1, .pair = s->npair, .region = *all};
     if (s->domain->bound(s->domain->context, pair, all, middle, &slack)) {
         if (slack < still_m) return FW_OK;
-        first.low_m = fmax(0, boxes_apart(s, pair, middle) - slack);
+        first.low_m = boxes_apart(s, pair, middle) - slack;
     }
     s->moved_m[s->npair] = s->domain->moved(s->domain->context, pair, all);
+    first.key_m = key_of(s, s->npair, first.low_m);
     s->npair++;
     return push(s, &first);
 }
@@ -138,34 +153,43 @@ static void narrow(search *s, int p, const fw_clearance_region *region) {
     look(s, p, region, 0.5);
     s->narrowed[p] = true;
     if (!s->domain->bound(s->domain->context, pair, region, middle, &slack)) return;
-    double near = fmin(s->least->known ? s->least->m : HUGE_VAL, s->wish->enough_m);
+    double near = s->wish->enough_m; /* left */
+    if (s->least->known) near = fmin(near, s->least->left_m);
+    near = fmax(near + lost(s, p), 1e-9);
     if (isfinite(near + slack)) fw_clearance_pair_narrow(pair, middle, near, slack, s->kept);
 }
 
 /* ---- the search ---- */
+
+/* does a bound decide that the region need not be looked at? */
+static bool decides(const search *s, int p, double low_m) {
+    return low_m > 0 && low_m - lost(s, p) >= bar(s);
+}
 
 static fw_status examine(search *s, const node *n) {
     if (!s->narrowed[n->pair]) narrow(s, n->pair, &n->region);
     const fw_clearance_pair *pair = &s->pair[n->pair];
     fw_clearance_pose middle[2];
     double slack, low = n->low_m;
-    if (pair->count[0] == 0 || pair->count[1] == 0 || low >= bar(s)) return FW_OK;
-    if (s->domain->bound(s->domain->context, pair, &n->region, middle, &slack) && isfinite(slack)) {
+    if (pair->count[0] == 0 || pair->count[1] == 0 || decides(s, n->pair, low)) return FW_OK;
+    if (s->domain->bound(s->domain->context, pair, &n->region, middle, &slack)) {
+        double limit = fmax(bar(s) + lost(s, n->pair), 1e-12) + slack;
         s->least->looked++;
-        low = fmax(low, fw_clearance_pair_distance(pair, middle, bar(s) + slack, NULL) - slack);
+        low = fmax(low, fw_clearance_pair_distance(pair, middle, limit, NULL) - slack);
     } else if (!isfinite(slack)) { /* nothing is there */
         return FW_OK;
     }
-    if (low >= bar(s)) return FW_OK;
+    if (decides(s, n->pair, low)) return FW_OK;
     look(s, n->pair, &n->region, 0.5);
-    if (low >= bar(s)) return FW_OK;
+    if (decides(s, n->pair, low)) return FW_OK;
     fw_clearance_region half[2];
     if (!s->domain->halve(s->domain->context, &n->region, half)) {
-        s->open_m = fmin(s->open_m, low);
+        s->open_m = fmin(s->open_m, low - lost(s, n->pair));
         return FW_OK;
     }
     for (int i = 0; i < 2; i++) {
-        const node next = {.low_m = low, .pair = n->pair, .region = half[i]};
+        const node next = {
+            .low_m = low, .key_m = key_of(s, n->pair, low), .pair = n->pair, .region = half[i]};
         FW_TRY(push(s, &next));
     }
     return FW_OK;
@@ -182,11 +206,11 @@ static int pair_of(const search *s, const fw_clearance_least *least) {
 
 static fw_status run(search *s, const fw_clearance_region *all) {
     fw_clearance_least *least = s->least;
-    const double before = least->known ? least->m : HUGE_VAL;
+    const double before = least->known ? least->left_m : HUGE_VAL;
     const long before_looked = least->looked;
-    for (; s->count > 0 && s->heap[0].low_m < bar(s);) {
+    for (; s->count > 0 && s->heap[0].key_m < bar(s);) {
         if (least->known && least->m <= 0) break;
-        bool undecided = s->heap[0].low_m < s->wish->needed_m;
+        bool undecided = s->heap[0].key_m < s->wish->needed_m;
         long most = undecided ? s->wish->most_ever : s->wish->most;
         if (least->looked - before_looked >= most || fw_arena_cancelled(s->arena)) {
             least->given_up = undecided;
@@ -196,9 +220,10 @@ static fw_status run(search *s, const fw_clearance_region *all) {
         FW_TRY(examine(s, &n));
     }
     if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
-    if (s->count > 0) s->open_m = fmin(s->open_m, s->heap[0].low_m);
-    least->low_m = fmax(0, fmin(least->low_m, fmin(s->open_m, bar(s))));
-    int p = least->known && least->m < before ? pair_of(s, least) : FW_NONE;
+    for (int i = 0; i < s->count; i++)
+        s->open_m = fmin(s->open_m, fmax(0, s->heap[i].low_m) - lost(s, s->heap[i].pair));
+    least->low_m = fmin(least->low_m, fmin(s->open_m, bar(s)));
+    int p = least->known && least->left_m < before ? pair_of(s, least) : FW_NONE;
     if (p == FW_NONE) return FW_OK;
     fw_clearance_least start = {.known = true};
     if (s->domain->pose(s->domain->context, &s->pair[p], all, 0, &start))

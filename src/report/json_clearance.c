@@ -27,7 +27,7 @@ static void one(fw_json *json, const fw_verdict_clearance *c) {
     fw_json_real(json, "high_m", c->high_m);
     fw_json_real(json, "required_m", c->required_m);
     fw_json_real(json, "drawn_m", l->m);
-    fw_json_real(json, "proved_m", l->low_m);
+    fw_json_real(json, "proved_m", isfinite(l->low_m) ? l->low_m : (double)NAN);
     fw_json_real(json, "start_m", l->start_m);
     fw_json_truth(json, "meet", l->m <= 0);
     fw_json_real(json, "share", l->share);

@@ -212,6 +212,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 1; /* as made */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
+    const bool brief = options->at_a_glance || v->like; /* a trial, or a corner */
     FW_TRY(fw_verdict_clearance_begin(arena, layout, m, watch, v));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
@@ -232,7 +233,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, options->at_a_glance, v));
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, v));
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

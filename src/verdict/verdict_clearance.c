@@ -14,7 +14,7 @@
 /* of the least clearance, beside 1 nm; distances that are computed for it, and
    while nothing is decided */
 static const double fw_clearance_relative = 2e-3;
-enum { MOST = 2000, MOST_EVER = 100000 };
+enum { MOST = 1000, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
     return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
@@ -123,7 +123,7 @@ static void decide(fw_verdict_clearance *c, double off) {
     const fw_clearance_least *l = &c->least;
     double band = off * l->moved_m;
     c->m = l->m - c->wall_m;
-    c->low_m = l->low_m - c->wall_m - band;
+    c->low_m = fmax(l->low_m, -band) - c->wall_m;
     c->high_m = c->m + band;
     bool meet = l->m <= 0;
     bool enough = c->required_m > 0 ? c->low_m >= c->required_m : c->low_m > 0;
@@ -199,13 +199,17 @@ static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, con
 }
 
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
-                                     const fw_layout *layout, bool at_a_glance,
+                                     const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v) {
     const fw_dynamics_motion *motion = v->motion[i];
     if (!v->things || !motion || motion->ended || !motion->observed) return FW_OK;
     fw_verdict_clearance_watch *w = ((fw_verdict_strain_monitor *)motion->observed)->clearance;
-    (void)at_a_glance;
+    double off =
+        fw_verdict_motion_model_error(v->mechanism, motion) + fw_dynamics_motion_estimated(motion);
+    if (!isfinite(off)) off = 1;
     FW_TRY(w->status);
+    w->wish.off = off;
+    w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
     FW_TRY(consume(w));
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
@@ -215,9 +219,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .least = w->least,
                                 .wall_m = walls(layout),
                                 .required_m = required(v->mechanism->device)};
-    double off =
-        fw_verdict_motion_model_error(v->mechanism, motion) + fw_dynamics_motion_estimated(motion);
-    decide(c, isfinite(off) ? off : 1);
+    decide(c, off);
     char t[32];
     const char *where = fw_arena_printf(arena, "scene %s after %s ms", scene->name,
                                         fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));

@@ -23,9 +23,10 @@ fw_status fw_verdict_clearance_scene(const fw_device_scene *scene,
                                      fw_verdict_clearance_watch watch[2]);
 /* an fw_dynamics_tracer; context is the strain monitor */
 void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
-/* scene i, whose motion is v->motion[i]: its clearance, and a reason where it is not accepted */
+/* Scene i, whose motion is v->motion[i]: its clearance, and a reason where it is not accepted.
+   brief: only whether it is, which is proved with a fraction of the distances. */
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
-                                     const fw_layout *layout, bool at_a_glance,
+                                     const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v);
 /* every required box of the flow that can be reached as a whole; after fw_workspace_required */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
