@@ -47,10 +47,12 @@ enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
 
 typedef struct fw_clearance_path { /* pieces of one motion, one after the other */
     int nq, npiece, capacity;
-    int *nodes;   /* (capacity) coefficients of a piece: its degree and one */
-    double *t_s;  /* (capacity x 2) from, to */
-    double *bern; /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
-    int of;       /* nodes that `fit` is for; 0: none yet */
+    bool begun;    /* `start` is there */
+    double *start; /* (nq) where the motion begins; stays when pieces go */
+    int *nodes;    /* (capacity) coefficients of a piece: its degree and one */
+    double *t_s;   /* (capacity x 2) from, to */
+    double *bern;  /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
+    int of;        /* nodes that `fit` is for; 0: none yet */
     double fit[FW_CLEARANCE_NODES]
               [FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
 } fw_clearance_path;
@@ -67,6 +69,7 @@ typedef struct fw_clearance_span {
 /* coefficients of a coordinate over a part of a piece */
 void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
                             double out[FW_CLEARANCE_NODES]);
+const double *fw_clearance_path_coefficients(const fw_clearance_path *path, int piece, int q);
 double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta);
 
 typedef struct fw_clearance_pose { /* of a solid's centre of mass; the ground's never changes */

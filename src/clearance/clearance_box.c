@@ -173,8 +173,8 @@ static bool pose_of(const void *context, const fw_clearance_pair *pair,
     double half[3];
     for (int i = 0; i < 3; i++) {
         double middle = 0.5 * (region->low[i] + region->high[i]);
-        double drawn = fmin(fmax(0, region->low[i]), region->high[i]);
-        one.low[i] = one.high[i] = part <= 0 ? drawn : part >= 1 ? region->high[i] : middle;
+        double rest = fmin(fmax(0, region->low[i]), region->high[i]);
+        one.low[i] = one.high[i] = part <= 0 ? rest : part >= 1 ? region->high[i] : middle;
         at->platform[i] = one.low[i];
     }
     if (know(b, &one, &box, half, pose) != FW_REACHED) return false;
@@ -184,6 +184,14 @@ static bool pose_of(const void *context, const fw_clearance_pair *pair,
     return true;
 }
 
+static void drawn(const void *context, const fw_clearance_pair *pair, fw_clearance_pose pose[2]) {
+    const boxes *b = context;
+    for (int k = 0; k < 2; k++) {
+        const fw_clearance_solid *s = &b->things->solid[k ? pair->b : pair->a];
+        pose[k] = (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad};
+    }
+}
+
 static double moved(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *all) {
     const boxes *b = context;
@@ -191,16 +199,13 @@ static double moved(const void *context, const fw_clearance_pair *pair,
     linear pose[LINKS];
     double half[3];
     if (know(b, all, &box, half, pose) != FW_REACHED) return 0;
-    fw_clearance_pose drawn[2];
-    for (int k = 0; k < 2; k++) {
-        const fw_clearance_solid *s = &b->things->solid[k ? pair->b : pair->a];
-        drawn[k] = (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad};
-    }
-    return slack_about(b, pair, pose, half, drawn);
+    fw_clearance_pose from[2];
+    drawn(b, pair, from);
+    return slack_about(b, pair, pose, half, from);
 }
 
-static bool halve(const void *context, const fw_clearance_region *region,
-                  fw_clearance_region half[2]) {
+static int split(const void *context, const fw_clearance_region *region,
+                 fw_clearance_region half[FW_CLEARANCE_PARTS]) {
     const boxes *b = context;
     int axis = FW_NONE;
     double most = 1e-9;
@@ -210,9 +215,16 @@ static bool halve(const void *context, const fw_clearance_region *region,
         if (width > most) most = width, axis = i;
     }
     half[0] = half[1] = *region;
-    if (axis == FW_NONE) return false;
+    if (axis == FW_NONE) return 0;
     half[0].high[axis] = half[1].low[axis] = 0.5 * (region->low[axis] + region->high[axis]);
-    return true;
+    return 2;
+}
+
+static void rough(const void *context, const fw_clearance_pair *pair,
+                  const fw_clearance_region *all, fw_clearance_pose middle[2], double *slack_m,
+                  double *moved_m) {
+    if (!bound(context, pair, all, middle, slack_m)) *slack_m = HUGE_VAL;
+    *moved_m = 0; /* required poses are not off */
 }
 
 fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things,
@@ -237,7 +249,12 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
     boxes context = {.things = things, .loop = &loop};
     for (int i = 0; i < 3; i++)
         context.whole.lo[i] = all.low[i], context.whole.hi[i] = all.high[i];
-    const fw_clearance_domain domain = {
-        .context = &context, .bound = bound, .moved = moved, .pose = pose_of, .halve = halve};
+    const fw_clearance_domain domain = {.context = &context,
+                                        .bound = bound,
+                                        .moved = moved,
+                                        .pose = pose_of,
+                                        .start = drawn,
+                                        .rough = rough,
+                                        .split = split};
     return fw_clearance_search(arena, things, &domain, &all, &of_six, least);
 }

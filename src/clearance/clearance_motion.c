@@ -7,6 +7,7 @@
 enum { NODES = FW_CLEARANCE_NODES };
 
 typedef struct motion {
+    fw_maths_interval *range; /* (nq) of every coordinate, over all of it */
     const fw_clearance_things *things;
     const fw_clearance_path *path;
 } motion;
@@ -48,8 +49,8 @@ static int coefficients(const motion *s, const fw_clearance_pair *pair,
 }
 
 static void join(fw_maths_interval *range, double x) {
-    range->lo = fmin(range->lo, x);
-    range->hi = fmax(range->hi, x);
+    range->lo = x < range->lo ? x : range->lo;
+    range->hi = x > range->hi ? x : range->hi;
 }
 
 static void middle_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
@@ -96,10 +97,19 @@ static bool bound(const void *context, const fw_clearance_pair *pair,
     return true;
 }
 
+static void start_of(const motion *s, const fw_clearance_pair *pair, fw_clearance_pose start[2]) {
+    for (int k = 0; k < 2; k++) {
+        int solid = k ? pair->b : pair->a;
+        const double *q = s->path->start + 3 * solid;
+        start[k] =
+            solid == s->things->nbody ? ground_pose(s) : (fw_clearance_pose){q[0], q[1], q[2]};
+    }
+}
+
 static double moved(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *all) {
     fw_clearance_pose start[2];
-    pose_at(context, pair, all->span.first, 0, start);
+    start_of(context, pair, start);
     return slack_about(context, pair, &all->span, start);
 }
 
@@ -116,18 +126,55 @@ static bool pose(const void *context, const fw_clearance_pair *pair,
     return true;
 }
 
-static bool halve(const void *context, const fw_clearance_region *region,
-                  fw_clearance_region half[2]) {
-    (void)context;
+/* Bounds of a span of many pieces cost as much as there are pieces: it is cut into sixteen */
+static int split(const void *context, const fw_clearance_region *region,
+                 fw_clearance_region part[FW_CLEARANCE_PARTS]) {
     const fw_clearance_span *span = &region->span;
-    half[0] = half[1] = *region;
-    if (span->last > span->first) {
-        half[0].span.last = (span->first + span->last) / 2;
-        half[1].span.first = half[0].span.last + 1;
-        return true;
+    int pieces = span->last - span->first + 1, n = pieces;
+    (void)context;
+    if (n > FW_CLEARANCE_PARTS) n = FW_CLEARANCE_PARTS;
+    for (int i = 0; i < n && pieces > 1; i++) {
+        part[i] = *region;
+        part[i].span.first = span->first + (int)((long)pieces * i / n);
+        part[i].span.last = span->first + (int)((long)pieces * (i + 1) / n) - 1;
     }
-    half[0].span.to = half[1].span.from = 0.5 * (span->from + span->to);
-    return span->to - span->from > 1e-12;
+    if (pieces > 1) return n;
+    part[0] = part[1] = *region;
+    part[0].span.to = part[1].span.from = 0.5 * (span->from + span->to);
+    return span->to - span->from > 1e-12 ? 2 : 0;
+}
+
+/* of all poses, from the range of each coordinate alone */
+static void rough(const void *context, const fw_clearance_pair *pair,
+                  const fw_clearance_region *all, fw_clearance_pose middle[2], double *slack_m,
+                  double *moved_m) {
+    const motion *s = context;
+    fw_clearance_pose start[2];
+    (void)all;
+    start_of(s, pair, start);
+    for (int about = 0; about < 2; about++) { /* the middle, then the start */
+        double off[2][3] = {{0}};
+        for (int k = 0; k < 2; k++) {
+            int solid = k ? pair->b : pair->a;
+            const double from[3] = {start[k].x_m, start[k].y_m, start[k].phi_rad};
+            double at[3] = {from[0], from[1], from[2]};
+            for (int q = 0; q < 3 && solid < s->things->nbody; q++) {
+                fw_maths_interval r = s->range[3 * solid + q];
+                if (about == 0) at[q] = 0.5 * (r.lo + r.hi);
+                off[k][q] = fmax(r.hi - at[q], at[q] - r.lo);
+            }
+            if (about == 0) middle[k] = (fw_clearance_pose){at[0], at[1], at[2]};
+        }
+        fw_clearance_slack slack;
+        fw_clearance_slack_begin(pair, about ? start : middle, &slack);
+        double x = off[0][0] + off[1][0], y = off[0][1] + off[1][1];
+        slack.linear_m = sqrt(x * x + y * y) + (off[0][2] + off[1][2]) * pair->reach_m;
+        for (int k = 0; k < 2; k++) {
+            slack.turn_rad[k] = off[k][2];
+            slack.linear_m += off[k][2] * vec_length(slack.lever[k]);
+        }
+        *(about ? moved_m : slack_m) = fw_clearance_slack_m(pair, &slack);
+    }
 }
 
 static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
@@ -136,7 +183,7 @@ static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_c
     fw_clearance_slack off;
     const double *t = s->path->t_s + 2 * span->first;
     pose_at(s, pair, span->first, span->to, now);
-    pose_at(s, pair, 0, 0, start);
+    start_of(s, pair, start);
     fw_clearance_slack_begin(pair, start, &off);
     fw_clearance_slack_add(pair, now, &off);
     fw_clearance_pair_distance(pair, now, HUGE_VAL, &least->at);
@@ -149,7 +196,7 @@ static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_c
    halved; what is left within 1 nm of motion is where they meet. */
 static void first_meeting(const void *context, const fw_clearance_pair *pair,
                           const fw_clearance_region *all, fw_clearance_least *least) {
-    enum { DEPTH = 128, TRIES = 4096 };
+    enum { DEPTH = 512, TRIES = 4096 };
     const motion *s = context;
     fw_clearance_region stack[DEPTH];
     int depth = 0;
@@ -161,29 +208,74 @@ static void first_meeting(const void *context, const fw_clearance_pair *pair,
         bound(s, pair, &now, middle, &slack);
         least->looked++;
         if (fw_clearance_pair_distance(pair, middle, slack + 1e-12, NULL) > slack) continue;
-        fw_clearance_region half[2];
-        bool shorter = halve(s, &now, half), one = now.span.first == now.span.last;
-        if (one && (slack < 1e-9 || !shorter)) {
+        fw_clearance_region part[FW_CLEARANCE_PARTS];
+        int parts = split(s, &now, part);
+        bool one = now.span.first == now.span.last;
+        if (one && (slack < 1e-9 || parts == 0)) {
             meet_here(s, pair, &now.span, least);
             return;
         }
-        if (depth + 2 > DEPTH) continue;
-        stack[depth++] = half[1];
-        stack[depth++] = half[0];
+        for (int i = parts - 1; i >= 0 && depth < DEPTH; i--)
+            stack[depth++] = part[i];
     }
+}
+
+static void start_at(const void *context, const fw_clearance_pair *pair,
+                     fw_clearance_pose pose[2]) {
+    start_of(context, pair, pose);
+}
+
+/* a pair has met: only how far it would have been moved is still of account */
+static fw_status go_on(fw_arena *arena, const motion *s, const fw_clearance_region *all,
+                       fw_clearance_least *least) {
+    const int ground = s->things->nbody;
+    fw_mark mark = fw_arena_mark(arena);
+    fw_clearance_pair pair;
+    FW_TRY(fw_clearance_pair_new(arena, s->things, least->a == FW_GROUND ? ground : least->a,
+                                 least->b == FW_GROUND ? ground : least->b, &pair));
+    double now = moved(s, &pair, all);
+    if (now > least->moved_m) {
+        least->share *= least->moved_m / now;
+        least->moved_m = now;
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+static fw_status ranges(fw_arena *arena, const fw_clearance_path *path, fw_maths_interval **out) {
+    FW_NEED(*out = fw_arena_array(arena, fw_maths_interval, (size_t)path->nq));
+    for (int q = 0; q < path->nq; q++) {
+        fw_maths_interval r = {HUGE_VAL, -HUGE_VAL};
+        for (int piece = 0; piece < path->npiece; piece++) {
+            const double *c = fw_clearance_path_coefficients(path, piece, q);
+            for (int i = 0; i < path->nodes[piece]; i++) {
+                r.lo = c[i] < r.lo ? c[i] : r.lo;
+                r.hi = c[i] > r.hi ? c[i] : r.hi;
+            }
+        }
+        (*out)[q] = r;
+    }
+    return FW_OK;
 }
 
 fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *things,
                                const fw_clearance_path *path, const fw_clearance_wish *wish,
                                fw_clearance_least *least) {
-    const motion context = {things, path};
+    motion context = {.things = things, .path = path};
     const fw_clearance_domain domain = {.context = &context,
                                         .bound = bound,
                                         .moved = moved,
                                         .pose = pose,
-                                        .halve = halve,
+                                        .start = start_at,
+                                        .rough = rough,
+                                        .split = split,
                                         .first_meeting = first_meeting};
     const fw_clearance_region all = {.span = {.first = 0, .last = path->npiece - 1, .to = 1}};
     if (path->npiece == 0) return FW_OK;
-    return fw_clearance_search(arena, things, &domain, &all, wish, least);
+    fw_mark mark = fw_arena_mark(arena);
+    FW_TRY(ranges(arena, path, &context.range));
+    if (least->known && least->m <= 0) return go_on(arena, &context, &all, least);
+    fw_status status = fw_clearance_search(arena, things, &domain, &all, wish, least);
+    fw_arena_rewind(arena, mark);
+    return status;
 }

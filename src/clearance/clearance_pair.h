@@ -56,12 +56,17 @@ typedef struct fw_clearance_region { /* a part of a domain */
     double low[3], high[3];          /* of a box of the platform's poses: m, m, rad */
 } fw_clearance_region;
 
+enum { FW_CLEARANCE_PARTS = 16 };
 typedef struct fw_clearance_domain {
     const void *context;
     /* poses in the region, and by how much the pair may be nearer in it than at these; false: not
        bounded, and an infinite slack then says that there is no pose at all */
     bool (*bound)(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *region, fw_clearance_pose middle[2], double *slack_m);
+    /* the same of all of it, in a time that does not go with it; and of `moved` */
+    void (*rough)(const void *context, const fw_clearance_pair *pair,
+                  const fw_clearance_region *all, fw_clearance_pose middle[2], double *slack_m,
+                  double *moved_m);
     /* how far the pair is moved against each other, at most, from the first pose */
     double (*moved)(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *all);
@@ -69,8 +74,11 @@ typedef struct fw_clearance_domain {
        there is none */
     bool (*pose)(const void *context, const fw_clearance_pair *pair,
                  const fw_clearance_region *region, double part, fw_clearance_least *at);
-    bool (*halve)(const void *context, const fw_clearance_region *region,
-                  fw_clearance_region half[2]); /* false: too small */
+    /* poses where it begins */
+    void (*start)(const void *context, const fw_clearance_pair *pair, fw_clearance_pose pose[2]);
+    /* into parts, how many; 0: too small */
+    int (*split)(const void *context, const fw_clearance_region *region,
+                 fw_clearance_region part[FW_CLEARANCE_PARTS]);
     /* NULL: there is no order */
     void (*first_meeting)(const void *context, const fw_clearance_pair *pair,
                           const fw_clearance_region *all, fw_clearance_least *least);

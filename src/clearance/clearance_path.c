@@ -5,12 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { NODES = FW_CLEARANCE_NODES, MOST_BYTES = 4 << 20, LEAST_PIECES = 16, MOST_PIECES = 4096 };
+enum { NODES = FW_CLEARANCE_NODES, MOST_BYTES = 6 << 20, LEAST_PIECES = 16, MOST_PIECES = 8192 };
 
 fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path) {
     size_t each = (size_t)(3 * nbody) * NODES * sizeof(double), room = MOST_BYTES / (each + 1);
     size_t n = room < LEAST_PIECES ? LEAST_PIECES : room > MOST_PIECES ? MOST_PIECES : room;
     *path = (fw_clearance_path){.nq = 3 * nbody, .capacity = (int)n};
+    FW_NEED(path->start = fw_arena_array(arena, double, (size_t)path->nq));
     FW_NEED(path->nodes = fw_arena_array(arena, int, n));
     FW_NEED(path->t_s = fw_arena_array(arena, double, 2 * n));
     FW_NEED(path->bern = fw_arena_raw(arena, n * each));
@@ -67,6 +68,8 @@ void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *pie
     int n = piece->nodes, k = path->npiece;
     if (fw_clearance_path_full(path)) return; /* never: whoever adds looks first */
     if (path->of != n) fit_of(path, n);
+    if (!path->begun) memcpy(path->start, piece->q, (size_t)path->nq * sizeof *path->start);
+    path->begun = true;
     path->nodes[k] = n;
     path->t_s[2 * k] = piece->from_s;
     path->t_s[2 * k + 1] = piece->to_s;
@@ -83,14 +86,14 @@ void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *pie
     path->npiece++;
 }
 
-static const double *coefficients(const fw_clearance_path *path, int piece, int q) {
+const double *fw_clearance_path_coefficients(const fw_clearance_path *path, int piece, int q) {
     return path->bern + ((size_t)piece * (size_t)path->nq + (size_t)q) * NODES;
 }
 
 double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta) {
     double b[NODES];
     int n = path->nodes[piece];
-    memcpy(b, coefficients(path, piece, q), (size_t)n * sizeof *b);
+    memcpy(b, fw_clearance_path_coefficients(path, piece, q), (size_t)n * sizeof *b);
     for (int k = n - 1; k > 0; k--)
         for (int i = 0; i < k; i++)
             b[i] += theta * (b[i + 1] - b[i]);
@@ -103,7 +106,7 @@ double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, 
 void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
                             double out[NODES]) {
     int n = path->nodes[piece];
-    memcpy(out, coefficients(path, piece, q), (size_t)n * sizeof *out);
+    memcpy(out, fw_clearance_path_coefficients(path, piece, q), (size_t)n * sizeof *out);
     for (int k = 1; to < 1 && k < n; k++)
         for (int i = n - 1; i >= k; i--)
             out[i] = out[i - 1] + to * (out[i] - out[i - 1]);

@@ -133,11 +133,9 @@ static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int 
     double slack;
     FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, pair));
     node first = {.low_m = -1, .pair = s->npair, .region = *all};
-    if (s->domain->bound(s->domain->context, pair, all, middle, &slack)) {
-        if (slack < still_m) return FW_OK;
-        first.low_m = boxes_apart(s, pair, middle) - slack;
-    }
-    s->moved_m[s->npair] = s->domain->moved(s->domain->context, pair, all);
+    s->domain->rough(s->domain->context, pair, all, middle, &slack, &s->moved_m[s->npair]);
+    if (slack < still_m) return FW_OK;
+    if (isfinite(slack)) first.low_m = boxes_apart(s, pair, middle) - slack;
     first.key_m = key_of(s, s->npair, first.low_m);
     s->npair++;
     return push(s, &first);
@@ -148,6 +146,7 @@ static void narrow(search *s, int p, const fw_clearance_region *region) {
     fw_clearance_pair *pair = &s->pair[p];
     fw_clearance_pose middle[2];
     double slack;
+    s->moved_m[p] = s->domain->moved(s->domain->context, pair, region);
     look(s, p, region, 0);
     look(s, p, region, 1);
     look(s, p, region, 0.5);
@@ -182,14 +181,15 @@ static fw_status examine(search *s, const node *n) {
     if (decides(s, n->pair, low)) return FW_OK;
     look(s, n->pair, &n->region, 0.5);
     if (decides(s, n->pair, low)) return FW_OK;
-    fw_clearance_region half[2];
-    if (!s->domain->halve(s->domain->context, &n->region, half)) {
+    fw_clearance_region part[FW_CLEARANCE_PARTS];
+    int parts = s->domain->split(s->domain->context, &n->region, part);
+    if (parts == 0) {
         s->open_m = fmin(s->open_m, low - lost(s, n->pair));
         return FW_OK;
     }
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < parts; i++) {
         const node next = {
-            .low_m = low, .key_m = key_of(s, n->pair, low), .pair = n->pair, .region = half[i]};
+            .low_m = low, .key_m = key_of(s, n->pair, low), .pair = n->pair, .region = part[i]};
         FW_TRY(push(s, &next));
     }
     return FW_OK;
@@ -225,9 +225,9 @@ static fw_status run(search *s, const fw_clearance_region *all) {
     least->low_m = fmin(least->low_m, fmin(s->open_m, bar(s)));
     int p = least->known && least->left_m < before ? pair_of(s, least) : FW_NONE;
     if (p == FW_NONE) return FW_OK;
-    fw_clearance_least start = {.known = true};
-    if (s->domain->pose(s->domain->context, &s->pair[p], all, 0, &start))
-        least->start_m = fw_clearance_pair_distance(&s->pair[p], start.pose, HUGE_VAL, NULL);
+    fw_clearance_pose start[2];
+    s->domain->start(s->domain->context, &s->pair[p], start);
+    least->start_m = fw_clearance_pair_distance(&s->pair[p], start, HUGE_VAL, NULL);
     if (least->m <= 0 && s->domain->first_meeting)
         s->domain->first_meeting(s->domain->context, &s->pair[p], all, least);
     return FW_OK;

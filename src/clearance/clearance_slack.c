@@ -34,10 +34,10 @@ void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_po
         turn[k] = pose[k].phi_rad - slack->middle[k].phi_rad;
         ux += sign * (pose[k].x_m - slack->middle[k].x_m + turn[k] * slack->lever[k].x);
         uy += sign * (pose[k].y_m - slack->middle[k].y_m + turn[k] * slack->lever[k].y);
-        slack->turn_rad[k] = fmax(slack->turn_rad[k], fabs(turn[k]));
+        if (fabs(turn[k]) > slack->turn_rad[k]) slack->turn_rad[k] = fabs(turn[k]);
     }
     double here = sqrt(ux * ux + uy * uy) + fabs(turn[1] - turn[0]) * pair->reach_m;
-    slack->linear_m = fmax(slack->linear_m, here);
+    if (here > slack->linear_m) slack->linear_m = here;
 }
 
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack) {

@@ -6,7 +6,7 @@
 #include <math.h>
 
 enum { ROOM = 64 };
-static const double fw_on_circle_m = 1e-7;
+static const double fw_on_circle_m = 1e-7, fw_bent_share = 0.1;
 
 typedef struct building {
     fw_arena *arena;
@@ -148,6 +148,40 @@ static fw_status add_piece(building *b, const fw_layout_piece *p) {
     return FW_OK;
 }
 
+/* A flexure that bends stays within a disc about its hinge point, which goes with either body. A
+   point p of it at the share w of its length goes to about W + R((1 - w) a + w b) (p - W): as far
+   from W as it was; a beam leaves that by a share of the rotation in rad, for which there is a tenth
+   more. Its own two bodies are the hinge's matter. The disc lies inside the keep-out circle, from
+   which others are kept by the layout. */
+static fw_status add_flexure(building *b, const fw_layout_piece *p) {
+    const fw_layout_hinge_layout *h = &b->layout->hinge[p->joint];
+    double far = 0;
+    for (int i = 0; i < p->contour.count; i++)
+        for (int k = 0; k <= 8; k++) {
+            fw_geometry_vec2 at = fw_geometry_segment_point(&p->contour.segment[i], k / 8.0);
+            far = fmax(far, vec_distance(at, h->centre));
+        }
+    const double r = fmin((1 + fw_bent_share) * far, h->keep_out_m);
+    const fw_geometry_vec2 c = h->centre, east = {c.x + r, c.y}, west = {c.x - r, c.y};
+    for (int side = 0; side < 2; side++) {
+        int solid = solid_of(b, side ? h->upper : h->lower);
+        fw_clearance_edge edge = {.hinge = p->joint,
+                                  .other = solid_of(b, side ? h->lower : h->upper),
+                                  .held = FW_NONE,
+                                  .label = p->label};
+        for (int half = 0; half < 2; half++) {
+            edge.segment = (fw_geometry_segment){.kind = FW_ARC,
+                                                 .a = half ? west : east,
+                                                 .b = half ? east : west,
+                                                 .centre = c,
+                                                 .radius = r,
+                                                 .sweep_rad = FW_PI};
+            FW_TRY(keep(b, solid, &edge));
+        }
+    }
+    return FW_OK;
+}
+
 /* As drawn; the mechanism says where centres of mass are. Cost: every segment against every hinge
    of its body. Test: test_clearance.c */
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
@@ -157,8 +191,12 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const
     *things = (fw_clearance_things){.nbody = m->nbody};
     FW_NEED(things->solid = fw_arena_array(arena, fw_clearance_solid, n));
     FW_NEED(b.room = fw_arena_array(arena, int, n));
-    for (int i = 0; i < layout->npiece; i++)
-        if (is_wall(&layout->piece[i])) FW_TRY(add_piece(&b, &layout->piece[i]));
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        if (is_wall(p)) FW_TRY(add_piece(&b, p));
+        if (p->role == FW_ROLE_FLEXURE && p->joint >= 0 && layout->hinge[p->joint].drawn)
+            FW_TRY(add_flexure(&b, p));
+    }
     for (size_t i = 0; i < n; i++) {
         fw_clearance_solid *s = &things->solid[i];
         if (i + 1 < n) {

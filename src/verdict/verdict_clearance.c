@@ -98,6 +98,7 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
     if (!w || !w->things) return;
     if (!piece) {
         empty(w);
+        w->path.begun = false;
         w->least = fw_clearance_nothing();
         w->status = FW_OK;
         return;
