@@ -59,6 +59,9 @@ static node pop(search *s) {
 
 /* ---- what is found ---- */
 
+/* what is more than wanted by this is enough for certain */
+static const double fw_rounding_m = 1e-12;
+
 /* what the motion may be off by comes off the distance: the least of that is looked for */
 static double lost(const search *s, int p) {
     return s->wish->off * s->moved_m[p];
@@ -172,7 +175,7 @@ static fw_status examine(search *s, const node *n) {
     double slack, low = n->low_m;
     if (pair->count[0] == 0 || pair->count[1] == 0 || decides(s, n->pair, low)) return FW_OK;
     if (s->domain->bound(s->domain->context, pair, &n->region, middle, &slack)) {
-        double limit = fmax(bar(s) + lost(s, n->pair), 1e-12) + slack;
+        double limit = fmax(bar(s) + lost(s, n->pair), 0) + slack + fw_rounding_m;
         s->least->looked++;
         low = fmax(low, fw_clearance_pair_distance(pair, middle, limit, NULL) - slack);
     } else if (!isfinite(slack)) { /* nothing is there */

@@ -195,6 +195,11 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
     return each * (double)motion->stats.rhs * m->nhinge;
 }
 
+/* of a trial, or a corner, only whether it is accepted is of account */
+static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant_verdict *v) {
+    return options->at_a_glance || v->like;
+}
+
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
@@ -212,7 +217,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 1; /* as made */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
-    const bool brief = options->at_a_glance || v->like; /* a trial, or a corner */
+    const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(arena, layout, m, watch, v));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
@@ -328,7 +333,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(monitor && other ? monitor : NULL);
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
-    FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, v));
+    FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, is_brief(options, v), v));
 
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];

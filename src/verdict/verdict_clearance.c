@@ -230,12 +230,14 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
 
 /* Required poses are what the platform is asked to take: their only errors are those of the walls. */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
-                                     const fw_layout *layout, fw_verdict_variant_verdict *v) {
+                                     const fw_layout *layout, bool brief,
+                                     fw_verdict_variant_verdict *v) {
     for (int i = 0; v->things && v->workspace.required && i < device->nworkspace; i++) {
         const fw_device_workspace_box *asked = &device->workspace[i];
         bool known;
         if (!v->workspace.asked[i] || !v->workspace.box_reachable[i]) continue;
-        const fw_clearance_wish wish = wish_of(device, layout, NULL);
+        fw_clearance_wish wish = wish_of(device, layout, NULL);
+        if (brief) wish.enough_m = wish.needed_m;
         fw_clearance_least least = fw_clearance_nothing();
         FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known));
         if (!known || !least.known) continue;

@@ -30,6 +30,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                      fw_verdict_variant_verdict *v);
 /* every required box of the flow that can be reached as a whole; after fw_workspace_required */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
-                                     const fw_layout *layout, fw_verdict_variant_verdict *v);
+                                     const fw_layout *layout, bool brief,
+                                     fw_verdict_variant_verdict *v);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What clearances are compared on, as JSON: outlines of every body as drawn, flattened to 0.2 nm,
+/* What clearances are compared on, as JSON: outlines of every body as drawn, flattened to 0.5 nm,
    hinges' circles, poses of all bodies at many instants, and what the verdict says.
      clearance_outlines DEVICE.xml SAMPLES
    Distances are no matter of this program: compare.py computes them. */
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 static void points(const fw_geometry_segment *s) {
-    const double off_m = 2e-10;
+    const double off_m = 5e-10;
     int n = 1;
     if (s->kind == FW_ARC) n = 1 + (int)(fabs(s->sweep_rad) / sqrt(8 * off_m / s->radius));
     for (int i = 0; i < n; i++) {
