@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The polynomials of a motion, the slack of a pair, and the least clearance against samples. */
+#include "base/arena.h"
+#include "clearance/clearance_pair.h"
+#include "geometry/segment.h"
+#include "test.h"
+
+static double chance(uint64_t *seed, double low, double high) {
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+enum { BODIES = 2 };
+
+typedef struct scene {
+    fw_arena *arena;
+    fw_clearance_things things;
+    fw_clearance_path path;
+} scene;
+
+static void box(scene *s, int solid, double x0, double y0, double x1, double y1) {
+    fw_clearance_solid *b = &s->things.solid[solid];
+    const fw_geometry_vec2 p[5] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}, {x0, y0}};
+    b->edge = fw_arena_array(s->arena, fw_clearance_edge, 4);
+    b->count = 4;
+    b->box = (fw_geometry_box){x0, y0, x1, y1};
+    b->centre = (fw_geometry_vec2){0.5 * (x0 + x1), 0.5 * (y0 + y1)};
+    for (int i = 0; i < 4; i++)
+        b->edge[i] = (fw_clearance_edge){.segment = {.kind = FW_LINE, .a = p[i], .b = p[i + 1]},
+                                         .hinge = FW_NONE,
+                                         .other = FW_NONE,
+                                         .held = FW_NONE,
+                                         .label = solid == 0   ? "first"
+                                                  : solid == 1 ? "second"
+                                                               : "ground"};
+}
+
+static scene start(void) {
+    scene s = {.arena = fw_arena_new(0), .things = {.nbody = BODIES}};
+    s.things.solid = fw_arena_array(s.arena, fw_clearance_solid, BODIES + 1);
+    assert_int_equal(fw_clearance_path_new(s.arena, BODIES, &s.path), FW_OK);
+    return s;
+}
+
+/* pieces that go on where the last one ended */
+static void wander(scene *s, uint64_t *seed, int pieces, double size, double turn) {
+    double last[3 * BODIES];
+    for (int b = 0; b < BODIES; b++) {
+        last[3 * b] = s->things.solid[b].centre.x;
+        last[3 * b + 1] = s->things.solid[b].centre.y;
+        last[3 * b + 2] = 0;
+    }
+    for (int k = 0; k < pieces; k++) {
+        double q[FW_PIECE_NODES * 3 * BODIES];
+        int nodes = k % 2 ? 6 : FW_PIECE_NODES;
+        for (int i = 0; i < nodes; i++)
+            for (int c = 0; c < 3 * BODIES; c++) {
+                double by = chance(seed, -1, 1) * (c % 3 == 2 ? turn : size) / nodes;
+                if (i > 0) last[c] += by;
+                q[i * 3 * BODIES + c] = last[c];
+            }
+        const fw_dynamics_piece piece = {.from_s = k, .to_s = k + 1, .nodes = nodes, .q = q};
+        fw_clearance_path_add(&s->path, &piece);
+    }
+}
+
+static void coefficients_hold_the_polynomial(void **state) {
+    (void)state;
+    uint64_t seed = 3;
+    scene s = start();
+    box(&s, 0, 0, 0, 1e-4, 1e-4);
+    box(&s, 1, 2e-4, 0, 3e-4, 1e-4);
+    wander(&s, &seed, 40, 1e-4, 0.3);
+    for (int i = 0; i < 4000; i++) {
+        int piece = i % 40, q = i % (3 * BODIES);
+        double from = chance(&seed, 0, 1), to = chance(&seed, from, 1), at = chance(&seed, 0, 1);
+        double c[FW_CLEARANCE_NODES], low = HUGE_VAL, high = -HUGE_VAL;
+        fw_clearance_path_part(&s.path, piece, q, from, to, c);
+        for (int k = 0; k < s.path.nodes[piece]; k++) {
+            low = fmin(low, c[k]);
+            high = fmax(high, c[k]);
+        }
+        double value = fw_clearance_path_value(&s.path, piece, q, from + at * (to - from));
+        assert_true(value >= low - 1e-15 && value <= high + 1e-15);
+        assert_near(c[0], fw_clearance_path_value(&s.path, piece, q, from), 1e-14);
+        assert_near(c[s.path.nodes[piece] - 1], fw_clearance_path_value(&s.path, piece, q, to),
+                    1e-14);
+    }
+    fw_arena_free(s.arena);
+}
+
+static fw_clearance_pose about(uint64_t *seed, fw_clearance_pose p, double size, double turn) {
+    return (fw_clearance_pose){p.x_m + chance(seed, -size, size), p.y_m + chance(seed, -size, size),
+                               p.phi_rad + chance(seed, -turn, turn)};
+}
+
+static void slack_bounds_every_pose(void **state) {
+    (void)state;
+    uint64_t seed = 11;
+    for (int i = 0; i < test_cases(3000, 500); i++) {
+        scene s = start();
+        box(&s, 0, 0, 0, chance(&seed, 1e-5, 1e-3), chance(&seed, 1e-5, 1e-3));
+        box(&s, 1, 1.1e-3, 0, 1.2e-3 + chance(&seed, 0, 1e-3), chance(&seed, 1e-5, 1e-3));
+        fw_clearance_pair pair;
+        assert_int_equal(fw_clearance_pair_new(s.arena, &s.things, 0, 1, &pair), FW_OK);
+        fw_clearance_pose middle[2], hull[4][2];
+        fw_clearance_slack slack;
+        for (int k = 0; k < 2; k++) {
+            const fw_clearance_solid *b = &s.things.solid[k ? pair.b : pair.a];
+            const fw_clearance_pose rest = {b->centre.x, b->centre.y, 0};
+            middle[k] = about(&seed, rest, 1e-5, 0.2);
+        }
+        fw_clearance_slack_begin(&pair, (const fw_clearance_pose *)middle, &slack);
+        double size = chance(&seed, 0, 1e-4), turn = chance(&seed, 0, 0.3);
+        for (int j = 0; j < 4; j++) {
+            for (int k = 0; k < 2; k++)
+                hull[j][k] = about(&seed, middle[k], size, turn);
+            fw_clearance_slack_add(&pair, (const fw_clearance_pose *)hull[j], &slack);
+        }
+        double least =
+            fw_clearance_pair_distance(&pair, (const fw_clearance_pose *)middle, HUGE_VAL, NULL) -
+            fw_clearance_slack_m(&pair, &slack);
+        for (int j = 0; j < 20; j++) { /* convex combinations, the same of both */
+            double w[4], sum = 0;
+            for (int k = 0; k < 4; k++)
+                sum += w[k] = chance(&seed, 0, 1);
+            fw_clearance_pose at[2] = {{0, 0, 0}, {0, 0, 0}};
+            for (int k = 0; k < 4; k++)
+                for (int b = 0; b < 2; b++) {
+                    at[b].x_m += w[k] / sum * hull[k][b].x_m;
+                    at[b].y_m += w[k] / sum * hull[k][b].y_m;
+                    at[b].phi_rad += w[k] / sum * hull[k][b].phi_rad;
+                }
+            double d =
+                fw_clearance_pair_distance(&pair, (const fw_clearance_pose *)at, HUGE_VAL, NULL);
+            assert_true(d >= least - 1e-15);
+        }
+        fw_arena_free(s.arena);
+    }
+}
+
+static const fw_clearance_wish closely = {
+    .relative = 1e-6, .enough_m = HUGE_VAL, .most = 100000, .most_ever = 100000};
+
+static double sampled(const scene *s, int pieces, int each) {
+    double least = HUGE_VAL;
+    for (int a = 0; a < BODIES; a++)
+        for (int b = a + 1; b <= BODIES; b++) {
+            fw_clearance_pair pair;
+            if (s->things.solid[b].count == 0) continue;
+            assert_int_equal(fw_clearance_pair_new(s->arena, &s->things, a, b, &pair), FW_OK);
+            for (int i = 0; i <= pieces * each; i++) {
+                int piece = i / each < pieces ? i / each : pieces - 1;
+                double theta = (double)i / each - piece;
+                fw_clearance_pose pose[2];
+                for (int k = 0; k < 2; k++) {
+                    int solid = k ? pair.b : pair.a;
+                    const fw_clearance_solid *g = &s->things.solid[BODIES];
+                    pose[k] = (fw_clearance_pose){g->centre.x, g->centre.y, 0};
+                    if (solid == BODIES) continue;
+                    pose[k].x_m = fw_clearance_path_value(&s->path, piece, 3 * solid, theta);
+                    pose[k].y_m = fw_clearance_path_value(&s->path, piece, 3 * solid + 1, theta);
+                    pose[k].phi_rad =
+                        fw_clearance_path_value(&s->path, piece, 3 * solid + 2, theta);
+                }
+                least = fmin(least, fw_clearance_pair_distance(
+                                        &pair, (const fw_clearance_pose *)pose, least, NULL));
+            }
+        }
+    return least;
+}
+
+/* the samples are never below the proved bound, and the least is what they come near */
+static void least_is_that_of_dense_samples(void **state) {
+    (void)state;
+    uint64_t seed = 5;
+    for (int i = 0; i < test_cases(60, 10); i++) {
+        enum { PIECES = 37 };
+        scene s = start();
+        box(&s, 0, 0, 0, 3e-4, 1e-4);
+        box(&s, 1, 5e-4, 0, 6e-4, 7e-4);
+        box(&s, 2, -1e-4, -4e-4, 1e-3, -3e-4);
+        wander(&s, &seed, PIECES, 1e-4, 0.2);
+        fw_clearance_least least = fw_clearance_nothing();
+        assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
+                         FW_OK);
+        double seen = sampled(&s, PIECES, 400);
+        assert_true(least.known && !least.given_up);
+        if (least.m > 0) {
+            assert_true(least.m - least.low_m <= 1.001e-9);
+            assert_true(seen >= least.low_m - 1e-15);
+            assert_near(least.m, seen, 1e-7); /* what 400 samples of a piece miss */
+            assert_true(least.m <= seen + 1e-9);
+        }
+        fw_arena_free(s.arena);
+    }
+}
+
+/* a bar that passes a post between two nodes: none of the instants that are looked at sees it */
+static void what_meets_between_samples_is_found(void **state) {
+    (void)state;
+    for (int touch = 0; touch < 2; touch++) {
+        scene s = start();
+        box(&s, 0, 0, 0, 1e-5, 1e-4);
+        box(&s, 1, 5.2e-4, touch ? 9e-5 : 1.01e-4, 5.3e-4, 2e-4);
+        double q[FW_PIECE_NODES * 3 * BODIES] = {0};
+        for (int i = 0; i < FW_PIECE_NODES; i++) {
+            double *at = q + i * 3 * BODIES;
+            at[0] = 5e-6 + 1e-3 * i / (FW_PIECE_NODES - 1);
+            at[1] = 5e-5;
+            at[3] = s.things.solid[1].centre.x;
+            at[4] = s.things.solid[1].centre.y;
+        }
+        const fw_dynamics_piece piece = {.from_s = 0, .to_s = 7, .nodes = FW_PIECE_NODES, .q = q};
+        fw_clearance_path_add(&s.path, &piece);
+        fw_clearance_least least = fw_clearance_nothing();
+        assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
+                         FW_OK);
+        if (touch) {
+            assert_true(least.m <= 0);
+            assert_near(least.t_s, 7 * 0.51, 1e-3); /* where the right side of the bar arrives */
+            assert_near(least.share, 0.51, 1e-3);
+        } else {
+            assert_near(least.m, 1e-6, 1e-9);
+        }
+        fw_arena_free(s.arena);
+    }
+}
+
+/* more pieces than fit are looked at in parts, with the same end */
+static void enough_is_enough(void **state) {
+    (void)state;
+    uint64_t seed = 9;
+    scene s = start();
+    box(&s, 0, 0, 0, 3e-4, 1e-4);
+    box(&s, 1, 8e-4, 0, 9e-4, 7e-4);
+    wander(&s, &seed, 50, 5e-5, 0.05);
+    fw_clearance_least least = fw_clearance_nothing(), brief = least;
+    assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least), FW_OK);
+    fw_clearance_wish wish = closely;
+    wish.enough_m = 1e-6;
+    assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &wish, &brief), FW_OK);
+    assert_true(least.m > 1e-5 && brief.low_m >= 1e-6);
+    assert_true(brief.looked < least.looked);
+    fw_arena_free(s.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coefficients_hold_the_polynomial),
+        cmocka_unit_test(slack_bounds_every_pose),
+        cmocka_unit_test(least_is_that_of_dense_samples),
+        cmocka_unit_test(what_meets_between_samples_is_found),
+        cmocka_unit_test(enough_is_enough),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
