@@ -197,6 +197,7 @@ static const struct {
 } sections[] = {
     {"device", "Device", fw_report_section_device},
     {"hinges", "Hinges", fw_report_section_hinges},
+    {"clearance", "Clearance", fw_report_section_clearance},
     {"made", "As fabricated", fw_report_section_fabricated},
     {"motion", "Motion", fw_report_section_motion},
     {"workspace", "Workspace", fw_report_section_workspace},

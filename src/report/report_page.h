@@ -158,6 +158,7 @@ void fw_report_advice(fw_report_page *page);
 void fw_report_mechanics(fw_report_page *page);
 fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
+fw_status fw_report_section_clearance(fw_report_page *page); /* report_clearance.c */
 fw_status fw_report_section_fabricated(fw_report_page *page);
 fw_status fw_report_section_motion(fw_report_page *page);
 fw_status fw_report_section_workspace(fw_report_page *page);

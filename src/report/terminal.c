@@ -121,6 +121,28 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
+/* the least of all scenes and required poses: one line */
+static void clearance(fw_text *out, const fw_verdict *v) {
+    const fw_verdict_clearance *least = NULL;
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nclearance; k++) {
+            const fw_verdict_clearance *c = &v->variant[i].clearance[k];
+            if (!least || c->low_m < least->low_m) least = c;
+        }
+    if (!least) return;
+    fw_text_printf(out, "nearest: %s and %s ", least->least.at.a, least->least.at.b);
+    if (least->least.m <= 0) {
+        fw_text_printf(out, "meet in %s\n", least->scene);
+        return;
+    }
+    fw_text_number(out, 1e6 * least->m, 3);
+    fw_text_add(out, " um (");
+    fw_text_number(out, 1e6 * least->low_m, 3);
+    fw_text_add(out, " to ");
+    fw_text_number(out, 1e6 * least->high_m, 3);
+    fw_text_printf(out, ") in %s\n", least->scene);
+}
+
 static void reasons(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nreason; k++) {
@@ -162,6 +184,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     fw_text_add(out, "\n");
     if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing], input);
     reasons(out, v);
+    clearance(out, v);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);

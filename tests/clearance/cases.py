@@ -56,10 +56,10 @@ def jaws(program):
                not any({c["a"], c["b"]} == {"link left", "link right"} for c in d["clearances"]))
         asked = os.path.join(directory, "asked.xml")
         with open(asked, "w", encoding="utf-8") as f:
-            f.write(text.replace('safety-factor="1.5"', 'safety-factor="1.5" clearance="30 um"'))
+            f.write(text.replace('safety-factor="1.5"', 'safety-factor="1.5" clearance="50 um"'))
         d = check(program, asked, "push=5 uN")
-        expect("30 um that are asked for and not kept reject",
-               d["verdict"] == "reject" and d["clearances"][0]["required_m"] == 30e-6)
+        expect("50 um that are asked for and not kept reject",
+               d["verdict"] == "reject" and d["clearances"][0]["required_m"] == 50e-6)
         d = check(program, asked, "push=5 uN", "gap=200 um")
         expect("and accept where they are kept", d["verdict"] == "accept")
 
