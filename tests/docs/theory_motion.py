@@ -199,3 +199,9 @@ def integrators(g):
 
 def integrators_program(run, _):
     return {name: kick(run, "--integrator", name)["peaks"][0]["angle_rad"] for name in ("dop853", "radau5", "dopri5")}
+
+
+def clearance(given):
+    turn = abs(given["tb"] - given["ta"])
+    s = given["u"] + turn * given["r"] + 0.5 * (given["ta"] ** 2 * given["la"] + given["tb"] ** 2 * given["lb"])
+    return {"s": s, "bound": given["D"] - s, "low": given["D"] - given["k"] * given["M"] - 2 * given["e"]}
