@@ -96,7 +96,7 @@ typedef struct fw_clearance_least {
     fw_clearance_pose pose[2]; /* there */
     double moved_m;            /* how far the pair moved against each other at most */
     double start_m;            /* distance of the pair where the motion begins */
-    double share;              /* of that: where they meet first; 1: they do not */
+    double share;              /* of moved_m: where they meet first; 1: they do not */
     long looked;               /* distances that were computed */
     bool given_up;             /* too many: low_m is what was proved by then */
 } fw_clearance_least;

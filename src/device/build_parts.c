@@ -140,7 +140,8 @@ fw_status fw_device_build_parts(fw_device_reader *r) {
     fw_device *d = r->device;
     double nan_ = (double)NAN;
     d->safety_factor = 1.5;
-    d->limits = (fw_device_limits_asked){.cycles = nan_, .failure_probability = nan_, .clearance_m = nan_};
+    d->limits =
+        (fw_device_limits_asked){.cycles = nan_, .failure_probability = nan_, .clearance_m = nan_};
     d->thickness_m = nan_;
     d->orientation_rad = nan_;
     d->die = (fw_device_die){.width_m = nan_,

@@ -64,7 +64,7 @@ typedef struct fw_dynamics_motion_options {
                             of them: a verdict does not need it */
     fw_dynamics_observer observe; /* NULL: nobody looks */
     fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
-    fw_dynamics_tracer trace; /* NULL: nobody wants the pieces */
+    fw_dynamics_tracer trace;     /* NULL: nobody wants the pieces */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */

@@ -240,7 +240,7 @@ static fw_status recorder_arrays(fw_dynamics_recorder *record) {
     FW_NEED(record->seen_q = fw_arena_array(arena, double, FW_THIRDS *n));
     FW_NEED(record->seen_angle = fw_arena_array(arena, double, FW_THIRDS *pins));
     FW_NEED(record->seen_force = fw_arena_array(arena, double, FW_THIRDS * 2 * pins));
-    FW_NEED(record->seen_piece = fw_arena_array(arena, double, FW_PIECE_NODES * n));
+    FW_NEED(record->seen_piece = fw_arena_array(arena, double, FW_PIECE_NODES *n));
     FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * 2 * pins));
     return problem->options->reactions ? fw_dynamics_run_extremes_new(record) : FW_OK;
 }

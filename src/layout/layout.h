@@ -71,7 +71,7 @@ typedef struct fw_layout {
     /* walls stand out from what is drawn by edge_m, and by the flare beside it at one face: 0 as
        drawn (verdict/verdict_fabrication.h) */
     double edge_m, flare_m;
-    bool fill;                     /* the flow's thief and fill are wanted in the window */
+    bool fill; /* the flow's thief and fill are wanted in the window */
 } fw_layout;
 
 /* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places. */

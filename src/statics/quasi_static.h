@@ -36,7 +36,7 @@ typedef struct fw_statics_quasi_static {
     int *look_row, nlook;
     double law_step_s;                             /* the laws' own longest step */
     double *q, *angle, *reaction, *joint, *driver; /* SI, of one instant */
-    double *piece_q; /* (FW_PIECE_NODES x 3 nbody) of one step */
+    double *piece_q;                               /* (FW_PIECE_NODES x 3 nbody) of one step */
     fw_statics_track *track;                       /* (channels) or NULL */
     const char *why;                               /* it cannot go on */
 } fw_statics_quasi_static;

@@ -171,8 +171,7 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
 }
 
 static fw_status copy(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                      const fw_verdict_fabrication *fabricated,
-                      fw_verdict_fabricated_device *out) {
+                      const fw_verdict_fabrication *fabricated, fw_verdict_fabricated_device *out) {
     fw_device *d = &out->device;
     size_t f = (size_t)device->nflexure, j = (size_t)device->nrevolute, b = (size_t)device->nbody;
     size_t s = (size_t)device->nscene;

@@ -106,7 +106,8 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     *trial = (fw_verdict_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
     size_t n = (size_t)verdict->nvariant;
-    size_t most = (size_t)device->nrevolute + n * (FW_REASONS * (size_t)device->nscene + (size_t)device->nworkspace + 1);
+    size_t most = (size_t)device->nrevolute +
+                  n * (FW_REASONS * (size_t)device->nscene + (size_t)device->nworkspace + 1);
     FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));

@@ -45,13 +45,13 @@ typedef struct fw_verdict_hinge_verdict {
 
 /* how near what moves comes to what it may meet, in one scene or required box */
 typedef struct fw_verdict_clearance {
-    const char *scene, *flow;      /* scene: or "workspace" */
-    int box;                       /* of the device's required ones; FW_NONE: a scene */
-    fw_clearance_least least;      /* of the outlines as drawn */
-    double wall_m;                 /* that walls come nearer by, as made: 0 as drawn */
-    double m, low_m, high_m;       /* as made, with its band */
-    double required_m;             /* 0: they do not meet */
-    double keep;                   /* share of the motion that leaves as much */
+    const char *scene, *flow; /* scene: or "workspace" */
+    int box;                  /* of the device's required ones; FW_NONE: a scene */
+    fw_clearance_least least; /* of the outlines as drawn */
+    double wall_m;            /* that walls come nearer by, as made: 0 as drawn */
+    double m, low_m, high_m;  /* as made, with its band */
+    double required_m;        /* 0: they do not meet */
+    double keep;              /* share of the motion that leaves as much */
     fw_verdict_decision decision;
 } fw_verdict_clearance;
 
@@ -119,7 +119,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     fw_verdict_reason *reason;          /* (nreason) */
     int nreason;
     const fw_clearance_things *things; /* NULL: nothing is drawn */
-    fw_verdict_clearance *clearance; /* (nclearance) none of what is not drawn */
+    fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
     fw_workspace_result workspace;
     fw_verdict_hinge_verdict *hinge; /* (mechanism->nhinge) */

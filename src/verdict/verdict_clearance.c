@@ -14,6 +14,9 @@
 /* of the least clearance, beside 1 nm; distances that are computed for it, and
    while nothing is decided */
 static const double fw_clearance_relative = 2e-3;
+/* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
+   One that is off by more is not decided. */
+static const double fw_off_at_most = 0.1;
 enum { MOST = 1000, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
@@ -99,11 +102,16 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
     if (!piece) {
         empty(w);
         w->path.begun = false;
+        w->parts = false;
         w->least = fw_clearance_nothing();
         w->status = FW_OK;
         return;
     }
-    if (w->status == FW_OK && fw_clearance_path_full(&w->path)) w->status = consume(w);
+    if (w->status == FW_OK && fw_clearance_path_full(&w->path)) {
+        w->wish.off = fw_off_at_most;
+        w->parts = true;
+        w->status = consume(w);
+    }
     if (w->status == FW_OK) fw_clearance_path_add(&w->path, piece);
 }
 
@@ -124,7 +132,7 @@ static void decide(fw_verdict_clearance *c, double off) {
     const fw_clearance_least *l = &c->least;
     double band = off * l->moved_m;
     c->m = l->m - c->wall_m;
-    c->low_m = fmax(l->low_m, -band) - c->wall_m;
+    c->low_m = (isfinite(l->low_m) ? l->low_m : -band) - c->wall_m;
     c->high_m = c->m + band;
     bool meet = l->m <= 0;
     bool enough = c->required_m > 0 ? c->low_m >= c->required_m : c->low_m > 0;
@@ -209,7 +217,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
         fw_verdict_motion_model_error(v->mechanism, motion) + fw_dynamics_motion_estimated(motion);
     if (!isfinite(off)) off = 1;
     FW_TRY(w->status);
-    w->wish.off = off;
+    w->wish.off = w->parts ? fmax(off, fw_off_at_most) : off;
     w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
     FW_TRY(consume(w));
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
@@ -221,6 +229,10 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .wall_m = walls(layout),
                                 .required_m = required(v->mechanism->device)};
     decide(c, off);
+    if (w->parts && off > fw_off_at_most && c->decision == FW_ACCEPT) {
+        c->decision = FW_INCONCLUSIVE;
+        c->least.given_up = true;
+    }
     char t[32];
     const char *where = fw_arena_printf(arena, "scene %s after %s ms", scene->name,
                                         fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));

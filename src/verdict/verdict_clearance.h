@@ -10,6 +10,7 @@ typedef struct fw_verdict_clearance_watch { /* of one run of a scene */
     fw_clearance_path path;
     fw_clearance_wish wish;
     fw_clearance_least least; /* of what has left the path */
+    bool parts;               /* something has, before the motion's end */
     fw_status status;
 } fw_verdict_clearance_watch;
 
