@@ -3,7 +3,7 @@
    motion as computed. Of the band: walls as they are made come nearer by 2 edge + |flare|; a motion
    that is off by the share e (its numbers, and what its model of the hinges is off by) moves every
    part by at most e times as far as the pair has moved against each other. Theory:
-   docs/theory/clearance.md, section 5. Test: test_verdict_clearance.c, tests/clearance/ */
+   docs/theory/clearance.md, section 5. Test: tests/clearance/cases.py, compare.py */
 #include "verdict/verdict_clearance.h"
 #include "base/constants.h"
 #include "base/text.h"
