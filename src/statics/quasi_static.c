@@ -133,7 +133,7 @@ static fw_status follow(fw_statics_quasi_static *r) {
     double second = r->w.model->scale.time_s;
     r->motion->observed = r->options->context;
     if (r->options->observe) r->options->observe(r->options->context, NULL);
-    if (r->options->trace) r->options->trace(r->options->context, NULL);
+    if (r->options->observe && r->options->trace) r->options->trace(r->options->context, NULL);
     for (int piece = 0; piece < r->npiece && !r->motion->ended; piece++) {
         double begin = piece ? r->end[piece - 1] : 0, h = (r->end[piece] - begin) / 16;
         r->piece_s = 0.5 * (begin + r->end[piece]) * second;

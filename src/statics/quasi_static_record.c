@@ -235,7 +235,7 @@ fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r) {
 static void trace(fw_statics_quasi_static *r) {
     enum { NODES = 6 };
     double unit = r->w.model->scale.time_s;
-    if (!r->options->trace) return;
+    if (!r->options->observe || !r->options->trace) return;
     for (int i = 0; i < NODES; i++) {
         fw_statics_quasi_static_curve(r, (double)i / (NODES - 1), r->guess, NULL, NULL);
         fw_statics_equilibrium_pose(&r->w, r->guess, r->piece_q + (size_t)(i * r->w.model->nq),
