@@ -58,7 +58,7 @@ fw_script_test(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py -
                --program ${FW_PROGRAM} --seed 7001 --count 24)
 # clearances of random devices against GEOS; a longer run is in tests/clearance/README.md
 fw_script_test(clearance.random COMMAND /usr/bin/python3 tests/clearance/compare.py
-               $<TARGET_FILE:clearance_outlines> --seed 1 --count 12)
+               $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)
 set_tests_properties(clearance.random PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
