@@ -3,56 +3,9 @@
    it. */
 #include "report/report.h"
 #include "report/report_page.h"
+#include "report/summary.h"
 #include <math.h>
 #include <string.h>
-
-static void band(fw_text *out, const fw_verdict_hinge_verdict *h) {
-    fw_markup(out, "{p}", h->utilisation);
-    if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high))
-        fw_markup(out, " ({p} to {p})", h->utilisation_low, h->utilisation_high);
-}
-
-static bool has_reasons(const fw_verdict *v) {
-    for (int i = 0; i < v->nvariant; i++)
-        if (v->variant[i].nreason > 0) return true;
-    return false;
-}
-
-/* scenes that are not accepted for something else than a hinge */
-static void reasons(fw_text *out, const fw_verdict *v) {
-    for (int i = 0; i < v->nvariant; i++)
-        for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_verdict_reason *r = &v->variant[i].reason[k];
-            fw_markup(out, "<p class=\"why\">{r}: {s} (FW-D{i}).</p>\n",
-                      r->decision == FW_REJECT ? "REJECTED" : "Inconclusive", r->text, r->number);
-        }
-}
-
-static void why(fw_text *out, const fw_verdict *v) {
-    static const char *const closing[] = {
-        [FW_ACCEPT] = "Every hinge stays inside its elastic range, error band included.",
-        [FW_INCONCLUSIVE] = "The error band straddles the limit: neither accepted nor rejected.",
-        [FW_REJECT] = "REJECTED: it leaves its elastic range.",
-    };
-    fw_text_add(out, "<p class=\"why\">");
-    if (v->governing >= 0 && v->governing < v->nhinge) {
-        const fw_verdict_hinge_verdict *h = &v->hinge[v->governing];
-        fw_verdict_decision decision = has_reasons(v) ? h->decision : v->decision;
-        fw_markup(out, "Hinge {s} turns by {d}; {r}{d} is allowed", h->id, fabs(h->peak_angle_rad),
-                  decision == FW_REJECT ? "only " : "", h->limit_angle_rad);
-        if (h->force_share > 0.0) /* rotation alone would be less: say where the rest comes from */
-            fw_markup(out,
-                      " when nothing else loads it. With the force that it carries it "
-                      "uses {p} of its limit. ",
-                      h->utilisation);
-        else
-            fw_markup(out, ": {p} of its limit. ", h->utilisation);
-        fw_text_add(out, closing[decision]);
-    } else
-        fw_text_add(out, "No hinge of this device was run to its end.");
-    fw_text_add(out, "</p>\n");
-    reasons(out, v);
-}
 
 static void limit(fw_text *out, const fw_verdict_hinge_verdict *h) {
     if (!h->limit) return;
@@ -69,24 +22,11 @@ static void limit(fw_text *out, const fw_verdict_hinge_verdict *h) {
                   h->failure_probability);
 }
 
-static void facts(fw_text *out, const fw_verdict *v) {
-    if (v->governing < 0 || v->governing >= v->nhinge) return;
-    const fw_verdict_hinge_verdict *h = &v->hinge[v->governing];
+static void facts(fw_text *out, const fw_verdict_hinge_verdict *h) {
     fw_markup(out,
-              "<dl><div><dt>Governing hinge</dt><dd>{s}</dd></div>"
-              "<div><dt>Utilisation (error band)</dt><dd>",
-              h->id);
-    band(out, h);
-    fw_markup(out,
-              "</dd></div><div><dt>Flow</dt><dd>{s}</dd></div><div><dt>Scene</dt>"
-              "<dd>{s}</dd></div><div><dt>Instant</dt><dd>",
-              h->flow ? h->flow : "\u2013", h->scene ? h->scene : "\u2013");
-    if (isfinite(h->t_s))
-        fw_markup(out, "{u}", h->t_s, "s");
-    else
-        fw_text_add(out, "any pose");
-    fw_markup(out, "</dd></div><div><dt>Peak strain (limit)</dt><dd>{p} ({p})</dd></div>",
-              h->peak_strain, h->strain_limit);
+              "<dl><div><dt>Governing hinge as drawn</dt><dd>{s}, which turns by {d} of {d}</dd>"
+              "</div><div><dt>Peak strain (limit)</dt><dd>{p} ({p})</dd></div>",
+              h->id, fabs(h->peak_angle_rad), h->limit_angle_rad, h->peak_strain, h->strain_limit);
     limit(out, h);
     fw_text_add(out, "</dl>\n");
 }
@@ -132,20 +72,25 @@ void fw_report_advice(fw_report_page *page) {
     fw_text_add(out, "</aside>\n");
 }
 
-void fw_report_banner(fw_report_page *page) {
+fw_status fw_report_banner(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
+    fw_report_summary top;
+    FW_TRY(fw_report_summarise(out->arena, page->in, &top));
     fw_markup(out,
               "<header style=\"background:{r}\"><div class=\"in\"><h1>{s}: elastic verdict"
               "</h1>\n<p class=\"word\">{r}</p>\n",
               fw_report_decision_colour(v->decision), page->in->device->name,
               fw_report_decision_word(v->decision));
-    why(out, v);
     if (v->drawn != v->decision)
         fw_markup(out, "<p class=\"why\">The drawn geometry alone: {r}.</p>\n",
                   fw_report_decision_word(v->drawn));
-    facts(out, v);
+    for (int i = 0; i < top.nline; i++)
+        fw_markup(out, "<p class=\"why\"><b>{s}:</b> {s}</p>\n", top.line[i].label,
+                  top.line[i].text);
+    if (top.has_drawn) facts(out, top.drawn.hinge);
     fw_text_add(out, "</div></header>\n");
+    return FW_OK;
 }
 
 fw_status fw_report_section_device(fw_report_page *page) {

@@ -2,6 +2,7 @@
 /* The verdict as JSON: hinges as drawn and as the flows make them, flows, effects, advice. */
 #include "report/report.h"
 #include "report/json_parts.h"
+#include "report/summary.h"
 #include <math.h>
 
 static const char *word(fw_verdict_decision decision) {
@@ -200,6 +201,31 @@ static void governing(fw_json *json, const fw_verdict_hinge_verdict *item, int c
     fw_json_end(json);
 }
 
+/* of the whole device: at the corner of the flow that is worst, or as drawn */
+static void check(fw_json *json, const char *key, const fw_verdict_check *c, bool found) {
+    if (!found) {
+        fw_json_null(json, key);
+        return;
+    }
+    fw_json_object(json, key);
+    fw_json_text(json, "what", c->what);
+    if (c->hinge) hinge(json, c->hinge);
+    fw_json_text(json, "corner", c->corner);
+    fw_json_end(json);
+}
+
+/* the first lines of every result, as they are read */
+static void summary(fw_json *json, const fw_report_summary *s) {
+    fw_json_list(json, "summary");
+    for (int i = 0; i < s->nline; i++) {
+        fw_json_object(json, NULL);
+        fw_json_text(json, "label", s->line[i].label);
+        fw_json_text(json, "text", s->line[i].text);
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
 /* ---- workspace: the required boxes; certified when all of them are ---- */
 
 static void box(fw_json *json, const fw_device_workspace_box *b,
@@ -374,6 +400,7 @@ static void advice(fw_json *json, const fw_verdict *v) {
         fw_json_text(json, "set", v->advice[i].set_path);
         fw_json_text(json, "value", v->advice[i].value_text);
         fw_json_real(json, "value_SI", v->advice[i].value);
+        fw_json_real(json, "change", v->advice[i].change);
         fw_json_text(json, "text", v->advice[i].text);
         fw_json_end(json);
     }
@@ -402,6 +429,8 @@ static void parameters(fw_json *json, const fw_verdict *v) {
 
 fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     const fw_verdict *v = input->verdict;
+    fw_report_summary top;
+    FW_TRY(fw_report_summarise(out->arena, input, &top));
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
     fw_json_object(&json, NULL);
     fw_json_text(&json, "schema", "flexwright.verdict/1");
@@ -410,7 +439,9 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_text(&json, "verdict", word(v->decision));
     fw_json_text(&json, "drawn", word(v->drawn));
     if (v->decision == FW_REJECT) fw_json_text(&json, "banner", "REJECTED");
-    governing(&json, v->hinge, v->nhinge, v->governing);
+    summary(&json, &top);
+    check(&json, "governing", top.has_made ? &top.made : &top.drawn, top.has_drawn);
+    check(&json, "governing_drawn", &top.drawn, top.has_drawn);
     hinges(&json, v->hinge, v->nhinge, v->variant, v->nvariant);
     fw_json_real(&json, "failure_probability", v->failure_probability);
     fw_json_real(&json, "repetitions", input->device->limits.cycles);

@@ -260,7 +260,7 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
     fw_report_page page = {.arena = arena, .out = out, .in = input};
     FW_TRY(survey(&page));
     head(&page);
-    fw_report_banner(&page);
+    FW_TRY(fw_report_banner(&page));
     navigation(&page);
     fw_text_add(out, "<main>\n");
     fw_report_advice(&page);

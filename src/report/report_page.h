@@ -152,7 +152,7 @@ typedef struct fw_report_page {
     fw_report_view view; /* of the drawing and of all animations */
     int nmotion;         /* motions in the whole page */
 } fw_report_page;
-void fw_report_banner(fw_report_page *page);
+fw_status fw_report_banner(fw_report_page *page);
 void fw_report_advice(fw_report_page *page);
 /* masses, stiffnesses, dampings as used, per flow */
 void fw_report_mechanics(fw_report_page *page);

@@ -2,6 +2,7 @@
 #include "report/report.h"
 #include "base/constants.h"
 #include "report/report_page.h"
+#include "report/summary.h"
 #include <math.h>
 #include <string.h>
 
@@ -60,19 +61,9 @@ static void limit(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_repo
     }
 }
 
+/* more about the hinge that governs as drawn */
 static void governing(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_report_input *in) {
-    bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
-    fw_text_printf(out, "governing hinge %s: ", h->id);
-    fw_text_real(out, "%.1f %% of the ", 100.0 * h->utilisation);
-    fw_text_printf(out, "%s limit in ", tires ? "fatigue" : "elastic");
-    fw_text_add(out, h->scene);
-    if (!isnan(h->t_s)) {
-        fw_text_add(out, " at ");
-        fw_text_number(out, h->t_s * 1e3, 4);
-        fw_text_add(out, " ms");
-    }
-    if (h->flow) fw_text_printf(out, ", flow %s", h->flow);
-    fw_text_add(out, "\n");
+    fw_text_printf(out, "\nhinge %s in %s:\n", h->id, h->scene);
     if (h->force_share > 0.0) {
         fw_text_real(out, "(its rotation alone would use %.1f %%, the force it carries the rest)\n",
                      100.0 * h->utilisation * (1.0 - h->force_share));
@@ -143,16 +134,6 @@ static void clearance(fw_text *out, const fw_verdict *v) {
     fw_text_printf(out, ") in %s\n", least->scene);
 }
 
-static void reasons(fw_text *out, const fw_verdict *v) {
-    for (int i = 0; i < v->nvariant; i++)
-        for (int k = 0; k < v->variant[i].nreason; k++) {
-            const fw_verdict_reason *r = &v->variant[i].reason[k];
-            fw_text_printf(out, "%s %s", fw_verdict_decision_text(r->decision), r->scene);
-            if (r->flow) fw_text_printf(out, " (%s)", r->flow);
-            fw_text_printf(out, ": %s [FW-D%03d]\n", r->text, r->number);
-        }
-}
-
 static void parameters(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nparameter; i++) {
         const fw_verdict_parameter_advice *p = &v->parameter[i];
@@ -173,18 +154,25 @@ static void advice(fw_text *out, const fw_verdict *v) {
     if (v->advice_note) fw_text_printf(out, "  %s\n", v->advice_note);
 }
 
+static void summary(fw_text *out, const fw_report_summary *s) {
+    for (int i = 0; i < s->nline; i++)
+        fw_text_printf(out, "%s: %s\n", s->line[i].label, s->line[i].text);
+}
+
 fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_terminal_style style,
                                  fw_text *out) {
     const fw_verdict *v = input->verdict;
-    static const char *const word[] = {"ACCEPT", "INCONCLUSIVE", "REJECT"};
+    fw_report_summary top;
     static const char *const paint[] = {"\033[1;32m", "\033[1;33m", "\033[1;31m"};
+    FW_TRY(fw_report_summarise(out->arena, input, &top));
     fw_text_printf(out, "%s: %s%s%s", input->device->name, style.colour ? paint[v->decision] : "",
-                   word[v->decision], style.colour ? "\033[0m" : "");
-    if (v->drawn != v->decision) fw_text_printf(out, " (as drawn: %s)", word[v->drawn]);
+                   fw_report_decision_word(v->decision), style.colour ? "\033[0m" : "");
+    if (v->drawn != v->decision)
+        fw_text_printf(out, " (as drawn: %s)", fw_report_decision_word(v->drawn));
     fw_text_add(out, "\n");
-    if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing], input);
-    reasons(out, v);
+    summary(out, &top);
     clearance(out, v);
+    if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);

@@ -29,8 +29,9 @@ static fw_status repeat(fw_verdict_trial *trial,
                                        double)) {
     double worst_before = HUGE_VAL;
     for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
-        double worst = 0.0, extra = round > 5 ? 1.02 : 1.0;
+        double worst = 0.0, extra = 1.0 + 0.03 * round; /* what is too much is taken back after */
         bool any = false;
+        trial->round = round;
         for (int k = 0; k < trial->nhinge; k++) {
             const fw_verdict_trial_hinge *h = &trial->hinge[k];
             if (h->decision == FW_ACCEPT) continue;
@@ -40,7 +41,7 @@ static fw_status repeat(fw_verdict_trial *trial,
         }
         if (!any || (round > 1 && worst > 0 && worst > 0.999 * worst_before)) return FW_OK;
         worst_before = worst > 0 ? worst : HUGE_VAL;
-        bool fabricated = trial->fabricated;
+        int fabricated = trial->fabricated;
         FW_TRY(fw_verdict_trial_run(trial));
         if (trial->fabricated != fabricated)
             worst_before = HUGE_VAL; /* corners are tighter than the drawing */
@@ -73,6 +74,7 @@ static fw_status add_line(fw_verdict_trial *trial, fw_verdict *out, const fw_dev
     fw_number_text(from, sizeof from, from_m * 1e6, 4);
     fw_verdict_advice *advice = &out->advice[out->nadvice++];
     advice->value = to_m;
+    advice->change = fabs(to_m - from_m) / from_m;
     FW_NEED(advice->value_text = fw_arena_printf(trial->arena, "%s um", to));
     FW_NEED(advice->set_path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
     FW_NEED(advice->text =
@@ -86,6 +88,7 @@ static fw_status add_line(fw_verdict_trial *trial, fw_verdict *out, const fw_dev
 static fw_status change_lengths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
     FW_TRY(repeat(trial, lengthen));
     *done = accepted(trial);
+    if (*done) FW_TRY(fw_verdict_least_change(trial));
     for (int i = 0; *done && i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->length_m == was->length_m) continue;
@@ -125,6 +128,7 @@ static bool widen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, doub
 static fw_status change_widths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
     FW_TRY(repeat(trial, widen));
     *done = accepted(trial);
+    if (*done) FW_TRY(fw_verdict_least_change(trial));
     for (int i = 0; *done && i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->width_m != was->width_m)
@@ -153,6 +157,7 @@ static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, do
     if (!is_worst(trial, h)) return true;
     double over = excess(h) * extra;
     double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);
+    if (h->joint == FW_NONE) by = pow(by, trial->round + 1); /* a guess: further each time */
     for (int i = 0; i < trial->changed->nscene; i++)
         if (same(trial->changed->scene[i].name, h->scene)) {
             trial->share[i] *= by;
@@ -232,6 +237,7 @@ static fw_status report_loads(fw_verdict_trial *trial, const char **sentence) {
 static fw_status change_loads(fw_verdict_trial *trial, const char **sentence, bool *done) {
     FW_TRY(repeat(trial, lighten));
     *done = accepted(trial);
+    if (*done) FW_TRY(fw_verdict_least_change(trial));
     if (*done) FW_TRY(report_loads(trial, sentence));
     *done = *done && *sentence;
     return FW_OK;

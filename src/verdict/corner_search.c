@@ -73,13 +73,26 @@ static const char *last_error(const fw_diags *diags) {
     return "it could not be run";
 }
 
+/* a hinge's verdict with everything that it points to */
+static fw_status take_hinge(const fw_verdict_search *s, const fw_verdict_hinge_verdict *now,
+                            fw_verdict_hinge_verdict *kept) {
+    *kept = *now;
+    kept->flow = s->v->variant->flow;
+    if (now->limit) {
+        fw_flexure_limit *limit = fw_arena_one(s->arena, fw_flexure_limit);
+        FW_NEED(limit);
+        *limit = *now->limit;
+        kept->limit = limit;
+    }
+    if (now->actuation) FW_NEED(kept->actuation = fw_arena_strdup(s->arena, now->actuation));
+    return FW_OK;
+}
+
 /* copies what stays: the run's own arena is given back */
 static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                       fw_verdict_fabricated_corner *corner, double *ln) {
-    for (int k = 0; k < s->v->nhinge; k++) {
-        corner->hinge[k] = now->hinge[k];
-        corner->hinge[k].flow = s->v->variant->flow;
-    }
+    for (int k = 0; k < s->v->nhinge; k++)
+        FW_TRY(take_hinge(s, &now->hinge[k], &corner->hinge[k]));
     corner->decision = now->decision;
     FW_TRY(take_reason(s, now, corner));
     take_checks(s, now, ln);

@@ -55,9 +55,9 @@ static void remember_suspect(fw_verdict_trial *trial, const fw_verdict *verdict)
 static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const fw_layout *layout) {
     trial->nhinge = verdict->nhinge;
     trial->decision = verdict->decision;
-    trial->fabricated = false;
+    trial->fabricated = 0;
     for (int i = 0; i < verdict->nvariant; i++)
-        trial->fabricated = trial->fabricated || verdict->variant[i].fabricated;
+        trial->fabricated += verdict->variant[i].fabricated != NULL;
     for (int k = 0; k < verdict->nhinge; k++) {
         const fw_verdict_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
@@ -100,6 +100,12 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
     }
 }
 
+fw_status fw_verdict_trial_reset(fw_verdict_trial *trial) {
+    for (int i = 0; i < trial->device->nscene; i++)
+        trial->share[i] = 1;
+    return copy_device(trial->arena, trial->device, &trial->changed);
+}
+
 fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
                                  const fw_verdict_options *options, const fw_verdict *verdict,
                                  fw_verdict_trial *trial) {
@@ -107,14 +113,12 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
     size_t n = (size_t)verdict->nvariant;
     size_t most = (size_t)device->nrevolute +
-                  n * (FW_REASONS * (size_t)device->nscene + (size_t)device->nworkspace + 1);
+                  n * (FW_REASONS * (size_t)device->nscene + (size_t)device->nworkspace + 2);
     FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
-    for (int i = 0; i < device->nscene; i++)
-        trial->share[i] = 1;
-    FW_TRY(copy_device(arena, device, &trial->changed));
+    FW_TRY(fw_verdict_trial_reset(trial));
     remember(trial, verdict, verdict->layout);
     remember_suspect(trial, verdict);
     return FW_OK;

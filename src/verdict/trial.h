@@ -28,14 +28,17 @@ typedef struct fw_verdict_trial {
     bool *suspected; /* (nvariant) there is one */
     double *share;   /* (device->nscene) of each scene's loads that is left */
     fw_verdict_decision decision;
+    int round; /* of a change that is repeated; its caller's */
     bool drawn;
-    bool fabricated; /* the last run looked at what the flows make of it, too */
+    int fabricated; /* flows whose making of it the last run looked at, too */
 } fw_verdict_trial;
 
 /* copies the device and takes over the verdict that it has */
 fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
                                  const fw_verdict_options *options, const fw_verdict *verdict,
                                  fw_verdict_trial *trial);
+/* `changed` is the device as described once more, with all of its loads */
+fw_status fw_verdict_trial_reset(fw_verdict_trial *trial);
 /* judges `changed`; what could not be run is a rejection that is not drawn */
 fw_status fw_verdict_trial_run(fw_verdict_trial *trial);
 
@@ -44,6 +47,9 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial);
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, bool glance);
 /* the largest `likely` (or reach) of the last run; NaN: it was not run */
 double fw_verdict_trial_excess(const fw_verdict_trial *trial);
+
+/* least_change.c: an accepted change, made as small as it may be in its own direction */
+fw_status fw_verdict_least_change(fw_verdict_trial *trial);
 
 /* parameters.c: every declared parameter alone */
 fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,

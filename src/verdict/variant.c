@@ -214,7 +214,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 1; /* as made */
+    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 2; /* out of reach, as made */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
@@ -295,13 +295,35 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
     /* the poses that can be reached; what rides on the six-bar does not bend in them */
-    if (v->workspace.required && by->hinge->pin < FW_SIX) {
+    if (v->workspace.required && v->workspace.reachable && by->hinge->pin < FW_SIX) {
         fw_verdict_hinge_verdict now = blank;
         judge_workspace(by, &v->workspace, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[device->nscene] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
+    return FW_OK;
+}
+
+/* a required pose that no pose of the legs has: nothing of a hinge can be said there */
+static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_result *w = &v->workspace;
+    char x[32], y[32], phi[32];
+    const char *text;
+    if (!w->required || w->reachable) return FW_OK;
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
+                "by %s deg",
+                fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
+                fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
+                fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 201,
+                                                  .decision = FW_REJECT,
+                                                  .keep = 0.5,
+                                                  .text = text};
     return FW_OK;
 }
 
@@ -355,7 +377,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))
             v->governing = k;
     }
-    if (v->workspace.required && !v->workspace.reachable) v->decision = FW_REJECT;
+    FW_TRY(judge_reach(arena, v));
     for (int i = 0; i < v->nreason; i++)
         v->decision = fw_verdict_worse(v->decision, v->reason[i].decision);
     v->drawn = v->decision;

@@ -129,10 +129,23 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     double failure_probability; /* of all its hinges in series; NaN: not known */
 } fw_verdict_variant_verdict;
 
+/* One quantity held against what is allowed: of what governs, as drawn or as made. */
+typedef struct fw_verdict_check {
+    const char *what;         /* "hinge C" */
+    const char *of;           /* "its elastic limit" */
+    double used, low, high;   /* share of that, with its band; above 1 is too much */
+    const char *flow, *scene; /* flow may be NULL */
+    const char *corner;       /* "thickness 49 um": of what the flow may make; NULL: as drawn */
+    double t_s;               /* NaN: no one time */
+    fw_verdict_decision decision;
+    const fw_verdict_hinge_verdict *hinge; /* NULL: it is no hinge */
+} fw_verdict_check;
+
 typedef struct fw_verdict_advice { /* one change that accepts, verified by running it */
     const char *set_path;          /* "flexure[A]/@length" */
     const char *text;              /* "flexure A: arc length >= 312 um is accepted; now 75 um" */
     double value;                  /* SI */
+    double change;                 /* relative to what it is now */
     const char *value_text;        /* "312 um" */
 } fw_verdict_advice;
 
@@ -247,6 +260,13 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);
+/* What governs. made: each flow as it makes the device, where that was judged, else as drawn; not
+   made: as drawn. The worst decision goes first, then the largest share used. *found is false where
+   nothing was run. Test: tests/unit/verdict/test_governing.c */
+fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, bool made,
+                               fw_verdict_check *check, bool *found);
+/* advice_note where no advice was asked for */
+extern const char fw_verdict_not_searched[];
 /* what is not accepted, where advice is asked for: fills it: which lengths accept, which value of
    each parameter, each one run */
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,

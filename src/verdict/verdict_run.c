@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+const char fw_verdict_not_searched[] = "no change that would be accepted was searched for";
+
 static void unreachable(const fw_device *device, const fw_verdict_variant_verdict *v,
                         fw_diags *diags) {
     char x[32], y[32], phi[32];
@@ -191,8 +193,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     }
     verdict->layout = *layout;
     FW_TRY(as_fabricated(arena, device, *layout, options, verdict));
-    if (verdict->decision != FW_ACCEPT)
-        verdict->advice_note = "no change that would be accepted was searched for";
+    if (verdict->decision != FW_ACCEPT) verdict->advice_note = fw_verdict_not_searched;
     return FW_OK;
 }
 

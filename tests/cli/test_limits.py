@@ -69,7 +69,7 @@ class Limits(unittest.TestCase):
         self.assertEqual(document["governing"]["criterion"], "fatigue")
         self.assertEqual(document["repetitions"], 1e7)
         text = run("check", NODDER, "--advice", "none").stdout
-        self.assertIn("of the fatigue limit", text)
+        self.assertIn("of its fatigue limit", text)
         self.assertIn("damage", text)
         self.assertIn("proportional limit", run("check", NODDER, "--advice", "none", "--set", "limits/@cycles=1").stdout)
 

@@ -553,9 +553,12 @@ static fixture *fixture_new(fw_arena *arena, double limit) {
     if (v->decision != FW_ACCEPT) {
         v->advice = FIXTURE_ARRAY(arena, fw_verdict_advice, 1);
         v->nadvice = 1;
-        v->advice[0] = (fw_verdict_advice){"flexure[A]/@length",
-                                           "flexure A: arc length >= 312 um accepts (now 300 um)",
-                                           312e-6, "312 um"};
+        v->advice[0] =
+            (fw_verdict_advice){.set_path = "flexure[A]/@length",
+                                .text = "flexure A: arc length >= 312 um accepts (now 300 um)",
+                                .value = 312e-6,
+                                .change = 0.04,
+                                .value_text = "312 um"};
         v->advice_verified = true;
     }
     const char **assumption =

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The top of every result, for the terminal, the page, the report and programs alike: the decision,
+   why, what governs as it will be fabricated and as drawn, what to do, and what is not guaranteed
+   with the measurement that would settle it. Private to the room. */
+#ifndef FW_REPORT_SUMMARY_H
+#define FW_REPORT_SUMMARY_H
+#include "report/report.h"
+
+typedef struct fw_report_summary_line {
+    const char *label; /* "because", "as made", "as drawn", "do", "not guaranteed" */
+    const char *text;  /* a sentence without its full stop */
+} fw_report_summary_line;
+
+typedef struct fw_report_summary {
+    fw_verdict_decision decision;
+    fw_verdict_check made, drawn; /* that govern */
+    bool has_made, has_drawn;     /* has_made: they differ: a flow was judged as it makes it */
+    fw_report_summary_line *line; /* (nline) in the order in which they are read */
+    int nline;
+} fw_report_summary;
+
+fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *input,
+                              fw_report_summary *summary);
+
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which check a verdict rests on: the worst decision first, then the largest share used; as made
+   where a flow was judged so. */
+#include "verdict/verdict.h"
+#include "test.h"
+#include <math.h>
+
+static fw_verdict_hinge_verdict hinge(const char *id, double used, fw_verdict_decision decision) {
+    return (fw_verdict_hinge_verdict){.id = id,
+                                      .scene = "push",
+                                      .utilisation = used,
+                                      .utilisation_low = 0.9 * used,
+                                      .utilisation_high = 1.1 * used,
+                                      .t_s = 1e-3,
+                                      .decision = decision};
+}
+
+typedef struct example {
+    fw_arena *arena;
+    fw_mechanism_variant flow[2];
+    fw_verdict_hinge_verdict drawn[2][2], corner[2][2];
+    fw_verdict_fabricated_corner at[2];
+    fw_verdict_fabricated_verdict made;
+    fw_verdict_variant_verdict variant[2];
+    fw_verdict verdict;
+} example;
+
+/* flow "one" is judged as made, at two corners; flow "two" as drawn only */
+static example *example_new(void) {
+    fw_arena *arena = fw_arena_new(0);
+    example *e = fw_arena_one(arena, example);
+    *e = (example){.arena = arena,
+                   .flow = {{.flow = "one"}, {.flow = "two"}},
+                   .drawn = {{hinge("A", 0.5, FW_ACCEPT), hinge("B", 0.6, FW_ACCEPT)},
+                             {hinge("A", 0.4, FW_ACCEPT), hinge("B", 0.3, FW_ACCEPT)}},
+                   .corner = {{hinge("A", 0.5, FW_ACCEPT), hinge("B", 0.6, FW_ACCEPT)},
+                              {hinge("A", 0.8, FW_ACCEPT), hinge("B", 0.7, FW_ACCEPT)}},
+                   .at = {{.what = "nominal"}, {.what = "thickness 49 um"}}};
+    for (int i = 0; i < 2; i++) {
+        e->at[i].hinge = e->corner[i];
+        e->variant[i] =
+            (fw_verdict_variant_verdict){.variant = &e->flow[i], .hinge = e->drawn[i], .nhinge = 2};
+    }
+    e->made = (fw_verdict_fabricated_verdict){.corner = e->at, .ncorner = 2};
+    e->variant[0].fabricated = &e->made;
+    e->verdict = (fw_verdict){.variant = e->variant, .nvariant = 2};
+    return e;
+}
+
+static void the_largest_share_of_every_flow_and_corner(void **state) {
+    (void)state;
+    example *e = example_new();
+    fw_verdict_check check;
+    bool found;
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, false, &check, &found), FW_OK);
+    assert_true(found);
+    assert_string_equal(check.what, "hinge B");
+    assert_true(check.used == 0.6 && check.corner == NULL);
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_string_equal(check.what, "hinge A");
+    assert_string_equal(check.corner, "thickness 49 um");
+    assert_string_equal(check.flow, "one");
+    fw_arena_free(e->arena);
+}
+
+static void a_worse_decision_goes_before_a_larger_share(void **state) {
+    (void)state;
+    example *e = example_new();
+    fw_verdict_check check;
+    bool found;
+    e->drawn[1][1] = hinge("B", 0.55, FW_INCONCLUSIVE);
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_string_equal(check.flow, "two"); /* which nobody judged as made */
+    assert_null(check.corner);
+    assert_int_equal(check.decision, FW_INCONCLUSIVE);
+    fw_arena_free(e->arena);
+}
+
+static void nothing_that_was_run_governs_nothing(void **state) {
+    (void)state;
+    example *e = example_new();
+    fw_verdict_check check;
+    bool found = true;
+    e->variant[0].fabricated = NULL;
+    for (int i = 0; i < 4; i++)
+        e->drawn[i / 2][i % 2].scene = NULL;
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_false(found);
+    fw_arena_free(e->arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_largest_share_of_every_flow_and_corner),
+        cmocka_unit_test(a_worse_decision_goes_before_a_larger_share),
+        cmocka_unit_test(nothing_that_was_run_governs_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
