@@ -4,6 +4,7 @@
 #include "report/report.h"
 #include "report/report_page.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Buckets of equal length, of each the least and the greatest sample in order of time: what a plot
@@ -301,9 +302,31 @@ static int extra(const fw_mechanism_mass *body) {
     return body->frame.x != 0 || body->frame.y != 0 ? 2 : 0;
 }
 
-/* per body its frame's pose and velocities, and where the centre of mass is apart from it that */
+/* probes of this scene that have a course in time, each in its SI unit */
+static fw_status probe_columns(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               const fw_device_scene *scene, fw_text *out, fw_probe **probe) {
+    const int n = fw_probe_count(mechanism);
+    *probe = NULL;
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_probe_bind(out->arena, mechanism, scene, motion->loads, probe));
+    for (int i = 0; i < n; i++) {
+        const fw_probe *p = &(*probe)[i];
+        if (!fw_report_probe_moves(p)) continue;
+        char suffix[64];
+        snprintf(suffix, sizeof suffix, ".%s_%s", p->kind->name, p->kind->suffix);
+        name(out, p->asked->id, suffix);
+    }
+    return FW_OK;
+}
+
+bool fw_report_probe_moves(const fw_probe *p) {
+    return p->in_scene && fw_device_probe_moves(p->kind);
+}
+
+/* per body its frame's pose and velocities, and where the centre of mass is apart from it that;
+   probes */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
-                               fw_text *out) {
+                               const fw_device_scene *scene, fw_text *out) {
     static const char *const suffix[] = {".x_m",        ".y_m",        ".phi_rad",
                                          ".vx_m_per_s", ".vy_m_per_s", ".omega_rad_per_s",
                                          ".com_x_m",    ".com_y_m"};
@@ -311,6 +334,8 @@ fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_
     for (int b = 0; b < motion->nbody; b++)
         for (int k = 0; k < 6 + extra(&mechanism->body[b]); k++)
             name(out, mechanism->body[b].id, suffix[k]);
+    fw_probe *probe;
+    FW_TRY(probe_columns(mechanism, motion, scene, out, &probe));
     fw_text_add(out, "\n");
     size_t wide = 3 * (size_t)motion->nbody;
     for (int i = 0; i < motion->nsample && !out->failed; i++) {
@@ -333,6 +358,11 @@ fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_
                 fw_text_add(out, ",");
                 cell(out, motion->q[at + (size_t)k]);
             }
+        }
+        for (int k = 0; probe && k < fw_probe_count(mechanism); k++) {
+            if (!fw_report_probe_moves(&probe[k])) continue;
+            fw_text_add(out, ",");
+            cell(out, fw_probe_at_row(&probe[k], motion, i));
         }
         fw_text_add(out, "\n");
     }
