@@ -163,6 +163,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (v->governing != FW_NONE) governing(out, &v->hinge[v->governing], input);
     reasons(out, v);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
+    if (style.detail >= 0) fw_report_requirements_text(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
     advice(out, v);

@@ -208,7 +208,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, FW_REASONS * n + 1)); /* as made */
+    size_t reasons = FW_REASONS * n + (size_t)v->nrequirement + 1; /* as made */
+    FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
@@ -219,11 +220,21 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         motion.context = &monitor[i];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
+        fw_probe_monitor *seen[2];
+        FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
+        monitor[i].probe = seen[0], other[i].probe = seen[1];
+        motion.whole = seen[0] != NULL;
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
+        if (v->motion[i] && seen[0]) {
+            const fw_verdict_strain_monitor *saw = v->motion[i]->observed,
+                                            *looser = v->motion[i]->compared;
+            FW_TRY(fw_verdict_requirements_of_scene(arena, m, (int)i, saw->probe,
+                                                    looser ? looser->probe : NULL, v));
+        }
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;
@@ -316,7 +327,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_strain_monitor *other =
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
+    FW_TRY(fw_verdict_requirements_list(arena, m, v));
     FW_TRY(run_scenes(arena, device, m, options, diags, v, monitor, other));
+    FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
 
     for (int k = 0; k < m->nhinge; k++) {

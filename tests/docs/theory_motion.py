@@ -199,3 +199,18 @@ def integrators(g):
 
 def integrators_program(run, _):
     return {name: kick(run, "--integrator", name)["peaks"][0]["angle_rad"] for name in ("dop853", "radau5", "dopri5")}
+
+
+def probes(g):
+    theta = 0.0
+    for _ in range(100):
+        theta = g["F"] * g["L"] * cos(theta) / g["K"]
+    return {"up": g["L"] * sin(theta), "torque": -g["K"] * theta, "k": g["K"] / g["L"] ** 2,
+            "f": sqrt(g["K"] / (g["J"] + g["m"] * g["r"] ** 2)) / (2 * pi)}
+
+
+def probes_program(run, _):
+    paddle = "tests/data/probes/paddle.xml"
+    rest = {p["id"]: p["value"] for p in run("statics", paddle, "--json")["probes"]}
+    small = {p["id"]: p["value"] for p in run("modes", paddle, "--json")["probes"]}
+    return {"up": rest["up"], "torque": rest["spring"], "k": small["stiffness"], "f": small["frequency"]}
