@@ -57,6 +57,8 @@ void fw_report_preview_factors(const fw_device_scene *scene, const fw_dynamics_m
 fw_status fw_report_preview_tensions(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                      fw_json *out);
+/* "probes" of the motion, nothing where the device has none */
+fw_status fw_report_preview_probes(fw_arena *arena, const fw_report_preview *in, fw_json *out);
 /* the box, where it holds anything, with springs and joints; with cables and electrodes of a
    scene */
 void fw_report_preview_attached_box(const fw_mechanism *mechanism, fw_geometry_box *box);
