@@ -119,6 +119,12 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
                                  fw_text *out);
 /* what is required of probes: value, band, bound, margin, as drawn and at the worst corner */
 void fw_report_requirements_text(fw_text *out, const fw_verdict *verdict);
+/* peaks of a motion that fw_probe_monitor has observed, values at an equilibrium; nothing without
+   probes */
+void fw_report_probes_text(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                           fw_text *out);
+fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                     const fw_statics *statics, fw_text *out);
 /* what each flow makes of the device, at its corners */
 void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */

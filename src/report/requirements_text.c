@@ -48,3 +48,43 @@ void fw_report_requirements_text(fw_text *out, const fw_verdict *verdict) {
         }
     }
 }
+
+/* ---- probes of one scene ---- */
+
+void fw_report_probes_text(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                           fw_text *out) {
+    const int n = fw_probe_count(mechanism);
+    const fw_probe_monitor *saw = n > 0 ? motion->observed : NULL;
+    bool any = false;
+    for (int i = 0; saw && i < n; i++) {
+        const fw_device_probe *p = &mechanism->device->probe[i];
+        const char *unit = fw_device_probe_kinds[p->row].unit;
+        char peak[FW_PROBE_TEXT], error[FW_PROBE_TEXT], at[FW_PROBE_TEXT], final[FW_PROBE_TEXT];
+        fw_probe_result r;
+        fw_probe_result_of(saw, motion->compared, motion, i, &r);
+        if (!r.known) continue;
+        if (!any)
+            fw_text_add(out,
+                        "\n  probe        of            peak          at            +-            "
+                        "final\n");
+        any = true;
+        fw_text_printf(out, "  %-12s %-13s %-13s %-13s %-13s %s\n", p->id,
+                       fw_device_probe_kinds[p->row].name, fw_probe_text(peak, r.peak, unit),
+                       fw_probe_text(at, r.peak_t_s, "s"), fw_probe_text(error, r.numeric, unit),
+                       fw_probe_text(final, r.final, unit));
+    }
+}
+
+fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                     const fw_statics *statics, fw_text *out) {
+    fw_probe *probe;
+    FW_TRY(fw_probe_bind(out->arena, mechanism, scene, statics->loads, &probe));
+    for (int i = 0; i < fw_probe_count(mechanism); i++) {
+        char text[FW_PROBE_TEXT];
+        if (!fw_report_probe_moves(&probe[i])) continue;
+        fw_text_printf(out, "probe %s (%s): %s\n", probe[i].asked->id, probe[i].kind->name,
+                       fw_probe_text(text, fw_probe_at_equilibrium(&probe[i], scene, statics),
+                                     probe[i].kind->unit));
+    }
+    return FW_OK;
+}

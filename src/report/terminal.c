@@ -319,6 +319,7 @@ fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechani
     fw_text_printf(out, "%s\n", motion->tolerance);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
+    fw_report_probes_text(m, motion, out);
     fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);
     ledger(out, &motion->ledger);
     return fw_text_end(out);
