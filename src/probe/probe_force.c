@@ -3,7 +3,7 @@
    tension T = k (l - l0) + c l', of a cable where that is above 0; a tendon: its tension, which is
    the force on its first eyelet; a comb drive: on its rotor, along the drive; a contact: the force
    that presses its surfaces. In: a state in SI; out: N. Error: that of the state. Test:
-   test_probe.c. */
+   test_probe.py. */
 #include "probe/probe.h"
 #include <math.h>
 

@@ -7,7 +7,7 @@
    over the motions that the joints allow. In: modes in SI; out: m/N. Exact but for round-off (1e-9
    with stiff axes beside soft ones). Infinite where a free motion moves the point, NaN where the
    pose is unstable. Cost: one term a mode. Source: Meirovitch, Fundamentals of Vibrations, 7.
-   Test: test_probe.c, against a cantilever's end. */
+   Test: test_probe.py, against a cantilever's end. */
 #include "probe/probe.h"
 #include <math.h>
 

@@ -2,7 +2,7 @@
 /* Where the points of a probe are and how they move: p = x + R(phi) s, p' = v + omega (-r_y, r_x)
    with the arm r = R(phi) s; points of a ground that stretches: p + strain law (p - centre).
    In: poses and velocities in SI. Out: m, m/s. Error: round-off, 1e-16 of world coordinates. Cost: a
-   sine and a cosine. Test: test_probe.c. */
+   sine and a cosine. Test: test_probe.py. */
 #include "probe/probe.h"
 #include <math.h>
 

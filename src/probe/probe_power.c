@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mechanical power that an actuator feeds into the bodies: of a driver its force times the rate of
    its coordinate; of a tendon or comb drive the sum of f . w over its ports, without what the cable
-   stores and what the source loses. W. Test: test_probe.c, against kinetic and elastic energy. */
+   stores and what the source loses. W. Test: test_probe.py, against kinetic and elastic energy. */
 #include "probe/probe.h"
 #include <math.h>
 

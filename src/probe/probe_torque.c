@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Torques: of a revolute on its body b what its flexure exerts there, as a force element or as the
    spring and damper -k angle - c rate; of prismatic joints and welds about their point b; of drivers
-   that turn. Stops and friction are not counted. N m. Test: test_probe.c. */
+   that turn. Stops and friction are not counted. N m. Test: test_probe.py. */
 #include "probe/probe.h"
 #include <math.h>
 

@@ -232,7 +232,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_m
         if (v->motion[i] && seen[0]) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed,
                                             *looser = v->motion[i]->compared;
-            FW_TRY(fw_verdict_requirements_of_scene(arena, m, (int)i, saw->probe,
+            FW_TRY(fw_verdict_requirements_of_scene(m, (int)i, saw->probe,
                                                     looser ? looser->probe : NULL, v));
         }
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);

@@ -47,8 +47,8 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mec
                                         const fw_verdict_variant_verdict *v,
                                         fw_probe_monitor *monitor[2]);
 /* of a motion that was made and seen by these: v->probed and its requirements */
-fw_status fw_verdict_requirements_of_scene(fw_arena *arena, const fw_mechanism *mechanism,
-                                           int scene, const fw_probe_monitor *monitor,
+fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int scene,
+                                           const fw_probe_monitor *monitor,
                                            const fw_probe_monitor *looser,
                                            fw_verdict_variant_verdict *v);
 /* those of equilibria; reasons of all that are not met */

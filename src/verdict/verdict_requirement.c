@@ -217,12 +217,11 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
     r->t_s = p->across_t_s;
 }
 
-fw_status fw_verdict_requirements_of_scene(fw_arena *arena, const fw_mechanism *m, int scene,
+fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
                                            const fw_probe_monitor *monitor,
                                            const fw_probe_monitor *looser,
                                            fw_verdict_variant_verdict *v) {
     const int n = m->device->nprobe;
-    (void)arena;
     if (monitor->no_memory || (looser && looser->no_memory)) return FW_NOMEM;
     for (int i = 0; i < n; i++)
         fw_probe_result_of(monitor, looser, v->motion[scene], i, &v->probed[scene * n + i]);
@@ -276,9 +275,16 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
 
 /* ---- reasons ---- */
 
+/* which bound is the trouble: the one that the band reaches over, of both the nearer one */
+static bool is_below(const fw_verdict_requirement *r) {
+    bool under = r->low<r->min, over = r->high> r->max;
+    if (under && over) return r->value - r->min < r->max - r->value;
+    return under || (!over && !isnan(r->min));
+}
+
 static const char *text_of(fw_arena *arena, const fw_verdict_requirement *r) {
     char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], bound[FW_PROBE_TEXT];
-    bool below = r->min > 0 || isnan(r->max) ? !(r->low >= r->min) : false;
+    bool below = is_below(r);
     const char *of = r->measure ? r->measure : r->kind;
     fw_probe_text(bound, below ? r->min : r->max, r->unit);
     if (r->why)
@@ -297,7 +303,7 @@ static const char *text_of(fw_arena *arena, const fw_verdict_requirement *r) {
 static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_verdict_requirement *r,
                             fw_verdict_variant_verdict *v) {
     const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
-    bool min = r->utilisation > 0 && !isnan(r->min) && !(r->value > r->max);
+    bool min = is_below(r);
     bool softer = r->measure ? min : (p->row == FW_PROBE_IS_compliance) == min;
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
     const char *text = text_of(arena, r);
