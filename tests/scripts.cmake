@@ -37,6 +37,7 @@ fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_worksp
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
 fw_script_test(cli.shapes COMMAND ${Python3_EXECUTABLE} tests/cli/test_shapes.py ${FW_PROGRAM})
 fw_script_test(cli.frames COMMAND ${Python3_EXECUTABLE} tests/cli/test_frames.py ${FW_PROGRAM})
+fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
 fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
 fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py ${FW_PROGRAM})

@@ -7,6 +7,7 @@
 #ifndef FW_DEVICE_DEVICE_H
 #define FW_DEVICE_DEVICE_H
 #include "base/diag.h"
+#include "device/device_probe.h"
 #include "device/material.h"
 #include "geometry/strip.h"
 #include "quantity/quantity_law.h"
@@ -411,6 +412,9 @@ typedef struct fw_device {
     fw_device_scene *scene;
     fw_device_workspace_box *workspace;
     int nparameter, nflow, nflexure, nbody, nrevolute, njoint, ndriver, nspring, nscene, nworkspace;
+    fw_device_probe *probe;             /* (nprobe) those of the file, then implied ones */
+    fw_device_requirement *requirement; /* (nrequirement) */
+    int nprobe, nrequirement;
     const char *material_ref; /* NULL only where nothing needs one: no flexures, all masses given */
     fw_place material_place;
     /* overrides of <material>; unknown = take the pack's value */
@@ -452,6 +456,8 @@ fw_status fw_device_read_with(fw_arena *arena, const char *file, const char *xml
 
 /* a scene or workspace that asks for a flow (NULL: any) holds in this one (NULL: none) */
 bool fw_device_in_flow(const char *asked, const char *flow);
+/* the scene has what carries the probe: the tendon, comb drive or contact of that id */
+bool fw_device_probe_in_scene(const fw_device_probe *probe, const fw_device_scene *scene);
 /* some mass, inertia or centre of mass is not stated: it comes from the drawn shape */
 bool fw_device_needs_shapes(const fw_device *device);
 

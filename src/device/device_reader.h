@@ -41,6 +41,7 @@ fw_status fw_device_build_flexures(fw_device_reader *r);
 fw_status fw_device_expand_six_bar(fw_device_reader *r); /* bodies 0..4 and joints 0..5 */
 fw_status fw_device_build_mechanism(fw_device_reader *r);
 fw_status fw_device_build_scenes(fw_device_reader *r);
+fw_status fw_device_build_probes(fw_device_reader *r); /* when all that they name is there */
 /* close.c: poses whose joints are open by what rounded numbers leave (FW-D132) */
 fw_status fw_device_close_rounded(fw_device_reader *r);
 

@@ -20,12 +20,13 @@ typedef enum fw_device_space { /* ids are unique within one of these */
                                FW_SPACE_TENDON,
                                FW_SPACE_COMB,
                                FW_SPACE_CONTACT,
+                               FW_SPACE_PROBE,
                                FW_SPACE_COUNT
 } fw_device_space;
 
 /* each ends with a row without a name */
 extern const fw_xml_element_row fw_device_table_mechanism[], fw_device_table_shapes[],
-    fw_device_table_scene[], fw_device_table_effects[];
+    fw_device_table_scene[], fw_device_table_effects[], fw_device_table_probe[];
 extern const fw_xml_table fw_device_table;
 
 /* What the rows of the table are written with: dimensions, ranges with their reasons, and the

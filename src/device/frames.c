@@ -57,6 +57,14 @@ static void restate_joints(fw_device *d, moves move) {
     }
 }
 
+static void restate_probes(fw_device *d, moves move) {
+    for (int i = 0; i < d->nprobe; i++) {
+        fw_device_probe *p = &d->probe[i];
+        restate(move, p->body, &p->x_m, &p->y_m);
+        restate(move, p->body_b, &p->bx_m, &p->by_m);
+    }
+}
+
 /* forces, eyelets, electrodes, contacts of points and squeezed walls are at points of bodies;
    initial velocities are of centres of mass; friction and contacts of hinges are at joints; torques,
    base motion, gravity, temperature, stress and damping have no point; of parts without a struct x
@@ -93,7 +101,7 @@ static void restate_scene(fw_device_scene *s, moves move) {
 fw_status fw_device_move_frames(fw_arena *arena, const fw_device *device,
                                 const fw_device_frame_move *move, const fw_device **moved) {
     size_t b = (size_t)device->nbody, r = (size_t)device->nrevolute, j = (size_t)device->njoint,
-           p = (size_t)device->nspring, s = (size_t)device->nscene;
+           p = (size_t)device->nspring, s = (size_t)device->nscene, q = (size_t)device->nprobe;
     fw_device *d = fw_arena_one(arena, fw_device);
     FW_NEED(d);
     *d = *device;
@@ -102,8 +110,10 @@ fw_status fw_device_move_frames(fw_arena *arena, const fw_device *device,
     FW_NEED(d->joint = fw_arena_grow(arena, d->joint, j, j, sizeof *d->joint));
     FW_NEED(d->spring = fw_arena_grow(arena, d->spring, p, p, sizeof *d->spring));
     FW_NEED(d->scene = fw_arena_grow(arena, d->scene, s, s, sizeof *d->scene));
+    FW_NEED(d->probe = fw_arena_grow(arena, d->probe, q, q, sizeof *d->probe));
     FW_TRY(restate_bodies(arena, d, move));
     restate_joints(d, move);
+    restate_probes(d, move);
     for (int i = 0; i < d->nscene; i++) {
         FW_TRY(fw_device_own_scene(arena, &d->scene[i]));
         restate_scene(&d->scene[i], move);

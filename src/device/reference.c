@@ -18,10 +18,13 @@ static size_t count_of(const fw_device *d, fw_device_space space) {
         return (size_t)d->nbody;
     case FW_SPACE_JOINT:
         return (size_t)d->nrevolute + (size_t)d->njoint;
+    case FW_SPACE_SCENE:
+        return (size_t)d->nscene;
+    case FW_SPACE_PROBE:
+        return (size_t)d->nprobe;
     case FW_SPACE_NONE:
     case FW_SPACE_SPRING: /* nothing refers to these */
     case FW_SPACE_DRIVER:
-    case FW_SPACE_SCENE:
     case FW_SPACE_TENDON:
     case FW_SPACE_COMB:
     case FW_SPACE_CONTACT:
@@ -39,6 +42,8 @@ typedef struct named {
 static named name_of(const fw_device *d, fw_device_space space, size_t i) {
     size_t joints = (size_t)d->nrevolute;
     if (space == FW_SPACE_PARAMETER) return (named){d->parameter[i].name, d->parameter[i].place};
+    if (space == FW_SPACE_SCENE) return (named){d->scene[i].name, d->scene[i].place};
+    if (space == FW_SPACE_PROBE) return (named){d->probe[i].id, d->probe[i].place};
     named n = space == FW_SPACE_FLOW      ? (named){d->flow[i].ref, d->flow[i].place}
               : space == FW_SPACE_FLEXURE ? (named){d->flexure[i].id, d->flexure[i].place}
               : space == FW_SPACE_BODY    ? (named){d->body[i].id, d->body[i].place}

@@ -255,10 +255,11 @@ static const fw_xml_element_row *const parts[] = {own,
                                                   fw_device_table_shapes,
                                                   fw_device_table_scene,
                                                   fw_device_table_effects,
+                                                  fw_device_table_probe,
                                                   NULL};
-static const char *const spaces[FW_SPACE_COUNT] = {"name",  "parameter", "flow",       "flexure",
-                                                   "body",  "joint",     "spring",     "driver",
-                                                   "scene", "tendon",    "comb-drive", "contact"};
+static const char *const spaces[FW_SPACE_COUNT] = {
+    "name",   "parameter", "flow",   "flexure",    "body",    "joint", "spring",
+    "driver", "scene",     "tendon", "comb-drive", "contact", "probe"};
 
 const fw_xml_table fw_device_table = {.file = "device file",
                                       .root = "device",

@@ -15,7 +15,14 @@ typedef struct fw_dynamics_instant { /* the mechanism at one time, on the dense 
     const double *reaction_N; /* (2 npin) on body b, world axes */
     bool begins; /* a smooth piece begins here: forces may have jumped since the last instant, whose
                     time may be the same */
-    fw_effects_hinge_model hinge; /* how the hinges are taken in this run */
+    fw_effects_hinge_model hinge;  /* how the hinges are taken in this run */
+    double piece_s;                /* a time in the smooth piece of the laws that is meant */
+    const fw_effects_loads *loads; /* what acts in this run */
+    /* asked for by `whole`, else NULL: (3 nbody) m/s, rad/s; (3 njoint), (ndriver) as in
+       fw_dynamics_motion */
+    const double *v, *joint_N, *driver_N;
+    const bool *on; /* (all switches of loads->element, in their order) as they are held; NULL: as
+                       their own values say */
 } fw_dynamics_instant;
 /* called FW_INSTANTS times in every step, in order of time, whatever the number of samples; with
    NULL when the run starts (over, with a tighter tolerance) */
@@ -65,6 +72,7 @@ typedef struct fw_dynamics_motion_options {
     fw_dynamics_observer observe; /* NULL: nobody looks */
     fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
     fw_dynamics_tracer trace;     /* NULL: nobody wants the pieces */
+    bool whole; /* instants have velocities and forces of joints and drivers, too */
     void *context;
     void *other; /* of the observer, too, for the looser run that errors are estimated from; NULL:
                     it is not looked at. The motion says which of the two saw what */

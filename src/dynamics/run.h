@@ -137,7 +137,11 @@ typedef struct fw_dynamics_recorder {
     double drift, largest; /* of the energies */
     /* (nq), (npin), (2 npin), (9 x 2 npin): what the observer is shown, SI */
     double *seen_q, *seen_angle, *seen_force, *seen_grid;
-    double *seen_piece;           /* (FW_PIECE_NODES x nq) likewise */
+    double *seen_piece; /* (FW_PIECE_NODES x nq) likewise */
+    /* whole instants: forces of joints (3 njoint) and drivers follow those of the pins, and (nq)
+       velocities */
+    double *seen_v;
+    int seen_forces;
     fw_dynamics_extreme *extreme; /* (channels) of this pass; NULL: not asked for */
     double *channel_now;          /* (channels) */
     double *channel_grid;         /* (9 channels) along a step */

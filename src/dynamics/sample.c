@@ -217,12 +217,23 @@ static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double
     }
 }
 
+/* of pins; of whole instants those of joints and drivers behind them */
 static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta,
                       double *force) {
+    const fw_multibody_model *m = record->problem->model;
     fw_maths_stepper_dense(s, theta, record->state);
     const fw_multibody_solution *found = fw_multibody_react(
         record->problem->system, s->t_old + theta * s->h, record->state, record->rate);
-    fw_multibody_pin_forces(record->problem->model, found, force);
+    fw_multibody_pin_forces(m, found, force);
+    if (!record->seen_v) return;
+    double *joint = force + 2 * m->npin;
+    fw_multibody_joint_forces(m, found, record->problem->mechanism, joint, joint + 3 * m->njoint);
+}
+
+static void velocities_in_SI(const fw_dynamics_problem *problem, const double *y, double *v) {
+    const fw_multibody_model *m = problem->model;
+    for (int i = 0; v && i < m->nq; i++)
+        v[i] = (i % 3 == 2 ? 1 : m->scale.length_m) / m->scale.time_s * y[m->nq + i];
 }
 
 /* Where states are interpolated between a method's own ones, stiff axes make large forces of the
@@ -230,7 +241,7 @@ static void forces_at(fw_dynamics_recorder *record, fw_maths_stepper *s, double 
 static bool own_forces(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end,
                        fw_dynamics_grid *g) {
     if (!s->row->own) return false;
-    size_t count = 2 * (size_t)record->problem->mechanism->npin;
+    size_t count = (size_t)record->seen_forces;
     fw_dynamics_run_places(s, theta_end, g);
     for (int k = 0; k <= g->last; k++)
         forces_at(record, s, theta_end * g->at[k], record->seen_grid + (size_t)k * count);
@@ -253,8 +264,10 @@ static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
     size_t n = (size_t)problem->model->nq, pins = (size_t)problem->mechanism->npin;
     double part = (double)i / FW_INSTANTS, theta = l->theta_end * i / FW_INSTANTS;
     double *q = record->seen_q + slot * n, *angle = record->seen_angle + slot * pins;
-    double *force = record->seen_force + slot * 2 * pins;
-    int count = 2 * (int)pins;
+    int count = record->seen_forces;
+    double *force = record->seen_force + slot * (size_t)count;
+    double *v = record->seen_v ? record->seen_v + slot * n : NULL;
+    const double *joint = v ? force + 2 * pins : NULL;
     if (l->own)
         fw_maths_stepper_dense(l->stepper, theta, record->state);
     else
@@ -262,12 +275,19 @@ static fw_dynamics_instant instant_at(looked_at *l, int i, size_t slot) {
     for (int k = 0; l->own && k < count; k++)
         force[k] = fw_dynamics_run_between(&l->grid, record->seen_grid + k, count, part);
     pose_in_SI(problem, record->state, q, angle);
+    velocities_in_SI(problem, record->state, v);
     return (fw_dynamics_instant){.t_s = (l->stepper->t_old + theta * l->stepper->h) *
                                         problem->model->scale.time_s,
                                  .q = q,
                                  .angle_rad = angle,
                                  .reaction_N = force,
-                                 .hinge = record->motion->ledger.hinge.used};
+                                 .hinge = record->motion->ledger.hinge.used,
+                                 .piece_s = problem->system->piece_s,
+                                 .loads = record->motion->loads,
+                                 .v = v,
+                                 .on = v ? problem->system->on.element : NULL,
+                                 .joint_N = joint,
+                                 .driver_N = joint ? joint + 3 * problem->mechanism->njoint : NULL};
 }
 
 static void observe_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double theta_end) {

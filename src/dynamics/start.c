@@ -239,9 +239,15 @@ static fw_status recorder_arrays(fw_dynamics_recorder *record) {
     FW_NEED(record->kept = fw_arena_array(arena, double, n));
     FW_NEED(record->seen_q = fw_arena_array(arena, double, FW_THIRDS *n));
     FW_NEED(record->seen_angle = fw_arena_array(arena, double, FW_THIRDS *pins));
-    FW_NEED(record->seen_force = fw_arena_array(arena, double, FW_THIRDS * 2 * pins));
+    size_t forces = 2 * pins;
+    if (problem->options->whole) {
+        forces += 3 * (size_t)problem->mechanism->njoint + (size_t)problem->mechanism->ndriver;
+        FW_NEED(record->seen_v = fw_arena_array(arena, double, FW_THIRDS *n));
+    }
+    record->seen_forces = (int)forces;
+    FW_NEED(record->seen_force = fw_arena_array(arena, double, FW_THIRDS *forces));
+    FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * forces));
     FW_NEED(record->seen_piece = fw_arena_array(arena, double, FW_PIECE_NODES *n));
-    FW_NEED(record->seen_grid = fw_arena_array(arena, double, (FW_GRID + 1) * 2 * pins));
     return problem->options->reactions ? fw_dynamics_run_extremes_new(record) : FW_OK;
 }
 

@@ -30,7 +30,7 @@ static const fw_dynamics_motion *whole(const fw_design *d) {
 }
 
 static fw_status motion_csv(fw_design *d, fw_text *out) {
-    return fw_report_motion_csv(d->mechanism, whole(d), out);
+    return fw_report_motion_csv(d->mechanism, whole(d), d->scene, out);
 }
 
 static fw_status forces_csv(fw_design *d, fw_text *out) {

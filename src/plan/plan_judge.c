@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "assembly/assembly.h"
 #include "plan/stages.h"
+#include "probe/probe.h"
 #include "process/process.h"
 #include "statics/quasi.h"
 #include <math.h>
@@ -139,6 +140,20 @@ static fw_status explain_pull_in(fw_plan *plan, const fw_statics_pull_in *pull_i
     return FW_SOLVER;
 }
 
+/* two runs are looked at: what they differ by is the error of a probe */
+static fw_status watch_probes(fw_plan *plan, const fw_mechanism *m, const fw_device_scene *scene,
+                              fw_dynamics_motion_options *options) {
+    fw_probe_monitor *both;
+    if (fw_probe_count(m) == 0) return FW_OK;
+    FW_NEED(both = fw_arena_array(plan->arena, fw_probe_monitor, 2));
+    for (int i = 0; i < 2; i++)
+        FW_TRY(fw_probe_monitor_new(plan->arena, m, scene, NULL, &both[i]));
+    options->observe = fw_probe_monitor_record;
+    options->whole = true;
+    options->context = &both[0], options->other = &both[1];
+    return FW_OK;
+}
+
 fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_motion **motion,
                            const fw_mechanism **mechanism, const fw_device_scene **scene) {
     *scene = NULL;
@@ -148,6 +163,7 @@ fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_mo
     options.reactions = *wanted & FW_WANTED_FIGURES;
     options.energies = *wanted & FW_WANTED_ENERGIES;
     options.alone = options.late_rows = !options.reactions;
+    FW_TRY(watch_probes(plan, *mechanism, *scene, &options));
     const fw_statics_pull_in *pull_in;     /* it says why a run may end early */
     const fw_statics_stability *stability; /* only its warning */
     FW_TRY(fw_statics_pull_in_find(plan->arena, *mechanism, *scene, &options.effects, &plan->diags,
@@ -157,6 +173,8 @@ fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_mo
         fw_statics_move_scene(plan->arena, *mechanism, *scene, &options, &plan->diags, motion);
     if (status == FW_SOLVER) return explain_pull_in(plan, pull_in, said);
     FW_TRY(status);
+    const fw_probe_monitor *saw = options.context;
+    if (saw && (saw[0].no_memory || saw[1].no_memory)) return FW_NOMEM;
     FW_TRY(fw_verdict_level_strains(plan->arena, *mechanism, (*motion)->level));
     FW_TRY(fw_statics_stability_find(plan->arena, *mechanism, *scene, *motion, &plan->diags,
                                      &stability));

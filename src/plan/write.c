@@ -389,7 +389,8 @@ static fw_status write_motions(writer *w) {
                 FW_NEED(name =
                             fw_arena_printf(plan->arena, "%s.%s", scene->name, v->variant->flow));
             fw_text csv = fw_text_new(w->scratch);
-            FW_TRY(fw_report_motion_csv(v->mechanism, v->motion[s], &csv));
+            FW_TRY(fw_report_motion_csv(v->mechanism, v->motion[s], &v->mechanism->device->scene[s],
+                                        &csv));
             FW_TRY(put(w, "motion/", name, ".csv", &csv));
             fw_text svg = fw_text_new(w->scratch);
             FW_TRY(fw_report_motion_svg(w->scratch, plan->device, v->mechanism, v->motion[s], scene,

@@ -215,6 +215,7 @@ fw_status fw_report_statics_text(const fw_mechanism *m, const fw_device_scene *s
     stability(out, s);
     rank_line(out, s->dof, &s->rank);
     active(out, s);
+    FW_TRY(fw_report_rest_probes_text(m, scene, s, out));
     double far = 0, strong = 0;
     for (int i = 0; i < 3 * m->nbody; i++)
         far = i % 3 == 2 ? far : fmax(far, fabs(s->q[i]));

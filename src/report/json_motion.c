@@ -155,6 +155,79 @@ static void final_state(fw_json *json, const fw_mechanism *mechanism, const fw_d
     fw_json_end(json);
 }
 
+/* ---- probes ---- */
+
+static void probe_head(fw_json *json, const fw_device_probe *p) {
+    const fw_device_probe_kind *kind = &fw_device_probe_kinds[p->row];
+    fw_json_object(json, NULL);
+    fw_json_text(json, "id", p->id);
+    fw_json_text(json, "kind", kind->name);
+    fw_json_text(json, "unit", kind->unit);
+}
+
+void fw_report_json_probe(fw_json *json, const fw_device_probe *p, const char *scene,
+                          const char *flow, const fw_probe_result *r) {
+    probe_head(json, p);
+    if (scene) {
+        fw_json_text(json, "scene", scene);
+        fw_json_text(json, "flow", flow);
+    }
+    fw_json_real(json, "peak", r->peak);
+    fw_json_real(json, "t_s", r->peak_t_s);
+    fw_json_real(json, "error", r->numeric);
+    fw_json_real(json, "maximum", r->maximum);
+    fw_json_real(json, "maximum_t_s", r->maximum_t_s);
+    fw_json_real(json, "minimum", r->minimum);
+    fw_json_real(json, "minimum_t_s", r->minimum_t_s);
+    fw_json_real(json, "final", r->final);
+    fw_json_real(json, "final_error", r->final_numeric);
+    fw_json_real(json, "across", r->across);
+    fw_json_real(json, "level_error", r->level);
+    fw_json_end(json);
+}
+
+static void probes_of_motion(fw_json *json, const fw_mechanism *mechanism,
+                             const fw_dynamics_motion *m) {
+    const fw_probe_monitor *saw = fw_probe_count(mechanism) > 0 ? m->observed : NULL;
+    fw_json_list(json, "probes");
+    for (int i = 0; saw && i < fw_probe_count(mechanism); i++) {
+        fw_probe_result r;
+        fw_probe_result_of(saw, m->compared, m, i, &r);
+        if (r.known) fw_report_json_probe(json, &mechanism->device->probe[i], NULL, NULL, &r);
+    }
+    fw_json_end(json);
+}
+
+/* values at the equilibrium; those of small motions are in modes and verdicts */
+static fw_status probes_of_statics(fw_json *json, const fw_mechanism *mechanism,
+                                   const fw_device_scene *scene, const fw_statics *s,
+                                   fw_arena *arena) {
+    fw_probe *probe;
+    fw_json_list(json, "probes");
+    FW_TRY(fw_probe_bind(arena, mechanism, scene, s->loads, &probe));
+    for (int i = 0; i < fw_probe_count(mechanism); i++) {
+        if (!fw_report_probe_moves(&probe[i])) continue;
+        probe_head(json, probe[i].asked);
+        fw_json_real(json, "value", fw_probe_at_equilibrium(&probe[i], scene, s));
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+    return FW_OK;
+}
+
+static void probes_of_modes(fw_json *json, fw_probe *probe, int n, const fw_statics_modes *modes) {
+    fw_json_list(json, "probes");
+    for (int i = 0; i < n; i++) {
+        if (!probe[i].row->small) continue;
+        double value = fw_probe_small(&probe[i], modes);
+        probe_head(json, probe[i].asked);
+        fw_json_real(json, "value", value);
+        fw_json_real(json, "error", fw_probe_small_error(&probe[i], modes) * fabs(value));
+        fw_json_end(json);
+    }
+    fw_json_end(json);
+}
+
 fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                   fw_text *out) {
     fw_json json = fw_json_new(out, FW_JSON_INDENTED);
@@ -173,6 +246,7 @@ fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynami
     peaks(&json, mechanism, motion);
     travels(&json, mechanism, motion);
     reactions(&json, mechanism, motion);
+    probes_of_motion(&json, mechanism, motion);
     final_state(&json, mechanism, motion);
     fw_json_end(&json);
     return fw_json_finish(&json, "\n");
@@ -237,6 +311,9 @@ fw_status fw_report_modes_json(const fw_mechanism *mechanism, const fw_device_sc
     for (int i = 0; i < modes->count; i++)
         one_mode(&json, mechanism, modes->q, &modes->mode[i]);
     fw_json_end(&json);
+    fw_probe *probe;
+    FW_TRY(fw_probe_bind(out->arena, mechanism, scene, NULL, &probe));
+    probes_of_modes(&json, probe, fw_probe_count(mechanism), modes);
     hinge_model(&json, mechanism, &modes->ledger.hinge, NULL);
     effects(&json, &modes->ledger);
     fw_json_end(&json);
@@ -364,6 +441,7 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
     rest_joints(&json, mechanism, s->joint_N);
     rest_drivers(&json, mechanism, s->driver_N);
     actives(&json, s);
+    FW_TRY(probes_of_statics(&json, mechanism, scene, s, out->arena));
     fw_report_json_reals(&json, "eigenvalues_per_s2", s->eigenvalue_per_s2, s->dof);
     pull_ins(&json, s->pull_in);
     load_path(&json, mechanism, s);

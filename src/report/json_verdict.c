@@ -453,6 +453,7 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     effects(&json, input);
     hinge_models(&json, input);
     pull_ins(&json, input);
+    fw_report_json_requirements(&json, input);
     reasons(&json, v);
     fw_report_json_clearances(&json, v);
     accuracy(&json, v);

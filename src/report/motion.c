@@ -355,7 +355,10 @@ static fw_status one(fw_report_page *page, const fw_verdict_variant_verdict *v, 
     int points = curves > CURVES ? FW_REPORT_CURVE * CURVES / curves : FW_REPORT_CURVE;
     const fw_report_figure figure = {2, points, false, title};
     FW_TRY(fw_report_panels(page->arena, v->mechanism, motion, &figure, out));
-    fw_text_add(out, "</div></figure>\n");
+    fw_text_add(out, "</div>");
+    const fw_report_figure probes = {4, points, false, s->name};
+    FW_TRY(fw_report_probe_panels(page->arena, v, scene, &probes, out));
+    fw_text_add(out, "</figure>\n");
     return fw_text_end(out);
 }
 

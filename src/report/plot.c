@@ -4,6 +4,7 @@
 #include "report/report.h"
 #include "report/report_page.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Buckets of equal length, of each the least and the greatest sample in order of time: what a plot
@@ -37,28 +38,32 @@ int fw_report_decimate(const double *y, int stride, int count, int most, int *in
 
 /* Hinge angles against time, one small panel per hinge, so that every curve has its own limit. */
 
-enum { PANEL_WIDTH = 344, PANEL_HEIGHT = 208, HEADING = 36 };
+enum { PANEL_WIDTH = FW_REPORT_PANEL_WIDTH, PANEL_HEIGHT = FW_REPORT_PANEL_HEIGHT, HEADING = 36 };
 enum { LEFT = 46, RIGHT = 10, TOP = 30, BOTTOM = 34 };
 
 typedef struct panel {
     const fw_mechanism *mechanism;
     const fw_dynamics_motion *motion;
     int pin, points;
-    double x, y; /* of the plot area, top left */
-    double width, height;
-    double t_end, time_unit; /* s */
-    const char *time_name;
-    double limit;     /* degrees; NaN: none */
-    double low, high; /* degrees */
+    fw_report_axes axes; /* degrees */
+    double limit;        /* degrees; NaN: none */
     bool limit_shown;
 } panel;
 
+double fw_report_axes_x(const fw_report_axes *a, double t_s) {
+    return a->t_end > 0.0 ? a->x + a->width * t_s / a->t_end : a->x;
+}
+
+double fw_report_axes_y(const fw_report_axes *a, double value) {
+    return a->y + a->height * (a->high - value) / (a->high - a->low);
+}
+
 static double place_x(const panel *p, double t_s) {
-    return p->t_end > 0.0 ? p->x + p->width * t_s / p->t_end : p->x;
+    return fw_report_axes_x(&p->axes, t_s);
 }
 
 static double place_y(const panel *p, double degrees) {
-    return p->y + p->height * (p->high - degrees) / (p->high - p->low);
+    return fw_report_axes_y(&p->axes, degrees);
 }
 
 static double angle(const panel *p, int sample) {
@@ -79,16 +84,16 @@ static void range(panel *p) {
     p->limit_shown = isfinite(p->limit) && size > 0.12 * p->limit;
     if (p->limit_shown) size = fmax(size, p->limit);
     if (!(size > 0.0)) size = isfinite(p->limit) ? p->limit : 1.0;
-    p->high = 1.12 * size;
-    p->low = -p->high;
+    p->axes.high = 1.12 * size;
+    p->axes.low = -p->axes.high;
 }
 
-static void axes(const panel *p, fw_text *out) {
+void fw_report_axes_draw(const fw_report_axes *p, fw_text *out) {
     double right = p->x + p->width, bottom = p->y + p->height;
     double step = fw_svg_nice((p->high - p->low) / 6.0);
     fw_svg_open(out, "g font-size='10' fill='#57606a' stroke='none'");
-    for (int k = -6; k <= 6; k++) {
-        double value = k * step, y = place_y(p, value);
+    for (int k = (int)ceil(p->low / step); k <= (int)floor(p->high / step); k++) {
+        double value = k * step, y = fw_report_axes_y(p, value);
         if (value < p->low || value > p->high) continue;
         fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='{r}'", p->x, y, right,
                    k == 0 ? "#8c959f" : "#eaeef2");
@@ -100,8 +105,9 @@ static void axes(const panel *p, fw_text *out) {
     for (int k = 0; k <= 8; k++) {
         double t = k * t_step * p->time_unit;
         if (t > p->t_end * (1.0 + 1e-9)) break;
-        fw_svg_put(out, "path d='M{c} {c}v4' stroke='#8c959f'", place_x(p, t), bottom);
-        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='middle'", place_x(p, t), bottom + 15.0);
+        fw_svg_put(out, "path d='M{c} {c}v4' stroke='#8c959f'", fw_report_axes_x(p, t), bottom);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='middle'", fw_report_axes_x(p, t),
+                    bottom + 15.0);
         fw_svg_tick(out, k * t_step, t_step);
         fw_svg_close(out, "text");
     }
@@ -118,11 +124,12 @@ static void limits(const panel *p, fw_text *out) {
     fw_svg_put(
         out,
         "path d='M{c} {c}h{c}V{c}h-{c}zM{c} {c}h{c}V{c}h-{c}z' fill='#D55E00' fill-opacity='0.08'",
-        p->x, p->y, p->width, top, p->width, p->x, low, p->width, p->y + p->height, p->width);
+        p->axes.x, p->axes.y, p->axes.width, top, p->axes.width, p->axes.x, low, p->axes.width,
+        p->axes.y + p->axes.height, p->axes.width);
     fw_svg_put(
         out,
         "path d='M{c} {c}h{c}M{c} {c}h{c}' stroke='#D55E00' stroke-dasharray='5 3' fill='none'\n",
-        p->x, top, p->width, p->x, low, p->width);
+        p->axes.x, top, p->axes.width, p->axes.x, low, p->axes.width);
 }
 
 static fw_status curve(fw_arena *arena, const panel *p, fw_text *out) {
@@ -147,25 +154,25 @@ static void peak_mark(const panel *p, fw_text *out) {
     const fw_dynamics_peak *peak = &p->motion->peak[p->pin];
     if (!isfinite(peak->angle_rad) || !isfinite(peak->t_s)) return;
     double x = place_x(p, peak->t_s), y = place_y(p, FW_DEG_PER_RAD * peak->angle_rad);
-    bool left = x > p->x + 0.55 * p->width;
+    bool left = x > p->axes.x + 0.55 * p->axes.width;
     fw_svg_put(out, "circle cx='{c}' cy='{c}' r='3' fill='#1f2328'", x, y);
-    fw_svg_put(out,
-               "text x='{c}' y='{c}' font-size='10.5' fill='#1f2328' stroke='#fff' "
-               "stroke-width='3' paint-order='stroke' text-anchor='{r}'>{D}\u00b0 at {n} {r}\n",
-               left ? x - 7.0 : x + 7.0,
-               peak->angle_rad > 0.0 ? fmax(y - 5.0, p->y + 9.0) : y + 13.0, left ? "end" : "start",
-               peak->angle_rad, peak->t_s / p->time_unit, p->time_name);
+    fw_svg_put(
+        out,
+        "text x='{c}' y='{c}' font-size='10.5' fill='#1f2328' stroke='#fff' "
+        "stroke-width='3' paint-order='stroke' text-anchor='{r}'>{D}\u00b0 at {n} {r}\n",
+        left ? x - 7.0 : x + 7.0, peak->angle_rad > 0.0 ? fmax(y - 5.0, p->axes.y + 9.0) : y + 13.0,
+        left ? "end" : "start", peak->angle_rad, peak->t_s / p->axes.time_unit, p->axes.time_name);
 }
 
 static void heading(const panel *p, fw_text *out) {
     double u = fabs(FW_DEG_PER_RAD * p->motion->peak[p->pin].angle_rad) / p->limit;
-    fw_svg_open(out, "text x='{c}' y='{c}' font-size='13' font-weight='600' fill='#1f2328'", p->x,
-                p->y - 9.0);
+    fw_svg_open(out, "text x='{c}' y='{c}' font-size='13' font-weight='600' fill='#1f2328'",
+                p->axes.x, p->axes.y - 9.0);
     fw_markup(out, "{s} ", p->mechanism->pin[p->pin].id);
     fw_svg_put(out, "tspan class='readout' font-size='11.5' font-weight='400'>");
     fw_svg_close(out, "text");
     fw_svg_open(out, "text x='{c}' y='{c}' font-size='10.5' text-anchor='end' fill='#57606a'",
-                p->x + p->width, p->y - 9.0);
+                p->axes.x + p->axes.width, p->axes.y - 9.0);
     if (isfinite(u))
         fw_markup(out, "{p} of limit \u00b1{D}\u00b0{r}", u, p->limit / FW_DEG_PER_RAD,
                   p->limit_shown ? "" : " (off scale)");
@@ -175,19 +182,19 @@ static void heading(const panel *p, fw_text *out) {
     fw_svg_put(out,
                "text x='{c}' y='{c}' font-size='10' fill='#57606a' text-anchor='end' "
                "transform='rotate(-90 {c} {c})'>angle (\u00b0)\n",
-               p->x - 36.0, p->y, p->x - 36.0, p->y);
+               p->axes.x - 36.0, p->axes.y, p->axes.x - 36.0, p->axes.y);
 }
 
 static fw_status draw_panel(fw_arena *arena, const panel *p, fw_text *out) {
-    fw_svg_open(out, "g class='panel' data-pin='{i}' data-x='{c}' data-w='{c}'\n", p->pin, p->x,
-                p->width);
+    fw_svg_open(out, "g class='panel' data-pin='{i}' data-x='{c}' data-w='{c}'\n", p->pin,
+                p->axes.x, p->axes.width);
     heading(p, out);
-    axes(p, out);
+    fw_report_axes_draw(&p->axes, out);
     limits(p, out);
     FW_TRY(curve(arena, p, out));
     peak_mark(p, out);
-    fw_svg_put(out, "path class='cursor' d='M0 {c}v{c}' stroke='#1f2328' visibility='hidden'", p->y,
-               p->height);
+    fw_svg_put(out, "path class='cursor' d='M0 {c}v{c}' stroke='#1f2328' visibility='hidden'",
+               p->axes.y, p->axes.height);
     fw_svg_close(out, "g\n");
     return FW_OK;
 }
@@ -211,11 +218,20 @@ static int choose(const fw_mechanism *mechanism, const fw_dynamics_motion *motio
     return n;
 }
 
-static void time_scale(panel *p) {
-    double end = p->motion->nsample ? p->motion->t_s[p->motion->nsample - 1] : 0.0;
-    p->t_end = isfinite(end) && end > 0.0 ? end : 1.0;
-    p->time_unit = p->t_end < 2e-3 ? 1e-6 : p->t_end < 2.0 ? 1e-3 : 1.0;
-    p->time_name = p->t_end < 2e-3 ? "\u00b5s" : p->t_end < 2.0 ? "ms" : "s";
+fw_report_axes fw_report_axes_at(const fw_dynamics_motion *motion, int i, int columns, double top) {
+    double end = motion->nsample ? motion->t_s[motion->nsample - 1] : 0.0;
+    double t_end = isfinite(end) && end > 0.0 ? end : 1.0;
+    return (fw_report_axes){.x = (i % columns) * PANEL_WIDTH + LEFT,
+                            .y = top + (i / columns) * PANEL_HEIGHT + TOP,
+                            .width = PANEL_WIDTH - LEFT - RIGHT,
+                            .height = PANEL_HEIGHT - TOP - BOTTOM,
+                            .t_end = t_end,
+                            .time_unit = t_end < 2e-3  ? 1e-6
+                                         : t_end < 2.0 ? 1e-3
+                                                       : 1.0,
+                            .time_name = t_end < 2e-3  ? "\u00b5s"
+                                         : t_end < 2.0 ? "ms"
+                                                       : "s"};
 }
 
 static void open_svg(const fw_report_figure *figure, int width, double height, fw_text *out) {
@@ -244,13 +260,9 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism,
     height += motion->npin > n ? 20.0 : 0.0;
     open_svg(figure, columns * PANEL_WIDTH, height, out);
     panel p = {.mechanism = mechanism, .motion = motion, .points = figure->curve_points};
-    time_scale(&p);
-    p.width = PANEL_WIDTH - LEFT - RIGHT;
-    p.height = PANEL_HEIGHT - TOP - BOTTOM;
     for (int i = 0; i < n; i++) {
         p.pin = chosen[i];
-        p.x = (i % columns) * PANEL_WIDTH + LEFT;
-        p.y = top + (i / columns) * PANEL_HEIGHT + TOP;
+        p.axes = fw_report_axes_at(motion, i, columns, top);
         range(&p);
         FW_TRY(draw_panel(arena, &p, out));
     }
@@ -301,9 +313,31 @@ static int extra(const fw_mechanism_mass *body) {
     return body->frame.x != 0 || body->frame.y != 0 ? 2 : 0;
 }
 
-/* per body its frame's pose and velocities, and where the centre of mass is apart from it that */
+/* probes of this scene that have a course in time, each in its SI unit */
+static fw_status probe_columns(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                               const fw_device_scene *scene, fw_text *out, fw_probe **probe) {
+    const int n = fw_probe_count(mechanism);
+    *probe = NULL;
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_probe_bind(out->arena, mechanism, scene, motion->loads, probe));
+    for (int i = 0; i < n; i++) {
+        const fw_probe *p = &(*probe)[i];
+        if (!fw_report_probe_moves(p)) continue;
+        char suffix[64];
+        snprintf(suffix, sizeof suffix, ".%s_%s", p->kind->name, p->kind->suffix);
+        name(out, p->asked->id, suffix);
+    }
+    return FW_OK;
+}
+
+bool fw_report_probe_moves(const fw_probe *p) {
+    return p->in_scene && fw_device_probe_moves(p->kind);
+}
+
+/* per body its frame's pose and velocities, and where the centre of mass is apart from it that;
+   probes */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
-                               fw_text *out) {
+                               const fw_device_scene *scene, fw_text *out) {
     static const char *const suffix[] = {".x_m",        ".y_m",        ".phi_rad",
                                          ".vx_m_per_s", ".vy_m_per_s", ".omega_rad_per_s",
                                          ".com_x_m",    ".com_y_m"};
@@ -311,6 +345,8 @@ fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_
     for (int b = 0; b < motion->nbody; b++)
         for (int k = 0; k < 6 + extra(&mechanism->body[b]); k++)
             name(out, mechanism->body[b].id, suffix[k]);
+    fw_probe *probe;
+    FW_TRY(probe_columns(mechanism, motion, scene, out, &probe));
     fw_text_add(out, "\n");
     size_t wide = 3 * (size_t)motion->nbody;
     for (int i = 0; i < motion->nsample && !out->failed; i++) {
@@ -333,6 +369,11 @@ fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_
                 fw_text_add(out, ",");
                 cell(out, motion->q[at + (size_t)k]);
             }
+        }
+        for (int k = 0; probe && k < fw_probe_count(mechanism); k++) {
+            if (!fw_report_probe_moves(&probe[k])) continue;
+            fw_text_add(out, ",");
+            cell(out, fw_probe_at_row(&probe[k], motion, i));
         }
         fw_text_add(out, "\n");
     }

@@ -290,6 +290,7 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     fw_json_line(out, 0);
     FW_TRY(fw_report_preview_tensions(arena, in->mechanism, in->scene, x, out));
     fw_json_line(out, 0);
+    FW_TRY(fw_report_preview_probes(arena, in, out));
     states(in->mechanism, x, out);
     fw_json_end(out);
     fw_json_line(out, 0);

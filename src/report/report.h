@@ -13,6 +13,7 @@
 #include "layout/layout.h"
 #include "mask/mask.h"
 #include "mechanism/mechanism.h"
+#include "probe/probe.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include "statics/modes.h"
@@ -50,9 +51,11 @@ fw_status fw_report_motion_svg(fw_arena *arena, const fw_device *device,
                                const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                const fw_device_scene *scene, const fw_verdict *verdict,
                                fw_text *out);
-/* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,... */
+/* every sample with 17 digits: t_s,BODY.x_m,BODY.y_m,BODY.phi_rad,BODY.vx_m_per_s,..., then the
+   probes of the scene, PROBE.displacement_m */
 fw_status fw_report_motion_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
-                               fw_text *out);
+                               const fw_device_scene *scene, fw_text *out);
+bool fw_report_probe_moves(const fw_probe *p); /* it has a course in this scene */
 /* accelerations, joint forces on body b in world axes, torques of joints about their point b,
    drives */
 fw_status fw_report_forces_csv(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
@@ -114,6 +117,14 @@ typedef struct fw_report_terminal_style {
 /* decision, governing hinge, hinges, advice, flows */
 fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_terminal_style style,
                                  fw_text *out);
+/* what is required of probes: value, band, bound, margin, as drawn and at the worst corner */
+void fw_report_requirements_text(fw_text *out, const fw_verdict *verdict);
+/* peaks of a motion that fw_probe_monitor has observed, values at an equilibrium; nothing without
+   probes */
+void fw_report_probes_text(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
+                           fw_text *out);
+fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                                     const fw_statics *statics, fw_text *out);
 /* what each flow makes of the device, at its corners */
 void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
@@ -141,7 +152,8 @@ fw_report_magnitude fw_report_magnitude_of(fw_report_measure measure, double lar
 
 /* schema flexwright.verdict/1 (verdict.json) */
 fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out);
-/* schema flexwright.simulate/1 */
+/* schema flexwright.simulate/1; where the device has probes, fw_probe_monitor has observed the
+   motion */
 fw_status fw_report_simulate_json(const fw_mechanism *mechanism, const fw_dynamics_motion *motion,
                                   fw_text *out);
 /* schema flexwright.modes/1 */

@@ -194,23 +194,29 @@ static fw_status messages_section(fw_report_page *page) {
 static const struct {
     const char *id, *title;
     fw_status (*write)(fw_report_page *page);
+    bool (*there)(const fw_report_page *page); /* NULL: always */
 } sections[] = {
-    {"device", "Device", fw_report_section_device},
-    {"hinges", "Hinges", fw_report_section_hinges},
-    {"clearance", "Clearance", fw_report_section_clearance},
-    {"made", "As fabricated", fw_report_section_fabricated},
-    {"motion", "Motion", fw_report_section_motion},
-    {"workspace", "Workspace", fw_report_section_workspace},
-    {"flows", "Flows", fw_report_section_flows},
-    {"masks", "Masks", fw_report_section_masks},
-    {"recipes", "Recipes", fw_report_section_recipes},
-    {"effects", "Effects", fw_report_section_effects},
-    {"accuracy", "Accuracy", fw_report_section_accuracy},
-    {"assumptions", "Assumptions", fw_report_section_assumptions},
-    {"messages", "Messages", messages_section},
+    {"device", "Device", fw_report_section_device, NULL},
+    {"hinges", "Hinges", fw_report_section_hinges, NULL},
+    {"clearance", "Clearance", fw_report_section_clearance, NULL},
+    {"made", "As fabricated", fw_report_section_fabricated, NULL},
+    {"requirements", "Requirements", fw_report_section_requirements, fw_report_has_requirements},
+    {"motion", "Motion", fw_report_section_motion, NULL},
+    {"workspace", "Workspace", fw_report_section_workspace, NULL},
+    {"flows", "Flows", fw_report_section_flows, NULL},
+    {"masks", "Masks", fw_report_section_masks, NULL},
+    {"recipes", "Recipes", fw_report_section_recipes, NULL},
+    {"effects", "Effects", fw_report_section_effects, NULL},
+    {"accuracy", "Accuracy", fw_report_section_accuracy, NULL},
+    {"assumptions", "Assumptions", fw_report_section_assumptions, NULL},
+    {"messages", "Messages", messages_section, NULL},
 };
 
 enum { SECTIONS = sizeof sections / sizeof sections[0], DRAWING_WIDTH = 640 };
+
+static bool is_there(const fw_report_page *page, int i) {
+    return !sections[i].there || sections[i].there(page);
+}
 
 static void head(fw_report_page *page) {
     fw_markup(page->out,
@@ -228,7 +234,8 @@ static void head(fw_report_page *page) {
 static void navigation(fw_report_page *page) {
     fw_text_add(page->out, "<nav aria-label=\"Sections\"><div class=\"in\">");
     for (int i = 0; i < SECTIONS; i++)
-        fw_markup(page->out, "<a href=\"#{r}\">{r}</a>\n", sections[i].id, sections[i].title);
+        if (is_there(page, i))
+            fw_markup(page->out, "<a href=\"#{r}\">{r}</a>\n", sections[i].id, sections[i].title);
     fw_text_add(page->out, "</div></nav>\n");
 }
 
@@ -265,6 +272,7 @@ fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw
     fw_text_add(out, "<main>\n");
     fw_report_advice(&page);
     for (int i = 0; i < SECTIONS; i++) {
+        if (!is_there(&page, i)) continue;
         fw_markup(out,
                   "<section id=\"{r}\" aria-labelledby=\"h-{r}\"><h2 id=\"h-{r}\">{r}"
                   "</h2>\n",

@@ -110,6 +110,26 @@ fw_status fw_report_panels(fw_arena *arena, const fw_mechanism *mechanism,
                            const fw_dynamics_motion *motion, const fw_report_figure *figure,
                            fw_text *out);
 
+/* a curve against time: where it is and what its axes show */
+enum { FW_REPORT_PANEL_WIDTH = 344, FW_REPORT_PANEL_HEIGHT = 208 };
+typedef struct fw_report_axes {
+    double x, y; /* of the plot area, top left */
+    double width, height;
+    double t_end, time_unit; /* s */
+    const char *time_name;
+    double low, high; /* in the unit of the curve */
+} fw_report_axes;
+/* the i-th panel of a figure of `columns` whose panels begin at `top` */
+fw_report_axes fw_report_axes_at(const fw_dynamics_motion *motion, int i, int columns, double top);
+double fw_report_axes_x(const fw_report_axes *a, double t_s);
+double fw_report_axes_y(const fw_report_axes *a, double value);
+void fw_report_axes_draw(const fw_report_axes *a, fw_text *out);
+
+/* ---- probe_plot.c: probes of a scene against time, with what is required of them ---- */
+/* nothing where the scene has none */
+fw_status fw_report_probe_panels(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                 const fw_report_figure *figure, fw_text *out);
+
 /* ---- drawing.c: the device ---- */
 /* what the pictures show: the mechanism at rest and, with `reach`, where its hinges get to */
 fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
@@ -160,6 +180,8 @@ fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
 fw_status fw_report_section_clearance(fw_report_page *page); /* report_clearance.c */
 fw_status fw_report_section_fabricated(fw_report_page *page);
+bool fw_report_has_requirements(const fw_report_page *page);
+fw_status fw_report_section_requirements(fw_report_page *page);
 fw_status fw_report_section_motion(fw_report_page *page);
 fw_status fw_report_section_workspace(fw_report_page *page);
 fw_status fw_report_section_flows(fw_report_page *page);

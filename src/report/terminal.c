@@ -174,6 +174,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     clearance(out, v);
     if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
+    if (style.detail >= 0) fw_report_requirements_text(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
     advice(out, v);
@@ -329,6 +330,7 @@ fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechani
     fw_text_printf(out, "%s\n", motion->tolerance);
     statistics(out, &motion->stats);
     peaks(m, motion, time, out);
+    fw_report_probes_text(m, motion, out);
     fw_report_hinge_model(m, &motion->ledger.hinge, motion->level, out);
     ledger(out, &motion->ledger);
     return fw_text_end(out);

@@ -200,11 +200,11 @@ fw_status fw_statics_quasi_static_motion(fw_arena *arena, const fw_mechanism *me
     FW_TRY(nodes(&r));
     FW_TRY(look_at_laws(&r, loads));
     FW_TRY(fw_statics_quasi_static_arrays(&r));
+    FW_NEED(r.motion->loads = fw_effects_loads_keep(arena, loads));
     fw_status status = follow(&r);
     if (r.why) *why = r.why;
     FW_TRY(status);
     fw_statics_quasi_static_finish(&r);
-    FW_NEED(r.motion->loads = fw_effects_loads_keep(arena, loads));
     r.motion->stats.cpu_s = cpu_seconds() - began;
     *motion = r.motion;
     return FW_OK;

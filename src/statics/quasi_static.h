@@ -34,11 +34,11 @@ typedef struct fw_statics_quasi_static {
     bool first;                    /* no step of this smooth piece yet */
     fw_quantity_law_strides *look; /* (nlook) of expressions */
     int *look_row, nlook;
-    double law_step_s;                             /* the laws' own longest step */
-    double *q, *angle, *reaction, *joint, *driver; /* SI, of one instant */
-    double *piece_q;                               /* (FW_PIECE_NODES x 3 nbody) of one step */
-    fw_statics_track *track;                       /* (channels) or NULL */
-    const char *why;                               /* it cannot go on */
+    double law_step_s;                                     /* the laws' own longest step */
+    double *q, *angle, *reaction, *joint, *driver, *speed; /* SI, of one instant */
+    double *piece_q;         /* (FW_PIECE_NODES x 3 nbody) of one step */
+    fw_statics_track *track; /* (channels) or NULL */
+    const char *why;         /* it cannot go on */
 } fw_statics_quasi_static;
 
 /* quasi_static_step.c: the equilibrium at scaled t nearest to row->guess; the model stays there.

@@ -37,6 +37,7 @@ fw_status fw_statics_quasi_static_arrays(fw_statics_quasi_static *r) {
     FW_NEED(r->reaction = fw_arena_array(arena, double, 2 * pins));
     FW_NEED(r->joint = fw_arena_array(arena, double, 3 * joints));
     FW_NEED(r->driver = fw_arena_array(arena, double, drivers));
+    FW_NEED(r->speed = fw_arena_array(arena, double, n));
     memset(r->guess, 0, n * sizeof(double));
     fw_statics_equilibrium_pose(&r->w, r->guess, r->q, r->angle0);
     if (!r->options->reactions) return FW_OK;
@@ -198,11 +199,18 @@ static void observe_state(fw_statics_quasi_static *r, double t) {
     fw_statics_equilibrium_reactions(&r->w, r->reaction, r->joint, r->driver);
     if (r->track) channels(r, t);
     if (!r->options->observe) return;
+    const bool whole = r->options->whole;
+    if (whole) units(r, r->rate, 1 / r->w.model->scale.time_s, r->speed);
     const fw_dynamics_instant now = {.t_s = t * r->w.model->scale.time_s,
                                      .q = r->q,
                                      .angle_rad = r->angle,
                                      .reaction_N = r->reaction,
-                                     .hinge = r->w.ledger.hinge.used};
+                                     .hinge = r->w.ledger.hinge.used,
+                                     .piece_s = r->piece_s,
+                                     .loads = r->motion->loads,
+                                     .v = whole ? r->speed : NULL,
+                                     .joint_N = whole ? r->joint : NULL,
+                                     .driver_N = whole ? r->driver : NULL};
     r->options->observe(r->options->context, &now);
 }
 

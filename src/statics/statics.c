@@ -60,6 +60,7 @@ static fw_status answer(const fw_statics_equilibrium *w, fw_statics *out) {
     out->ndriver = w->mechanism->ndriver;
     out->dof = w->reduced.dof;
     out->ledger = w->ledger;
+    out->loads = w->loads;
     fw_effects_in_equilibrium(&out->ledger); /* whatever was asked for */
     out->iterations = w->iterations;
     out->rest_q = w->q0;

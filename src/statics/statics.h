@@ -77,6 +77,7 @@ typedef struct fw_statics {
     fw_statics_path *path;                    /* NULL: not asked for */
     const struct fw_statics_pull_in *pull_in; /* below; NULL: no comb drives */
     fw_effect_ledger ledger;
+    const fw_effects_loads *loads; /* what acted, laws and free strains not yet applied */
     const struct fw_statics_level_step *level; /* level.h; NULL: no hinges */
 } fw_statics;
 

@@ -116,7 +116,7 @@ static bool widen_one(fw_verdict_trial *trial, fw_device_flexure *f, double by) 
 
 /* what a scene bears goes with the stiffness of all flexures, t^3 */
 static bool widen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, double extra) {
-    if (h->utilisation_high <= 1.0) return false;
+    if (h->utilisation_high <= 1.0 || h->not_by_width) return false;
     if (h->joint != FW_NONE)
         return widen_one(trial, flexure_of(trial, h), sqrt(h->utilisation_high * extra));
     for (int i = 0; i < trial->changed->nflexure; i++)
@@ -154,6 +154,7 @@ static bool is_worst(const fw_verdict_trial *trial, const fw_verdict_trial_hinge
 }
 
 static bool lighten(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, double extra) {
+    if (h->not_by_loads) return false;
     if (!is_worst(trial, h)) return true;
     double over = excess(h) * extra;
     double by = fmax(fmin(1.0 / over, 0.9995), 1e-6);

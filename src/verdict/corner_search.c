@@ -36,12 +36,16 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
 
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
-   over the one that there is, which like a utilisation is 1 at its limit. Logarithms, because the
+   over the one that there is, and the utilisation of each requirement, which are 1 at their limits. Logarithms, because the
    estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
    less than 1e-9 of its limit, which no corner brings near it. */
 static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                         double *ln) {
     int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
+    for (int i = 0; i < s->v->nrequirement; i++) {
+        double used = now->requirement[i].utilisation;
+        ln[hinges + scenes + i] = used > 1e-9 ? log(used) : (double)NAN;
+    }
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
     for (int i = 0; i < scenes; i++) {
@@ -60,6 +64,8 @@ static fw_status take_reason(const fw_verdict_search *s, const fw_verdict_varian
         why = now->reason[i].text;
         corner->scene = now->reason[i].scene;
         corner->keep = now->reason[i].keep;
+        corner->not_by_loads = now->reason[i].not_by_loads;
+        corner->not_by_width = now->reason[i].not_by_width;
     }
     if (now->workspace.required && !now->workspace.reachable)
         why = "part of the required workspace is out of reach";
@@ -88,12 +94,29 @@ static fw_status take_hinge(const fw_verdict_search *s, const fw_verdict_hinge_v
     return FW_OK;
 }
 
+static fw_status take_requirements(const fw_verdict_search *s,
+                                   const fw_verdict_variant_verdict *now,
+                                   fw_verdict_fabricated_corner *corner) {
+    size_t n = (size_t)s->v->nrequirement;
+    if (n == 0) return FW_OK;
+    FW_NEED(corner->requirement =
+                fw_arena_grow(s->arena, now->requirement, n, n, sizeof *corner->requirement));
+    for (size_t i = 0; i < n; i++) { /* names are those of the drawn device */
+        fw_verdict_requirement *r = &corner->requirement[i];
+        const fw_verdict_requirement *drawn = &s->v->requirement[i];
+        r->scene = drawn->scene, r->flow = drawn->flow, r->probe = drawn->probe;
+        if (r->why) FW_NEED(r->why = fw_arena_strdup(s->arena, r->why));
+    }
+    return FW_OK;
+}
+
 /* copies what stays: the run's own arena is given back */
 static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                       fw_verdict_fabricated_corner *corner, double *ln) {
     for (int k = 0; k < s->v->nhinge; k++)
         FW_TRY(take_hinge(s, &now->hinge[k], &corner->hinge[k]));
     corner->decision = now->decision;
+    FW_TRY(take_requirements(s, now, corner));
     FW_TRY(take_reason(s, now, corner));
     take_checks(s, now, ln);
     return FW_OK;
@@ -114,10 +137,13 @@ static bool refine(const fw_verdict_search *s, const fw_verdict_variant_verdict 
     /* else the caller has set the tolerances of the integrator, and no accuracy goes with them */
     bool steered = s->options.motion.rtol == 0;
     fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
+    if (refinement == FW_REFINE_NOTHING)
+        refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
     if (options->at_a_glance || refinement != FW_REFINE_NUMBERS) return false;
     if (options->motion.rtol == 0 && had <= fw_verdict_tightest) return false;
     bool coarse = steered && had > asked;
     double next = fmin(0.1 * had, fw_verdict_enough(now->hinge, now->nhinge, had));
+    next = fmin(next, fw_verdict_requirements_enough(now->requirement, now->nrequirement, had));
     *options = coarse ? s->options : fw_verdict_tighter(&s->options, refinement);
     if (steered && had == asked && next > 3 * fw_verdict_tightest) options->motion.accuracy = next;
     return true;

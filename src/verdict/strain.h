@@ -9,6 +9,7 @@
 #include "layout/layout.h"
 #include "maths/rainflow.h"
 #include "mechanism/mechanism.h"
+#include "probe/probe.h"
 
 typedef struct fw_verdict_hinge_load {
     double angle_rad;  /* of the pin: phi_b - phi_a - free angle */
@@ -61,6 +62,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     struct fw_verdict_clearance_watch *clearance; /* verdict_clearance.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
+    fw_probe_monitor *probe;            /* looks at the same instants; NULL: nothing is probed */
 } fw_verdict_strain_monitor;
 
 /* cycles: also keep the turning points that fatigue needs */

@@ -54,8 +54,12 @@ double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *loos
         const fw_flexure_result *c = &monitor->mechanism->hinge[k].closed_form;
         limit = fmin(limit, c->limit_angle_rad * c->strain_per_rad);
     }
-    return fw_verdict_strain_monitor_error(monitor, looser, margin) /
-           (fmin(30 * accuracy, 0.03) * limit);
+    const fw_verdict_strain_monitor *other = looser;
+    double strains = fw_verdict_strain_monitor_error(monitor, looser, margin) /
+                     (fmin(30 * accuracy, 0.03) * limit);
+    if (!monitor->probe || !other->probe) return strains;
+    return fmax(strains,
+                fw_probe_monitor_unsettled(monitor->probe, other->probe, margin, accuracy));
 }
 
 static void keep(fw_verdict_strain_peak *p, double t_s, double strain, double between) {
@@ -119,6 +123,7 @@ static void take(fw_verdict_strain_monitor *w, int k, double t_s,
 
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *now) {
     fw_verdict_strain_monitor *w = context;
+    if (w->probe) fw_probe_monitor_record(w->probe, now);
     if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
         w->no_memory = make_beams(w) != FW_OK;
     for (int k = 0; k < w->mechanism->nhinge; k++) {
@@ -148,7 +153,7 @@ static bool is_enough(const fw_verdict_strain_peak *p, const fw_verdict_hinge_st
 bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *third) {
     fw_verdict_strain_monitor *w = context;
     int n = w->mechanism->nhinge;
-    if (w->root || n > FW_GLANCED) return false;
+    if (w->root || w->probe || n > FW_GLANCED) return false;
     fw_verdict_hinge_strains strain[FW_GLANCED][FW_THIRDS];
     for (int k = 0; k < n; k++) {
         if (w->hinge[k].samples < 2) return false;

@@ -62,13 +62,13 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
         const fw_verdict_hinge_verdict *h = &verdict->hinge[k];
         double meet = h->touches && layout ? layout->hinge[h->joint].free_rad : 0.0;
         trial->hinge[k] =
-            (fw_verdict_trial_hinge){h->joint,
-                                     h->decision,
-                                     h->utilisation_high,
-                                     h->utilisation_high - h->numeric,
-                                     meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
-                                     h->scene,
-                                     h->flow};
+            (fw_verdict_trial_hinge){.joint = h->joint,
+                                     .decision = h->decision,
+                                     .utilisation_high = h->utilisation_high,
+                                     .likely = h->utilisation_high - h->numeric,
+                                     .reach = meet > 0.0 ? fabs(h->peak_angle_rad) / meet : 0.0,
+                                     .scene = h->scene,
+                                     .flow = h->flow};
         for (int i = 0; i < verdict->nvariant; i++)
             if (verdict->variant[i].fabricated)
                 remember_fabricated(&verdict->variant[i], &trial->hinge[k], layout);
@@ -82,6 +82,8 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
                                          .decision = r->decision,
                                          .utilisation_high = 1 / r->keep,
                                          .likely = 1 / r->keep,
+                                         .not_by_loads = r->not_by_loads,
+                                         .not_by_width = r->not_by_width,
                                          .scene = r->scene,
                                          .flow = r->flow};
         }
@@ -95,6 +97,8 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
                                      .decision = fabricated->decision,
                                      .utilisation_high = c->scene ? 1 / c->keep : 1.3,
                                      .likely = c->scene ? 1 / c->keep : 1.3,
+                                     .not_by_loads = c->not_by_loads,
+                                     .not_by_width = c->not_by_width,
                                      .scene = c->scene ? c->scene : "as made",
                                      .flow = verdict->variant[i].variant->flow};
     }
@@ -112,8 +116,9 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     *trial = (fw_verdict_trial){
         .arena = arena, .device = device, .options = options, .verdict = verdict, .drawn = true};
     size_t n = (size_t)verdict->nvariant;
+    size_t scenes = (size_t)device->nscene, asked = (size_t)device->nrequirement * (scenes + 1);
     size_t most = (size_t)device->nrevolute +
-                  n * (FW_REASONS * (size_t)device->nscene + (size_t)device->nworkspace + 2);
+                  n * (FW_REASONS * scenes + asked + (size_t)device->nworkspace + 2);
     FW_NEED(trial->suspect = fw_arena_array(arena, double, n *FW_FABRICATION_INPUTS));
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));
@@ -211,6 +216,7 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
             o.corners = FW_CORNERS_SUSPECT;
         if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
         o.at_a_glance = true;
+        o.decision_only = true;
     }
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);

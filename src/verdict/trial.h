@@ -13,6 +13,7 @@ typedef struct fw_verdict_trial_hinge { /* what a change needs to know of a hing
     double reach;      /* peak angle / angle at which the drawn solids meet; 0: never */
     const char *scene; /* of the device, or "workspace" */
     const char *flow;
+    bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
 } fw_verdict_trial_hinge;
 
 typedef struct fw_verdict_trial {

@@ -197,7 +197,7 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
 
 /* of a trial, or a corner, only whether it is accepted is of account */
 static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant_verdict *v) {
-    return options->at_a_glance || v->like;
+    return options->decision_only || v->like;
 }
 
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
@@ -214,7 +214,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.hinge_accuracy = fmax(motion.accuracy, fw_hinges_good_enough);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
-    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + 2; /* out of reach, as made */
+    size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
+                     2; /* out of reach, as made */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
@@ -233,6 +234,10 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.other = &other[i];
         other[i].clearance = &watch[1];
         FW_TRY(fw_verdict_clearance_scene(scene, watch));
+        fw_probe_monitor *seen[2];
+        FW_TRY(fw_verdict_requirements_watch(arena, m, (int)i, v, seen));
+        monitor[i].probe = seen[0], other[i].probe = seen[1];
+        motion.whole = seen[0] != NULL;
         motion.effects.like = v->like && v->like[i] ? &v->like[i]->ledger : NULL;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
@@ -240,6 +245,12 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
+        if (v->motion[i] && seen[0]) {
+            const fw_verdict_strain_monitor *saw = v->motion[i]->observed,
+                                            *looser = v->motion[i]->compared;
+            FW_TRY(fw_verdict_requirements_of_scene(m, (int)i, saw->probe,
+                                                    looser ? looser->probe : NULL, v));
+        }
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;
@@ -354,7 +365,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_strain_monitor *other =
         fw_arena_array(arena, fw_verdict_strain_monitor, (size_t)device->nscene);
     FW_NEED(monitor && other ? monitor : NULL);
+    FW_TRY(fw_verdict_requirements_list(arena, m, v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
+    FW_TRY(fw_verdict_requirements_end(arena, m, &options->motion, v));
     FW_TRY(fw_workspace_required(arena, m, diags, &v->workspace));
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout, is_brief(options, v), v));
 

@@ -6,6 +6,7 @@
 #define FW_VERDICT_VERDICT_H
 #include "clearance/clearance.h"
 #include "dynamics/dynamics.h"
+#include "probe/probe.h"
 #include "statics/level.h"
 #include "statics/statics.h"
 #include "verdict/verdict_fabrication.h"
@@ -59,9 +60,33 @@ typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the ba
     const char *scene, *flow;
     int number; /* FW-Dnnn */
     fw_verdict_decision decision;
-    double keep;      /* share of its loads that may be accepted: where advice starts to look */
-    const char *text; /* a sentence */
+    double keep; /* share of its loads that may be accepted: where advice starts to look */
+    bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
+    const char *text;                /* a sentence */
 } fw_verdict_reason;
+
+/* one requirement in one scene, or about one equilibrium: verdict_requirement.c. All in SI of the
+   unit; of a measure that is a size, the size */
+typedef struct fw_verdict_requirement {
+    int asked; /* index into device->requirement */
+    const char *probe, *kind, *unit;
+    const char *measure;     /* NULL: of an equilibrium */
+    const char *scene;       /* NULL: at rest, without loads */
+    const char *flow;        /* may be NULL */
+    int scene_index;         /* FW_NONE: at rest */
+    double min, max;         /* NaN: no bound on this side */
+    double value, low, high; /* with its band; NaN: `why` */
+    double margin;           /* from the value to the nearer bound, below 0 beyond it */
+    double utilisation, utilisation_low,
+        utilisation_high; /* bound / value of a min, value / bound of
+                                                              a max; NaN where a bound is not above
+                                                              0 */
+    double numeric;       /* part of the band on either side that a tighter run would take away */
+    double lasting; /* relative part of it that no better model of the hinges would take away */
+    double t_s;     /* when; NaN: no one time */
+    fw_verdict_decision decision;
+    const char *why; /* it has no value; NULL */
+} fw_verdict_requirement;
 
 /* one device that the flow may make, judged like the drawn one */
 typedef struct fw_verdict_fabricated_corner {
@@ -69,9 +94,11 @@ typedef struct fw_verdict_fabricated_corner {
     const char *what; /* "nominal", "printed edge -0.15 um, thickness 49 um" */
     /* (nhinge) worst over the scenes; utilisation 0 where `why` says that nothing was run */
     fw_verdict_hinge_verdict *hinge;
-    const char *why;   /* what speaks against it beside its hinges, or NULL */
-    const char *scene; /* of `why`; NULL: of none (a flexure is gone) */
-    double keep;       /* share of its loads that it may bear */
+    const char *why;                     /* what speaks against it beside its hinges, or NULL */
+    const char *scene;                   /* of `why`; NULL: of none (a flexure is gone) */
+    double keep;                         /* share of its loads that it may bear */
+    bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
+    fw_verdict_requirement *requirement; /* (nrequirement) of the variant; NULL: nothing was run */
     fw_verdict_decision decision;
 } fw_verdict_fabricated_corner;
 
@@ -121,6 +148,9 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things; /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;   /* (nclearance) none of what is not drawn */
     int nclearance;
+    fw_probe_result *probed;             /* (nscene x nprobe); NULL: no probe has a course */
+    fw_verdict_requirement *requirement; /* (nrequirement) the same at every corner */
+    int nrequirement;
     fw_workspace_result workspace;
     fw_verdict_hinge_verdict *hinge; /* (mechanism->nhinge) */
     int nhinge;
@@ -219,8 +249,9 @@ typedef struct fw_verdict_options {
     bool with_advice; /* of what is not accepted: fw_verdict_advise */
     fw_verdict_corners corners;
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
-    bool at_a_glance; /* no refinement of what is undecided: for trials */
-    bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
+    bool at_a_glance; /* no refinement of what is undecided: for trials and previews */
+    bool decision_only; /* clearances are bounded until they decide, not found: for trials */
+    bool coarse_first;  /* a first look, and what was asked for only where it decides: for trials */
     fw_verdict_restated restated; /* with NULL: no advice on parameters */
     fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;
@@ -255,6 +286,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *verdict);
+/* the worst of a requirement over the corners that were run; NULL: none was */
+const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
+                                                          int k, int *corner);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of
    nvariant with `variant` set. Layout trouble is no error here: `layout` is NULL then. */
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,

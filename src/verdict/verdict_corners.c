@@ -283,6 +283,8 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
                                                   .number = h ? 237 : 238,
                                                   .decision = fabricated->decision,
                                                   .keep = keep,
+                                                  .not_by_loads = !h && c->not_by_loads,
+                                                  .not_by_width = !h && c->not_by_width,
                                                   .text = text};
     return FW_OK;
 }
@@ -296,7 +298,8 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
                              .layout = layout,
                              .options = *options,
                              .v = v,
-                             .ncheck = v->nhinge * (device->nscene + 1) + device->nscene};
+                             .ncheck = v->nhinge * (device->nscene + 1) + device->nscene +
+                                       v->nrequirement};
     s->options.motion.samples = 65; /* stability is looked at between them */
     FW_NEED(s->fabricated = fw_arena_one(arena, fw_verdict_fabricated_verdict));
     FW_NEED(s->fabricated->corner =

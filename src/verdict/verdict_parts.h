@@ -37,6 +37,30 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
 
+/* ---- verdict_requirement.c: what the device is for ---- */
+
+/* which requirements there are in this flow, before anything is run: v->requirement */
+fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *mechanism,
+                                       fw_verdict_variant_verdict *v);
+/* probe monitors of both runs of scene i; *monitor NULL where no probe has a course in it */
+fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                        const fw_verdict_variant_verdict *v,
+                                        fw_probe_monitor *monitor[2]);
+/* of a motion that was made and seen by these: v->probed and its requirements */
+fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int scene,
+                                           const fw_probe_monitor *monitor,
+                                           const fw_probe_monitor *looser,
+                                           fw_verdict_variant_verdict *v);
+/* those of equilibria; reasons of all that are not met */
+fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mechanism,
+                                      const fw_dynamics_motion_options *options,
+                                      fw_verdict_variant_verdict *v);
+/* what may still decide those that are inconclusive, and the accuracy that would */
+fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,
+                                                         int count);
+double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement, int count,
+                                      double accuracy);
+
 /* ---- verdict_corners.c, corner_search.c: devices at points of the ranges of a flow ---- */
 
 typedef struct fw_verdict_search {
@@ -46,7 +70,8 @@ typedef struct fw_verdict_search {
     fw_verdict_options options;
     const fw_verdict_variant_verdict *v; /* as drawn */
     fw_verdict_fabricated_verdict *fabricated;
-    int ncheck; /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene */
+    int ncheck; /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene, then
+                   requirements */
     double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_fabricated_corner *known; /* a point that was run before the others, or NULL */

@@ -168,6 +168,18 @@ static bool goes_further(fw_verdict_refinement refinement, fw_verdict_refinement
     return false;
 }
 
+/* of hinges and requirements, whichever goes further */
+static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
+    fw_verdict_refinement most = fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        const fw_verdict_refinement also =
+            fw_verdict_requirements_refinement(v->requirement, v->nrequirement);
+        if (goes_further(also, most)) most = also;
+    }
+    return most;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
@@ -181,8 +193,7 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
        less than better hinges, which then may not be needed */
     for (fw_verdict_refinement last = FW_REFINE_NOTHING;
          verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance;) {
-        fw_verdict_refinement refinement =
-            fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
+        fw_verdict_refinement refinement = refinement_of(verdict);
         if (!goes_further(refinement, last)) break;
         last = refinement;
         fw_verdict_options tight = fw_verdict_tighter(options, refinement);

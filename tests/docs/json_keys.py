@@ -21,6 +21,7 @@ SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model":
 problems, seen, documents = [], {}, 0
 
 SIX = "docs/gallery/reference-six-bar/device.xml"
+GRIPPER = "tests/data/probes/gripper.xml"
 COMB = "docs/gallery/comb-stage/device.xml"
 RUNS = (
     ("verdict", ["check", SIX]),
@@ -29,6 +30,11 @@ RUNS = (
     ("simulate", ["simulate", COMB]),
     ("simulate", ["simulate", "docs/mechanisms/slider-crank.xml"]),
     ("simulate", ["simulate", SIX, "--method", "minimal", "--effects", "all"]),
+    ("verdict", ["check", GRIPPER]),
+    ("verdict", ["check", GRIPPER, "--set", "pull=0.25 mN", "--advice", "none"]),
+    ("simulate", ["simulate", GRIPPER]),
+    ("statics", ["statics", GRIPPER]),
+    ("modes", ["modes", GRIPPER]),
     ("statics", ["statics", COMB]),
     ("statics", ["statics", "docs/mechanisms/toggle.xml", "--path"]),
     ("statics", ["statics", "docs/mechanisms/slider-crank.xml"]),

@@ -205,3 +205,18 @@ def clearance(given):
     turn = abs(given["tb"] - given["ta"])
     s = given["u"] + turn * given["r"] + 0.5 * (given["ta"] ** 2 * given["la"] + given["tb"] ** 2 * given["lb"])
     return {"s": s, "bound": given["D"] - s, "low": given["D"] - given["k"] * given["M"] - 2 * given["e"]}
+
+
+def probes(g):
+    theta = 0.0
+    for _ in range(100):
+        theta = g["F"] * g["L"] * cos(theta) / g["K"]
+    return {"up": g["L"] * sin(theta), "torque": -g["K"] * theta, "k": g["K"] / g["L"] ** 2,
+            "f": sqrt(g["K"] / (g["J"] + g["m"] * g["r"] ** 2)) / (2 * pi)}
+
+
+def probes_program(run, _):
+    paddle = "tests/data/probes/paddle.xml"
+    rest = {p["id"]: p["value"] for p in run("statics", paddle, "--json")["probes"]}
+    small = {p["id"]: p["value"] for p in run("modes", paddle, "--json")["probes"]}
+    return {"up": rest["up"], "torque": rest["spring"], "k": small["stiffness"], "f": small["frequency"]}

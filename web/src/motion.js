@@ -42,6 +42,12 @@ export class Motion {
         this.angles = new Plot(this.plots, { title: "Hinge angle / limit", unit: "%, over ms", onseek: seek });
         this.energy = new Plot(this.plots, { title: "Energy", unit: "nJ, over ms", onseek: seek });
         this.norm = new Plot(this.plots, { title: "Constraints", unit: "norm, over ms", log: true, onseek: seek });
+        this.probes = new Plot(this.plots, { title: "Probe", unit: "", onseek: seek });
+        this.whichProbe = select("Probe", [], "", () => {
+            this.#plotProbe(state.preview);
+            this.paint();
+        });
+        this.probes.heading.firstChild.replaceWith(this.whichProbe);
         this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
@@ -164,9 +170,32 @@ export class Motion {
         this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
         if (m.constraint_norm) this.norm.show(ms, [{ name: "norm", key: 6, solid: true, values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }]);
-        this.norm.root.hidden = !m.constraint_norm;
+        this.norm.root.hidden = !m.constraint_norm || m.probes?.length > 0; // there is room for three
         this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
+        this.#plotProbe(p);
         this.#legend(p, energies);
+    }
+
+    /** One of the probes, with the bounds of what is required of it; the first that something is required of. */
+    #plotProbe(p) {
+        const list = p?.motion?.probes ?? [];
+        this.plots.classList.toggle("probed", list.length > 0);
+        this.probes.root.hidden = list.length === 0;
+        if (!list.length) return;
+        const required = (id) => (p.verdict?.requirements ?? []).filter((r) => r.probe === id && r.scene === p.motion.scene && (r.flow ?? null) === (p.motion.flow ?? null));
+        const wanted = list.some((x) => x.id === this.whichProbe.value) ? this.whichProbe.value : (list.find((x) => required(x.id).length) ?? list[0]).id;
+        setOptions(this.whichProbe, list.map((x) => [x.id, x.id]), wanted);
+        const probe = list.find((x) => x.id === wanted);
+        const [prefix, size] = prefixOf(Math.max(0, ...probe.value.map((x) => Math.abs(x ?? 0))));
+        const levels = required(wanted).filter((r) => ["peak", "maximum", "minimum", "final"].includes(r.measure));
+        const marks = levels.flatMap((r) => [[r.min, "at least"], [r.max, "at most"]].filter(([y]) => y !== null).map(([y, text]) => ({ y: y / size, text: `${r.measure}: ${text}` })));
+        this.probes.heading.querySelector(".plot-unit").textContent = `${probe.kind}, ${prefix}${probe.unit}`;
+        const values = probe.value.map((x) => (x === null ? null : x / size));
+        const ends = [...values.filter((x) => x !== null), ...marks.map((x) => x.y)];
+        const [low, high] = [Math.min(...ends), Math.max(...ends)];
+        const pad = 0.08 * (high - low || 1);
+        this.probes.show(p.motion.t_s.map((t) => t * 1e3), [{ name: wanted, key: 2, solid: true, values }], { marks, range: [low - pad, high + pad] });
+        this.probe = probe;
     }
 
     #legend(p, energies) {
@@ -221,6 +250,7 @@ export class Motion {
         this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${degrees(angles[k])}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
         const energy = (key) => (m.energy?.[key] ? m.energy[key][i] : 0);
         this.energy.at(ms, si(energy("kinetic_J") + energy("potential_J"), "J"));
+        if (m.probes?.length && this.probe) this.probes.at(ms, si(this.probe.value[i], this.probe.unit));
         this.norm.at(ms, m.constraint_norm ? number(m.constraint_norm[i], 2) : "");
     }
 

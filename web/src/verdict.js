@@ -24,6 +24,7 @@ export class Verdict {
             state.flow = v;
             this.show();
         });
+        this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
@@ -31,6 +32,7 @@ export class Verdict {
         holder.append(
             this.banner, this.problems,
             h("section", { class: "card", "aria-labelledby": "h-use" }, h("h2", { id: "h-use" }, "Utilisation of the elastic limit"), this.whose, this.bars),
+            this.required,
             h("section", { class: "card", "aria-labelledby": "h-flows" }, h("h2", { id: "h-flows" }, "Flows"), this.flows),
             h("section", { class: "card", "aria-labelledby": "h-full" }, h("h2", { id: "h-full" }, "As fabricated"), full),
             h("section", { class: "card", "aria-labelledby": "h-ledger" }, h("h2", { id: "h-ledger" }, "Effects"), this.ledger),
@@ -102,9 +104,23 @@ export class Verdict {
             h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
         if (changed) announce(`${word}. ${sentence(g)}`);
         this.#bars(v);
+        this.#required(v);
         this.#flows(v);
         this.#effects();
         this.#cost();
+    }
+
+    /** Requirements with their values, and what the probes of the other scenes say at most. */
+    #required(v) {
+        const asked = v.requirements ?? [];
+        const probes = (v.probes ?? []).filter((x) => !asked.some((r) => r.probe === x.id && r.scene === x.scene && r.flow === x.flow));
+        this.required.hidden = asked.length + probes.length === 0;
+        const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit)}`, r.max === null ? "" : `at most ${si(r.max, r.unit)}`].filter(Boolean).join(", ");
+        const where = (x) => [x.scene ?? "at rest", v.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
+        this.required.replaceChildren(this.required.firstChild, h("dl", { class: "facts-list purpose" },
+            asked.flatMap((r) => [h("dt", { title: r.why ?? "" }, `${r.probe} (${r.measure ?? r.kind}, ${where(r)})`),
+                h("dd", { class: r.verdict }, r.why ? "not known" : `${si(r.value, r.unit)} \u2013 ${bound(r)}: ${WORDS[r.verdict][0].toLowerCase()}`)]),
+            probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.peak, x.unit))])));
     }
 
     /** The full judgement, while it is of the present text. */

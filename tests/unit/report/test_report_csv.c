@@ -8,7 +8,7 @@ static void header_and_every_bit(void **state) {
     fixture *f = fixture_new(arena, 0.12);
     const fw_dynamics_motion *m = f->variant_verdict[0].motion[0];
     fw_text out = fw_text_new(arena);
-    assert_int_equal(fw_report_motion_csv(&f->mechanism[0], m, &out), FW_OK);
+    assert_int_equal(fw_report_motion_csv(&f->mechanism[0], m, &f->device.scene[0], &out), FW_OK);
     const char *line = out.data;
     static const char first[] =
         "t_s,AB.x_m,AB.y_m,AB.phi_rad,AB.vx_m_per_s,AB.vy_m_per_s,AB.omega_rad_per_s,"
@@ -43,7 +43,8 @@ static void hostile_name_stays_in_its_cell(void **state) {
     fixture *f = fixture_new(arena, 0.12);
     f->mechanism[0].body[0].id = "a\",b";
     fw_text out = fw_text_new(arena);
-    assert_int_equal(fw_report_motion_csv(&f->mechanism[0], f->variant_verdict[0].motion[0], &out),
+    assert_int_equal(fw_report_motion_csv(&f->mechanism[0], f->variant_verdict[0].motion[0],
+                                          &f->device.scene[0], &out),
                      FW_OK);
     static const char want[] = "t_s,\"a\"\",b.x_m\",\"a\"\",b.y_m\",";
     assert_int_equal(strncmp(out.data, want, sizeof want - 1), 0);
@@ -56,8 +57,8 @@ static void out_of_memory_is_said(void **state) {
     fixture *f = fixture_new(arena, 0.12);
     fw_text out = fw_text_new(arena);
     fw_arena_fail_at(3, 1);
-    fw_status status =
-        fw_report_motion_csv(&f->mechanism[0], f->variant_verdict[0].motion[0], &out);
+    fw_status status = fw_report_motion_csv(&f->mechanism[0], f->variant_verdict[0].motion[0],
+                                            &f->device.scene[0], &out);
     fw_arena_fail_at(0, 0);
     assert_int_equal(status, FW_NOMEM);
     fw_arena_free(arena);

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a device is for: quantities that are looked at (<probe>), and what is asked of them
+   (<require>). Theory: docs/theory/probes.md. Included by device.h. */
+#ifndef FW_DEVICE_DEVICE_PROBE_H
+#define FW_DEVICE_DEVICE_PROBE_H
+#include "base/diag.h"
+#include "quantity/quantity.h"
+#include <stdbool.h>
+
+typedef enum fw_device_probe_takes {                 /* the attributes that a kind goes by */
+                                     FW_PROBE_POINT, /* on, x, y, direction */
+                                     FW_PROBE_BODY,  /* on, or of a joint */
+                                     FW_PROBE_PAIR, /* a, a-x, a-y, b, b-x, b-y, direction (opening) */
+                                     FW_PROBE_CARRIER, /* of, direction */
+                                     FW_PROBE_TANGENT, /* on, x, y, direction: of an equilibrium, not of a motion */
+                                     FW_PROBE_MODE /* mode; likewise */
+} fw_device_probe_takes;
+
+typedef struct fw_device_probe_kind { /* a row of probes.def */
+    const char *name, *unit, *suffix; /* "force", "N m", "Nm" */
+    fw_quantity_dimension dimension;
+    fw_device_probe_takes takes;
+    const char *sentence;
+} fw_device_probe_kind;
+/* its place among the rows */
+#define FW_PROBE(name, ...) FW_PROBE_IS_##name,
+typedef enum fw_device_probe_row {
+#include "device/probes.def"
+    FW_PROBE_KINDS
+} fw_device_probe_row;
+#undef FW_PROBE
+extern const fw_device_probe_kind fw_device_probe_kinds[FW_PROBE_KINDS];
+/* of a motion, with a value at every instant; else of an equilibrium */
+bool fw_device_probe_moves(const fw_device_probe_kind *kind);
+
+typedef enum fw_device_carrier { /* what `of` names: each may be in the device or in a scene */
+                                 FW_CARRIER_REVOLUTE,
+                                 FW_CARRIER_JOINT, /* prismatic, distance, weld */
+                                 FW_CARRIER_DRIVER,
+                                 FW_CARRIER_SPRING,
+                                 FW_CARRIER_TENDON, /* of a scene, as the next two */
+                                 FW_CARRIER_COMB,
+                                 FW_CARRIER_CONTACT
+} fw_device_carrier;
+
+typedef struct fw_device_probe {
+    const char *id;
+    fw_device_probe_row row;
+    int body, body_b;          /* point or body a, and b; FW_GROUND */
+    double x_m, y_m;           /* local to it; of the ground: world */
+    double bx_m, by_m;         /* of b */
+    double direction_rad;      /* in the world, of an opening in the frame of a; NaN: none */
+    const char *of;            /* id of what carries it; NULL */
+    fw_device_carrier carrier; /* which kind of thing that is */
+    int index;    /* of revolutes, joints, drivers and springs; those of scenes go by id */
+    int mode;     /* from 1 */
+    bool implied; /* made for a <require frequency>: no <probe> of the file */
+    fw_place place;
+} fw_device_probe;
+
+typedef enum fw_device_measure { /* what of the course of a probe a requirement judges */
+                                 FW_MEASURE_PEAK, /* the largest size */
+                                 FW_MEASURE_MAXIMUM,
+                                 FW_MEASURE_MINIMUM,
+                                 FW_MEASURE_FINAL,        /* at the end of the scene */
+                                 FW_MEASURE_PEAK_TO_PEAK, /* maximum less minimum */
+                                 FW_MEASURE_SETTLING, /* time after which it stays within a band about its final value */
+                                 FW_MEASURE_PARASITIC /* largest displacement across the direction */
+} fw_device_measure;
+const char *fw_device_measure_text(fw_device_measure measure); /* as the file says it */
+
+typedef struct fw_device_requirement { /* <require> */
+    int probe;                         /* index */
+    int scene;                 /* index; FW_NONE: every scene that has it; of an equilibrium:
+                                          at rest, without loads */
+    fw_device_measure measure; /* of what moves */
+    double min, max;           /* SI, of the measure; NaN: no bound on this side */
+    double band;               /* SI of the probe, of settling */
+    fw_place place;
+} fw_device_requirement;
+
+#endif

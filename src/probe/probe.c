@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Probes of a scene: which rows, points and force elements they are of. */
+#include "probe/probe.h"
+#include "base/text.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#define FW_PROBE(name, ...) &fw_probe_##name,
+static const fw_probe_row *const rows[FW_PROBE_KINDS] = {
+#include "device/probes.def"
+};
+#undef FW_PROBE
+
+/* ---- binding ---- */
+
+static const char *effect_of(fw_device_carrier carrier) {
+    switch (carrier) {
+    case FW_CARRIER_TENDON:
+        return "tendon";
+    case FW_CARRIER_COMB:
+        return "comb-drive";
+    case FW_CARRIER_CONTACT:
+        return "contact";
+    case FW_CARRIER_REVOLUTE:
+    case FW_CARRIER_JOINT:
+    case FW_CARRIER_DRIVER:
+    case FW_CARRIER_SPRING:
+        break;
+    }
+    return NULL;
+}
+
+/* of a scene's tendon, comb drive or contact by its id; of a revolute that is not a constraint */
+static const fw_effects_force_element *element_of(const fw_probe *p) {
+    const fw_device_probe *a = p->asked;
+    const char *effect = effect_of(a->carrier);
+    for (int i = 0; a->of && i < p->loads.nelement; i++) {
+        const fw_effects_force_element *e = &p->loads.element[i];
+        if (effect ? strcmp(e->class_->effect, effect) == 0 && e->id && strcmp(e->id, a->of) == 0
+                   : a->carrier == FW_CARRIER_REVOLUTE && e->pin == a->index)
+            return e;
+    }
+    return NULL;
+}
+
+static int spring_of(const fw_probe *p) {
+    const fw_device_probe *a = p->asked;
+    for (int i = 0; a->of && a->carrier == FW_CARRIER_SPRING && i < p->loads.nspring; i++)
+        if (p->loads.spring[i].id && strcmp(p->loads.spring[i].id, a->of) == 0) return i;
+    return FW_NONE;
+}
+
+/* a body that became longer takes the point along */
+static void place_points(fw_probe *p) {
+    const fw_device_probe *a = p->asked;
+    p->point[0] = (fw_effects_port){a->body, a->x_m, a->y_m};
+    p->point[1] = (fw_effects_port){a->body_b, a->bx_m, a->by_m};
+    for (int i = 0; i < 2; i++) {
+        fw_effects_port *at = &p->point[i];
+        p->drawn[i] = fw_mechanism_local_place(p->mechanism, at->body, at->x_m, at->y_m);
+        if (p->loads.strained)
+            fw_mechanism_strain_point(p->loads.strain, p->mechanism->nbody,
+                                      fw_mechanism_ground_centre(p->mechanism), at->body, &at->x_m,
+                                      &at->y_m);
+    }
+}
+
+static fw_status bind(fw_arena *arena, fw_probe *p) {
+    p->kind = &fw_device_probe_kinds[p->asked->row];
+    p->row = rows[p->asked->row];
+    place_points(p);
+    p->element = element_of(p);
+    p->spring = spring_of(p);
+    if (!p->element) return FW_OK;
+    for (const fw_effects_force_element *e = p->loads.element; e < p->element; e++)
+        p->first_switch += e->switches;
+    size_t ports = 3 * (size_t)p->element->ports, n = (size_t)p->element->switches;
+    FW_NEED(p->p = fw_arena_array(arena, double, 3 * ports));
+    p->w = p->p + ports, p->f = p->w + ports;
+    FW_NEED(p->on = fw_arena_array(arena, bool, n));
+    return FW_OK;
+}
+
+fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                        const fw_effects_loads *loads, fw_probe **probe) {
+    fw_effects_loads own = loads ? *loads : (fw_effects_loads){.nbody = m->nbody};
+    const fw_mechanism *strained = m;
+    int n = fw_probe_count(m);
+    FW_NEED(*probe = fw_arena_array(arena, fw_probe, (size_t)n));
+    if (n > 0 && own.strained) FW_TRY(fw_effects_strain(arena, m, &own, &strained));
+    for (int i = 0; i < n; i++) {
+        const fw_device_probe *asked = &m->device->probe[i];
+        fw_probe *p = &(*probe)[i];
+        *p = (fw_probe){.asked = asked, .mechanism = m, .loads = own};
+        p->in_scene = fw_device_probe_in_scene(asked, scene);
+        FW_TRY(bind(arena, p));
+    }
+    return FW_OK;
+}
+
+/* ---- values ---- */
+
+fw_probe_state fw_probe_state_of(const fw_dynamics_instant *now) {
+    return (fw_probe_state){.t_s = now->t_s,
+                            .piece_s = now->piece_s,
+                            .q = now->q,
+                            .v = now->v,
+                            .angle_rad = now->angle_rad,
+                            .reaction_N = now->reaction_N,
+                            .joint_N = now->joint_N,
+                            .driver_N = now->driver_N,
+                            .on = now->on};
+}
+
+double fw_probe_value(const fw_probe *p, const fw_probe_state *s) {
+    return p->in_scene && p->row->value ? p->row->value(p, s) : (double)NAN;
+}
+
+double fw_probe_across(const fw_probe *p, const fw_probe_state *s) {
+    return p->in_scene && p->row->across ? p->row->across(p, s) : (double)NAN;
+}
+
+double fw_probe_origin(const fw_probe *p) {
+    if (p->kind->takes != FW_PROBE_PAIR) return 0;
+    const fw_geometry_vec2 a = p->drawn[0], b = p->drawn[1];
+    double dx = b.x - a.x, dy = b.y - a.y, direction = p->asked->direction_rad;
+    if (isnan(direction)) return hypot(dx, dy);
+    if (p->asked->body != FW_GROUND) direction += p->mechanism->body[p->asked->body].phi_rad;
+    return dx * cos(direction) + dy * sin(direction);
+}
+
+const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit) {
+    static const char *const prefix[] = {"n", "u", "m", "", "k", "M", "G"};
+    char number[32];
+    int k = 3;
+    double size = fabs(value) * (1 + 1e-12);
+    while (isfinite(size) && size > 0 && size < 1 && k > 0)
+        size *= 1e3, value *= 1e3, k--;
+    while (isfinite(size) && size >= 1e3 && k < 6)
+        size *= 1e-3, value *= 1e-3, k++;
+    fw_number_text(number, sizeof number, value, 4);
+    snprintf(buffer, FW_PROBE_TEXT, "%s %s%s", number, prefix[k], unit);
+    return buffer;
+}
+
+/* where a law jumps at a row, its value behind that; of the last row that before the end */
+double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row) {
+    size_t i = (size_t)row, n = 3 * (size_t)motion->nbody;
+    double t = motion->t_s[row], end = motion->end_s, near = 1e-9 * end;
+    fw_dynamics_motion_rows(motion, row, 1);
+    const fw_probe_state s = {.t_s = t,
+                              .piece_s = t + near < end ? t + near : t - near,
+                              .q = motion->q + i * n,
+                              .v = motion->v + i * n,
+                              .angle_rad = motion->angle_rad + i * (size_t)motion->npin,
+                              .reaction_N = motion->reaction_N + i * 2 * (size_t)motion->npin,
+                              .joint_N = motion->joint_N + i * 3 * (size_t)motion->njoint,
+                              .driver_N = motion->driver_N + i * (size_t)motion->ndriver};
+    return fw_probe_value(p, &s);
+}
+
+double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
+                               const fw_statics *statics) {
+    const double end = scene->duration_s;
+    const fw_probe_state s = {.t_s = end,
+                              .piece_s = end * (1 - 1e-9),
+                              .q = statics->q,
+                              .angle_rad = statics->angle_rad,
+                              .reaction_N = statics->reaction_N,
+                              .joint_N = statics->joint_N,
+                              .driver_N = statics->driver_N,
+                              .still = true};
+    return fw_probe_value(p, &s);
+}

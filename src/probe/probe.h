@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a device is for: quantities of its motions and equilibria (<probe> of the description), at
+   one instant, along a motion, about an equilibrium. Theory: docs/theory/probes.md. */
+#ifndef FW_PROBE_PROBE_H
+#define FW_PROBE_PROBE_H
+#include "dynamics/dynamics.h"
+#include "statics/level.h"
+#include "statics/modes.h"
+
+/* ---- at one instant ---- */
+
+typedef struct fw_probe_state {
+    double t_s, piece_s;      /* a time inside the smooth piece of the laws that is meant */
+    const double *q;          /* (3 nbody) m, rad */
+    const double *v;          /* (3 nbody); NULL: at rest */
+    const double *angle_rad;  /* (npin) */
+    const double *reaction_N; /* (2 npin) on body b; NULL: not known */
+    const double *joint_N;    /* (3 njoint) likewise */
+    const double *driver_N;   /* (ndriver) likewise */
+    const bool
+        *on;    /* (all switches of the loads' elements) as held; NULL: as they say themselves */
+    bool still; /* an equilibrium: laws have values, but no rates */
+} fw_probe_state;
+fw_probe_state fw_probe_state_of(const fw_dynamics_instant *instant);
+
+/* one probe of a mechanism under the loads of a scene */
+typedef struct fw_probe {
+    const fw_device_probe *asked;
+    const fw_device_probe_kind *kind;
+    const struct fw_probe_row *row;
+    const fw_mechanism *mechanism;
+    fw_effects_loads loads;    /* as they act: free strains applied */
+    bool in_scene;             /* false: the scene does not have what carries it; no value */
+    fw_effects_port point[2];  /* its points, with the free strain of their bodies; body and world
+                                 coordinates of the ground */
+    fw_geometry_vec2 drawn[2]; /* where they are drawn, world */
+    const fw_effects_force_element *element; /* NULL: none, or it was left out: its force is 0 */
+    int spring;                              /* of loads, or FW_NONE */
+    double *p, *w, *f;                       /* (3 ports) work of the element */
+    bool *on;                                /* (switches) */
+    int first_switch;                        /* of the element among all */
+} fw_probe;
+
+/* One row per kind: adding one is a line in device/probes.def, and a file. SI values of the kind's
+   unit; NaN: not known from this state. NULL for what has no course in time. */
+typedef struct fw_probe_row {
+    double (*value)(const fw_probe *p, const fw_probe_state *s);
+    double (*across)(const fw_probe *p, const fw_probe_state *s); /* its direction; NULL: nothing */
+    /* about an equilibrium, in the modes of small motions there */
+    double (*small)(const fw_probe *p, const fw_statics_modes *modes);
+} fw_probe_row;
+#define FW_PROBE(name, ...) extern const fw_probe_row fw_probe_##name;
+#include "device/probes.def"
+#undef FW_PROBE
+
+static inline int fw_probe_count(const fw_mechanism *mechanism) {
+    return mechanism->device ? mechanism->device->nprobe : 0;
+}
+/* all probes (mechanism->device->nprobe) of a scene of the mechanism's device; loads NULL: none are
+   known, and nothing that carries a force is found */
+fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *mechanism,
+                        const fw_device_scene *scene, const fw_effects_loads *loads,
+                        fw_probe **probe);
+/* SI; NaN: not in this scene, or not known */
+double fw_probe_value(const fw_probe *p, const fw_probe_state *s);
+double fw_probe_across(const fw_probe *p, const fw_probe_state *s);
+/* of a distance or opening as it is drawn; of all else 0 */
+double fw_probe_origin(const fw_probe *p);
+/* at a row of a motion whose probes are bound to its loads */
+double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row);
+double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
+                               const fw_statics *statics);
+
+/* shared by kinds: probe_point.c, probe_carrier.c */
+fw_geometry_vec2 fw_probe_place(const fw_probe *p, int side, const fw_probe_state *s);
+fw_geometry_vec2 fw_probe_speed(const fw_probe *p, int side, const fw_probe_state *s);
+/* along the direction of the probe; where it has none the size */
+double fw_probe_along(const fw_probe *p, double x, double y);
+/* forces on the ports of the element, and where they are: p->f, p->p, p->w. false: there is none */
+bool fw_probe_element_forces(const fw_probe *p, const fw_probe_state *s,
+                             fw_effects_port_state *seen);
+
+/* ---- along a motion: probe_course.c ---- */
+
+typedef struct fw_probe_extreme {
+    double value, t_s;
+    double between; /* what the parabola added to the nearest instant: the error of the search */
+} fw_probe_extreme;
+
+typedef struct fw_probe_course { /* of one probe */
+    fw_probe_extreme maximum, minimum;
+    fw_probe_extreme across; /* largest size across its direction */
+    double final;
+    double t[2], s[2], a[2]; /* the last two instants */
+    int samples;             /* behind the last jump */
+    int count;               /* in all; 0: it has no value in this scene */
+    double *time, *value;    /* (kept) every instant and extreme, where asked for */
+    size_t kept, room;
+} fw_probe_course;
+
+typedef struct fw_probe_monitor { /* of one run */
+    fw_arena *arena;
+    const fw_mechanism *mechanism;
+    const fw_device_scene *scene;
+    const bool *history;           /* (nprobe) whose whole course is kept; NULL: none */
+    const bool *judged;            /* (nprobe) by which a run is near enough; NULL: none */
+    const fw_effects_loads *loads; /* that `probe` is bound to */
+    fw_probe *probe;               /* (nprobe) */
+    fw_probe_course *course;       /* (nprobe) */
+    bool no_memory;                /* the run has failed */
+} fw_probe_monitor;
+
+/* scene: one of mechanism->device */
+fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene, const bool *history,
+                               fw_probe_monitor *monitor);
+/* an fw_dynamics_observer of whole instants; context is the monitor */
+void fw_probe_monitor_record(void *context, const fw_dynamics_instant *instant);
+
+/* fw_dynamics_motion_options.unsettled of probes: twice what two runs differ by, times the margin,
+   over thirty times the accuracy wanted (at most 3 %) of the largest departure from the drawn value;
+   the worst of those that are judged */
+double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_probe_monitor *looser,
+                                  double margin, double accuracy);
+
+typedef struct fw_probe_result { /* what a motion did, and by how much that may be off */
+    double maximum, maximum_t_s, minimum, minimum_t_s, final;
+    double peak, peak_t_s; /* the larger size of both, with its sign */
+    double across, across_t_s;
+    /* what it is as drawn, without any error: of a distance or opening, else 0. Relative errors are
+       of what is beyond it */
+    double origin;
+    /* errors of extremes, of the final value, of `across`: what two runs and the search between
+       instants say, and effects left out; infinite without a second run */
+    double numeric, final_numeric, across_numeric;
+    /* relative, of the model of the hinges: what the next one changes of the value, and of
+       `across`, at the motion's largest hinge angle; NaN: not known */
+    double level, across_level;
+    bool known; /* it has a value in this scene */
+} fw_probe_result;
+/* monitors: of the motion, and of the looser run (NULL: there was none) */
+void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
+                        const fw_dynamics_motion *motion, int probe, fw_probe_result *result);
+
+/* Time after which the probe stays within `band` of its final value: the last crossing, by the line
+   between two instants. Of a course that was kept; 0: it never left */
+double fw_probe_settling_s(const fw_probe_course *course, double band);
+
+/* "354 uN": four digits and a prefix for a value in an SI unit */
+enum { FW_PROBE_TEXT = 48 };
+const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit);
+
+/* ---- about an equilibrium: probe_modal.c ---- */
+
+/* u (m) of the point along the probe's direction in a mode, per unit of its shape */
+double fw_probe_mode_along(const fw_probe *p, const fw_statics_modes *modes, int mode);
+/* SI; NaN: there is no such mode, or nothing holds it */
+double fw_probe_small(const fw_probe *p, const fw_statics_modes *modes);
+/* relative: stiffness and compliance go with the square of frequencies; infinite: not known */
+double fw_probe_small_error(const fw_probe *p, const fw_statics_modes *modes);
+
+#endif

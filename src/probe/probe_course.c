@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Probes followed along a motion: extremes between the instants, and by how much they may be off. */
+#include "probe/probe.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                               const bool *history, fw_probe_monitor *monitor) {
+    *monitor =
+        (fw_probe_monitor){.arena = arena, .mechanism = m, .scene = scene, .history = history};
+    FW_NEED(monitor->course = fw_arena_array(arena, fw_probe_course, (size_t)fw_probe_count(m)));
+    return FW_OK;
+}
+
+/* ---- extremes ---- */
+
+/* value and place of the extreme of the parabola through three instants, spacings a and b about the
+   middle one; false: it has none between them.
+     slope = ((s1-s0) b/a + (s2-s1) a/b)/(a+b), bend = 2 ((s2-s1)/b - (s1-s0)/a)/(a+b)
+     at t1 - slope/bend, s1 - slope^2/(2 bend)
+   in: times s, values in any unit; error O(spacing^3) of the extreme, bounded by what is added;
+   source: Newton's divided differences; test_probe.c finds_extremes_between_instants */
+static bool turns(const double t[3], const double s[3], double *at, double *value) {
+    double a = t[1] - t[0], b = t[2] - t[1], up = s[1] - s[0], down = s[2] - s[1];
+    if (!(a > 0 && b > 0) || !((up >= 0 && down <= 0) || (up <= 0 && down >= 0)) || up == down)
+        return false;
+    double slope = (up * b / a + down * a / b) / (a + b), bend = 2 * (down / b - up / a) / (a + b);
+    *at = t[1] - slope / bend;
+    *value = s[1] - slope * slope / (2 * bend);
+    return true;
+}
+
+static void raise(fw_probe_extreme *e, double sign, double value, double t_s, double between,
+                  bool first) {
+    if (!first && !(sign * value > sign * e->value)) return;
+    *e = (fw_probe_extreme){value, t_s, between};
+}
+
+static fw_status keep(fw_arena *arena, fw_probe_course *c, double t_s, double value) {
+    if (c->kept == c->room) {
+        size_t room = c->room ? 2 * c->room : 1024;
+        FW_NEED(c->time = fw_arena_grow(arena, c->time, c->kept, room, sizeof *c->time));
+        FW_NEED(c->value = fw_arena_grow(arena, c->value, c->kept, room, sizeof *c->value));
+        c->room = room;
+    }
+    c->time[c->kept] = t_s;
+    c->value[c->kept++] = value;
+    return FW_OK;
+}
+
+/* sizes of the displacement across, as the values */
+static void add_across(fw_probe_course *c, const double t[3], double across) {
+    const double s[3] = {c->a[0], c->a[1], across};
+    double at, top;
+    if (c->samples >= 2 && turns(t, s, &at, &top))
+        raise(&c->across, 1, fabs(top), at, fabs(top - s[1]), false);
+    raise(&c->across, 1, fabs(across), t[2], 0, c->count == 0);
+    c->a[0] = c->a[1], c->a[1] = across;
+}
+
+static fw_status add(fw_arena *arena, fw_probe_course *c, bool history, double t_s, double value,
+                     double across) {
+    const double t[3] = {c->t[0], c->t[1], t_s}, s[3] = {c->s[0], c->s[1], value};
+    double at, top;
+    if (c->samples >= 2 && turns(t, s, &at, &top)) {
+        raise(&c->maximum, 1, top, at, fabs(top - s[1]), false);
+        raise(&c->minimum, -1, top, at, fabs(top - s[1]), false);
+        if (history && at < t[1]) { /* in the order of time */
+            c->kept--;
+            FW_TRY(keep(arena, c, at, top));
+            FW_TRY(keep(arena, c, t[1], s[1]));
+        } else if (history && at > t[1])
+            FW_TRY(keep(arena, c, at, top));
+    }
+    raise(&c->maximum, 1, value, t_s, 0, c->count == 0);
+    raise(&c->minimum, -1, value, t_s, 0, c->count == 0);
+    if (!isnan(across)) add_across(c, t, across);
+    if (history) FW_TRY(keep(arena, c, t_s, value));
+    c->final = value;
+    c->t[0] = c->t[1], c->t[1] = t_s;
+    c->s[0] = c->s[1], c->s[1] = value;
+    c->samples++, c->count++;
+    return FW_OK;
+}
+
+static fw_status take(fw_probe_monitor *w, const fw_dynamics_instant *now) {
+    const int n = fw_probe_count(w->mechanism);
+    if (w->loads != now->loads) {
+        FW_TRY(fw_probe_bind(w->arena, w->mechanism, w->scene, now->loads, &w->probe));
+        w->loads = now->loads;
+    }
+    const fw_probe_state state = fw_probe_state_of(now);
+    for (int i = 0; i < n; i++) {
+        const fw_probe *p = &w->probe[i];
+        fw_probe_course *c = &w->course[i];
+        double value = fw_probe_value(p, &state);
+        if (isnan(value)) continue;
+        if (now->begins) c->samples = 0; /* no parabola across a jump */
+        FW_TRY(add(w->arena, c, w->history && w->history[i], now->t_s, value,
+                   fw_probe_across(p, &state)));
+    }
+    return FW_OK;
+}
+
+void fw_probe_monitor_record(void *context, const fw_dynamics_instant *now) {
+    fw_probe_monitor *w = context;
+    const size_t n = (size_t)fw_probe_count(w->mechanism);
+    if (w->no_memory) return;
+    if (now)
+        w->no_memory = take(w, now) != FW_OK;
+    else
+        memset(w->course, 0, n * sizeof *w->course);
+}
+
+/* ---- errors ---- */
+
+/* what the next model of the hinges changes, relative to the value there. A value that is small
+   there counts with a tenth of the largest. Velocities and the forces of joints that are no pins are
+   not known there */
+static double level_of(const fw_probe *p, const fw_dynamics_motion *motion,
+                       double (*of)(const fw_probe *, const fw_probe_state *), double largest,
+                       double origin) {
+    const fw_statics_level_step *step = motion->level;
+    if (!step || step->why_not || step->used == step->next || !p->row->value) return (double)NAN;
+    double value[2];
+    for (int i = 0; i < 2; i++) {
+        const fw_statics_level_state *at = i ? &step->up : &step->at;
+        const fw_probe_state s = {.t_s = isnan(step->t_s) ? motion->end_s : step->t_s,
+                                  .piece_s = isnan(step->t_s) ? motion->end_s : step->t_s,
+                                  .q = at->q,
+                                  .angle_rad = at->angle_rad,
+                                  .reaction_N = at->reaction_N,
+                                  .still = true};
+        value[i] = of(p, &s);
+    }
+    double size = fmax(fabs(value[0] - origin), 0.1 * largest), change = fabs(value[1] - value[0]);
+    return change == 0 ? 0 : change / size;
+}
+
+/* Twice what two runs differ by, times the margin of the two, the error of the search, and the
+   relative error of the motion as a whole (fw_dynamics_motion_estimated: numbers, effects left
+   out). A sequence of equilibria has one run, whose instants are solved for. */
+static double numeric(double apart, double between, double value, double estimated, double margin) {
+    return 2 * margin * apart + between + (estimated + 64 * DBL_EPSILON) * fabs(value);
+}
+
+/* course c of the motion, o of the looser run or NULL */
+static void errors(const fw_probe_course *c, const fw_probe_course *o,
+                   const fw_dynamics_motion *motion, fw_probe_result *r) {
+    double estimated = fw_dynamics_motion_estimated(motion), margin = motion->stats.estimate_margin;
+    bool alone = motion->loads && motion->loads->quasi_static;
+    if (!alone && !o) {
+        r->numeric = r->final_numeric = r->across_numeric = (double)INFINITY;
+        return;
+    }
+    double most = 0, last = 0, aside = 0;
+    if (o && o->count > 0 && !alone) {
+        most = fmax(fabs(c->maximum.value - o->maximum.value),
+                    fabs(c->minimum.value - o->minimum.value));
+        last = fabs(c->final - o->final), aside = fabs(c->across.value - o->across.value);
+    }
+    double between = fmax(c->maximum.between, c->minimum.between);
+    double far = fmax(fabs(r->maximum - r->origin), fabs(r->minimum - r->origin));
+    r->numeric = numeric(most, between, far, estimated, margin);
+    r->final_numeric = numeric(last, 0, far, estimated, margin);
+    r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin);
+}
+
+void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
+                        const fw_dynamics_motion *motion, int probe, fw_probe_result *r) {
+    const fw_probe_course *c = &monitor->course[probe];
+    *r = (fw_probe_result){.maximum = (double)NAN,
+                           .minimum = (double)NAN,
+                           .final = (double)NAN,
+                           .peak = (double)NAN,
+                           .across = (double)NAN,
+                           .level = (double)NAN,
+                           .across_level = (double)NAN};
+    if (c->count == 0) return;
+    bool down = fabs(c->minimum.value) > fabs(c->maximum.value);
+    r->known = true;
+    r->maximum = c->maximum.value, r->maximum_t_s = c->maximum.t_s;
+    r->minimum = c->minimum.value, r->minimum_t_s = c->minimum.t_s;
+    r->peak = down ? r->minimum : r->maximum;
+    r->peak_t_s = down ? r->minimum_t_s : r->maximum_t_s;
+    r->final = c->final;
+    r->across = c->across.value, r->across_t_s = c->across.t_s;
+    const fw_probe *p = &monitor->probe[probe];
+    r->origin = fw_probe_origin(p);
+    errors(c, looser ? &looser->course[probe] : NULL, motion, r);
+    double far = fmax(fabs(r->maximum - r->origin), fabs(r->minimum - r->origin));
+    r->level = level_of(p, motion, fw_probe_value, far, r->origin);
+    if (p->row->across) r->across_level = level_of(p, motion, fw_probe_across, r->across, 0);
+}
+
+double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_probe_monitor *looser,
+                                  double margin, double accuracy) {
+    double worst = 0;
+    for (int i = 0; tighter->judged && i < fw_probe_count(tighter->mechanism); i++) {
+        const fw_probe_course *c = &tighter->course[i], *o = &looser->course[i];
+        if (!tighter->judged[i] || c->count == 0 || o->count == 0) continue;
+        double origin = fw_probe_origin(&tighter->probe[i]);
+        double far = fmax(fabs(c->maximum.value - origin), fabs(c->minimum.value - origin));
+        double apart = fmax(fabs(c->maximum.value - o->maximum.value),
+                            fabs(c->minimum.value - o->minimum.value));
+        if (apart > 0) worst = fmax(worst, 2 * margin * apart / (fmin(30 * accuracy, 0.03) * far));
+    }
+    return worst;
+}
+
+/* ---- settling ---- */
+
+double fw_probe_settling_s(const fw_probe_course *c, double band) {
+    for (size_t i = c->kept; i-- > 0;) {
+        double off = fabs(c->value[i] - c->final) - band;
+        if (off <= 0) continue;
+        if (i + 1 >= c->kept) return c->time[i];
+        double next = fabs(c->value[i + 1] - c->final) - band, span = c->time[i + 1] - c->time[i];
+        return c->time[i] + (next < off ? span * off / (off - next) : span);
+    }
+    return 0;
+}

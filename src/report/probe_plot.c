@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Probes of a scene against time, a small panel each, with the bounds of what is required of them;
+   the table of all requirements. */
+#include "report/report_page.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- curves ---- */
+
+typedef struct curve {
+    const fw_verdict_variant_verdict *v;
+    int scene, probe, points;
+    const fw_probe_result *result;
+    const double *t_s, *value; /* (count) in the unit shown */
+    int count;
+    double per_si;
+    char unit[16]; /* "uN" */
+    fw_report_axes axes;
+} curve;
+
+/* the prefix in which the largest value reads best */
+static void choose_unit(curve *c, double largest, const char *unit) {
+    char text[FW_PROBE_TEXT];
+    double size = fabs(largest);
+    c->per_si = 1;
+    fw_probe_text(text, size, unit);
+    const char *blank = strchr(text, ' ');
+    snprintf(c->unit, sizeof c->unit, "%s", blank ? blank + 1 : unit);
+    static const struct {
+        char prefix;
+        double by;
+    } table[] = {{'n', 1e9}, {'u', 1e6}, {'m', 1e3}, {'k', 1e-3}, {'M', 1e-6}, {'G', 1e-9}};
+    if (strcmp(c->unit, unit) == 0) return;
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (c->unit[0] == table[i].prefix) c->per_si = table[i].by;
+}
+
+/* a bound that is a value of the course: peaks, extremes and the end */
+static bool is_level(const fw_device_requirement *q) {
+    switch (q->measure) {
+    case FW_MEASURE_PEAK:
+    case FW_MEASURE_MAXIMUM:
+    case FW_MEASURE_MINIMUM:
+    case FW_MEASURE_FINAL:
+        return true;
+    case FW_MEASURE_PEAK_TO_PEAK:
+    case FW_MEASURE_SETTLING:
+    case FW_MEASURE_PARASITIC:
+        break;
+    }
+    return false;
+}
+
+static const fw_verdict_requirement *next_of(const curve *c, int *k) {
+    const fw_device *d = c->v->mechanism->device;
+    for (; *k < c->v->nrequirement; (*k)++) {
+        const fw_verdict_requirement *r = &c->v->requirement[*k];
+        if (r->scene_index == c->scene && r->measure && d->requirement[r->asked].probe == c->probe)
+            return &c->v->requirement[(*k)++];
+    }
+    return NULL;
+}
+
+/* a bound far away would flatten the curve: said in words instead */
+static bool shown(const curve *c, double bound) {
+    double low = c->result->minimum, high = c->result->maximum;
+    double size = fmax(high - low, 0.2 * fmax(fabs(low), fabs(high)));
+    return isfinite(bound) && bound < high + 1.5 * size && bound > low - 1.5 * size;
+}
+
+static void range(curve *c) {
+    double low = fmin(0, c->result->minimum), high = fmax(0, c->result->maximum);
+    if (c->result->origin != 0) low = c->result->minimum, high = c->result->maximum;
+    const fw_verdict_requirement *r;
+    for (int k = 0; (r = next_of(c, &k)) != NULL;) {
+        if (!is_level(&c->v->mechanism->device->requirement[r->asked])) continue;
+        const double bound[2] = {r->min, r->max};
+        for (int i = 0; i < 2; i++)
+            if (shown(c, bound[i])) low = fmin(low, bound[i]), high = fmax(high, bound[i]);
+    }
+    double wide = high > low ? high - low : fmax(fabs(high), 1);
+    c->axes.low = (low - 0.08 * wide) * c->per_si;
+    c->axes.high = (high + 0.12 * wide) * c->per_si;
+}
+
+static void bounds(const curve *c, fw_text *out) {
+    const fw_verdict_requirement *r;
+    for (int k = 0; (r = next_of(c, &k)) != NULL;) {
+        if (!is_level(&c->v->mechanism->device->requirement[r->asked])) continue;
+        const double bound[2] = {r->min, r->max};
+        for (int i = 0; i < 2; i++) {
+            if (!shown(c, bound[i])) continue;
+            double y = fw_report_axes_y(&c->axes, bound[i] * c->per_si), edge = c->axes.y;
+            if (i == 0) edge += c->axes.height;
+            fw_svg_put(out, "path d='M{c} {c}h{c}V{c}h-{c}z' fill='#D55E00' fill-opacity='0.08'",
+                       c->axes.x, y, c->axes.width, edge, c->axes.width);
+            fw_svg_put(out,
+                       "path d='M{c} {c}h{c}' stroke='#D55E00' stroke-dasharray='5 3' "
+                       "fill='none'\n",
+                       c->axes.x, y, c->axes.width);
+        }
+    }
+}
+
+static fw_status line(fw_arena *arena, const curve *c, fw_text *out) {
+    int most = c->points < 4 ? 4 : c->points, *index;
+    FW_NEED(index = fw_arena_array(arena, int, (size_t)most));
+    int n = fw_report_decimate(c->value, 1, c->count, most, index);
+    fw_svg_path(out, "fill='none' stroke='#0072B2' stroke-width='1.4' stroke-linejoin='round'");
+    for (int i = 0; i < n; i++)
+        fw_markup(out, "{r}{c} {c}",
+                  i == 0   ? "M"
+                  : i == 1 ? "L"
+                           : " ",
+                  fw_report_axes_x(&c->axes, c->t_s[index[i]]),
+                  fw_report_axes_y(&c->axes, c->value[index[i]]));
+    fw_svg_path_end(out);
+    return FW_OK;
+}
+
+/* the measure that is judged, else the peak */
+static void heading(const curve *c, fw_text *out) {
+    const fw_device_probe *p = &c->v->mechanism->device->probe[c->probe];
+    char text[FW_PROBE_TEXT];
+    int k = 0;
+    const fw_verdict_requirement *r = next_of(c, &k);
+    fw_svg_put(out, "text x='{c}' y='{c}' font-size='13' font-weight='600' fill='#1f2328'>{s}",
+               c->axes.x, c->axes.y - 9.0, p->id);
+    fw_svg_open(out, "text x='{c}' y='{c}' font-size='10.5' text-anchor='end' fill='#57606a'",
+                c->axes.x + c->axes.width, c->axes.y - 9.0);
+    if (r)
+        fw_markup(out, "{s} {s}: {s}", r->measure, fw_probe_text(text, r->value, r->unit),
+                  fw_verdict_decision_text(r->decision));
+    else
+        fw_markup(out, "peak {s}",
+                  fw_probe_text(text, c->result->peak, fw_device_probe_kinds[p->row].unit));
+    fw_svg_close(out, "text");
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='10' fill='#57606a' text-anchor='end' "
+               "transform='rotate(-90 {c} {c})'>{s} ({s})\n",
+               c->axes.x - 36.0, c->axes.y, c->axes.x - 36.0, c->axes.y,
+               fw_device_probe_kinds[p->row].name, c->unit);
+}
+
+static fw_status values(fw_arena *arena, const fw_probe *p, curve *c) {
+    const fw_dynamics_motion *m = c->v->motion[c->scene];
+    double *value;
+    FW_NEED(value = fw_arena_array(arena, double, (size_t)m->nsample));
+    for (int i = 0; i < m->nsample; i++)
+        value[i] = fw_probe_at_row(p, m, i) * c->per_si;
+    c->t_s = m->t_s, c->value = value, c->count = m->nsample;
+    return FW_OK;
+}
+
+static fw_status draw(fw_arena *arena, const fw_probe *p, curve *c, fw_text *out) {
+    const double largest = fmax(fabs(c->result->maximum), fabs(c->result->minimum));
+    choose_unit(c, largest, p->kind->unit);
+    FW_TRY(values(arena, p, c));
+    range(c);
+    fw_svg_open(out, "g class='probe'\n");
+    heading(c, out);
+    fw_report_axes_draw(&c->axes, out);
+    bounds(c, out);
+    FW_TRY(line(arena, c, out));
+    fw_svg_close(out, "g\n");
+    return FW_OK;
+}
+
+fw_status fw_report_probe_panels(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                 const fw_report_figure *figure, fw_text *out) {
+    const int n = fw_probe_count(v->mechanism), columns = figure->columns;
+    int known = 0, at = 0;
+    fw_probe *probe;
+    for (int i = 0; v->probed && i < n; i++)
+        known += v->probed[scene * n + i].known;
+    if (known == 0) return FW_OK;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    FW_TRY(fw_probe_bind(arena, v->mechanism, &v->mechanism->device->scene[scene], motion->loads,
+                         &probe));
+    int shown_ = known < FW_REPORT_PANELS ? known : FW_REPORT_PANELS;
+    fw_svg_begin(out, &(fw_svg_frame){.width = columns * FW_REPORT_PANEL_WIDTH,
+                                      .height = (double)((shown_ + columns - 1) / columns) *
+                                                FW_REPORT_PANEL_HEIGHT,
+                                      .decimals = 2,
+                                      .size = FW_SVG_SIZE_NONE,
+                                      .lead = "class='probes' role='img'",
+                                      .font = fw_svg_font_page});
+    fw_svg_title(out, "Probes of scene {s} and what is required of them", figure->title);
+    for (int i = 0; i < n && at < shown_; i++) {
+        const fw_probe_result *result = &v->probed[scene * n + i];
+        if (!result->known) continue;
+        curve c = {.v = v,
+                   .scene = scene,
+                   .probe = i,
+                   .points = figure->curve_points,
+                   .result = result,
+                   .axes = fw_report_axes_at(motion, at++, columns, 0)};
+        FW_TRY(draw(arena, &probe[i], &c, out));
+    }
+    fw_svg_end(out);
+    return fw_text_end(out);
+}
+
+/* ---- the table ---- */
+
+static void bound_text(fw_text *out, const fw_verdict_requirement *r) {
+    char text[FW_PROBE_TEXT];
+    if (!isnan(r->min)) fw_markup(out, "\u2265 {s}", fw_probe_text(text, r->min, r->unit));
+    if (!isnan(r->min) && !isnan(r->max)) fw_text_add(out, ", ");
+    if (!isnan(r->max)) fw_markup(out, "\u2264 {s}", fw_probe_text(text, r->max, r->unit));
+}
+
+static void row(fw_text *out, const fw_verdict_requirement *r, const char *at) {
+    char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT];
+    fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td>", r->probe,
+              r->measure ? r->measure : r->kind);
+    if (r->why)
+        fw_markup(out, "<td colspan=\"2\">not known: {s}</td>", r->why);
+    else
+        fw_markup(out, "<td class=\"n\">{s}</td><td class=\"n\">{s} to {s}</td>",
+                  fw_probe_text(value, r->value, r->unit), fw_probe_text(low, r->low, r->unit),
+                  fw_probe_text(high, r->high, r->unit));
+    fw_text_add(out, "<td class=\"n\">");
+    bound_text(out, r);
+    fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}</td><td>{s}</td></tr>\n",
+              r->why ? "" : fw_probe_text(value, r->margin, r->unit),
+              fw_verdict_decision_text(r->decision), r->scene ? r->scene : "at rest",
+              at ? at : "as drawn");
+}
+
+fw_status fw_report_section_requirements(fw_report_page *page) {
+    const fw_verdict *verdict = page->in->verdict;
+    fw_text_add(
+        page->out,
+        "<div class=\"wide\"><table><caption>What the device is for: each value with its error "
+        "band, as drawn and of the worst device that was run as fabricated.</caption><thead><tr>"
+        "<th scope=\"col\">Probe</th><th scope=\"col\">Measure</th><th scope=\"col\" "
+        "class=\"n\">Value</th><th scope=\"col\" class=\"n\">Band</th><th scope=\"col\" "
+        "class=\"n\">Required</th><th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">"
+        "Verdict</th><th scope=\"col\">Scene</th><th scope=\"col\">Device</th></tr></thead>"
+        "<tbody>\n");
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        for (int k = 0; k < v->nrequirement; k++) {
+            int corner = 0;
+            const fw_verdict_requirement *worst = fw_verdict_requirement_made(v, k, &corner);
+            row(page->out, &v->requirement[k], NULL);
+            if (worst && corner > 0) row(page->out, worst, v->fabricated->corner[corner].what);
+        }
+    }
+    fw_text_add(page->out, "</tbody></table></div>\n");
+    return fw_text_end(page->out);
+}
+
+bool fw_report_has_requirements(const fw_report_page *page) {
+    for (int i = 0; i < page->in->verdict->nvariant; i++)
+        if (page->in->verdict->variant[i].nrequirement > 0) return true;
+    return false;
+}

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is asked of the probes of a device. A value x has the band
+
+     x -+ (n + (l + s) |x - o|)
+
+   n: numbers (two runs, the search between instants, effects left out), l: what the next model of
+   the hinges changes of this probe at the motion's largest hinge angle, s: stiffness of a flexure
+   against solids, o: its value as drawn. Where l is not known, that of the largest strain, or what
+   the reference cases give, stands for both. A band within the bounds accepts, one wholly beyond a
+   bound rejects. A settling time has the ends that it has with a band b narrower and wider by
+   n + (l + s) b. Theory: docs/theory/probes.md. Test: test_probe.py. */
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+static const double fw_beyond = 1e3; /* utilisation of what is not there at all */
+
+/* ---- which there are ---- */
+
+static const fw_device_probe_kind *kind_of(const fw_device *d, const fw_device_requirement *q) {
+    return &fw_device_probe_kinds[d->probe[q->probe].row];
+}
+
+static bool asked_in(const fw_mechanism *m, const fw_device_requirement *q, int scene) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    return fw_device_in_flow(s->flow, m->variant->flow) &&
+           (q->scene == FW_NONE || q->scene == scene) &&
+           fw_device_probe_in_scene(&m->device->probe[q->probe], s);
+}
+
+static fw_verdict_requirement blank(const fw_mechanism *m, int asked, int scene) {
+    const fw_device *d = m->device;
+    const fw_device_requirement *q = &d->requirement[asked];
+    const fw_device_probe_kind *kind = kind_of(d, q);
+    bool moves = fw_device_probe_moves(kind);
+    return (fw_verdict_requirement){.asked = asked,
+                                    .probe = d->probe[q->probe].id,
+                                    .kind = kind->name,
+                                    .unit = q->measure == FW_MEASURE_SETTLING ? "s" : kind->unit,
+                                    .measure = moves ? fw_device_measure_text(q->measure) : NULL,
+                                    .scene = scene == FW_NONE ? NULL : d->scene[scene].name,
+                                    .scene_index = scene,
+                                    .flow = m->variant->flow,
+                                    .min = q->min,
+                                    .max = q->max,
+                                    .value = (double)NAN,
+                                    .low = (double)NAN,
+                                    .high = (double)NAN,
+                                    .margin = (double)NAN,
+                                    .utilisation = (double)NAN,
+                                    .t_s = (double)NAN,
+                                    .decision = FW_INCONCLUSIVE,
+                                    .why = "nothing was run"};
+}
+
+fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *m,
+                                       fw_verdict_variant_verdict *v) {
+    const fw_device *d = m->device;
+    v->nrequirement = 0, v->requirement = NULL, v->probed = NULL;
+    if (!d || d->nprobe == 0) return FW_OK;
+    size_t scenes = (size_t)d->nscene, most = (size_t)d->nrequirement * (scenes + 1);
+    FW_NEED(v->probed = fw_arena_array(arena, fw_probe_result, scenes * (size_t)d->nprobe));
+    FW_NEED(v->requirement = fw_arena_array(arena, fw_verdict_requirement, most));
+    for (int i = 0; i < d->nrequirement; i++) {
+        const fw_device_requirement *q = &d->requirement[i];
+        if (!fw_device_probe_moves(kind_of(d, q))) {
+            bool here =
+                q->scene == FW_NONE || fw_device_in_flow(d->scene[q->scene].flow, m->variant->flow);
+            if (here) v->requirement[v->nrequirement++] = blank(m, i, q->scene);
+            continue;
+        }
+        for (int s = 0; s < d->nscene; s++)
+            if (asked_in(m, q, s)) v->requirement[v->nrequirement++] = blank(m, i, s);
+    }
+    return FW_OK;
+}
+
+/* ---- who looks at a scene ---- */
+
+static bool moves_in(const fw_device *d, int scene) {
+    for (int i = 0; i < d->nprobe; i++)
+        if (fw_device_probe_moves(&fw_device_probe_kinds[d->probe[i].row]) &&
+            fw_device_probe_in_scene(&d->probe[i], &d->scene[scene]))
+            return true;
+    return false;
+}
+
+fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, int scene,
+                                        const fw_verdict_variant_verdict *v,
+                                        fw_probe_monitor *monitor[2]) {
+    const fw_device *d = m->device;
+    bool *history, *judged;
+    monitor[0] = monitor[1] = NULL;
+    if (!v->probed || !moves_in(d, scene)) return FW_OK;
+    FW_NEED(history = fw_arena_array(arena, bool, (size_t)d->nprobe));
+    FW_NEED(judged = fw_arena_array(arena, bool, (size_t)d->nprobe));
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_device_requirement *q = &d->requirement[v->requirement[k].asked];
+        if (v->requirement[k].scene_index != scene) continue;
+        judged[q->probe] = true;
+        history[q->probe] = history[q->probe] || q->measure == FW_MEASURE_SETTLING;
+    }
+    for (int i = 0; i < 2; i++) {
+        FW_NEED(monitor[i] = fw_arena_one(arena, fw_probe_monitor));
+        FW_TRY(fw_probe_monitor_new(arena, m, &d->scene[scene], history, monitor[i]));
+        monitor[i]->judged = judged;
+    }
+    return FW_OK;
+}
+
+/* ---- from a value with its band to a decision ---- */
+
+/* the larger of bound / value of a min and value / bound of a max; bounds that are not above 0 have
+   none */
+static void use(fw_verdict_requirement *r) {
+    double u[3] = {(double)NAN, (double)NAN, (double)NAN};
+    const double x[3] = {r->value, r->high, r->low}, y[3] = {r->value, r->low, r->high};
+    for (int i = 0; i < 3; i++) {
+        if (r->min > 0) u[i] = fmin(x[i] > 0 ? r->min / x[i] : fw_beyond, fw_beyond);
+        if (r->max > 0) u[i] = fmax(u[i], fmin(fmax(y[i], 0) / r->max, fw_beyond));
+    }
+    r->utilisation = u[0], r->utilisation_low = u[1], r->utilisation_high = u[2];
+}
+
+static void decide(fw_verdict_requirement *r) {
+    r->why = NULL;
+    r->margin = fmin(r->value - r->min, r->max - r->value); /* passes by NaN */
+    if (isnan(r->margin)) r->margin = isnan(r->min) ? r->max - r->value : r->value - r->min;
+    use(r);
+    if (r->high < r->min || r->low > r->max)
+        r->decision = FW_REJECT;
+    else if (r->low < r->min || r->high > r->max || isnan(r->low) || isnan(r->high))
+        r->decision = FW_INCONCLUSIVE;
+    else
+        r->decision = FW_ACCEPT;
+}
+
+/* a size is not below 0 */
+static void put(fw_verdict_requirement *r, double value, double numeric, double model,
+                double lasting, double departure, bool size) {
+    double off = numeric + model * fabs(departure);
+    r->value = value;
+    r->low = size ? fmax(0, value - off) : value - off;
+    r->high = value + off;
+    r->numeric = numeric;
+    r->lasting = value != 0 ? fmin(lasting, model) * fabs(departure / value) : 0;
+    decide(r);
+}
+
+/* ---- of motions ---- */
+
+/* relative error of what was computed with this model of the hinges */
+static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, double level) {
+    double whole = fw_verdict_motion_model_error(m, motion);
+    if (isnan(level) || motion->ledger.hinge.used == FW_HINGE_ELASTICA) return whole;
+    double computed = level + fw_verdict_motion_lasting_error(m);
+    bool swings = motion->loads && !motion->loads->quasi_static;
+    return swings && motion->ledger.hinge.used == FW_HINGE_REVOLUTE ? fmax(computed, whole)
+                                                                    : computed;
+}
+
+/* What the model is off by scales the departure from the final value, and where that is as large
+   as the band it is off by that part of it. Frequencies, and so all times, go with the root of a
+   stiffness */
+static void put_settling(fw_verdict_requirement *r, const fw_probe_course *course, double band,
+                         double numeric, double model, double lasting, double end_s) {
+    double off = numeric + model * band;
+    double low = fw_probe_settling_s(course, band + off),
+           high = band > off ? fw_probe_settling_s(course, band - off) : end_s;
+    double exact = band > numeric ? fw_probe_settling_s(course, band - numeric) : end_s;
+    r->value = fw_probe_settling_s(course, band);
+    r->low = low * (1 - 0.5 * model);
+    r->high = high * (1 + 0.5 * model);
+    r->numeric = fmax(0, exact - r->value);
+    r->lasting = lasting;
+    decide(r);
+}
+
+static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                  const fw_probe_monitor *monitor, const fw_probe_result *p,
+                  fw_verdict_requirement *r) {
+    const fw_device_requirement *q = &m->device->requirement[r->asked];
+    const double model = model_of(m, motion, p->level),
+                 lasting = fw_verdict_motion_lasting_error(m);
+    const double o = p->origin;
+    switch (q->measure) {
+    case FW_MEASURE_PEAK:
+        put(r, fabs(p->peak), p->numeric, model, lasting, p->peak - o, true);
+        r->t_s = p->peak_t_s;
+        return;
+    case FW_MEASURE_MAXIMUM:
+        put(r, p->maximum, p->numeric, model, lasting, p->maximum - o, false);
+        r->t_s = p->maximum_t_s;
+        return;
+    case FW_MEASURE_MINIMUM:
+        put(r, p->minimum, p->numeric, model, lasting, p->minimum - o, false);
+        r->t_s = p->minimum_t_s;
+        return;
+    case FW_MEASURE_FINAL:
+        put(r, p->final, p->final_numeric, model, lasting, p->final - o, false);
+        r->t_s = motion->end_s;
+        return;
+    case FW_MEASURE_PEAK_TO_PEAK:
+        put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting, p->maximum - p->minimum,
+            true);
+        return;
+    case FW_MEASURE_SETTLING:
+        put_settling(r, &monitor->course[q->probe], q->band, p->final_numeric, model, lasting,
+                     motion->end_s);
+        return;
+    case FW_MEASURE_PARASITIC:
+        break;
+    }
+    put(r, fabs(p->across), p->across_numeric, model_of(m, motion, p->across_level), lasting,
+        p->across, true);
+    r->t_s = p->across_t_s;
+}
+
+fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
+                                           const fw_probe_monitor *monitor,
+                                           const fw_probe_monitor *looser,
+                                           fw_verdict_variant_verdict *v) {
+    const int n = m->device->nprobe;
+    if (monitor->no_memory || (looser && looser->no_memory)) return FW_NOMEM;
+    for (int i = 0; i < n; i++)
+        fw_probe_result_of(monitor, looser, v->motion[scene], i, &v->probed[scene * n + i]);
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (r->scene_index != scene || !r->measure) continue;
+        const fw_probe_result *p = &v->probed[scene * n + m->device->requirement[r->asked].probe];
+        if (p->known) judge(m, v->motion[scene], monitor, p, r);
+    }
+    return FW_OK;
+}
+
+/* ---- of equilibria ---- */
+
+static const fw_device_scene without_loads = {.name = "(none)", .duration_s = 1};
+
+static const char *last_error(const fw_diags *diags) {
+    for (size_t i = diags->count; i-- > 0;)
+        if (diags->item[i].severity == FW_ERROR) return diags->item[i].message;
+    return "there are no small motions";
+}
+
+static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
+                             const fw_dynamics_motion_options *options,
+                             fw_verdict_variant_verdict *v, int scene) {
+    double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
+    const fw_statics_mode_options o = {
+        .effects = options->effects,
+        .accuracy = options->hinge_accuracy > 0 ? options->hinge_accuracy : fmax(accuracy, 0.03),
+        .at_equilibrium = scene != FW_NONE};
+    const fw_device_scene *s = scene == FW_NONE ? &without_loads : &m->device->scene[scene];
+    fw_diags own = fw_diags_new(arena); /* what it warns of is in the value */
+    const fw_statics_modes *modes = NULL;
+    fw_probe *probe;
+    fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &modes);
+    if (status == FW_NOMEM || status == FW_CANCELLED || own.failed)
+        return status == FW_CANCELLED ? status : FW_NOMEM;
+    FW_TRY(fw_probe_bind(arena, m, s, NULL, &probe));
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (r->measure || r->scene_index != scene) continue;
+        const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
+        double value = modes ? fw_probe_small(p, modes) : (double)NAN;
+        r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
+        if (!isfinite(value)) continue;
+        double model = fw_probe_small_error(p, modes), lasting = modes->stiffness_error;
+        put(r, value, 0, model, lasting, value, true);
+    }
+    return FW_OK;
+}
+
+/* ---- reasons ---- */
+
+/* which bound is the trouble: the one that the band reaches over, of both the nearer one */
+static bool is_below(const fw_verdict_requirement *r) {
+    bool under = r->low<r->min, over = r->high> r->max;
+    if (under && over) return r->value - r->min < r->max - r->value;
+    return under || (!over && !isnan(r->min));
+}
+
+static const char *text_of(fw_arena *arena, const fw_verdict_requirement *r) {
+    char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], bound[FW_PROBE_TEXT];
+    bool below = is_below(r);
+    const char *of = r->measure ? r->measure : r->kind;
+    fw_probe_text(bound, below ? r->min : r->max, r->unit);
+    if (r->why)
+        return fw_arena_printf(arena, "what is required of %s (%s, at %s %s) is not known: %s",
+                               r->probe, of, isnan(r->min) ? "most" : "least",
+                               fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
+                               r->why);
+    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s), and at %s %s is required", r->probe,
+                           of, fw_probe_text(value, r->value, r->unit),
+                           fw_probe_text(low, r->low, r->unit),
+                           fw_probe_text(high, r->high, r->unit), below ? "least" : "most", bound);
+}
+
+/* A min of a motion wants more of it: neither less load nor stiffer flexures help. What is of an
+   equilibrium does not go with loads; of a compliance a min wants thinner flexures. */
+static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_verdict_requirement *r,
+                            fw_verdict_variant_verdict *v) {
+    const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
+    bool min = is_below(r);
+    bool softer = r->measure ? min : (p->row == FW_PROBE_IS_compliance) == min;
+    double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
+    const char *text = text_of(arena, r);
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = r->scene ? r->scene : "at rest",
+                                                  .flow = r->flow,
+                                                  .number = r->why ? 331 : 330,
+                                                  .decision = r->decision,
+                                                  .keep = fmin(fmax(0.98 / used, 1e-3), 0.99),
+                                                  .not_by_loads = min || !r->measure,
+                                                  .not_by_width = softer,
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* a motion that ended where a formula does has its own reason */
+static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
+    return r->measure && !v->motion[r->scene_index];
+}
+
+fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
+                                      const fw_dynamics_motion_options *options,
+                                      fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nrequirement; k++) { /* once about every equilibrium */
+        bool first = !v->requirement[k].measure;
+        for (int i = 0; first && i < k; i++)
+            first = v->requirement[i].measure ||
+                    v->requirement[i].scene_index != v->requirement[k].scene_index;
+        if (first) FW_TRY(judge_small(arena, m, options, v, v->requirement[k].scene_index));
+    }
+    for (int k = 0; k < v->nrequirement; k++)
+        if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))
+            FW_TRY(add_reason(arena, m, &v->requirement[k], v));
+    return FW_OK;
+}
+
+/* ---- what may still decide, and the worst of what is made ---- */
+
+/* as refinement.c sees a hinge */
+static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
+    double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
+    return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : "at rest",
+                                      .utilisation = r->utilisation,
+                                      .utilisation_low = r->utilisation_low,
+                                      .utilisation_high = r->utilisation_high,
+                                      .numeric = r->utilisation * relative,
+                                      .lasting = r->lasting,
+                                      .decision = r->decision};
+}
+
+fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,
+                                                         int count) {
+    fw_verdict_refinement most = FW_REFINE_NOTHING;
+    for (int k = 0; k < count; k++) {
+        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
+        const fw_verdict_refinement now = fw_verdict_refinement_of(&h, 1);
+        if (now == FW_REFINE_HINGES || most == FW_REFINE_NOTHING) most = now;
+    }
+    return most;
+}
+
+double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement, int count,
+                                      double accuracy) {
+    double enough = accuracy;
+    for (int k = 0; k < count; k++) {
+        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
+        enough = fmin(enough, fw_verdict_enough(&h, 1, accuracy));
+    }
+    return enough;
+}
+
+static bool is_worse(const fw_verdict_requirement *a, const fw_verdict_requirement *b) {
+    if (a->decision != b->decision) return fw_verdict_is_worse(a->decision, b->decision);
+    return isnan(a->utilisation) || isnan(b->utilisation) ? a->margin < b->margin
+                                                          : a->utilisation > b->utilisation;
+}
+
+const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
+                                                          int k, int *corner) {
+    const fw_verdict_requirement *worst = NULL;
+    for (int c = 0; v->fabricated && c < v->fabricated->ncorner; c++) {
+        const fw_verdict_requirement *list = v->fabricated->corner[c].requirement;
+        if (!list || (worst && !is_worse(&list[k], worst))) continue;
+        worst = &list[k], *corner = c;
+    }
+    return worst;
+}

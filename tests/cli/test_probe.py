@@ -1,0 +1,284 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Probes and requirements through the program: values against closed forms and against the poses of the same file, bands
+against much tighter runs, frames, mistakes at their places, decisions, advice."""
+import csv
+import json
+import math
+import pathlib
+import random
+import tempfile
+import unittest
+
+from common import ROOT, run
+
+PADDLE = """<device xmlns="urn:flexwright:device:1" name="paddle">
+<mechanism>
+<body id="arm" mass="1 mg" inertia="0.2 mg mm^2" x="1 mm" y="0 mm"/>
+<revolute id="pin" a="ground" b="arm" b-x="-1 mm" stiffness="2e-6 N m/rad"/>
+%s
+</mechanism>
+%s
+<scene name="push" duration="20 ms"><force on="arm" x="0.5 mm" fy="0.1 mN"/></scene></device>"""
+K, LEVER, MASS, INERTIA, FORCE = 2e-6, 1.5e-3, 1e-6, 0.2e-12, 1e-4
+J = INERTIA + MASS * 1e-3 ** 2
+
+PROBES = """<probe id="up" kind="displacement" on="arm" x="0.5 mm" direction="90 deg"/>
+<probe id="all" kind="displacement" on="arm" x="0.5 mm"/>
+<probe id="fast" kind="velocity" on="arm" x="0.5 mm"/>
+<probe id="turn" kind="angle" of="pin"/><probe id="spun" kind="angle" on="arm"/>
+<probe id="held" kind="force" of="pin" direction="90 deg"/>
+<probe id="spring" kind="torque" of="pin"/>
+<probe id="stiff" kind="stiffness" on="arm" x="0.5 mm" direction="90 deg"/>
+<probe id="soft" kind="compliance" on="arm" x="0.5 mm" direction="90 deg"/>
+<probe id="f1" kind="frequency"/>
+"""
+
+
+def still(force=FORCE):
+    """the angle at which K angle = force LEVER cos(angle)"""
+    angle = 0.0
+    for _ in range(100):
+        angle = force * LEVER * math.cos(angle) / K
+    return angle
+
+
+class Probe(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.where = pathlib.Path(kept.name)
+
+    def file(self, text):
+        path = self.where / "device.xml"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def answer(self, text, *command, statuses=(0, 1, 4)):
+        result = run(command[0], self.file(text), *command[1:], "--json", "-q")
+        self.assertIn(result.returncode, statuses, result.stderr)
+        return json.loads(result.stdout)
+
+    def probes(self, text, *command):
+        return {p["id"]: p for p in self.answer(text, *command)["probes"]}
+
+    def rows(self, text, *more):
+        table = self.where / "motion.csv"
+        result = run("simulate", self.file(text), "--csv", table, "-q", *more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(table, encoding="utf-8", newline="") as file:
+            return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+
+    def near(self, got, want, relative):
+        self.assertLessEqual(abs(got - want), relative * abs(want), "%.17g, expected %.17g" % (got, want))
+
+    def test_a_paddle_at_rest_and_about_it(self):
+        found = self.probes(PADDLE % ("", PROBES), "statics")
+        angle = still()
+        self.near(found["up"]["value"], LEVER * math.sin(angle), 1e-9)
+        self.near(found["all"]["value"], 2 * LEVER * math.sin(angle / 2), 1e-9)
+        self.near(found["turn"]["value"], angle, 1e-9)
+        self.near(found["spun"]["value"], angle, 1e-9)
+        self.near(found["held"]["value"], -FORCE, 1e-9)
+        self.near(found["spring"]["value"], -K * angle, 1e-9)
+        self.assertEqual(found["fast"]["value"], 0)
+        about = self.probes(PADDLE % ("", PROBES), "modes")
+        self.near(about["stiff"]["value"], K / LEVER ** 2, 1e-10)
+        self.near(about["soft"]["value"], LEVER ** 2 / K, 1e-10)
+        self.near(about["f1"]["value"], math.sqrt(K / J) / (2 * math.pi), 1e-10)
+
+    def test_a_paddle_that_swings(self):
+        """energy: J w^2/2 = F LEVER sin a - K a^2/2, largest at rest's angle; at 0 again beyond"""
+        found = self.probes(PADDLE % ("", PROBES), "simulate")
+        work = lambda a: FORCE * LEVER * math.sin(a) - K * a * a / 2
+        low, high = still(), 1.0
+        for _ in range(100):
+            middle = (low + high) / 2
+            low, high = (middle, high) if work(middle) > 0 else (low, middle)
+        exact = {"turn": low, "up": LEVER * math.sin(low), "fast": LEVER * math.sqrt(2 * work(still()) / J),
+                 "spring": -K * low}
+        for name, want in exact.items():
+            self.assertLessEqual(abs(found[name]["peak"] - want), found[name]["error"], name)
+            self.near(found[name]["peak"], want, 2e-3)
+
+    def test_springs_drivers_tendons_and_openings(self):
+        device = PADDLE % (
+            '<body id="slide" mass="1 mg" inertia="0.1 mg mm^2" x="3 mm" y="0 mm"/>'
+            '<prismatic id="guide" a="ground" a-x="3 mm" b="slide" axis="20 deg" stiffness="5 N/m"/>'
+            '<driver joint="pin" value="0.2 rad * sin(2*pi*t/(20 ms))"/>'
+            '<spring id="link" a="arm" a-x="1 mm" b="slide" b-x="-0.2 mm" b-y="0.1 mm" stiffness="3 N/m" damping="1e-5 N s/m" length="0.5 mm"/>',
+            """<probe id="tension" kind="force" of="link"/><probe id="gap" kind="distance" a="arm" a-x="1 mm" b="slide" b-x="-0.2 mm" b-y="0.1 mm"/>
+<probe id="open" kind="opening" a="arm" a-x="1 mm" b="slide" b-x="-0.2 mm" b-y="0.1 mm" direction="0 deg"/>
+<probe id="drive" kind="torque" of="motor"/><probe id="motor" kind="power" of="pin"/><probe id="cable" kind="force" of="T"/>
+<probe id="fed" kind="power" of="T"/><probe id="rail" kind="force" of="guide" direction="110 deg"/>""")
+        device = device.replace('<driver joint', '<driver id="motor" joint').replace('kind="power" of="pin"', 'kind="power" of="motor"')
+        device = device.replace("</scene>", '<tendon id="T" pull="0.3 mN" law="ramp" rise="20 ms"><eyelet on="slide" y="0.1 mm"/>'
+                                '<eyelet on="ground" x="5 mm" y="1 mm"/></tendon></scene>')
+        rows = self.rows(device, "--samples", "41", "--rtol", "1e-10")
+        self.assertEqual(len(rows), 41)
+        for row in rows:
+            phi, psi = row["arm.phi_rad"], row["slide.phi_rad"]
+            ax, ay = row["arm.x_m"] + 1e-3 * math.cos(phi), row["arm.y_m"] + 1e-3 * math.sin(phi)
+            turn = lambda x, y: (x * math.cos(psi) - y * math.sin(psi), x * math.sin(psi) + y * math.cos(psi))
+            r = turn(-0.2e-3, 0.1e-3)
+            bx, by = row["slide.x_m"] + r[0], row["slide.y_m"] + r[1]
+            w, o = row["arm.omega_rad_per_s"], row["slide.omega_rad_per_s"]
+            vax, vay = row["arm.vx_m_per_s"] - w * 1e-3 * math.sin(phi), row["arm.vy_m_per_s"] + w * 1e-3 * math.cos(phi)
+            vbx, vby = row["slide.vx_m_per_s"] - o * r[1], row["slide.vy_m_per_s"] + o * r[0]
+            dx, dy, length = bx - ax, by - ay, math.hypot(bx - ax, by - ay)
+            rate = (dx * (vbx - vax) + dy * (vby - vay)) / length
+            self.near(row["gap.distance_m"], length, 1e-12)
+            self.assertAlmostEqual(row["open.opening_m"], dx * math.cos(phi) + dy * math.sin(phi), delta=1e-15)
+            self.assertAlmostEqual(row["tension.force_N"], 3 * (length - 0.5e-3) + 1e-5 * rate, delta=1e-14)
+            self.assertAlmostEqual(row["cable.force_N"], 0.3e-3 * row["t_s"] / 20e-3, delta=1e-15)
+            e = turn(0, 0.1e-3)
+            tx, ty = 5e-3 - row["slide.x_m"] - e[0], 1e-3 - row["slide.y_m"] - e[1]
+            vx, vy = row["slide.vx_m_per_s"] - o * e[1], row["slide.vy_m_per_s"] + o * e[0]
+            self.assertAlmostEqual(row["fed.power_W"], row["cable.force_N"] * (tx * vx + ty * vy) / math.hypot(tx, ty), delta=1e-16)
+            self.assertAlmostEqual(row["motor.power_W"], row["drive.torque_Nm"] * w, delta=1e-18)
+
+    def test_power_is_the_work_that_was_done(self):
+        """of a driver, over a quarter of its period: kinetic and elastic energy there"""
+        device = PADDLE % ('<driver id="motor" joint="pin" value="0.1 rad * sin(2*pi*t/(20 ms))"/>',
+                           '<probe id="fed" kind="power" of="motor"/>')
+        rows = self.rows(device.replace("20 ms\"><force on=\"arm\" x=\"0.5 mm\" fy=\"0.1 mN\"/>", "5 ms\">"),
+                         "--samples", "2001", "--rtol", "1e-11")
+        work = sum((a["fed.power_W"] + b["fed.power_W"]) / 2 * (b["t_s"] - a["t_s"]) for a, b in zip(rows, rows[1:]))
+        started = J * (0.1 * 2 * math.pi / 20e-3) ** 2 / 2
+        self.near(work, K * 0.1 ** 2 / 2 - started, 1e-4)
+
+    def random_device(self, draw):
+        bodies, joints, probes, x = [], [], [], 0.0
+        for i in range(draw.randint(2, 4)):
+            step = draw.uniform(0.6, 1.4)
+            bodies.append('<body id="b%d" mass="%.3g mg" inertia="%.3g mg mm^2" x="%.17g mm" y="0 mm"/>'
+                          % (i, draw.uniform(0.2, 2), draw.uniform(0.02, 0.2), x + step / 2))
+            joints.append('<revolute id="p%d" a="%s" a-x="%.17g mm" b="b%d" b-x="%.17g mm" stiffness="%.3g N m/rad" damping="%.3g N m s/rad"/>'
+                          % (i, "b%d" % (i - 1) if i else "ground", previous / 2 if i else 0, i, -step / 2,
+                             draw.uniform(1, 6) * 1e-6, draw.uniform(0.1, 2) * 1e-10))
+            previous, x = step, x + step
+            probes += ['<probe id="u%d" kind="displacement" on="b%d" x="%.2f mm" direction="%.1f deg"/>' % (i, i, draw.uniform(-1, 1), draw.uniform(-180, 180)),
+                       '<probe id="v%d" kind="velocity" on="b%d" y="%.2f mm"/>' % (i, i, draw.uniform(-1, 1)),
+                       '<probe id="t%d" kind="torque" of="p%d"/>' % (i, i), '<probe id="r%d" kind="force" of="p%d"/>' % (i, i),
+                       '<probe id="d%d" kind="distance" a="b%d" b="ground" b-x="1 mm" b-y="-2 mm"/>' % (i, i)]
+        joints.append('<spring id="s" a="b%d" b="ground" b-x="%.2f mm" b-y="1.5 mm" stiffness="%.2f N/m" length="1.2 mm"/>'
+                      % (len(bodies) - 1, x, draw.uniform(0.2, 2)))
+        probes.append('<probe id="s" kind="force" of="s"/>')
+        scene = '<scene name="s" duration="%.3g ms"><force on="b0" fx="%.3g mN" fy="%.3g mN" law="%s"/></scene>' % (
+            draw.uniform(4, 12), draw.uniform(-0.02, 0.02), draw.uniform(0.005, 0.03), draw.choice(('ramp" rise="1 ms', "step", 'sine" frequency="300 Hz')))
+        return '<device xmlns="urn:flexwright:device:1" name="r"><mechanism>%s%s</mechanism>%s%s</device>' % (
+            "".join(bodies), "".join(joints), "".join(probes), scene)
+
+    def test_the_band_holds_the_peak_of_a_much_tighter_run(self):
+        draw, count, closest = random.Random(320), 0, 0
+        for _ in range(20):
+            text = self.random_device(draw)
+            rough = self.probes(text, "simulate", "--accuracy", draw.choice(("1e-2", "1e-3", "1e-4")))
+            exact = self.probes(text, "simulate", "--accuracy", "1e-9")
+            for name, p in rough.items():
+                for value in ("maximum", "minimum"):
+                    off = abs(p[value] - exact[name][value])
+                    self.assertLessEqual(off, p["error"] + exact[name]["error"], (name, value, text))
+                    count, closest = count + 1, max(closest, off / p["error"])
+        self.assertGreater(count, 300)
+        self.assertLess(closest, 1)
+
+    MISTAKES = [
+        ('<probe id="a" kind="force" of="nothing"/>', "of", "FW-D321", "nothing with the id 'nothing'"),
+        ('<probe id="a" kind="displacement" on="leg"/>', "on", "FW-D046", "leg"),
+        ('<probe id="a" kind="displacement"/>', None, "FW-D320", "needs on"),
+        ('<probe id="a" kind="force" on="arm" of="pin"/>', "on", "FW-D320", "no meaning"),
+        ('<probe id="a" kind="torque" of="s"/>', "of", "FW-D321", "no torque"),
+        ('<probe id="a" kind="stiffness" on="arm"/>', None, "FW-D320", "direction"),
+        ('<probe id="a" kind="distance" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
+        ('<probe id="a" kind="angle" of="pin"/><probe id="a" kind="angle" on="arm"/>', None, "FW-D045", "a"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a" min="200 um"/>', "min", "FW-D0", "200 um"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a"/>', None, "FW-D322", "asks for nothing"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="b" min="1 uN"/>', "probe", "FW-D046", "'b'"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a" min="2 uN" max="1 uN"/>', "min", "FW-D322", "above max"),
+        ('<probe id="a" kind="force" of="touch"/><require probe="a" min="2 uN" scene="push"/>', "scene", "FW-D321", "none of that id"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a" max="2 ms" measure="settling-time"/>', None, "FW-D322", "band"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a" max="2 uN" measure="parasitic"/>', "measure", "FW-D322", "displacement"),
+        ('<require frequency="1" measure="final" min="1 Hz"/>', "measure", "FW-D322", "none"),
+        ('<require min="1 Hz"/>', None, "FW-D322", "one of"),
+        ('<probe id="a" kind="force" of="pin"/><require probe="a" min="2 uN" scene="pusch"/>', "scene", "FW-D046", "push"),
+    ]
+
+    def test_mistakes_are_reported_at_their_place(self):
+        spring = '<spring id="s" a="arm" b="ground" b-y="1 mm" stiffness="1 N/m"/>'
+        other = '<scene name="other" duration="1 ms"><contact id="touch" a="arm" b="ground" b-y="-1 mm" side="outside" distance="0.1 mm" stiffness="1 N/m"/></scene>'
+        for text, at, code, words in self.MISTAKES:
+            result = run("statics", self.file((PADDLE % (spring, "\n" + text + "\n" + other))))
+            self.assertEqual(result.returncode, 3, text)
+            self.assertIn(code, result.stderr, text)
+            self.assertIn(words, result.stderr, text)
+            said = next(line for line in result.stderr.splitlines() if ": error: " in line)
+            column = int(said.split(":")[2])
+            if at:
+                ends = {i + len(at) + 2 for i in range(len(text)) if text.startswith(at + '="', i)} | {i for i in range(len(text)) if text.startswith(at + '="', i)}
+                self.assertTrue(any(e <= column - 1 <= e + len(at) + 12 for e in ends), (text, said))
+
+    GRIPPER = ROOT / "tests/data/probes/gripper.xml"
+
+    def check(self, *more, statuses=(0, 1, 4)):
+        result = run("check", self.GRIPPER, "--json", "-q", *more)
+        self.assertIn(result.returncode, statuses, result.stderr)
+        return json.loads(result.stdout)
+
+    def test_a_gripper_is_judged_by_what_it_is_for(self):
+        accepted = self.check("--corners", "none", statuses=(0,))
+        grip = next(r for r in accepted["requirements"] if r["probe"] == "grip")
+        self.assertEqual((grip["unit"], grip["measure"], grip["verdict"], grip["min"]), ("N", "final", "accept", 150e-6))
+        self.assertLess(grip["band"][0], grip["value"])
+        self.assertLess(grip["value"], grip["band"][1])
+        self.near(grip["margin"], grip["value"] - 150e-6, 1e-12)
+        seen = {(p["id"], p["scene"]) for p in accepted["probes"]}
+        self.assertTrue({("grip", "close"), ("opening", "close"), ("tension", "close"), ("opening", "drop")} <= seen)
+        self.assertNotIn(("grip", "drop"), seen)
+        rejected = self.check("--corners", "none", "--set", "pull=0.25 mN", statuses=(1,))
+        self.assertEqual([r["code"] for r in rejected["reasons"]], ["FW-D330"])
+        better = next(p for p in rejected["advice_parameters"] if p["set"] == "pull")
+        self.assertEqual(better["found"], "accepts")
+        again = self.check("--corners", "none", "--set", "pull=" + better["value"], statuses=(0,))
+        self.assertEqual(again["reasons"], [])
+
+    def test_what_is_made_is_judged_too(self):
+        drawn = self.check()
+        grip = next(r for r in drawn["requirements"] if r["probe"] == "frequency-1")
+        self.assertLess(grip["as_fabricated"]["value"], grip["value"])
+        between = 0.5 * (grip["as_fabricated"]["value"] + grip["value"])
+        text = self.GRIPPER.read_text(encoding="utf-8").replace('min="200 Hz"', 'min="%.17g Hz"' % between)
+        verdict = self.answer(text, "check", "--advice", "none", statuses=(4,))
+        self.assertEqual((verdict["drawn"], verdict["verdict"]), ("accept", "inconclusive"))
+        self.assertIn("frequency-1", verdict["reasons"][-1]["text"])
+        self.assertEqual(verdict["reasons"][-1]["code"], "FW-D238")
+
+    def test_without_probes_nothing_changes(self):
+        text = self.GRIPPER.read_text(encoding="utf-8")
+        plain = "\n".join(line for line in text.splitlines() if "<probe" not in line and "<require" not in line)
+        a = self.answer(plain, "statics", "--scene", "close")
+        b = self.answer(text, "statics", "--scene", "close")
+        self.assertEqual(a["probes"], [])
+        self.assertEqual(a["q"], b["q"])
+        verdict = self.answer(plain, "check", "--corners", "none")
+        self.assertEqual(verdict["requirements"], [])
+        self.assertNotIn("probes", verdict)
+
+    def test_settling_and_parasitic_motion(self):
+        device = self.GRIPPER.read_text(encoding="utf-8")
+        device = device[:device.index("<require")] + """<require probe="tip" measure="settling-time" band="1 um" max="8 ms" scene="close"/>
+<require probe="tip" measure="parasitic" max="30 um" scene="close"/><require probe="tip" measure="peak-to-peak" min="20 um" scene="close"/></device>"""
+        verdict = self.answer(device, "check", "--corners", "none")
+        found = {r["measure"]: r for r in verdict["requirements"]}
+        rows = self.rows(device, "--scene", "close", "--samples", "20001", "--hinge-model", "compliance")
+        tips = [row["tip.displacement_m"] for row in rows]
+        last = max(row["t_s"] for row in rows if abs(row["tip.displacement_m"] - tips[-1]) > 1e-6)
+        self.assertTrue(found["settling-time"]["band"][0] - 1e-6 <= last <= found["settling-time"]["band"][1] + 1e-6)
+        aside = max(abs(row["left.y_m"] + 0.325e-3 * math.sin(row["left.phi_rad"]) + 0.6e-3 * math.cos(row["left.phi_rad"]) - 1.5e-3)
+                    for row in rows)
+        self.assertTrue(found["parasitic"]["band"][0] <= aside <= found["parasitic"]["band"][1])
+        self.assertEqual(found["settling-time"]["unit"], "s")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "test.h"
+#include "probe/probe.h"
+#include <math.h>
+
+/* a device with one probe: the angle of its one body */
+typedef struct fixture {
+    fw_arena *arena;
+    fw_device_probe probe;
+    fw_device_body body;
+    fw_device device;
+    fw_device_scene scene;
+    fw_mechanism_mass mass;
+    fw_mechanism mechanism;
+    fw_effects_loads loads;
+    bool history;
+    fw_probe_monitor monitor;
+} fixture;
+
+static void begin(fixture *f) {
+    *f = (fixture){.arena = fw_arena_new(0), .history = true};
+    f->probe = (fw_device_probe){
+        .id = "turn", .row = FW_PROBE_IS_angle, .body_b = FW_GROUND, .direction_rad = (double)NAN};
+    f->device = (fw_device){.probe = &f->probe, .nprobe = 1, .body = &f->body, .nbody = 1};
+    f->loads = (fw_effects_loads){.nbody = 1};
+    f->mechanism = (fw_mechanism){.device = &f->device, .body = &f->mass, .nbody = 1};
+    assert_int_equal(
+        fw_probe_monitor_new(f->arena, &f->mechanism, &f->scene, &f->history, &f->monitor), FW_OK);
+    fw_probe_monitor_record(&f->monitor, NULL);
+}
+
+static void show(fixture *f, double t_s, double angle_rad, bool begins) {
+    const double q[3] = {0, 0, angle_rad};
+    const fw_dynamics_instant now = {
+        .t_s = t_s, .piece_s = t_s, .q = q, .loads = &f->loads, .begins = begins};
+    fw_probe_monitor_record(&f->monitor, &now);
+}
+
+/* 0.3 + sin t over a period and a half in 36 unequal steps: extremes 1.3 and -0.7, which no instant
+   meets */
+static void finds_extremes_between_instants(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    for (int i = 0; i <= 36; i++) {
+        double t = 0.25 * (i + 0.2 * sin(3.0 * i));
+        show(&f, t, 0.3 + sin(t), i == 0);
+    }
+    const fw_probe_course *c = f.monitor.course;
+    assert_true(fabs(c->maximum.value - 1.3) < 1e-4);
+    assert_true(fabs(c->minimum.value + 0.7) < 1e-4);
+    assert_true(fabs(c->maximum.value - 1.3) <= c->maximum.between);
+    assert_true(fabs(c->minimum.value + 0.7) <= c->minimum.between);
+    assert_true(fabs(c->minimum.t_s - 1.5 * acos(-1.0)) < 0.01);
+    fw_arena_free(f.arena);
+}
+
+/* the top lies at a jump: no parabola goes through both sides of it */
+static void a_jump_is_no_peak(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    const double value[] = {0, 1, 2, 1.9, 0.5, 0};
+    for (int i = 0; i < 6; i++)
+        show(&f, i < 3 ? i : i - 1, value[i], i == 0 || i == 3);
+    assert_true(f.monitor.course->maximum.value == 2.0);
+    assert_true(f.monitor.course->minimum.value == 0.0);
+    fw_arena_free(f.arena);
+}
+
+/* e^-t cos(10 t) about 0: within 0.1 for good from where e^-t cos(10 t) = +-0.1 last */
+static void settles_at_the_last_crossing(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    for (int i = 0; i <= 4000; i++) {
+        double t = 0.005 * i;
+        show(&f, t, exp(-t) * cos(10 * t), i == 0);
+    }
+    double last = 0;
+    for (int i = 0; i <= 2000000; i++) {
+        double t = 1e-5 * i;
+        if (fabs(exp(-t) * cos(10 * t)) > 0.1) last = t;
+    }
+    assert_true(fabs(fw_probe_settling_s(f.monitor.course, 0.1) - last) < 1e-4);
+    assert_true(fw_probe_settling_s(f.monitor.course, 2) == 0);
+    fw_arena_free(f.arena);
+}
+
+static void values_have_a_prefix(void **state) {
+    (void)state;
+    char text[FW_PROBE_TEXT];
+    assert_string_equal(fw_probe_text(text, 3.5412e-4, "N"), "354.1 uN");
+    assert_string_equal(fw_probe_text(text, -1e-3, "m"), "-1 mm");
+    assert_string_equal(fw_probe_text(text, 1234, "Hz"), "1.234 kHz");
+    assert_string_equal(fw_probe_text(text, 0, "rad"), "0 rad");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_extremes_between_instants),
+        cmocka_unit_test(a_jump_is_no_peak),
+        cmocka_unit_test(settles_at_the_last_crossing),
+        cmocka_unit_test(values_have_a_prefix),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
