@@ -39,6 +39,8 @@ void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *mechanism,
 void fw_report_json_probe(fw_json *json, const fw_device_probe *probe, const char *scene,
                           const char *flow, const fw_probe_result *result);
 /* "probes", where the device has any, and "requirements" of all flows */
+/* keys of one requirement, as it was run */
+void fw_report_json_requirement(fw_json *json, const fw_verdict_requirement *requirement);
 void fw_report_json_requirements(fw_json *json, const fw_report_input *in);
 
 /* ---- the preview: lengths are in um with y up, to 1 nm; keys as in base/json.h ---- */

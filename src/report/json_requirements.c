@@ -28,9 +28,7 @@ static void made(fw_json *json, const fw_verdict_variant_verdict *v, int k) {
     fw_json_end(json);
 }
 
-static void requirement(fw_json *json, const fw_verdict_variant_verdict *v, int k) {
-    const fw_verdict_requirement *r = &v->requirement[k];
-    fw_json_object(json, NULL);
+void fw_report_json_requirement(fw_json *json, const fw_verdict_requirement *r) {
     fw_json_text(json, "probe", r->probe);
     fw_json_text(json, "kind", r->kind);
     fw_json_text(json, "measure", r->measure);
@@ -40,6 +38,11 @@ static void requirement(fw_json *json, const fw_verdict_variant_verdict *v, int 
     fw_json_real(json, "min", r->min);
     fw_json_real(json, "max", r->max);
     value(json, r);
+}
+
+static void requirement(fw_json *json, const fw_verdict_variant_verdict *v, int k) {
+    fw_json_object(json, NULL);
+    fw_report_json_requirement(json, &v->requirement[k]);
     made(json, v, k);
     fw_json_end(json);
 }

@@ -210,6 +210,7 @@ static void check(fw_json *json, const char *key, const fw_verdict_check *c, boo
     fw_json_object(json, key);
     fw_json_text(json, "what", c->what);
     if (c->hinge) hinge(json, c->hinge);
+    if (c->requirement) fw_report_json_requirement(json, c->requirement);
     fw_json_text(json, "corner", c->corner);
     fw_json_end(json);
 }
@@ -440,8 +441,8 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_json_text(&json, "drawn", word(v->drawn));
     if (v->decision == FW_REJECT) fw_json_text(&json, "banner", "REJECTED");
     summary(&json, &top);
-    check(&json, "governing", top.has_made ? &top.made : &top.drawn, top.has_drawn);
-    check(&json, "governing_drawn", &top.drawn, top.has_drawn);
+    check(&json, "governing", &top.governing, top.governs);
+    check(&json, "governing_drawn", &top.governing_drawn, top.governs);
     hinges(&json, v->hinge, v->nhinge, v->variant, v->nvariant);
     fw_json_real(&json, "failure_probability", v->failure_probability);
     fw_json_real(&json, "repetitions", input->device->limits.cycles);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report/summary.h"
+#include "base/text.h"
 #include <math.h>
 #include <string.h>
 
@@ -11,18 +12,25 @@ static fw_status add(fw_report_summary *s, const char *label, const char *text) 
 
 /* ---- what governs ---- */
 
-/* "hinge C uses 65.9 % of its elastic limit (61.3 to 68.1 %) in step-load at 3.1 ms, flow F" */
+/* "hinge C uses 65.9 % of its elastic limit (61.3 to 68.1 %)" */
+static void use_of(fw_text *text, const fw_verdict_check *c) {
+    fw_text_printf(text, "%s uses ", c->what);
+    fw_text_real(text, "%.1f %% of ", 100 * c->used);
+    fw_text_add(text, c->of);
+    if (!isfinite(c->low) || !isfinite(c->high)) return;
+    fw_text_real(text, " (%.1f to ", 100 * c->low);
+    fw_text_real(text, "%.1f %%)", 100 * c->high);
+}
+
+/* "... in step-load at 3.1 ms, flow F, with thickness 49 um" */
 static fw_status check_text(fw_arena *arena, const fw_verdict_check *c, const char **sentence) {
     fw_text text = fw_text_new(arena);
-    fw_text_printf(&text, "%s uses ", c->what);
-    fw_text_real(&text, "%.1f %% of ", 100 * c->used);
-    fw_text_add(&text, c->of);
-    if (isfinite(c->low) && isfinite(c->high)) {
-        fw_text_real(&text, " (%.1f to ", 100 * c->low);
-        fw_text_real(&text, "%.1f %%)", 100 * c->high);
-    }
-    fw_text_printf(&text, " in %s", c->scene);
-    if (isfinite(c->t_s)) {
+    if (c->requirement)
+        fw_text_add(&text, c->of);
+    else
+        use_of(&text, c);
+    fw_text_printf(&text, c->requirement && !c->requirement->scene ? ", %s" : " in %s", c->scene);
+    if (isfinite(c->t_s) && !c->requirement) {
         fw_text_add(&text, " at ");
         fw_text_number(&text, c->t_s * 1e3, 4);
         fw_text_add(&text, " ms");
@@ -36,7 +44,7 @@ static fw_status check_text(fw_arena *arena, const fw_verdict_check *c, const ch
 }
 
 /* Where something else than a hinge decides, hinges are of what could be run. */
-static fw_status governing(fw_arena *arena, fw_report_summary *s) {
+static fw_status hinges(fw_arena *arena, fw_report_summary *s) {
     const char *text;
     const fw_verdict_check *worst = s->has_made ? &s->made : &s->drawn;
     bool alone = s->has_drawn && fw_verdict_is_worse(s->decision, worst->decision);
@@ -47,6 +55,36 @@ static fw_status governing(fw_arena *arena, fw_report_summary *s) {
     }
     FW_TRY(check_text(arena, &s->drawn, &text));
     return add(s, alone ? "hinges alone, as drawn" : "as drawn", text);
+}
+
+/* the requirement that is nearest to its bound; one that speaks against the device is among the
+   reasons already */
+static fw_status required(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
+    fw_verdict_check tightest;
+    const char *text;
+    bool found;
+    FW_TRY(fw_verdict_governing(arena, v, FW_CHECK_REQUIREMENTS, true, &tightest, &found));
+    if (!found || tightest.decision != FW_ACCEPT) return FW_OK;
+    FW_TRY(check_text(arena, &tightest, &text));
+    return add(s, tightest.corner ? "required, as made" : "required, as drawn", text);
+}
+
+/* the least of all scenes and required poses; what meets is among the reasons already */
+static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
+    const fw_verdict_clearance *least = NULL;
+    char drawn[32], low[32], high[32];
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nclearance; k++) {
+            const fw_verdict_clearance *c = &v->variant[i].clearance[k];
+            if (!least || c->low_m < least->low_m) least = c;
+        }
+    if (!least || least->least.m <= 0) return FW_OK;
+    return add(s, "nearest",
+               fw_arena_printf(
+                   arena, "%s and %s %s um (%s to %s) in %s", least->least.at.a, least->least.at.b,
+                   fw_number_text(drawn, sizeof drawn, 1e6 * least->least.m, 3),
+                   fw_number_text(low, sizeof low, 1e6 * least->low_m, 3),
+                   fw_number_text(high, sizeof high, 1e6 * least->high_m, 3), least->scene));
 }
 
 /* ---- why it is not accepted, each reason once ---- */
@@ -156,16 +194,21 @@ static fw_status guarantees(fw_arena *arena, const fw_report_input *in, fw_repor
 
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 3 + (size_t)in->nflow;
+    size_t most = 5 + (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
+    const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
     *s = (fw_report_summary){.decision = v->decision};
     FW_NEED(s->line = fw_arena_array(arena, fw_report_summary_line, most));
-    FW_TRY(fw_verdict_governing(arena, v, false, &s->drawn, &s->has_drawn));
-    FW_TRY(fw_verdict_governing(arena, v, true, &s->made, &s->has_made));
+    FW_TRY(fw_verdict_governing(arena, v, FW_CHECK_HINGES, false, &s->drawn, &s->has_drawn));
+    FW_TRY(fw_verdict_governing(arena, v, FW_CHECK_HINGES, true, &s->made, &s->has_made));
+    FW_TRY(fw_verdict_governing(arena, v, all, false, &s->governing_drawn, &s->governs));
+    FW_TRY(fw_verdict_governing(arena, v, all, true, &s->governing, &s->governs));
     s->has_made = s->has_made && s->made.corner;
     FW_TRY(reasons(arena, v, s));
-    FW_TRY(governing(arena, s));
+    FW_TRY(hinges(arena, s));
     FW_TRY(advice(arena, v, s));
+    FW_TRY(required(arena, v, s));
+    FW_TRY(nearest(arena, v, s));
     return v->decision == FW_REJECT ? FW_OK : guarantees(arena, in, s);
 }

@@ -7,14 +7,17 @@
 #include "report/report.h"
 
 typedef struct fw_report_summary_line {
-    const char *label; /* "because", "as made", "as drawn", "do", "not guaranteed" */
+    const char *label; /* "rejected because", "as made, at worst", "do", "nearest", ... */
     const char *text;  /* a sentence without its full stop */
 } fw_report_summary_line;
 
 typedef struct fw_report_summary {
     fw_verdict_decision decision;
-    fw_verdict_check made, drawn; /* that govern */
-    bool has_made, has_drawn;     /* has_made: they differ: a flow was judged as it makes it */
+    fw_verdict_check made, drawn; /* of the hinges, those that govern */
+    bool has_made, has_drawn;     /* has_made: a flow was judged as it makes it */
+    /* of all checks, as made where that was judged, and as drawn */
+    fw_verdict_check governing, governing_drawn;
+    bool governs;                 /* something was run */
     fw_report_summary_line *line; /* (nline) in the order in which they are read */
     int nline;
 } fw_report_summary;

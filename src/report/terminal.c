@@ -112,28 +112,6 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
-/* the least of all scenes and required poses: one line */
-static void clearance(fw_text *out, const fw_verdict *v) {
-    const fw_verdict_clearance *least = NULL;
-    for (int i = 0; i < v->nvariant; i++)
-        for (int k = 0; k < v->variant[i].nclearance; k++) {
-            const fw_verdict_clearance *c = &v->variant[i].clearance[k];
-            if (!least || c->low_m < least->low_m) least = c;
-        }
-    if (!least) return;
-    fw_text_printf(out, "nearest: %s and %s ", least->least.at.a, least->least.at.b);
-    if (least->least.m <= 0) {
-        fw_text_printf(out, "meet in %s\n", least->scene);
-        return;
-    }
-    fw_text_number(out, 1e6 * least->m, 3);
-    fw_text_add(out, " um (");
-    fw_text_number(out, 1e6 * least->low_m, 3);
-    fw_text_add(out, " to ");
-    fw_text_number(out, 1e6 * least->high_m, 3);
-    fw_text_printf(out, ") in %s\n", least->scene);
-}
-
 static void parameters(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nparameter; i++) {
         const fw_verdict_parameter_advice *p = &v->parameter[i];
@@ -171,7 +149,6 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
         fw_text_printf(out, " (as drawn: %s)", fw_report_decision_word(v->drawn));
     fw_text_add(out, "\n");
     summary(out, &top);
-    clearance(out, v);
     if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
     if (style.detail >= 0) fw_report_requirements_text(out, v);

@@ -23,39 +23,66 @@ static fw_verdict_check check_of(const fw_verdict_hinge_verdict *h, const char *
                               .hinge = h};
 }
 
+/* a bound that is not above 0 has no share of it: only its decision counts */
+static fw_verdict_check of_requirement(const fw_verdict_requirement *r, const char *corner) {
+    return (fw_verdict_check){.used = r->utilisation,
+                              .low = r->utilisation_low,
+                              .high = r->utilisation_high,
+                              .flow = r->flow,
+                              .scene = r->scene ? r->scene : "at rest",
+                              .corner = corner,
+                              .t_s = r->t_s,
+                              .decision = r->decision,
+                              .requirement = r};
+}
+
 static void keep(fw_verdict_check *worst, bool *found, fw_verdict_check now) {
+    bool more = now.used > worst->used || (isnan(worst->used) && !isnan(now.used));
     bool worse = !*found || fw_verdict_is_worse(now.decision, worst->decision) ||
-                 (now.decision == worst->decision && now.used > worst->used);
+                 (now.decision == worst->decision && more);
     if (worse) *worst = now;
     *found = true;
 }
 
-static void drawn(const fw_verdict_variant_verdict *v, fw_verdict_check *worst, bool *found) {
-    for (int k = 0; k < v->nhinge; k++)
+static void drawn(const fw_verdict_variant_verdict *v, int kinds, fw_verdict_check *worst,
+                  bool *found) {
+    for (int k = 0; (kinds & FW_CHECK_HINGES) && k < v->nhinge; k++)
         if (v->hinge[k].scene)
             keep(worst, found, check_of(&v->hinge[k], v->variant ? v->variant->flow : NULL, NULL));
+    for (int k = 0; (kinds & FW_CHECK_REQUIREMENTS) && k < v->nrequirement; k++)
+        keep(worst, found, of_requirement(&v->requirement[k], NULL));
 }
 
 /* of what was run: every corner */
-static void as_made(const fw_verdict_variant_verdict *v, fw_verdict_check *worst, bool *found) {
+static void as_made(const fw_verdict_variant_verdict *v, int kinds, fw_verdict_check *worst,
+                    bool *found) {
     for (int c = 0; c < v->fabricated->ncorner; c++) {
         const fw_verdict_fabricated_corner *corner = &v->fabricated->corner[c];
-        for (int k = 0; k < v->nhinge; k++)
+        for (int k = 0; (kinds & FW_CHECK_HINGES) && k < v->nhinge; k++)
             if (corner->hinge[k].scene)
                 keep(worst, found, check_of(&corner->hinge[k], v->variant->flow, corner->what));
+        if (!(kinds & FW_CHECK_REQUIREMENTS) || !corner->requirement) continue;
+        for (int k = 0; k < v->nrequirement; k++)
+            keep(worst, found, of_requirement(&corner->requirement[k], corner->what));
     }
 }
 
-fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, bool made,
+fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found) {
     *found = false;
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         if (made && v->fabricated)
-            as_made(v, check, found);
+            as_made(v, kinds, check, found);
         else
-            drawn(v, check, found);
+            drawn(v, kinds, check, found);
     }
-    if (*found) FW_NEED(check->what = fw_arena_printf(arena, "hinge %s", check->hinge->id));
+    if (!*found) return FW_OK;
+    const fw_verdict_requirement *r = check->requirement;
+    check->what = r ? fw_arena_printf(arena, "requirement %s (%s)", r->probe,
+                                      r->measure ? r->measure : r->kind)
+                    : fw_arena_printf(arena, "hinge %s", check->hinge->id);
+    FW_NEED(check->what);
+    if (r) FW_NEED(check->of = fw_verdict_requirement_text(arena, r));
     return FW_OK;
 }

@@ -161,15 +161,18 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
 
 /* One quantity held against what is allowed: of what governs, as drawn or as made. */
 typedef struct fw_verdict_check {
-    const char *what;         /* "hinge C" */
-    const char *of;           /* "its elastic limit" */
+    const char *what;         /* "hinge C", "requirement stroke (final)" */
+    const char *of;           /* "its elastic limit"; of a requirement all that is to be said */
     double used, low, high;   /* share of that, with its band; above 1 is too much */
     const char *flow, *scene; /* flow may be NULL */
     const char *corner;       /* "thickness 49 um": of what the flow may make; NULL: as drawn */
     double t_s;               /* NaN: no one time */
     fw_verdict_decision decision;
-    const fw_verdict_hinge_verdict *hinge; /* NULL: it is no hinge */
+    const fw_verdict_hinge_verdict *hinge;     /* NULL: it is no hinge */
+    const fw_verdict_requirement *requirement; /* NULL: it is none; `used` may be NaN */
 } fw_verdict_check;
+
+enum { FW_CHECK_HINGES = 1, FW_CHECK_REQUIREMENTS = 2 };
 
 typedef struct fw_verdict_advice { /* one change that accepts, verified by running it */
     const char *set_path;          /* "flexure[A]/@length" */
@@ -295,9 +298,10 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);
 /* What governs. made: each flow as it makes the device, where that was judged, else as drawn; not
-   made: as drawn. The worst decision goes first, then the largest share used. *found is false where
-   nothing was run. Test: tests/unit/verdict/test_governing.c */
-fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, bool made,
+   made: as drawn. The worst decision goes first, then the largest share used. kinds: FW_CHECK_... of
+   them that are looked at. *found is false where nothing of them was run.
+   Test: tests/unit/verdict/test_governing.c */
+fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];

@@ -46,6 +46,8 @@ fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *mech
 fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                         const fw_verdict_variant_verdict *v,
                                         fw_probe_monitor *monitor[2]);
+/* "stroke (final) is 47.9 um (46.7 um to 49 um), and at least 40 um is required" */
+const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r);
 /* of a motion that was made and seen by these: v->probed and its requirements */
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int scene,
                                            const fw_probe_monitor *monitor,

@@ -282,7 +282,7 @@ static bool is_below(const fw_verdict_requirement *r) {
     return under || (!over && !isnan(r->min));
 }
 
-static const char *text_of(fw_arena *arena, const fw_verdict_requirement *r) {
+const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r) {
     char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], bound[FW_PROBE_TEXT];
     bool below = is_below(r);
     const char *of = r->measure ? r->measure : r->kind;
@@ -306,7 +306,7 @@ static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_ver
     bool min = is_below(r);
     bool softer = r->measure ? min : (p->row == FW_PROBE_IS_compliance) == min;
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
-    const char *text = text_of(arena, r);
+    const char *text = fw_verdict_requirement_text(arena, r);
     FW_NEED(text);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = r->scene ? r->scene : "at rest",
                                                   .flow = r->flow,

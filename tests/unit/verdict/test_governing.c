@@ -52,11 +52,13 @@ static void the_largest_share_of_every_flow_and_corner(void **state) {
     example *e = example_new();
     fw_verdict_check check;
     bool found;
-    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, false, &check, &found), FW_OK);
+    assert_int_equal(
+        fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, false, &check, &found), FW_OK);
     assert_true(found);
     assert_string_equal(check.what, "hinge B");
     assert_true(check.used == 0.6 && check.corner == NULL);
-    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_int_equal(
+        fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, true, &check, &found), FW_OK);
     assert_string_equal(check.what, "hinge A");
     assert_string_equal(check.corner, "thickness 49 um");
     assert_string_equal(check.flow, "one");
@@ -69,7 +71,8 @@ static void a_worse_decision_goes_before_a_larger_share(void **state) {
     fw_verdict_check check;
     bool found;
     e->drawn[1][1] = hinge("B", 0.55, FW_INCONCLUSIVE);
-    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_int_equal(
+        fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, true, &check, &found), FW_OK);
     assert_string_equal(check.flow, "two"); /* which nobody judged as made */
     assert_null(check.corner);
     assert_int_equal(check.decision, FW_INCONCLUSIVE);
@@ -84,8 +87,52 @@ static void nothing_that_was_run_governs_nothing(void **state) {
     e->variant[0].fabricated = NULL;
     for (int i = 0; i < 4; i++)
         e->drawn[i / 2][i % 2].scene = NULL;
-    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, true, &check, &found), FW_OK);
+    assert_int_equal(
+        fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, true, &check, &found), FW_OK);
     assert_false(found);
+    fw_arena_free(e->arena);
+}
+
+static void a_requirement_governs_where_less_is_left_of_it(void **state) {
+    (void)state;
+    example *e = example_new();
+    fw_verdict_check check;
+    bool found;
+    fw_verdict_requirement asked[2] = {{.probe = "grip",
+                                        .measure = "final",
+                                        .unit = "N",
+                                        .scene = "push",
+                                        .min = 1,
+                                        .max = (double)NAN,
+                                        .value = 1.1,
+                                        .low = 1.05,
+                                        .high = 1.15,
+                                        .utilisation = 1 / 1.1,
+                                        .decision = FW_ACCEPT},
+                                       {.probe = "tilt",
+                                        .measure = "final",
+                                        .unit = "rad",
+                                        .min = (double)NAN,
+                                        .max = 0,
+                                        .value = -1,
+                                        .low = -1,
+                                        .high = -1,
+                                        .utilisation = (double)NAN,
+                                        .decision = FW_ACCEPT}};
+    e->variant[0].requirement = asked;
+    e->variant[0].nrequirement = 2;
+    const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, all, false, &check, &found),
+                     FW_OK);
+    assert_true(check.requirement == &asked[0] && !check.hinge);
+    assert_string_equal(check.what, "requirement grip (final)");
+    assert_int_equal(
+        fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, false, &check, &found), FW_OK);
+    assert_true(check.hinge && !check.requirement);
+    asked[1].decision = FW_INCONCLUSIVE; /* a bound of 0 has no share, but a decision */
+    assert_int_equal(fw_verdict_governing(e->arena, &e->verdict, all, false, &check, &found),
+                     FW_OK);
+    assert_true(check.requirement == &asked[1]);
     fw_arena_free(e->arena);
 }
 
@@ -93,6 +140,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_largest_share_of_every_flow_and_corner),
         cmocka_unit_test(a_worse_decision_goes_before_a_larger_share),
-        cmocka_unit_test(nothing_that_was_run_governs_nothing)};
+        cmocka_unit_test(nothing_that_was_run_governs_nothing),
+        cmocka_unit_test(a_requirement_governs_where_less_is_left_of_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
