@@ -129,6 +129,59 @@ static double near_limit(const fw_verdict_search *s, int check) {
     return 0.95 / (1.1 + e->strain + (pose ? give : e->motion));
 }
 
+/* Upper bound of ln U at a corner that may not have been run: by one that was, where the two differ
+   in inputs of no account only; else first order with the error seen so far. */
+static double upper_at(const fw_verdict_search *s, int check, unsigned bits) {
+    const fw_verdict_variant_verdict *v = s->v;
+    unsigned account = 0;
+    for (int i = 0; i < v->ninput; i++) {
+        double slope = fabs(s->slope[check * v->ninput + i]);
+        if (slope * (v->input[i].high - v->input[i].low) >= fw_of_no_account) account |= 1u << i;
+    }
+    for (int p = 0; p < s->fabricated->ncorner; p++)
+        if (s->bits[p] != FW_NO_CORNER && ((s->bits[p] ^ bits) & account) == 0)
+            return s->ln[(size_t)p * (size_t)s->ncheck + (size_t)check] + estimate(s, check, bits) -
+                   estimate(s, check, s->bits[p]);
+    return estimate(s, check, bits) + s->fabricated->error;
+}
+
+/* the highest of these bounds, over all corners or those that were not run */
+static double highest_bound(const fw_verdict_search *s, int check, bool unrun, unsigned *at) {
+    double highest = -HUGE_VAL;
+    for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
+        if (unrun && find_corner(s, bits) != FW_NONE) continue;
+        double upper = upper_at(s, check, bits);
+        if (upper > highest) highest = upper, *at = bits;
+    }
+    return highest;
+}
+
+/* how far the band of a hinge reaches above its utilisation, as a factor, where it was run */
+static double band_above(const fw_verdict_search *s, int k) {
+    double most = 1.0;
+    for (int c = 0; c < s->fabricated->ncorner; c++) {
+        const fw_verdict_hinge_verdict *h = &s->fabricated->corner[c].hinge[k];
+        if (h->scene && h->utilisation > 0)
+            most = fmax(most, h->utilisation_high / h->utilisation); /* NaN is passed */
+    }
+    return most;
+}
+
+/* Of corners that are nobody's worst, the one where a hinge may still be beyond its limit: the bound
+   that is reported of an accepted hinge is below its limit. */
+static unsigned not_yet_below(const fw_verdict_search *s) {
+    int checks = s->device->nscene + 1;
+    double highest = 0.0;
+    unsigned next = FW_NO_CORNER, at = 0;
+    for (int k = 0; k < s->v->nhinge; k++)
+        for (int r = k * checks; r < (k + 1) * checks; r++) {
+            if (isnan(s->ln[r])) continue;
+            double upper = highest_bound(s, r, true, &at) + log(band_above(s, k));
+            if (upper > highest) highest = upper, next = at;
+        }
+    return next;
+}
+
 /* runs the corner of the check whose estimate, with the error seen so far, is highest and either
    above everything that was run or near a limit; false: there is none left */
 static fw_status run_next(fw_verdict_search *s, bool *ran) {
@@ -143,6 +196,7 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
         if (!first && (find_corner(s, bits) != FW_NONE || !(upper > bar))) continue;
         if (upper > highest) highest = upper, next = bits;
     }
+    if (next == FW_NO_CORNER) next = not_yet_below(s);
     *ran = next != FW_NO_CORNER;
     if (!*ran) return FW_OK;
     double x[FW_FABRICATION_INPUTS];
@@ -208,9 +262,8 @@ static void first_order(fw_verdict_search *s, int k) {
     for (int r = k * checks; r < (k + 1) * checks; r++) {
         if (isnan(s->ln[r])) continue;
         if (check == FW_NONE || s->ln[r] > s->ln[check]) check = r;
-        if (!s->fabricated->all)
-            h->most =
-                fmax(h->most, exp(estimate(s, r, worst_corner(s, r, 0)) + s->fabricated->error));
+        unsigned at;
+        if (!s->fabricated->all) h->most = fmax(h->most, exp(highest_bound(s, r, false, &at)));
     }
     for (int i = 0; check != FW_NONE && i < n; i++) {
         double slope = s->slope[check * n + i];
