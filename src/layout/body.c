@@ -491,29 +491,8 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
     return FW_GEOMETRY;
 }
 
-fw_status fw_layout_body_measure(fw_layout_drawing *d, int body, const fw_geometry_contour *extra,
-                                 int nextra) {
-    int ncap = d->caps ? d->caps[body].count : 0, n = 0;
-    fw_geometry_contour *part;
-    FW_NEED(part = fw_arena_array(d->arena, fw_geometry_contour, (size_t)(ncap + nextra) + 1));
-    part[n++] = d->plain[body];
-    double perimeter = fw_geometry_contour_perimeter(&part[0]);
-    for (int i = 0; i < ncap + nextra; i++) { /* their cuts are no edges, here and there */
-        const fw_geometry_contour *cap = i < ncap ? &d->caps[body].contour[i] : &extra[i - ncap];
-        part[n++] = *cap;
-        perimeter += fw_geometry_contour_perimeter(cap) -
-                     2.0 * (fw_geometry_segment_length(&cap->segment[1]) +
-                            fw_geometry_segment_length(&cap->segment[3]));
-    }
-    fw_geometry_region region = {part, n};
-    fw_geometry_moments m = fw_geometry_region_moments(&region);
-    d->layout->body[body] = (fw_layout_body_layout){m.area_m2, perimeter, m.centroid, m.polar_m4};
-    return FW_OK;
-}
-
 /* raw (united) and plain (rounded) outline of one body, and its moments. `extra` are parts that
-   only the base has. Half of each adjacent flexure's mass is not added: it is about 1 % of a
-   link's. */
+   only the base has. */
 fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
                               const fw_geometry_contour *extra, int nextra) {
     int slot = fw_layout_drawing_slot(d, body, only);

@@ -274,7 +274,20 @@ static void take_out(grid *g) {
         fw_geometry_vec2 to = fw_sub(g->hole[i], centre);
         polar -= each * (0.5 * r * r + fw_dot(to, to));
     }
-    *b = (fw_layout_body_layout){area, b->perimeter_m + 2.0 * FW_PI * r * g->nhole, centre, polar};
+    fw_geometry_vec2 edge = fw_add(b->edge_m2, b->perimeter_m, shift);
+    double square =
+        b->edge_m3 + 2 * fw_dot(b->edge_m2, shift) + b->perimeter_m * fw_dot(shift, shift);
+    for (int i = 0; i < g->nhole; i++) {
+        fw_geometry_vec2 to = fw_sub(g->hole[i], centre);
+        edge = fw_add(edge, 2 * FW_PI * r, to);
+        square += 2 * FW_PI * r * (fw_dot(to, to) + r * r);
+    }
+    *b = (fw_layout_body_layout){.area_m2 = area,
+                                 .perimeter_m = b->perimeter_m + 2.0 * FW_PI * r * g->nhole,
+                                 .centroid = centre,
+                                 .polar_m4 = polar,
+                                 .edge_m2 = edge,
+                                 .edge_m3 = square};
 }
 
 static bool points_from_centre(const fw_layout_drawing *d, int body) {

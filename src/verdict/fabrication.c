@@ -127,17 +127,23 @@ static void change_joint(const fw_device *was, const fw_layout *drawn,
         move_hinge_point(d, j, now.centre_m - before.centre_m, drawn->hinge[j].axis_rad);
 }
 
-/* ---- bodies: A(b) = A + P b (Steiner); bars and plates are long against b, so that their second
-   moments go with the area ---- */
+/* ---- bodies: what is drawn grows by e along every edge (layout_mass.c); what is stated goes with it.
+   A frame whose place is not stated stays where it was drawn. ---- */
 
 static void change_body(const fw_layout_body_layout *shape, double edge_m, fw_device_body *body,
                         fw_layout_body_layout *changed) {
     if (!(shape->area_m2 > 0.0)) return;
-    double ratio = fmax(0.01, 1.0 + edge_m * shape->perimeter_m / shape->area_m2);
-    body->mass_kg *= ratio;
-    body->inertia_kg_m2 *= ratio;
-    changed->area_m2 *= ratio;
-    changed->polar_m4 *= ratio;
+    double area = fmax(0.01, 1.0 + edge_m * shape->perimeter_m / shape->area_m2),
+           polar = fmax(0.01, 1.0 + edge_m * shape->edge_m3 / shape->polar_m4);
+    double shift = edge_m / (area * shape->area_m2);
+    body->mass_kg *= area;
+    body->inertia_kg_m2 *= polar;
+    if (isnan(body->x_m)) body->x_m = shape->centroid.x;
+    if (isnan(body->y_m)) body->y_m = shape->centroid.y;
+    changed->area_m2 *= area;
+    changed->polar_m4 *= polar;
+    changed->centroid.x += shift * shape->edge_m2.x;
+    changed->centroid.y += shift * shape->edge_m2.y;
 }
 
 static void change_hinge_layout(double edge_m, const fw_device_flexure *f,

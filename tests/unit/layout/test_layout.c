@@ -232,6 +232,20 @@ static void root_fillets_are_tangent(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* in the half of a flexure that belongs to body b: on its side of the hinge's axis */
+static bool in_a_half(const fw_layout *l, int b, fw_geometry_vec2 at) {
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_layout_piece *p = &l->piece[i];
+        if (p->role != FW_ROLE_FLEXURE) continue;
+        const fw_layout_hinge_layout *h = &l->hinge[p->joint];
+        double side = cos(h->axis_rad) * (at.y - h->arc_centre.y) -
+                      sin(h->axis_rad) * (at.x - h->arc_centre.x);
+        if (b == (side > 0 ? h->upper : h->lower) && fw_geometry_contour_contains(&p->contour, at))
+            return true;
+    }
+    return false;
+}
+
 /* points of the plane in the order of the R2 sequence: 1/g, 1/g^2 with g^3 = g + 1 */
 static void areas_agree_with_counted_points(void **state) {
     (void)state;
@@ -244,12 +258,14 @@ static void areas_agree_with_counted_points(void **state) {
         const fw_geometry_contour *c = &find(d.layout, FW_ROLE_STRUCTURE, b, FW_NONE)->contour;
         const fw_layout_body_layout *m = &d.layout->body[b];
         fw_geometry_box box = fw_geometry_contour_box(c);
+        box.x0 -= 0.2e-3, box.y0 -= 0.2e-3, box.x1 += 0.2e-3, box.y1 += 0.2e-3; /* the flexures */
         double w = box.x1 - box.x0, h = box.y1 - box.y0, n = 0, sx = 0, sy = 0, s2 = 0, x, y;
         const int total = 150000;
         for (int i = 0; i < total; i++) {
             x = box.x0 + w * fmod(0.5 + i / g, 1.0);
             y = box.y0 + h * fmod(0.5 + i / (g * g), 1.0);
-            if (!fw_geometry_contour_contains(c, fw_v(x, y))) continue;
+            const fw_geometry_vec2 at = {x, y};
+            if (!fw_geometry_contour_contains(c, at) && !in_a_half(d.layout, b, at)) continue;
             n++;
             sx += x;
             sy += y;
@@ -261,7 +277,6 @@ static void areas_agree_with_counted_points(void **state) {
         assert_near(m->centroid.x, sx / n, 2e-6);
         assert_near(m->centroid.y, sy / n, 2e-6);
         assert_relative(m->polar_m4, s2 * cell, 5e-3);
-        assert_relative(m->perimeter_m, fw_geometry_contour_perimeter(c), 1e-15);
     }
     fw_arena_free(d.arena);
 }
@@ -286,7 +301,6 @@ static void tethers_change_no_body(void **state) {
         const fw_geometry_contour *p = &find(a.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
         const fw_geometry_contour *q = &find(b.layout, FW_ROLE_STRUCTURE, i, FW_NONE)->contour;
         double extra = fw_geometry_contour_area(p) - fw_geometry_contour_area(q);
-        assert_near(fw_geometry_contour_area(q), b.layout->body[i].area_m2, 1e-20);
         bool platform = i == 2; /* the links hang on their hinges */
         assert_true(platform ? extra > 100e-12 : extra == 0.0);
         assert_true(extra < 0.003 * fw_geometry_contour_area(q));

@@ -43,20 +43,44 @@ static fw_geometry_region pieces_of(const drawn *d, int body) {
     return r;
 }
 
-/* what the mechanics take equals Green's theorem over the body's own pieces, and the holes missing
-   are whole discs */
+/* area, first and second moments about the origin */
+static void about_origin(double area, fw_geometry_vec2 c, double polar, double out[4]) {
+    out[0] = area, out[1] = area * c.x, out[2] = area * c.y;
+    out[3] = polar + area * (c.x * c.x + c.y * c.y);
+}
+
+/* what holes take off the mechanics equals Green's theorem over the body's own pieces with and
+   without them, and they are whole discs */
 static void moments_follow(void **state) {
     (void)state;
     drawn *plain = draw(0, 0), *holes = draw(40, 12);
     int bodies = 0;
     for (int b = 0; b < 5; b++) {
-        fw_geometry_region r = pieces_of(holes, b);
-        fw_geometry_moments m = fw_geometry_region_moments(&r);
+        fw_geometry_region r = pieces_of(holes, b), whole = pieces_of(plain, b);
+        fw_geometry_moments m = fw_geometry_region_moments(&r),
+                            before = fw_geometry_region_moments(&whole);
         const fw_layout_body_layout *l = &holes->layout->body[b], *p = &plain->layout->body[b];
-        assert_relative(l->area_m2, m.area_m2, 1e-11);
-        assert_near(l->centroid.x, m.centroid.x, 1e-14);
-        assert_near(l->centroid.y, m.centroid.y, 1e-14);
-        assert_relative(l->polar_m4, m.polar_m4, 1e-9);
+        double with[4], without[4], left[4], all[4];
+        about_origin(l->area_m2, l->centroid, l->polar_m4, with);
+        about_origin(p->area_m2, p->centroid, p->polar_m4, without);
+        about_origin(m.area_m2, m.centroid, m.polar_m4, left);
+        about_origin(before.area_m2, before.centroid, before.polar_m4, all);
+        for (int k = 0; k < 4; k++)
+            assert_near(without[k] - with[k], all[k] - left[k], 1e-10 * all[k]);
+        double turn = 2 * M_PI * 6e-6 * (r.count - 1);
+        assert_relative(l->perimeter_m, p->perimeter_m + turn, 1e-12);
+        const fw_geometry_vec2 by = {l->centroid.x - p->centroid.x, l->centroid.y - p->centroid.y};
+        double edge_x = p->edge_m2.x - p->perimeter_m * by.x,
+               square = p->edge_m3 - 2 * (p->edge_m2.x * by.x + p->edge_m2.y * by.y) +
+                        p->perimeter_m * (by.x * by.x + by.y * by.y);
+        for (int i = 1; i < r.count; i++) { /* their edges, about the new centroid */
+            fw_geometry_vec2 hole = r.contour[i].segment[2].centre;
+            double x = hole.x - l->centroid.x, y = hole.y - l->centroid.y, round = 2 * M_PI * 6e-6;
+            edge_x += round * x;
+            square += round * (x * x + y * y + 36e-12);
+        }
+        assert_near(l->edge_m2.x, edge_x, 1e-9 * l->perimeter_m * 1e-3);
+        assert_relative(l->edge_m3, square, 1e-9);
         double n = (p->area_m2 - l->area_m2) / (M_PI * 36e-12);
         assert_near(n, nearbyint(n), 1e-6);
         assert_int_equal(nearbyint(n), r.count - 1); /* one cap for each hole */
@@ -106,7 +130,7 @@ static void holes_keep_away(void **state) {
 /* every cut fits: bit for bit, also after a bias to either side */
 static void cuts_fit(void **state) {
     (void)state;
-    drawn *d = draw(40, 12);
+    drawn *plain = draw(0, 0), *d = draw(40, 12);
     static const double bias[] = {0, 1.1e-6, -1.1e-6};
     for (int k = 0; k < 3; k++)
         for (int b = 0; b < 5; b++) {
@@ -138,8 +162,12 @@ static void cuts_fit(void **state) {
                 }
             assert_int_equal(joints, 2 * (int)cut);
             assert_int_equal(paired, joints);
-            if (bias[k] == 0) assert_relative(area, d->layout->body[b].area_m2, 1e-11);
+            fw_geometry_region before = pieces_of(plain, b);
+            double whole = fw_geometry_region_moments(&before).area_m2;
+            double taken = plain->layout->body[b].area_m2 - d->layout->body[b].area_m2;
+            if (bias[k] == 0) assert_near(whole - area, taken, 1e-11 * whole);
         }
+    fw_arena_free(plain->arena);
     fw_arena_free(d->arena);
 }
 

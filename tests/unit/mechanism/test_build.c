@@ -78,7 +78,8 @@ static void desk_new(desk *d) {
                             .nflexure = 1,
                             .nspring = 1,
                             .safety_factor = 1.5};
-    d->shape[0] = (fw_layout_body_layout){2e-7, 1e-3, {1e-3, 0.5e-3}, 4e-14};
+    d->shape[0] = (fw_layout_body_layout){
+        .area_m2 = 2e-7, .perimeter_m = 1e-3, .centroid = {1e-3, 0.5e-3}, .polar_m4 = 4e-14};
     d->hinge[0] = (fw_layout_hinge_layout){.drawn = true, .fillet_m = 6e-6};
     d->layout = (fw_layout){.drawn = true, .hinge = d->hinge, .body = d->shape};
     d->variant = (fw_mechanism_variant){.thickness_m = 50e-6,
