@@ -131,14 +131,14 @@ static void pieces_are_the_body(void **state) {
     drawn bare = draw(BODY(PLATE), NO_TETHER);
     fw_geometry_region only = pieces(&bare, 0);
     fw_geometry_moments own = fw_geometry_region_moments(&only);
-    const fw_layout_body_layout *p = &bare.layout->body[0];
-    assert_relative(b->area_m2 - p->area_m2, m.area_m2 - own.area_m2, 1e-10);
-    assert_relative(b->area_m2 * b->centroid.x - p->area_m2 * p->centroid.x,
+    const fw_layout_body_layout *plate = &bare.layout->body[0];
+    assert_relative(b->area_m2 - plate->area_m2, m.area_m2 - own.area_m2, 1e-10);
+    assert_relative(b->area_m2 * b->centroid.x - plate->area_m2 * plate->centroid.x,
                     m.area_m2 * m.centroid.x - own.area_m2 * own.centroid.x, 1e-10);
-    assert_near(b->area_m2 * b->centroid.y - p->area_m2 * p->centroid.y,
+    assert_near(b->area_m2 * b->centroid.y - plate->area_m2 * plate->centroid.y,
                 m.area_m2 * m.centroid.y - own.area_m2 * own.centroid.y, 1e-10 * m.area_m2 * 1e-3);
     assert_relative(about_origin(b->area_m2, b->centroid, b->polar_m4) -
-                        about_origin(p->area_m2, p->centroid, p->polar_m4),
+                        about_origin(plate->area_m2, plate->centroid, plate->polar_m4),
                     about_origin(m.area_m2, m.centroid, m.polar_m4) -
                         about_origin(own.area_m2, own.centroid, own.polar_m4),
                     1e-9);
