@@ -44,6 +44,7 @@ fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py
 fw_script_test(cli.tradeoff COMMAND ${Python3_EXECUTABLE} tests/cli/test_tradeoff.py ${FW_PROGRAM})
 fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})
 fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
+fw_script_test(cli.marked COMMAND ${Python3_EXECUTABLE} tests/cli/test_marked.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
 fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third_flow.py ${FW_PROGRAM})
 fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})

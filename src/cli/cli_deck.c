@@ -2,6 +2,7 @@
 #include "cli/session.h"
 #include "base/output.h"
 #include "continuum/device_deck.h"
+#include "plan/ladder.h"
 #include <math.h>
 #include <sys/stat.h>
 
@@ -91,19 +92,18 @@ static fw_status whole_mechanism(const writer *w, const fw_device_scene *scene) 
 
 fw_status fw_cli_decks(fw_plan *plan, const char *directory, double refinement, int *files) {
     const fw_device *device = plan->device;
-    fw_diags drawing = fw_diags_new(plan->arena);
     writer w = {.plan = plan, .directory = directory, .refinement = refinement, .files = files};
     *files = 0;
-    if (fw_layout_build(plan->arena, device, &drawing, &w.layout) != FW_OK) w.layout = NULL;
+    FW_TRY(fw_plan_hinges_layout(plan, &w.layout));
     mkdir(directory, 0777); /* what is wrong with it, writing will say */
     for (int i = 0; i < plan->nflow; i++) {
         const fw_mechanism_variant *variant = &plan->flow[i].variant;
         w.flow = variant->flow;
-        FW_TRY(
-            fw_mechanism_build(plan->arena, device, w.layout, variant, &plan->diags, &w.mechanism));
+        FW_TRY(fw_plan_hinges_mechanism(plan, w.layout, variant, &w.mechanism));
         for (int h = 0; h < w.mechanism->nhinge; h++)
             FW_TRY(one_hinge(&w, h));
-        for (int s = 0; s < device->nscene; s++)
+        bool whole = !w.layout || w.layout->nfault == 0 || !fw_device_needs_shapes(device);
+        for (int s = 0; whole && s < device->nscene; s++) /* masses that nothing states are not */
             if (fw_device_in_flow(device->scene[s].flow, variant->flow))
                 FW_TRY(whole_mechanism(&w, &w.mechanism->device->scene[s]));
     }

@@ -26,10 +26,24 @@ int fw_cli_command_check(fw_cli_options *options) {
     return fw_cli_session_close(design, options, status, fw_design_decision(design));
 }
 
+/* there is no verdict on what cannot be made, but a picture of what is wrong with it */
+static int show_marked(fw_design *design, const fw_cli_options *options, const char *directory) {
+    fw_plan *plan = fw_plan_design_plan(design);
+    fw_status status = fw_plan_write_marked(plan, directory);
+    if (status != FW_OK) return (int)status;
+    if (plan->files_written > 0 && !options->quiet && !options->json)
+        printf("the layout cannot be made: no verdict, no masks; its drawing, with what is wrong "
+               "marked: %s/device.svg\n",
+               directory);
+    return FW_STATUS_GEOMETRY;
+}
+
 static int make(fw_design *design, const fw_cli_options *options, unsigned what,
                 const char *directory) {
     fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
     int status = fw_design_judge(design);
+    if (status == FW_STATUS_GEOMETRY && what == FW_DESIGN_EVERYTHING)
+        return show_marked(design, options, directory);
     if (status != FW_STATUS_OK) return status;
     fw_cli_session_stage(options, "bias, masks and recipes");
     status = fw_design_fabricate(design);

@@ -73,6 +73,9 @@ static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double 
         "the bar its full width; write a width of %s um or less, or move the hinges apart",
         label, fw_layout_um(wide, b->width_m), d->device->revolute[joint].id,
         fw_layout_um(length, length_m), fw_layout_um(most, floor(most_m * 1e7) / 1e7));
+    fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint));
+    fault.body[fault.nbody++] = body;
+    FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }
 
@@ -269,6 +272,9 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
                   "change a width or a position nearby by a few micrometres",
                   label, fw_layout_um(x, where->x), fw_layout_um(y, where->y),
                   fw_layout_um(least, *radius_m));
+    fw_layout_fault fault = fw_layout_fault_at(*where);
+    fault.body[fault.nbody++] = body;
+    FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }
 

@@ -198,7 +198,9 @@ typedef struct fw_layout_drawing {
     int neyelet;
     fw_layout_comb_plan *comb; /* (ncomb) */
     int ncomb;
-    bool said;                        /* a drawing of this device was commented before */
+    bool said;           /* a drawing of this device was commented before */
+    const fw_diags *own; /* diags of the drawing itself: of tries no faults are kept */
+    int fault_capacity;
     fw_layout_attachment *attachment; /* (nattachment) what meets the frame */
     int nattachment;
 } fw_layout_drawing;
@@ -338,4 +340,15 @@ fw_layout_ray_hit fw_layout_first_hit(const fw_geometry_contour *c, fw_geometry_
 /* holes in bodies, where the die asks for them: outlines, caps and moments (release.c). Last of
    all, before the pieces are listed */
 fw_status fw_layout_release_holes(fw_layout_drawing *d);
+
+/* ---- layout_fault.c: what is wrong with a drawing, and what can be shown of it all the same ---- */
+/* keeps the last error of the drawing (of that number, where it is not 0) as a fault; its number and
+   message are filled in. What a try says is no fault. */
+fw_status fw_layout_fault_keep(fw_layout_drawing *d, fw_layout_fault fault);
+/* the same where no part of the drawing has kept an error behind the first `before` of them */
+fw_status fw_layout_fault_rest(fw_layout_drawing *d, int before, int body);
+fw_layout_fault fw_layout_fault_at(fw_geometry_vec2 at);
+extern const fw_geometry_vec2 fw_layout_nowhere;
+/* pieces of everything that has an outline; bodies without one by their shapes, plates and bars */
+fw_status fw_layout_show(fw_layout_drawing *d);
 #endif

@@ -106,6 +106,10 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
                   "the base at ground hinge %s cannot reach the frame on any side without crossing "
                   "a moving part; move the ground hinges to the rim of the mechanism",
                   d->device->revolute[joint[0]].id);
+    fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
+    fault.body[fault.nbody++] = FW_GROUND;
+    fault.joint[fault.njoint++] = joint[0];
+    FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }
 
@@ -217,6 +221,7 @@ static fw_status one_axis(fw_layout_drawing *d, double low, double high, bool wi
                       name, fw_layout_um(a, size), fw_layout_um(c, least),
                       stated ? "as the file asks" : "the least that the layout takes",
                       fw_layout_um(b, need), name);
+        FW_TRY(fw_layout_fault_keep(d, fw_layout_fault_at(fw_layout_nowhere)));
         return FW_GEOMETRY;
     }
     double middle = fw_layout_to_grid(0.5 * (low + high));

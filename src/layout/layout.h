@@ -60,6 +60,16 @@ typedef struct fw_layout_body_layout { /* per body; area 0 when it is not drawn 
     double edge_m3;            /* of |x|^2 dl */
 } fw_layout_body_layout;
 
+/* why the layout cannot be made, and where: what an error of the drawing says, for its picture */
+typedef struct fw_layout_fault {
+    int number;          /* FW-Dnnn */
+    const char *message; /* of the error */
+    int body[2], nbody;  /* concerned: indices, FW_GROUND, FW_ISLAND */
+    int joint[2], njoint;
+    fw_geometry_vec2 at;        /* world; NaN: no one place */
+    fw_geometry_region overlap; /* what two outlines both cover; count 0: they do not overlap */
+} fw_layout_fault;
+
 typedef struct fw_layout {
     bool drawn; /* false: the mechanism has no shapes; `why_not` says what is missing */
     const char *why_not;
@@ -74,9 +84,15 @@ typedef struct fw_layout {
        drawn (verdict/verdict_fabrication.h) */
     double edge_m, flare_m;
     bool fill; /* the flow's thief and fill are wanted in the window */
+    /* (nfault) none of a layout that is drawn. Else it cannot be made as it is stated: the pieces
+       are what can be shown of it, nothing is measured of what they lack (area 0, hinge not drawn),
+       and no mask is made of them */
+    fw_layout_fault *fault;
+    int nfault;
 } fw_layout;
 
-/* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places. */
+/* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places, and *layout holds what
+   can be shown of it with its faults. */
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout);
 

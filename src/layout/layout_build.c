@@ -149,12 +149,11 @@ static fw_status choose_hubs(fw_layout_drawing *d) {
     return status == FW_GEOMETRY ? FW_OK : status; /* the hinges themselves: said later */
 }
 
-static fw_status draw(fw_layout_drawing *d) {
+static fw_status start(fw_layout_drawing *d) {
     const fw_device *device = d->device;
     int nground = fw_layout_body_joints(device, FW_GROUND, NULL, 0);
     d->nslot = device->nbody + (nground > 2 ? nground : 1);
     size_t slots = (size_t)d->nslot;
-    bool bad = false;
     for (int j = 0; j < device->nrevolute; j++)
         d->centre = fw_add(d->centre, 1.0 / device->nrevolute, fw_layout_joint_point(device, j));
     FW_NEED(d->raw = fw_arena_array(d->arena, fw_geometry_contour, slots));
@@ -162,23 +161,56 @@ static fw_status draw(fw_layout_drawing *d) {
     FW_NEED(d->held = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
     FW_NEED(d->caps = fw_arena_array(d->arena, fw_geometry_region, (size_t)device->nbody));
-    FW_TRY(fw_layout_shapes_unite(d));
-    FW_TRY(choose_hubs(d));
-    FW_TRY(fw_layout_hinges_plan(d));
+    return FW_OK;
+}
+
+static fw_status draw_bodies(fw_layout_drawing *d) {
+    bool bad = false;
     FW_TRY(fw_layout_actuators_plan(d));
-    for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
+    for (int b = 0; b < d->device->nbody; b++) { /* all refusals in one run */
+        int faults = d->layout->nfault;
         fw_status status = fw_layout_body_draw(d, b, FW_NONE, NULL, 0);
-        if (status == FW_GEOMETRY)
+        if (status == FW_GEOMETRY) {
             bad = true;
-        else if (status != FW_OK)
+            d->plain[b].count = 0;
+            FW_TRY(fw_layout_fault_rest(d, faults, b));
+        } else if (status != FW_OK)
             return status;
     }
-    if (bad) return FW_GEOMETRY;
-    fw_status base;
-    FW_TRY(draw_ground(d, &base));
-    FW_TRY(base == FW_OK ? fw_layout_actuators_on_base(d) : FW_OK);
-    FW_TRY(base == FW_OK ? fw_layout_tethers_draw(d) : FW_OK);
-    FW_TRY(fw_layout_frame_draw(d));
+    return bad ? FW_GEOMETRY : FW_OK;
+}
+
+static fw_status draw_frame(fw_layout_drawing *d, fw_status *base) {
+    FW_TRY(draw_ground(d, base));
+    FW_TRY(*base == FW_OK ? fw_layout_actuators_on_base(d) : FW_OK);
+    FW_TRY(*base == FW_OK ? fw_layout_tethers_draw(d) : FW_OK);
+    return fw_layout_frame_draw(d);
+}
+
+/* Hinges that are too close to each other, each of them drawn: what can be shown beside them, without
+   a word. */
+static fw_status show_beside(fw_layout_drawing *d) {
+    fw_diags *said = d->diags, unsaid = fw_diags_new(d->arena);
+    fw_status base = FW_OK;
+    for (int j = 0; j < d->device->nrevolute; j++)
+        if (!d->layout->hinge[j].drawn) return FW_GEOMETRY;
+    d->diags = &unsaid;
+    fw_status status = draw_bodies(d);
+    if (status == FW_OK) status = draw_frame(d, &base);
+    d->diags = said;
+    return status == FW_OK ? FW_GEOMETRY : status;
+}
+
+static fw_status draw(fw_layout_drawing *d) {
+    fw_status base, hinges;
+    FW_TRY(start(d));
+    FW_TRY(fw_layout_shapes_unite(d));
+    FW_TRY(choose_hubs(d));
+    hinges = fw_layout_hinges_plan(d);
+    if (hinges == FW_GEOMETRY) return show_beside(d);
+    FW_TRY(hinges);
+    FW_TRY(draw_bodies(d));
+    FW_TRY(draw_frame(d, &base));
     FW_TRY(fw_layout_clearance_check(d));
     FW_TRY(base);
     measure_free_rotation(d);
@@ -186,9 +218,19 @@ static fw_status draw(fw_layout_drawing *d) {
     FW_TRY(add_bodies(d));
     FW_TRY(fw_layout_actuators_add(d));
     fw_layout *l = d->layout;
-    FW_TRY(fw_layout_annotate(d->arena, device, l->window, l->die, d->said ? NULL : d->diags,
+    FW_TRY(fw_layout_annotate(d->arena, d->device, l->window, l->die, d->said ? NULL : d->diags,
                               &l->piece, &l->npiece, &d->capacity));
     return fw_layout_actuators_letters(d);
+}
+
+/* the pieces that can be shown, and at least one fault: the first error where none has a place */
+static fw_status give_up(fw_layout_drawing *d) {
+    fw_layout_fault whole = fw_layout_fault_at(fw_layout_nowhere);
+    if (d->layout->nfault == 0) FW_TRY(fw_layout_fault_keep(d, whole));
+    if (d->layout->nfault == 0) return FW_GEOMETRY;
+    d->layout->why_not = "it cannot be made as it is stated";
+    FW_TRY(fw_layout_show(d));
+    return FW_GEOMETRY;
 }
 
 /* what the mechanism computes and the drawing cannot show: once per file */
@@ -227,12 +269,16 @@ fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *di
     if (failed) return FW_NOMEM;
     if (!l->why_not) {
         l->fill = device->die.fill;
-        fw_layout_drawing d = {.arena = arena, .device = device, .diags = diags, .layout = l};
+        fw_layout_drawing d = {
+            .arena = arena, .device = device, .diags = diags, .own = diags, .layout = l};
         say_joints(device, diags);
         for (size_t i = 0; i < diags->count; i++)
             d.said = d.said || comments_drawing(diags->item[i].number);
-        FW_TRY(draw(&d));
-        l->drawn = true;
+        fw_status status = draw(&d);
+        if (status == FW_GEOMETRY) status = give_up(&d);
+        l->drawn = status == FW_OK;
+        *layout = status == FW_OK || (status == FW_GEOMETRY && l->nfault > 0) ? l : NULL;
+        return status;
     }
     *layout = l;
     return FW_OK;

@@ -268,6 +268,26 @@ typedef struct part {
     fw_geometry_box box;
 } part;
 
+/* the two with what both cover; where edges nearly coincide that is not known */
+static fw_status keep_fault(fw_layout_drawing *d, const part *p, const part *q, double far,
+                            fw_geometry_vec2 at) {
+    enum { MOST_OVERLAPS = 40 };
+    fw_layout_fault fault = {.body = {p->body, q->body}, .nbody = 2, .at = at};
+    const fw_geometry_region a = {(fw_geometry_contour *)p->contour, 1},
+                             b = {(fw_geometry_contour *)q->contour, 1};
+    if (p->joint != FW_NONE) {
+        fault.joint[fault.njoint++] = p->joint;
+        fault.body[0] = q->body, fault.nbody = 1;
+    }
+    if (far <= 0.0 && d->layout->nfault < MOST_OVERLAPS) {
+        fw_status status =
+            fw_geometry_region_boolean(d->arena, &a, &b, FW_INTERSECTION, &fault.overlap);
+        if (status != FW_OK && status != FW_GEOMETRY) return status;
+        if (status == FW_GEOMETRY) fault.overlap = (fw_geometry_region){NULL, 0};
+    }
+    return fw_layout_fault_keep(d, fault);
+}
+
 static fw_status tell(fw_layout_drawing *d, const part *p, const part *q, double far,
                       fw_geometry_vec2 at, double limit) {
     char a[32], b[32], x[32], y[32];
@@ -284,7 +304,7 @@ static fw_status tell(fw_layout_drawing *d, const part *p, const part *q, double
                         "%s um (layout rule): move the hinges or make bars narrower",
                   label, q->label, fw_layout_um(a, far), fw_layout_um(x, at.x),
                   fw_layout_um(y, at.y), fw_layout_um(b, limit));
-    return FW_OK;
+    return keep_fault(d, p, q, far, at);
 }
 
 static bool holds(const part *outer, const part *inner) {

@@ -174,6 +174,16 @@ typedef struct way { /* from a hinge into one of its bodies */
     double half_m, drawn_at_m; /* as of fw_layout_side */
 } way;
 
+/* a hinge, and a body where there is one, that the last error is about; FW_GEOMETRY */
+static fw_status blame(fw_layout_drawing *d, int number, int joint, int body) {
+    fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint));
+    fault.number = number;
+    fault.joint[fault.njoint++] = joint;
+    if (body >= 0) fault.body[fault.nbody++] = body;
+    FW_TRY(fw_layout_fault_keep(d, fault));
+    return FW_GEOMETRY;
+}
+
 /* what is drawn of a body lies where its shortest neck finds it; where a wide neck does not, a
    narrower one is tried */
 static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layout_hinge_plan *plan,
@@ -203,7 +213,7 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
                   j->id, fw_layout_um(x, w.x), fw_layout_um(y, w.y),
                   fw_layout_um(least, 2.0 * to->half_m), device->body[body].id,
                   fw_layout_um(r, keep_out));
-    return FW_GEOMETRY;
+    return blame(d, 317, joint, body);
 }
 
 static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *plan,
@@ -271,7 +281,7 @@ static fw_status refuse(fw_layout_drawing *d, int joint, int number, const char 
                   turns ? ", angle " : "",
                   turns ? fw_number_text(angle, sizeof angle, f->angle_rad * 180.0 / FW_PI, 5) : "",
                   turns ? " deg" : "", what);
-    return FW_GEOMETRY;
+    return blame(d, number, joint, FW_GROUND);
 }
 
 /* a fillet of the file that does not fit; once per flexure. The layout has found the largest one
@@ -321,7 +331,7 @@ static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
         return refuse(d, joint, 121,
                       "no room for two root blocks 8 um apart and their fillets; lengthen the "
                       "flexure, or make it thinner or its angle smaller");
-    if (!fillet_fits(d, joint, plan->shape[0].fillet_m)) return FW_GEOMETRY;
+    if (!fillet_fits(d, joint, plan->shape[0].fillet_m)) return blame(d, 129, joint, FW_GROUND);
     FW_TRY(choose_sides(d, joint, plan, &axis));
     choose_rings(plan, f->gap_m);
     double facing = choose_ring_ends(plan, f->gap_m);
@@ -396,6 +406,10 @@ fw_status fw_layout_hinges_plan(fw_layout_drawing *d) {
                           "%s um; move them apart, or make the flexures shorter",
                           device->revolute[i].id, device->revolute[k].id, fw_layout_um(a, apart),
                           fw_layout_um(b, least));
+            fw_layout_fault fault =
+                fw_layout_fault_at(fw_add(fw_add(fw_v(0, 0), 0.5, p->centre), 0.5, q->centre));
+            fault.joint[0] = i, fault.joint[1] = k, fault.njoint = 2;
+            FW_TRY(fw_layout_fault_keep(d, fault));
             bad = true;
         }
     return bad ? FW_GEOMETRY : FW_OK;

@@ -42,6 +42,9 @@ fw_status fw_layout_shape_refuse(fw_layout_drawing *d, int number, fw_place plac
     FW_NEED(label);
     fw_diag_error(d->diags, number, place, "%s: %s, near (%s, %s) um", label, what,
                   fw_layout_um(x, at.x), fw_layout_um(y, at.y));
+    fw_layout_fault fault = fw_layout_fault_at(at);
+    fault.body[fault.nbody++] = body;
+    FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
 }
 

@@ -154,5 +154,12 @@ fw_flexure_input fw_mechanism_flexure(const fw_device *device, const fw_layout *
 fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, fw_diags *diags,
                              const fw_mechanism **mechanism);
+/* The same for what follows from the hinges alone, of a layout that cannot be made (`shown` has
+   faults): flexures and hinge points as far as they are drawn. Bodies whose mass would come from a
+   drawing that is not there have one that stands in for it: not to be moved or judged.
+   Test: tests/cli/test_marked.py */
+fw_status fw_mechanism_build_hinges(fw_arena *arena, const fw_device *device,
+                                    const fw_layout *shown, const fw_mechanism_variant *variant,
+                                    fw_diags *diags, const fw_mechanism **mechanism);
 
 #endif

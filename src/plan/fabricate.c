@@ -120,7 +120,7 @@ static fw_status edges_of(fw_plan *plan, const fw_process_flow *flow, const fw_m
 
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
-    if (!plan->layout) { /* dimensions that do not fit: no flow can make it */
+    if (!plan->layout || plan->layout->nfault > 0) { /* dimensions that do not fit in any flow */
         pf->mask_error = "the device cannot be drawn with these dimensions; see the diagnostics";
         return fw_process_flow_add_reason(plan->arena, pf->flow, 0, pf->mask_error);
     }

@@ -5,6 +5,7 @@
 #include "base/constants.h"
 #include "plan/stages.h"
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 static double now_s(void) {
@@ -204,18 +205,44 @@ static fw_status climb(const climber *k, fw_plan_ladder *l) {
     return FW_OK;
 }
 
-fw_status fw_plan_ladders_run(fw_plan *plan, int wanted, fw_plan_ladders *out) {
-    const fw_layout *layout = NULL;
+static bool said(const fw_diags *diags, const fw_diag *d) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == d->number && strcmp(diags->item[i].message, d->message) == 0)
+            return true;
+    return false;
+}
+
+fw_status fw_plan_hinges_layout(fw_plan *plan, const fw_layout **layout) {
     fw_diags drawing = fw_diags_new(plan->arena);
+    *layout = NULL;
+    fw_status status = fw_layout_build(plan->arena, plan->device, &drawing, layout);
+    if (status != FW_OK && status != FW_GEOMETRY && status != FW_INPUT) return status;
+    for (size_t i = 0; status != FW_OK && i < drawing.count; i++)
+        if (drawing.item[i].severity == FW_ERROR && !said(&plan->diags, &drawing.item[i]))
+            fw_diags_add(&plan->diags, &drawing.item[i], FW_WARNING);
+    return drawing.failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_plan_hinges_mechanism(fw_plan *plan, const fw_layout *layout,
+                                   const fw_mechanism_variant *variant,
+                                   const fw_mechanism **mechanism) {
+    if (layout && layout->nfault > 0)
+        return fw_mechanism_build_hinges(plan->arena, plan->device, layout, variant, &plan->diags,
+                                         mechanism);
+    return fw_mechanism_build(plan->arena, plan->device, layout, variant, &plan->diags, mechanism);
+}
+
+fw_status fw_plan_ladders_run(fw_plan *plan, int wanted, fw_plan_ladders *out) {
+    const fw_layout *layout;
     *out = (fw_plan_ladders){.accuracy = plan->options.verdict.motion.accuracy};
     const climber k = {plan, out, wanted};
-    if (fw_layout_build(plan->arena, plan->device, &drawing, &layout) != FW_OK) layout = NULL;
+    FW_TRY(fw_plan_hinges_layout(plan, &layout));
     size_t most = (size_t)plan->nflow * (size_t)plan->device->nrevolute;
     FW_NEED(out->item = fw_arena_array(plan->arena, fw_plan_ladder, most));
     for (int i = 0; i < plan->nflow; i++) {
         const fw_mechanism *m;
         const fw_mechanism_variant *v = &plan->flow[i].variant;
-        FW_TRY(fw_mechanism_build(plan->arena, plan->device, layout, v, &plan->diags, &m));
+        FW_TRY(fw_plan_hinges_mechanism(plan, layout, v, &m));
         for (int h = 0; h < m->nhinge; h++) {
             fw_plan_ladder *l = &out->item[out->count++];
             *l = (fw_plan_ladder){.flow = v->flow, .mechanism = m, .hinge = &m->hinge[h]};

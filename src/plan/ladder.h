@@ -61,6 +61,12 @@ typedef struct fw_plan_ladders {
     double accuracy; /* wanted, relative, of the rotation that a moment makes: of the stiffness */
 } fw_plan_ladders;
 
+/* the layout for what needs the hinges only: one that cannot be made is a warning, and what can be
+   shown of it says where the hinges are and how they are drawn; NULL: nothing does */
+fw_status fw_plan_hinges_layout(fw_plan *plan, const fw_layout **layout);
+fw_status fw_plan_hinges_mechanism(fw_plan *plan, const fw_layout *layout,
+                                   const fw_mechanism_variant *variant,
+                                   const fw_mechanism **mechanism);
 /* every hinge in every flow of a loaded plan; hinges that are alike are solved once */
 fw_status fw_plan_ladders_run(fw_plan *plan, int wanted, fw_plan_ladders *out);
 /* the same for the report */

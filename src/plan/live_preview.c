@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The quick look: what has been done with a design so far, in one document. */
 #include "plan/design.h"
+#include "plan/ladder.h"
 #include "plan/live_request.h"
 #include "plan/stages.h"
 #include "report/preview.h"
@@ -37,6 +38,8 @@ static fw_status mechanism_of(fw_plan *plan, bool judged, const fw_mechanism **m
     fw_diags said = plan->diags;
     plan->diags = fw_diags_new(plan->arena);
     fw_status status = fw_plan_mechanism(plan, NULL, mechanism);
+    if (status == FW_GEOMETRY && plan->layout && plan->layout->nfault > 0) /* shown, not moved */
+        status = fw_plan_hinges_mechanism(plan, plan->layout, &plan->flow[0].variant, mechanism);
     plan->diags = said;
     if (status != FW_OK) *mechanism = NULL;
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;

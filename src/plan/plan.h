@@ -73,7 +73,7 @@ typedef struct fw_plan {
     fw_device_materials materials;
     fw_plan_flow *flow; /* (nflow) at least one after fw_plan_load */
     int nflow;
-    const fw_layout *layout; /* NULL: cannot be drawn */
+    const fw_layout *layout; /* NULL or with faults: it cannot be made */
     struct {                 /* what a scene started from last (fw_plan_start) */
         const fw_device_scene *scene;
         const fw_mechanism *mechanism; /* NULL: none did */
@@ -120,6 +120,9 @@ enum { /* what fw_plan_write writes */
 };
 /* the directory appears complete or not at all, with its manifest */
 fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what);
+/* where judging ended because the layout cannot be made: its drawing with the faults marked and the
+   manifest; nothing where the layout has none */
+fw_status fw_plan_write_marked(fw_plan *plan, const char *directory);
 enum {                        /* what is asked of a simulated scene beside its motion */
        FW_WANTED_FIGURES = 1, /* errors, and largest forces and travels */
        FW_WANTED_ENERGIES = 2 /* energies and constraint norm of every row */

@@ -204,7 +204,6 @@ fw_status fw_plan_workspace(fw_plan *plan, fw_report_workspace *workspace) {
         fw_layout_build(plan->arena, d, from_shapes ? &plan->diags : &drawing, &plan->layout);
     if (status != FW_OK && (from_shapes || (status != FW_GEOMETRY && status != FW_INPUT)))
         return status;
-    if (status != FW_OK) plan->layout = NULL;
     fw_report_workspace_flow *flow =
         fw_arena_array(plan->arena, fw_report_workspace_flow, (size_t)plan->nflow);
     FW_NEED(flow);

@@ -89,7 +89,6 @@ fw_status fw_plan_mechanism(fw_plan *plan, const fw_device_scene *scene,
                                        from_shapes ? &plan->diags : &drawing, &plan->layout);
     if (status != FW_OK && (from_shapes || (status != FW_GEOMETRY && status != FW_INPUT)))
         return status;
-    if (status != FW_OK) plan->layout = NULL;
     return fw_mechanism_build(plan->arena, plan->device, plan->layout, variant_of(plan, scene),
                               &plan->diags, mechanism);
 }

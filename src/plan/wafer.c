@@ -49,7 +49,7 @@ static fw_wafer_variant variant_of(const fw_plan *plan, int flow) {
                           .why = pf->mask_error};
     for (int k = 0; k < judged->nhinge; k++)
         v.utilisation = fmax(v.utilisation, judged->hinge[k].utilisation);
-    if (plan->layout) {
+    if (plan->layout && plan->layout->nfault == 0) {
         v.die = plan->layout->die;
         v.window = plan->layout->window;
     }

@@ -418,6 +418,16 @@ static fw_status write_report(writer *w) {
     return put(w, "", "report", ".html", &html);
 }
 
+static fw_status write_manifest(writer *w) {
+    size_t count;
+    const fw_output_file *file = fw_output_files(w->output, &count);
+    w->plan->files_written = (int)count;
+    if (count == 0) return FW_OK; /* a rejected design has no masks: no directory either */
+    fw_text manifest = fw_text_new(w->scratch);
+    FW_TRY(manifest_json(w->plan, file, count, &manifest));
+    return put(w, "", "manifest", ".json", &manifest);
+}
+
 static fw_status write_all(writer *w, unsigned what) {
     fw_plan *plan = w->plan;
     FW_TRY(fw_plan_assumptions(plan));
@@ -440,22 +450,24 @@ static fw_status write_all(writer *w, unsigned what) {
         FW_TRY(write_report(w));
         FW_TRY(write_drawing(w));
     }
-    size_t count;
-    const fw_output_file *file = fw_output_files(w->output, &count);
-    plan->files_written = (int)count;
-    if (count == 0) return FW_OK; /* a rejected design has no masks: no directory either */
-    fw_text manifest = fw_text_new(w->scratch);
-    FW_TRY(manifest_json(plan, file, count, &manifest));
-    return put(w, "", "manifest", ".json", &manifest);
+    return write_manifest(w);
 }
 
-fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
+/* a layout that cannot be made, of a device that cannot be judged without it */
+static fw_status write_marked(writer *w, unsigned what) {
+    (void)what;
+    FW_TRY(write_drawing(w));
+    return write_manifest(w);
+}
+
+static fw_status write_directory(fw_plan *plan, const char *directory, unsigned what,
+                                 fw_status (*write)(writer *w, unsigned what)) {
     writer w = {.plan = plan, .scratch = fw_arena_part(plan->arena, plan->options.memory_cap)};
     FW_NEED(w.scratch);
     w.empty = fw_arena_mark(w.scratch);
     plan->files_written = 0;
     fw_status status = fw_output_open(plan->arena, directory, &plan->diags, &w.output);
-    if (status == FW_OK) status = write_all(&w, what);
+    if (status == FW_OK) status = write(&w, what);
     if (status == FW_OK && plan->files_written > 0)
         status = fw_output_commit(w.output);
     else
@@ -463,4 +475,13 @@ fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
     if (status != FW_OK) fw_output_abort(w.output);
     fw_arena_free(w.scratch);
     return status;
+}
+
+fw_status fw_plan_write(fw_plan *plan, const char *directory, unsigned what) {
+    return write_directory(plan, directory, what, write_all);
+}
+
+fw_status fw_plan_write_marked(fw_plan *plan, const char *directory) {
+    if (!plan->layout || plan->layout->nfault == 0) return FW_OK;
+    return write_directory(plan, directory, 0, write_marked);
 }

@@ -97,9 +97,11 @@ fw_status fw_report_section_device(fw_report_page *page) {
     const fw_device *device = page->in->device;
     fw_text *out = page->out;
     const fw_verdict *verdict = page->in->verdict;
+    double legend;
+    FW_TRY(fw_report_legend_height(page->arena, device, page->in->layout, verdict, &legend));
     fw_text_add(out, "<div class=\"two\"><figure style=\"margin:0\">");
     fw_svg_begin(out, &(fw_svg_frame){.width = page->view.width,
-                                      .height = page->view.height + 30.0,
+                                      .height = page->view.height + legend,
                                       .decimals = 2,
                                       .lead = "class='drawing' role='img'"});
     fw_svg_title(out, "{s}: hinges coloured by utilisation", device->name);
@@ -108,6 +110,11 @@ fw_status fw_report_section_device(fw_report_page *page) {
     if (!fw_report_drawn(page->in->layout))
         fw_markup(out, "<figcaption class=\"soft\">Schematic. {s}</figcaption>\n",
                   page->in->layout ? page->in->layout->why_not : NULL);
+    else if (page->in->layout->nfault > 0)
+        fw_text_add(out, "<figcaption class=\"soft\">This layout cannot be made, and no mask is: "
+                         "parts, hinges and places in red have a number and a row below the "
+                         "picture, the whole sentence is among the <a href=\"#messages\">messages"
+                         "</a>.</figcaption>\n");
     fw_text_add(out,
                 "</figure>\n<div><h3>What it is made of</h3><table><thead><tr><th scope=\"col\">"
                 "Flow</th><th scope=\"col\">Material</th><th scope=\"col\" class=\"n\">Thickness"

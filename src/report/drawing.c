@@ -2,7 +2,7 @@
 /* Colours, the view that holds a device, and its drawing: what all pictures of the room share. */
 #include "geometry/geometry_svg.h"
 #include "report/figure.h"
-#include "report/report_page.h"
+#include "report/report_marks.h"
 #include <math.h>
 #include <string.h>
 
@@ -148,14 +148,6 @@ double fw_report_joint_utilisation(const fw_verdict *verdict, int joint) {
         for (int i = 0; i < verdict->nhinge; i++)
             if (verdict->hinge[i].joint == joint) return verdict->hinge[i].utilisation;
     return (double)NAN;
-}
-
-void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
-                         fw_text *out) {
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_layout_piece *p = &layout->piece[i];
-        if (p->body == body && p->role == FW_ROLE_STRUCTURE) fw_report_path(out, view, &p->contour);
-    }
 }
 
 static void fixed_parts(const fw_layout *layout, const fw_report_view *view, bool ids,
@@ -311,9 +303,19 @@ static void body_labels(const fw_device *device, const fw_layout *layout,
     }
 }
 
+fw_status fw_report_legend_height(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict *verdict, double *height) {
+    fw_report_marks marks;
+    FW_TRY(fw_report_marks_of(arena, device, layout, verdict, &marks));
+    *height = LEGEND_HEIGHT + fw_report_marks_height(&marks);
+    return FW_OK;
+}
+
 fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
                             const fw_verdict *verdict, const fw_report_view *view, bool ids,
                             fw_text *out) {
+    fw_report_marks marks;
+    FW_TRY(fw_report_marks_of(out->arena, device, layout, verdict, &marks));
     if (fw_report_drawn(layout)) {
         fixed_parts(layout, view, ids, out);
         tethers(layout, view, out);
@@ -322,12 +324,14 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
         FW_TRY(schematic(device, verdict, view, ids, out));
     hinges(device, layout, verdict, view, out);
     fw_report_actuators_svg(device, layout, view, out);
+    fw_report_marks_svg(device, layout, &marks, view, out);
     body_labels(device, layout, view, out);
     hinge_labels(device, layout, verdict, view, out);
+    fw_report_marks_tags(device, layout, &marks, view, out);
     fw_report_scale_bar_svg(out, view);
     fw_svg_open(out, "g font-size='11' fill='#424a53'");
-    fw_svg_put(out, "rect y='{c}' width='{c}' height='60' fill='#fff'\n", view->height,
-               view->width);
+    fw_svg_put(out, "rect y='{c}' width='{c}' height='{c}' fill='#fff'\n", view->height,
+               view->width, 60.0 + fw_report_marks_height(&marks));
     static const double place[CLASSES] = {10.0, 118.0, 220.0, 330.0, 456.0};
     double size = view->width / WIDTH;
     for (int i = 0; i < CLASSES; i++) {
@@ -336,6 +340,8 @@ fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
         fw_svg_put(out, "text x='{c}' y='{c}'>{r}\n", place[i] * size + 18.0, view->height + 20.0,
                    utilisation_class[i].label);
     }
+    FW_TRY(
+        fw_report_marks_legend(out->arena, &marks, view->width, view->height + LEGEND_HEIGHT, out));
     fw_svg_close(out, "g\n");
     return FW_OK;
 }
@@ -348,7 +354,9 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
         FW_TRY(fw_report_figure_rest_reach(arena, verdict, &box));
         if (box.x1 >= box.x0) view = fw_report_figure_view(&box, WIDTH);
     }
-    fw_svg_begin_picture(out, view.width, view.height + LEGEND_HEIGHT, true);
+    double legend;
+    FW_TRY(fw_report_legend_height(arena, device, layout, verdict, &legend));
+    fw_svg_begin_picture(out, view.width, view.height + legend, true);
     fw_svg_title(out, "{r}{s}: hinges coloured by utilisation", fw_report_rejected(verdict),
                  device->name);
     fw_svg_paper(out, "#fff");
@@ -358,6 +366,12 @@ fw_status fw_report_device_svg(fw_arena *arena, const fw_device *device, const f
                    "text x='{c}' y='22' font-size='18' font-weight='700' text-anchor='end' "
                    "fill='{r}'>REJECTED\n",
                    view.width - 10.0, fw_report_decision_colour(FW_REJECT));
+    else if (layout && layout->nfault > 0)
+        fw_svg_put(
+            out,
+            "text x='{c}' y='22' font-size='18' font-weight='700' text-anchor='end' "
+            "fill='{r}' stroke='#fff' stroke-width='3' paint-order='stroke'>CANNOT BE MADE\n",
+            view.width - 10.0, fw_report_decision_colour(FW_REJECT));
     fw_svg_end(out);
     return fw_text_end(out);
 }

@@ -49,6 +49,8 @@ void fw_report_preview_put_um(fw_text *out, double metres);
 void fw_report_preview_um(fw_json *out, const char *key, double metres);
 void fw_report_preview_point(fw_json *out, const char *key, double x_m, double y_m); /* [x, y] */
 void fw_report_preview_bodies(fw_json *out, const char *key, int a, int b); /* -1: the ground */
+/* outlines as strings, in the axes of the file; region NULL: none */
+void fw_report_preview_outlines(fw_json *out, const char *key, const fw_geometry_region *region);
 /* what else joins bodies and what drives them: "ties", "springs", "loads", and "not_drawn", the
    names of loads that effects find in the scene and no picture shows */
 void fw_report_preview_attached(const fw_report_preview *in, fw_json *out);

@@ -156,12 +156,14 @@ static void peak_mark(const panel *p, fw_text *out) {
     double x = place_x(p, peak->t_s), y = place_y(p, FW_DEG_PER_RAD * peak->angle_rad);
     bool left = x > p->axes.x + 0.55 * p->axes.width;
     fw_svg_put(out, "circle cx='{c}' cy='{c}' r='3' fill='#1f2328'", x, y);
-    fw_svg_put(
-        out,
-        "text x='{c}' y='{c}' font-size='10.5' fill='#1f2328' stroke='#fff' "
-        "stroke-width='3' paint-order='stroke' text-anchor='{r}'>{D}\u00b0 at {n} {r}\n",
-        left ? x - 7.0 : x + 7.0, peak->angle_rad > 0.0 ? fmax(y - 5.0, p->axes.y + 9.0) : y + 13.0,
-        left ? "end" : "start", peak->angle_rad, peak->t_s / p->axes.time_unit, p->axes.time_name);
+    fw_svg_put(out,
+               "text x='{c}' y='{c}' font-size='10.5' fill='#1f2328' stroke='#fff' "
+               "stroke-width='3' paint-order='stroke' text-anchor='{r}'>{D}\u00b0 at {n} {r}\n",
+               left ? x - 7.0 : x + 7.0,
+               peak->angle_rad > 0.0 ? fmax(y - 5.0, p->axes.y + 9.0)
+                                     : fmin(y + 13.0, p->axes.y + p->axes.height - 3.0),
+               left ? "end" : "start", peak->angle_rad, peak->t_s / p->axes.time_unit,
+               p->axes.time_name);
 }
 
 static void heading(const panel *p, fw_text *out) {

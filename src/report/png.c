@@ -2,7 +2,7 @@
 /* Preview picture by cairo. No text: cairo's text engine neither survives a lack of memory nor
    gives the same picture on two machines. Never geometry of record: cairo keeps 1/256 of a
    pixel. */
-#include "report/report_page.h"
+#include "report/report_marks.h"
 #include "base/constants.h"
 #include <cairo.h>
 #include <math.h>
@@ -95,6 +95,41 @@ static void points(cairo_t *c, const fw_device *device, const fw_layout *layout,
     }
 }
 
+/* as drawing_marks.c, without its numbers */
+static void marked(cairo_t *c, const fw_device *device, const fw_layout *layout,
+                   const fw_report_marks *marks, const fw_report_view *view, double px) {
+    bool drawn = fw_report_drawn(layout);
+    paint(c, fw_report_mark_colour);
+    for (int i = 0; i < marks->count; i++) {
+        const fw_report_mark *m = &marks->item[i];
+        for (int k = 0; drawn && k < layout->npiece; k++) {
+            const fw_layout_piece *p = &layout->piece[k];
+            bool of = false;
+            for (int n = 0; n < m->nbody; n++)
+                of = of || (m->body[n] >= 0 && m->body[n] == p->body);
+            if (!of || p->role != FW_ROLE_STRUCTURE) continue;
+            trace(c, view, &p->contour);
+            cairo_set_line_width(c, 2.0 * px);
+            cairo_stroke(c);
+        }
+        for (int k = 0; m->overlap && k < m->overlap->count; k++)
+            trace(c, view, &m->overlap->contour[k]);
+        cairo_fill(c);
+        for (int n = 0; n < m->njoint; n++) {
+            fw_geometry_vec2 p = fw_report_hinge_point(device, layout, m->joint[n]);
+            double r = drawn && layout->hinge[m->joint[n]].drawn
+                           ? layout->hinge[m->joint[n]].keep_out_m * view->scale
+                           : 0.0;
+            if (!isfinite(p.x + p.y)) continue;
+            cairo_new_sub_path(c);
+            cairo_arc(c, fw_report_x(view, p.x), fw_report_y(view, p.y), fmax(r, 11.0 * px), 0.0,
+                      FW_TURN);
+            cairo_set_line_width(c, 2.5 * px);
+            cairo_stroke(c);
+        }
+    }
+}
+
 static void png_path(void *to, const double *xy, int n, const char *inside, const char *ink,
                      double width, bool dashed) {
     cairo_t *c = to;
@@ -133,8 +168,9 @@ static cairo_status_t collect(void *closure, const unsigned char *data, unsigned
 
 fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict, int width_px, fw_text *out) {
-    (void)arena;
+    fw_report_marks marks;
     if (width_px < 16 || width_px > 8192) return FW_USAGE;
+    FW_TRY(fw_report_marks_of(arena, device, layout, verdict, &marks));
     fw_report_view view = fw_report_device_view(device, layout, NULL, width_px);
     double px = width_px / 640.0;
     cairo_surface_t *surface =
@@ -150,6 +186,7 @@ fw_status fw_report_device_png(fw_arena *arena, const fw_device *device, const f
     points(c, device, layout, verdict, &view, px);
     const fw_report_canvas canvas = {.path = png_path, .circle = png_circle, .to = c, .px = px};
     fw_report_actuators(device, layout, &view, &canvas);
+    marked(c, device, layout, &marks, &view, px);
     cairo_status_t drawn = cairo_status(c);
     cairo_destroy(c);
     cairo_surface_flush(surface);

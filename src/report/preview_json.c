@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
 #include "report/json_parts.h"
+#include "report/report_marks.h"
 #include <math.h>
 #include <string.h>
 
@@ -298,6 +299,41 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     return FW_OK;
 }
 
+/* ---- what the picture marks ---- */
+
+static fw_status marks(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
+    fw_report_marks all = {0};
+    if (in->device) FW_TRY(fw_report_marks_of(arena, in->device, in->layout, in->verdict, &all));
+    fw_json_list(out, "marks");
+    for (int i = 0; i < all.count; i++) {
+        const fw_report_mark *m = &all.item[i];
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        if (m->number > 0)
+            fw_json_textf(out, "code", "FW-D%03d", m->number);
+        else
+            fw_json_null(out, "code");
+        fw_json_text(out, "label", m->label);
+        fw_json_text(out, "text", m->text);
+        if (isfinite(m->at.x) && isfinite(m->at.y))
+            fw_report_preview_point(out, "at_um", m->at.x, m->at.y);
+        else
+            fw_json_null(out, "at_um");
+        fw_json_list(out, "bodies");
+        for (int k = 0; k < m->nbody; k++)
+            if (m->body[k] >= 0) fw_json_text(out, NULL, in->device->body[m->body[k]].id);
+        fw_json_end(out);
+        fw_json_list(out, "hinges");
+        for (int k = 0; k < m->njoint; k++)
+            fw_json_text(out, NULL, in->device->revolute[m->joint[k]].id);
+        fw_json_end(out);
+        fw_report_preview_outlines(out, "overlap", m->overlap);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    return FW_OK;
+}
+
 /* ---- the document ---- */
 
 static void left_out(const fw_report_preview *in, fw_json *out) {
@@ -333,6 +369,8 @@ fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, f
     scenes_and_flows(in, out);
     fw_json_line(out, 0);
     FW_TRY(fw_report_preview_shapes(arena, in, out));
+    fw_json_line(out, 0);
+    FW_TRY(marks(arena, in, out));
     fw_json_line(out, 0);
     FW_TRY(motion(arena, in, out));
     fw_json_line(out, 0);

@@ -102,6 +102,14 @@ static void outlines(fw_json *out, const char *key, const fw_layout *layout, con
     fw_json_end(out);
 }
 
+void fw_report_preview_outlines(fw_json *out, const char *key, const fw_geometry_region *region) {
+    const frame world = frame_of(NULL, FW_GROUND);
+    fw_json_list(out, key);
+    for (int i = 0; region && i < region->count; i++)
+        path(out, NULL, &world, &region->contour[i]);
+    fw_json_end(out);
+}
+
 /* what stands for a body that nobody has drawn: a line or hull through its joints */
 static void figure_outline(fw_json *out, const fw_report_drawing_figure *figure, int body) {
     fw_json_list(out, "outline");
@@ -140,8 +148,12 @@ static void body_json(const fw_report_preview *in, const fw_report_drawing_figur
     fw_json_number(out, NULL, m->y_m, 9);
     fw_json_number(out, NULL, m->phi_rad, 9);
     fw_json_end(out);
-    fw_json_number(out, "mass_kg", m->mass_kg, 6);
-    fw_json_number(out, "inertia_kg_m2", m->inertia_kg_m2, 6);
+    /* of a layout that cannot be made: one that stands in for it is none */
+    const fw_device_body *stated = &in->device->body[b];
+    bool known = !in->layout || in->layout->nfault == 0 || in->layout->body[b].area_m2 > 0.0;
+    bool has = known || !isnan(stated->mass_kg), turns = known || !isnan(stated->inertia_kg_m2);
+    fw_json_number(out, "mass_kg", has ? m->mass_kg : (double)NAN, 6);
+    fw_json_number(out, "inertia_kg_m2", turns ? m->inertia_kg_m2 : (double)NAN, 6);
     fw_json_end(out);
 }
 

@@ -21,7 +21,7 @@ static void pose_of(const pen *p, int body, double pose[3]) {
     pose[0] = pose[1] = pose[2] = 0;
     if (body == FW_GROUND) return;
     const fw_device_body *b = &p->device->body[body];
-    bool outlined = fw_report_outlined(p->layout, body);
+    bool outlined = fw_report_outlined(p->layout, body) && p->layout->body[body].area_m2 > 0.0;
     pose[0] = isnan(b->x_m) && outlined ? p->layout->body[body].centroid.x : b->x_m;
     pose[1] = isnan(b->y_m) && outlined ? p->layout->body[body].centroid.y : b->y_m;
     pose[2] = b->phi_rad;
@@ -107,7 +107,7 @@ static void label_line(const pen *p, fw_geometry_vec2 a, fw_geometry_vec2 b, con
 /* ---- tendons ---- */
 
 /* the line ends in an arrow: there the actuator pulls */
-static void tendon(const pen *p, const fw_device_tendon *t) {
+static void tendon(const pen *p, const fw_device_tendon *t, const char *name) {
     fw_geometry_vec2 last = {0, 0}, before = {0, 0}, from = {0, 0}, to = {0, 0};
     for (int i = 0; i < t->neyelet; i++) {
         const fw_device_eyelet *e = &t->eyelet[i];
@@ -131,7 +131,7 @@ static void tendon(const pen *p, const fw_device_tendon *t) {
     fw_geometry_vec2 end = {last.x + way * dx / l, last.y + way * dy / l};
     line(p, last, end, false);
     arrow_head(p, end, dx, dy);
-    label_line(p, from, to, t->id);
+    label_line(p, from, to, name);
 }
 
 /* ---- electrodes ---- */
@@ -218,11 +218,45 @@ static void comb(const pen *p, const fw_device_comb *c) {
 
 /* ---- all scenes ---- */
 
-static bool tendon_before(const fw_device *d, int scene, const char *id) {
-    for (int s = 0; s < scene; s++)
-        for (int i = 0; id && i < d->scene[s].ntendon; i++)
-            if (d->scene[s].tendon[i].id && strcmp(d->scene[s].tendon[i].id, id) == 0) return true;
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* through the same eyelets, or of the same name: what several scenes share */
+static bool same_way(const fw_device_tendon *a, const fw_device_tendon *b) {
+    if (a->id && same_text(a->id, b->id)) return true;
+    if (a->neyelet != b->neyelet) return false;
+    for (int i = 0; i < a->neyelet; i++) {
+        const fw_device_eyelet *e = &a->eyelet[i], *f = &b->eyelet[i];
+        if (e->body != f->body || e->x_m != f->x_m || e->y_m != f->y_m) return false;
+    }
+    return true;
+}
+
+static bool tendon_before(const fw_device *d, int scene, int tendon) {
+    const fw_device_tendon *t = &d->scene[scene].tendon[tendon];
+    for (int s = 0; s <= scene; s++)
+        for (int i = 0; i < (s < scene ? d->scene[s].ntendon : tendon); i++)
+            if (same_way(&d->scene[s].tendon[i], t)) return true;
     return false;
+}
+
+/* "TL, CL": of all that run there; NULL: none has a name */
+static const char *names_of(const fw_device *d, const fw_device_tendon *t, char *text, size_t n) {
+    size_t used = 0;
+    for (int s = 0; s < d->nscene; s++)
+        for (int i = 0; i < d->scene[s].ntendon; i++) {
+            const fw_device_tendon *other = &d->scene[s].tendon[i];
+            size_t length = other->id ? strlen(other->id) : 0;
+            bool said = length == 0 || !same_way(other, t) || used + length + 3 > n;
+            for (int k = 0; k <= s && !said; k++)
+                for (int m = 0; m < (k < s ? d->scene[k].ntendon : i) && !said; m++)
+                    said = same_text(d->scene[k].tendon[m].id, other->id);
+            if (said) continue;
+            if (used > 0) memcpy(text + used, ", ", 2), used += 2;
+            memcpy(text + used, other->id, length + 1), used += length;
+        }
+    return used > 0 ? text : NULL;
 }
 
 static bool comb_before(const fw_device *d, int scene, const char *id) {
@@ -240,7 +274,11 @@ void fw_report_actuators(const fw_device *device, const fw_layout *layout,
         for (int i = 0; i < scene->ncomb; i++)
             if (!comb_before(device, s, scene->comb[i].id)) comb(&p, &scene->comb[i]);
         for (int i = 0; i < scene->ntendon; i++)
-            if (!tendon_before(device, s, scene->tendon[i].id)) tendon(&p, &scene->tendon[i]);
+            if (!tendon_before(device, s, i)) {
+                char names[64];
+                const char *name = names_of(device, &scene->tendon[i], names, sizeof names);
+                tendon(&p, &scene->tendon[i], name);
+            }
     }
 }
 

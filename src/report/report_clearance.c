@@ -116,9 +116,10 @@ fw_status fw_report_section_clearance(fw_report_page *page) {
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nclearance; k++)
             row(page->out, &v->variant[i].clearance[k]);
-    fw_markup(page->out, "</tbody></table>\n");
+    fw_markup(page->out, "</tbody></table>\n<div class=\"pairs\">\n");
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; v->layout && k < v->variant[i].nclearance && shown < PICTURES; k++, shown++)
             FW_TRY(picture(page, &v->variant[i], &v->variant[i].clearance[k]));
+    fw_markup(page->out, "</div>\n");
     return FW_OK;
 }

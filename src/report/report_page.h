@@ -24,10 +24,14 @@ fw_report_view fw_report_view_fit(fw_geometry_box box, double width, double pad_
 double fw_report_x(const fw_report_view *view, double x_m);
 double fw_report_y(const fw_report_view *view, double y_m);
 void fw_report_path(fw_text *out, const fw_report_view *view, const fw_geometry_contour *contour);
+/* path of all rigid pieces of a body */
+void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
+                         fw_text *out);
 fw_geometry_box fw_report_box_empty(void);
 void fw_report_box_add(fw_geometry_box *box, double x_m, double y_m);
 /* hinge point of a joint in the drawn position */
 fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout, int joint);
+/* there are outlines to show: of a layout that cannot be made, too */
 bool fw_report_drawn(const fw_layout *layout);
 bool fw_report_outlined(const fw_layout *layout, int body); /* the body has a shape of its own */
 
@@ -135,13 +139,13 @@ fw_status fw_report_probe_panels(fw_arena *arena, const fw_verdict_variant_verdi
 fw_report_view fw_report_device_view(const fw_device *device, const fw_layout *layout,
                                      const fw_geometry_box *reach, double width);
 void fw_report_scale_bar_svg(fw_text *out, const fw_report_view *view);
+/* what stands below the drawing: colours, and the rows of what is marked */
+fw_status fw_report_legend_height(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict *verdict, double *height);
 /* everything inside the <svg> of the device drawing; `ids` adds ids that figures may <use> */
 fw_status fw_report_drawing(const fw_device *device, const fw_layout *layout,
                             const fw_verdict *verdict, const fw_report_view *view, bool ids,
                             fw_text *out);
-/* path of all rigid pieces of a body */
-void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
-                         fw_text *out);
 double fw_report_joint_utilisation(const fw_verdict *verdict, int joint); /* NaN: none */
 
 /* ---- report_actuators.c ---- */

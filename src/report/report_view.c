@@ -5,11 +5,16 @@
 #include <math.h>
 
 bool fw_report_drawn(const fw_layout *layout) {
-    return layout && layout->drawn && layout->npiece;
+    return layout && (layout->drawn || layout->nfault > 0) && layout->npiece;
 }
 
 bool fw_report_outlined(const fw_layout *layout, int body) {
-    return body >= 0 && fw_report_drawn(layout) && layout->body && layout->body[body].area_m2 > 0.0;
+    if (body < 0 || !fw_report_drawn(layout) || !layout->body) return false;
+    bool pieces = false; /* of what cannot be made nothing may be measured */
+    for (int i = 0; layout->nfault > 0 && i < layout->npiece; i++)
+        pieces =
+            pieces || (layout->piece[i].body == body && layout->piece[i].role == FW_ROLE_STRUCTURE);
+    return pieces || layout->body[body].area_m2 > 0.0;
 }
 
 fw_geometry_box fw_report_box_empty(void) {
@@ -51,6 +56,14 @@ void fw_report_path(fw_text *out, const fw_report_view *view, const fw_geometry_
     const fw_geometry_sheet sheet = {view->x0_m, view->y1_m, view->scale, 2,
                                      FW_GEOMETRY_ARC_PICTURE};
     fw_geometry_svg_contour(out, &sheet, contour);
+}
+
+void fw_report_body_path(const fw_layout *layout, int body, const fw_report_view *view,
+                         fw_text *out) {
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        if (p->body == body && p->role == FW_ROLE_STRUCTURE) fw_report_path(out, view, &p->contour);
+    }
 }
 
 fw_geometry_vec2 fw_report_hinge_point(const fw_device *device, const fw_layout *layout,

@@ -192,9 +192,21 @@ static fw_status guarantees(fw_arena *arena, const fw_report_input *in, fw_repor
     return FW_OK;
 }
 
+/* once for all flows: the layout is the same */
+static fw_status layout_faults(fw_arena *arena, const fw_layout *layout, fw_report_summary *s) {
+    if (!layout || layout->nfault == 0) return FW_OK;
+    const fw_layout_fault *f = &layout->fault[0];
+    const char *text = fw_arena_printf(arena, "%s [FW-D%03d]", f->message, f->number);
+    FW_NEED(text);
+    if (layout->nfault > 1)
+        text = fw_arena_printf(arena, "%s; and %d more, marked in the drawing", text,
+                               layout->nfault - 1);
+    return add(s, "cannot be made", text);
+}
+
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 5 + (size_t)in->nflow;
+    size_t most = 6 + (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
     const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
@@ -205,6 +217,7 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     FW_TRY(fw_verdict_governing(arena, v, all, false, &s->governing_drawn, &s->governs));
     FW_TRY(fw_verdict_governing(arena, v, all, true, &s->governing, &s->governs));
     s->has_made = s->has_made && s->made.corner;
+    FW_TRY(layout_faults(arena, in->layout, s));
     FW_TRY(reasons(arena, v, s));
     FW_TRY(hinges(arena, s));
     FW_TRY(advice(arena, v, s));

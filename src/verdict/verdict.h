@@ -293,7 +293,8 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);
 /* lays out, builds and judges the device in every variant; verdict->variant must be an array of
-   nvariant with `variant` set. Layout trouble is no error here: `layout` is NULL then. */
+   nvariant with `variant` set. *layout: the drawing, or what can be shown of one that cannot be made
+   (its faults), which is not judged; NULL where there is neither. */
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);

@@ -10,8 +10,13 @@ const char fw_verdict_not_searched[] = "no change that would be accepted was sea
 
 static void unreachable(const fw_device *device, const fw_verdict_variant_verdict *v,
                         fw_diags *diags) {
+    const fw_place place = device->workspace[v->workspace.fail_box].place;
     char x[32], y[32], phi[32];
-    fw_diag_warning(diags, 201, device->workspace[v->workspace.fail_box].place,
+    for (size_t i = 0; i < diags->count; i++) /* reach is a matter of the links, not of the flow */
+        if (diags->item[i].number == 201 && diags->item[i].place.line == place.line &&
+            diags->item[i].place.column == place.column)
+            return;
+    fw_diag_warning(diags, 201, place,
                     "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
                     "turned by %s deg; the design is rejected",
                     fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
@@ -115,17 +120,17 @@ static fw_status first_attempt(fw_arena *arena, const fw_device *device, const f
     return attempt(arena, device, layout, options, &again, verdict);
 }
 
-/* the drawing, or NULL where the mechanics can be judged without it; its messages are then
-   warnings */
+/* the drawing, whose messages are warnings where the mechanics can be judged without it; *judged:
+   NULL where it cannot be made */
 static fw_status draw(fw_arena *arena, const fw_device *device, fw_diags *diags,
-                      const fw_layout **layout) {
+                      const fw_layout **layout, const fw_layout **judged) {
     fw_diags drawing = fw_diags_new(arena);
     *layout = NULL;
     fw_status status = fw_layout_build(arena, device, &drawing, layout);
     bool impossible = status == FW_GEOMETRY || status == FW_INPUT;
     if (drawing.failed) return FW_NOMEM;
     if (status != FW_OK && !impossible) return status;
-    if (impossible) *layout = NULL;
+    *judged = impossible ? NULL : *layout;
     bool fatal = impossible && fw_device_needs_shapes(device);
     for (size_t i = 0; i < drawing.count; i++) {
         const fw_diag *d = &drawing.item[i];
@@ -183,11 +188,12 @@ static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout) {
-    FW_TRY(draw(arena, device, diags, layout));
-    FW_TRY(take_inputs(arena, device, *layout, &options->fabricated_of, verdict));
+    const fw_layout *judged;
+    FW_TRY(draw(arena, device, diags, layout, &judged));
+    FW_TRY(take_inputs(arena, device, judged, &options->fabricated_of, verdict));
     int nvariant = verdict->nvariant;
     fw_verdict_variant_verdict *variant = verdict->variant;
-    FW_TRY(first_attempt(arena, device, *layout, options, diags, verdict));
+    FW_TRY(first_attempt(arena, device, judged, options, diags, verdict));
 
     /* a band that straddles 1 for want of computing: once more, closer. Numbers first: they cost
        less than better hinges, which then may not be needed */
@@ -199,11 +205,11 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
         fw_verdict_options tight = fw_verdict_tighter(options, refinement);
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
         *verdict = (fw_verdict){.variant = variant, .nvariant = nvariant};
-        FW_TRY(attempt(arena, device, *layout, &tight, &again, verdict));
+        FW_TRY(attempt(arena, device, judged, &tight, &again, verdict));
         verdict->accuracy_wanted = options->motion.accuracy;
     }
-    verdict->layout = *layout;
-    FW_TRY(as_fabricated(arena, device, *layout, options, verdict));
+    verdict->layout = judged;
+    FW_TRY(as_fabricated(arena, device, judged, options, verdict));
     if (verdict->decision != FW_ACCEPT) verdict->advice_note = fw_verdict_not_searched;
     return FW_OK;
 }

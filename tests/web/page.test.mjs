@@ -31,9 +31,17 @@ describe("the six-bar", () => {
 
     test("a verdict with the governing hinge, a bar for every hinge", async () => {
         await verdict(page, "accept");
-        const banner = await page.textContent("#banner");
         const told = JSON.parse(execFileSync(program, ["check", server.file, "--corners", "none", "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
-        assert.match(banner, new RegExp(`Hinge ${told.governing.id} governs: ${(100 * told.governing.utilisation).toPrecision(3)} % .*of its strength limit`));
+        // in the same words as the terminal: of the drawing at first, as it will be made as soon as that is known
+        const first = await page.evaluate(() => globalThis.flexwright.state.preview);
+        assert.deepEqual(first.verdict.summary, told.summary);
+        assert.deepEqual(first.verdict.governing, told.governing);
+        await page.waitForSelector(".as-drawn:text-is('as it will be made')");
+        const made = JSON.parse(execFileSync(program, ["check", server.file, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
+        const lines = await page.locator("#banner .top-line").allTextContents();
+        assert.equal(lines.length, made.summary.length);
+        made.summary.forEach((line, i) => assert.equal(lines[i].replace(/[: ]/g, ""), `${line.label}${line.text}`.replace(/[: ]/g, "")));
+        assert.match(await page.locator(".bar.governs").getAttribute("aria-label"), new RegExp(`^Hinge ${made.governing.id}: `));
         assert.equal(await page.locator(".bar").count(), told.hinges.length);
         const flow = told.flows[1];
         await page.selectOption('select[aria-label="Utilisation in"]', flow.id);

@@ -9,7 +9,7 @@ const save = (page, name) => page.screenshot({ path: join(source, "docs/pictures
 
 const server = await serve("reference-six-bar");
 const page = await open(server, size);
-await page.waitForSelector("#banner:has-text('As fabricated')", { timeout: 30000 });
+await page.waitForSelector("#banner:has-text('as it will be made')", { timeout: 30000 });
 await page.waitForTimeout(300);
 await save(page, "page-motion.png");
 
@@ -35,7 +35,7 @@ await server.stop();
 
 const tendons = await serve("four-tendons");
 const moving = await open(tendons, size);
-await moving.waitForSelector("#banner:has-text('As fabricated')", { timeout: 60000 });
+await moving.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
 await moving.waitForTimeout(300);
 await save(moving, "page-cables.png");
 await close(moving);
@@ -46,7 +46,7 @@ const accuracy = await open(costs, size);
 await view(accuracy, "accuracy");
 await accuracy.click('button:has-text("Measure the trade-off")');
 await computed(accuracy, "accuracy", 240000);
-await accuracy.waitForSelector("#banner:has-text('As fabricated')", { timeout: 60000 });
+await accuracy.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
 await accuracy.waitForTimeout(300);
 await save(accuracy, "page-accuracy.png");
 await close(accuracy);

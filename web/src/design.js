@@ -79,7 +79,8 @@ const ask = latest(
 
 function take(answer, input) {
     state.diagnostics = answer.diagnostics ?? [];
-    const good = answer.status === "ok";
+    const shown = answer.marks?.length > 0 && answer.bodies?.length > 0; // a layout that cannot be made
+    const good = answer.status === "ok" || (answer.status === "failed" && shown);
     if (good) {
         state.preview = answer;
         state.stale = false;

@@ -42,8 +42,9 @@ export class Mechanism {
         this.view.world.append(this.under, this.ghost, this.parts, this.attached.group, this.above);
         this.labels = s("g", { class: "labels" });
         this.arrows = s("g", { class: "arrows" });
+        this.tags = s("g", { class: "mark-tags" });
         this.bar = s("g", { class: "scale-bar", "aria-hidden": "true" });
-        this.view.overlay.append(this.attached.tags, this.arrows, this.labels, this.bar);
+        this.view.overlay.append(this.attached.tags, this.arrows, this.labels, this.tags, this.bar);
         this.bodies = [];
         this.flexures = [];
         this.pins = [];
@@ -63,11 +64,14 @@ export class Mechanism {
     /** Takes a new device; keeps pan and zoom. */
     show(preview) {
         const shape = JSON.stringify([preview.bodies, preview.flexures, preview.pins.map((p) => p.id)]);
+        const marks = JSON.stringify(preview.marks ?? []);
         const attached = JSON.stringify([preview.scene_box_um, preview.ties, preview.springs, preview.loads]);
         this.preview = preview;
-        if (shape === this.shape && attached === this.attachedShape) return;
+        if (shape === this.shape && attached === this.attachedShape && marks === this.marksShape) return;
         this.rest = restOf(preview);
         if (shape !== this.shape) this.#parts(preview);
+        if (shape !== this.shape || marks !== this.marksShape) this.#marks(preview);
+        this.marksShape = marks;
         const q = shape === this.shape && this.q ? this.q : this.rest;
         this.shape = shape;
         this.attachedShape = attached;
@@ -101,6 +105,22 @@ export class Mechanism {
             return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
         });
         this.#pins(preview, index, ground);
+    }
+
+    /** Why the layout cannot be made, or the device is rejected: parts and places in the warning colour. */
+    #marks(preview) {
+        const marks = preview.marks ?? [];
+        const bodies = new Set(marks.flatMap((m) => m.bodies));
+        preview.bodies.forEach((b, i) => this.bodies[i].classList.toggle("faulty", bodies.has(b.id)));
+        const hinges = new Set(marks.flatMap((m) => m.hinges));
+        for (const pin of this.pins) pin.g.classList.toggle("faulty", hinges.has(pin.id));
+        this.above.querySelectorAll(".overlap").forEach((e) => e.remove());
+        this.above.append(...marks.flatMap((m) => m.overlap.map((d) => s("path", { d, class: "overlap", "fill-rule": "evenodd" }))));
+        this.marked = marks.map((m, i) => ({ at: m.at_um ?? preview.pins.find((p) => p.id === m.hinges[0])?.at_um, m, i })).filter((x) => x.at);
+        this.tags.replaceChildren(...this.marked.map((x) => {
+            x.g = s("g", { class: "mark-tag" }, s("title", {}, `${x.m.text}${x.m.code ? ` [${x.m.code}]` : ""}`), s("circle", { r: 8 }), s("text", { "text-anchor": "middle", y: 3.7 }, String(x.i + 1)));
+            return x.g;
+        }));
     }
 
     #pins(preview, index, ground) {
@@ -193,6 +213,13 @@ export class Mechanism {
             const far = Math.hypot(dx, dy) || 1; // beside the hinge, towards the middle of the picture
             const out = Math.min(38, 12 + 90 * this.view.k);
             pin.g.setAttribute("transform", `translate(${(x - (dx / far) * out * 1.5).toFixed(1)} ${(y - (dy / far) * out + 4).toFixed(1)})`);
+        }
+        const taken = []; // numbers of one place stand beside each other
+        for (const x of this.marked ?? []) {
+            let [px, py] = this.view.toScreen(...x.at);
+            while (taken.some((t) => Math.hypot(t[0] - px, t[1] - py) < 16)) px += 17;
+            taken.push([px, py]);
+            x.g.setAttribute("transform", `translate(${px.toFixed(1)} ${py.toFixed(1)})`);
         }
         this.attached.name((x, y) => this.view.toScreen(x, y), this.view.k);
         for (const load of this.loads) this.#load(load);

@@ -9,7 +9,7 @@ import { lookAt, on, state } from "./store.js";
 
 const SLOW_S = 3;
 const MOST = 100; // diagnostics in a list
-const ORDER = ["accept", "inconclusive", "reject"]; // the worse one counts
+const MOST_LINES = 5; // of the banner
 const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
 };
@@ -56,7 +56,21 @@ export class Verdict {
         this.banner.className = "banner";
         delete this.banner.dataset.verdict;
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
+        if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, state.preview ? "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same." : "No verdict yet."));
+    }
+
+    /** The layout cannot be made: the picture has its marks. */
+    #cannot() {
+        this.banner.className = "banner reject";
+        this.banner.dataset.verdict = "failed";
+        const marks = state.preview.marks ?? [];
+        this.banner.replaceChildren(
+            h("div", { class: "decision" }, icon("cross"), h("strong", {}, "Cannot be made"), h("span", { class: "as-drawn" }, "no verdict without a layout")),
+            ...marks.slice(0, MOST_LINES).map((m, i) => h("p", { class: "mark-line", title: m.text }, h("span", { class: "mark-number" }, String(i + 1)), ` ${m.label}`, m.code ? h("span", { class: "code" }, ` ${m.code}`) : null)),
+            marks.length > MOST_LINES ? h("p", {}, `and ${marks.length - MOST_LINES} more`) : "",
+            h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
+        this.last = "failed";
     }
 
     /** Mistakes stand on top; what is only to be known stands last. */
@@ -88,21 +102,20 @@ export class Verdict {
             this.#effects();
             return this.#cost();
         }
-        const made = this.#made();
-        const decision = ORDER[Math.max(ORDER.indexOf(v.verdict), made ? ORDER.indexOf(made.verdict) : 0)];
-        const [word, sign] = WORDS[decision] ?? WORDS.inconclusive;
-        const g = v.governing;
-        const changed = this.last !== decision;
-        this.last = decision;
-        this.banner.className = `banner ${decision}`;
-        this.banner.dataset.verdict = decision;
+        const full = this.#full();
+        const top = full ?? v; // the same document: as it will be made, or a first look at the drawing
+        const [word, sign] = WORDS[top.verdict] ?? WORDS.inconclusive;
+        const lines = top.summary ?? [];
+        const changed = this.last !== top.verdict;
+        this.last = top.verdict;
+        this.banner.className = `banner ${top.verdict}`;
+        this.banner.dataset.verdict = top.verdict;
         this.banner.replaceChildren(
-            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, made ? "as fabricated too" : "as drawn")),
-            g || !v.reasons?.length ? h("p", {}, sentence(g)) : "",
-            made ? h("p", {}, `As fabricated: ${WORDS[made.verdict][0].toLowerCase()}, worst ${percent(made.worst)} of a limit.`) : "",
-            ...(v.reasons ?? []).slice(0, 3).map((r) => h("p", { class: "reason" }, r.text, r.code ? h("span", { class: "code" }, ` ${r.code}`) : null)),
+            h("div", { class: "decision" }, icon(sign), h("strong", {}, word), h("span", { class: "as-drawn", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
+            ...lines.slice(0, MOST_LINES).map(topLine),
+            lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
             h("p", { class: "stale-note", hidden: !state.stale }, "Last good answer: the present text has none."));
-        if (changed) announce(`${word}. ${sentence(g)}`);
+        if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v);
         this.#flows(v);
@@ -124,11 +137,22 @@ export class Verdict {
     }
 
     /** The full judgement, while it is of the present text. */
+    #full() {
+        return this.full.job && !this.full.stale ? this.full.job.result ?? null : null;
+    }
+
+    /** What the banner speaks of. */
+    #basis(full) {
+        if (full) return full.flows.some((f) => f.as_fabricated) ? "as it will be made" : "as drawn";
+        const p = state.preview;
+        if (!p.provisional) return "as drawn";
+        return p.left_out?.some((x) => x.what === "corners") ? "as drawn; corners not run yet" : "as drawn; a first look";
+    }
+
+    /** Of every hinge as made. */
     #made() {
-        const full = this.full.job && !this.full.stale ? this.full.job.result : null;
-        if (!full) return null;
-        const of = (x) => x.as_fabricated?.utilisation ?? x.utilisation ?? 0;
-        return { verdict: full.verdict, hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])), worst: Math.max(0, ...full.flows.flatMap((f) => f.hinges.map(of))) };
+        const full = this.#full();
+        return full && { hinges: (flow) => new Map((full.flows.find((f) => f.id === flow) ?? full).hinges.map((x) => [x.id, x.as_fabricated?.utilisation])) };
     }
 
     #bars(v) {
@@ -137,7 +161,7 @@ export class Verdict {
         state.flow = this.whose.value;
         const own = v.flows.find((f) => f.id === state.flow);
         const list = own?.hinges ?? v.hinges;
-        const governing = own ? own.governing : v.governing;
+        const governing = own ? own.governing : (this.#full() ?? v).governing; // that of the banner
         if (!list.length) {
             this.bars.replaceChildren(h("p", { class: "empty" }, "No motion, no utilisation."));
             return;
@@ -179,7 +203,7 @@ export class Verdict {
             const reasons = flow.reasons ?? [];
             return h("details", { class: `flow ${own?.verdict ?? ""}` },
                 h("summary", {}, h("span", { class: "flow-name" }, name), h("span", { class: `chip ${made === true ? "good" : made === false ? "bad" : "open"}` }, word)),
-                own?.governing ? h("p", {}, sentence(own.governing)) : null,
+                own?.governing ? h("p", {}, asDrawn(own.governing)) : null,
                 reasons.length ? h("ul", {}, reasons.map((r) => h("li", {}, r))) : h("p", {}, "Nothing speaks against it."));
         }));
     }
@@ -239,11 +263,19 @@ function judging() {
     return Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined));
 }
 
-export function sentence(g) {
-    if (!g) return "No hinge carries a limit.";
+/** A line of the top of the result; long ones of what is not guaranteed open on demand. */
+function topLine(line) {
+    const class_ = `top-line ${/^(rejected|cannot)/.test(line.label) ? "bad" : line.label === "do" ? "do" : ""}`;
+    const [where, ...rest] = line.text.split(": ");
+    if (!/^not guaranteed/.test(line.label) || rest.length === 0) return h("p", { class: class_ }, h("b", {}, `${line.label}: `), line.text);
+    return h("details", { class: class_ }, h("summary", {}, h("b", {}, `${line.label} `), where), h("p", {}, rest.join(": ")));
+}
+
+/** Of one flow, whose drawing alone was looked at. */
+function asDrawn(g) {
     const where = g.t_s === null || g.t_s === undefined ? "at a required pose" : `in ${g.scene} at ${si(g.t_s, "s")}`;
     const band = g.utilisation_band ? ` (${number(g.utilisation_band[0] * 100, 2)} to ${number(g.utilisation_band[1] * 100, 2)} %)` : "";
-    return `Hinge ${g.id} governs: ${percent(g.utilisation)}${band} of its ${g.criterion ?? "elastic"} limit, ${where}, ${g.flow}.`;
+    return `As drawn hinge ${g.id} uses ${percent(g.utilisation)}${band} of its ${g.criterion ?? "elastic"} limit, ${where}.`;
 }
 
 function bar(hinge, most, governing, made) {

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A layout that cannot be made is shown all the same: its faults with their places, and the pieces
+   that have an outline. docs/theory/layout.md, section 12 */
+#include "layout/draw.h"
+#include <math.h>
+#include <string.h>
+
+enum { MOST_FAULTS = FW_DIAG_MOST };
+
+const fw_geometry_vec2 fw_layout_nowhere = {(double)NAN, (double)NAN};
+
+fw_layout_fault fw_layout_fault_at(fw_geometry_vec2 at) {
+    return (fw_layout_fault){.at = at};
+}
+
+/* number 0: of any */
+static const fw_diag *last_error(const fw_diags *diags, int number) {
+    for (size_t i = diags->count; i-- > 0;)
+        if (diags->item[i].severity == FW_ERROR && (!number || diags->item[i].number == number))
+            return &diags->item[i];
+    return NULL;
+}
+
+fw_status fw_layout_fault_keep(fw_layout_drawing *d, fw_layout_fault fault) {
+    fw_layout *l = d->layout;
+    const fw_diag *said = last_error(d->diags, fault.number);
+    if (d->diags != d->own || !said || d->diags->dropped > 0 || l->nfault == MOST_FAULTS)
+        return FW_OK;
+    if (l->nfault == d->fault_capacity) {
+        int more = d->fault_capacity ? 2 * d->fault_capacity : 8;
+        fw_layout_fault *grown = fw_arena_array(d->arena, fw_layout_fault, (size_t)more);
+        FW_NEED(grown);
+        if (l->nfault > 0) memcpy(grown, l->fault, (size_t)l->nfault * sizeof *grown);
+        l->fault = grown;
+        d->fault_capacity = more;
+    }
+    fault.number = said->number;
+    fault.message = said->message;
+    l->fault[l->nfault++] = fault;
+    return FW_OK;
+}
+
+fw_status fw_layout_fault_rest(fw_layout_drawing *d, int before, int body) {
+    if (d->layout->nfault > before) return FW_OK;
+    fw_layout_fault fault = fw_layout_fault_at(fw_layout_nowhere);
+    fault.body[fault.nbody++] = body;
+    return fw_layout_fault_keep(d, fault);
+}
+
+/* ---- what can be shown ---- */
+
+static fw_status add_outline(fw_layout_drawing *d, int body, const fw_geometry_contour *contour) {
+    return fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, body, FW_NONE, fw_layout_body_label(d, body),
+                                 contour);
+}
+
+/* what a description draws of a body: united where that was possible, else each shape by itself */
+static fw_status show_shapes(fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
+    const fw_geometry_pose pose = {b->x_m, b->y_m, b->phi_rad};
+    const fw_geometry_region *solid = d->shapes ? &d->shapes[body].solid : NULL;
+    for (int i = 0; solid && i < solid->count; i++)
+        FW_TRY(add_outline(d, body, &solid->contour[i]));
+    if ((solid && solid->count > 0) || !isfinite(b->x_m + b->y_m + b->phi_rad)) return FW_OK;
+    for (int i = 0; i < b->nshape; i++) {
+        fw_geometry_contour world;
+        if (b->shape[i].text || b->shape[i].hole) continue;
+        FW_TRY(fw_geometry_contour_transform(d->arena, &b->shape[i].contour, pose, false, &world));
+        FW_TRY(add_outline(d, body, &world));
+    }
+    return FW_OK;
+}
+
+static fw_status show_plate(fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
+    double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
+    const fw_layout_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
+                                   sin(b->plate_angle_rad), false};
+    const fw_geometry_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+    fw_geometry_contour plate;
+    FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
+    return add_outline(d, body, &plate);
+}
+
+/* as wide as stated, from the first hinge to every other one, or to the body's own place */
+static fw_status show_bars(fw_layout_drawing *d, int body) {
+    enum { MOST = 16 };
+    const fw_device_body *b = &d->device->body[body];
+    int joint[MOST], n = fw_layout_body_joints(d->device, body, joint, MOST);
+    if (n == 0) return FW_OK;
+    fw_geometry_vec2 from = fw_layout_joint_point(d->device, joint[0]);
+    for (int i = 1; i < (n == 1 ? 2 : n) && i < MOST; i++) {
+        fw_geometry_vec2 to =
+            n == 1 ? fw_v(b->x_m, b->y_m) : fw_layout_joint_point(d->device, joint[i]);
+        fw_geometry_contour bar;
+        if (!(fw_norm(fw_sub(to, from)) > 0.0)) continue;
+        FW_TRY(fw_geometry_contour_bar(d->arena, from, to, b->width_m, &bar));
+        FW_TRY(add_outline(d, body, &bar));
+    }
+    return FW_OK;
+}
+
+/* a body without an outline of its own; the sketch of it is no measure */
+static fw_status show_parts(fw_layout_drawing *d, int body) {
+    const fw_device_body *b = &d->device->body[body];
+    d->layout->body[body] = (fw_layout_body_layout){0};
+    if (d->raw[body].count > 0) return add_outline(d, body, &d->raw[body]);
+    FW_TRY(show_shapes(d, body));
+    if (b->plate_width_m > 0.0) return show_plate(d, body);
+    return b->width_m > 0.0 ? show_bars(d, body) : FW_OK;
+}
+
+/* heads of hinges whose bodies are not drawn, and all flexures */
+static fw_status show_hinge(fw_layout_drawing *d, int j) {
+    const fw_layout_hinge_plan *plan = &d->hinge[j];
+    for (int k = 0; k < 2; k++) {
+        const fw_layout_side *side = &plan->side[k];
+        bool drawn = d->plain[fw_layout_drawing_slot(d, side->body, j)].count > 0;
+        if (!drawn && side->head.count > 0) FW_TRY(add_outline(d, side->body, &side->head));
+    }
+    const char *label = fw_arena_printf(d->arena, "flexure of hinge %s", d->device->revolute[j].id);
+    return fw_layout_drawing_add(d, FW_ROLE_FLEXURE, plan->side[0].body, j, label, &plan->flexure);
+}
+
+static fw_status show_bodies(fw_layout_drawing *d) {
+    for (int s = 0; s < d->nslot; s++) {
+        int body = s < d->device->nbody ? s : FW_GROUND;
+        const fw_geometry_contour *whole = fw_layout_drawing_outline(d, s);
+        if (whole->count == 0) {
+            if (body >= 0) FW_TRY(show_parts(d, body));
+            continue;
+        }
+        FW_TRY(add_outline(d, body, whole));
+        for (int i = 0; d->caps && body >= 0 && i < d->caps[body].count; i++)
+            FW_TRY(add_outline(d, body, &d->caps[body].contour[i]));
+    }
+    return FW_OK;
+}
+
+fw_status fw_layout_show(fw_layout_drawing *d) {
+    FW_TRY(show_bodies(d));
+    for (int i = 0; i < d->nattachment; i++)
+        if (d->attachment[i].tether.count > 0)
+            FW_TRY(fw_layout_drawing_add(d, FW_ROLE_TETHER, FW_GROUND, FW_NONE, "tether",
+                                         &d->attachment[i].tether));
+    for (int j = 0; d->hinge && j < d->device->nrevolute; j++)
+        if (d->layout->hinge[j].drawn && d->hinge[j].flexure.count > 0) FW_TRY(show_hinge(d, j));
+    for (int i = 0; i < d->ncomb; i++)
+        if (!d->comb[i].off && d->comb[i].stator.count > 0)
+            FW_TRY(fw_layout_drawing_add(d, FW_ROLE_STRUCTURE, FW_ISLAND, FW_NONE,
+                                         "stator of a comb drive", &d->comb[i].stator));
+    return FW_OK;
+}
