@@ -19,6 +19,7 @@ typedef struct fw_clearance_edge {
     int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
     int other; /* the solid on the other side of that hinge; FW_NONE */
     int held;  /* of a tether: the body that it holds; FW_NONE: none */
+    bool always; /* a wall of the die's edge, whatever a scene lets its body meet on the ground */
     const char *label;
 } fw_clearance_edge;
 
@@ -37,7 +38,8 @@ typedef struct fw_clearance_things {
 } fw_clearance_things;
 
 /* Outlines of bodies with their halves of hinges, rotor fingers, eyelets and stubs; frame, base,
-   anchors, tethers and stators. Lanes, lettering and marks are no walls. */
+   anchors, tethers and stators, and where the dicing lane begins. Lettering and marks are no walls.
+ */
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
                                  const fw_mechanism *mechanism, fw_clearance_things *things);
 
@@ -49,6 +51,8 @@ typedef struct fw_clearance_path { /* pieces of one motion, one after the other 
     int nq, npiece, capacity;
     bool begun;    /* `start` is there */
     double *start; /* (nq) where the motion begins; stays when pieces go */
+    int njump;     /* pieces that are straight ways of jumps; stays, too */
+    double jump_s, jump_m; /* the largest of them: when, and how far a centre of mass goes */
     int *nodes;    /* (capacity) coefficients of a piece: its degree and one */
     double *t_s;   /* (capacity x 2) from, to */
     double *bern;  /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
@@ -107,7 +111,8 @@ static inline fw_clearance_least fw_clearance_nothing(void) {
 }
 
 typedef struct fw_clearance_wish {
-    const bool *may_meet; /* (nsolid x nsolid) pairs of which nothing is said; NULL: none */
+    /* (nsolid x nsolid) pairs of which nothing is said, but for the die's edge; NULL: none */
+    const bool *may_meet;
     double relative;      /* error wanted of the least clearance, beside 1 nm */
     double off;           /* of what a pair is moved by the motion may be off by so much */
     double enough_m;      /* a bound of this is enough, and the least is then not looked for;

@@ -21,8 +21,9 @@ typedef struct fw_clearance_pair {
 
 fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearance_pose pose,
                                     fw_geometry_vec2 drawn);
+/* walls: only edges of the ground that are walls whatever a scene lets meet */
 fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
-                                fw_clearance_pair *pair);
+                                bool walls, fw_clearance_pair *pair);
 bool fw_clearance_may_meet(const fw_clearance_pair *pair, const fw_clearance_edge *p,
                            const fw_clearance_edge *q);
 void fw_clearance_pair_boxes(fw_clearance_pair *pair);

@@ -129,12 +129,14 @@ static double boxes_apart(const search *s, const fw_clearance_pair *pair,
 static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int b) {
     const int nsolid = s->things->nbody + 1;
     if (s->things->solid[a].count == 0 || s->things->solid[b].count == 0) return FW_OK;
-    if (s->wish->may_meet && s->wish->may_meet[a * nsolid + b]) return FW_OK;
+    bool walls = s->wish->may_meet && s->wish->may_meet[a * nsolid + b];
+    if (walls && b != s->things->nbody) return FW_OK;
     const double still_m = 1e-10;
     fw_clearance_pair *pair = &s->pair[s->npair];
     fw_clearance_pose middle[2];
     double slack;
-    FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, pair));
+    FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, walls, pair));
+    if (pair->count[0] == 0 || pair->count[1] == 0) return FW_OK;
     node first = {.low_m = -1, .pair = s->npair, .region = *all};
     s->domain->rough(s->domain->context, pair, all, middle, &slack, &s->moved_m[s->npair]);
     if (slack < still_m) return FW_OK;

@@ -182,6 +182,32 @@ static fw_status add_flexure(building *b, const fw_layout_piece *p) {
     return FW_OK;
 }
 
+/* Nothing that moves may be where the saw goes: the lane begins where the frame ends. */
+static fw_status add_lane(building *b) {
+    fw_geometry_box frame = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < b->layout->npiece; i++) {
+        const fw_layout_piece *p = &b->layout->piece[i];
+        if (p->role == FW_ROLE_FRAME) frame = fw_box_join(frame, fw_geometry_contour_box(&p->contour));
+    }
+    if (!(frame.x1 > frame.x0)) return FW_OK;
+    const fw_geometry_vec2 corner[5] = {{frame.x0, frame.y0},
+                                        {frame.x1, frame.y0},
+                                        {frame.x1, frame.y1},
+                                        {frame.x0, frame.y1},
+                                        {frame.x0, frame.y0}};
+    for (int i = 0; i < 4; i++) {
+        const fw_clearance_edge edge = {
+            .segment = {.kind = FW_LINE, .a = corner[i], .b = corner[i + 1]},
+            .hinge = FW_NONE,
+            .other = FW_NONE,
+            .held = FW_NONE,
+            .always = true,
+            .label = "dicing lane"};
+        FW_TRY(keep(b, b->things->nbody, &edge));
+    }
+    return FW_OK;
+}
+
 /* As drawn; the mechanism says where centres of mass are. Cost: every segment against every hinge
    of its body. Test: test_clearance.c */
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
@@ -197,6 +223,7 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const
         if (p->role == FW_ROLE_FLEXURE && p->joint >= 0 && layout->hinge[p->joint].drawn)
             FW_TRY(add_flexure(&b, p));
     }
+    FW_TRY(add_lane(&b));
     for (size_t i = 0; i < n; i++) {
         fw_clearance_solid *s = &things->solid[i];
         if (i + 1 < n) {

@@ -68,6 +68,7 @@ fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t) {
     FW_TRY(status);
     r->evaluated++;
     fw_statics_equilibrium_rate(w, r->rate);
+    fw_statics_quasi_static_jump(r, t);
     keep(r, t, &r->from);
     return FW_OK;
 }

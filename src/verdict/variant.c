@@ -243,7 +243,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, v));
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
         if (v->motion[i] && seen[0]) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed,

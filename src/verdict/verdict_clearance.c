@@ -102,6 +102,8 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
     if (!piece) {
         empty(w);
         w->path.begun = false;
+        w->path.njump = 0;
+        w->path.jump_m = 0;
         w->parts = false;
         w->least = fw_clearance_nothing();
         w->status = FW_OK;
@@ -207,8 +209,20 @@ static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, con
     return FW_OK;
 }
 
+/* where a sequence of equilibria jumps nothing says which way the mechanism takes */
+static void warn_jump(const fw_device_scene *scene, const fw_clearance_path *path,
+                      fw_diags *diags) {
+    char t[32], by[32];
+    fw_diag_warning(diags, 296, scene->place,
+                    "scene %s goes at once, after %s ms, from one equilibrium to another (%s um of a "
+                    "body's centre of mass): between them clearances are those of the straight way, "
+                    "and the real one is not known without inertia",
+                    scene->name, fw_number_text(t, sizeof t, 1e3 * path->jump_s, 4),
+                    fw_number_text(by, sizeof by, 1e6 * path->jump_m, 3));
+}
+
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
-                                     const fw_layout *layout, bool brief,
+                                     const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v) {
     const fw_dynamics_motion *motion = v->motion[i];
     if (!v->things || !motion || motion->ended || !motion->observed) return FW_OK;
@@ -219,6 +233,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     FW_TRY(w->status);
     w->wish.off = w->parts ? fmax(off, fw_off_at_most) : off;
     w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
+    if (w->path.njump > 0) warn_jump(scene, &w->path, diags);
     FW_TRY(consume(w));
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
