@@ -113,6 +113,7 @@ static inline fw_clearance_least fw_clearance_nothing(void) {
 typedef struct fw_clearance_wish {
     /* (nsolid x nsolid) pairs of which nothing is said, but for the die's edge; NULL: none */
     const bool *may_meet;
+    const bool *left_out; /* (nsolid) solids of which nothing is said; NULL: none */
     double relative;      /* error wanted of the least clearance, beside 1 nm */
     double off;           /* of what a pair is moved by the motion may be off by so much */
     double enough_m;      /* a bound of this is enough, and the least is then not looked for;
@@ -129,12 +130,12 @@ fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *thing
 
 /* ---- clearance_box.c: the least clearance over a required box of the six-bar's poses ---- */
 
-/* Every pose of the box, on the drawn branch. What rides on the six-bar without being of it is not
-   looked at: its pose is not the platform's matter. false in *known: no such proof for this
-   mechanism */
+/* Every pose of the box, on the drawn branch. What rides on the six-bar goes with the body that it
+   hangs on; *open: a body whose pose does not follow from the platform's, which is not looked at;
+   FW_NONE: none. false in *known: no such proof for this mechanism */
 fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things,
                               const fw_mechanism *mechanism, const fw_device_workspace_box *box,
-                              const fw_clearance_wish *wish, fw_clearance_least *least,
-                              bool *known);
+                              const fw_clearance_wish *wish, fw_clearance_least *least, bool *known,
+                              int *open);
 
 #endif

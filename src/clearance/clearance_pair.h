@@ -50,6 +50,13 @@ void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_po
                             fw_clearance_slack *slack);
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
 
+/* ---- clearance_riders.c: what rides on the six-bar ---- */
+
+/* body of the six-bar that a body goes with, FW_GROUND, or: its pose is open; not seen yet */
+enum { FW_CLEARANCE_OPEN = FW_GROUND - 1, FW_CLEARANCE_NOT_SEEN = FW_GROUND - 2 };
+/* with: (nbody) */
+void fw_clearance_riders(const fw_mechanism *mechanism, int *with);
+
 /* ---- clearance_search.c: the least over all poses of a domain ---- */
 
 typedef struct fw_clearance_region { /* a part of a domain */
@@ -80,6 +87,8 @@ typedef struct fw_clearance_domain {
     /* into parts, how many; 0: too small */
     int (*split)(const void *context, const fw_clearance_region *region,
                  fw_clearance_region part[FW_CLEARANCE_PARTS]);
+    /* `bound` gives the pose in the middle of the region, part 0.5, as its middle poses */
+    bool middle_is_a_pose;
     /* NULL: there is no order */
     void (*first_meeting)(const void *context, const fw_clearance_pair *pair,
                           const fw_clearance_region *all, fw_clearance_least *least);

@@ -215,7 +215,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
-                     2; /* out of reach, as made */
+                     (size_t)device->nrevolute + 3; /* strips; out of reach, as made, riders */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);

@@ -17,7 +17,7 @@ static const double fw_clearance_relative = 2e-3;
 /* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
    One that is off by more is not decided. */
 static const double fw_off_at_most = 0.1;
-enum { MOST = 1000, MOST_EVER = 100000 };
+enum { MOST = 1000, MOST_IN_BOX = 400, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
     return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
@@ -255,18 +255,47 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     return give_reason(arena, c, where, v);
 }
 
-/* Required poses are what the platform is asked to take: their only errors are those of the walls. */
+/* once: what rides on the platform or on a link and does not go with it as drawn */
+static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
+                          fw_verdict_variant_verdict *v) {
+    const char *text;
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == 295 && v->reason[i].not_by_loads) return FW_OK;
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "how near body %s comes in the required workspace is not known: it rides on the "
+                "six-bar by a joint without a flexure or is pulled by a spring, so that its pose does "
+                "not follow from the platform's: hold it by a flexure or a weld",
+                device->body[body].id));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 295,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = 0.5,
+                                                  .not_by_loads = true,
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* Required poses are what the platform is asked to take: where it goes itself the only errors are
+   those of the walls. Links go by what their hinges are: as far off as motions with that model. */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v) {
     for (int i = 0; v->things && v->workspace.required && i < device->nworkspace; i++) {
         const fw_device_workspace_box *asked = &device->workspace[i];
         bool known;
+        int open;
         if (!v->workspace.asked[i] || !v->workspace.box_reachable[i]) continue;
         fw_clearance_wish wish = wish_of(device, layout, NULL);
+        wish.off = fw_verdict_model_error.motion;
+        wish.most = MOST_IN_BOX;
         if (brief) wish.enough_m = wish.needed_m;
         fw_clearance_least least = fw_clearance_nothing();
-        FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known));
+        FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known,
+                                   &open));
+        if (open != FW_NONE) FW_TRY(say_open(arena, device, open, v));
         if (!known || !least.known) continue;
         fw_verdict_clearance *c = &v->clearance[v->nclearance++];
         *c = (fw_verdict_clearance){.scene = "workspace",
@@ -275,7 +304,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                     .least = least,
                                     .wall_m = walls(layout),
                                     .required_m = required(device)};
-        decide(c, 0);
+        decide(c, wish.off);
         if (least.m <= 0) c->decision = FW_REJECT; /* a pose that is required meets */
         char x[32], y[32], phi[32];
         const char *where =
