@@ -19,6 +19,7 @@ typedef struct fw_clearance_edge {
     int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
     int other; /* the solid on the other side of that hinge; FW_NONE */
     int held;  /* of a tether: the body that it holds; FW_NONE: none */
+    bool bends;  /* a disc that holds a flexure */
     bool always; /* a wall of the die's edge, whatever a scene lets its body meet on the ground */
     const char *label;
 } fw_clearance_edge;
