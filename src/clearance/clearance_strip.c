@@ -10,20 +10,12 @@
      |p - W| <= |p drawn - W| + min(b(s), b(L - s)),
    about the hinge point W of the nearer body: a disc that goes with either body.
 
-   Against the edges of its own two bodies: seen from one of them a point is within b(s) of where it
-   is drawn, and within b(L - s) + d of where the other body carries it, turned by the hinge's
-   rotation th about W; d is what W goes by: the drift of a pure moment, and of a curvature between
-   -k and k whose mean is th/L at most L^2 (k^2 - (th/L)^2)/(4 k) (all of k one way, then all the
-   other). Parts of the strip and of the rotation are halved until either keeps them off.
-   In: layout, hinge (SI); out: radius (m); clear or not. Error: proved, to rounding. Cost: 100
-   distances a hinge. Source: docs/theory/clearance.md. Test: test_clearance_strip.c */
+   In: layout, hinge (SI); out: radius (m). Error: proved, to rounding. Cost: 24 points of an edge.
+   Source: docs/theory/clearance.md. Test: test_clearance_strip.c */
 #include "clearance/clearance_strip.h"
 #include "flexure/path.h"
 #include "geometry/segment.h"
 #include <math.h>
-
-enum { DEEPEST = 24, MOST_TRIES = 4096 };
-static const double fw_root_m = 50e-9; /* nearer to a root the strip is the root */
 
 /* ---- the strip ---- */
 
@@ -113,14 +105,16 @@ fw_clearance_bend fw_clearance_bend_of(const fw_mechanism *m, const fw_mechanism
     double strain = allowed / m->device->safety_factor / in->youngs_Pa;
     /* strains are stress over one modulus; along the softest direction there is more */
     if (x->known) strain *= fmax(1, (x->a0_per_Pa + fabs(x->a1_per_Pa)) * in->youngs_Pa);
-    fw_clearance_bend b = {.strain = strain, .width_m = least_width(in)};
+    fw_clearance_bend b = {
+        .strain = strain, .width_m = least_width(in), .forced_per_m = HUGE_VAL};
     b.curvature_per_m = 2 * strain / b.width_m;
-    b.turn_rad = hinge->closed_form.limit_angle_rad;
-    b.known = isfinite(b.curvature_per_m) && b.curvature_per_m > 0 && isfinite(b.turn_rad);
+    double roots = 2 * hinge->closed_form.root_length_m;
+    b.root_share = fmax(0, roots / (in->length_m + roots));
+    b.known = isfinite(b.curvature_per_m) && b.curvature_per_m > 0;
     return b;
 }
 
-static double bend_at(const fw_clearance_bend *b, double s_m) {
+double fw_clearance_bend_at(const fw_clearance_bend *b, double s_m) {
     return b->curvature_per_m * s_m * (s_m + b->width_m) / 2 + 2 * b->strain * s_m;
 }
 
@@ -133,7 +127,7 @@ static double farthest(const fw_geometry_segment *s, fw_geometry_vec2 from) {
     return far + fmin(length * length / (8 * s->radius), length / 2);
 }
 
-static fw_geometry_segment part_of(const fw_geometry_segment *s, double from, double to) {
+fw_geometry_segment fw_clearance_strip_cut(const fw_geometry_segment *s, double from, double to) {
     if (from <= 0 && to >= 1) return *s;
     return fw_geometry_segment_cut(s, from, fw_geometry_segment_point(s, from), to,
                                    fw_geometry_segment_point(s, to));
@@ -146,118 +140,13 @@ double fw_clearance_strip_reach(const fw_clearance_strip *strip, const fw_cleara
         const fw_clearance_strip_part *p = &strip->part[i];
         for (int k = 0; k < PIECES; k++) {
             double from = (double)k / PIECES, to = (double)(k + 1) / PIECES;
-            fw_geometry_segment s = part_of(&p->segment, from, to);
+            fw_geometry_segment s = fw_clearance_strip_cut(&p->segment, from, to);
             double s0 = p->from_m + from * (p->to_m - p->from_m);
             double s1 = p->from_m + to * (p->to_m - p->from_m);
-            double near = bend_at(bend, fmax(s0, s1));
-            double other = bend_at(bend, strip->length_m - fmin(s0, s1));
+            double near = fw_clearance_bend_at(bend, fmax(s0, s1));
+            double other = fw_clearance_bend_at(bend, strip->length_m - fmin(s0, s1));
             reach = fmax(reach, farthest(&s, strip->hinge->centre) + fmin(near, other));
         }
     }
     return reach;
-}
-
-/* ---- against its own two bodies ---- */
-
-typedef struct trial { /* a part of the strip and of the rotation, against one edge */
-    double from, to, turn[2];
-    int depth;
-} trial;
-
-typedef struct against {
-    const fw_clearance_strip *strip;
-    const fw_clearance_bend *bend;
-    const fw_geometry_segment *edge;
-    bool upper; /* the edge is the upper body's */
-    double wall_m;
-} against;
-
-/* what the hinge point of the other body goes by at these rotations */
-static double give(const against *a, const double turn[2]) {
-    const fw_clearance_bend *b = a->bend;
-    double k = b->curvature_per_m, length = a->strip->length_m;
-    double least = turn[0] <= 0 && turn[1] >= 0 ? 0 : fmin(fabs(turn[0]), fabs(turn[1]));
-    double mean = fmin(least / length, k);
-    return b->drift_m + length * length * (k * k - mean * mean) / (4 * k);
-}
-
-static fw_geometry_segment turned(const fw_geometry_segment *s, fw_geometry_vec2 about, double by) {
-    fw_geometry_segment out = *s;
-    out.a = vec_add(about, fw_geometry_vec_rotate(vec_sub(s->a, about), by));
-    out.b = vec_add(about, fw_geometry_vec_rotate(vec_sub(s->b, about), by));
-    out.centre = vec_add(about, fw_geometry_vec_rotate(vec_sub(s->centre, about), by));
-    return out;
-}
-
-/* walls come nearer; where root and strip are one they become thicker together */
-static bool keeps_off(double distance, double wall, double bent) {
-    return distance - fmin(wall, 0.5 * distance) > bent;
-}
-
-/* 1: kept off; 0: not by this; `wide`: the part is the longer one to be halved */
-static bool is_clear(const against *a, const fw_clearance_strip_part *p, const trial *t, bool *wide) {
-    fw_geometry_vec2 at, to;
-    const double length = a->strip->length_m;
-    fw_geometry_segment s = part_of(&p->segment, t->from, t->to);
-    double s0 = p->from_m + t->from * (p->to_m - p->from_m);
-    double s1 = p->from_m + t->to * (p->to_m - p->from_m);
-    double own = a->upper ? length - fmin(s0, s1) : fmax(s0, s1); /* from the edge's body */
-    double other = a->upper ? fmax(s0, s1) : length - fmin(s0, s1);
-    *wide = true;
-    if (own < fw_root_m) return true;
-    if (keeps_off(fw_geometry_segment_distance(&s, a->edge, &at, &to), a->wall_m,
-                  bend_at(a->bend, own)))
-        return true;
-    double turn = 0.5 * (t->turn[0] + t->turn[1]), half = 0.5 * (t->turn[1] - t->turn[0]);
-    const fw_geometry_segment r = turned(&s, a->strip->hinge->centre, turn);
-    double swept = half * farthest(&s, a->strip->hinge->centre);
-    double off = bend_at(a->bend, other) + give(a, t->turn) + swept;
-    *wide = fabs(s1 - s0) > 2 * swept;
-    return keeps_off(fw_geometry_segment_distance(&r, a->edge, &at, &to), a->wall_m, off);
-}
-
-static bool part_is_clear(const against *a, const fw_clearance_strip_part *p) {
-    trial stack[2 * DEEPEST + 2];
-    int n = 0;
-    stack[n++] = (trial){.to = 1, .turn = {-a->bend->turn_rad, a->bend->turn_rad}};
-    for (int tries = 0; n > 0; tries++) {
-        const trial now = stack[--n];
-        bool wide;
-        if (is_clear(a, p, &now, &wide)) continue;
-        if (now.depth == DEEPEST || tries == MOST_TRIES) return false;
-        trial half[2] = {now, now};
-        half[0].depth = half[1].depth = now.depth + 1;
-        if (wide)
-            half[0].to = half[1].from = 0.5 * (now.from + now.to);
-        else
-            half[0].turn[1] = half[1].turn[0] = 0.5 * (now.turn[0] + now.turn[1]);
-        stack[n++] = half[0];
-        stack[n++] = half[1];
-    }
-    return true;
-}
-
-/* label of the edge of its own two bodies that the strip is not proved to keep off; NULL: none */
-const char *fw_clearance_strip_meets(const fw_clearance_things *things,
-                                     const fw_clearance_strip *strip, const fw_clearance_bend *bend,
-                                     double wall_m, fw_geometry_vec2 *at) {
-    const double reach = fw_clearance_strip_reach(strip, bend) + wall_m;
-    const fw_geometry_vec2 w = strip->hinge->centre;
-    const fw_geometry_box about = {w.x, w.y, w.x, w.y};
-    for (int side = 0; side < 2; side++) {
-        int body = side ? strip->hinge->upper : strip->hinge->lower;
-        const fw_clearance_solid *solid =
-            &things->solid[body >= 0 && body < things->nbody ? body : things->nbody];
-        for (int i = 0; i < solid->count; i++) {
-            const fw_geometry_segment *edge = &solid->edge[i].segment;
-            const against a = {strip, bend, edge, side == 1, wall_m};
-            if (solid->edge[i].bends || fw_box_gap(fw_segment_box(edge), about) > reach) continue;
-            for (int k = 0; k < strip->count; k++)
-                if (!part_is_clear(&a, &strip->part[k])) {
-                    *at = fw_geometry_segment_point(edge, 0.5);
-                    return solid->edge[i].label;
-                }
-        }
-    }
-    return NULL;
 }

@@ -22,19 +22,30 @@ typedef struct fw_clearance_bend { /* bounds of what bends it */
     double strain;          /* of any fibre */
     double width_m;         /* the least */
     double curvature_per_m; /* change of it */
+    double forced_per_m;    /* of that, what forces add to a pure moment; HUGE_VAL: not known */
     double turn_rad;        /* of the hinge, either way */
-    double drift_m;         /* of the hinge point under a pure moment */
+    double root_share;      /* of that, what both roots take */
 } fw_clearance_bend;
+
+/* ---- clearance_strip.c ---- */
 
 fw_status fw_clearance_strip_of(fw_arena *arena, const fw_layout *layout,
                                 const fw_layout_piece *piece, fw_clearance_strip *strip);
+/* at the elastic limit with its safety factor; turn_rad is left 0 */
 fw_clearance_bend fw_clearance_bend_of(const fw_mechanism *mechanism,
                                        const fw_mechanism_hinge *hinge);
+/* what a point s_m from a root goes by against the body there, at most */
+double fw_clearance_bend_at(const fw_clearance_bend *bend, double s_m);
+/* the part between two parameters */
+fw_geometry_segment fw_clearance_strip_cut(const fw_geometry_segment *s, double from, double to);
 /* radius about the hinge point within which it stays */
 double fw_clearance_strip_reach(const fw_clearance_strip *strip, const fw_clearance_bend *bend);
-/* what of its own two bodies it is not proved to keep off, and where that is drawn; NULL: nothing */
-const char *fw_clearance_strip_meets(const fw_clearance_things *things,
-                                     const fw_clearance_strip *strip, const fw_clearance_bend *bend,
-                                     double wall_m, fw_geometry_vec2 *at);
+
+/* ---- clearance_bent.c ---- */
+
+/* an edge of its own two bodies that it is not proved to keep off; NULL: none */
+fw_status fw_clearance_strip_meets(fw_arena *arena, const fw_clearance_things *things,
+                                   const fw_clearance_strip *strip, const fw_clearance_bend *bend,
+                                   double wall_m, const fw_clearance_edge **met);
 
 #endif

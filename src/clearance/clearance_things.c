@@ -5,8 +5,6 @@
 #include "clearance/clearance_strip.h"
 #include "geometry/segment.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 enum { ROOM = 64 };
 static const double fw_on_circle_m = 1e-7;
@@ -170,10 +168,6 @@ static fw_status add_flexure(building *b, const fw_layout_piece *p) {
     if (hinge) bend = fw_clearance_bend_of(b->mechanism, hinge);
     double r = h->keep_out_m;
     if (strip.known && bend.known) r = fw_clearance_strip_reach(&strip, &bend);
-    if (getenv("FWDBG")) {
-        double far = 0; for (int i = 0; i < p->contour.count; i++) far = fmax(far, vec_distance(p->contour.segment[i].a, h->centre));
-        fprintf(stderr, "%s known %d %d reach %.1f far %.1f keepout %.1f k %.1f strain %.4f w %.2f L %.1f turn %.3f\n", p->label, strip.known, bend.known, 1e6*r, 1e6*far, 1e6*h->keep_out_m, bend.curvature_per_m, bend.strain, 1e6*bend.width_m, 1e6*strip.length_m, bend.turn_rad);
-    }
     const fw_geometry_vec2 c = h->centre, east = {c.x + r, c.y}, west = {c.x - r, c.y};
     for (int side = 0; side < 2; side++) {
         int solid = solid_of(b, side ? h->upper : h->lower);

@@ -382,6 +382,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     FW_TRY(in_series(arena, v));
+    FW_TRY(fw_verdict_clearance_strips(arena, layout, v));
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
         if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */
