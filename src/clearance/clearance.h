@@ -16,9 +16,9 @@
 /* a part of an outline, where it is drawn */
 typedef struct fw_clearance_edge {
     fw_geometry_segment segment;
-    int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
-    int other; /* the solid on the other side of that hinge; FW_NONE */
-    int held;  /* of a tether: the body that it holds; FW_NONE: none */
+    int hinge;   /* in whose own region it lies (keep-out circle); FW_NONE: in none */
+    int other;   /* the solid on the other side of that hinge; FW_NONE */
+    int held;    /* of a tether: the body that it holds; FW_NONE: none */
     bool bends;  /* a disc that holds a flexure */
     bool always; /* a wall of the die's edge, whatever a scene lets its body meet on the ground */
     const char *label;
@@ -50,14 +50,14 @@ enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
 
 typedef struct fw_clearance_path { /* pieces of one motion, one after the other */
     int nq, npiece, capacity;
-    bool begun;    /* `start` is there */
-    double *start; /* (nq) where the motion begins; stays when pieces go */
-    int njump;     /* pieces that are straight ways of jumps; stays, too */
+    bool begun;            /* `start` is there */
+    double *start;         /* (nq) where the motion begins; stays when pieces go */
+    int njump;             /* pieces that are straight ways of jumps; stays, too */
     double jump_s, jump_m; /* the largest of them: when, and how far a centre of mass goes */
-    int *nodes;    /* (capacity) coefficients of a piece: its degree and one */
-    double *t_s;   /* (capacity x 2) from, to */
-    double *bern;  /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
-    int of;        /* nodes that `fit` is for; 0: none yet */
+    int *nodes;            /* (capacity) coefficients of a piece: its degree and one */
+    double *t_s;           /* (capacity x 2) from, to */
+    double *bern;          /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
+    int of;                /* nodes that `fit` is for; 0: none yet */
     double fit[FW_CLEARANCE_NODES]
               [FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
 } fw_clearance_path;

@@ -9,6 +9,7 @@
      |f| <= g(th) = min(2 (k - m), k + m)
    (its other sign is at most twice as large), or what was seen of it, and a point goes off psi's curve by at most
      b(s) = g s^2/2 for s <= L/2, g (L^2/4 - (L - s)^2/2) beyond,
+     b(s) = g (s^2/2 - s^3/3L) of a straight strip of one width, where f is linear in s,
    and by at most k s (s + t)/2 off where it is drawn. What shear and the edges' own strain add is
    3 e s. Parts of both edges that the second bound keeps off an edge of the body are off at any th;
    for the others th is stepped from 0 to the largest rotation, either way, each step as long as their
@@ -28,6 +29,8 @@ typedef struct piece { /* of an edge, from the root of the body on */
     fw_geometry_segment segment;
     double from_m, to_m, share; /* share: psi/th in its middle */
     int start;                  /* first piece of the same edge */
+    fw_geometry_box box;
+    double bent_m; /* what it goes by against the body, at most */
 } piece;
 
 typedef struct seen { /* a strip from one of its bodies */
@@ -90,6 +93,8 @@ static void add_pieces(seen *v, const fw_clearance_strip_part *p, bool upper, in
         double c = upper ? 1 - share[PARTS - 1 - at] : share[at];
         q->share = 0.5 * v->bend->root_share + (1 - v->bend->root_share) * c;
         q->start = start;
+        q->box = fw_segment_box(&q->segment);
+        q->bent_m = fw_clearance_bend_at(v->bend, q->to_m);
     }
 }
 
@@ -140,10 +145,12 @@ static double forced(const seen *v, const piece *p, double turn) {
     double g = fmin(v->bend->forced_per_m, fmin(2 * fmax(0, k - m), k + m));
     double s = p->to_m, rest = length - s;
     double b = s <= 0.5 * length ? s * s / 2 : length * length / 4 - rest * rest / 2;
+    if (v->bend->straight) b = s * s / 2 - s * s * s / (3 * length); /* its moments are linear */
     return g * b + 3 * v->bend->strain * s + fw_parts_m;
 }
 
-static fw_geometry_segment placed(const fw_geometry_segment *s, fw_geometry_vec2 start, double turn) {
+static fw_geometry_segment placed(const fw_geometry_segment *s, fw_geometry_vec2 start,
+                                  double turn) {
     fw_geometry_segment out = *s;
     out.a = start;
     out.b = vec_add(start, fw_geometry_vec_rotate(vec_sub(s->b, s->a), turn));
@@ -171,8 +178,8 @@ static const close *step_through(const seen *v, const close *pair, int count, do
         for (int i = 0; i < count; i++) {
             const piece *p = &v->piece[pair[i].piece];
             fw_geometry_vec2 at, there;
-            double d = fw_geometry_segment_distance(&now[pair[i].piece], &pair[i].edge->segment, &at,
-                                                    &there);
+            double d = fw_geometry_segment_distance(&now[pair[i].piece], &pair[i].edge->segment,
+                                                    &at, &there);
             double speed = p->to_m * (p->share + p->to_m / v->strip->length_m);
             double left = (room(d, v->wall_m) - forced(v, p, turn)) / speed;
             if (left < lasts) lasts = left, worst = &pair[i];
@@ -184,24 +191,36 @@ static const close *step_through(const seen *v, const close *pair, int count, do
     return pair;
 }
 
+/* pieces that an edge may meet go to the list; false: it folds onto its own root there */
+static bool list_pairs(const seen *v, const fw_clearance_edge *edge, close *pair, int *count) {
+    const fw_geometry_box box = fw_segment_box(&edge->segment);
+    for (int i = 0; i < v->count; i++) {
+        const piece *p = &v->piece[i];
+        if (fw_box_gap(box, p->box) > p->bent_m + v->wall_m) continue;
+        if (kept_off(v, p, 0, 1, 0, &edge->segment)) continue;
+        if (p->from_m <= fw_root_m) return false;
+        pair[(*count)++] = (close){i, edge};
+    }
+    return true;
+}
+
 static fw_status from_body(fw_arena *arena, const fw_clearance_solid *solid, bool upper, seen *v,
                            const fw_clearance_edge **met) {
     int count = 0;
+    fw_geometry_box all;
+    double most = 0;
     FW_TRY(see(arena, v, upper));
-    close *pair = fw_arena_array(arena, close, (size_t)v->count * (size_t)solid->count + 1);
+    close *pair = fw_arena_raw(arena, (size_t)v->count * (size_t)solid->count * sizeof *pair + 1);
     fw_geometry_segment *now = fw_arena_array(arena, fw_geometry_segment, (size_t)v->count + 1);
     FW_NEED(pair && now ? pair : NULL);
-    for (int e = 0; e < solid->count && !*met; e++) {
+    for (int i = 0; i < v->count; i++) {
+        all = i ? fw_box_join(all, v->piece[i].box) : v->piece[i].box;
+        most = fmax(most, v->piece[i].bent_m + v->wall_m);
+    }
+    for (int e = 0; e < solid->count && v->count > 0 && !*met; e++) {
         const fw_clearance_edge *edge = &solid->edge[e];
-        const fw_geometry_box box = fw_segment_box(&edge->segment);
-        for (int i = 0; i < v->count && !edge->bends; i++) {
-            const piece *p = &v->piece[i];
-            double off = fw_clearance_bend_at(v->bend, p->to_m) + v->wall_m;
-            if (fw_box_gap(box, fw_segment_box(&p->segment)) > off) continue;
-            if (kept_off(v, p, 0, 1, 0, &edge->segment)) continue;
-            if (p->from_m <= fw_root_m) *met = edge; /* folds onto its own root */
-            pair[count++] = (close){i, edge};
-        }
+        if (edge->bends || fw_box_gap(fw_segment_box(&edge->segment), all) > most) continue;
+        if (!list_pairs(v, edge, pair, &count)) *met = edge;
     }
     for (int way = -1; way <= 1 && !*met && count > 0; way += 2) {
         const close *worst = step_through(v, pair, count, way * v->bend->turn_rad, now);

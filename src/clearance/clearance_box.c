@@ -136,14 +136,15 @@ static linear linear_of(const boxes *b, const part *known, int solid) {
     linear out = known->pose[with];
     if (with == solid) return out;
     const fw_clearance_solid *on = &b->things->solid[with];
-    turn t = {.at = out.middle.phi_rad - on->turned_rad, .rest = out.rest_rad, .most = out.rest_rad};
+    turn t = {
+        .at = out.middle.phi_rad - on->turned_rad, .rest = out.rest_rad, .most = out.rest_rad};
     for (int i = 0; i < 3; i++) {
         t.grad[i] = out.grad[2][i];
         t.most += fabs(t.grad[i]) * known->half[i];
     }
     fw_geometry_vec2 arm = carry(vec_sub(s->centre, on->centre), &t, &out);
-    out.middle = (fw_clearance_pose){out.middle.x_m + arm.x, out.middle.y_m + arm.y,
-                                     s->turned_rad + t.at};
+    out.middle =
+        (fw_clearance_pose){out.middle.x_m + arm.x, out.middle.y_m + arm.y, s->turned_rad + t.at};
     return out;
 }
 
@@ -292,7 +293,8 @@ static double moved(const void *context, const fw_clearance_pair *pair,
                     const fw_clearance_region *all) {
     const boxes *b = context;
     int with[2] = {goes_with(b, pair->a), goes_with(b, pair->b)};
-    bool required = (with[0] == 2 || with[0] == FW_GROUND) && (with[1] == 2 || with[1] == FW_GROUND);
+    bool required =
+        (with[0] == 2 || with[0] == FW_GROUND) && (with[1] == 2 || with[1] == FW_GROUND);
     return required ? 0 : moved_over(b, pair, all, 0);
 }
 

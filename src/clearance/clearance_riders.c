@@ -56,8 +56,7 @@ void fw_clearance_riders(const fw_mechanism *m, int *with) {
                 more |= spread(m->spring[i].body_a, m->spring[i].body_b, false, with);
         for (int i = 0; i < m->ndriver && !more; i++) {
             int pin = m->driver[i].revolute;
-            if (pin >= FW_SIX)
-                more |= spread(m->pin[pin].body_a, m->pin[pin].body_b, false, with);
+            if (pin >= FW_SIX) more |= spread(m->pin[pin].body_a, m->pin[pin].body_b, false, with);
         }
     }
     for (int i = LINKS; i < m->nbody; i++)

@@ -25,7 +25,8 @@ static bool joins(const fw_layout *layout, const fw_geometry_segment *joint, int
         if (p->role == FW_ROLE_FLEXURE || p->body != body) continue;
         for (int k = 0; k < p->contour.count; k++) {
             const fw_geometry_segment *s = &p->contour.segment[k];
-            if ((s->flags & FW_SEGMENT_JOINT) && vec_same(s->a, joint->b) && vec_same(s->b, joint->a))
+            if ((s->flags & FW_SEGMENT_JOINT) && vec_same(s->a, joint->b) &&
+                vec_same(s->b, joint->a))
                 return true;
         }
     }
@@ -69,8 +70,8 @@ fw_status fw_clearance_strip_of(fw_arena *arena, const fw_layout *layout,
     FW_NEED(strip->part = fw_arena_array(arena, fw_clearance_strip_part, (size_t)c->count));
     double length[2];
     int first = side_of(c, joint[lower], joint[1 - lower], false, &length[0], strip->part);
-    strip->count = first + side_of(c, joint[1 - lower], joint[lower], true, &length[1],
-                                   strip->part + first);
+    strip->count =
+        first + side_of(c, joint[1 - lower], joint[lower], true, &length[1], strip->part + first);
     strip->length_m = fmax(length[0], length[1]);
     for (int i = 0; i < strip->count; i++) {
         double by = strip->length_m / length[i >= first];
@@ -105,9 +106,9 @@ fw_clearance_bend fw_clearance_bend_of(const fw_mechanism *m, const fw_mechanism
     double strain = allowed / m->device->safety_factor / in->youngs_Pa;
     /* strains are stress over one modulus; along the softest direction there is more */
     if (x->known) strain *= fmax(1, (x->a0_per_Pa + fabs(x->a1_per_Pa)) * in->youngs_Pa);
-    fw_clearance_bend b = {
-        .strain = strain, .width_m = least_width(in), .forced_per_m = HUGE_VAL};
+    fw_clearance_bend b = {.strain = strain, .width_m = least_width(in), .forced_per_m = HUGE_VAL};
     b.curvature_per_m = 2 * strain / b.width_m;
+    b.straight = in->kind == FW_FLEXURE_LEAF && !fw_flexure_input_varies(in);
     double roots = 2 * hinge->closed_form.root_length_m;
     b.root_share = fmax(0, roots / (in->length_m + roots));
     b.known = isfinite(b.curvature_per_m) && b.curvature_per_m > 0;

@@ -25,6 +25,7 @@ typedef struct fw_clearance_bend { /* bounds of what bends it */
     double forced_per_m;    /* of that, what forces add to a pure moment; HUGE_VAL: not known */
     double turn_rad;        /* of the hinge, either way */
     double root_share;      /* of that, what both roots take */
+    bool straight;          /* and of one width, so that forces bend it linearly */
 } fw_clearance_bend;
 
 /* ---- clearance_strip.c ---- */

@@ -194,7 +194,8 @@ static fw_status add_lane(building *b) {
     fw_geometry_box frame = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (int i = 0; i < b->layout->npiece; i++) {
         const fw_layout_piece *p = &b->layout->piece[i];
-        if (p->role == FW_ROLE_FRAME) frame = fw_box_join(frame, fw_geometry_contour_box(&p->contour));
+        if (p->role == FW_ROLE_FRAME)
+            frame = fw_box_join(frame, fw_geometry_contour_box(&p->contour));
     }
     if (!(frame.x1 > frame.x0)) return FW_OK;
     const fw_geometry_vec2 corner[5] = {{frame.x0, frame.y0},
@@ -220,7 +221,8 @@ static fw_status add_lane(building *b) {
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
                                  fw_clearance_things *things) {
     size_t n = (size_t)m->nbody + 1;
-    building b = {.arena = arena, .layout = layout, .device = m->device, .mechanism = m, .things = things};
+    building b = {
+        .arena = arena, .layout = layout, .device = m->device, .mechanism = m, .things = things};
     *things = (fw_clearance_things){.nbody = m->nbody};
     FW_NEED(things->solid = fw_arena_array(arena, fw_clearance_solid, n));
     FW_NEED(b.room = fw_arena_array(arena, int, n));

@@ -38,9 +38,9 @@ enum { FW_PIECE_NODES = 8 };
    each other in time; each begins where the last one ended. */
 typedef struct fw_dynamics_piece {
     double from_s, to_s;
-    bool jump;       /* not the motion: the straight way from one equilibrium to the next one where a
+    bool jump; /* not the motion: the straight way from one equilibrium to the next one where a
                         quasi-static motion jumps, from_s == to_s */
-    int nodes;       /* at most FW_PIECE_NODES */
+    int nodes; /* at most FW_PIECE_NODES */
     const double *q; /* (nodes x 3 nbody) m, rad */
 } fw_dynamics_piece;
 /* with NULL when the run starts (over); of the contexts of the observer */

@@ -165,8 +165,7 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
     }
     for (int k = 0; k < n; k++)
         for (int i = 0; i < FW_THIRDS; i++)
-            take(w, k, third[i].t_s, third[i].angle_rad[w->mechanism->hinge[k].pin],
-                 &strain[k][i]);
+            take(w, k, third[i].t_s, third[i].angle_rad[w->mechanism->hinge[k].pin], &strain[k][i]);
     return true;
 }
 

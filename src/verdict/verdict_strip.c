@@ -9,8 +9,6 @@
 #include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
 /* of rotation and curvature, and on either wall: more than corners differ by from the drawn device */
 static const double fw_made_share = 0.1, fw_made_m = 1e-6;
@@ -50,9 +48,10 @@ static seen most_of_boxes(const fw_verdict_variant_verdict *v, int k) {
 }
 
 /* Of the strip itself: what its roots have more is the fillets'. Between the instants that were looked
-   at forces are taken to add half as much again; their other sign is at most twice as large. */
+   at forces are taken to add a tenth more; their other sign is at most twice as large, and equal in a
+   straight strip, where a fifth more is for what its own bending adds to the lever. */
 static fw_clearance_bend bend_of(const fw_verdict_variant_verdict *v, int k, const seen *most) {
-    const double between = 1.5, other_sign = 2;
+    const double between = 1.1, other_sign = 2, lever = 1.2;
     const fw_mechanism_hinge *hinge = &v->mechanism->hinge[k];
     fw_clearance_bend b = fw_clearance_bend_of(v->mechanism, hinge);
     double made = (1 + fw_made_share) * (1 + fw_verdict_model_error.strain);
@@ -60,7 +59,7 @@ static fw_clearance_bend bend_of(const fw_verdict_variant_verdict *v, int k, con
     b.turn_rad = (1 + fw_made_share) * most->turn;
     b.strain = made * most->strain;
     b.curvature_per_m = per * most->strain;
-    b.forced_per_m = other_sign * between * per * most->forced;
+    b.forced_per_m = (b.straight ? lever : other_sign) * between * per * most->forced;
     return b;
 }
 
@@ -75,13 +74,14 @@ static fw_status say(fw_arena *arena, const fw_layout_piece *piece, const fw_cle
                      double turn_rad, fw_verdict_variant_verdict *v) {
     char turn[32];
     const char *text;
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "the %s may come to %s, its own root or ring, within the %s deg that it turns by, "
-                "margins included: its bent strip is not proved to keep off; use a longer flexure, a "
-                "smaller subtended angle or a smaller load",
-                piece->label, met->label ? met->label : "its body",
-                fw_number_text(turn, sizeof turn, FW_DEG_PER_RAD * turn_rad, 3)));
+    FW_NEED(
+        text = fw_arena_printf(
+            arena,
+            "the %s may come to %s, its own root or ring, within the %s deg that it turns by, "
+            "margins included: its bent strip is not proved to keep off; use a longer flexure, a "
+            "smaller subtended angle or a smaller load",
+            piece->label, met->label ? met->label : "its body",
+            fw_number_text(turn, sizeof turn, FW_DEG_PER_RAD * turn_rad, 3)));
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = NULL,
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = 295,
@@ -103,7 +103,6 @@ static fw_status look_at(fw_arena *arena, const fw_layout *layout, const fw_layo
     const double wall = 2 * (layout->edge_m + fw_made_m) + fabs(layout->flare_m);
     FW_TRY(fw_clearance_strip_meets(arena, v->things, &strip, &bend, wall, &met));
     fw_arena_rewind(arena, mark);
-    if (getenv("FWDBG")) fprintf(stderr, "strip %s turn %.3f k %.0f forced %.0f strain %.5f: %s\n", piece->label, bend.turn_rad, bend.curvature_per_m, bend.forced_per_m, bend.strain, met ? met->label : "clear");
     return met && !v->hinge[k].touches ? say(arena, piece, met, bend.turn_rad, v) : FW_OK;
 }
 

@@ -148,7 +148,8 @@ static double sampled(const scene *s, int pieces, int each) {
         for (int b = a + 1; b <= BODIES; b++) {
             fw_clearance_pair pair;
             if (s->things.solid[b].count == 0) continue;
-            assert_int_equal(fw_clearance_pair_new(s->arena, &s->things, a, b, false, &pair), FW_OK);
+            assert_int_equal(fw_clearance_pair_new(s->arena, &s->things, a, b, false, &pair),
+                             FW_OK);
             for (int i = 0; i <= pieces * each; i++) {
                 int piece = i / each < pieces ? i / each : pieces - 1;
                 double theta = (double)i / each - piece;
