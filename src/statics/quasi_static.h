@@ -62,8 +62,6 @@ fw_status fw_statics_quasi_static_arrays(fw_statics_quasi_static *r);
 /* at the start of a smooth piece and after every step: peaks, samples, instants */
 fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r);
 fw_status fw_statics_quasi_static_record(fw_statics_quasi_static *r);
-/* the straight way from r->from to the equilibrium that the model is at, where that is elsewhere */
-void fw_statics_quasi_static_jump(fw_statics_quasi_static *r, double t);
 void fw_statics_quasi_static_finish(fw_statics_quasi_static *r);
 
 #endif

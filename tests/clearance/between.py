@@ -12,13 +12,13 @@ import sys
 import tempfile
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "clearance")
-SAMPLES, WIDE, LESS = 24, 100e-6, 20e-9
+SAMPLES, WIDE, LESS = 5, 100e-6, 20e-9
 
 
 def run(program, directory, gap):
     with open(os.path.join(DATA, "jaws.xml"), encoding="utf-8") as f:
         text = f.read()
-    text = text.replace(' law="ramp" rise="16 ms"', "").replace('duration="20 ms"', 'duration="37 ms"')
+    text = text.replace(' law="ramp" rise="16 ms"', "").replace('duration="20 ms"', 'duration="3.7 ms"')
     text = text.replace('value="60 uN"', 'value="5 uN"').replace('value="60 um"', 'value="%.9g um"' % (1e6 * gap))
     path = os.path.join(directory, "swing.xml")
     with open(path, "w", encoding="utf-8") as f:
