@@ -103,7 +103,7 @@ static fw_status look_at(fw_arena *arena, const fw_layout *layout, const fw_layo
     const double wall = 2 * (layout->edge_m + fw_made_m) + fabs(layout->flare_m);
     FW_TRY(fw_clearance_strip_meets(arena, v->things, &strip, &bend, wall, &met));
     fw_arena_rewind(arena, mark);
-    return met && !v->hinge[k].touches ? say(arena, piece, met, bend.turn_rad, v) : FW_OK;
+    return met ? say(arena, piece, met, bend.turn_rad, v) : FW_OK;
 }
 
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
@@ -114,6 +114,7 @@ fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
         const fw_layout_piece *piece = piece_of(layout, m->hinge[k].pin);
         const seen most[2] = {most_of_scenes(v, k), most_of_boxes(v, k)};
         const int before = v->nreason;
+        if (v->hinge[k].decision != FW_ACCEPT) continue; /* it bends too far in any case */
         if (!piece || !layout->hinge[m->hinge[k].pin].drawn) continue;
         for (int i = 0; i < 2 && v->nreason == before; i++)
             FW_TRY(look_at(arena, layout, piece, k, &most[i], v));
