@@ -127,7 +127,9 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
                                     .at_a = fw_clearance_place(a, pose[0], p),
                                     .at_b = fw_clearance_place(a, pose[0], q),
                                     .a = at_p->label,
-                                    .b = at_q->label};
+                                    .b = at_q->label,
+                                    .bound = at_p->bends || at_q->bends,
+                                    .lane = at_p->always || at_q->always};
     }
     return least;
 }

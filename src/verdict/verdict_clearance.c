@@ -142,6 +142,7 @@ static void decide(fw_verdict_clearance *c, double off) {
     if (meet) less = less || l->share * (1 + off) < 1;
     if (meet && less) c->high_m = fmin(c->high_m, c->m);
     c->decision = enough ? FW_ACCEPT : less ? FW_REJECT : FW_INCONCLUSIVE;
+    if (l->at.bound && c->decision == FW_REJECT) c->decision = FW_INCONCLUSIVE;
     c->keep = keep_of(c, c->required_m + c->wall_m);
 }
 
@@ -157,7 +158,8 @@ static const char *name_of(const char *label) {
 static const char *what_happens(fw_arena *arena, const fw_verdict_clearance *c) {
     const fw_clearance_least *l = &c->least;
     char drawn[32], made[32], low[32], high[32], asked[32];
-    if (l->m <= 0) return "meet";
+    if (l->m <= 0)
+        return l->at.bound ? "may meet: the strip's bent shape is only bounded," : "meet";
     const char *text = fw_arena_printf(arena, "come within %s um of each other as drawn",
                                        micrometres(drawn, l->m));
     if (text && c->wall_m != 0)
@@ -191,18 +193,21 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
                 name_of(l->at.a), name_of(l->at.b), what, where,
                 fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
                 fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then,
-                c->box == FW_NONE ? "; where they are to meet, give the scene a <contact>" : ""));
+                c->box == FW_NONE && !l->at.lane
+                    ? "; where they are to meet, give the scene a <contact>"
+                    : ""));
     return FW_OK;
 }
 
 static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                              fw_verdict_variant_verdict *v) {
     const char *text;
+    const bool unknown = c->least.given_up || c->least.at.bound;
     if (c->decision == FW_ACCEPT) return FW_OK;
     FW_TRY(sentence(arena, c, where, &text));
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = c->scene,
                                                   .flow = c->flow,
-                                                  .number = c->least.given_up ? 295 : 294,
+                                                  .number = unknown ? 295 : 294,
                                                   .decision = c->decision,
                                                   .keep = fmin(fmax(0.98 * c->keep, 1e-3), 0.99),
                                                   .text = text};
@@ -307,7 +312,8 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                     .wall_m = walls(layout),
                                     .required_m = required(device)};
         decide(c, wish.off);
-        if (least.m <= 0) c->decision = FW_REJECT; /* a pose that is required meets */
+        if (least.m <= 0 && !least.at.bound)
+            c->decision = FW_REJECT; /* a pose that is required meets */
         char x[32], y[32], phi[32];
         const char *where =
             fw_arena_printf(arena, "the required pose dx = %s um, dy = %s um, turned by %s deg",
