@@ -102,7 +102,8 @@ class Frames(unittest.TestCase):
                 for document in (a, b):  # the frame's own poses are compared below
                     if "q" in document:
                         self.frames(document, shift if document is b else {})
-                self.same(a, b, within, self.SKIP + r"|/d?q/|/(damped_)?shape/|/path/events/\d+/q")
+                # the instant of a least clearance is known only as well as its 0.2 % allow at a flat minimum
+                self.same(a, b, within, self.SKIP + r"|/d?q/|/(damped_)?shape/|/path/events/\d+/q|/clearances/\d+/(t_s|at|pose)")
 
     def frames(self, document, shift):
         """the centre of mass is where it is, seen from the frame"""
