@@ -50,7 +50,7 @@ static double largest(const fw_verdict_trial *trial, const fw_device *full, cons
 static void flexure_at(const fw_device_flexure *was, const fw_device_flexure *full, double s,
                        fw_device_flexure *f) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
-    double unit = arc && f->radius_given ? 1e-7 * f->angle_rad : 1e-6;
+    double unit = arc && f->radius_given ? 1e-7 * f->angle_rad : 1e-7;
     if (full->length_m != was->length_m)
         f->length_m = rounded_up(along(was->length_m, full->length_m, s), unit, full->length_m);
     if (arc && full->length_m != was->length_m) f->radius_m = f->length_m / f->angle_rad;
