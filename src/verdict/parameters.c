@@ -39,7 +39,7 @@
 #include <string.h>
 
 /* evaluations of hinges of all looks: some seconds. A scene of many periods takes more for one */
-static const double most_work = 3e6;
+static const double most_work = 6e6;
 enum { MOST_TRIALS = 40, MOST_IN_ALL = 600, FEWEST_RINGS = 4, MOST_RINGS = 9 };
 /* the change is known to this part of it */
 static const double known_to = 0.01;
