@@ -132,7 +132,8 @@ fw_status fw_device_reference_markdown(fw_text *out) {
                 "quotient may lack or carry an extra `rad` (length / angle is a radius).\n\n"
                 "`--set NAME=VALUE` changes a parameter, `--set ELEMENT[ID]/@ATTRIBUTE=VALUE` an "
                 "attribute (`flexure[A]/@length=312 um`); `[ID]` may be left out where there is "
-                "one such element.\n\n"
+                "one such element, and steps and numbers say which of several: "
+                "`scene[push]/force[2]/@fx`.\n\n"
                 "## Time\n\n"
                 "Loads are constant from the start, or go with time by their `law`, a factor that "
                 "multiplies them:\n\n");

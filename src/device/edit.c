@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text in, text out: places come from the reader, and only the bytes of a change are touched. */
 #include "device/edit.h"
+#include "device/device_path.h"
 #include "device/device_table.h"
 #include "xml/xml.h"
 #include <stdlib.h>
@@ -11,7 +12,7 @@ typedef struct editor {
     fw_diags *diags;
     const char *file, *path; /* of the change at hand */
     fw_xml_bytes xml;
-    const fw_xml_element *root;
+    fw_xml_element *root;
 } editor;
 
 /* FW_INPUT, said why */
@@ -20,100 +21,17 @@ static fw_status refuse(const editor *e, const char *what, const char *word) {
                          what, word ? " '" : "", word ? word : "", word ? "'" : "");
 }
 
-/* ---- finding ---- */
-
-typedef struct step {
-    const char *name, *in; /* in: between the brackets, NULL without */
-    size_t name_length, in_length;
-} step;
-
-/* reads one step at *at and goes behind it; false: it is none */
-static bool read_step(const char **at, step *out) {
-    const char *s = *at;
-    *out = (step){.name = s, .name_length = strcspn(s, "[]/@")};
-    s += out->name_length;
-    if (*s == '[') {
-        out->in = s + 1;
-        out->in_length = strcspn(s + 1, "[]/");
-        s += 1 + out->in_length;
-        if (*s != ']' || out->in_length == 0) return false;
-        s++;
-    }
-    *at = s;
-    return out->name_length > 0;
-}
-
-static bool named(const char *text, const char *name, size_t n) {
-    return strlen(text) == n && memcmp(text, name, n) == 0;
-}
-
-/* the number between the brackets; 0: an id stands there (ids do not begin with a digit) */
-static long number_of(const step *s) {
-    if (!s->in || s->in[0] < '0' || s->in[0] > '9') return 0;
-    char *end;
-    long n = strtol(s->in, &end, 10);
-    return end == s->in + s->in_length && n >= 1 ? n : -1;
-}
-
-static bool fits(const fw_xml_element *e, const step *s, const char *key) {
-    if (!named(e->name, s->name, s->name_length)) return false;
-    if (!s->in || number_of(s) != 0) return true;
-    const fw_xml_attribute *id = key ? fw_xml_attribute_of(e, key) : NULL;
-    return id && named(id->value, s->in, s->in_length);
-}
-
-typedef struct search {
-    const step *step;
-    const char *key;
-    long wanted, matches; /* wanted: number of it, 0: the only one */
-    const fw_xml_element *found;
-} search;
-
-/* `e` and what follows it; `deep`: what is inside, too. In file order. */
-static void find_wanted(search *s, const fw_xml_element *e, bool deep) {
-    for (; e; e = e->next) {
-        if (fits(e, s->step, s->key) && (++s->matches == s->wanted || s->wanted == 0)) s->found = e;
-        if (deep) find_wanted(s, e->first_child, true);
-    }
-}
-
-static fw_status find_step(const editor *e, const step *s, const fw_xml_element *inside,
-                           const fw_xml_element **found) {
-    char name[64] = "";
-    memcpy(name, s->name, s->name_length < sizeof name ? s->name_length : sizeof name - 1);
-    const fw_xml_element_row *row = fw_xml_row_find(&fw_device_table, name);
-    search all = {.step = s, .key = row ? row->key : NULL, .wanted = number_of(s)};
-    if (all.wanted < 0) return refuse(e, "this is no path; numbers of elements begin with 1", NULL);
-    find_wanted(&all, inside ? inside->first_child : e->root, !inside);
-    if (!all.found) return refuse(e, "there is no such element", name);
-    if (all.wanted == 0 && all.matches > 1)
-        return refuse(e, "there are several; name one by its id or its number, as in NAME[2]",
-                      name);
-    *found = all.found;
-    return FW_OK;
-}
-
 /* the element of a path; *attribute is what stands behind /@, or NULL */
 static fw_status find(const editor *e, const fw_xml_element **found, const char **attribute) {
-    const char *at = e->path;
-    step s;
+    fw_device_path path;
+    fw_xml_element *element;
     *found = NULL;
     *attribute = NULL;
-    for (;;) {
-        if (!read_step(&at, &s))
-            return refuse(e,
-                          "this is no path; it is like flexure[A]/@length or "
-                          "scene[step-load]/force[2]/@fx",
-                          NULL);
-        FW_TRY(find_step(e, &s, *found, found));
-        if (*at == '\0') return FW_OK;
-        if (*at != '/')
-            return refuse(e, "this is no path; '/' or the end is missing behind", s.name);
-        at++;
-        if (*at != '@') continue;
-        *attribute = at + 1;
-        return FW_OK;
-    }
+    if (!fw_device_path_find(e->root, e->path, &element, &path))
+        return refuse(e, path.wrong, path.word);
+    *found = element;
+    *attribute = path.attribute;
+    return FW_OK;
 }
 
 /* ---- writing ---- */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters, evaluated in the order of their dependencies. */
+#include "device/device_path.h"
 #include "device/device_reader.h"
 #include "device/device_table.h"
 #include <math.h>
@@ -330,9 +331,26 @@ static fw_status split(fw_arena *arena, const char *text, path *p, bool *ok) {
     return FW_OK;
 }
 
+/* SCENE[ID]/ELEMENT[ID]/@ATTRIBUTE, or an element by its number: as changes of a text name them */
+static bool is_long(const char *text) {
+    const char *at = strstr(text, "/@"), *slash = strchr(text, '/'), *in = strchr(text, '[');
+    return at && (slash < at || (in && in < at && in[1] >= '0' && in[1] <= '9'));
+}
+
+static fw_status set_long(fw_device_reader *r, const edit *set) {
+    fw_device_path p;
+    fw_xml_element *e;
+    bool there = fw_device_path_find(r->xml.root, set->path, &e, &p);
+    const fw_xml_element_row *row = there ? fw_xml_row_find(&fw_device_table, e->name) : NULL;
+    if (row && p.attribute) return replace(r, set, e, row, p.attribute);
+    unknown_path(r, set, there ? "this is no path" : p.wrong, NULL, NULL, 0);
+    return FW_OK;
+}
+
 static fw_status set_attribute(fw_device_reader *r, const edit *set) {
     path p;
     bool ok;
+    if (is_long(set->path)) return set_long(r, set);
     FW_TRY(split(r->arena, set->path, &p, &ok));
     if (!ok) {
         unknown_path(r, set, "this is no path", NULL, NULL, 0);
@@ -362,8 +380,8 @@ static fw_status set_attribute(fw_device_reader *r, const edit *set) {
         }
     if (same > 1 && row->within) { /* ids of a scene: another scene may have the same */
         unknown_path(r, set,
-                     "several scenes have an element with this id; give the attribute of each a "
-                     "parameter and set that",
+                     "several scenes have an element with this id; name the scene, too, as in "
+                     "scene[NAME]/tendon[ID]/@pull",
                      NULL, NULL, 0);
         return FW_OK;
     }
@@ -371,8 +389,8 @@ static fw_status set_attribute(fw_device_reader *r, const edit *set) {
     unknown_path(r, set,
                  id  ? "no such element has this id"
                  : n ? row->key ? "several such elements; name one"
-                                : "several such elements, which have no names; give the attribute "
-                                  "of each a parameter and set that"
+                                : "several such elements, which have no names; give the number of "
+                                  "one, as in force[2]/@fx"
                      : "there is no such element",
                  id, names, row->key ? n : 0);
     return FW_OK;

@@ -93,6 +93,22 @@ static void scale(fw_device_scene *s, double by) {
         s->torque[i].value_Nm *= by;
 }
 
+static void values(const fw_device_scene *s, fw_effects_load_values *list) {
+    for (int i = 0; i < s->nforce; i++) {
+        fw_effects_load_value v = {.element = "force", .number = i + 1, .unit = "N"};
+        v.attribute = "fx", v.value = s->force[i].fx_N;
+        fw_effects_add_load_value(list, v);
+        v.attribute = "fy", v.value = s->force[i].fy_N;
+        fw_effects_add_load_value(list, v);
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        fw_effects_add_load_value(list, (fw_effects_load_value){.element = "torque",
+                                                                .number = i + 1,
+                                                                .attribute = "value",
+                                                                .unit = "N m",
+                                                                .value = s->torque[i].value_Nm});
+}
+
 const fw_effect_row fw_effect_applied_load = {
     .id = "applied-load",
     .summary = "forces and torques of the scene with their laws in time",
@@ -105,4 +121,5 @@ const fw_effect_row fw_effect_applied_load = {
     .describe = describe,
     .loads = loads,
     .scale = scale,
+    .values = values,
     .solid = FW_EFFECTS_SOLID_HAS};

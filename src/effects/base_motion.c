@@ -123,6 +123,16 @@ static void scale(fw_device_scene *s, double by) {
     }
 }
 
+static void values(const fw_device_scene *s, fw_effects_load_values *list) {
+    for (int i = 0; i < s->nbase; i++) {
+        fw_effects_load_value v = {.element = "base-motion", .number = i + 1, .unit = "m/s^2"};
+        v.attribute = "ax", v.value = s->base[i].ax_m_per_s2;
+        fw_effects_add_load_value(list, v);
+        v.attribute = "ay", v.value = s->base[i].ay_m_per_s2;
+        fw_effects_add_load_value(list, v);
+    }
+}
+
 const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .summary = "acceleration of the base: -m a(t) on "
                                                         "every body, in the base's frame",
@@ -134,4 +144,5 @@ const fw_effect_row fw_effect_base_motion = {.id = "base-motion",
                                              .alone_stays = true,
                                              .describe = describe,
                                              .loads = loads,
-                                             .scale = scale};
+                                             .scale = scale,
+                                             .values = values};

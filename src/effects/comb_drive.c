@@ -385,6 +385,16 @@ static void scale(fw_device_scene *s, double by) {
         s->comb[i].voltage_V *= sqrt(by);
 }
 
+static void values(const fw_device_scene *s, fw_effects_load_values *list) {
+    for (int i = 0; i < s->ncomb; i++)
+        fw_effects_add_load_value(list, (fw_effects_load_value){.element = "comb-drive",
+                                                                .id = s->comb[i].id,
+                                                                .attribute = "voltage",
+                                                                .unit = "V",
+                                                                .value = s->comb[i].voltage_V,
+                                                                .squared = true});
+}
+
 const fw_effect_row fw_effect_comb_drive = {
     .id = "comb-drive",
     .summary = "electrostatic forces between the electrodes of comb drives and plates",
@@ -396,4 +406,5 @@ const fw_effect_row fw_effect_comb_drive = {
     .kept = true,
     .describe = describe,
     .loads = loads,
-    .scale = scale};
+    .scale = scale,
+    .values = values};

@@ -179,6 +179,31 @@ static inline void fw_effects_add_load(fw_effects_load_scaling *loads, fw_effect
     if ((size_t)loads->count < room) loads->item[loads->count++] = load;
 }
 
+/* one attribute of a scene's element that goes with its loads, as a path of --set names it */
+typedef struct fw_effects_load_value {
+    const char *element, *id; /* "tendon", "TL"; id NULL: `number` says which */
+    int number;               /* among those of this name in the scene, from 1 */
+    const char *attribute;
+    const char *unit; /* SI */
+    double value;
+    bool squared; /* forces go with its square */
+} fw_effects_load_value;
+typedef struct fw_effects_load_values {
+    fw_effects_load_value item[64]; /* (count) */
+    int count;
+    bool more; /* than there is room for */
+} fw_effects_load_values;
+/* what is 0 stays so, whatever it is multiplied by: it is left out */
+static inline void fw_effects_add_load_value(fw_effects_load_values *values,
+                                             fw_effects_load_value value) {
+    size_t room = sizeof values->item / sizeof values->item[0];
+    if (value.value == 0) return;
+    if ((size_t)values->count < room)
+        values->item[values->count++] = value;
+    else
+        values->more = true;
+}
+
 /* What a mechanism made of solids (continuum/device_deck.c) does with an effect that the scene
    calls for */
 typedef enum fw_effects_solid {
@@ -216,10 +241,11 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
        states */
     void (*describe)(const fw_device *device, const fw_device_scene *scene,
                      const fw_effects_words *words);
-    /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large.
-       Both or neither */
+    /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large;
+       values: the attributes that it would change. All or none */
     void (*loads)(const fw_device_scene *scene, fw_effects_load_scaling *loads);
     void (*scale)(fw_device_scene *scene, double by);
+    void (*values)(const fw_device_scene *scene, fw_effects_load_values *values);
     fw_effects_solid solid;
 } fw_effect_row;
 const fw_effect_row *const *fw_effect_rows(size_t *count);
@@ -229,6 +255,8 @@ void fw_effects_describe(const fw_device *device, const fw_device_scene *scene,
                          const fw_effects_words *words);
 void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling *loads);
 bool fw_effects_scale(fw_device_scene *scene, double by);
+/* the attributes that this changes */
+void fw_effects_find_load_values(const fw_device_scene *scene, fw_effects_load_values *values);
 
 /* decides and compiles. Auto leaves effects out, the smallest bound first, while the sum of their
    bounds stays below the accuracy; none and lists leave out what is not kept. A list with an

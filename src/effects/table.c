@@ -327,6 +327,14 @@ void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling
         if (row[i]->loads) row[i]->loads(scene, loads);
 }
 
+void fw_effects_find_load_values(const fw_device_scene *scene, fw_effects_load_values *values) {
+    size_t count;
+    const fw_effect_row *const *row = fw_effect_rows(&count);
+    *values = (fw_effects_load_values){.count = 0};
+    for (size_t i = 0; i < count; i++)
+        if (row[i]->values) row[i]->values(scene, values);
+}
+
 bool fw_effects_scale(fw_device_scene *scene, double by) {
     size_t count;
     fw_effects_load_scaling loads;

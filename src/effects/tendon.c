@@ -334,6 +334,19 @@ static void scale(fw_device_scene *s, double by) {
     }
 }
 
+static void values(const fw_device_scene *s, fw_effects_load_values *list) {
+    for (int i = 0; i < s->ntendon; i++) {
+        const fw_device_tendon *t = &s->tendon[i];
+        const bool pulled = !isnan(t->pull_N);
+        fw_effects_add_load_value(list,
+                                  (fw_effects_load_value){.element = "tendon",
+                                                          .id = t->id,
+                                                          .attribute = pulled ? "pull" : "draw",
+                                                          .unit = pulled ? "N" : "m",
+                                                          .value = pulled ? t->pull_N : t->draw_m});
+    }
+}
+
 const fw_effect_row fw_effect_tendon = {
     .id = "tendon",
     .summary = "cables through eyelets, pulled with a force or drawn in by a length",
@@ -345,4 +358,5 @@ const fw_effect_row fw_effect_tendon = {
     .kept = true,
     .describe = describe,
     .loads = loads,
-    .scale = scale};
+    .scale = scale,
+    .values = values};

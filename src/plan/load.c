@@ -384,18 +384,18 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
 
 /* a plan of its own for messages and memory, over the packs of this one */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
-                           const fw_device **device, fw_verdict_variant_verdict *variant) {
-    size_t n = (size_t)plan->options.nset;
-    fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + 1);
+                           int nset, const fw_device **device, fw_verdict_variant_verdict *variant) {
+    size_t n = (size_t)plan->options.nset, more = (size_t)nset;
+    fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + more);
     fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
     FW_NEED(sets && flow ? sets : NULL);
     if (n > 0) memcpy(sets, plan->options.set, n * sizeof *sets);
-    sets[n] = *set; /* of two for one parameter the last holds */
+    if (nset > 0) memcpy(sets + n, set, more * sizeof *sets); /* of two for one the last holds */
     fw_plan other = *plan;
     other.arena = arena;
     other.diags = fw_diags_new(arena);
     other.flow = flow;
-    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + 1, &other.diags, device));
+    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
     other.device = *device;
     fw_device_material own;
     FW_TRY(own_material(&other, &own));

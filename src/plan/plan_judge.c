@@ -19,9 +19,9 @@ static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *
     return fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 
-static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set,
+static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set, int nset,
                           const fw_device **device, fw_verdict_variant_verdict *variant) {
-    return fw_plan_restated((const fw_plan *)plan, arena, set, device, variant);
+    return fw_plan_restated((const fw_plan *)plan, arena, set, nset, device, variant);
 }
 
 fw_status fw_plan_judge(fw_plan *plan) {

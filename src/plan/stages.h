@@ -8,10 +8,10 @@
 /* FW_INPUT when the device names no material: what is judged or made needs one, a motion does
    not */
 fw_status fw_plan_need_material(fw_plan *plan);
-/* the description of a loaded plan read again with one more --set, and its variants, in `arena`;
-   what was read of packs is shared. FW_INPUT: that value is not allowed, and nothing says why */
+/* the description of a loaded plan read again with nset more settings, and its variants, in `arena`;
+   what was read of packs is shared. FW_INPUT: they are not allowed, and nothing says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
-                           const fw_device **device, fw_verdict_variant_verdict *variant);
+                           int nset, const fw_device **device, fw_verdict_variant_verdict *variant);
 /* the description's text read once more with other settings, and the drawings that it names */
 fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
                                fw_diags *diags, const fw_device **device);

@@ -35,38 +35,34 @@ static void set_this(fw_text *out, const char *path, const char *value) {
     if (path && value) fw_markup(out, " <code>--set &#39;{s}={s}&#39;</code>", path, value);
 }
 
+/* those alone that accept are among the proposals */
 static void parameters(fw_text *out, const fw_verdict *v) {
-    if (v->nparameter == 0) return;
-    fw_text_add(out, "<p>One parameter alone:</p>\n<ul>\n");
+    int said = 0;
     for (int i = 0; i < v->nparameter; i++) {
         const fw_verdict_parameter_advice *p = &v->parameter[i];
-        fw_markup(out, "<li>{s}", p->text);
-        set_this(out, p->name, p->value_text);
-        fw_text_add(out, "</li>\n");
+        if (p->found == FW_PARAMETER_ACCEPTS) continue;
+        if (said++ == 0) fw_text_add(out, "<p>Not by one parameter alone:</p>\n<ul>\n");
+        fw_markup(out, "<li>{s}</li>\n", p->text);
     }
-    fw_text_add(out, "</ul>\n");
+    if (said > 0) fw_text_add(out, "</ul>\n");
 }
 
 void fw_report_advice(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_text *out = page->out;
-    if (v->nadvice == 0 && !v->advice_note && v->nparameter == 0) return;
+    if (v->nproposal == 0 && !v->advice_note && v->nparameter == 0) return;
     fw_markup(out, "<aside class=\"advice\"><h2>{r}</h2>\n",
-              v->nadvice ? "What would be accepted" : "Advice");
-    if (v->nadvice) {
-        fw_text_add(out, "<ul>\n");
-        for (int i = 0; i < v->nadvice; i++) {
-            const fw_verdict_advice *a = &v->advice[i];
-            fw_markup(out, "<li>{s}", a->text);
-            set_this(out, a->set_path, a->value_text);
-            fw_text_add(out, "</li>\n");
-        }
-        fw_text_add(out, "</ul>\n");
-        if (!v->advice_note)
-            fw_markup(out, "<p>{r}</p>\n",
-                      v->advice_verified ? "All of these changes together were run and accepted."
-                                         : "These changes together were not confirmed by a run.");
+              v->nproposal ? "What would be accepted" : "Advice");
+    if (v->nproposal)
+        fw_text_add(out, "<p>The least change first; each was run and accepted.</p>\n<ol>\n");
+    for (int i = 0; i < v->nproposal; i++) {
+        const fw_verdict_proposal *p = &v->proposal[i];
+        fw_markup(out, "<li>{s}", p->text);
+        for (int k = 0; k < p->nset; k++)
+            set_this(out, p->set[k].path, p->set[k].value);
+        fw_text_add(out, "</li>\n");
     }
+    if (v->nproposal) fw_text_add(out, "</ol>\n");
     if (v->advice_note) fw_markup(out, "<p>{s}</p>\n", v->advice_note);
     parameters(out, v);
     fw_text_add(out, "</aside>\n");

@@ -395,14 +395,22 @@ static void accuracy(fw_json *json, const fw_verdict *v) {
 }
 
 static void advice(fw_json *json, const fw_verdict *v) {
+    static const char *const kind[] = {"parameter", "flexures", "loads", "several"};
     fw_json_list(json, "advice");
-    for (int i = 0; i < v->nadvice; i++) {
+    for (int i = 0; i < v->nproposal; i++) {
+        const fw_verdict_proposal *p = &v->proposal[i];
         fw_json_object(json, NULL);
-        fw_json_text(json, "set", v->advice[i].set_path);
-        fw_json_text(json, "value", v->advice[i].value_text);
-        fw_json_real(json, "value_SI", v->advice[i].value);
-        fw_json_real(json, "change", v->advice[i].change);
-        fw_json_text(json, "text", v->advice[i].text);
+        fw_json_text(json, "kind", kind[p->kind]);
+        fw_json_list(json, "set");
+        for (int k = 0; k < p->nset; k++) {
+            fw_json_object(json, NULL);
+            fw_json_text(json, "path", p->set[k].path);
+            fw_json_text(json, "value", p->set[k].value);
+            fw_json_end(json);
+        }
+        fw_json_end(json);
+        fw_json_real(json, "change", p->change);
+        fw_json_text(json, "text", p->text);
         fw_json_end(json);
     }
     fw_json_end(json);
@@ -459,7 +467,6 @@ fw_status fw_report_verdict_json(const fw_report_input *input, fw_text *out) {
     fw_report_json_clearances(&json, v);
     accuracy(&json, v);
     advice(&json, v);
-    fw_json_truth(&json, "advice_verified", v->advice_verified);
     fw_json_text(&json, "advice_note", v->advice_note);
     parameters(&json, v);
     fw_json_end(&json);

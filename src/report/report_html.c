@@ -37,7 +37,7 @@ static const char style_sheet[] =
     ".advice{border-left:4px solid #0072B2;background:var(--pale);padding:10px 16px;margin:24px 0 "
     "0}\n"
     ".advice h2{font-size:16px;margin:0 0 4px}\n"
-    ".advice ul,.plain{margin:4px 0;padding-left:20px}\n"
+    ".advice ul,.advice ol,.plain{margin:4px 0;padding-left:20px}\n"
     ".plain li{margin:3px 0}\n"
     "table{border-collapse:collapse;width:100%;margin:6px 0 16px;font-size:13.5px;"
     "font-variant-numeric:tabular-nums}\n"

@@ -110,36 +110,16 @@ static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary
 
 /* ---- what to do: the least change that was run and accepted ---- */
 
-static fw_status together(fw_arena *arena, const fw_verdict *v, const char **sentence) {
-    fw_text text = fw_text_new(arena);
-    for (int i = 0; i < v->nadvice; i++)
-        fw_text_printf(&text, "%s%s", i ? "; " : "", v->advice[i].text);
-    for (int i = 0; i < v->nadvice; i++)
-        fw_text_printf(&text, "%s--set \"%s=%s\"", i ? " " : ": ", v->advice[i].set_path,
-                       v->advice[i].value_text);
-    FW_TRY(fw_text_end(&text));
-    *sentence = text.data;
-    return FW_OK;
-}
-
 static fw_status advice(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
-    const fw_verdict_parameter_advice *best = NULL;
-    double flexures = v->nadvice > 0 && v->advice_verified ? 0 : HUGE_VAL;
-    for (int i = 0; i < v->nadvice; i++)
-        flexures = fmax(flexures, v->advice[i].change);
-    for (int i = 0; i < v->nparameter; i++)
-        if (v->parameter[i].found == FW_PARAMETER_ACCEPTS &&
-            (!best || v->parameter[i].change < best->change))
-            best = &v->parameter[i];
-    if (best && best->change <= flexures)
-        return add(s, "do",
-                   fw_arena_printf(arena, "%s: --set \"%s=%s\"", best->text, best->name,
-                                   best->value_text));
     bool searched = v->advice_note && v->advice_note != fw_verdict_not_searched;
-    if (!isfinite(flexures)) return searched ? add(s, "do", v->advice_note) : FW_OK;
-    const char *text;
-    FW_TRY(together(arena, v, &text));
-    return add(s, "do", text);
+    if (v->nproposal == 0) return searched ? add(s, "do", v->advice_note) : FW_OK;
+    const fw_verdict_proposal *p = &v->proposal[0];
+    fw_text text = fw_text_new(arena);
+    fw_text_printf(&text, "%s:", p->text);
+    for (int i = 0; i < p->nset; i++)
+        fw_text_printf(&text, " --set \"%s=%s\"", p->set[i].path, p->set[i].value);
+    FW_TRY(fw_text_end(&text));
+    return add(s, "do", text.data);
 }
 
 /* ---- what is not guaranteed ---- */

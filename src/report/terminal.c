@@ -112,23 +112,28 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
         }
 }
 
+/* those alone that accept are among the proposals */
 static void parameters(fw_text *out, const fw_verdict *v) {
+    int said = 0;
     for (int i = 0; i < v->nparameter; i++) {
         const fw_verdict_parameter_advice *p = &v->parameter[i];
-        if (i == 0) fw_text_add(out, "\none parameter alone:\n");
-        if (p->found == FW_PARAMETER_ACCEPTS)
-            fw_text_printf(out, "  %s\n    --set \"%s=%s\"\n", p->text, p->name, p->value_text);
-        else
-            fw_text_printf(out, "  %s\n", p->text);
+        if (p->found == FW_PARAMETER_ACCEPTS) continue;
+        if (said++ == 0) fw_text_add(out, "\nnot by one parameter alone:\n");
+        fw_text_printf(out, "  %s\n", p->text);
     }
 }
 
 static void advice(fw_text *out, const fw_verdict *v) {
-    if (v->nadvice == 0 && !v->advice_note) return;
-    fw_text_add(out, "\nwhat to change:\n");
-    for (int i = 0; i < v->nadvice; i++)
-        fw_text_printf(out, "  %s\n    --set \"%s=%s\"\n", v->advice[i].text, v->advice[i].set_path,
-                       v->advice[i].value_text);
+    if (v->nproposal == 0 && !v->advice_note) return;
+    fw_text_add(out, v->nproposal > 0
+                         ? "\nwhat to change, the least first (each was run and accepted):\n"
+                         : "\nwhat to change:\n");
+    for (int i = 0; i < v->nproposal; i++) {
+        const fw_verdict_proposal *p = &v->proposal[i];
+        fw_text_printf(out, "  %d. %s\n", i + 1, p->text);
+        for (int k = 0; k < p->nset; k++)
+            fw_text_printf(out, "     --set \"%s=%s\"\n", p->set[k].path, p->set[k].value);
+    }
     if (v->advice_note) fw_text_printf(out, "  %s\n", v->advice_note);
 }
 

@@ -1,12 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What to change, and by how much: longer flexures, else wider ones; and, beside either, how far
-   the loads or the required poses would have to come down; and every declared parameter alone.
-   Every sentence has been run and accepted. */
-#include "verdict/trial.h"
+/* What to change, and by how much: every declared parameter alone; longer flexures, else wider
+   ones; less load or smaller required poses; several values together. Every proposal has been run
+   as its settings say and accepted; the least change comes first. */
+#include "base/sort.h"
+#include "effects/effects.h"
+#include "verdict/advice_several.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { ROUNDS = 14 };
+/* evaluations of hinges that a search for several values may take */
+static const double most_work_together = 2e6;
+/* a change that is smaller is not worth looking for a smaller one of several values */
+static const double small_enough = 0.1;
 /* an advice nobody could follow is none: twelve times as long, four times as wide */
 static const double most_longer = 12.0, most_wider = 4.0;
 
@@ -67,39 +74,98 @@ static bool lengthen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, d
     return f->length_m <= most_longer * was->length_m;
 }
 
-static fw_status add_line(fw_verdict_trial *trial, fw_verdict *out, const fw_device_flexure *f,
-                          const char *what, const char *attribute, double to_m, double from_m) {
-    char to[32], from[32];
-    fw_number_text(to, sizeof to, to_m * 1e6, 6);
-    fw_number_text(from, sizeof from, from_m * 1e6, 4);
-    fw_verdict_advice *advice = &out->advice[out->nadvice++];
-    advice->value = to_m;
-    advice->change = fabs(to_m - from_m) / from_m;
-    FW_NEED(advice->value_text = fw_arena_printf(trial->arena, "%s um", to));
-    FW_NEED(advice->set_path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute));
-    FW_NEED(advice->text =
-                fw_arena_printf(trial->arena, "flexure %s: %s >= %s um is accepted; now %s um",
-                                f->id, what, to, from));
+/* ---- proposals ---- */
+
+typedef struct advice { /* what is at hand while all kinds of changes are tried */
+    fw_verdict_trial *trial;
+    fw_verdict *out;
+    bool ended;         /* a search was, before it was done */
+    bool together, all; /* several parameters, all that the file states: were looked at */
+} advice;
+
+static void add(advice *a, fw_verdict_proposal proposal) {
+    a->out->proposal[a->out->nproposal++] = proposal;
+}
+
+/* the settings are read, drawn and judged; what is not accepted is not proposed */
+static fw_status add_verified(advice *a, fw_verdict_proposal proposal, bool *added) {
+    *added = false;
+    if (proposal.nset == 0) return FW_OK;
+    FW_TRY(fw_verdict_trial_restate(a->trial, proposal.set, proposal.nset, FW_LOOK_WHOLE));
+    *added = accepted(a->trial);
+    if (*added) add(a, proposal);
     return FW_OK;
 }
 
-/* advise.c: each tries to reach an accepted, drawn device by one kind of change. *done: it did,
-   and wrote its advice (lines into verdict->advice, or a sentence). */
-static fw_status change_lengths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
+/* the device as described once more */
+static fw_status start_again(advice *a) {
+    fw_verdict_trial *t = a->trial;
+    const double work = t->work;
+    FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
+    t->work = work;
+    return FW_OK;
+}
+
+typedef struct lines { /* of flexures that were changed */
+    fw_device_set *set;
+    int nset;
+    double change;
+    fw_text text;
+} lines;
+
+static fw_status lines_new(const advice *a, lines *l) {
+    *l = (lines){.text = fw_text_new(a->trial->arena)};
+    FW_NEED(l->set = fw_arena_array(a->trial->arena, fw_device_set,
+                                    2 * (size_t)a->trial->device->nflexure));
+    return FW_OK;
+}
+
+static fw_status add_line(fw_arena *arena, lines *l, const fw_device_flexure *f, const char *what,
+                          const char *attribute, double to_m, double from_m) {
+    char to[32], from[32];
+    fw_number_text(to, sizeof to, to_m * 1e6, 6);
+    fw_number_text(from, sizeof from, from_m * 1e6, 4);
+    fw_device_set *set = &l->set[l->nset++];
+    FW_NEED(set->path = fw_arena_printf(arena, "flexure[%s]/@%s", f->id, attribute));
+    FW_NEED(set->value = fw_arena_printf(arena, "%s um", to));
+    fw_text_printf(&l->text, "%sflexure %s: %s >= %s um is accepted; now %s um",
+                   l->nset > 1 ? "; " : "", f->id, what, to, from);
+    return FW_OK;
+}
+
+static fw_status propose_lines(advice *a, lines *l, bool *added) {
+    FW_TRY(fw_text_end(&l->text));
+    return add_verified(a,
+                        (fw_verdict_proposal){.kind = FW_PROPOSE_FLEXURES,
+                                              .set = l->set,
+                                              .nset = l->nset,
+                                              .change = l->change,
+                                              .text = l->text.data},
+                        added);
+}
+
+/* each tries to reach an accepted, drawn device by one kind of change */
+static fw_status change_lengths(advice *a, bool *added) {
+    fw_verdict_trial *trial = a->trial;
+    lines l;
+    *added = false;
+    FW_TRY(start_again(a));
     FW_TRY(repeat(trial, lengthen));
-    *done = accepted(trial);
-    if (*done) FW_TRY(fw_verdict_least_change(trial));
-    for (int i = 0; *done && i < trial->device->nflexure; i++) {
+    if (!accepted(trial)) return FW_OK;
+    FW_TRY(fw_verdict_least_change(trial));
+    FW_TRY(lines_new(a, &l));
+    for (int i = 0; i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
         if (f->length_m == was->length_m) continue;
         bool arc = f->kind == FW_FLEXURE_CSFH;
+        l.change += fabs(log(f->length_m / was->length_m));
         if (f->length_given || !arc)
-            FW_TRY(add_line(trial, out, f, arc ? "arc length" : "leaf length", "length",
+            FW_TRY(add_line(trial->arena, &l, f, arc ? "arc length" : "leaf length", "length",
                             f->length_m, was->length_m));
         if (arc && f->radius_given)
-            FW_TRY(add_line(trial, out, f, "radius", "radius", f->radius_m, was->radius_m));
+            FW_TRY(add_line(trial->arena, &l, f, "radius", "radius", f->radius_m, was->radius_m));
     }
-    return FW_OK;
+    return propose_lines(a, &l, added);
 }
 
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
@@ -125,16 +191,22 @@ static bool widen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, doub
     return trial->changed->nflexure > 0;
 }
 
-static fw_status change_widths(fw_verdict_trial *trial, fw_verdict *out, bool *done) {
+static fw_status change_widths(advice *a, bool *added) {
+    fw_verdict_trial *trial = a->trial;
+    lines l;
+    *added = false;
+    FW_TRY(start_again(a));
     FW_TRY(repeat(trial, widen));
-    *done = accepted(trial);
-    if (*done) FW_TRY(fw_verdict_least_change(trial));
-    for (int i = 0; *done && i < trial->device->nflexure; i++) {
+    if (!accepted(trial)) return FW_OK;
+    FW_TRY(fw_verdict_least_change(trial));
+    FW_TRY(lines_new(a, &l));
+    for (int i = 0; i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
-        if (f->width_m != was->width_m)
-            FW_TRY(add_line(trial, out, f, "width", "width", f->width_m, was->width_m));
+        if (f->width_m == was->width_m) continue;
+        l.change += fabs(log(f->width_m / was->width_m));
+        FW_TRY(add_line(trial->arena, &l, f, "width", "width", f->width_m, was->width_m));
     }
-    return FW_OK;
+    return propose_lines(a, &l, added);
 }
 
 /* ---- loads and required poses: less of them ---- */
@@ -178,13 +250,16 @@ static double kept(double now, double was) {
     return was != 0.0 ? now / was : 1.0;
 }
 
-/* rounded down to three digits, in per cent */
-static void add_share(fw_text *text, double share) {
+/* down to three digits */
+static double rounded_down(double share) {
     double unit = pow(10, floor(log10(share)) - 2);
-    fw_text_number(text, 100 * unit * floor(share / unit * (1 + 1e-12)), 3);
-    fw_text_add(text, " %");
+    return unit * floor(share / unit * (1 + 1e-12));
 }
 
+static void add_share(fw_text *text, double share) {
+    fw_text_number(text, 100 * share, 4);
+    fw_text_add(text, " %");
+}
 /* "the loads of scene push to 50 %"; what is scaled besides forces and torques is named */
 static void report_scene(fw_text *text, const fw_device_scene *s, double share, const char **join) {
     fw_effects_load_scaling loads;
@@ -211,98 +286,204 @@ static void report_scene(fw_text *text, const fw_device_scene *s, double share, 
     }
 }
 
-/* the share that is left of each scene's loads and of each workspace */
-static fw_status report_loads(fw_verdict_trial *trial, const char **sentence) {
-    fw_text text = fw_text_new(trial->arena);
-    const char *join = "";
-    for (int i = 0; i < trial->device->nscene; i++)
-        if (trial->share[i] < 0.9999)
-            report_scene(&text, &trial->device->scene[i], trial->share[i], &join);
-    for (int i = 0; i < trial->device->nworkspace; i++) {
-        const fw_device_workspace_box *was = &trial->device->workspace[i],
-                                      *w = &trial->changed->workspace[i];
-        double share =
-            fmin(kept(w->x_max_m, was->x_max_m),
-                 fmin(kept(w->y_max_m, was->y_max_m), kept(w->phi_max_rad, was->phi_max_rad)));
-        if (share > 0.9999) continue;
-        fw_text_printf(&text, "%sthe required workspace%s%s to ", join, was->flow ? " of " : "",
-                       was->flow ? was->flow : "");
-        add_share(&text, share);
-        join = ", ";
-    }
-    FW_TRY(fw_text_end(&text));
-    *sentence = text.data;
+static double share_of_box(const fw_device_workspace_box *was, const fw_device_workspace_box *w) {
+    return fmin(kept(w->x_max_m, was->x_max_m),
+                fmin(kept(w->y_max_m, was->y_max_m), kept(w->phi_max_rad, was->phi_max_rad)));
+}
+
+typedef struct shares {            /* what is left of each scene's loads and of each required box */
+    fw_verdict_variable *variable; /* (count) */
+    double *x, change;
+    int count;
+    fw_text text;
+    const char *join;
+} shares;
+
+static fw_status take_scene(fw_verdict_trial *trial, int i, shares *s, bool *ok) {
+    const double share = trial->share[i];
+    *ok = true;
+    if (share >= 0.9999) return FW_OK;
+    FW_TRY(fw_verdict_variable_of_loads(trial, i, &s->variable[s->count], ok));
+    s->x[s->count++] = rounded_down(share);
+    s->change += fabs(log(share));
+    report_scene(&s->text, &trial->device->scene[i], rounded_down(share), &s->join);
     return FW_OK;
 }
 
-static fw_status change_loads(fw_verdict_trial *trial, const char **sentence, bool *done) {
+static fw_status take_box(fw_verdict_trial *trial, int i, shares *s, bool *ok) {
+    const fw_device_workspace_box *was = &trial->device->workspace[i];
+    const double share = share_of_box(was, &trial->changed->workspace[i]);
+    *ok = true;
+    if (share >= 0.9999) return FW_OK;
+    FW_TRY(fw_verdict_variable_of_box(trial, i, &s->variable[s->count], ok));
+    s->x[s->count++] = rounded_down(share);
+    s->change += fabs(log(share));
+    fw_text_printf(&s->text, "%sthe required workspace%s%s to ", s->join, was->flow ? " of " : "",
+                   was->flow ? was->flow : "");
+    add_share(&s->text, rounded_down(share));
+    s->join = ", ";
+    return FW_OK;
+}
+
+static fw_status change_loads(advice *a, bool *added) {
+    fw_verdict_trial *trial = a->trial;
+    const fw_device *d = trial->device;
+    size_t most = (size_t)d->nscene + (size_t)d->nworkspace;
+    shares s = {.text = fw_text_new(trial->arena), .join = "reduce "};
+    fw_verdict_proposal proposal = {.kind = FW_PROPOSE_LOADS};
+    bool ok = true;
+    *added = false;
+    FW_TRY(start_again(a));
     FW_TRY(repeat(trial, lighten));
-    *done = accepted(trial);
-    if (*done) FW_TRY(fw_verdict_least_change(trial));
-    if (*done) FW_TRY(report_loads(trial, sentence));
-    *done = *done && *sentence;
+    if (!accepted(trial)) return FW_OK;
+    FW_TRY(fw_verdict_least_change(trial));
+    FW_NEED(s.variable = fw_arena_array(trial->arena, fw_verdict_variable, most));
+    FW_NEED(s.x = fw_arena_array(trial->arena, double, most));
+    for (int i = 0; ok && i < d->nscene; i++)
+        FW_TRY(take_scene(trial, i, &s, &ok));
+    for (int i = 0; ok && i < d->nworkspace; i++)
+        FW_TRY(take_box(trial, i, &s, &ok));
+    if (!ok || s.count == 0) return FW_OK;
+    fw_text_add(&s.text, ": accepted");
+    FW_TRY(fw_text_end(&s.text));
+    FW_TRY(fw_verdict_variables_settings(trial->arena, s.variable, s.count, s.x, &proposal.set,
+                                         &proposal.nset));
+    proposal.change = s.change;
+    proposal.text = s.text.data;
+    return add_verified(a, proposal, added);
+}
+
+/* ---- parameters ---- */
+
+static fw_status propose_parameters(advice *a) {
+    for (int i = 0; i < a->out->nparameter; i++) {
+        const fw_verdict_parameter_advice *p = &a->out->parameter[i];
+        a->ended = a->ended || p->ended;
+        if (p->found != FW_PARAMETER_ACCEPTS) continue;
+        fw_device_set *set = fw_arena_one(a->trial->arena, fw_device_set);
+        FW_NEED(set);
+        *set = (fw_device_set){p->name, p->value_text};
+        const bool ratio = (p->to > 0 && p->from > 0) || (p->to < 0 && p->from < 0);
+        const double range = fmax(p->high - p->from, p->from - p->low);
+        add(a, (fw_verdict_proposal){.kind = FW_PROPOSE_PARAMETER,
+                                     .set = set,
+                                     .nset = 1,
+                                     .change = ratio ? fabs(log(p->to / p->from))
+                                                     : fabs(p->to - p->from) / range,
+                                     .text = p->text});
+    }
     return FW_OK;
 }
 
-/* ---- which changes are tried, in which order, and what is said ---- */
+static double least_so_far(const fw_verdict *v) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < v->nproposal; i++)
+        least = fmin(least, v->proposal[i].change);
+    return least;
+}
+
+/* what is found is new where it is smaller than all that is known, or changes something else */
+static fw_status propose_several(advice *a, const fw_verdict_variable *variable, int count) {
+    fw_verdict_trial *trial = a->trial;
+    fw_verdict_several found;
+    fw_verdict_proposal proposal = {.kind = FW_PROPOSE_SEVERAL};
+    bool added;
+    FW_TRY(start_again(a));
+    FW_TRY(fw_verdict_change_several(trial, variable, count, least_so_far(a->out),
+                                     trial->work + most_work_together, &found));
+    a->ended = a->ended || found.ended;
+    if (!found.accepted || found.size > 0.98 * least_so_far(a->out)) return FW_OK;
+    FW_TRY(fw_verdict_variables_settings(trial->arena, variable, count, found.x, &proposal.set,
+                                         &proposal.nset));
+    FW_TRY(fw_verdict_variables_text(trial->arena, variable, count, found.x, &proposal.text));
+    proposal.change = found.size;
+    for (int i = 0; proposal.nset == 1 && i < count; i++)
+        if (found.x[i] != variable[i].value.now) proposal.kind = variable[i].kind;
+    return add_verified(a, proposal, &added);
+}
+
+static fw_status change_parameters_together(advice *a) {
+    fw_verdict_variable *variable;
+    int count;
+    if (least_so_far(a->out) <= small_enough) return FW_OK;
+    FW_TRY(fw_verdict_variables_of_parameters(a->trial, &variable, &count));
+    if (count < 2) return FW_OK;
+    a->together = true;
+    return propose_several(a, variable, count);
+}
+
+static fw_status change_all(advice *a) {
+    fw_verdict_variable *variable;
+    int count;
+    if (a->out->nproposal > 0) return FW_OK;
+    FW_TRY(fw_verdict_variables_of_attributes(a->trial, &variable, &count));
+    if (count == 0) return FW_OK;
+    a->all = true;
+    return propose_several(a, variable, count);
+}
+
+/* ---- which changes are tried, and what is said ---- */
 
 /* no change of a flexure can help */
 static const char *hopeless(const fw_device *device, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         if (v->workspace.required && !v->workspace.reachable)
-            return "part of the required workspace is out of reach: no flexure can change that; "
-                   "make the links longer or the workspace smaller";
+            return "part of the required workspace is out of reach, and no flexure can change "
+                   "that: make the links longer or the workspace smaller";
         for (int k = 0; k < device->nscene; k++)
             if (v->motion[k] && v->motion[k]->ended)
-                return "a scene turns a joint by more than a whole turn: no flexure can follow; "
-                       "lower its load";
+                return "a scene turns a joint by more than a whole turn, and no flexure can "
+                       "follow: lower its load";
     }
     return NULL;
 }
 
-static fw_status conclude(fw_arena *arena, fw_verdict *verdict, const char *loads) {
-    if (!verdict->advice_verified && !loads) {
-        verdict->advice_note =
-            "no single kind of change (longer or wider flexures, smaller loads or workspace) was "
-            "found with which the design is accepted and can be drawn: reconsider hinge points, "
-            "thickness or material";
-        return FW_OK;
-    }
-    if (!verdict->advice_verified)
-        verdict->advice_note = fw_arena_printf(
-            arena,
-            "reduce %s: this was run and accepted; longer or wider flexures alone do not help",
-            loads);
-    else
-        verdict->advice_note =
-            fw_arena_printf(arena, "%s run and accepted%s%s%s",
-                            verdict->nadvice > 1 ? "all of these together were" : "this was",
-                            loads ? "; or keep the flexures and reduce " : "", loads ? loads : "",
-                            loads ? ": run and accepted as well" : "");
-    FW_NEED(verdict->advice_note);
+static const char ended_early[] =
+    "the search was ended where it would have taken too long: there may be smaller changes";
+
+static fw_status conclude(const advice *a, const char *why) {
+    fw_verdict *v = a->out;
+    v->advice_note = v->nproposal > 0 && a->ended ? ended_early : NULL;
+    if (v->nproposal > 0) return FW_OK;
+    FW_NEED(v->advice_note = fw_arena_printf(
+                a->trial->arena,
+                "no change was found with which the design is accepted and can be drawn; tried "
+                "were %s%s%ssmaller loads and required poses%s: %s%s",
+                v->nparameter > 0 ? "every parameter alone, " : "",
+                a->together ? "several parameters together, " : "",
+                why ? "" : "longer and wider flexures, ",
+                a->all ? ", and all of these together" : "",
+                a->ended ? "the search was ended where it would have taken too long; " : "",
+                why ? why : "reconsider hinge points, thickness or material"));
     return FW_OK;
+}
+
+static int by_change(const void *a, const void *b) {
+    const fw_verdict_proposal *p = a, *q = b;
+    int order = fw_order_doubles(p->change, q->change);
+    if (order == 0) order = fw_order_wholes(p->nset, q->nset);
+    return order ? order : strcmp(p->text, q->text);
 }
 
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict) {
-    if (verdict->decision == FW_ACCEPT || !options->with_advice) return FW_OK;
-    FW_TRY(fw_verdict_change_parameters(arena, device, options, verdict));
-    verdict->advice_note = hopeless(device, verdict);
-    if (verdict->advice_note) return FW_OK;
-    FW_NEED(verdict->advice =
-                fw_arena_array(arena, fw_verdict_advice, 2 * (size_t)device->nflexure));
+    if (verdict->decision == FW_ACCEPT || !options->with_advice || !options->restated.with)
+        return FW_OK;
     fw_verdict_trial trial;
-    bool done = false;
-    const char *loads = NULL;
+    advice a = {.trial = &trial, .out = verdict};
+    const char *why = hopeless(device, verdict);
+    bool added = false;
+    FW_NEED(verdict->proposal =
+                fw_arena_array(arena, fw_verdict_proposal, (size_t)device->nparameter + 4));
     FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
-    FW_TRY(change_lengths(&trial, verdict, &done));
-    if (!done) {
-        FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
-        FW_TRY(change_widths(&trial, verdict, &done));
-    }
-    verdict->advice_verified = done;
-    FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
-    FW_TRY(change_loads(&trial, &loads, &done));
-    return conclude(arena, verdict, done ? loads : NULL);
+    FW_TRY(fw_verdict_change_parameters(&trial, verdict));
+    FW_TRY(propose_parameters(&a));
+    if (!why) FW_TRY(change_lengths(&a, &added));
+    if (!why && !added) FW_TRY(change_widths(&a, &added));
+    FW_TRY(change_loads(&a, &added));
+    FW_TRY(change_parameters_together(&a));
+    FW_TRY(change_all(&a));
+    qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);
+    return conclude(&a, why);
 }

@@ -156,6 +156,7 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     const fw_dynamics_motion *const *like = (const fw_dynamics_motion *const *)s->v->motion;
     fw_verdict_options options = s->options;
     fw_dynamics_motion_options *motion = &options.motion;
+    options.values = false;
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
     do {
         *now = (fw_verdict_variant_verdict){.variant = &device->variant, .like = like};

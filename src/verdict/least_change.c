@@ -6,8 +6,8 @@
 
    Out: `changed` at the least s that was run and accepted, lengths rounded up to their unit.
 
-   Method: s is halved between what is not accepted and what is, until the largest change is known
-   to 1 %. Acceptance need not be monotonous in s: what is found was run, and lies at the end of an
+   Method: s is halved between what is not accepted and what is, until the change is known to 1 %
+   of itself. Acceptance need not be monotonous in s: what is found was run, and lies at the end of an
    interval that accepts; a smaller one beyond a gap may be missed.
 
    Cost: at most 8 judgements. Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
@@ -16,7 +16,7 @@
 #include <math.h>
 
 enum { HALVINGS = 8 };
-static const double known_to = 0.01; /* of ln(y1/y0) */
+static const double known_to = 0.01; /* of the change */
 
 static double along(double from, double to, double s) {
     return from > 0 && to > 0 ? from * pow(to / from, s) : from + s * (to - from);
@@ -27,35 +27,15 @@ static double rounded_up(double x, double unit, double most) {
     return fmin(ceil(x / unit - 1e-6) * unit, most);
 }
 
-static double size_of(double from, double to) {
-    return from > 0 && to > 0 ? fabs(log(to / from)) : 0.0;
-}
-
-static double largest(const fw_verdict_trial *trial, const fw_device *full, const double *share) {
-    double size = 0;
-    for (int i = 0; i < full->nflexure; i++) {
-        const fw_device_flexure *was = &trial->device->flexure[i], *f = &full->flexure[i];
-        size = fmax(size,
-                    fmax(size_of(was->length_m, f->length_m), size_of(was->width_m, f->width_m)));
-    }
-    for (int i = 0; i < full->nscene; i++)
-        size = fmax(size, size_of(1, share[i]));
-    for (int i = 0; i < full->nworkspace; i++) {
-        const fw_device_workspace_box *was = &trial->device->workspace[i], *w = &full->workspace[i];
-        size = fmax(size, size_of(was->x_max_m - was->x_min_m, w->x_max_m - w->x_min_m));
-    }
-    return size;
-}
-
 static void flexure_at(const fw_device_flexure *was, const fw_device_flexure *full, double s,
                        fw_device_flexure *f) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
-    double unit = arc && f->radius_given ? 1e-7 * f->angle_rad : 1e-6;
+    double unit = arc && f->radius_given ? 1e-7 * f->angle_rad : 1e-7;
     if (full->length_m != was->length_m)
         f->length_m = rounded_up(along(was->length_m, full->length_m, s), unit, full->length_m);
     if (arc && full->length_m != was->length_m) f->radius_m = f->length_m / f->angle_rad;
     if (full->width_m != was->width_m)
-        f->width_m = rounded_up(along(was->width_m, full->width_m, s), 1e-7, full->width_m);
+        f->width_m = rounded_up(along(was->width_m, full->width_m, s), 1e-8, full->width_m);
 }
 
 static void box_at(const fw_device_workspace_box *full, double s, fw_device_workspace_box *w) {
@@ -89,8 +69,7 @@ fw_status fw_verdict_least_change(fw_verdict_trial *trial) {
     FW_NEED(share = fw_arena_array(trial->arena, double, (size_t)full->nscene));
     for (int i = 0; i < full->nscene; i++)
         share[i] = trial->share[i];
-    const double size = largest(trial, full, share);
-    for (int i = 0; i < HALVINGS && size * (high - low) > known_to; i++) {
+    for (int i = 0; i < HALVINGS && high - low > known_to * high; i++) {
         double s = 0.5 * (low + high);
         FW_TRY(go_to(trial, full, share, s));
         FW_TRY(fw_verdict_trial_run(trial));

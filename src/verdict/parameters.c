@@ -33,7 +33,7 @@
 
    Test: tests/unit/plan/test_advice.c, tests/cli/test_advice.py. */
 #include "base/sort.h"
-#include "verdict/trial.h"
+#include "verdict/trial_value.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,8 +48,6 @@ static const double as_typed = 1e-3;
 /* a coarse judgement may be off by less than this: refinement pays */
 static const double worth_refining = 1.05;
 static const double clear_of_limit = 0.997; /* coarsely */
-static const double least_step = 1e-4;      /* of the range: nobody asks for a finer digit */
-static const double factor_without_bounds = 4.0;
 static const double ring_factor = 1.5;
 
 typedef struct sample { /* at one value */
@@ -61,12 +59,8 @@ typedef struct sample { /* at one value */
 
 typedef struct parameter_search { /* for one parameter; values in the unit as written */
     fw_verdict_trial *trial;
-    const fw_device_parameter *parameter;
-    fw_quantity_unit unit;
-    const char *unit_text;
-    double now, low, high, range;
-    double digit; /* no value is finer */
-    double bias;  /* close over coarse, where both were run last */
+    fw_verdict_value value;
+    double bias; /* close over coarse, where both were run last */
     int trials;
     double most_work; /* trial->work may come to */
 } parameter_search;
@@ -75,54 +69,18 @@ static bool spent(const parameter_search *h) {
     return h->trials >= MOST_TRIALS || h->trial->work >= h->most_work;
 }
 
-/* ---- values ---- */
-
-/* of a dimension in SI: "kg m s-2"; a parameter computed from others has no unit of its own */
-static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
-    const struct {
-        const char *symbol;
-        int power;
-    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},    {"A", d.A},
-                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}};
-    fw_text text = fw_text_new(arena);
-    fw_text_add(&text, "");
-    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
-        if (part[i].power == 0) continue;
-        fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
-        if (part[i].power != 1) fw_text_printf(&text, "%d", part[i].power);
-    }
-    return text.failed ? NULL : text.data;
-}
-
-static const char *value_text(const parameter_search *h, double value, int digits) {
-    char number[40];
-    fw_number_text(number, sizeof number, value, digits);
-    return fw_arena_printf(h->trial->arena, "%s%s%s", number, h->unit_text[0] ? " " : "",
-                           h->unit_text);
-}
-
-/* the power of ten at or below x, not finer than the finest digit */
-static double step_below(const parameter_search *h, double x) {
-    double step = pow(10, floor(log10(x) + 1e-9));
-    return fmax(step, h->digit);
-}
-
-static double rounded(double x, double step) {
-    return step >= 1 ? nearbyint(x / step) * step : nearbyint(x / step) / nearbyint(1 / step);
-}
-
 static double distance(const parameter_search *h, const sample *l) {
-    return fabs(l->at - h->now);
+    return fabs(l->at - h->value.now);
 }
 
 /* ---- trials ---- */
 
-static fw_status run(parameter_search *h, double at, bool glance) {
-    const char *value = value_text(h, at, 12);
+static fw_status run(parameter_search *h, double at, fw_verdict_look look) {
+    const char *value = fw_verdict_value_text(h->trial->arena, &h->value, at, 12);
     FW_NEED(value);
-    const fw_device_set set = {h->parameter->name, value};
+    const fw_device_set set = {h->value.path, value};
     h->trials++;
-    return fw_verdict_trial_restate(h->trial, &set, glance);
+    return fw_verdict_trial_restate(h->trial, &set, 1, look);
 }
 
 static bool acceptable(const fw_verdict_trial *trial) {
@@ -130,7 +88,7 @@ static bool acceptable(const fw_verdict_trial *trial) {
 }
 
 static fw_status glance(parameter_search *h, double at, sample *out) {
-    FW_TRY(run(h, at, true));
+    FW_TRY(run(h, at, FW_LOOK_GLANCE));
     *out = (sample){.at = at,
                     .coarse = fw_verdict_trial_excess(h->trial),
                     .rejected = h->trial->decision == FW_REJECT || !h->trial->drawn};
@@ -140,7 +98,7 @@ static fw_status glance(parameter_search *h, double at, sample *out) {
 /* judged as any device; then coarsely, at the corner that now governs: what coarse judgements
    are off by */
 static fw_status judge(parameter_search *h, double at, sample *out) {
-    FW_TRY(run(h, at, false));
+    FW_TRY(run(h, at, FW_LOOK_WHOLE));
     bool accepted = acceptable(h->trial);
     double excess = fw_verdict_trial_excess(h->trial);
     FW_TRY(glance(h, at, out));
@@ -158,22 +116,22 @@ static double estimate(const parameter_search *h, const sample *l) {
 /* ---- between a value that is not accepted and one that may be ---- */
 
 static double rest_of(const parameter_search *h, const sample *far) {
-    return fmax(known_to * distance(h, far), as_typed * fabs(h->now));
+    return fmax(known_to * distance(h, far), as_typed * fabs(h->value.now));
 }
 
 /* nothing is left to look at between them */
 static bool close_by(const parameter_search *h, const sample *near, const sample *far) {
     double gap = fabs(far->at - near->at), rest = rest_of(h, far);
-    return gap <= rest * (1 + 1e-9) || gap <= 1.01 * step_below(h, rest);
+    return gap <= rest * (1 + 1e-9) || gap <= 1.01 * fw_verdict_value_step(&h->value, rest);
 }
 
 /* `at` as a decimal number strictly between; false: there is none */
 static bool between(const parameter_search *h, const sample *near, const sample *far, double *at) {
-    double step = step_below(h, rest_of(h, far));
+    double step = fw_verdict_value_step(&h->value, rest_of(h, far));
     double low = fmin(near->at, far->at), high = fmax(near->at, far->at);
-    *at = rounded(*at, step);
-    if (*at <= low + 1e-3 * step) *at = rounded(low + 0.6 * step, step);
-    if (*at >= high - 1e-3 * step) *at = rounded(high - 0.6 * step, step);
+    *at = fw_verdict_value_rounded(*at, step);
+    if (*at <= low + 1e-3 * step) *at = fw_verdict_value_rounded(low + 0.6 * step, step);
+    if (*at >= high - 1e-3 * step) *at = fw_verdict_value_rounded(high - 0.6 * step, step);
     return *at > low + 1e-3 * step && *at < high - 1e-3 * step;
 }
 
@@ -210,7 +168,7 @@ static fw_status tighten(parameter_search *h, sample near, sample *far) {
     double stride = 1;
     while (!spent(h)) {
         if (near.judged && close_by(h, &near, far)) return FW_OK;
-        double gap = far->at - near.at, step = step_below(h, rest_of(h, far));
+        double gap = far->at - near.at, step = fw_verdict_value_step(&h->value, rest_of(h, far));
         double whole = step * floor(stride * rest_of(h, far) / step + 1e-9);
         double at = far->at - copysign(fmin(fmax(whole, step), 0.5 * fabs(gap)), gap);
         sample inner;
@@ -257,18 +215,19 @@ static fw_status enclose(parameter_search *h, sample near, sample *far) {
 
 /* the value at a distance on one side, at most the end of that side */
 static double on_side(const parameter_search *h, int side, double away) {
-    double at = rounded(h->now + side * away, step_below(h, 0.05 * away));
-    return fmin(fmax(at, h->low), h->high);
+    double at = fw_verdict_value_rounded(h->value.now + side * away,
+                                         fw_verdict_value_step(&h->value, 0.05 * away));
+    return fmin(fmax(at, h->value.low), h->value.high);
 }
 
 /* distances of the values looked at: the first a tenth of the value, or less of a small range */
 static int rings(const parameter_search *h, double *away) {
-    double first = fmin(h->range / 8, fmax(0.1 * fabs(h->now), 1e-3 * h->range));
-    first = fmax(first, h->digit);
-    int n = (int)ceil(log(h->range / first) / log(ring_factor) - 1e-9) + 1;
+    double first = fmin(h->value.range / 8, fmax(0.1 * fabs(h->value.now), 1e-3 * h->value.range));
+    first = fmax(first, h->value.digit);
+    int n = (int)ceil(log(h->value.range / first) / log(ring_factor) - 1e-9) + 1;
     n = n < FEWEST_RINGS ? FEWEST_RINGS : n > MOST_RINGS ? MOST_RINGS : n;
     for (int i = 0; i < n; i++)
-        away[i] = first * pow(h->range / first, i / (double)(n - 1));
+        away[i] = first * pow(h->value.range / first, i / (double)(n - 1));
     return n;
 }
 
@@ -285,8 +244,8 @@ static fw_status sample_other_side(parameter_search *h, int side, const sample *
                                    sample *best) {
     double away = distance(h, best), at = on_side(h, side, away);
     sample there;
-    if (spent(h) || fabs(at - h->now) > away) return FW_OK;
-    if (fabs(at - before->at) < h->digit) return FW_OK;
+    if (spent(h) || fabs(at - h->value.now) > away) return FW_OK;
+    if (fabs(at - before->at) < h->value.digit) return FW_OK;
     FW_TRY(sample_further(h, at, before, &there));
     if (there.accepted && distance(h, &there) < away) *best = there;
     return FW_OK;
@@ -295,8 +254,8 @@ static fw_status sample_other_side(parameter_search *h, int side, const sample *
 static fw_status search(parameter_search *h, double excess, sample *best) {
     double away[MOST_RINGS];
     int n = rings(h, away);
-    sample last[2] = {{.at = h->now, .coarse = excess, .judged = true},
-                      {.at = h->now, .coarse = excess, .judged = true}};
+    sample last[2] = {{.at = h->value.now, .coarse = excess, .judged = true},
+                      {.at = h->value.now, .coarse = excess, .judged = true}};
     for (int i = 0; i < n; i++) {
         int first = last[0].coarse <= last[1].coarse ? 0 : 1; /* the side that got better */
         for (int k = 0; k < 2; k++) {
@@ -318,64 +277,18 @@ static fw_status search(parameter_search *h, double excess, sample *best) {
 
 /* ---- one parameter ---- */
 
-/* is it a count? One that is written as a whole number, and cannot be read between two of them */
-static fw_status is_count(parameter_search *h, bool *count) {
-    *count = false;
-    if (h->unit_text[0] || h->now != nearbyint(h->now)) return FW_OK;
-    double between = h->now + (h->now + 0.5 <= h->high ? 0.5 : -0.5);
-    if (between < h->low) return FW_OK;
-    const char *value = value_text(h, between, 12);
-    FW_NEED(value);
-    fw_arena *scratch = fw_arena_part(h->trial->arena, 0);
-    FW_NEED(scratch);
-    const fw_verdict_restated *r = &h->trial->options->restated;
-    const fw_device *device = NULL;
-    fw_verdict_variant_verdict *variant =
-        fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)h->trial->verdict->nvariant);
-    const fw_device_set set = {h->parameter->name, value};
-    fw_status status = variant ? r->with(r->context, scratch, &set, &device, variant) : FW_NOMEM;
-    fw_arena_free(scratch);
-    *count = status != FW_OK;
-    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
-}
-
-/* *ok false: nothing says how far to sample */
-static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, parameter_search *h,
-                       bool *ok) {
-    *h = (parameter_search){.trial = trial, .parameter = p, .unit_text = p->unit, .bias = 1};
-    *ok = false;
-    if (!fw_quantity_unit_parse(p->unit, strlen(p->unit), &h->unit, NULL, NULL) ||
-        !fw_quantity_dimension_equal(h->unit.dimension, p->dimension)) {
-        FW_NEED(h->unit_text = si_unit(trial->arena, p->dimension));
-        h->unit = (fw_quantity_unit){.factor = 1, .dimension = p->dimension};
-    }
-    double ends[2] = {p->min, p->max}, v = h->now = fw_quantity_unit_from_si(&h->unit, p->value);
-    for (int i = 0; i < 2; i++) {
-        double away = (i == 0) == (v > 0) ? 1 / factor_without_bounds : factor_without_bounds;
-        ends[i] = isinf(ends[i]) ? v * away : fw_quantity_unit_from_si(&h->unit, ends[i]);
-    }
-    h->low = fmin(ends[0], v);
-    h->high = fmax(ends[1], v);
-    h->range = fmax(v - h->low, h->high - v);
-    if (!(h->range > 0)) return FW_OK;
-    bool count;
-    h->digit = pow(10, floor(log10(least_step * h->range)));
-    FW_TRY(is_count(h, &count));
-    if (count) h->digit = fmax(h->digit, 1);
-    *ok = true;
-    return FW_OK;
-}
-
 static fw_status report(const parameter_search *h, const sample *best,
                         fw_verdict_parameter_advice *out) {
     fw_arena *arena = h->trial->arena;
-    const char *now = value_text(h, h->now, 6);
-    const char *low = value_text(h, h->low, 6), *high = value_text(h, h->high, 6);
+    const char *now = fw_verdict_value_text(h->trial->arena, &h->value, h->value.now, 6);
+    const char *low = fw_verdict_value_text(h->trial->arena, &h->value, h->value.low, 6),
+               *high = fw_verdict_value_text(h->trial->arena, &h->value, h->value.high, 6);
     FW_NEED(now && low && high ? now : NULL);
-    out->low = fw_quantity_unit_to_si(&h->unit, h->low);
-    out->high = fw_quantity_unit_to_si(&h->unit, h->high);
+    out->low = fw_quantity_unit_to_si(&h->value.unit, h->value.low);
+    out->high = fw_quantity_unit_to_si(&h->value.unit, h->value.high);
     out->trials = h->trials;
-    if (!best->accepted && spent(h)) {
+    out->ended = !best->accepted && spent(h);
+    if (out->ended) {
         FW_NEED(
             out->text = fw_arena_printf(
                 arena,
@@ -393,9 +306,9 @@ static fw_status report(const parameter_search *h, const sample *best,
         return FW_OK;
     }
     out->found = FW_PARAMETER_ACCEPTS;
-    out->to = fw_quantity_unit_to_si(&h->unit, best->at);
+    out->to = fw_quantity_unit_to_si(&h->value.unit, best->at);
     out->change = fabs(out->to - out->from) / fabs(out->from);
-    FW_NEED(out->value_text = value_text(h, best->at, 12));
+    FW_NEED(out->value_text = fw_verdict_value_text(h->trial->arena, &h->value, best->at, 12));
     char share[32] = "";
     fw_percent_text(share, sizeof share, out->change);
     bool known = out->from > 0;
@@ -405,6 +318,12 @@ static fw_status report(const parameter_search *h, const sample *best,
                                         : out->to > out->from ? " % more)"
                                                               : " % less)"));
     return FW_OK;
+}
+
+static fw_status begin(fw_verdict_trial *trial, const fw_device_parameter *p, parameter_search *h,
+                       bool *ok) {
+    *h = (parameter_search){.trial = trial, .bias = 1};
+    return fw_verdict_value_of_parameter(trial, p, &h->value, ok);
 }
 
 /* share: of the work that is left, for this parameter */
@@ -454,17 +373,15 @@ static int by_change(const void *a, const void *b) {
     return order ? order : strcmp(p->name, q->name);
 }
 
-fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
-                                       const fw_verdict_options *options, fw_verdict *out) {
+fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out) {
+    const fw_device *device = trial->device;
     int left = MOST_IN_ALL, n = device->nparameter;
-    if (!options->restated.with || n == 0) return FW_OK;
-    FW_NEED(out->parameter = fw_arena_array(arena, fw_verdict_parameter_advice, (size_t)n));
-    fw_verdict_trial
-        trial; /* one for all: what one finds to be the worst corner, the next looks at first */
-    FW_TRY(fw_verdict_trial_start(arena, device, options, out, &trial));
-    double excess = fw_verdict_trial_excess(&trial);
-    for (int i = 0; i < n; i++) {
-        FW_TRY(advise_on(&trial, &device->parameter[i], excess, left, 1.0 / (n - i),
+    if (n == 0) return FW_OK;
+    FW_NEED(out->parameter = fw_arena_array(trial->arena, fw_verdict_parameter_advice, (size_t)n));
+    const double excess = fw_verdict_trial_excess(trial);
+    for (int i = 0; i < n;
+         i++) { /* what one finds to be the worst corner, the next looks at first */
+        FW_TRY(advise_on(trial, &device->parameter[i], excess, left, 1.0 / (n - i),
                          &out->parameter[i]));
         left -= out->parameter[i].trials;
     }

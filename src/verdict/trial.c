@@ -56,6 +56,7 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
     trial->nhinge = verdict->nhinge;
     trial->decision = verdict->decision;
     trial->fabricated = 0;
+    fw_verdict_trial_checks(trial, verdict, layout);
     for (int i = 0; i < verdict->nvariant; i++)
         trial->fabricated += verdict->variant[i].fabricated != NULL;
     for (int k = 0; k < verdict->nhinge; k++) {
@@ -124,6 +125,7 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     FW_NEED(trial->suspected = fw_arena_array(arena, bool, n));
     FW_NEED(trial->hinge = fw_arena_array(arena, fw_verdict_trial_hinge, most));
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
+    FW_TRY(fw_verdict_trial_checks_new(arena, trial));
     FW_TRY(fw_verdict_trial_reset(trial));
     remember(trial, verdict, verdict->layout);
     remember_suspect(trial, verdict);
@@ -178,7 +180,7 @@ static void keep_suspect(fw_verdict_trial *trial, const fw_verdict_variant_verdi
 static const int samples_of_a_glance = 65;
 
 static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,
-                         const fw_verdict_options *options) {
+                         int nset, const fw_verdict_options *options) {
     const fw_verdict_restated *r = &trial->options->restated;
     int n = trial->verdict->nvariant;
     const fw_device *device = NULL;
@@ -187,7 +189,7 @@ static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_de
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     FW_NEED(again.variant);
-    FW_TRY(r->with(r->context, scratch, set, &device, again.variant));
+    FW_TRY(r->with(r->context, scratch, set, nset, &device, again.variant));
     for (int i = 0; i < n; i++) {
         if (device->nscene == trial->device->nscene) again.variant[i].like = motions_of(trial, i);
         FW_TRY(take_suspect(trial, scratch, i, &again.variant[i]));
@@ -207,21 +209,24 @@ static bool unknown_corners(const fw_verdict_trial *trial) {
     return unknown;
 }
 
-fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, bool glance) {
+fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
+                                   fw_verdict_look look) {
     fw_verdict_options o = quiet(trial->options);
     o.work = &trial->work;
-    if (glance) {
+    if (look != FW_LOOK_WHOLE) {
         if (o.motion.rtol <= 0)
             o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
         if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))
             o.corners = FW_CORNERS_SUSPECT;
         if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
         o.at_a_glance = true;
-        o.decision_only = true;
+        o.decision_only = look == FW_LOOK_GLANCE;
+        o.values = look == FW_LOOK_VALUES;
     }
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
-    fw_status status = restate(trial, scratch, set, &o);
+    trial->brief = look != FW_LOOK_VALUES;
+    fw_status status = restate(trial, scratch, set, nset, &o);
     fw_arena_free(scratch);
     for (int k = 0; k < trial->nhinge; k++) /* their names are gone */
         trial->hinge[k].scene = trial->hinge[k].flow = NULL;
@@ -229,6 +234,8 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
     trial->nhinge = 0;
     trial->decision = FW_REJECT;
     trial->drawn = false;
+    for (int k = 0; k < trial->ncheck; k++)
+        trial->check[k] = trial->made[k] = (double)NAN;
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }
 
@@ -248,7 +255,9 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial) {
     FW_NEED(scratch);
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;
-    const fw_verdict_options o = quiet(trial->options);
+    fw_verdict_options o = quiet(trial->options);
+    o.work = &trial->work;
+    trial->brief = true;
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;

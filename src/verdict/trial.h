@@ -16,6 +16,14 @@ typedef struct fw_verdict_trial_hinge { /* what a change needs to know of a hing
     bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
 } fw_verdict_trial_hinge;
 
+/* how closely a trial is judged */
+typedef enum fw_verdict_look {
+    FW_LOOK_GLANCE, /* coarsely, as drawn and at the corners that were not accepted last; what that
+                       rejects is rejected */
+    FW_LOOK_VALUES, /* the same, with a value of every check that can have one */
+    FW_LOOK_WHOLE   /* as closely as any verdict */
+} fw_verdict_look;
+
 typedef struct fw_verdict_trial {
     double work;             /* fw_verdict_options.work of the trials so far */
     fw_arena *arena;         /* of the plan: outlives the trial */
@@ -32,6 +40,11 @@ typedef struct fw_verdict_trial {
     int round; /* of a change that is repeated; its caller's */
     bool drawn;
     int fabricated; /* flows whose making of it the last run looked at, too */
+    /* (ncheck) of the last run, in an order that no change of a value alters: trial_checks.c */
+    double *check;
+    double *made; /* (ncheck) the largest at the corners that were run; NaN: none was */
+    int ncheck;
+    bool brief; /* clearances that are enough have no value */
 } fw_verdict_trial;
 
 /* copies the device and takes over the verdict that it has */
@@ -43,17 +56,22 @@ fw_status fw_verdict_trial_reset(fw_verdict_trial *trial);
 /* judges `changed`; what could not be run is a rejection that is not drawn */
 fw_status fw_verdict_trial_run(fw_verdict_trial *trial);
 
-/* judges the description read again with `set` instead of `changed`. glance: coarsely, as drawn and
-   at the corners that were not accepted last; what that rejects is rejected */
-fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, bool glance);
+/* judges the description read again with `set` instead of `changed` */
+fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
+                                   fw_verdict_look look);
 /* the largest `likely` (or reach) of the last run; NaN: it was not run */
 double fw_verdict_trial_excess(const fw_verdict_trial *trial);
+
+/* trial_checks.c: how far each check is from its limit: 0 there, below 0 within, ln of the
+   utilisation where there is one. NaN: nothing is known of it, or it says only yes */
+fw_status fw_verdict_trial_checks_new(fw_arena *arena, fw_verdict_trial *trial);
+void fw_verdict_trial_checks(fw_verdict_trial *trial, const fw_verdict *verdict,
+                             const fw_layout *layout);
 
 /* least_change.c: an accepted change, made as small as it may be in its own direction */
 fw_status fw_verdict_least_change(fw_verdict_trial *trial);
 
 /* parameters.c: every declared parameter alone */
-fw_status fw_verdict_change_parameters(fw_arena *arena, const fw_device *device,
-                                       const fw_verdict_options *options, fw_verdict *out);
+fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out);
 
 #endif

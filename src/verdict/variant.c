@@ -197,7 +197,7 @@ static double work_of(const fw_mechanism *m, const fw_dynamics_motion *motion) {
 
 /* of a trial, or a corner, only whether it is accepted is of account */
 static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant_verdict *v) {
-    return options->decision_only || v->like;
+    return (options->decision_only || v->like) && !options->values;
 }
 
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */

@@ -174,13 +174,21 @@ typedef struct fw_verdict_check {
 
 enum { FW_CHECK_HINGES = 1, FW_CHECK_REQUIREMENTS = 2 };
 
-typedef struct fw_verdict_advice { /* one change that accepts, verified by running it */
-    const char *set_path;          /* "flexure[A]/@length" */
-    const char *text;              /* "flexure A: arc length >= 312 um is accepted; now 75 um" */
-    double value;                  /* SI */
-    double change;                 /* relative to what it is now */
-    const char *value_text;        /* "312 um" */
-} fw_verdict_advice;
+typedef enum fw_verdict_proposal_kind {
+    FW_PROPOSE_PARAMETER, /* one alone */
+    FW_PROPOSE_FLEXURES,  /* lengths, or widths */
+    FW_PROPOSE_LOADS,     /* less of them, or smaller required poses */
+    FW_PROPOSE_SEVERAL    /* parameters, or whatever the file states, together */
+} fw_verdict_proposal_kind;
+
+/* A change that accepts: these settings together were read, drawn, run and accepted. */
+typedef struct fw_verdict_proposal {
+    fw_verdict_proposal_kind kind;
+    const fw_device_set *set; /* (nset) for --set */
+    int nset;
+    double change;    /* see fw_verdict_variable_size: summed over all that is changed by itself */
+    const char *text; /* "width: 12.4 um is accepted; now 10 um (24 % more)" */
+} fw_verdict_proposal;
 
 typedef enum fw_verdict_parameter_found {
     FW_PARAMETER_ACCEPTS,
@@ -199,6 +207,7 @@ typedef struct fw_verdict_parameter_advice {
     const char *value_text; /* "12.4 um": the very text that was run and accepted; NULL: none */
     const char *text;       /* "width: 12.4 um is accepted; now 10 um (24 % more)" */
     int trials;
+    bool ended; /* before the search was done */
 } fw_verdict_parameter_advice;
 
 typedef struct fw_verdict {
@@ -213,10 +222,9 @@ typedef struct fw_verdict {
     double accuracy_wanted, accuracy_estimated;
     /* largest sum of bounds that a scene leaves out by itself (auto); it is part of the estimate */
     double accuracy_left_out;
-    fw_verdict_advice *advice; /* (nadvice) for a rejected or inconclusive design */
-    int nadvice;
-    bool advice_verified; /* the advised values together were run and accepted */
-    const char *advice_note;
+    fw_verdict_proposal *proposal; /* (nproposal) of what is not accepted, the least change first */
+    int nproposal;
+    const char *advice_note; /* why there is none, or why not all was tried; NULL */
     /* (nparameter) the smallest change first; none for an accepted design */
     fw_verdict_parameter_advice *parameter;
     int nparameter;
@@ -230,11 +238,11 @@ typedef enum fw_verdict_corners {
     FW_CORNERS_SUSPECT /* only that of `suspect`, where there is one: for looking around */
 } fw_verdict_corners;
 
-/* The same description read again with one more --set, for advice on parameters; this room does not
-   read files. with: fills *device and the nvariant entries of `variant` (variant, input, ninput) in
-   `arena`; anything but FW_OK, FW_NOMEM and FW_CANCELLED: it cannot be read with that value. */
+/* The same description read again with nset more settings, for advice; this room does not read
+   files. with: fills *device and the nvariant entries of `variant` (variant, input, ninput) in
+   `arena`; anything but FW_OK, FW_NOMEM and FW_CANCELLED: it cannot be read with them. */
 typedef struct fw_verdict_restated {
-    fw_status (*with)(void *context, fw_arena *arena, const fw_device_set *set,
+    fw_status (*with)(void *context, fw_arena *arena, const fw_device_set *set, int nset,
                       const fw_device **device, fw_verdict_variant_verdict *variant);
     void *context;
 } fw_verdict_restated;
@@ -254,8 +262,9 @@ typedef struct fw_verdict_options {
     double *work;     /* evaluations of the forces of hinges are added to it; NULL: nobody counts */
     bool at_a_glance; /* no refinement of what is undecided: for trials and previews */
     bool decision_only; /* clearances are bounded until they decide, not found: for trials */
+    bool values;        /* of the drawn device they are found all the same: for trials */
     bool coarse_first;  /* a first look, and what was asked for only where it decides: for trials */
-    fw_verdict_restated restated; /* with NULL: no advice on parameters */
+    fw_verdict_restated restated; /* with NULL: no advice */
     fw_verdict_fabricated_of fabricated_of;
 } fw_verdict_options;
 
@@ -306,8 +315,8 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
                                fw_verdict_check *check, bool *found);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];
-/* what is not accepted, where advice is asked for: fills it: which lengths accept, which value of
-   each parameter, each one run */
+/* of what is not accepted, where advice is asked for: proposals, each one run, the value of each
+   parameter alone that accepts, and the note */
 fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
                             const fw_verdict_options *options, fw_verdict *verdict);
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of one parameter alone is followed, as a user would: with --set, in text, JSON and page."""
+"""What is proposed is followed, as a user would: with --set, in text, JSON and page. Every proposal accepts with a plain
+`check`, and 2 % less of its change does not."""
 import html
 import json
 import os
 import pathlib
+import random
 import re
 import tempfile
 import unittest
@@ -67,23 +69,132 @@ class Parameters(unittest.TestCase):
         with tempfile.TemporaryDirectory() as here:
             out = pathlib.Path(here) / "out"
             result = self.expect(run("plan", LEAF, "--set", "limits/@safety-factor=10", "-o", out), 1)
-            alone = result.stdout.split("one parameter alone:")[1]
-            set_to, = re.findall(r'--set "(width=[^"]*)"', alone)
-            said = json.loads((out / "verdict.json").read_text())["advice_parameters"]
-            self.assertEqual(set_to, f"width={said[0]['value']}")
+            text = result.stdout.split("what to change, the least first")[1]
+            said = json.loads((out / "verdict.json").read_text())
             page = html.unescape((out / "report.html").read_text())
-            self.assertIn(f"--set '{set_to}'", page)
-            for p in said:
-                self.assertIn(p["text"], alone)
+            for p in said["advice"] + said["advice_parameters"]:
+                self.assertIn(p["text"], text)
                 self.assertIn(p["text"], page)
+            printed = re.findall(r'--set "([^"]*)"', text)
+            self.assertEqual(printed, [f"{s['path']}={s['value']}" for p in said["advice"] for s in p["set"]])
+            self.assertEqual(set(re.findall(r"--set '([^']*)'", page)), set(printed))
+            self.assertIn(f"do: {said['advice'][0]['text']}", result.stdout)
 
     def test_accepted_designs_are_told_nothing(self):
         result = self.expect(run("check", LEAF), 0)
         self.assertNotIn("parameter", result.stdout)
         printed = run("check", LEAF, "--json").stdout
         self.assertEqual(json.loads(printed)["advice_parameters"], [])
+        self.assertEqual(json.loads(printed)["advice"], [])
         if PLANS:
             self.assertEqual(printed, (pathlib.Path(PLANS) / "leaf-four-bar/verdict.json").read_text())
+
+
+STAGE = ROOT / "docs/gallery/straight-stage/device.xml"
+GRIPPER = ROOT / "docs/gallery/free-form-gripper/device.xml"
+UNIT = {"": 1, "%": 0.01, "um": 1e-6, "mm": 1e-3, "uN": 1e-6, "mN": 1e-3, "N": 1, "V": 1, "rad": 1, "mrad": 1e-3}
+
+
+def number(text):
+    value, _, unit = text.partition(" ")
+    return float(value) * UNIT[unit]
+
+
+class Proposals(unittest.TestCase):
+    def setUp(self):
+        self.directory = tempfile.TemporaryDirectory()
+        self.addCleanup(self.directory.cleanup)
+
+    def changed(self, device, *changes):
+        text = device.read_text()
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        path = pathlib.Path(self.directory.name) / device.name
+        path.write_text(text)
+        return path
+
+    def judged(self, device, *sets):
+        arguments = [a for s in sets for a in ("--set", s)]
+        return run("check", device, "--advice", "none", "--json", *arguments).returncode
+
+    def now(self, device, path):
+        """the value that the file has, of a parameter or an attribute of a flexure or a load"""
+        text = device.read_text()
+        found = re.search(rf'<parameter name="{path}" value="([^"]*)"', text)
+        if not found:
+            element, id_, attribute = re.fullmatch(r"(?:.*/)?([\w-]+)\[([\w-]+)\]/@([\w-]+)", path).groups()
+            tags = [t for t in re.findall(rf"<{element}\b[^>]*>", text)]
+            tag = tags[int(id_) - 1] if id_.isdigit() else next(t for t in tags if f'id="{id_}"' in t)
+            found = re.search(rf'\b{attribute}="([^"]*)"', tag)
+        value = found.group(1)
+        return self.now(device, value) if re.fullmatch(r"[a-z_]\w*", value) else number(value)
+
+    def follow(self, device, least=("parameter", "flexures", "several")):
+        """every proposal accepts; of these kinds 2 % less of the change, or a last digit, does not"""
+        result = run("check", device, "--json")
+        self.assertIn(result.returncode, (1, 4), result.stderr)
+        document = json.loads(result.stdout)
+        advice = document["advice"]
+        self.assertEqual([p["change"] for p in advice], sorted(p["change"] for p in advice))
+        for p in advice:
+            sets = [f"{s['path']}={s['value']}" for s in p["set"]]
+            self.assertEqual(self.judged(device, *sets), 0, p)
+            if p["kind"] not in least:
+                continue
+            less = []
+            for s in p["set"]:
+                was, to, unit = self.now(device, s["path"]), number(s["value"]), s["value"].partition(" ")[2]
+                part = to * (was / to) ** 0.02 if was > 0 else to - 0.02 * (to - was)
+                if s["path"].startswith("flexure") and abs(part - to) < 1e-7:
+                    part = to + (1e-7 if was > to else -1e-7)
+                less.append(f"{s['path']}={part / UNIT[unit]:.9g} {unit}")
+            self.assertNotEqual(self.judged(device, *less), 0, (p, less))
+        return document
+
+    def test_lengths_are_the_least(self):
+        """strain under a given rotation: a six-bar whose hinges are too short by random parts"""
+        rng = random.Random(1)
+        for _ in range(2):
+            text = SIX.read_text()
+            for name in rng.sample("ABCDEF", 2):
+                text = re.sub(rf'(<flexure id="{name}"[^>]*length=)"([0-9.]+) um"',
+                              lambda m: f'{m[1]}"{float(m[2]) * rng.uniform(0.3, 0.5):.0f} um"', text)
+            device = pathlib.Path(self.directory.name) / "short.xml"
+            device.write_text(text)
+            document = self.follow(device)
+            self.assertIn("flexures", [p["kind"] for p in document["advice"]])
+
+    def test_two_at_once(self):
+        """neither the pull nor the width alone reaches stroke and frequency"""
+        rng = random.Random(2)
+        pull = rng.uniform(55, 65)
+        device = self.changed(STAGE, ('value="115 uN" min="0 uN" max="200 uN"', f'value="{pull:.1f} uN" min="0 uN" max="90 uN"'),
+                              ('min="400 Hz"', f'min="{rng.uniform(540, 570):.0f} Hz"'))
+        document = self.follow(device)
+        self.assertTrue(all(p["found"] != "accepts" for p in document["advice_parameters"]))
+        proposal, = document["advice"]
+        self.assertEqual(proposal["kind"], "several")
+        self.assertGreaterEqual(len(proposal["set"]), 2)
+
+    def test_of_what_meets(self):
+        """jaws that close too far"""
+        device = self.changed(GRIPPER, ('value="18 uN"', 'value="40 uN"'))
+        document = self.follow(device)
+        self.assertEqual({r["code"] for r in document["reasons"]}, {"FW-D294"})
+        self.assertGreaterEqual({p["kind"] for p in document["advice"]}, {"parameter", "loads"})
+
+    def test_of_mixed_reasons(self):
+        """a hinge beyond its limit, jaws that meet, and no parameter: settings all the same"""
+        text = GRIPPER.read_text()
+        for name, value in (("span", "0.6 mm"), ("face", "570 um"), ("pull", "500 uN"), ("copper_pull", "1.8 uN")):
+            text = re.sub(rf'  <parameter name="{name}"[^>]*>\n', "", text)
+            text = re.sub(rf"\b{name}\b(?=[^<>]*>)(?!=)", f"({value})", text)
+        device = pathlib.Path(self.directory.name) / "mixed.xml"
+        device.write_text(text)
+        document = self.follow(device, least=())
+        self.assertTrue(document["advice"], document["advice_note"])
+        self.assertTrue(all(p["set"] for p in document["advice"]))
 
 
 if __name__ == "__main__":

@@ -246,12 +246,10 @@ export class Verdict {
                 h("p", {}, `Worst ${percent(worst)} of a limit${made?.corners ? `, ${made.corners.length} devices at the corners of ${made.inputs.length} ranges` : ""}.`),
                 made?.reason ? h("p", {}, made.reason) : null, made?.control ? h("p", {}, made.control) : null);
         });
-        const advice = (v.advice ?? []).map((a) => h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
-        const single = (v.advice_parameters ?? []).filter((a) => a.found === "accepts").map((a) =>
-            h("li", {}, a.text, " ", button("Apply", { class: "small" }, () => edit([{ path: a.set, value: a.value }], `${a.set} is ${a.value}`))));
+        const advice = (v.advice ?? []).map((a) => h("li", {}, a.text, " ", button("Apply", { class: "small" },
+            () => edit(a.set, a.set.map((one) => `${one.path} is ${one.value}`).join(", ")))));
         into.replaceChildren(...rows,
-            advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted"), h("ul", {}, advice)) : "",
-            single.length ? h("div", { class: "advice" }, h("h3", {}, "One parameter alone"), h("ul", {}, single)) : "",
+            advice.length ? h("div", { class: "advice" }, h("h3", {}, "What would be accepted, the least change first"), h("ol", {}, advice)) : "",
             v.advice_note ? h("p", { class: "doc" }, v.advice_note) : "");
         this.show();
     }

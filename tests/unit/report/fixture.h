@@ -551,15 +551,16 @@ static fixture *fixture_new(fw_arena *arena, double limit) {
                       .accuracy_wanted = 1e-3,
                       .accuracy_estimated = 2.1e-4};
     if (v->decision != FW_ACCEPT) {
-        v->advice = FIXTURE_ARRAY(arena, fw_verdict_advice, 1);
-        v->nadvice = 1;
-        v->advice[0] =
-            (fw_verdict_advice){.set_path = "flexure[A]/@length",
-                                .text = "flexure A: arc length >= 312 um accepts (now 300 um)",
-                                .value = 312e-6,
-                                .change = 0.04,
-                                .value_text = "312 um"};
-        v->advice_verified = true;
+        fw_device_set *set = FIXTURE_ARRAY(arena, fw_device_set, 1);
+        set[0] = (fw_device_set){"flexure[A]/@length", "312 um"};
+        v->proposal = FIXTURE_ARRAY(arena, fw_verdict_proposal, 1);
+        v->nproposal = 1;
+        v->proposal[0] =
+            (fw_verdict_proposal){.kind = FW_PROPOSE_FLEXURES,
+                                  .set = set,
+                                  .nset = 1,
+                                  .change = 0.04,
+                                  .text = "flexure A: arc length >= 312 um accepts (now 300 um)"};
     }
     const char **assumption =
         fixture_texts(arena, "material strength 2.5 GPa overrides the pack (device.xml:11)", "");

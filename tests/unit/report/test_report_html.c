@@ -198,7 +198,9 @@ static void hostile_names_are_text(void **state) {
     f->process[0].step[0].title = f->process[0].step[1].time.missing[0] = evil;
     f->process[0].bias_note = f->flow[1].mask_error = f->mask.cell = f->mask.flow = evil;
     f->mask.table->layer[0].name = f->mask.table->layer[0].purpose = evil;
-    f->verdict.advice[0].text = f->verdict.advice[0].set_path = evil;
+    const fw_device_set set = {evil, evil};
+    f->verdict.proposal[0].text = evil;
+    f->verdict.proposal[0].set = &set;
     f->verdict.advice_note = f->input.assumption[0] = f->input.version = evil;
     f->diags.item[0].message = f->diags.item[0].place.file = evil;
     check(arena, f);

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "verdict/advice_variables.h"
+#include "effects/effects.h"
+#include <math.h>
+#include <string.h>
+
+/* a load may also have to grow: a stroke that is required */
+static const double least_share = 0.02, most_share = 20;
+static const double shortest = 0.25, longest = 12, narrowest = 0.5, widest = 4;
+
+/* ---- how large a change is ---- */
+
+static bool by_ratio(const fw_verdict_variable *v, double x) {
+    return (x > 0 && v->value.now > 0) || (x < 0 && v->value.now < 0);
+}
+
+/* on the way from now to its ends it keeps its sign */
+static bool keeps_sign(const fw_verdict_variable *v) {
+    return by_ratio(v, v->value.low) && by_ratio(v, v->value.high);
+}
+
+double fw_verdict_variable_z(const fw_verdict_variable *v, double x) {
+    return keeps_sign(v) ? log(x / v->value.now) : (x - v->value.now) / v->value.range;
+}
+
+double fw_verdict_variable_x(const fw_verdict_variable *v, double z) {
+    const double x = keeps_sign(v) ? v->value.now * exp(z) : v->value.now + z * v->value.range;
+    return fmin(fmax(x, v->value.low), v->value.high);
+}
+
+double fw_verdict_variable_size(const fw_verdict_variable *v, double x) {
+    return by_ratio(v, x) ? fabs(log(x / v->value.now)) : fabs(x - v->value.now) / v->value.range;
+}
+
+double fw_verdict_variable_typed(const fw_verdict_variable *v, double x) {
+    const double away = fabs(x - v->value.now);
+    if (fw_verdict_variable_size(v, x) < 1e-3) return v->value.now;
+    const double step =
+        fw_verdict_value_step(&v->value, fmax(4e-3 * away, 1e-4 * fabs(v->value.now)));
+    x = fw_verdict_value_rounded(x, step);
+    return fmin(fmax(x, v->value.low), v->value.high);
+}
+
+/* ---- which there are ---- */
+
+fw_status fw_verdict_variables_of_parameters(fw_verdict_trial *trial,
+                                             fw_verdict_variable **variable, int *count) {
+    const fw_device *d = trial->device;
+    *count = 0;
+    FW_NEED(*variable = fw_arena_array(trial->arena, fw_verdict_variable, (size_t)d->nparameter));
+    for (int i = 0; i < d->nparameter; i++) {
+        fw_verdict_variable *v = &(*variable)[*count];
+        bool ok;
+        *v = (fw_verdict_variable){.name = d->parameter[i].name, .kind = FW_PROPOSE_PARAMETER};
+        FW_TRY(fw_verdict_value_of_parameter(trial, &d->parameter[i], &v->value, &ok));
+        *count += ok && v->value.digit < v->value.range;
+    }
+    return FW_OK;
+}
+
+static fw_verdict_value micrometres(const char *path, double m, double least, double most) {
+    fw_verdict_value v = {.path = path, .unit_text = "um", .now = 1e6 * m, .digit = 0.1};
+    fw_quantity_unit_parse("um", 2, &v.unit, NULL, NULL);
+    v.low = least * v.now, v.high = most * v.now, v.range = v.high - v.now;
+    return v;
+}
+
+static fw_status add_attribute(fw_verdict_trial *trial, const fw_device_flexure *f,
+                               const char *attribute, double m, double least, double most,
+                               fw_verdict_variable *v) {
+    const char *path = fw_arena_printf(trial->arena, "flexure[%s]/@%s", f->id, attribute);
+    FW_NEED(path);
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_FLEXURES,
+                               .value = micrometres(path, m, least, most)};
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "%s of flexure %s", attribute, f->id));
+    return FW_OK;
+}
+
+static fw_verdict_value share(double least, double most) {
+    fw_verdict_value v = {
+        .path = "", .unit_text = "", .now = 1, .low = least, .high = most, .digit = 1e-4};
+    v.unit = (fw_quantity_unit){.factor = 1};
+    v.range = fmax(v.high - 1, 1 - v.low);
+    return v;
+}
+
+/* an arc that states both keeps its angle */
+static fw_status add_length_and_radius(fw_verdict_trial *trial, const fw_device_flexure *f,
+                                       fw_verdict_variable *v) {
+    fw_verdict_part *part;
+    *v = (fw_verdict_variable){
+        .kind = FW_PROPOSE_FLEXURES, .value = share(shortest, longest), .npart = 2};
+    FW_NEED(part = fw_arena_array(trial->arena, fw_verdict_part, 2));
+    part[0] = (fw_verdict_part){.unit = "m", .value = f->length_m, .prefixed = true};
+    part[1] = (fw_verdict_part){.unit = "m", .value = f->radius_m, .prefixed = true};
+    FW_NEED(part[0].path = fw_arena_printf(trial->arena, "flexure[%s]/@length", f->id));
+    FW_NEED(part[1].path = fw_arena_printf(trial->arena, "flexure[%s]/@radius", f->id));
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "length and radius of flexure %s", f->id));
+    v->part = part;
+    return FW_OK;
+}
+
+static fw_status add_flexure(fw_verdict_trial *trial, const fw_device_flexure *f,
+                             fw_verdict_variable *variable, int *count) {
+    bool radius = f->kind == FW_FLEXURE_CSFH && f->radius_given;
+    if (f->kind == FW_FLEXURE_PATH) return FW_OK;
+    if (radius && f->length_given)
+        FW_TRY(add_length_and_radius(trial, f, &variable[(*count)++]));
+    else
+        FW_TRY(add_attribute(trial, f, radius ? "radius" : "length",
+                             radius ? f->radius_m : f->length_m, shortest, longest,
+                             &variable[(*count)++]));
+    if (!fw_device_flexure_varies(f))
+        FW_TRY(
+            add_attribute(trial, f, "width", f->width_m, narrowest, widest, &variable[(*count)++]));
+    return FW_OK;
+}
+
+fw_status fw_verdict_variable_of_loads(fw_verdict_trial *trial, int scene, fw_verdict_variable *v,
+                                       bool *ok) {
+    const fw_device_scene *s = &trial->device->scene[scene];
+    fw_effects_load_values *values;
+    fw_verdict_part *part;
+    FW_NEED(values = fw_arena_one(trial->arena, fw_effects_load_values));
+    fw_effects_find_load_values(s, values);
+    *ok = values->count > 0 && !values->more;
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_LOADS, .value = share(least_share, most_share)};
+    FW_NEED(part = fw_arena_array(trial->arena, fw_verdict_part, (size_t)values->count));
+    for (int i = 0; i < values->count; i++) {
+        const fw_effects_load_value *l = &values->item[i];
+        const char *which = l->id ? l->id : fw_arena_printf(trial->arena, "%d", l->number);
+        FW_NEED(which);
+        part[i] = (fw_verdict_part){.unit = l->unit,
+                                    .value = l->value,
+                                    .squared = l->squared,
+                                    .prefixed = !strchr(l->unit, '/')};
+        FW_NEED(part[i].path = fw_arena_printf(trial->arena, "scene[%s]/%s[%s]/@%s", s->name,
+                                               l->element, which, l->attribute));
+    }
+    v->part = part, v->npart = values->count;
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "loads of scene %s", s->name));
+    return FW_OK;
+}
+
+fw_status fw_verdict_variable_of_box(fw_verdict_trial *trial, int box, fw_verdict_variable *v,
+                                     bool *ok) {
+    const fw_device_workspace_box *w = &trial->device->workspace[box];
+    const struct {
+        const char *attribute;
+        double value;
+        bool angle;
+    } end[] = {{"x-min", w->x_min_m, false},      {"x-max", w->x_max_m, false},
+               {"y-min", w->y_min_m, false},      {"y-max", w->y_max_m, false},
+               {"phi-min", w->phi_min_rad, true}, {"phi-max", w->phi_max_rad, true}};
+    fw_verdict_part *part;
+    *v = (fw_verdict_variable){.kind = FW_PROPOSE_LOADS, .value = share(least_share, 1)};
+    FW_NEED(part = fw_arena_array(trial->arena, fw_verdict_part, 6));
+    for (int i = 0; i < 6; i++) {
+        if (end[i].value == 0) continue;
+        fw_verdict_part *p = &part[v->npart++];
+        *p = (fw_verdict_part){
+            .unit = end[i].angle ? "rad" : "m", .value = end[i].value, .prefixed = true};
+        FW_NEED(p->path =
+                    fw_arena_printf(trial->arena, "workspace[%d]/@%s", box + 1, end[i].attribute));
+    }
+    v->part = part;
+    *ok = v->npart > 0;
+    FW_NEED(v->name = fw_arena_printf(trial->arena, "required workspace%s%s", w->flow ? " of " : "",
+                                      w->flow ? w->flow : ""));
+    return FW_OK;
+}
+
+fw_status fw_verdict_variables_of_attributes(fw_verdict_trial *trial,
+                                             fw_verdict_variable **variable, int *count) {
+    const fw_device *d = trial->device;
+    size_t most = 2 * (size_t)d->nflexure + (size_t)d->nscene + (size_t)d->nworkspace;
+    bool ok;
+    *count = 0;
+    FW_NEED(*variable = fw_arena_array(trial->arena, fw_verdict_variable, most));
+    for (int i = 0; i < d->nflexure; i++)
+        FW_TRY(add_flexure(trial, &d->flexure[i], *variable, count));
+    for (int i = 0; i < d->nscene; i++) {
+        FW_TRY(fw_verdict_variable_of_loads(trial, i, &(*variable)[*count], &ok));
+        *count += ok;
+    }
+    for (int i = 0; i < d->nworkspace; i++) {
+        FW_TRY(fw_verdict_variable_of_box(trial, i, &(*variable)[*count], &ok));
+        *count += ok;
+    }
+    return FW_OK;
+}
+
+/* ---- as settings, and in words ---- */
+
+/* "112.5 uN": the prefix that leaves one to three digits before the point */
+static const char *part_text(fw_arena *arena, const fw_verdict_part *p, double by) {
+    static const struct {
+        const char *sign;
+        double factor;
+    } prefix[] = {{"", 1}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}, {"p", 1e-12}};
+    const double value = p->value * (p->squared ? sqrt(by) : by);
+    char number[40];
+    size_t k = 0;
+    while (p->prefixed && k + 1 < sizeof prefix / sizeof prefix[0] &&
+           fabs(value) < prefix[k].factor)
+        k++;
+    return fw_arena_printf(arena, "%s %s%s",
+                           fw_number_text(number, sizeof number, value / prefix[k].factor, 5),
+                           prefix[k].sign, p->unit);
+}
+
+fw_status fw_verdict_variables_settings(fw_arena *arena, const fw_verdict_variable *variable,
+                                        int count, const double *x, const fw_device_set **set,
+                                        int *nset) {
+    size_t most = 0;
+    fw_device_set *s;
+    for (int i = 0; i < count; i++)
+        most += variable[i].npart ? (size_t)variable[i].npart : 1;
+    FW_NEED(s = fw_arena_array(arena, fw_device_set, most));
+    *nset = 0;
+    for (int i = 0; i < count; i++) {
+        const fw_verdict_variable *v = &variable[i];
+        if (x[i] == v->value.now) continue;
+        for (int k = 0; k < v->npart; k++) {
+            const char *value = part_text(arena, &v->part[k], x[i]);
+            FW_NEED(value);
+            s[(*nset)++] = (fw_device_set){v->part[k].path, value};
+        }
+        if (v->npart > 0) continue;
+        const char *value = fw_verdict_value_text(arena, &v->value, x[i], 12);
+        FW_NEED(value);
+        s[(*nset)++] = (fw_device_set){v->value.path, value};
+    }
+    *set = s;
+    return FW_OK;
+}
+
+static fw_status add_text(fw_arena *arena, const fw_verdict_variable *v, double x, fw_text *text) {
+    if (v->npart > 0) {
+        fw_text_printf(text, "the %s to ", v->name);
+        fw_text_number(text, 100 * x, 4);
+        fw_text_add(text, " %");
+        return FW_OK;
+    }
+    const char *to = fw_verdict_value_text(arena, &v->value, x, 12);
+    const char *now = fw_verdict_value_text(arena, &v->value, v->value.now, 6);
+    FW_NEED(to && now ? to : NULL);
+    fw_text_printf(text, "%s %s (now %s)", v->name, to, now);
+    return FW_OK;
+}
+
+fw_status fw_verdict_variables_text(fw_arena *arena, const fw_verdict_variable *variable, int count,
+                                    const double *x, const char **text) {
+    int left = 0, said = 0;
+    fw_text t = fw_text_new(arena);
+    for (int i = 0; i < count; i++)
+        left += x[i] != variable[i].value.now;
+    const int all = left;
+    for (int i = 0; i < count; i++) {
+        if (x[i] == variable[i].value.now) continue;
+        left--;
+        if (said++ > 0) fw_text_add(&t, left == 0 ? " and " : ", ");
+        FW_TRY(add_text(arena, &variable[i], x[i], &t));
+    }
+    fw_text_add(&t, all > 1 ? " together: accepted" : ": accepted");
+    FW_TRY(fw_text_end(&t));
+    *text = t.data;
+    return FW_OK;
+}
