@@ -61,6 +61,11 @@ fw_script_test(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py -
 fw_script_test(clearance.random COMMAND /usr/bin/python3 tests/clearance/compare.py
                $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)
 set_tests_properties(clearance.random PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(clearance.combs COMMAND /usr/bin/python3 tests/clearance/compare.py
+               $<TARGET_FILE:clearance_outlines> --seed 1 --count 3 --combs)
+set_tests_properties(clearance.combs PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(clearance.between COMMAND ${Python3_EXECUTABLE} tests/clearance/between.py
+               $<TARGET_FILE:clearance_outlines>)
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})

@@ -16,9 +16,11 @@
 /* a part of an outline, where it is drawn */
 typedef struct fw_clearance_edge {
     fw_geometry_segment segment;
-    int hinge; /* in whose own region it lies (keep-out circle); FW_NONE: in none */
-    int other; /* the solid on the other side of that hinge; FW_NONE */
-    int held;  /* of a tether: the body that it holds; FW_NONE: none */
+    int hinge;   /* in whose own region it lies (keep-out circle); FW_NONE: in none */
+    int other;   /* the solid on the other side of that hinge; FW_NONE */
+    int held;    /* of a tether: the body that it holds; FW_NONE: none */
+    bool bends;  /* a disc that holds a flexure */
+    bool always; /* a wall of the die's edge, whatever a scene lets its body meet on the ground */
     const char *label;
 } fw_clearance_edge;
 
@@ -37,7 +39,8 @@ typedef struct fw_clearance_things {
 } fw_clearance_things;
 
 /* Outlines of bodies with their halves of hinges, rotor fingers, eyelets and stubs; frame, base,
-   anchors, tethers and stators. Lanes, lettering and marks are no walls. */
+   anchors, tethers and stators, and where the dicing lane begins. Lettering and marks are no walls.
+ */
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
                                  const fw_mechanism *mechanism, fw_clearance_things *things);
 
@@ -47,12 +50,14 @@ enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
 
 typedef struct fw_clearance_path { /* pieces of one motion, one after the other */
     int nq, npiece, capacity;
-    bool begun;    /* `start` is there */
-    double *start; /* (nq) where the motion begins; stays when pieces go */
-    int *nodes;    /* (capacity) coefficients of a piece: its degree and one */
-    double *t_s;   /* (capacity x 2) from, to */
-    double *bern;  /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
-    int of;        /* nodes that `fit` is for; 0: none yet */
+    bool begun;            /* `start` is there */
+    double *start;         /* (nq) where the motion begins; stays when pieces go */
+    int njump;             /* pieces that are straight ways of jumps; stays, too */
+    double jump_s, jump_m; /* the largest of them: when, and how far a centre of mass goes */
+    int *nodes;            /* (capacity) coefficients of a piece: its degree and one */
+    double *t_s;           /* (capacity x 2) from, to */
+    double *bern;          /* (capacity x nq x FW_CLEARANCE_NODES) Bernstein coefficients; m, rad */
+    int of;                /* nodes that `fit` is for; 0: none yet */
     double fit[FW_CLEARANCE_NODES]
               [FW_CLEARANCE_NODES]; /* values at equal spacing to coefficients */
 } fw_clearance_path;
@@ -80,6 +85,8 @@ typedef struct fw_clearance_meet { /* the nearest places of two outlines at a po
     double distance_m;             /* 0: they meet */
     fw_geometry_vec2 at_a, at_b;   /* world */
     const char *a, *b;             /* labels */
+    bool bound;                    /* one of them only holds what it stands for: a flexure's disc */
+    bool lane;                     /* one of them is the die's edge */
 } fw_clearance_meet;
 
 /* ---- clearance_motion.c: the least clearance over a motion ---- */
@@ -107,7 +114,9 @@ static inline fw_clearance_least fw_clearance_nothing(void) {
 }
 
 typedef struct fw_clearance_wish {
-    const bool *may_meet; /* (nsolid x nsolid) pairs of which nothing is said; NULL: none */
+    /* (nsolid x nsolid) pairs of which nothing is said, but for the die's edge; NULL: none */
+    const bool *may_meet;
+    const bool *left_out; /* (nsolid) solids of which nothing is said; NULL: none */
     double relative;      /* error wanted of the least clearance, beside 1 nm */
     double off;           /* of what a pair is moved by the motion may be off by so much */
     double enough_m;      /* a bound of this is enough, and the least is then not looked for;
@@ -124,12 +133,12 @@ fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *thing
 
 /* ---- clearance_box.c: the least clearance over a required box of the six-bar's poses ---- */
 
-/* Every pose of the box, on the drawn branch. What rides on the six-bar without being of it is not
-   looked at: its pose is not the platform's matter. false in *known: no such proof for this
-   mechanism */
+/* Every pose of the box, on the drawn branch. What rides on the six-bar goes with the body that it
+   hangs on; *open: a body whose pose does not follow from the platform's, which is not looked at;
+   FW_NONE: none. false in *known: no such proof for this mechanism */
 fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things,
                               const fw_mechanism *mechanism, const fw_device_workspace_box *box,
-                              const fw_clearance_wish *wish, fw_clearance_least *least,
-                              bool *known);
+                              const fw_clearance_wish *wish, fw_clearance_least *least, bool *known,
+                              int *open);
 
 #endif

@@ -5,7 +5,10 @@
    and whose pivot is carried round O by s goes, at its centre of mass G, by
      dG = s J(P - O) + t J(G - P) + e,  |e| <= s^2/2 |P - O| + t^2/2 |G - P|,
    which is linear in d but for rests. The linear parts at the eight corners bound the slack of the
-   pair (clearance_slack.c), the rests come on top. */
+   pair (clearance_slack.c), the rests come on top. What rides on one of the six-bar's bodies goes with
+   it (clearance_riders.c).
+
+   All pairs ask for the same parts of the box: forms are kept by part. */
 #include "clearance/clearance_pair.h"
 #include "geometry/segment.h"
 #include "workspace/loop.h"
@@ -13,11 +16,7 @@
 
 enum { LINKS = 5 };
 
-typedef struct boxes {
-    const fw_clearance_things *things;
-    const fw_workspace_loop *loop;
-    fw_workspace_box3 whole;
-} boxes;
+enum { KEPT = 64 }; /* parts whose forms are kept */
 
 /* pose of one body over a part of the box */
 typedef struct linear {
@@ -25,6 +24,21 @@ typedef struct linear {
     double grad[3][3];       /* of x, y, phi by the platform's x, y, phi */
     double rest_m, rest_rad; /* what they may be off by */
 } linear;
+
+typedef struct part { /* of the box, and what is known of it */
+    double low[3], high[3], half[3];
+    fw_workspace_reached reached;
+    bool kept;
+    linear pose[LINKS];
+} part;
+
+typedef struct boxes {
+    const fw_clearance_things *things;
+    const fw_workspace_loop *loop;
+    fw_workspace_box3 whole;
+    const int *with; /* (nbody) of the six-bar's bodies; FW_GROUND */
+    part *memory;    /* (KEPT) */
+} boxes;
 
 typedef struct turn { /* of a link from where it is drawn */
     double at, grad[3], rest, most;
@@ -41,10 +55,13 @@ static turn turn_of(const fw_workspace_form *f, double sign, const double half[3
     return t;
 }
 
-static turn plus(turn a, turn b, double most) {
-    turn t = {.at = a.at + b.at, .rest = a.rest + b.rest, .most = most};
-    for (int i = 0; i < 3; i++)
-        t.grad[i] = a.grad[i] + b.grad[i];
+static turn plus(turn a, turn b, double sign, const double half[3]) {
+    turn t = {.at = a.at + sign * b.at, .rest = a.rest + b.rest};
+    for (int i = 0; i < 3; i++) {
+        t.grad[i] = a.grad[i] + sign * b.grad[i];
+        t.most += fabs(t.grad[i]) * half[i];
+    }
+    t.most += t.rest;
     return t;
 }
 
@@ -68,45 +85,67 @@ static void put(const fw_clearance_solid *solid, fw_geometry_vec2 centre, const 
     out->rest_rad = t->rest;
 }
 
-/* bodies AB, BC of the left leg or EF, DE of the right one; CD is the platform */
+/* Bodies AB, BC of the left leg or EF, DE of the right one; CD is the platform. The upper one hangs on
+   the platform's pose, which has hardly a rest: its rotation is the platform's less that of the hinge
+   there, or the sum of the two below, whichever is known better. */
 static void leg_poses(const boxes *b, const fw_workspace_loop_box *known, const double half[3],
-                      int side, linear *lower, linear *upper, int first, int second) {
+                      int side, const turn *platform, fw_geometry_vec2 moved, linear *lower,
+                      linear *upper, int first, int second) {
     const fw_workspace_leg *leg = &b->loop->leg[side];
     const int base = side ? 5 : 0, step = side ? -1 : 1;
     const fw_clearance_solid *solid = b->things->solid;
     turn t = turn_of(&known->psi[base], 1, half), e = turn_of(&known->psi[base + step], 1, half);
-    turn both = plus(t, e, t.most + e.most);
+    turn c = turn_of(&known->psi[base + 2 * step], 1, half);
+    turn below = plus(t, e, 1, half), above = plus(*platform, c, -1, half);
+    const turn *both = above.rest < below.rest ? &above : &below;
     *lower = *upper = (linear){.rest_m = 0};
     fw_geometry_vec2 arm = vec_sub(solid[first].centre, leg->base);
     fw_geometry_vec2 at = vec_add(leg->base, carry(arm, &t, lower));
     put(&solid[first], at, &t, lower);
-    fw_geometry_vec2 elbow = vec_add(leg->base, carry(leg->a, &t, upper));
-    arm = vec_sub(solid[second].centre, vec_add(leg->base, leg->a));
-    at = vec_add(elbow, carry(arm, &both, upper));
-    put(&solid[second], at, &both, upper);
+    fw_geometry_vec2 joint = vec_add(b->loop->centre, leg->to);
+    fw_geometry_vec2 now = vec_add(b->loop->centre, carry(leg->to, platform, upper));
+    upper->grad[0][0] += 1, upper->grad[1][1] += 1;
+    arm = carry(vec_sub(solid[second].centre, joint), both, upper);
+    put(&solid[second], vec_add(vec_add(now, moved), arm), both, upper);
 }
 
 static void poses_of(const boxes *b, const fw_workspace_loop_box *known,
                      const fw_workspace_box3 *box, const double half[3], linear pose[LINKS]) {
-    leg_poses(b, known, half, 0, &pose[0], &pose[1], 0, 1);
-    leg_poses(b, known, half, 1, &pose[4], &pose[3], 4, 3);
     double unused, m[3];
     for (int i = 0; i < 3; i++)
         m[i] = fw_box3_middle(box, i, &unused);
+    const turn platform = {.at = m[2], .grad = {0, 0, 1}, .most = half[2]};
+    const fw_geometry_vec2 moved = {m[0], m[1]};
+    leg_poses(b, known, half, 0, &platform, moved, &pose[0], &pose[1], 0, 1);
+    leg_poses(b, known, half, 1, &platform, moved, &pose[4], &pose[3], 4, 3);
     const fw_clearance_solid *cd = &b->things->solid[2];
     pose[2] = (linear){.middle = {cd->centre.x + m[0], cd->centre.y + m[1], cd->turned_rad + m[2]}};
     for (int i = 0; i < 3; i++)
         pose[2].grad[i][i] = 1;
 }
 
-static bool is_ground(const boxes *b, int solid) {
-    return solid == b->things->nbody;
+/* the body of the six-bar that a solid goes with, or FW_GROUND */
+static int goes_with(const boxes *b, int solid) {
+    return solid == b->things->nbody ? FW_GROUND : b->with[solid];
 }
 
-static linear linear_of(const boxes *b, const linear pose[LINKS], int solid) {
+static linear linear_of(const boxes *b, const part *known, int solid) {
     const fw_clearance_solid *s = &b->things->solid[solid];
-    if (!is_ground(b, solid)) return pose[solid];
-    return (linear){.middle = {s->centre.x, s->centre.y, s->turned_rad}};
+    int with = goes_with(b, solid);
+    if (with == FW_GROUND) return (linear){.middle = {s->centre.x, s->centre.y, s->turned_rad}};
+    linear out = known->pose[with];
+    if (with == solid) return out;
+    const fw_clearance_solid *on = &b->things->solid[with];
+    turn t = {
+        .at = out.middle.phi_rad - on->turned_rad, .rest = out.rest_rad, .most = out.rest_rad};
+    for (int i = 0; i < 3; i++) {
+        t.grad[i] = out.grad[2][i];
+        t.most += fabs(t.grad[i]) * known->half[i];
+    }
+    fw_geometry_vec2 arm = carry(vec_sub(s->centre, on->centre), &t, &out);
+    out.middle =
+        (fw_clearance_pose){out.middle.x_m + arm.x, out.middle.y_m + arm.y, s->turned_rad + t.at};
+    return out;
 }
 
 static fw_clearance_pose at_corner(const linear *l, const double half[3], int corner) {
@@ -118,15 +157,15 @@ static fw_clearance_pose at_corner(const linear *l, const double half[3], int co
 }
 
 /* about given middle poses */
-static double slack_about(const boxes *b, const fw_clearance_pair *pair, const linear pose[LINKS],
-                          const double half[3], const fw_clearance_pose middle[2]) {
+static double slack_about(const boxes *b, const fw_clearance_pair *pair, const part *known,
+                          const fw_clearance_pose middle[2]) {
     fw_clearance_slack slack;
-    linear l[2] = {linear_of(b, pose, pair->a), linear_of(b, pose, pair->b)};
+    linear l[2] = {linear_of(b, known, pair->a), linear_of(b, known, pair->b)};
     double rest = 0;
     fw_clearance_slack_begin(pair, middle, &slack);
     for (int corner = 0; corner < 8; corner++) {
-        const fw_clearance_pose at[2] = {at_corner(&l[0], half, corner),
-                                         at_corner(&l[1], half, corner)};
+        const fw_clearance_pose at[2] = {at_corner(&l[0], known->half, corner),
+                                         at_corner(&l[1], known->half, corner)};
         fw_clearance_slack_add(pair, at, &slack);
     }
     for (int k = 0; k < 2; k++) {
@@ -136,50 +175,73 @@ static double slack_about(const boxes *b, const fw_clearance_pair *pair, const l
     return fw_clearance_slack_m(pair, &slack) + rest;
 }
 
-static fw_workspace_reached know(const boxes *b, const fw_clearance_region *region,
-                                 fw_workspace_box3 *box, double half[3], linear pose[LINKS]) {
-    fw_workspace_loop_box known;
+/* where a part of the box would be kept */
+static size_t slot_of(const boxes *b, const fw_clearance_region *region) {
+    double mixed = 0;
     for (int i = 0; i < 3; i++) {
-        box->lo[i] = region->low[i], box->hi[i] = region->high[i];
-        fw_box3_middle(box, i, &half[i]);
+        double size = b->whole.hi[i] - b->whole.lo[i];
+        double from = size > 0 ? (region->low[i] - b->whole.lo[i]) / size : 0;
+        double to = size > 0 ? (region->high[i] - b->whole.lo[i]) / size : 0;
+        mixed += (i + 1) * (37 * from + 101 * to);
     }
-    fw_workspace_loop_pose_box(b->loop, box, &known);
-    if (known.reached == FW_REACHED) poses_of(b, &known, box, half, pose);
-    return known.reached;
+    return (size_t)(unsigned)(int)(8 * mixed) % KEPT;
+}
+
+static bool is_part(const part *p, const fw_clearance_region *region) {
+    for (int i = 0; i < 3; i++)
+        if (p->low[i] != region->low[i] || p->high[i] != region->high[i]) return false;
+    return p->kept;
+}
+
+static const part *know(const boxes *b, const fw_clearance_region *region) {
+    part *p = &b->memory[slot_of(b, region)];
+    if (is_part(p, region)) return p;
+    fw_workspace_loop_box known;
+    fw_workspace_box3 box;
+    for (int i = 0; i < 3; i++) {
+        box.lo[i] = p->low[i] = region->low[i];
+        box.hi[i] = p->high[i] = region->high[i];
+        fw_box3_middle(&box, i, &p->half[i]);
+    }
+    fw_workspace_loop_pose_box(b->loop, &box, &known);
+    p->kept = true;
+    p->reached = known.reached;
+    if (known.reached == FW_REACHED) poses_of(b, &known, &box, p->half, p->pose);
+    return p;
 }
 
 static bool bound(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *region, fw_clearance_pose middle[2], double *slack_m) {
     const boxes *b = context;
-    fw_workspace_box3 box;
-    linear pose[LINKS];
-    double half[3];
-    fw_workspace_reached reached = know(b, region, &box, half, pose);
-    *slack_m = reached == FW_OUT_OF_REACH ? HUGE_VAL : 0;
-    if (reached != FW_REACHED) return false;
-    middle[0] = linear_of(b, pose, pair->a).middle;
-    middle[1] = linear_of(b, pose, pair->b).middle;
-    *slack_m = slack_about(b, pair, pose, half, middle);
+    const part *known = know(b, region);
+    *slack_m = known->reached == FW_OUT_OF_REACH ? HUGE_VAL : 0;
+    if (known->reached != FW_REACHED) return false;
+    middle[0] = linear_of(b, known, pair->a).middle;
+    middle[1] = linear_of(b, known, pair->b).middle;
+    *slack_m = slack_about(b, pair, known, middle);
     return true;
 }
 
 /* the pose in the middle; part 0: the drawn one, if it is in the box */
 static bool pose_of(const void *context, const fw_clearance_pair *pair,
-                    const fw_clearance_region *region, double part, fw_clearance_least *at) {
+                    const fw_clearance_region *region, double where, fw_clearance_least *at) {
     const boxes *b = context;
     fw_clearance_region one = *region;
-    fw_workspace_box3 box;
-    linear pose[LINKS];
-    double half[3];
+    const bool middle = where > 0 && where < 1;
     for (int i = 0; i < 3; i++) {
-        double middle = 0.5 * (region->low[i] + region->high[i]);
         double rest = fmin(fmax(0, region->low[i]), region->high[i]);
-        one.low[i] = one.high[i] = part <= 0 ? rest : part >= 1 ? region->high[i] : middle;
-        at->platform[i] = one.low[i];
+        one.low[i] = one.high[i] = where <= 0 ? rest : region->high[i];
+        at->platform[i] = middle ? 0.5 * (region->low[i] + region->high[i]) : one.low[i];
     }
-    if (know(b, &one, &box, half, pose) != FW_REACHED) return false;
-    at->pose[0] = linear_of(b, pose, pair->a).middle;
-    at->pose[1] = linear_of(b, pose, pair->b).middle;
+    const part *known = know(b, middle ? region : &one);
+    if (middle && known->reached == FW_MAY_BE_OUT) {
+        for (int i = 0; i < 3; i++)
+            one.low[i] = one.high[i] = at->platform[i];
+        known = know(b, &one);
+    }
+    if (known->reached != FW_REACHED) return false;
+    at->pose[0] = linear_of(b, known, pair->a).middle;
+    at->pose[1] = linear_of(b, known, pair->b).middle;
     at->t_s = (double)NAN;
     return true;
 }
@@ -190,18 +252,6 @@ static void drawn(const void *context, const fw_clearance_pair *pair, fw_clearan
         const fw_clearance_solid *s = &b->things->solid[k ? pair->b : pair->a];
         pose[k] = (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad};
     }
-}
-
-static double moved(const void *context, const fw_clearance_pair *pair,
-                    const fw_clearance_region *all) {
-    const boxes *b = context;
-    fw_workspace_box3 box;
-    linear pose[LINKS];
-    double half[3];
-    if (know(b, all, &box, half, pose) != FW_REACHED) return 0;
-    fw_clearance_pose from[2];
-    drawn(b, pair, from);
-    return slack_about(b, pair, pose, half, from);
 }
 
 static int split(const void *context, const fw_clearance_region *region,
@@ -220,33 +270,64 @@ static int split(const void *context, const fw_clearance_region *region,
     return 2;
 }
 
+/* how far the pair is moved from where it is drawn. What goes with the platform is where it is
+   required to be, whatever the hinges do. */
+static double moved_over(const boxes *b, const fw_clearance_pair *pair,
+                         const fw_clearance_region *region, int depth) {
+    enum { DEEPEST = 9 };
+    const part *known = know(b, region);
+    fw_clearance_pose from[2];
+    fw_clearance_region half[FW_CLEARANCE_PARTS];
+    if (known->reached == FW_OUT_OF_REACH) return 0;
+    if (known->reached == FW_REACHED) {
+        drawn(b, pair, from);
+        return slack_about(b, pair, known, from);
+    }
+    if (depth == DEEPEST || split(b, region, half) == 0)
+        return 2 * (pair->arm_m[0] + pair->arm_m[1]); /* turned by any angle */
+    double first = moved_over(b, pair, &half[0], depth + 1);
+    return fmax(first, moved_over(b, pair, &half[1], depth + 1));
+}
+
+static double moved(const void *context, const fw_clearance_pair *pair,
+                    const fw_clearance_region *all) {
+    const boxes *b = context;
+    int with[2] = {goes_with(b, pair->a), goes_with(b, pair->b)};
+    bool required =
+        (with[0] == 2 || with[0] == FW_GROUND) && (with[1] == 2 || with[1] == FW_GROUND);
+    return required ? 0 : moved_over(b, pair, all, 0);
+}
+
 static void rough(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *all, fw_clearance_pose middle[2], double *slack_m,
                   double *moved_m) {
+    *moved_m = moved(context, pair, all);
     if (!bound(context, pair, all, middle, slack_m)) *slack_m = HUGE_VAL;
-    *moved_m = 0; /* required poses are not off */
 }
 
 fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things,
                               const fw_mechanism *m, const fw_device_workspace_box *asked,
-                              const fw_clearance_wish *wish, fw_clearance_least *least,
-                              bool *known) {
+                              const fw_clearance_wish *wish, fw_clearance_least *least, bool *known,
+                              int *open) {
     fw_workspace_loop loop;
-    size_t n = (size_t)things->nbody + 1;
     fw_clearance_wish of_six = *wish;
     *known = fw_workspace_loop_set_up(m, &loop);
+    *open = FW_NONE;
     if (!*known) return FW_OK;
-    bool *may_meet = fw_arena_array(arena, bool, n *n);
-    FW_NEED(may_meet);
-    for (size_t i = 0; i < n * n; i++) {
-        size_t a = i / n, b = i % n;
-        bool six = (a < LINKS || a + 1 == n) && (b < LINKS || b + 1 == n);
-        may_meet[i] = !six || (wish->may_meet && wish->may_meet[i]);
+    fw_mark mark = fw_arena_mark(arena);
+    int *with = fw_arena_array(arena, int, (size_t)m->nbody);
+    bool *left_out = fw_arena_array(arena, bool, (size_t)m->nbody + 1);
+    part *memory = fw_arena_array(arena, part, KEPT);
+    FW_NEED(with && left_out && memory ? with : NULL);
+    fw_clearance_riders(m, with);
+    for (int i = m->nbody - 1; i >= 0; i--) {
+        left_out[i] = with[i] == FW_CLEARANCE_OPEN;
+        if (left_out[i] && things->solid[i].count > 0) *open = i;
     }
-    of_six.may_meet = may_meet;
+    of_six.left_out = left_out;
     const fw_clearance_region all = {.low = {asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                                      .high = {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
-    boxes context = {.things = things, .loop = &loop};
+    boxes context = {.things = things, .loop = &loop, .with = with, .memory = memory};
     for (int i = 0; i < 3; i++)
         context.whole.lo[i] = all.low[i], context.whole.hi[i] = all.high[i];
     const fw_clearance_domain domain = {.context = &context,
@@ -255,6 +336,9 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
                                         .pose = pose_of,
                                         .start = drawn,
                                         .rough = rough,
-                                        .split = split};
-    return fw_clearance_search(arena, things, &domain, &all, &of_six, least);
+                                        .split = split,
+                                        .middle_is_a_pose = true};
+    fw_status status = fw_clearance_search(arena, things, &domain, &all, &of_six, least);
+    fw_arena_rewind(arena, mark);
+    return status;
 }

@@ -232,7 +232,7 @@ static fw_status go_on(fw_arena *arena, const motion *s, const fw_clearance_regi
     fw_mark mark = fw_arena_mark(arena);
     fw_clearance_pair pair;
     FW_TRY(fw_clearance_pair_new(arena, s->things, least->a == FW_GROUND ? ground : least->a,
-                                 least->b == FW_GROUND ? ground : least->b, &pair));
+                                 least->b == FW_GROUND ? ground : least->b, false, &pair));
     double now = moved(s, &pair, all);
     if (now > least->moved_m) {
         least->share *= least->moved_m / now;

@@ -127,7 +127,9 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
                                     .at_a = fw_clearance_place(a, pose[0], p),
                                     .at_b = fw_clearance_place(a, pose[0], q),
                                     .a = at_p->label,
-                                    .b = at_q->label};
+                                    .b = at_q->label,
+                                    .bound = at_p->bends || at_q->bends,
+                                    .lane = at_p->always || at_q->always};
     }
     return least;
 }
@@ -190,18 +192,18 @@ void fw_clearance_pair_narrow(fw_clearance_pair *pair, const fw_clearance_pose p
 
 /* all edges; the solid that is smaller comes first, since rotations count with its size */
 fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
-                                fw_clearance_pair *pair) {
+                                bool walls, fw_clearance_pair *pair) {
     const fw_geometry_box p = things->solid[a].box, q = things->solid[b].box;
     bool swap = fmax(p.x1 - p.x0, p.y1 - p.y0) > fmax(q.x1 - q.x0, q.y1 - q.y0);
     *pair = (fw_clearance_pair){.things = things, .a = swap ? b : a, .b = swap ? a : b};
     for (int k = 0; k < 2; k++) {
         const fw_clearance_solid *s = &things->solid[k ? pair->b : pair->a];
         FW_NEED(pair->edge[k] = fw_arena_alloc(arena, (size_t)s->count, sizeof *pair->edge[k]));
+        bool some = walls && (k ? pair->b : pair->a) == things->nbody;
         for (int i = 0; i < s->count; i++)
-            pair->edge[k][i] = &s->edge[i];
-        pair->count[k] = s->count;
+            if (!some || s->edge[i].always) pair->edge[k][pair->count[k]++] = &s->edge[i];
     }
-    FW_NEED(pair->box = fw_arena_array(arena, fw_geometry_box, (size_t)pair->count[0]));
+    FW_NEED(pair->box = fw_arena_array(arena, fw_geometry_box, (size_t)pair->count[0] + 1));
     FW_NEED(pair->run = fw_arena_array(arena, fw_geometry_box, (size_t)pair->count[0] / RUN + 1));
     fw_clearance_pair_boxes(pair);
     fw_clearance_pair_measure(pair);

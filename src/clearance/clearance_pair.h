@@ -21,8 +21,9 @@ typedef struct fw_clearance_pair {
 
 fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearance_pose pose,
                                     fw_geometry_vec2 drawn);
+/* walls: only edges of the ground that are walls whatever a scene lets meet */
 fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
-                                fw_clearance_pair *pair);
+                                bool walls, fw_clearance_pair *pair);
 bool fw_clearance_may_meet(const fw_clearance_pair *pair, const fw_clearance_edge *p,
                            const fw_clearance_edge *q);
 void fw_clearance_pair_boxes(fw_clearance_pair *pair);
@@ -48,6 +49,13 @@ void fw_clearance_slack_begin(const fw_clearance_pair *pair, const fw_clearance_
 void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                             fw_clearance_slack *slack);
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack);
+
+/* ---- clearance_riders.c: what rides on the six-bar ---- */
+
+/* body of the six-bar that a body goes with, FW_GROUND, or: its pose is open; not seen yet */
+enum { FW_CLEARANCE_OPEN = FW_GROUND - 1, FW_CLEARANCE_NOT_SEEN = FW_GROUND - 2 };
+/* with: (nbody) */
+void fw_clearance_riders(const fw_mechanism *mechanism, int *with);
 
 /* ---- clearance_search.c: the least over all poses of a domain ---- */
 
@@ -79,6 +87,8 @@ typedef struct fw_clearance_domain {
     /* into parts, how many; 0: too small */
     int (*split)(const void *context, const fw_clearance_region *region,
                  fw_clearance_region part[FW_CLEARANCE_PARTS]);
+    /* `bound` gives the pose in the middle of the region, part 0.5, as its middle poses */
+    bool middle_is_a_pose;
     /* NULL: there is no order */
     void (*first_meeting)(const void *context, const fw_clearance_pair *pair,
                           const fw_clearance_region *all, fw_clearance_least *least);

@@ -64,12 +64,22 @@ static void fit_of(fw_clearance_path *path, int n) {
     path->of = n;
 }
 
+static void note_jump(fw_clearance_path *path, const fw_dynamics_piece *piece) {
+    const double *from = piece->q, *to = piece->q + (size_t)(piece->nodes - 1) * (size_t)path->nq;
+    path->njump++;
+    for (int q = 0; q + 1 < path->nq; q += 3) {
+        double by = hypot(to[q] - from[q], to[q + 1] - from[q + 1]);
+        if (by > path->jump_m) path->jump_m = by, path->jump_s = piece->from_s;
+    }
+}
+
 void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *piece) {
     int n = piece->nodes, k = path->npiece;
     if (fw_clearance_path_full(path)) return; /* never: whoever adds looks first */
     if (path->of != n) fit_of(path, n);
     if (!path->begun) memcpy(path->start, piece->q, (size_t)path->nq * sizeof *path->start);
     path->begun = true;
+    if (piece->jump) note_jump(path, piece);
     path->nodes[k] = n;
     path->t_s[2 * k] = piece->from_s;
     path->t_s[2 * k + 1] = piece->to_s;

@@ -84,20 +84,23 @@ static double key_of(const search *s, int p, double low_m) {
     return low_m - lost(s, p) - (low_m > 0 ? 0 : first_m);
 }
 
-static void look(search *s, int p, const fw_clearance_region *region, double part) {
+/* below this a distance at a pose is the least so far */
+static double least_limit(const search *s, int p) {
+    const fw_clearance_least *least = s->least;
+    return least->known ? fmax(1e-12, least->left_m + lost(s, p)) : HUGE_VAL;
+}
+
+/* d: a distance at a pose of the pair, which says where it is, below the limit */
+static void record(search *s, int p, const fw_clearance_least *there, double d,
+                   const fw_clearance_meet *meet) {
     const fw_clearance_pair *pair = &s->pair[p];
-    fw_clearance_least *least = s->least, now = {.known = true};
-    fw_clearance_meet meet = {.a = NULL};
-    if (!s->domain->pose(s->domain->context, pair, region, part, &now)) return;
-    least->looked++;
-    double limit = least->known ? fmax(1e-12, least->left_m + lost(s, p)) : HUGE_VAL;
-    double d = fw_clearance_pair_distance(pair, now.pose, limit, &meet);
-    if (!(d < limit)) return;
-    now.left_m = d > 0 ? d - lost(s, p) : -HUGE_VAL;
+    fw_clearance_least *least = s->least, now = *there;
     int ground = s->things->nbody;
+    now.known = true;
+    now.left_m = d > 0 ? d - lost(s, p) : -HUGE_VAL;
     now.m = d;
     now.low_m = least->low_m;
-    now.at = meet;
+    now.at = *meet;
     now.a = pair->a == ground ? FW_GROUND : pair->a;
     now.b = pair->b == ground ? FW_GROUND : pair->b;
     now.moved_m = s->moved_m[p];
@@ -105,6 +108,16 @@ static void look(search *s, int p, const fw_clearance_region *region, double par
     now.looked = least->looked;
     now.given_up = least->given_up;
     *least = now;
+}
+
+static void look(search *s, int p, const fw_clearance_region *region, double part) {
+    fw_clearance_least now = {.known = true};
+    fw_clearance_meet meet = {.a = NULL};
+    if (!s->domain->pose(s->domain->context, &s->pair[p], region, part, &now)) return;
+    s->least->looked++;
+    double limit = least_limit(s, p);
+    double d = fw_clearance_pair_distance(&s->pair[p], now.pose, limit, &meet);
+    if (d < limit) record(s, p, &now, d, &meet);
 }
 
 /* ---- pairs ---- */
@@ -129,12 +142,15 @@ static double boxes_apart(const search *s, const fw_clearance_pair *pair,
 static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int b) {
     const int nsolid = s->things->nbody + 1;
     if (s->things->solid[a].count == 0 || s->things->solid[b].count == 0) return FW_OK;
-    if (s->wish->may_meet && s->wish->may_meet[a * nsolid + b]) return FW_OK;
+    if (s->wish->left_out && (s->wish->left_out[a] || s->wish->left_out[b])) return FW_OK;
+    bool walls = s->wish->may_meet && s->wish->may_meet[a * nsolid + b];
+    if (walls && b != s->things->nbody) return FW_OK;
     const double still_m = 1e-10;
     fw_clearance_pair *pair = &s->pair[s->npair];
     fw_clearance_pose middle[2];
     double slack;
-    FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, pair));
+    FW_TRY(fw_clearance_pair_new(s->arena, s->things, a, b, walls, pair));
+    if (pair->count[0] == 0 || pair->count[1] == 0) return FW_OK;
     node first = {.low_m = -1, .pair = s->npair, .region = *all};
     s->domain->rough(s->domain->context, pair, all, middle, &slack, &s->moved_m[s->npair]);
     if (slack < still_m) return FW_OK;
@@ -168,21 +184,37 @@ static bool decides(const search *s, int p, double low_m) {
     return low_m > 0 && low_m - lost(s, p) >= bar(s);
 }
 
+/* what the region's middle proves, and where that is a pose what it finds; false: there is no pose
+   in it */
+static bool look_at_middle(search *s, const node *n, double *low, bool *looked) {
+    const fw_clearance_domain *domain = s->domain;
+    const fw_clearance_pair *pair = &s->pair[n->pair];
+    fw_clearance_pose middle[2];
+    fw_clearance_meet meet = {.a = NULL};
+    double slack;
+    *looked = false;
+    if (!domain->bound(domain->context, pair, &n->region, middle, &slack)) return isfinite(slack);
+    double limit = fmax(bar(s) + lost(s, n->pair), 0) + slack + fw_rounding_m;
+    s->least->looked++;
+    double d = fw_clearance_pair_distance(pair, middle, limit, &meet);
+    *low = fmax(*low, d - slack);
+    *looked = domain->middle_is_a_pose;
+    fw_clearance_least now = {.known = true};
+    if (*looked && d < limit && d < least_limit(s, n->pair) &&
+        domain->pose(domain->context, pair, &n->region, 0.5, &now))
+        record(s, n->pair, &now, d, &meet);
+    return true;
+}
+
 static fw_status examine(search *s, const node *n) {
     if (!s->narrowed[n->pair]) narrow(s, n->pair, &n->region);
     const fw_clearance_pair *pair = &s->pair[n->pair];
-    fw_clearance_pose middle[2];
-    double slack, low = n->low_m;
+    double low = n->low_m;
+    bool looked;
     if (pair->count[0] == 0 || pair->count[1] == 0 || decides(s, n->pair, low)) return FW_OK;
-    if (s->domain->bound(s->domain->context, pair, &n->region, middle, &slack)) {
-        double limit = fmax(bar(s) + lost(s, n->pair), 0) + slack + fw_rounding_m;
-        s->least->looked++;
-        low = fmax(low, fw_clearance_pair_distance(pair, middle, limit, NULL) - slack);
-    } else if (!isfinite(slack)) { /* nothing is there */
-        return FW_OK;
-    }
+    if (!look_at_middle(s, n, &low, &looked)) return FW_OK;
     if (decides(s, n->pair, low)) return FW_OK;
-    look(s, n->pair, &n->region, 0.5);
+    if (!looked) look(s, n->pair, &n->region, 0.5);
     if (decides(s, n->pair, low)) return FW_OK;
     fw_clearance_region part[FW_CLEARANCE_PARTS];
     int parts = s->domain->split(s->domain->context, &n->region, part);

@@ -2,16 +2,18 @@
 /* What of a drawing may meet what: the outlines of every body and of all that stands, cut where
    they enter the region of a hinge. */
 #include "clearance/clearance.h"
+#include "clearance/clearance_strip.h"
 #include "geometry/segment.h"
 #include <math.h>
 
 enum { ROOM = 64 };
-static const double fw_on_circle_m = 1e-7, fw_bent_share = 0.1;
+static const double fw_on_circle_m = 1e-7;
 
 typedef struct building {
     fw_arena *arena;
     const fw_layout *layout;
     const fw_device *device;
+    const fw_mechanism *mechanism;
     fw_clearance_things *things;
     int *room; /* (nbody + 1) */
 } building;
@@ -148,26 +150,31 @@ static fw_status add_piece(building *b, const fw_layout_piece *p) {
     return FW_OK;
 }
 
-/* A flexure that bends stays within a disc about its hinge point, which goes with either body. A
-   point p of it at the share w of its length goes to about W + R((1 - w) a + w b) (p - W): as far
-   from W as it was; a beam leaves that by a share of the rotation in rad, for which there is a tenth
-   more. Its own two bodies are the hinge's matter. The disc lies inside the keep-out circle, from
-   which others are kept by the layout. */
+static const fw_mechanism_hinge *hinge_at(const fw_mechanism *m, int joint) {
+    for (int i = 0; i < m->nhinge; i++)
+        if (m->hinge[i].pin == joint) return &m->hinge[i];
+    return NULL;
+}
+
+/* A flexure that bends stays within a disc about its hinge point, which goes with either body
+   (clearance_strip.c). Its own two bodies are the hinge's matter. Where nothing says what it bears
+   the disc is the circle that the layout keeps for it. */
 static fw_status add_flexure(building *b, const fw_layout_piece *p) {
     const fw_layout_hinge_layout *h = &b->layout->hinge[p->joint];
-    double far = 0;
-    for (int i = 0; i < p->contour.count; i++)
-        for (int k = 0; k <= 8; k++) {
-            fw_geometry_vec2 at = fw_geometry_segment_point(&p->contour.segment[i], k / 8.0);
-            far = fmax(far, vec_distance(at, h->centre));
-        }
-    const double r = fmin((1 + fw_bent_share) * far, h->keep_out_m);
+    const fw_mechanism_hinge *hinge = hinge_at(b->mechanism, p->joint);
+    fw_clearance_strip strip = {.known = false};
+    fw_clearance_bend bend = {.known = false};
+    FW_TRY(fw_clearance_strip_of(b->arena, b->layout, p, &strip));
+    if (hinge) bend = fw_clearance_bend_of(b->mechanism, hinge);
+    double r = h->keep_out_m;
+    if (strip.known && bend.known) r = fw_clearance_strip_reach(&strip, &bend);
     const fw_geometry_vec2 c = h->centre, east = {c.x + r, c.y}, west = {c.x - r, c.y};
     for (int side = 0; side < 2; side++) {
         int solid = solid_of(b, side ? h->upper : h->lower);
         fw_clearance_edge edge = {.hinge = p->joint,
                                   .other = solid_of(b, side ? h->lower : h->upper),
                                   .held = FW_NONE,
+                                  .bends = true,
                                   .label = p->label};
         for (int half = 0; half < 2; half++) {
             edge.segment = (fw_geometry_segment){.kind = FW_ARC,
@@ -182,12 +189,40 @@ static fw_status add_flexure(building *b, const fw_layout_piece *p) {
     return FW_OK;
 }
 
+/* Nothing that moves may be where the saw goes: the lane begins where the frame ends. */
+static fw_status add_lane(building *b) {
+    fw_geometry_box frame = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < b->layout->npiece; i++) {
+        const fw_layout_piece *p = &b->layout->piece[i];
+        if (p->role == FW_ROLE_FRAME)
+            frame = fw_box_join(frame, fw_geometry_contour_box(&p->contour));
+    }
+    if (!(frame.x1 > frame.x0)) return FW_OK;
+    const fw_geometry_vec2 corner[5] = {{frame.x0, frame.y0},
+                                        {frame.x1, frame.y0},
+                                        {frame.x1, frame.y1},
+                                        {frame.x0, frame.y1},
+                                        {frame.x0, frame.y0}};
+    for (int i = 0; i < 4; i++) {
+        const fw_clearance_edge edge = {
+            .segment = {.kind = FW_LINE, .a = corner[i], .b = corner[i + 1]},
+            .hinge = FW_NONE,
+            .other = FW_NONE,
+            .held = FW_NONE,
+            .always = true,
+            .label = "dicing lane"};
+        FW_TRY(keep(b, b->things->nbody, &edge));
+    }
+    return FW_OK;
+}
+
 /* As drawn; the mechanism says where centres of mass are. Cost: every segment against every hinge
    of its body. Test: test_clearance.c */
 fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const fw_mechanism *m,
                                  fw_clearance_things *things) {
     size_t n = (size_t)m->nbody + 1;
-    building b = {.arena = arena, .layout = layout, .device = m->device, .things = things};
+    building b = {
+        .arena = arena, .layout = layout, .device = m->device, .mechanism = m, .things = things};
     *things = (fw_clearance_things){.nbody = m->nbody};
     FW_NEED(things->solid = fw_arena_array(arena, fw_clearance_solid, n));
     FW_NEED(b.room = fw_arena_array(arena, int, n));
@@ -197,6 +232,7 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const
         if (p->role == FW_ROLE_FLEXURE && p->joint >= 0 && layout->hinge[p->joint].drawn)
             FW_TRY(add_flexure(&b, p));
     }
+    FW_TRY(add_lane(&b));
     for (size_t i = 0; i < n; i++) {
         fw_clearance_solid *s = &things->solid[i];
         if (i + 1 < n) {

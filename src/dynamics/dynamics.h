@@ -35,10 +35,12 @@ enum { FW_INSTANTS = 12, FW_THIRDS = 3 };
 enum { FW_PIECE_NODES = 8 };
 /* A part of the motion between two instants in which every coordinate is one polynomial in time, of
    degree nodes - 1: that through its values at equally spaced instants, ends included. Pieces follow
-   each other in time; where one begins elsewhere than the last one ended, the motion jumps. */
+   each other in time; each begins where the last one ended. */
 typedef struct fw_dynamics_piece {
     double from_s, to_s;
-    int nodes;       /* at most FW_PIECE_NODES */
+    bool jump; /* not the motion: the straight way from one equilibrium to the next one where a
+                        quasi-static motion jumps, from_s == to_s */
+    int nodes; /* at most FW_PIECE_NODES */
     const double *q; /* (nodes x 3 nbody) m, rad */
 } fw_dynamics_piece;
 /* with NULL when the run starts (over); of the contexts of the observer */

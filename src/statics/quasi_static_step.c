@@ -57,6 +57,31 @@ static void keep(fw_statics_quasi_static *r, double t, fw_statics_node *node) {
     r->elastic = fmax(r->elastic, size / 2);
 }
 
+/* below these a landing is where the last step ended, or where the mechanism was assembled */
+static const double fw_same_m = 1e-9, fw_same_rad = 1e-6;
+
+/* the straight way from the last equilibrium to the one that the model is at, where that is elsewhere */
+static void jump(const fw_statics_quasi_static *r, double t) {
+    enum { NODES = 6 };
+    const int nq = r->w.model->nq;
+    bool elsewhere = false;
+    if (!r->options->observe || !r->options->trace) return;
+    for (int i = 0; i < NODES; i++) {
+        double part = (double)i / (NODES - 1);
+        for (int k = 0; k < nq; k++)
+            r->guess[k] = r->from.u[k] + part * (r->w.y[k] - r->from.u[k]);
+        fw_statics_equilibrium_pose(&r->w, r->guess, r->piece_q + (size_t)(i * nq), r->angle);
+    }
+    for (int k = 0; k < nq; k++) {
+        double by = r->piece_q[(size_t)((NODES - 1) * nq + k)] - r->piece_q[k];
+        elsewhere = elsewhere || fabs(by) > (k % 3 == 2 ? fw_same_rad : fw_same_m);
+    }
+    const double at_s = t * r->w.model->scale.time_s;
+    const fw_dynamics_piece piece = {
+        .from_s = at_s, .to_s = at_s, .jump = true, .nodes = NODES, .q = r->piece_q};
+    if (elsewhere) r->options->trace(r->options->context, &piece);
+}
+
 fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t) {
     fw_statics_equilibrium *w = &r->w;
     bool unstable = false;
@@ -68,6 +93,7 @@ fw_status fw_statics_quasi_static_land(fw_statics_quasi_static *r, double t) {
     FW_TRY(status);
     r->evaluated++;
     fw_statics_equilibrium_rate(w, r->rate);
+    jump(r, t);
     keep(r, t, &r->from);
     return FW_OK;
 }

@@ -47,6 +47,7 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *hinge
 typedef struct fw_verdict_strain_peak {
     double strain, t_s; /* largest so far, and when */
     double least;       /* likewise of what it is at least, where the axis is not known */
+    double forced;      /* largest |strain less that of the rotation alone| at an instant */
     double between;     /* what the parabola added to the largest sample: the error of the search */
     double t[2], s[2];  /* the last two instants */
     int samples;

@@ -114,8 +114,10 @@ static void strain_at(const fw_verdict_strain_monitor *w, int k, const fw_dynami
     fw_verdict_hinge_strain(hinge, beam, &load, strain);
 }
 
-static void take(fw_verdict_strain_monitor *w, int k, double t_s,
+static void take(fw_verdict_strain_monitor *w, int k, double t_s, double angle_rad,
                  const fw_verdict_hinge_strains *strain) {
+    double by_angle = fabs(angle_rad) * w->mechanism->hinge[k].closed_form.strain_per_rad;
+    w->hinge[k].forced = fmax(w->hinge[k].forced, fabs(strain->peak - by_angle));
     fw_verdict_strain_peak_add(&w->hinge[k], t_s, strain->peak);
     w->hinge[k].least = fmax(w->hinge[k].least, strain->least);
     w->lost = w->lost || !strain->held;
@@ -135,7 +137,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
         if (now->begins) w->hinge[k].samples = 0; /* no parabola across a jump */
         fw_verdict_hinge_strains strain;
         strain_at(w, k, now, &strain);
-        take(w, k, now->t_s, &strain);
+        take(w, k, now->t_s, now->angle_rad[w->mechanism->hinge[k].pin], &strain);
         if (w->root) count(w, k, &strain, now);
     }
 }
@@ -163,7 +165,7 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
     }
     for (int k = 0; k < n; k++)
         for (int i = 0; i < FW_THIRDS; i++)
-            take(w, k, third[i].t_s, &strain[k][i]);
+            take(w, k, third[i].t_s, third[i].angle_rad[w->mechanism->hinge[k].pin], &strain[k][i]);
     return true;
 }
 

@@ -215,7 +215,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     size_t reasons = FW_REASONS * n + (size_t)device->nworkspace + (size_t)v->nrequirement +
-                     2; /* out of reach, as made */
+                     (size_t)device->nrevolute + 3; /* strips; out of reach, as made, riders */
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     fw_verdict_clearance_watch watch[2];
     const bool brief = is_brief(options, v);
@@ -243,7 +243,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, v->motion[i]);
         if (v->motion[i]) FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->level));
-        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, v));
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief, diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
         if (v->motion[i] && seen[0]) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed,
@@ -382,6 +382,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     FW_TRY(in_series(arena, v));
+    FW_TRY(fw_verdict_clearance_strips(arena, layout, v));
     v->decision = FW_ACCEPT;
     for (int k = 0; k < v->nhinge; k++) {
         if (!v->hinge[k].scene) v->hinge[k].decision = FW_INCONCLUSIVE; /* nothing was run */

@@ -17,7 +17,7 @@ static const double fw_clearance_relative = 2e-3;
 /* What a long motion, which is looked at in parts before its error is known, is taken to be off by.
    One that is off by more is not decided. */
 static const double fw_off_at_most = 0.1;
-enum { MOST = 1000, MOST_EVER = 100000 };
+enum { MOST = 1000, MOST_IN_BOX = 400, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
     return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
@@ -102,6 +102,8 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
     if (!piece) {
         empty(w);
         w->path.begun = false;
+        w->path.njump = 0;
+        w->path.jump_m = 0;
         w->parts = false;
         w->least = fw_clearance_nothing();
         w->status = FW_OK;
@@ -140,6 +142,7 @@ static void decide(fw_verdict_clearance *c, double off) {
     if (meet) less = less || l->share * (1 + off) < 1;
     if (meet && less) c->high_m = fmin(c->high_m, c->m);
     c->decision = enough ? FW_ACCEPT : less ? FW_REJECT : FW_INCONCLUSIVE;
+    if (l->at.bound && c->decision == FW_REJECT) c->decision = FW_INCONCLUSIVE;
     c->keep = keep_of(c, c->required_m + c->wall_m);
 }
 
@@ -155,7 +158,8 @@ static const char *name_of(const char *label) {
 static const char *what_happens(fw_arena *arena, const fw_verdict_clearance *c) {
     const fw_clearance_least *l = &c->least;
     char drawn[32], made[32], low[32], high[32], asked[32];
-    if (l->m <= 0) return "meet";
+    if (l->m <= 0)
+        return l->at.bound ? "may meet: the strip's bent shape is only bounded," : "meet";
     const char *text = fw_arena_printf(arena, "come within %s um of each other as drawn",
                                        micrometres(drawn, l->m));
     if (text && c->wall_m != 0)
@@ -189,26 +193,42 @@ static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const 
                 name_of(l->at.a), name_of(l->at.b), what, where,
                 fw_number_text(x, sizeof x, 1e6 * l->at.at_a.x, 5),
                 fw_number_text(y, sizeof y, 1e6 * l->at.at_a.y, 5), then,
-                c->box == FW_NONE ? "; where they are to meet, give the scene a <contact>" : ""));
+                c->box == FW_NONE && !l->at.lane
+                    ? "; where they are to meet, give the scene a <contact>"
+                    : ""));
     return FW_OK;
 }
 
 static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                              fw_verdict_variant_verdict *v) {
     const char *text;
+    const bool unknown = c->least.given_up || c->least.at.bound;
     if (c->decision == FW_ACCEPT) return FW_OK;
     FW_TRY(sentence(arena, c, where, &text));
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = c->scene,
                                                   .flow = c->flow,
-                                                  .number = c->least.given_up ? 295 : 294,
+                                                  .number = unknown ? 295 : 294,
                                                   .decision = c->decision,
                                                   .keep = fmin(fmax(0.98 * c->keep, 1e-3), 0.99),
                                                   .text = text};
     return FW_OK;
 }
 
+/* where a sequence of equilibria jumps nothing says which way the mechanism takes */
+static void warn_jump(const fw_device_scene *scene, const fw_clearance_path *path,
+                      fw_diags *diags) {
+    char t[32], by[32];
+    fw_diag_warning(
+        diags, 296, scene->place,
+        "scene %s goes at once, after %s ms, from one equilibrium to another (%s um of a "
+        "body's centre of mass): between them clearances are those of the straight way, "
+        "and the real one is not known without inertia",
+        scene->name, fw_number_text(t, sizeof t, 1e3 * path->jump_s, 4),
+        fw_number_text(by, sizeof by, 1e6 * path->jump_m, 3));
+}
+
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
-                                     const fw_layout *layout, bool brief,
+                                     const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v) {
     const fw_dynamics_motion *motion = v->motion[i];
     if (!v->things || !motion || motion->ended || !motion->observed) return FW_OK;
@@ -219,6 +239,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     FW_TRY(w->status);
     w->wish.off = w->parts ? fmax(off, fw_off_at_most) : off;
     w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
+    if (w->path.njump > 0) warn_jump(scene, &w->path, diags);
     FW_TRY(consume(w));
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
@@ -240,18 +261,48 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     return give_reason(arena, c, where, v);
 }
 
-/* Required poses are what the platform is asked to take: their only errors are those of the walls. */
+/* once: what rides on the platform or on a link and does not go with it as drawn */
+static fw_status say_open(fw_arena *arena, const fw_device *device, int body,
+                          fw_verdict_variant_verdict *v) {
+    const char *text;
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == 295 && v->reason[i].not_by_loads) return FW_OK;
+    FW_NEED(
+        text = fw_arena_printf(
+            arena,
+            "how near body %s comes in the required workspace is not known: it rides on the "
+            "six-bar by a joint without a flexure or is pulled by a spring, so that its pose does "
+            "not follow from the platform's: hold it by a flexure or a weld",
+            device->body[body].id));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "workspace",
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 295,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = 0.5,
+                                                  .not_by_loads = true,
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* Required poses are what the platform is asked to take: where it goes itself the only errors are
+   those of the walls. Links go by what their hinges are: as far off as motions with that model. */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v) {
     for (int i = 0; v->things && v->workspace.required && i < device->nworkspace; i++) {
         const fw_device_workspace_box *asked = &device->workspace[i];
         bool known;
+        int open;
         if (!v->workspace.asked[i] || !v->workspace.box_reachable[i]) continue;
         fw_clearance_wish wish = wish_of(device, layout, NULL);
+        wish.off = fw_verdict_model_error.motion;
+        wish.most = MOST_IN_BOX;
         if (brief) wish.enough_m = wish.needed_m;
         fw_clearance_least least = fw_clearance_nothing();
-        FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known));
+        FW_TRY(fw_clearance_of_box(arena, v->things, v->mechanism, asked, &wish, &least, &known,
+                                   &open));
+        if (open != FW_NONE) FW_TRY(say_open(arena, device, open, v));
         if (!known || !least.known) continue;
         fw_verdict_clearance *c = &v->clearance[v->nclearance++];
         *c = (fw_verdict_clearance){.scene = "workspace",
@@ -260,8 +311,9 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                     .least = least,
                                     .wall_m = walls(layout),
                                     .required_m = required(device)};
-        decide(c, 0);
-        if (least.m <= 0) c->decision = FW_REJECT; /* a pose that is required meets */
+        decide(c, wish.off);
+        if (least.m <= 0 && !least.at.bound)
+            c->decision = FW_REJECT; /* a pose that is required meets */
         char x[32], y[32], phi[32];
         const char *where =
             fw_arena_printf(arena, "the required pose dx = %s um, dy = %s um, turned by %s deg",

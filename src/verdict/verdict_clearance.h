@@ -27,11 +27,14 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
 /* Scene i, whose motion is v->motion[i]: its clearance, and a reason where it is not accepted.
    brief: only whether it is, which is proved with a fraction of the distances. */
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
-                                     const fw_layout *layout, bool brief,
+                                     const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v);
 /* every required box of the flow that can be reached as a whole; after fw_workspace_required */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v);
+/* verdict_strip.c: every flexure against its own two bodies; after the hinges */
+fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
+                                      fw_verdict_variant_verdict *v);
 
 #endif

@@ -11,8 +11,8 @@ DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "c
 FAULTS = []
 
 
-def check(program, path, *sets, corners="none"):
-    run = [program, "check", path, "--json", "--advice", "none", "--corners", corners]
+def check(program, path, *sets, corners="none", more=()):
+    run = [program, "check", path, "--json", "--advice", "none", "--corners", corners, *more]
     for s in sets:
         run += ["--set", s]
     out = subprocess.run(run, capture_output=True, text=True, check=False)
@@ -84,8 +84,90 @@ def as_made(program):
            drawn["verdict"] == "accept" and made["verdict"] != "accept")
 
 
+def changed(directory, name, *changes):
+    """a copy of a device with parts of its text replaced"""
+    with open(os.path.join(DATA, name), encoding="utf-8") as f:
+        text = f.read()
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new)
+    path = os.path.join(directory, name)
+    with open(path, "w", encoding="utf-8") as f:
+        f.write(text)
+    return path
+
+
+def reasons(d, code):
+    return [r for r in d["reasons"] if r["code"] == code]
+
+
+def warned(program, path, code, *more):
+    out = subprocess.run([program, "check", path, "--advice", "none", "--corners", "none", *more],
+                         capture_output=True, text=True, check=False)
+    return code in out.stderr
+
+
+def jumps(program):
+    """without inertia loads that are there at once make a jump, whose two ends are not all of it"""
+    with tempfile.TemporaryDirectory() as directory:
+        path = changed(directory, "jaws.xml", (' law="ramp" rise="16 ms"', ""))
+        still = ("--effects", "none")
+        d = check(program, path, more=still)
+        expect("jaws that jump over their gap are rejected", d["verdict"] == "reject" and "FW-D294" in codes(d))
+        expect("and the jump is said", warned(program, path, "FW-D296", *still))
+        path = os.path.join(DATA, "jaws.xml")
+        d = check(program, path, "push=5 uN", more=still)
+        expect("loads that rise jump nowhere", d["verdict"] == "accept" and
+               not warned(program, path, "FW-D296", "--set", "push=5 uN", *still))
+
+
+def lane(program):
+    """a <contact> with the ground lets a body meet what stands there, but not leave the die"""
+    contact = ('    <contact id="tips" side="outside" a="left" a-x="0.5 mm" a-y="0.4 mm" b="ground" b-x="0 mm" '
+               'b-y="3 mm" distance="1 um" stiffness="1e3 N/m"/>\n  </scene>\n  <die frame="120 um"/>')
+    with tempfile.TemporaryDirectory() as directory:
+        path = changed(directory, "jaws.xml", ("  </scene>", contact), ('fx="push"', 'fx="-1*push"'),
+                       ('fx="-push"', 'fx="push"'))
+        d = check(program, path, "push=150 uN", "gap=400 um")
+        met = [c for c in d["clearances"] if c["meet"]]
+        expect("a body that leaves the die is rejected",
+               d["verdict"] == "reject" and met and "dicing lane" in (met[0]["a"], met[0]["b"]))
+        d = check(program, path, "push=20 uN", "gap=400 um")
+        expect("one that stays is not", not any(c["meet"] for c in d["clearances"]))
+
+
+def riders(program):
+    path = os.path.join(DATA, "rider.xml")
+    d = check(program, path)
+    worst = [c for c in d["clearances"] if c["scene"] == "workspace"][0]
+    expect("what rides on the platform goes with it into the frame",
+           d["verdict"] == "reject" and worst["meet"] and "link rider" in (worst["a"], worst["b"]))
+    d = check(program, path, "up=15 um")
+    expect("and stays below it where the platform does", not reasons(d, "FW-D294") and not reasons(d, "FW-D295"))
+    with tempfile.TemporaryDirectory() as directory:
+        pulled = changed(directory, "rider.xml", (
+            "  </mechanism>", '    <spring id="k" a="rider" a-x="0 mm" a-y="0 mm" b="AB" b-x="0 mm" b-y="0 mm" '
+            'stiffness="0.1 N/m" length="3 mm"/>\n  </mechanism>'))
+        d = check(program, pulled, "up=15 um")
+        said = reasons(d, "FW-D295")
+        expect("one that a spring pulls is said, once, not to be known",
+               d["verdict"] != "accept" and len(said) == 1 and "rider" in said[0]["text"])
+
+
+def folds(program):
+    """a long thin leaf comes to its own root before the solids of its hinge meet"""
+    with tempfile.TemporaryDirectory() as directory:
+        path = changed(directory, "jaws.xml", ('length="400 um" width="8 um"', 'length="900 um" width="4.5 um"'),
+                       ('max="500 um" doc="between', 'max="5 mm" doc="between'))
+        d = check(program, path, "push=16 uN", "gap=3 mm")
+        expect("a leaf that bends by 20 degrees keeps off its root", d["verdict"] == "accept")
+        d = check(program, path, "push=30 uN", "gap=3 mm")
+        expect("one that bends by 33 degrees is not proved to",
+               d["verdict"] == "inconclusive" and len(reasons(d, "FW-D295")) == 2)
+
+
 def main():
-    for case in (jaws, eyelets, as_made):
+    for case in (jaws, eyelets, as_made, jumps, lane, riders, folds):
         case(sys.argv[1])
     return 1 if FAULTS else 0
 

@@ -83,10 +83,26 @@ def four_bar(r):
     return lines, '<force on="c" fx="%.4g mN" fy="0 mN" %s/>' % (1e3 * push, law(r))
 
 
-def device(seed):
+def comb(r):
+    """a plate that turns about a hinge below it, so that the fingers of its comb go sideways between the stator's"""
+    wide, tall, high = r.uniform(0.5, 0.9), r.uniform(0.6, 0.9), r.uniform(1.0, 1.3)
+    lines = ['<body id="p" x="0 mm" y="%.4f mm" plate-width="%.4f mm" plate-height="%.4f mm"/>' % (high, wide, tall),
+             '<revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="p" b-x="0 mm" b-y="%.4f mm" hinge="f"/>' % -high]
+    gap = r.uniform(6, 14)
+    push = 10 ** r.uniform(-6.6, -4.7) * r.choice([-1, 1])
+    drive = ('<comb-drive id="c" kind="comb" on="p" x="%.4f mm" y="%.4f mm" direction="0 deg" fingers="%d" gap="%.2f um" '
+             'overlap="%.1f um" length="%.1f um" voltage="1 V"/>')
+    return lines, drive % (wide / 2 + r.uniform(0.05, 0.1), r.uniform(-0.1, 0.1), r.randint(3, 9), gap,
+                           r.uniform(20, 50), r.uniform(90, 120)) + (
+        '<force on="p" fx="%.4g mN" fy="0 mN" %s/>' % (1e3 * push, law(r)))
+
+
+def device(seed, kinds):
     r = random.Random(seed)
-    lines, loads = r.choice([jaws, jaws, four_bar])(r)
-    return HEAD.format(flexure=flexure(r), mechanism="\n".join(lines), loads=loads, ms="%.2f" % r.uniform(3, 12))
+    kind = r.choice(kinds)
+    lines, loads = kind(r)
+    text = HEAD.format(flexure=flexure(r), mechanism="\n".join(lines), loads=loads, ms="%.2f" % r.uniform(3, 12))
+    return text.replace('rie"/>', 'rie" carrier="insulating"/>') if kind is comb else text
 
 
 class Truth:
@@ -170,11 +186,11 @@ class Truth:
         return best
 
 
-def judge(program, seed, directory):
+def judge(program, seed, directory, kinds):
     """None: the device cannot be drawn, or nothing moves; else what was compared"""
     path = os.path.join(directory, "device.xml")
     with open(path, "w", encoding="ascii") as f:
-        f.write(device(seed))
+        f.write(device(seed, kinds))
     run = subprocess.run([program, path, str(SAMPLES)], capture_output=True, text=True, check=False)
     if run.returncode != 0:
         return None
@@ -212,12 +228,14 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=300)
+    parser.add_argument("--combs", action="store_true", help="devices with a comb, and no others")
     args = parser.parse_args()
+    kinds = [comb] if args.combs else [jaws, jaws, four_bar]
     done, faults, meet, seed, looked = 0, 0, 0, args.seed, 0
     worst = 0.0
     with tempfile.TemporaryDirectory() as directory:
         while done < args.count and seed < args.seed + 20 * args.count:
-            r = judge(args.program, seed, directory)
+            r = judge(args.program, seed, directory, kinds)
             seed += 1
             if r is None:
                 continue

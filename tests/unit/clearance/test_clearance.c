@@ -102,7 +102,7 @@ static void slack_bounds_every_pose(void **state) {
         box(&s, 0, 0, 0, chance(&seed, 1e-5, 1e-3), chance(&seed, 1e-5, 1e-3));
         box(&s, 1, 1.1e-3, 0, 1.2e-3 + chance(&seed, 0, 1e-3), chance(&seed, 1e-5, 1e-3));
         fw_clearance_pair pair;
-        assert_int_equal(fw_clearance_pair_new(s.arena, &s.things, 0, 1, &pair), FW_OK);
+        assert_int_equal(fw_clearance_pair_new(s.arena, &s.things, 0, 1, false, &pair), FW_OK);
         fw_clearance_pose middle[2], hull[4][2];
         fw_clearance_slack slack;
         for (int k = 0; k < 2; k++) {
@@ -148,7 +148,8 @@ static double sampled(const scene *s, int pieces, int each) {
         for (int b = a + 1; b <= BODIES; b++) {
             fw_clearance_pair pair;
             if (s->things.solid[b].count == 0) continue;
-            assert_int_equal(fw_clearance_pair_new(s->arena, &s->things, a, b, &pair), FW_OK);
+            assert_int_equal(fw_clearance_pair_new(s->arena, &s->things, a, b, false, &pair),
+                             FW_OK);
             for (int i = 0; i <= pieces * each; i++) {
                 int piece = i / each < pieces ? i / each : pieces - 1;
                 double theta = (double)i / each - piece;
