@@ -460,9 +460,11 @@ static fw_status conclude(const advice *a, const char *why) {
     return FW_OK;
 }
 
+/* to a thousandth; of the same size parameters go first */
 static int by_change(const void *a, const void *b) {
     const fw_verdict_proposal *p = a, *q = b;
-    int order = fw_order_doubles(p->change, q->change);
+    int order = fw_order_doubles(nearbyint(1e3 * p->change), nearbyint(1e3 * q->change));
+    if (order == 0) order = fw_order_wholes((int)p->kind, (int)q->kind);
     if (order == 0) order = fw_order_wholes(p->nset, q->nset);
     return order ? order : strcmp(p->text, q->text);
 }
