@@ -35,7 +35,8 @@ static fw_status repeat(fw_verdict_trial *trial,
                         bool (*change)(fw_verdict_trial *, const fw_verdict_trial_hinge *,
                                        double)) {
     double worst_before = HUGE_VAL;
-    for (int round = 0; round < ROUNDS && !accepted(trial); round++) {
+    const double most_work = trial->work + most_work_together;
+    for (int round = 0; round < ROUNDS && !accepted(trial) && trial->work < most_work; round++) {
         double worst = 0.0, extra = 1.0 + 0.03 * round; /* what is too much is taken back after */
         bool any = false;
         trial->round = round;
@@ -281,7 +282,7 @@ static void report_scene(fw_text *text, const fw_device_scene *s, double share, 
     for (int i = 0; i < loads.count; i++) {
         if (!loads.item[i].squared) continue;
         fw_text_printf(text, "%sthe %s of scene %s to ", *join, loads.item[i].name, s->name);
-        add_share(text, sqrt(share));
+        add_share(text, rounded_down(sqrt(share)));
         *join = ", ";
     }
 }
@@ -459,9 +460,11 @@ static fw_status conclude(const advice *a, const char *why) {
     return FW_OK;
 }
 
+/* to a thousandth; of the same size parameters go first */
 static int by_change(const void *a, const void *b) {
     const fw_verdict_proposal *p = a, *q = b;
-    int order = fw_order_doubles(p->change, q->change);
+    int order = fw_order_doubles(nearbyint(1e3 * p->change), nearbyint(1e3 * q->change));
+    if (order == 0) order = fw_order_wholes((int)p->kind, (int)q->kind);
     if (order == 0) order = fw_order_wholes(p->nset, q->nset);
     return order ? order : strcmp(p->text, q->text);
 }

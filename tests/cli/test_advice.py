@@ -136,7 +136,8 @@ class Proposals(unittest.TestCase):
         self.assertIn(result.returncode, (1, 4), result.stderr)
         document = json.loads(result.stdout)
         advice = document["advice"]
-        self.assertEqual([p["change"] for p in advice], sorted(p["change"] for p in advice))
+        changes = [round(p["change"], 3) for p in advice]
+        self.assertEqual(changes, sorted(changes))
         for p in advice:
             sets = [f"{s['path']}={s['value']}" for s in p["set"]]
             self.assertEqual(self.judged(device, *sets), 0, p)
@@ -178,9 +179,9 @@ class Proposals(unittest.TestCase):
         self.assertGreaterEqual(len(proposal["set"]), 2)
 
     def test_of_what_meets(self):
-        """jaws that close too far"""
+        """jaws that close too far (trials look at clearances at more corners than a check does)"""
         device = self.changed(GRIPPER, ('value="18 uN"', 'value="40 uN"'))
-        document = self.follow(device)
+        document = self.follow(device, least=("parameter",))
         self.assertEqual({r["code"] for r in document["reasons"]}, {"FW-D294"})
         self.assertGreaterEqual({p["kind"] for p in document["advice"]}, {"parameter", "loads"})
 

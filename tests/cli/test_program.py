@@ -337,7 +337,7 @@ class Plan(InTemporary):
                 self.assertIn(result.returncode, (1, 4), name)
                 self.assertIn("run and accepted", result.stdout)
                 self.assertIn(says, result.stdout)
-                text = self.followed(device.read_text(), result.stdout)
+                text = self.followed(device.read_text(), result.stdout.split("what to change")[1])
                 self.expect(run("check", self.device(text, "followed.xml")), 0)
 
     def test_a_loop_that_does_not_close_is_an_error(self):
