@@ -12,7 +12,7 @@ typedef struct fw_device_path {
     char name[64];
 } fw_device_path;
 
-/* false: there is no such element, and out->wrong says why. Test: test_edit.c, test_parameter.c */
+/* false: there is no such element, and out->wrong says why. Test: test_text_edit.c, tests/cli/test_advice.py */
 bool fw_device_path_find(fw_xml_element *root, const char *path, fw_xml_element **found,
                          fw_device_path *out);
 #endif

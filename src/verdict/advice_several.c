@@ -31,7 +31,7 @@
    Source: R. Fletcher, Practical Methods of Optimization (1987), ch. 14 (linear programmes in
    succession); C. G. Broyden, Math. Comp. 19 (1965) 577.
 
-   Test: tests/unit/plan/test_several.c, tests/cli/test_advice.py. */
+   Test: tests/cli/test_advice.py, test_two_at_once. */
 #include "verdict/advice_several.h"
 #include "maths/linear_programme.h"
 #include <math.h>

@@ -15,7 +15,7 @@
    Utilisations have their bands, but for what closer numbers would take away. What the corners make
    of a check is kept beside it: a device that is rejected as drawn has none, and a jump is no slope.
 
-   Test: test_several.c. */
+   Test: tests/cli/test_advice.py. */
 #include "verdict/trial.h"
 #include <math.h>
 #include <string.h>
