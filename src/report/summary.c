@@ -110,13 +110,23 @@ static fw_status reasons(fw_arena *arena, const fw_verdict *v, fw_report_summary
 
 /* ---- what to do: the least change that was run and accepted ---- */
 
+enum { FEW_SETTINGS = 3 }; /* more are told where all proposals are */
+
+/* the least change that gives up nothing of what is asked for, where there is one */
+static const fw_verdict_proposal *first_of(const fw_verdict *v) {
+    for (int i = 0; i < v->nproposal; i++)
+        if (v->proposal[i].kind != FW_PROPOSE_LOADS) return &v->proposal[i];
+    return &v->proposal[0];
+}
+
 static fw_status advice(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     bool searched = v->advice_note && v->advice_note != fw_verdict_not_searched;
     if (v->nproposal == 0) return searched ? add(s, "do", v->advice_note) : FW_OK;
-    const fw_verdict_proposal *p = &v->proposal[0];
+    const fw_verdict_proposal *p = first_of(v);
     fw_text text = fw_text_new(arena);
-    fw_text_printf(&text, "%s:", p->text);
-    for (int i = 0; i < p->nset; i++)
+    fw_text_add(&text, p->text);
+    if (p->nset <= FEW_SETTINGS) fw_text_add(&text, ":");
+    for (int i = 0; p->nset <= FEW_SETTINGS && i < p->nset; i++)
         fw_text_printf(&text, " --set \"%s=%s\"", p->set[i].path, p->set[i].value);
     FW_TRY(fw_text_end(&text));
     return add(s, "do", text.data);
