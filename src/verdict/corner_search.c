@@ -3,6 +3,7 @@
    and what of it is kept; then which of these ranges would have to be narrower. Called a corner
    here, as in the tables of results, even where only one input is off its nominal value.
    Theory: docs/theory/as-fabricated.md. */
+#include "verdict/verdict_clearance.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -36,8 +37,8 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
 
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
-   over the one that there is, and the utilisation of each requirement, which are 1 at their limits. Logarithms, because the
-   estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
+   over the one that there is, the utilisation of each requirement, and the share of each clearance that
+   is used, which are 1 at their limits. Logarithms, because the estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
    less than 1e-9 of its limit, which no corner brings near it. */
 static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                         double *ln) {
@@ -45,6 +46,12 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     for (int i = 0; i < s->v->nrequirement; i++) {
         double used = now->requirement[i].utilisation;
         ln[hinges + scenes + i] = used > 1e-9 ? log(used) : (double)NAN;
+    }
+    double *clearance = ln + hinges + scenes + s->v->nrequirement;
+    for (int i = 0; s->clearances && i < now->nclearance; i++) {
+        const fw_verdict_clearance *c = &now->clearance[i];
+        int at = c->box == FW_NONE ? c->scene_index : scenes + c->box;
+        clearance[at] = log(fw_verdict_clearance_used(c));
     }
     for (int r = 0; r < hinges; r++)
         ln[r] = now->used[r] > 1e-9 ? log(now->used[r]) : (double)NAN;
@@ -156,7 +163,7 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
     const fw_dynamics_motion *const *like = (const fw_dynamics_motion *const *)s->v->motion;
     fw_verdict_options options = s->options;
     fw_dynamics_motion_options *motion = &options.motion;
-    options.values = false;
+    options.values = s->clearances;
     if (motion->rtol == 0) motion->accuracy = fmax(motion->accuracy, fw_verdict_first_accuracy);
     do {
         *now = (fw_verdict_variant_verdict){.variant = &device->variant, .like = like};

@@ -47,6 +47,7 @@ typedef struct fw_verdict_hinge_verdict {
 /* how near what moves comes to what it may meet, in one scene or required box */
 typedef struct fw_verdict_clearance {
     const char *scene, *flow; /* scene: or "workspace" */
+    int scene_index;          /* FW_NONE: a box */
     int box;                  /* of the device's required ones; FW_NONE: a scene */
     fw_clearance_least least; /* of the outlines as drawn */
     double wall_m;            /* that walls come nearer by, as made: 0 as drawn */

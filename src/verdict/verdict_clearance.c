@@ -128,6 +128,17 @@ static double keep_of(const fw_verdict_clearance *c, double target_m) {
     return lost > 0 ? fmin(1, fmax(0, (l->start_m - target_m) / lost)) : 0.5;
 }
 
+/* At 1 the pair has just as much as is asked for. A thousandth is as good as nothing, and has slopes. */
+double fw_verdict_clearance_used(const fw_verdict_clearance *c) {
+    const fw_clearance_least *l = &c->least;
+    const double target = c->required_m + c->wall_m, least = 1e-3, most = 1e3;
+    double used = target / l->m;
+    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
+    if (c->box == FW_NONE && l->start_m <= target) used = most;
+    if (l->m <= 0) used = 1 / l->share;
+    return fmin(fmax(used, least), most);
+}
+
 /* A pair that meets after a share of its motion is rejected where it would meet with a motion less by
    its error, too. */
 static void decide(fw_verdict_clearance *c, double off) {
@@ -245,6 +256,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     fw_verdict_clearance *c = &v->clearance[v->nclearance++];
     *c = (fw_verdict_clearance){.scene = scene->name,
                                 .flow = v->mechanism->variant->flow,
+                                .scene_index = i,
                                 .box = FW_NONE,
                                 .least = w->least,
                                 .wall_m = walls(layout),
@@ -307,6 +319,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
         fw_verdict_clearance *c = &v->clearance[v->nclearance++];
         *c = (fw_verdict_clearance){.scene = "workspace",
                                     .flow = v->mechanism->variant->flow,
+                                    .scene_index = FW_NONE,
                                     .box = i,
                                     .least = least,
                                     .wall_m = walls(layout),

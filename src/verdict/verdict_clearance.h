@@ -29,6 +29,9 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece);
 fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *scene, int i,
                                      const fw_layout *layout, bool brief, fw_diags *diags,
                                      fw_verdict_variant_verdict *v);
+/* Share of what there is to use up: of a motion, the distance that is lost over what may be lost; of a
+   required box, what is asked for over what is left. 0.001 to 1000; above 1 it is too little. */
+double fw_verdict_clearance_used(const fw_verdict_clearance *clearance);
 /* every required box of the flow that can be reached as a whole; after fw_workspace_required */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,

@@ -72,8 +72,9 @@ typedef struct fw_verdict_search {
     fw_verdict_options options;
     const fw_verdict_variant_verdict *v; /* as drawn */
     fw_verdict_fabricated_verdict *fabricated;
-    int ncheck; /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene, then
-                   requirements */
+    int ncheck;      /* hinge k in scene i: k (nscene + 1) + i; then pull-in of every scene, then
+                   requirements, then clearance of every scene and every required box */
+    bool clearances; /* some pair uses so much of its distance that corners are asked how much */
     double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_fabricated_corner *known; /* a point that was run before the others, or NULL */

@@ -3,6 +3,7 @@
 """Devices whose parts meet, and the same ones where they do not: cases.py FLEXWRIGHT"""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -97,6 +98,20 @@ def changed(directory, name, *changes):
     return path
 
 
+def corners(program):
+    """the corner that takes the last of a clearance is none that a hinge asks for"""
+    with open(os.path.join(DATA, "../../../docs/gallery/free-form-gripper/device.xml"), encoding="utf-8") as f:
+        text = re.sub(r"\s*<(probe|require|contact) [^>]*/>", "", f.read()).replace('"14 ms"', '"20 ms"')
+    with tempfile.TemporaryDirectory() as directory:
+        path = os.path.join(directory, "gripper.xml")
+        with open(path, "w", encoding="utf-8") as f:
+            f.write(text)
+        for width, verdict in (("9.3 um", "inconclusive"), ("9.52 um", "inconclusive"), ("10.5 um", "accept")):
+            d = check(program, path, "pull=40 uN", "copper_pull=1.8 uN", "flexure[pivot]/@width=" + width, corners="auto")
+            met = not reasons(d, "FW-D238") or all("meet" in r["text"] for r in reasons(d, "FW-D238"))
+            expect("jaws on hinges %s wide, as made: %s" % (width, d["verdict"]), d["verdict"] == verdict and met)
+
+
 def reasons(d, code):
     return [r for r in d["reasons"] if r["code"] == code]
 
@@ -167,7 +182,7 @@ def folds(program):
 
 
 def main():
-    for case in (jaws, eyelets, as_made, jumps, lane, riders, folds):
+    for case in (jaws, eyelets, as_made, corners, jumps, lane, riders, folds):
         case(sys.argv[1])
     return 1 if FAULTS else 0
 

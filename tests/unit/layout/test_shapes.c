@@ -171,6 +171,7 @@ static void pieces_are_the_body(void **state) {
         /* the edge times the bias, and what corners add: no cut has opened or overlaps */
         assert_near(moved - m.area_m2, edge * bias[k], 400 * bias[k] * bias[k]);
     }
+    fw_arena_free(bare.arena);
     fw_arena_free(d.arena);
 }
 
