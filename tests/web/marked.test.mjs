@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { answered, close, finish, open, program, serve, setText, source, text, verdict } from "./helper.mjs";
 
@@ -23,6 +23,10 @@ describe("a gripper", () => {
     let server, page;
     before(async () => {
         server = await serve("free-form-gripper");
+        // with nothing between its jaws, and drawn so little that they stay apart
+        const bare = readFileSync(server.file, "utf8").replace(/\s*<(probe|require|contact) [^>]*\/>/g, "")
+            .replace(/name="pull" value="[^"]*"/, 'name="pull" value="18 uN"').replace(/name="copper_pull" value="[^"]*"/, 'name="copper_pull" value="1.8 uN"');
+        writeFileSync(server.file, bare);
         page = await open(server);
     });
     after(async () => {

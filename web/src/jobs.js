@@ -77,7 +77,8 @@ export function forceTick(view) {
     tick.addEventListener("change", () => view().run());
     const label = h("label", { class: "force-row", hidden: true }, tick, h("span", {}, "though it is rejected (marked so)"));
     on("preview", (p) => (label.hidden = p.verdict?.verdict !== "reject" && !tick.checked));
-    return { label, options: () => (tick.checked ? { force: true } : {}) };
+    // what would be accepted is told beside the verdict; nobody waits for it here
+    return { label, options: () => ({ advice: "none", ...(tick.checked ? { force: true } : {}) }) };
 }
 
 // One job runs at a time. What nobody has asked for gives way to what somebody waits for, and comes again.
