@@ -29,7 +29,7 @@ set_tests_properties(arch.additions PROPERTIES RUN_SERIAL ON)
 fw_script_test(arch.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/names.py)
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
-fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
 fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})

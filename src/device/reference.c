@@ -41,10 +41,10 @@ typedef struct named {
 
 static named name_of(const fw_device *d, fw_device_space space, size_t i) {
     size_t joints = (size_t)d->nrevolute;
-    if (space == FW_SPACE_PARAMETER) return (named){d->parameter[i].name, d->parameter[i].place};
-    if (space == FW_SPACE_SCENE) return (named){d->scene[i].name, d->scene[i].place};
-    if (space == FW_SPACE_PROBE) return (named){d->probe[i].id, d->probe[i].place};
-    named n = space == FW_SPACE_FLOW      ? (named){d->flow[i].ref, d->flow[i].place}
+    named n = space == FW_SPACE_PARAMETER ? (named){d->parameter[i].name, d->parameter[i].place}
+              : space == FW_SPACE_SCENE   ? (named){d->scene[i].name, d->scene[i].place}
+              : space == FW_SPACE_PROBE   ? (named){d->probe[i].id, d->probe[i].place}
+              : space == FW_SPACE_FLOW    ? (named){d->flow[i].ref, d->flow[i].place}
               : space == FW_SPACE_FLEXURE ? (named){d->flexure[i].id, d->flexure[i].place}
               : space == FW_SPACE_BODY    ? (named){d->body[i].id, d->body[i].place}
               : i < joints                ? (named){d->revolute[i].id, d->revolute[i].place}

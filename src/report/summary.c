@@ -119,8 +119,9 @@ static const fw_verdict_proposal *first_of(const fw_verdict *v) {
     return &v->proposal[0];
 }
 
-static fw_status advice(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
-    bool searched = v->advice_note && v->advice_note != fw_verdict_not_searched;
+/* what is wrong with a drawing says itself what to do */
+static fw_status advice(fw_arena *arena, const fw_verdict *v, bool fault, fw_report_summary *s) {
+    bool searched = v->advice_note && v->advice_note != fw_verdict_not_searched && !fault;
     if (v->nproposal == 0) return searched ? add(s, "do", v->advice_note) : FW_OK;
     const fw_verdict_proposal *p = first_of(v);
     fw_text text = fw_text_new(arena);
@@ -210,7 +211,7 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     FW_TRY(layout_faults(arena, in->layout, s));
     FW_TRY(reasons(arena, v, s));
     FW_TRY(hinges(arena, s));
-    FW_TRY(advice(arena, v, s));
+    FW_TRY(advice(arena, v, in->layout && in->layout->nfault > 0, s));
     FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));
     return v->decision == FW_REJECT ? FW_OK : guarantees(arena, in, s);

@@ -213,6 +213,7 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
                                    fw_verdict_look look) {
     fw_verdict_options o = quiet(trial->options);
     o.work = &trial->work;
+    o.values = true; /* of clearances: they say which corners are run */
     if (look != FW_LOOK_WHOLE) {
         if (o.motion.rtol <= 0)
             o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
@@ -257,6 +258,7 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial) {
     const fw_layout *layout = NULL;
     fw_verdict_options o = quiet(trial->options);
     o.work = &trial->work;
+    o.values = true;
     trial->brief = true;
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};

@@ -210,6 +210,8 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
     }
     verdict->layout = judged;
     FW_TRY(as_fabricated(arena, device, judged, options, verdict));
+    if (*layout && (*layout)->nfault > 0) /* whatever its motion does */
+        verdict->decision = verdict->drawn = FW_REJECT;
     if (verdict->decision != FW_ACCEPT) verdict->advice_note = fw_verdict_not_searched;
     return FW_OK;
 }

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Running the program from tests."""
 import pathlib
+import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GALLERY = ROOT / "docs/gallery/reference-six-bar/device.xml"
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+GRIPPER = ROOT / "docs/gallery/free-form-gripper/device.xml"
 FLOWS = ("al-masked-rie", "copper-on-porous-silicon")
 
 
@@ -14,3 +16,11 @@ def run(*arguments, **options):
     options.setdefault("cwd", ROOT)
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                           timeout=240, **options)
+
+
+def loose_gripper(pull="18 uN", copper_pull="1.8 uN"):
+    """the gallery's gripper with nothing between its jaws, and nothing required of it"""
+    text = re.sub(r'\s*<(probe|require|contact|parameter name="bead")\b[^>]*/>', "", GRIPPER.read_text())
+    for name, value in (("pull", pull), ("copper_pull", copper_pull)):
+        text = re.sub(rf'(<parameter name="{name}" value=)"[^"]*"', rf'\1"{value}"', text)
+    return text.replace('"14 ms"', '"20 ms"')

@@ -11,7 +11,7 @@ import re
 import tempfile
 import unittest
 
-from common import ROOT, run
+from common import ROOT, loose_gripper, run
 
 NODDER = ROOT / "docs/gallery/copper-nodder/device.xml"
 LEAF = ROOT / "docs/gallery/leaf-four-bar/device.xml"
@@ -91,7 +91,6 @@ class Parameters(unittest.TestCase):
 
 
 STAGE = ROOT / "docs/gallery/straight-stage/device.xml"
-GRIPPER = ROOT / "docs/gallery/free-form-gripper/device.xml"
 UNIT = {"": 1, "%": 0.01, "um": 1e-6, "mm": 1e-3, "uN": 1e-6, "mN": 1e-3, "N": 1, "V": 1, "rad": 1, "mrad": 1e-3}
 
 
@@ -180,14 +179,15 @@ class Proposals(unittest.TestCase):
 
     def test_of_what_meets(self):
         """jaws that close too far (trials look at clearances at more corners than a check does)"""
-        device = self.changed(GRIPPER, ('value="18 uN"', 'value="40 uN"'))
+        device = pathlib.Path(self.directory.name) / "gripper.xml"
+        device.write_text(loose_gripper(pull="40 uN"))
         document = self.follow(device, least=("parameter",))
         self.assertEqual({r["code"] for r in document["reasons"]}, {"FW-D294"})
         self.assertGreaterEqual({p["kind"] for p in document["advice"]}, {"parameter", "loads"})
 
     def test_of_mixed_reasons(self):
         """a hinge beyond its limit, jaws that meet, and no parameter: settings all the same"""
-        text = GRIPPER.read_text()
+        text = loose_gripper()
         for name, value in (("span", "0.6 mm"), ("face", "570 um"), ("pull", "500 uN"), ("copper_pull", "1.8 uN")):
             text = re.sub(rf'  <parameter name="{name}"[^>]*>\n', "", text)
             text = re.sub(rf"\b{name}\b(?=[^<>]*>)(?!=)", f"({value})", text)

@@ -87,7 +87,7 @@ class Frames(unittest.TestCase):
             if not re.search(skip, path):
                 self.assertLessEqual(abs(value - b[path]), within * sizes[re.sub(r"/\d+", "", path)], path)
 
-    SKIP = r"cpu_s|steps|rhs|residual|constraint|velocity_norm|energy_error|assembly_moved|estimated|error|iterations|looser|boxes|out_of_rest|velocity_moved"
+    SKIP = r"cpu_s|steps|rhs|residual|constraint|velocity_norm|energy_error|assembly_moved|estimated|error|iterations|looser|utilisation_band|cycles$|boxes|out_of_rest|velocity_moved"
 
     def test_moved_frames_change_nothing(self):
         draw = random.Random(19)
@@ -102,6 +102,10 @@ class Frames(unittest.TestCase):
                 for document in (a, b):  # the frame's own poses are compared below
                     if "q" in document:
                         self.frames(document, shift if document is b else {})
+                # a band holds the integration's own estimate of its error, which hangs on the steps it took
+                for document in (a, b):
+                    document["bands"] = {k: v for k, v in numbers(document).items() if "utilisation_band" in k}
+                self.same(a.pop("bands"), b.pop("bands"), 1e-2, "^$")
                 # the instant of a least clearance is known only as well as its 0.2 % allow at a flat minimum
                 self.same(a, b, within, self.SKIP + r"|/d?q/|/(damped_)?shape/|/path/events/\d+/q|/clearances/\d+/(t_s|at|pose)")
 

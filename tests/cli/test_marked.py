@@ -11,13 +11,12 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as tree
 
-from common import GALLERY, ROOT, run
+from common import GALLERY, ROOT, loose_gripper, run
 
 SVG = "{http://www.w3.org/2000/svg}"
 STATED = GALLERY.read_text()
 BARE = re.sub(r' (mass|inertia|stiffness|damping)="[^"]*"', "", STATED)
 PLATE = 'width="1.40 mm" height="0.40 mm" x="1.50 mm" y="2.875 mm"'
-GRIPPER = (ROOT / "docs/gallery/free-form-gripper/device.xml").read_text()
 STAGE = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
 
 
@@ -181,8 +180,7 @@ class Marked(unittest.TestCase):
         dice = random.Random(23)
         for _ in range(2):
             pull = dice.uniform(45, 70)
-            result, out = self.plan(GRIPPER.replace('name="pull" value="18 uN"',
-                                                    f'name="pull" value="{pull:.1f} uN"'))
+            result, out = self.plan(loose_gripper(pull=f"{pull:.1f} uN"))
             self.assertEqual(result.returncode, 1, result.stderr)
             root, rows = self.drawing(out)
             self.assertEqual(rows[0][:2], ("294", "link left and link right meet in close "
