@@ -45,7 +45,8 @@ static const double worth_going_on = 0.985; /* the next accepted change is small
 static const double clearly = 0.9;          /* ... than what is known already */
 static const double penalty = 1e3;
 static const double most_off = 1;
-static const double furthest = 0.03; /* of g that a whole verdict may still accept */
+static const double furthest = 0.03;       /* of g that a whole verdict may still accept */
+static const double worth_judging = 0.005; /* of g: wholly, which may take long */
 
 typedef struct point { /* where a look was taken */
     double *z, *x, *g; /* (n), (n) as typed, (m) */
@@ -308,7 +309,7 @@ static fw_status step(search *s, bool *stuck) {
     FW_TRY(look(s, FW_LOOK_VALUES, &s->next));
     correct(s);
     s->stale = true;
-    if (worst_of(s, &s->next) <= furthest && !s->next.rejected && !spent(s)) {
+    if (worst_of(s, &s->next) <= worth_judging && !s->next.rejected && !spent(s)) {
         FW_TRY(judge(s, &better));
         judged = true;
     }

@@ -29,28 +29,42 @@ static fw_device_flexure *flexure_of(fw_verdict_trial *trial, const fw_verdict_t
     return &trial->changed->flexure[trial->changed->revolute[h->joint].flexure];
 }
 
-/* repeats `change` on every hinge (and reason against a scene) that is not accepted, and judges,
-   until all are; gives up when a change is not possible or the worst hinge gets no better by it */
-static fw_status repeat(fw_verdict_trial *trial,
-                        bool (*change)(fw_verdict_trial *, const fw_verdict_trial_hinge *,
-                                       double)) {
+/* a glance sees nothing against it */
+static bool may_be_accepted(const fw_verdict_trial *trial) {
+    return trial->decision != FW_REJECT && trial->drawn && !(fw_verdict_trial_excess(trial) > 1);
+}
+
+typedef bool change_one(fw_verdict_trial *, const fw_verdict_trial_hinge *, double extra);
+
+/* `change` on every hinge (and reason against a scene) that is not accepted; *worst: their largest
+   utilisation; false: it is not possible, or there is none */
+static bool change_each(fw_verdict_trial *trial, change_one *change, double extra, double *worst) {
+    bool any = false;
+    *worst = 0.0;
+    for (int k = 0; k < trial->nhinge; k++) {
+        const fw_verdict_trial_hinge *h = &trial->hinge[k];
+        if (h->decision == FW_ACCEPT) continue;
+        if (h->joint != FW_NONE) *worst = fmax(*worst, excess(h));
+        if (!change(trial, h, extra)) return false;
+        any = true;
+    }
+    return any;
+}
+
+/* repeats `change`, and judges, until all are accepted; gives up when a change is not possible or the
+   worst hinge gets no better by it. Glances lead there; the end is judged wholly. */
+static fw_status repeat(fw_verdict_trial *trial, change_one *change) {
     double worst_before = HUGE_VAL;
     const double most_work = trial->work + most_work_together;
     for (int round = 0; round < ROUNDS && !accepted(trial) && trial->work < most_work; round++) {
-        double worst = 0.0, extra = 1.0 + 0.03 * round; /* what is too much is taken back after */
-        bool any = false;
+        double worst, extra = 1.0 + 0.03 * round; /* what is too much is taken back after */
         trial->round = round;
-        for (int k = 0; k < trial->nhinge; k++) {
-            const fw_verdict_trial_hinge *h = &trial->hinge[k];
-            if (h->decision == FW_ACCEPT) continue;
-            if (h->joint != FW_NONE) worst = fmax(worst, excess(h));
-            if (!change(trial, h, extra)) return FW_OK;
-            any = true;
-        }
-        if (!any || (round > 1 && worst > 0 && worst > 0.999 * worst_before)) return FW_OK;
+        if (!change_each(trial, change, extra, &worst)) return FW_OK;
+        if (round > 1 && worst > 0 && worst > 0.999 * worst_before) return FW_OK;
         worst_before = worst > 0 ? worst : HUGE_VAL;
         int fabricated = trial->fabricated;
-        FW_TRY(fw_verdict_trial_run(trial));
+        FW_TRY(fw_verdict_trial_run(trial, FW_LOOK_VALUES));
+        if (may_be_accepted(trial)) FW_TRY(fw_verdict_trial_run(trial, FW_LOOK_WHOLE));
         if (trial->fabricated != fabricated)
             worst_before = HUGE_VAL; /* corners are tighter than the drawing */
         if (!trial->drawn) return FW_OK;
@@ -98,12 +112,15 @@ static fw_status add_verified(advice *a, fw_verdict_proposal proposal, bool *add
     return FW_OK;
 }
 
-/* the device as described once more */
+/* the device as described once more; which corners govern stays known */
 static fw_status start_again(advice *a) {
     fw_verdict_trial *t = a->trial;
-    const double work = t->work;
+    const fw_verdict_trial was = *t;
+    const size_t n = (size_t)was.verdict->nvariant;
     FW_TRY(fw_verdict_trial_start(t->arena, t->device, t->options, t->verdict, t));
-    t->work = work;
+    t->work = was.work;
+    memcpy(t->suspect, was.suspect, n * FW_FABRICATION_INPUTS * sizeof *t->suspect);
+    memcpy(t->suspected, was.suspected, n * sizeof *t->suspected);
     return FW_OK;
 }
 
@@ -145,15 +162,10 @@ static fw_status propose_lines(advice *a, lines *l, bool *added) {
                         added);
 }
 
-/* each tries to reach an accepted, drawn device by one kind of change */
-static fw_status change_lengths(advice *a, bool *added) {
+static fw_status propose_lengths(void *context, bool *added) {
+    advice *a = context;
     fw_verdict_trial *trial = a->trial;
     lines l;
-    *added = false;
-    FW_TRY(start_again(a));
-    FW_TRY(repeat(trial, lengthen));
-    if (!accepted(trial)) return FW_OK;
-    FW_TRY(fw_verdict_least_change(trial));
     FW_TRY(lines_new(a, &l));
     for (int i = 0; i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
@@ -167,6 +179,15 @@ static fw_status change_lengths(advice *a, bool *added) {
             FW_TRY(add_line(trial->arena, &l, f, "radius", "radius", f->radius_m, was->radius_m));
     }
     return propose_lines(a, &l, added);
+}
+
+/* reaches an accepted, drawn device by one kind of change, and proposes the least of it */
+static fw_status change_by(advice *a, change_one *change, fw_verdict_propose *propose,
+                           bool *added) {
+    *added = false;
+    FW_TRY(start_again(a));
+    FW_TRY(repeat(a->trial, change));
+    return accepted(a->trial) ? fw_verdict_least_change(a->trial, propose, a, added) : FW_OK;
 }
 
 /* ---- widths: under a given load the stress goes with 1/t^2, as long as stiffness follows ---- */
@@ -192,14 +213,10 @@ static bool widen(fw_verdict_trial *trial, const fw_verdict_trial_hinge *h, doub
     return trial->changed->nflexure > 0;
 }
 
-static fw_status change_widths(advice *a, bool *added) {
+static fw_status propose_widths(void *context, bool *added) {
+    advice *a = context;
     fw_verdict_trial *trial = a->trial;
     lines l;
-    *added = false;
-    FW_TRY(start_again(a));
-    FW_TRY(repeat(trial, widen));
-    if (!accepted(trial)) return FW_OK;
-    FW_TRY(fw_verdict_least_change(trial));
     FW_TRY(lines_new(a, &l));
     for (int i = 0; i < trial->device->nflexure; i++) {
         const fw_device_flexure *was = &trial->device->flexure[i], *f = &trial->changed->flexure[i];
@@ -306,7 +323,7 @@ static fw_status take_scene(fw_verdict_trial *trial, int i, shares *s, bool *ok)
     if (share >= 0.9999) return FW_OK;
     FW_TRY(fw_verdict_variable_of_loads(trial, i, &s->variable[s->count], ok));
     s->x[s->count++] = rounded_down(share);
-    s->change += fabs(log(share));
+    s->change += fabs(log(s->x[s->count - 1]));
     report_scene(&s->text, &trial->device->scene[i], rounded_down(share), &s->join);
     return FW_OK;
 }
@@ -318,7 +335,7 @@ static fw_status take_box(fw_verdict_trial *trial, int i, shares *s, bool *ok) {
     if (share >= 0.9999) return FW_OK;
     FW_TRY(fw_verdict_variable_of_box(trial, i, &s->variable[s->count], ok));
     s->x[s->count++] = rounded_down(share);
-    s->change += fabs(log(share));
+    s->change += fabs(log(s->x[s->count - 1]));
     fw_text_printf(&s->text, "%sthe required workspace%s%s to ", s->join, was->flow ? " of " : "",
                    was->flow ? was->flow : "");
     add_share(&s->text, rounded_down(share));
@@ -326,7 +343,8 @@ static fw_status take_box(fw_verdict_trial *trial, int i, shares *s, bool *ok) {
     return FW_OK;
 }
 
-static fw_status change_loads(advice *a, bool *added) {
+static fw_status propose_shares(void *context, bool *added) {
+    advice *a = context;
     fw_verdict_trial *trial = a->trial;
     const fw_device *d = trial->device;
     size_t most = (size_t)d->nscene + (size_t)d->nworkspace;
@@ -334,10 +352,6 @@ static fw_status change_loads(advice *a, bool *added) {
     fw_verdict_proposal proposal = {.kind = FW_PROPOSE_LOADS};
     bool ok = true;
     *added = false;
-    FW_TRY(start_again(a));
-    FW_TRY(repeat(trial, lighten));
-    if (!accepted(trial)) return FW_OK;
-    FW_TRY(fw_verdict_least_change(trial));
     FW_NEED(s.variable = fw_arena_array(trial->arena, fw_verdict_variable, most));
     FW_NEED(s.x = fw_arena_array(trial->arena, double, most));
     for (int i = 0; ok && i < d->nscene; i++)
@@ -482,9 +496,9 @@ fw_status fw_verdict_advise(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_verdict_trial_start(arena, device, options, verdict, &trial));
     FW_TRY(fw_verdict_change_parameters(&trial, verdict));
     FW_TRY(propose_parameters(&a));
-    if (!why) FW_TRY(change_lengths(&a, &added));
-    if (!why && !added) FW_TRY(change_widths(&a, &added));
-    FW_TRY(change_loads(&a, &added));
+    if (!why) FW_TRY(change_by(&a, lengthen, propose_lengths, &added));
+    if (!why && !added) FW_TRY(change_by(&a, widen, propose_widths, &added));
+    FW_TRY(change_by(&a, lighten, propose_shares, &added));
     FW_TRY(change_parameters_together(&a));
     FW_TRY(change_all(&a));
     qsort(verdict->proposal, (size_t)verdict->nproposal, sizeof *verdict->proposal, by_change);

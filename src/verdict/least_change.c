@@ -6,16 +6,20 @@
 
    Out: `changed` at the least s that was run and accepted, lengths rounded up to their unit.
 
-   Method: s is halved between what is not accepted and what is, until the change is known to 1 %
-   of itself. Acceptance need not be monotonous in s: what is found was run, and lies at the end of an
-   interval that accepts; a smaller one beyond a gap may be missed.
+   Method: between what glances (coarse, as drawn and at the corner that governed last) do not accept
+   and what they may, s is found by the secant of ln(utilisation), or halved where that gains less than
+   half or has no number, until the change is known to 1 % of itself. There it is stated as settings and
+   judged wholly; where that does not accept, it told which corner governs, and the search goes on
+   between there and 1, in growing steps at the least. Acceptance need not be monotonous in s: what is
+   found was run as it is stated; a smaller one beyond a gap may be missed.
 
-   Cost: at most 8 judgements. Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
+   Cost: 5 to 12 glances for each whole judgement, of which one or two are usual, MOST_JUDGED at most.
+   Test: tests/cli/test_advice.py, test_lengths_are_the_least. */
 #include "verdict/trial.h"
 #include "effects/effects.h"
 #include <math.h>
 
-enum { HALVINGS = 8 };
+enum { MOST_GLANCES = 14, MOST_JUDGED = 8 };
 static const double known_to = 0.01; /* of the change */
 
 static double along(double from, double to, double s) {
@@ -63,20 +67,74 @@ static fw_status go_to(fw_verdict_trial *trial, const fw_device *full, const dou
     return FW_OK;
 }
 
-fw_status fw_verdict_least_change(fw_verdict_trial *trial) {
-    const fw_device *full = trial->changed;
-    double low = 0, high = 1, *share;
-    FW_NEED(share = fw_arena_array(trial->arena, double, (size_t)full->nscene));
-    for (int i = 0; i < full->nscene; i++)
-        share[i] = trial->share[i];
-    for (int i = 0; i < HALVINGS && high - low > known_to * high; i++) {
-        double s = 0.5 * (low + high);
-        FW_TRY(go_to(trial, full, share, s));
-        FW_TRY(fw_verdict_trial_run(trial));
-        *(trial->decision == FW_ACCEPT && trial->drawn ? &high : &low) = s;
+typedef struct way { /* from the device as described to `full` */
+    fw_verdict_trial *trial;
+    const fw_device *full;
+    double *share; /* (full->nscene) */
+} way;
+
+typedef struct place { /* on the way */
+    double s;
+    double
+        over; /* ln of the largest utilisation: above 0 where it is not accepted; NaN: other reasons */
+} place;
+
+/* by what the trial's last run says */
+static place place_of(const fw_verdict_trial *trial, double s, bool *may) {
+    const double over = log(fw_verdict_trial_excess(trial));
+    *may = trial->decision != FW_REJECT && trial->drawn && !(over > 0);
+    return (place){s, *may == (over <= 0) && isfinite(over) ? over : (double)NAN};
+}
+
+static fw_status glance(const way *w, double s, place *out, bool *may) {
+    FW_TRY(go_to(w->trial, w->full, w->share, s));
+    FW_TRY(fw_verdict_trial_run(w->trial, FW_LOOK_GLANCE));
+    *out = place_of(w->trial, s, may);
+    return FW_OK;
+}
+
+/* where the straight line between both meets 0, `beside` parts of what is resolved further; the middle
+   where that is asked for, or there is no line */
+static double between(const place *low, const place *high, double beside, bool halve) {
+    const double gap = high->s - low->s;
+    if (halve || !(low->over > 0 && high->over < 0)) return low->s + 0.5 * gap;
+    const double t = low->over / (low->over - high->over) + beside * known_to * high->s / gap;
+    return low->s + fmin(fmax(t, 0.02), 0.98) * gap;
+}
+
+/* the least s above `low` that a glance may accept */
+static fw_status approach(const way *w, place low, place *high) {
+    double beside = 0.4, before = HUGE_VAL;
+    for (int i = 0; i < MOST_GLANCES && high->s - low.s > known_to * high->s; i++) {
+        const double gap = high->s - low.s;
+        place middle;
+        bool may;
+        FW_TRY(glance(w, between(&low, high, beside, gap > 0.5 * before), &middle, &may));
+        before = gap;
+        beside = may ? -0.4 : 0.4; /* the other side is to come closer */
+        *(may ? high : &low) = middle;
     }
-    FW_TRY(go_to(trial, full, share, high));
-    trial->decision = FW_ACCEPT; /* at `high` it was */
-    trial->drawn = true;
+    return FW_OK;
+}
+
+fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *propose,
+                                  void *context, bool *added) {
+    way w = {.trial = trial, .full = trial->changed};
+    FW_NEED(w.share = fw_arena_array(trial->arena, double, (size_t)w.full->nscene));
+    for (int i = 0; i < w.full->nscene; i++)
+        w.share[i] = trial->share[i];
+    bool may;
+    const place full = place_of(trial, 1, &may);
+    place low = {0, log(trial->excess_as_described)};
+    double step = known_to;
+    *added = false;
+    for (int i = 0; i < MOST_JUDGED && !*added && low.s < 1; i++) {
+        place at = full; /* there it was accepted */
+        if (i < MOST_JUDGED - 1) FW_TRY(approach(&w, low, &at));
+        FW_TRY(go_to(trial, w.full, w.share, at.s));
+        FW_TRY(propose(context, added));
+        low = (place){fmin(at.s * (1 + step), 1), (double)NAN};
+        step *= 2;
+    }
     return FW_OK;
 }

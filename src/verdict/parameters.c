@@ -113,6 +113,11 @@ static double estimate(const parameter_search *h, const sample *l) {
     return l->coarse * h->bias;
 }
 
+/* by what is known now of glances, clearly not accepted */
+static bool clearly_beyond(const parameter_search *h, const sample *l) {
+    return l->rejected || estimate(h, l) > 2 - clear_of_limit;
+}
+
 /* ---- between a value that is not accepted and one that may be ---- */
 
 static double rest_of(const parameter_search *h, const sample *far) {
@@ -173,7 +178,11 @@ static fw_status tighten(parameter_search *h, sample near, sample *far) {
         double at = far->at - copysign(fmin(fmax(whole, step), 0.5 * fabs(gap)), gap);
         sample inner;
         if (!between(h, &near, far, &at)) return FW_OK;
-        FW_TRY(judge(h, at, &inner));
+        FW_TRY(glance(h, at, &inner)); /* what it rejects needs no closer look */
+        if (clearly_beyond(h, &inner))
+            inner.judged = true;
+        else
+            FW_TRY(judge(h, at, &inner));
         if (inner.accepted)
             *far = inner, stride *= 2;
         else
@@ -202,7 +211,10 @@ static fw_status enclose(parameter_search *h, sample near, sample *far) {
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
         FW_TRY(judge(h, far->at, far));
-        if (far->accepted) return tighten(h, near, far);
+        if (far->accepted) {
+            inner.judged = inner.judged || clearly_beyond(h, &inner);
+            return tighten(h, inner.judged ? inner : near, far);
+        }
         if (far->at == outer.at) return FW_OK;
         near = *far; /* glances were too kind: further out, by what is known now */
         FW_TRY(glance(h, outer.at, far));

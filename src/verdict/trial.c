@@ -44,7 +44,7 @@ static void remember_fabricated(const fw_verdict_variant_verdict *v, fw_verdict_
 static void remember_suspect(fw_verdict_trial *trial, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
-        if (!v->fabricated || v->fabricated->decision == FW_ACCEPT) continue;
+        if (!v->fabricated) continue; /* accepted: it is the tightest */
         trial->suspected[i] = true;
         for (int k = 0; k < v->ninput; k++)
             trial->suspect[i * FW_FABRICATION_INPUTS + k] =
@@ -129,13 +129,37 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     FW_TRY(fw_verdict_trial_reset(trial));
     remember(trial, verdict, verdict->layout);
     remember_suspect(trial, verdict);
+    trial->excess_as_described = fw_verdict_trial_excess(trial);
     return FW_OK;
 }
 
-static fw_verdict_options quiet(const fw_verdict_options *options) {
-    fw_verdict_options o = *options;
+/* ---- how closely it is looked at ---- */
+
+/* of a motion: as at a corner. A quasi-static motion is solved at every one. */
+static const int samples_of_a_glance = 65;
+
+/* of a flow whose worst corner nothing is known of, all are looked at once */
+static bool unknown_corners(const fw_verdict_trial *trial) {
+    bool unknown = false;
+    for (int i = 0; i < trial->verdict->nvariant; i++)
+        unknown = unknown || (trial->verdict->variant[i].ninput > 0 && !trial->suspected[i]);
+    return unknown;
+}
+
+static fw_verdict_options options_of(fw_verdict_trial *trial, fw_verdict_look look) {
+    fw_verdict_options o = *trial->options;
     o.coarse_first = true;
     if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
+    o.work = &trial->work;
+    o.values = true; /* of clearances: they say which corners are run */
+    trial->brief = look != FW_LOOK_VALUES;
+    if (look == FW_LOOK_WHOLE) return o;
+    if (o.motion.rtol <= 0) o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
+    if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial)) o.corners = FW_CORNERS_SUSPECT;
+    if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
+    o.at_a_glance = true;
+    o.decision_only = look == FW_LOOK_GLANCE;
+    o.values = look == FW_LOOK_VALUES;
     return o;
 }
 
@@ -176,9 +200,6 @@ static void keep_suspect(fw_verdict_trial *trial, const fw_verdict_variant_verdi
     }
 }
 
-/* of a motion: as at a corner. A quasi-static motion is solved at every one. */
-static const int samples_of_a_glance = 65;
-
 static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_device_set *set,
                          int nset, const fw_verdict_options *options) {
     const fw_verdict_restated *r = &trial->options->restated;
@@ -201,32 +222,11 @@ static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_de
     return FW_OK;
 }
 
-/* of a flow whose worst corner nothing is known of, all are looked at once */
-static bool unknown_corners(const fw_verdict_trial *trial) {
-    bool unknown = false;
-    for (int i = 0; i < trial->verdict->nvariant; i++)
-        unknown = unknown || (trial->verdict->variant[i].ninput > 0 && !trial->suspected[i]);
-    return unknown;
-}
-
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
                                    fw_verdict_look look) {
-    fw_verdict_options o = quiet(trial->options);
-    o.work = &trial->work;
-    o.values = true; /* of clearances: they say which corners are run */
-    if (look != FW_LOOK_WHOLE) {
-        if (o.motion.rtol <= 0)
-            o.motion.accuracy = fmax(o.motion.accuracy, fw_verdict_first_accuracy);
-        if (o.corners == FW_CORNERS_FIRST && !unknown_corners(trial))
-            o.corners = FW_CORNERS_SUSPECT;
-        if (o.motion.samples > samples_of_a_glance) o.motion.samples = samples_of_a_glance;
-        o.at_a_glance = true;
-        o.decision_only = look == FW_LOOK_GLANCE;
-        o.values = look == FW_LOOK_VALUES;
-    }
+    const fw_verdict_options o = options_of(trial, look);
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
-    trial->brief = look != FW_LOOK_VALUES;
     fw_status status = restate(trial, scratch, set, nset, &o);
     fw_arena_free(scratch);
     for (int k = 0; k < trial->nhinge; k++) /* their names are gone */
@@ -250,16 +250,13 @@ double fw_verdict_trial_excess(const fw_verdict_trial *trial) {
 /* ---- a copy that was changed ---- */
 
 /* in an arena of its own, given back at once: a plan runs dozens of trials */
-fw_status fw_verdict_trial_run(fw_verdict_trial *trial) {
+fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
     int n = trial->verdict->nvariant;
     fw_arena *scratch = fw_arena_part(trial->arena, 0);
     FW_NEED(scratch);
     fw_diags diags = fw_diags_new(scratch);
     const fw_layout *layout = NULL;
-    fw_verdict_options o = quiet(trial->options);
-    o.work = &trial->work;
-    o.values = true;
-    trial->brief = true;
+    const fw_verdict_options o = options_of(trial, look);
     fw_verdict again = {.nvariant = n,
                         .variant = fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)n)};
     fw_status status = again.variant ? FW_OK : FW_NOMEM;

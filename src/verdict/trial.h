@@ -25,10 +25,11 @@ typedef enum fw_verdict_look {
 } fw_verdict_look;
 
 typedef struct fw_verdict_trial {
-    double work;             /* fw_verdict_options.work of the trials so far */
-    fw_arena *arena;         /* of the plan: outlives the trial */
-    const fw_device *device; /* as described */
-    fw_device *changed;      /* a copy; flexures, loads and workspaces are its own */
+    double work;                /* fw_verdict_options.work of the trials so far */
+    double excess_as_described; /* fw_verdict_trial_excess before anything was changed */
+    fw_arena *arena;            /* of the plan: outlives the trial */
+    const fw_device *device;    /* as described */
+    fw_device *changed;         /* a copy; flexures, loads and workspaces are its own */
     const fw_verdict_options *options;
     const fw_verdict *verdict;     /* of the device as described */
     fw_verdict_trial_hinge *hinge; /* (nhinge) of the last run */
@@ -54,7 +55,7 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
 /* `changed` is the device as described once more, with all of its loads */
 fw_status fw_verdict_trial_reset(fw_verdict_trial *trial);
 /* judges `changed`; what could not be run is a rejection that is not drawn */
-fw_status fw_verdict_trial_run(fw_verdict_trial *trial);
+fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look);
 
 /* judges the description read again with `set` instead of `changed` */
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
@@ -68,8 +69,13 @@ fw_status fw_verdict_trial_checks_new(fw_arena *arena, fw_verdict_trial *trial);
 void fw_verdict_trial_checks(fw_verdict_trial *trial, const fw_verdict *verdict,
                              const fw_layout *layout);
 
-/* least_change.c: an accepted change, made as small as it may be in its own direction */
-fw_status fw_verdict_least_change(fw_verdict_trial *trial);
+/* states `changed` as settings and judges them; *accepted: they are proposed */
+typedef fw_status fw_verdict_propose(void *context, bool *accepted);
+
+/* least_change.c: an accepted change, made as small as it may be in its own direction, and proposed.
+   *added: it was */
+fw_status fw_verdict_least_change(fw_verdict_trial *trial, fw_verdict_propose *propose,
+                                  void *context, bool *added);
 
 /* parameters.c: every declared parameter alone */
 fw_status fw_verdict_change_parameters(fw_verdict_trial *trial, fw_verdict *out);

@@ -407,9 +407,11 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     fw_verdict_search s;
     bool decided, alone = options->corners == FW_CORNERS_SUSPECT;
     bool quick = alone || options->corners == FW_CORNERS_FIRST;
-    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn != FW_ACCEPT)
+    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn == FW_REJECT)
         return FW_OK;
-    if (alone && !v->suspect) return FW_OK;
+    /* what is undecided as drawn stays so; a glance, which does not refine, is told how much further
+       its corner is from the limit */
+    if (alone ? !v->suspect : v->drawn != FW_ACCEPT) return FW_OK;
     FW_TRY(new_search(arena, device, layout, options, v, &s));
     FW_TRY(try_suspect(&s, &decided));
     if (!decided) FW_TRY(search(&s));
