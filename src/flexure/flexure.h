@@ -71,6 +71,7 @@ typedef struct fw_flexure_result {
     double limit_uncertainty;  /* relative standard uncertainty of limit_angle from the model */
     double depth_factor, root_length_m; /* EI_eff/EI, dL */
     double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
+    double fibre;              /* the same between the roots: of curvature and depth, no fillet */
     double youngs_Pa, poisson; /* effective: of this arc; nu out of the plane */
     double uneven_x, uneven_y; /* crystal: share that C_xx, C_yy have over those of a uniform
                                   modulus of the same rotational stiffness; else 0 */

@@ -286,7 +286,7 @@ static double fibre(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
    and closed in by golden section; concentration: over what the beam has where it is; fit: by eq. 5
  */
 static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
-                   const fw_flexure_input *in, double *concentration, double *fit) {
+                   const fw_flexure_input *in, fw_flexure_result *out, double *fit) {
     const double part = 0.5 * (sqrt(5) - 1);
     double best = 0, share = 1, roots = 0, between = 0;
     for (int end = 0; end < 2; end++) {
@@ -317,10 +317,10 @@ static double peak(const fw_flexure_course *p, const fw_flexure_path_stuff *m,
         }
         if (!p->shape[i].uniform) top = fmax(top, fibre(p, m, in, i, 0.5 * (low + high)));
         const fw_flexure_path_section at = section_of(p, m, i, 0.5 * (low + high));
-        between = fmax(between, top);
+        if (top > between) between = top, out->fibre = fw_flexure_path_fibre_factor(&at);
         if (top > best) best = top, share = fw_flexure_path_fibre_factor(&at);
     }
-    *concentration = share;
+    out->concentration = share;
     *fit = fmax(roots, between);
     return best;
 }
@@ -378,6 +378,6 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
     double fit;
     double rooted = sum[W1] + sum[LOST]; /* stresses go by the roots alone (csfh.c) */
-    out->strain_per_rad = peak(&p, &m, in, &out->concentration, &fit) / rooted;
+    out->strain_per_rad = peak(&p, &m, in, out, &fit) / rooted;
     out->strain_fit_per_rad = fit / rooted;
 }

@@ -283,6 +283,7 @@ double fw_flexure_root_peak(const fw_flexure_root_case *r, const fw_flexure_crys
 void fw_flexure_peak_strain(const fw_flexure_shape *f, double beam, double inside, double root,
                             fw_flexure_result *out) {
     out->concentration = f->fillet_m < 0 ? inside : fmax(inside, root);
+    out->fibre = inside;
     out->strain_per_rad = beam * out->concentration;
     out->strain_fit_per_rad = beam * f->fillet_concentration * inside;
 }

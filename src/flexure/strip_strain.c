@@ -71,8 +71,8 @@ static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in,
     return FW_OK;
 }
 
-/* one arc or line of one width: the closed form's own strain per moment, without the fillet's part
-   between the roots */
+/* one arc or line of one width: the closed form's own strain per moment, between the roots with
+   what curvature and depth do to the fibres in place of the fillet's part */
 static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
                              const fw_flexure_result *c, fw_flexure_path_strain *out) {
     enum { LAST = 16 };
@@ -88,7 +88,7 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
             at = (fw_geometry_pose){in->radius_m * cos(b), in->radius_m * sin(b), 0.5 * FW_PI + b};
         out->point[out->n++] =
             place_of(in, at, in->width_m, (double)k / LAST,
-                     root ? per_Nm : per_Nm / fmax(1, c->concentration), soft, root);
+                     root ? per_Nm : per_Nm * c->fibre / c->concentration, soft, root);
     }
     return FW_OK;
 }

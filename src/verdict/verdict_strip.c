@@ -55,7 +55,7 @@ static fw_clearance_bend bend_of(const fw_verdict_variant_verdict *v, int k, con
     const fw_mechanism_hinge *hinge = &v->mechanism->hinge[k];
     fw_clearance_bend b = fw_clearance_bend_of(v->mechanism, hinge);
     double made = (1 + fw_made_share) * (1 + fw_verdict_model_error.strain);
-    double per = made * b.curvature_per_m / b.strain / fmax(1, hinge->closed_form.concentration);
+    double per = made * b.curvature_per_m / b.strain / fmax(1, hinge->closed_form.fibre);
     b.turn_rad = (1 + fw_made_share) * most->turn;
     b.strain = made * most->strain;
     b.curvature_per_m = per * most->strain;

@@ -31,7 +31,7 @@ static fw_workspace_station place(const double pin[2], double x, double y, doubl
 static void arc(const fw_device_flexure *f, const fw_flexure_result *c, const double pin[2],
                 double bending, double kt, double axial, fw_workspace_station *to,
                 fw_workspace_section *out) {
-    double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending / fmax(1.0, c->concentration);
+    double r = f->radius_m, a = 0.5 * f->angle_rad, inside = bending * c->fibre / c->concentration;
     double above = r * (1.0 - cos(a / INSIDE)) * inside;
     out->roots = 2;
     out->inside = place(pin, 0.0, 0.0, inside, axial + r * inside);

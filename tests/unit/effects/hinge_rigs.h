@@ -119,7 +119,8 @@ static inline void rig_strip(fw_mechanism_hinge *h, double E_Pa) {
                                          .stiffness_Nm_per_rad = rig_h1(E_Pa).stiffness_Nm_per_rad,
                                          .youngs_Pa = E_Pa,
                                          .poisson = 0.22,
-                                         .concentration = 1};
+                                         .concentration = 1,
+                                         .fibre = 1};
 }
 
 static inline void rig_compile(rig *r) {

@@ -116,11 +116,36 @@ static void pressed(void **state) {
     fw_arena_free(arena);
 }
 
+/* Between its roots an arc's fibres have what curvature and depth do to them and nothing of the
+   fillets: what the integrals of a strip that varies have, of the same arc with a middle wider by
+   1e-9 of its width */
+static void between_the_roots(void **state) {
+    (void)state;
+    const double angle[] = {0, 60, 149, 240, 330}, fillet[] = {-1, 0.3, 0.6, 1.0};
+    fw_arena *arena = fw_arena_new(0);
+    for (int i = 0; i < 5 * 4 * 3; i++) {
+        fw_flexure_input in =
+            strip_of(angle[i % 5], 0.015 + 0.02 * (i / 20 % 3), fillet[i / 5 % 4]);
+        fw_flexure_result c;
+        fw_flexure_path_strain even, varying;
+        in.depth_m = 5 * in.width_m;
+        fw_flexure_closed_form(&in, &c);
+        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &even), FW_OK);
+        in.width_middle_m = in.width_m * (1 + 1e-9);
+        fw_flexure_closed_form(&in, &c);
+        assert_int_equal(fw_flexure_path_strain_new(arena, &in, &c, &varying), FW_OK);
+        const double middle = varying.point[varying.n / 2].strain_per_Nm;
+        assert_near(even.point[even.n / 2].strain_per_Nm, middle, 1e-3 * middle);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tension),
         cmocka_unit_test(as_the_exact_beam),
         cmocka_unit_test(pressed),
+        cmocka_unit_test(between_the_roots),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

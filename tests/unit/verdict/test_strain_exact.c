@@ -54,6 +54,7 @@ static void six_bar(scenery *s, const reference *load, double share) {
         rig_strip(&r->hinge[i], 147.0790923914665e9);
         r->hinge[i].closed_form.strain_per_rad = 8e-6 / (2 * 150e-6 * M_PI);
         r->hinge[i].closed_form.concentration = 1.3;
+        r->hinge[i].closed_form.fibre = 1;
         assert_int_equal(fw_flexure_path_strain_new(r->arena, &r->hinge[i].input,
                                                     &r->hinge[i].closed_form, &r->hinge[i].section),
                          FW_OK);

@@ -233,7 +233,7 @@ static double strain(const loaded_six_bar *d, const still_pose *s, int i, const 
         double part = k / 40.0 - 1, b = part * a;
         double now = arc ? m + c->centre_m * f.y + r * (f.x * sin(b) - f.y * cos(b))
                          : m + 0.5 * part * x->length_m * f.x;
-        if (k != 0 && k != 80) now /= fmax(1, c->concentration);
+        if (k != 0 && k != 80) now *= c->fibre / c->concentration;
         most = fmax(most, fabs(now));
     }
     return per * most + axial;
