@@ -396,7 +396,17 @@ static uint32_t turn(uint32_t x, int n) {
     return x >> n | x << (32 - n);
 }
 
-static void block(uint32_t h[8], const unsigned char *p) {
+/* one round; the eight variables change their places by their names, not by moves */
+static inline void round_of(uint32_t a, uint32_t b, uint32_t c, uint32_t *d, uint32_t e, uint32_t f,
+                            uint32_t g, uint32_t *h, uint32_t add) {
+    const uint32_t s1 = turn(e, 6) ^ turn(e, 11) ^ turn(e, 25);
+    const uint32_t s0 = turn(a, 2) ^ turn(a, 13) ^ turn(a, 22);
+    const uint32_t t1 = *h + s1 + (g ^ (e & (f ^ g))) + add;
+    *d += t1;
+    *h = t1 + s0 + ((a & b) | (c & (a | b)));
+}
+
+static void block(uint32_t state[8], const unsigned char *p) {
     uint32_t w[64];
     for (int i = 0; i < 16; i++)
         w[i] = (uint32_t)p[4 * i] << 24 | (uint32_t)p[4 * i + 1] << 16 |
@@ -406,19 +416,21 @@ static void block(uint32_t h[8], const unsigned char *p) {
         uint32_t s1 = turn(w[i - 2], 17) ^ turn(w[i - 2], 19) ^ w[i - 2] >> 10;
         w[i] = w[i - 16] + s0 + w[i - 7] + s1;
     }
-    uint32_t v[8];
-    memcpy(v, h, sizeof v);
-    for (int i = 0; i < 64; i++) {
-        uint32_t s1 = turn(v[4], 6) ^ turn(v[4], 11) ^ turn(v[4], 25);
-        uint32_t t1 = v[7] + s1 + ((v[4] & v[5]) ^ (~v[4] & v[6])) + k[i] + w[i];
-        uint32_t s0 = turn(v[0], 2) ^ turn(v[0], 13) ^ turn(v[0], 22);
-        uint32_t t2 = s0 + ((v[0] & v[1]) ^ (v[0] & v[2]) ^ (v[1] & v[2]));
-        memmove(v + 1, v, 7 * sizeof v[0]);
-        v[4] += t1;
-        v[0] = t1 + t2;
+    uint32_t a = state[0], b = state[1], c = state[2], d = state[3];
+    uint32_t e = state[4], f = state[5], g = state[6], h = state[7];
+    for (int i = 0; i < 64; i += 8) {
+        round_of(a, b, c, &d, e, f, g, &h, k[i] + w[i]);
+        round_of(h, a, b, &c, d, e, f, &g, k[i + 1] + w[i + 1]);
+        round_of(g, h, a, &b, c, d, e, &f, k[i + 2] + w[i + 2]);
+        round_of(f, g, h, &a, b, c, d, &e, k[i + 3] + w[i + 3]);
+        round_of(e, f, g, &h, a, b, c, &d, k[i + 4] + w[i + 4]);
+        round_of(d, e, f, &g, h, a, b, &c, k[i + 5] + w[i + 5]);
+        round_of(c, d, e, &f, g, h, a, &b, k[i + 6] + w[i + 6]);
+        round_of(b, c, d, &e, f, g, h, &a, k[i + 7] + w[i + 7]);
     }
+    const uint32_t add[8] = {a, b, c, d, e, f, g, h};
     for (int i = 0; i < 8; i++)
-        h[i] += v[i];
+        state[i] += add[i];
 }
 
 void fw_sha256(const void *data, size_t n, char text[65]) {

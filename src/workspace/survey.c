@@ -161,6 +161,7 @@ typedef struct walk {
     fw_workspace_allowed allowed;
     fw_workspace_box3 whole;
     fw_workspace_survey *out;
+    bool singularities;
     double volume, grows[FW_SIX]; /* theta_i dV/dtheta_i */
 } walk;
 
@@ -235,7 +236,7 @@ static fw_status descend(walk *w, const fw_workspace_box3 *box, int levels) {
     fw_workspace_loop_box known;
     fw_maths_interval share;
     if (fw_arena_cancelled(w->arena)) return FW_CANCELLED;
-    unsigned open = levels > 0 ? FW_WANT_LIMITS : FW_WANT_ALL;
+    unsigned open = levels > 0 || !w->singularities ? FW_WANT_LIMITS : FW_WANT_ALL;
     fw_workspace_inside where =
         fw_workspace_reach_judge(w->loop, &w->allowed, 3, 0.0, box, &open, &known, &share);
     if (where == FW_OUTSIDE) return FW_OK;
@@ -250,6 +251,8 @@ static fw_status descend(walk *w, const fw_workspace_box3 *box, int levels) {
         }
         return FW_OK;
     }
+    boundary(w, box, &known);
+    if (!w->singularities) return FW_OK;
     bool inside = where == FW_INSIDE;
     if (!inside && known.reached == FW_REACHED) { /* its middle may be */
         fw_workspace_box3 point;
@@ -261,7 +264,6 @@ static fw_status descend(walk *w, const fw_workspace_box3 *box, int levels) {
                                           &share) == FW_INSIDE;
     }
     regularity_add(w->loop, &w->out->singular, &known, inside);
-    boundary(w, box, &known);
     return FW_OK;
 }
 
@@ -272,12 +274,13 @@ static fw_status descend(walk *w, const fw_workspace_box3 *box, int levels) {
    by theta_i / |grad psi_i|: it does not depend on how lengths are compared with angles. The sum
    over V is the exponent d ln V/d ln theta. in: limits rad; error of shares and exponent, against
    differences of certified volumes: 3e-3 where the limits keep the legs bent, 3e-2 where they do
-   not (test_survey.c). Cost about 1.7 us per box, 20 ms at level 5, 150 ms at level 6. */
+   not (test_survey.c). singularities false: they are not looked at. Cost about 1.7 us per box, 20 ms
+   at level 5, 150 ms at level 6; a third of it without singularities. */
 fw_status fw_workspace_reach_survey(const fw_arena *arena, const fw_workspace_loop *loop,
                                     const fw_workspace_reach_limits *limits, int level,
-                                    fw_workspace_survey *survey) {
+                                    bool singularities, fw_workspace_survey *survey) {
     *survey = (fw_workspace_survey){0};
-    walk w = {.arena = arena, .loop = loop, .out = survey};
+    walk w = {.arena = arena, .loop = loop, .out = survey, .singularities = singularities};
     w.allowed = fw_workspace_limits_allow(loop, limits);
     w.whole = fw_workspace_reach_whole(loop, &w.allowed);
     regularity_start(&survey->singular);
@@ -296,8 +299,8 @@ fw_status fw_workspace_reach_survey(const fw_arena *arena, const fw_workspace_lo
 }
 
 const fw_workspace_effort fw_workspace_usual = {
-    .relative = 2e-3, .most = 400000, .level = 6, .certified = true};
-const fw_workspace_effort fw_workspace_quick = {.relative = 1e-2, .most = 80000, .level = 5};
+    .relative = 2e-3, .most = 400000, .level = 6, .singularities = true, .certified = true};
+const fw_workspace_effort fw_workspace_quick = {.relative = 2e-2, .most = 80000, .level = 5};
 
 static const double slice_relative = 1e-3, extent_relative = 1e-3;
 enum { SLICE_BOXES = 100000, EXTENT_BOXES = 20000 };
@@ -335,7 +338,8 @@ fw_status fw_workspace_map_make(fw_arena *arena, const fw_mechanism *m, fw_works
                                           &map->proof));
     else
         FW_TRY(fw_workspace_reach_volume(arena, &map->loop, &map->limits, wanted, &map->volume));
-    FW_TRY(fw_workspace_reach_survey(arena, &map->loop, &map->limits, effort.level, &map->survey));
+    FW_TRY(fw_workspace_reach_survey(arena, &map->loop, &map->limits, effort.level,
+                                     effort.singularities, &map->survey));
     FW_TRY(fw_workspace_reach_extents(arena, &map->loop, &map->limits, extent_relative,
                                       EXTENT_BOXES, &map->survey));
     for (int i = 0; i < FW_SLICES; i++) {

@@ -37,7 +37,7 @@ typedef struct fw_workspace_survey {
 /* boxes of 2^-level of the limits' ranges */
 fw_status fw_workspace_reach_survey(const fw_arena *arena, const fw_workspace_loop *loop,
                                     const fw_workspace_reach_limits *limits, int level,
-                                    fw_workspace_survey *survey);
+                                    bool singularities, fw_workspace_survey *survey);
 /* the same singularities over a box of poses */
 fw_status fw_workspace_required_survey(const fw_arena *arena, const fw_workspace_loop *loop,
                                        const fw_workspace_box3 *box,
@@ -74,10 +74,11 @@ typedef struct fw_workspace_effort {
     double relative; /* width wanted of the volume */
     long most;       /* boxes for it */
     int level;       /* of the survey */
-    bool certified;  /* the volume's tree is kept for the certificate */
+    bool singularities;
+    bool certified; /* the volume's tree is kept for the certificate */
 } fw_workspace_effort;
 extern const fw_workspace_effort fw_workspace_usual; /* some 0.2 s */
-extern const fw_workspace_effort fw_workspace_quick; /* some 50 ms, for the report */
+extern const fw_workspace_effort fw_workspace_quick; /* some 20 ms, for the report */
 
 fw_status fw_workspace_map_make(fw_arena *arena, const fw_mechanism *mechanism,
                                 fw_workspace_effort effort, fw_workspace_map *map);

@@ -38,7 +38,7 @@ static void singularities_of_the_reference(void **state) {
     assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
     fw_workspace_reach_limits limits = all_equal(10);
     fw_workspace_survey s;
-    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 5, &s), FW_OK);
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 5, true, &s), FW_OK);
     assert_true(s.singular.regular[0] && s.singular.regular[1]);
     for (int i = 0; i < FW_TRIANGLES; i++) {
         const fw_workspace_triangle *t = &s.singular.passive[i];
@@ -73,7 +73,7 @@ static void shares_of_the_reference(void **state) {
     assert_true(fw_workspace_loop_set_up(&f.mechanism, &loop));
     fw_workspace_reach_limits limits = all_equal(10);
     fw_workspace_survey s;
-    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, true, &s), FW_OK);
     const double want[FW_SIX] = {.143, .155, .201, .201, .156, .144}; /* independent */
     double sum = 0;
     for (int i = 0; i < FW_SIX; i++) {
@@ -82,9 +82,14 @@ static void shares_of_the_reference(void **state) {
     }
     assert_near(sum, 1, 1e-12);
     assert_near(s.exponent, 2.99, 0.02);
+    /* they need no singularities */
+    fw_workspace_survey alone;
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, false, &alone), FW_OK);
+    assert_memory_equal(alone.share, s.share, sizeof s.share);
+    assert_true(alone.exponent == s.exponent);
     /* one hinge alone is tight: it owns nearly all of it that it can */
     limits.low_rad[4] = -0.01, limits.high_rad[4] = 0.01;
-    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, &s), FW_OK);
+    assert_int_equal(fw_workspace_reach_survey(arena, &loop, &limits, 6, false, &s), FW_OK);
     double grows[FW_SIX], all = 0;
     for (int i = 0; i < FW_SIX; i++) {
         double v[2];
