@@ -85,10 +85,10 @@ static void eyelet_off(fw_layout_drawing *d, fw_layout_eyelet_plan *e, const cha
     if (d->said) return;
     fw_diag_warning(d->diags, 131, e->eyelet->place,
                     "tendon %s moves the device, but its eyelet at (%s, %s) um is not drawn: %s; "
-                    "add it to the mask by hand before you order it; its mass is not in the motion "
-                    "either",
+                    "add it to the mask by hand before you order it%s",
                     e->tendon->id ? e->tendon->id : "(unnamed)", fw_layout_um(x, e->at.x),
-                    fw_layout_um(y, e->at.y), why);
+                    fw_layout_um(y, e->at.y), why,
+                    e->on_frame ? "" : "; its mass is not in the motion either");
 }
 
 static void comb_off(fw_layout_drawing *d, fw_layout_comb_plan *p, const char *why) {
@@ -436,11 +436,24 @@ fw_status fw_layout_actuators_on_base(fw_layout_drawing *d) {
     return FW_OK;
 }
 
-static bool outside(const fw_layout_drawing *d, const fw_layout_eyelet_plan *e) {
-    const fw_geometry_box die = d->layout->die;
+/* where the centre of a ring on the frame may be, short of its window; false: it is not there */
+static fw_status outside(const fw_layout_drawing *d, const fw_layout_eyelet_plan *e,
+                         const char **why) {
+    const fw_geometry_box die = d->layout->die, w = d->layout->window;
     double rim = d->lane_m + 0.5 * e->hole_m + e->ring_m;
-    return e->at.x < die.x0 + rim || e->at.x > die.x1 - rim || e->at.y < die.y0 + rim ||
-           e->at.y > die.y1 - rim;
+    char x0[32], x1[32], y0[32], y1[32], wx[32], wy[32];
+    *why = NULL;
+    if (e->at.x >= die.x0 + rim && e->at.x <= die.x1 - rim && e->at.y >= die.y0 + rim &&
+        e->at.y <= die.y1 - rim)
+        return FW_OK;
+    FW_NEED(*why = fw_arena_printf(
+                d->arena,
+                "it lies outside of the frame, whose window is %s by %s um and where its ring has "
+                "room for centres from x = %s to %s um and y = %s to %s um",
+                fw_layout_um(wx, w.x1 - w.x0), fw_layout_um(wy, w.y1 - w.y0),
+                fw_layout_um(x0, die.x0 + rim), fw_layout_um(x1, die.x1 - rim),
+                fw_layout_um(y0, die.y0 + rim), fw_layout_um(y1, die.y1 - rim)));
+    return FW_OK;
 }
 
 /* rings whose centre is over a half of the frame, or nearest to it, before it is rounded */
@@ -449,8 +462,10 @@ fw_status fw_layout_actuators_on_frame(fw_layout_drawing *d, fw_geometry_contour
     for (int i = 0; i < d->neyelet; i++) {
         fw_layout_eyelet_plan *e = &d->eyelet[i];
         if (e->off || !e->on_frame || e->cap.count > 0) continue;
-        if (outside(d, e)) {
-            eyelet_off(d, e, "it lies outside of the frame");
+        const char *beyond;
+        FW_TRY(outside(d, e, &beyond));
+        if (beyond) {
+            eyelet_off(d, e, beyond);
             continue;
         }
         if (e->at.y < half.y0 || e->at.y > half.y1) continue;

@@ -254,14 +254,16 @@ static fw_status not_through(fw_process_judge *j, const fw_process_cut *c,
                     j->flow->id, k->name, fw_process_judge_um(&t, k->drawn_m),
                     fw_process_judge_um(&t, k->opening_m), c->step->id,
                     fw_process_judge_number(&t, times, 4));
-    return fw_process_judge_reason(
+    FW_TRY(fw_process_judge_reason(
         j, firm ? FW_ANSWER_NO : FW_ANSWER_OPEN,
         "the %s does not come through in step %s: it needs %s times the planned time, over-etch "
         "included %s. Nearest change: an over-etch of %s, or openings as wide as those that come "
         "through",
         k->name, c->step->id, fw_process_judge_number(&t, times, 4),
         fw_process_judge_number(&t, 1.0 + c->overrun, 4),
-        fw_process_judge_number(&t, times - 1.0, 3));
+        fw_process_judge_number(&t, times - 1.0, 3)));
+    j->flow->fails = j->flow->reason[j->flow->nreason - 1];
+    return FW_OK;
 }
 
 static fw_status lag(fw_process_judge *j, const fw_process_cut *c) {

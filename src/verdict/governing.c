@@ -19,6 +19,7 @@ static fw_verdict_check check_of(const fw_verdict_hinge_verdict *h, const char *
                               .scene = h->scene,
                               .corner = corner,
                               .t_s = h->t_s,
+                              .most = (double)NAN,
                               .decision = h->decision,
                               .hinge = h};
 }
@@ -32,6 +33,7 @@ static fw_verdict_check of_requirement(const fw_verdict_requirement *r, const ch
                               .scene = r->scene ? r->scene : "at rest",
                               .corner = corner,
                               .t_s = r->t_s,
+                              .most = (double)NAN,
                               .decision = r->decision,
                               .requirement = r};
 }
@@ -67,6 +69,17 @@ static void as_made(const fw_verdict_variant_verdict *v, int kinds, fw_verdict_c
     }
 }
 
+/* what no corner exceeds, run or not */
+static double most_of(const fw_verdict *verdict) {
+    double most = (double)NAN;
+    for (int i = 0; i < verdict->nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &verdict->variant[i];
+        for (int k = 0; v->fabricated && k < v->nhinge; k++)
+            most = fmax(most, v->fabricated->hinge[k].most);
+    }
+    return most;
+}
+
 fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found) {
     *found = false;
@@ -78,6 +91,7 @@ fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int k
             drawn(v, kinds, check, found);
     }
     if (!*found) return FW_OK;
+    if (made && check->hinge) check->most = most_of(verdict);
     const fw_verdict_requirement *r = check->requirement;
     check->what = r ? fw_arena_printf(arena, "requirement %s (%s)", r->probe,
                                       r->measure ? r->measure : r->kind)

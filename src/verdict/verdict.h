@@ -168,6 +168,7 @@ typedef struct fw_verdict_check {
     const char *flow, *scene; /* flow may be NULL */
     const char *corner;       /* "thickness 49 um": of what the flow may make; NULL: as drawn */
     double t_s;               /* NaN: no one time */
+    double most;              /* of all hinges at all corners, run or not; NaN: no corner was run */
     fw_verdict_decision decision;
     const fw_verdict_hinge_verdict *hinge;     /* NULL: it is no hinge */
     const fw_verdict_requirement *requirement; /* NULL: it is none; `used` may be NaN */
