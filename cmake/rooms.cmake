@@ -13,7 +13,7 @@ find_library(LAPACKE_LIBRARY lapacke REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
 
 set(FW_ROOMS base maths geometry drawing quantity xml device flexure layout mechanism effects multibody assembly
-             dynamics statics probe workspace clearance
+             dynamics statics workspace clearance probe
              verdict continuum process schedule mask wafer recipe report plan study serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_xml PkgConfig::XML2)

@@ -73,6 +73,9 @@ set_tests_properties(clearance.random PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(clearance.combs COMMAND /usr/bin/python3 tests/clearance/compare.py
                $<TARGET_FILE:clearance_outlines> --seed 1 --count 3 --combs)
 set_tests_properties(clearance.combs PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(clearance.gaps COMMAND /usr/bin/python3 tests/clearance/gaps.py
+               $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)
+set_tests_properties(clearance.gaps PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(clearance.between COMMAND ${Python3_EXECUTABLE} tests/clearance/between.py
                $<TARGET_FILE:clearance_outlines>)
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})

@@ -63,6 +63,8 @@ typedef struct fw_clearance_path { /* pieces of one motion, one after the other 
 } fw_clearance_path;
 
 fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path);
+/* room for so many pieces */
+fw_status fw_clearance_path_of(fw_arena *arena, int nbody, int pieces, fw_clearance_path *path);
 bool fw_clearance_path_full(const fw_clearance_path *path);
 void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *piece);
 
@@ -130,6 +132,29 @@ typedef struct fw_clearance_wish {
 fw_status fw_clearance_of_path(fw_arena *arena, const fw_clearance_things *things,
                                const fw_clearance_path *path, const fw_clearance_wish *wish,
                                fw_clearance_least *least);
+
+/* ---- clearance_gap.c: the distance of two outlines, for probes ---- */
+
+typedef struct fw_clearance_gap fw_clearance_gap;
+/* Of a and b (FW_GROUND: all that stands), without flexures and the die's edge. NULL: one of them has
+   no outline, or all of it lies within a hinge between them */
+fw_status fw_clearance_gap_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
+                               const fw_clearance_gap **gap);
+/* as drawn; q: (3 nbody) centres of mass, m, rad */
+double fw_clearance_gap_m(const fw_clearance_gap *gap, const double *q);
+double fw_clearance_gap_drawn_m(const fw_clearance_gap *gap);
+/* how far the two have been moved against each other, at most, from where they are drawn */
+double fw_clearance_gap_moved_m(const fw_clearance_gap *gap, const double *q);
+
+typedef struct fw_clearance_gap_extreme {
+    double m, t_s;  /* the least or largest so far */
+    double bound_m; /* proved: none is beyond this */
+    double moved_m; /* the largest of what they were moved */
+} fw_clearance_gap_extreme;
+/* the least (sign -1) or largest (1) distance over the one piece of a path, where it is beyond that
+   which is known */
+void fw_clearance_gap_over(const fw_clearance_gap *gap, const fw_clearance_path *path, double sign,
+                           fw_clearance_gap_extreme *known);
 
 /* ---- clearance_box.c: the least clearance over a required box of the six-bar's poses ---- */
 

@@ -14,36 +14,36 @@ typedef struct motion {
 
 /* ---- poses of a pair over a span ---- */
 
-static fw_clearance_pose ground_pose(const motion *s) {
-    const fw_clearance_solid *ground = &s->things->solid[s->things->nbody];
+fw_clearance_pose fw_clearance_ground_pose(const fw_clearance_things *things) {
+    const fw_clearance_solid *ground = &things->solid[things->nbody];
     return (fw_clearance_pose){ground->centre.x, ground->centre.y, ground->turned_rad};
 }
 
-static void pose_at(const motion *s, const fw_clearance_pair *pair, int piece, double theta,
-                    fw_clearance_pose pose[2]) {
+void fw_clearance_pair_at(const fw_clearance_pair *pair, const fw_clearance_path *path, int piece,
+                          double theta, fw_clearance_pose pose[2]) {
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a, q = 3 * solid;
-        pose[k] = ground_pose(s);
-        if (solid == s->things->nbody) continue;
-        pose[k].x_m = fw_clearance_path_value(s->path, piece, q, theta);
-        pose[k].y_m = fw_clearance_path_value(s->path, piece, q + 1, theta);
-        pose[k].phi_rad = fw_clearance_path_value(s->path, piece, q + 2, theta);
+        pose[k] = fw_clearance_ground_pose(pair->things);
+        if (solid == pair->things->nbody) continue;
+        pose[k].x_m = fw_clearance_path_value(path, piece, q, theta);
+        pose[k].y_m = fw_clearance_path_value(path, piece, q + 1, theta);
+        pose[k].phi_rad = fw_clearance_path_value(path, piece, q + 2, theta);
     }
 }
 
-/* coefficients of both solids' poses over one piece of the span */
-static int coefficients(const motion *s, const fw_clearance_pair *pair,
-                        const fw_clearance_span *span, int piece,
-                        fw_clearance_pose pose[NODES][2]) {
-    int n = s->path->nodes[piece];
+int fw_clearance_pair_coefficients(const fw_clearance_pair *pair, const fw_clearance_path *path,
+                                   const fw_clearance_span *span, int piece,
+                                   fw_clearance_pose pose[NODES][2]) {
+    int n = path->nodes[piece];
+    const fw_clearance_pose stands = fw_clearance_ground_pose(pair->things);
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a;
         double c[3][NODES];
-        bool ground = solid == s->things->nbody;
+        bool ground = solid == pair->things->nbody;
         for (int q = 0; q < 3 && !ground; q++)
-            fw_clearance_path_part(s->path, piece, 3 * solid + q, span->from, span->to, c[q]);
+            fw_clearance_path_part(path, piece, 3 * solid + q, span->from, span->to, c[q]);
         for (int i = 0; i < n; i++)
-            pose[i][k] = ground ? ground_pose(s) : (fw_clearance_pose){c[0][i], c[1][i], c[2][i]};
+            pose[i][k] = ground ? stands : (fw_clearance_pose){c[0][i], c[1][i], c[2][i]};
     }
     return n;
 }
@@ -60,7 +60,7 @@ static void middle_of(const motion *s, const fw_clearance_pair *pair, const fw_c
     for (int k = 0; k < 6; k++)
         range[k / 3][k % 3] = (fw_maths_interval){HUGE_VAL, -HUGE_VAL};
     for (int piece = span->first; piece <= span->last; piece++) {
-        int n = coefficients(s, pair, span, piece, pose);
+        int n = fw_clearance_pair_coefficients(pair, s->path, span, piece, pose);
         for (int i = 0; i < n; i++)
             for (int k = 0; k < 2; k++) {
                 join(&range[k][0], pose[i][k].x_m);
@@ -81,7 +81,7 @@ static double slack_about(const motion *s, const fw_clearance_pair *pair,
     fw_clearance_pose pose[NODES][2];
     fw_clearance_slack_begin(pair, middle, &slack);
     for (int piece = span->first; piece <= span->last; piece++) {
-        int n = coefficients(s, pair, span, piece, pose);
+        int n = fw_clearance_pair_coefficients(pair, s->path, span, piece, pose);
         for (int i = 0; i < n; i++)
             fw_clearance_slack_add(pair, (const fw_clearance_pose *)pose[i], &slack);
     }
@@ -101,8 +101,8 @@ static void start_of(const motion *s, const fw_clearance_pair *pair, fw_clearanc
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a;
         const double *q = s->path->start + 3 * solid;
-        start[k] =
-            solid == s->things->nbody ? ground_pose(s) : (fw_clearance_pose){q[0], q[1], q[2]};
+        start[k] = solid == s->things->nbody ? fw_clearance_ground_pose(s->things)
+                                             : (fw_clearance_pose){q[0], q[1], q[2]};
     }
 }
 
@@ -121,7 +121,7 @@ static bool pose(const void *context, const fw_clearance_pair *pair,
     int piece = part <= 0 ? span->first : part >= 1 ? span->last : (span->first + span->last) / 2;
     double theta = span->from + part * (span->to - span->from);
     const double *t = s->path->t_s + 2 * piece;
-    pose_at(s, pair, piece, theta, at->pose);
+    fw_clearance_pair_at(pair, s->path, piece, theta, at->pose);
     at->t_s = t[0] + theta * (t[1] - t[0]);
     return true;
 }
@@ -182,7 +182,7 @@ static void meet_here(const motion *s, const fw_clearance_pair *pair, const fw_c
     fw_clearance_pose now[2], start[2];
     fw_clearance_slack off;
     const double *t = s->path->t_s + 2 * span->first;
-    pose_at(s, pair, span->first, span->to, now);
+    fw_clearance_pair_at(pair, s->path, span->first, span->to, now);
     start_of(s, pair, start);
     fw_clearance_slack_begin(pair, start, &off);
     fw_clearance_slack_add(pair, now, &off);

@@ -35,6 +35,16 @@ void fw_clearance_pair_narrow(fw_clearance_pair *pair, const fw_clearance_pose p
 double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                                   double limit_m, fw_clearance_meet *meet);
 
+/* ---- clearance_motion.c: poses of a pair along a path ---- */
+
+fw_clearance_pose fw_clearance_ground_pose(const fw_clearance_things *things);
+void fw_clearance_pair_at(const fw_clearance_pair *pair, const fw_clearance_path *path, int piece,
+                          double theta, fw_clearance_pose pose[2]);
+/* coefficients of both solids' poses over one piece of the span; how many */
+int fw_clearance_pair_coefficients(const fw_clearance_pair *pair, const fw_clearance_path *path,
+                                   const fw_clearance_span *span, int piece,
+                                   fw_clearance_pose pose[FW_CLEARANCE_NODES][2]);
+
 /* ---- clearance_slack.c: poses that are not quite known ---- */
 
 /* no two edges are nearer than at the middle poses by more than this, for every pose that is a

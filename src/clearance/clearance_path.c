@@ -10,7 +10,12 @@ enum { NODES = FW_CLEARANCE_NODES, MOST_BYTES = 6 << 20, LEAST_PIECES = 16, MOST
 fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path) {
     size_t each = (size_t)(3 * nbody) * NODES * sizeof(double), room = MOST_BYTES / (each + 1);
     size_t n = room < LEAST_PIECES ? LEAST_PIECES : room > MOST_PIECES ? MOST_PIECES : room;
-    *path = (fw_clearance_path){.nq = 3 * nbody, .capacity = (int)n};
+    return fw_clearance_path_of(arena, nbody, (int)n, path);
+}
+
+fw_status fw_clearance_path_of(fw_arena *arena, int nbody, int pieces, fw_clearance_path *path) {
+    size_t n = (size_t)pieces, each = (size_t)(3 * nbody) * NODES * sizeof(double);
+    *path = (fw_clearance_path){.nq = 3 * nbody, .capacity = pieces};
     FW_NEED(path->start = fw_arena_array(arena, double, (size_t)path->nq));
     FW_NEED(path->nodes = fw_arena_array(arena, int, n));
     FW_NEED(path->t_s = fw_arena_array(arena, double, 2 * n));

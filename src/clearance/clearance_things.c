@@ -121,23 +121,6 @@ static int held_by(const building *b, const fw_geometry_contour *tether) {
     return FW_NONE;
 }
 
-static bool is_wall(const fw_layout_piece *p) {
-    switch (p->role) {
-    case FW_ROLE_STRUCTURE:
-    case FW_ROLE_FRAME:
-    case FW_ROLE_TETHER:
-        return p->body >= 0 || p->body == FW_GROUND || p->body == FW_ISLAND;
-    case FW_ROLE_FLEXURE: /* bends: a thing of its own */
-    case FW_ROLE_TEXT:
-    case FW_ROLE_MARK:
-    case FW_ROLE_DICING:
-    case FW_ROLE_BACK:
-    case FW_ROLE_COUNT:
-        break;
-    }
-    return false;
-}
-
 static fw_status add_piece(building *b, const fw_layout_piece *p) {
     int solid = solid_of(b, p->body);
     fw_clearance_edge edge = {
@@ -228,7 +211,7 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const
     FW_NEED(b.room = fw_arena_array(arena, int, n));
     for (int i = 0; i < layout->npiece; i++) {
         const fw_layout_piece *p = &layout->piece[i];
-        if (is_wall(p)) FW_TRY(add_piece(&b, p));
+        if (fw_layout_is_wall(p)) FW_TRY(add_piece(&b, p));
         if (p->role == FW_ROLE_FLEXURE && p->joint >= 0 && layout->hinge[p->joint].drawn)
             FW_TRY(add_flexure(&b, p));
     }
@@ -236,8 +219,9 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout, const
     for (size_t i = 0; i < n; i++) {
         fw_clearance_solid *s = &things->solid[i];
         if (i + 1 < n) {
-            s->centre = (fw_geometry_vec2){m->body[i].x_m, m->body[i].y_m};
-            s->turned_rad = m->body[i].phi_rad;
+            const fw_mechanism_mass *at = m->drawn ? &m->drawn[i] : &m->body[i];
+            s->centre = (fw_geometry_vec2){at->x_m, at->y_m};
+            s->turned_rad = at->phi_rad;
         }
         for (int k = 0; k < s->count; k++) {
             fw_geometry_box box = fw_segment_box(&s->edge[k].segment);

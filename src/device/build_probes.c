@@ -101,6 +101,7 @@ static const char *has_none(const fw_device *d, const fw_device_probe *p) {
     case FW_PROBE_IS_velocity:
     case FW_PROBE_IS_distance:
     case FW_PROBE_IS_opening:
+    case FW_PROBE_IS_gap:
     case FW_PROBE_IS_stiffness:
     case FW_PROBE_IS_compliance:
     case FW_PROBE_IS_frequency:
@@ -131,6 +132,7 @@ static void read_carrier(fw_device_reader *r, const fw_xml_record *record, fw_de
 
 static const char *const of_point[] = {"on", "x", "y"};
 static const char *const of_pair[] = {"a", "a-x", "a-y", "b", "b-x", "b-y"};
+static const char *const of_points[] = {"a-x", "a-y", "b-x", "b-y"};
 static const char *const of_carrier[] = {"of"};
 static const char *const of_mode[] = {"mode"};
 static const char *const of_direction[] = {"direction"};
@@ -152,9 +154,11 @@ static void check_attributes(fw_device_reader *r, const fw_xml_record *record,
     if (point) fw_device_needed(r, record, 320, of_point, 1, "the body that carries the point");
     if (!point && !body) refuse(r, record, of_point, 3, kind);
     if (body) refuse(r, record, of_point + 1, 2, kind);
-    for (int i = 0; i < 2 && takes == FW_PROBE_PAIR; i++)
+    const bool outlines = takes == FW_PROBE_OUTLINES, pair = takes == FW_PROBE_PAIR || outlines;
+    for (int i = 0; i < 2 && pair; i++)
         fw_device_needed(r, record, 320, ends + i, 1, "a body, or ground");
-    if (takes != FW_PROBE_PAIR) refuse(r, record, of_pair, 6, kind);
+    if (!pair) refuse(r, record, of_pair, 6, kind);
+    if (outlines) refuse(r, record, of_points, 4, kind);
     if (carrier) fw_device_needed(r, record, 320, of_carrier, 1, "the id of what carries it");
     if (!carrier && !body) refuse(r, record, of_carrier, 1, kind);
     if (takes != FW_PROBE_MODE) refuse(r, record, of_mode, 1, kind);
@@ -204,6 +208,21 @@ static fw_device_probe_row row_of(const char *kind) {
     return FW_PROBE_KINDS;
 }
 
+/* two points or two outlines */
+static void read_pair(fw_device_reader *r, const fw_xml_record *record, fw_device_probe *p) {
+    const bool outlines = fw_device_probe_kinds[p->row].takes == FW_PROBE_OUTLINES;
+    p->body = fw_device_reference(r, record, "a");
+    p->body_b = fw_device_reference(r, record, "b");
+    p->x_m = fw_xml_number_or(record, "a-x", 0.0), p->y_m = fw_xml_number_or(record, "a-y", 0.0);
+    p->bx_m = fw_xml_number_or(record, "b-x", 0.0);
+    p->by_m = fw_xml_number_or(record, "b-y", 0.0);
+    if (p->body == p->body_b && p->body != FW_NOWHERE && fw_xml_given(record, "b"))
+        fw_diag_error(r->diags, 320, fw_xml_place_of(record, "b"),
+                      "probe '%s': both %s the same body, and never move against each other; name "
+                      "another body, or ground",
+                      p->id ? p->id : "", outlines ? "outlines are of" : "points are on");
+}
+
 static void build_probe(fw_device_reader *r, const fw_xml_record *record) {
     const fw_device_probe_row row = row_of(fw_xml_text_of(record, "kind"));
     fw_device *d = r->device;
@@ -215,17 +234,9 @@ static void build_probe(fw_device_reader *r, const fw_xml_record *record) {
                          .place = record->element->place};
     if (row == FW_PROBE_KINDS) return; /* reported */
     check_attributes(r, record, &p);
-    if (fw_device_probe_kinds[row].takes == FW_PROBE_PAIR) {
-        p.body = fw_device_reference(r, record, "a");
-        p.body_b = fw_device_reference(r, record, "b");
-        p.x_m = fw_xml_number_or(record, "a-x", 0.0), p.y_m = fw_xml_number_or(record, "a-y", 0.0);
-        p.bx_m = fw_xml_number_or(record, "b-x", 0.0);
-        p.by_m = fw_xml_number_or(record, "b-y", 0.0);
-        if (p.body == p.body_b && p.body != FW_NOWHERE && fw_xml_given(record, "b"))
-            fw_diag_error(r->diags, 320, fw_xml_place_of(record, "b"),
-                          "probe '%s': both points are on the same body, and never move against "
-                          "each other; name another body, or ground",
-                          p.id ? p.id : "");
+    const fw_device_probe_takes takes = fw_device_probe_kinds[row].takes;
+    if (takes == FW_PROBE_PAIR || takes == FW_PROBE_OUTLINES) {
+        read_pair(r, record, &p);
     } else {
         p.body = fw_device_reference(r, record, "on");
         p.x_m = fw_xml_number_or(record, "x", 0.0), p.y_m = fw_xml_number_or(record, "y", 0.0);

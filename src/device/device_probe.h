@@ -11,7 +11,8 @@ typedef enum fw_device_probe_takes {                 /* the attributes that a ki
                                      FW_PROBE_POINT, /* on, x, y, direction */
                                      FW_PROBE_BODY,  /* on, or of a joint */
                                      FW_PROBE_PAIR, /* a, a-x, a-y, b, b-x, b-y, direction (opening) */
-                                     FW_PROBE_CARRIER, /* of, direction */
+                                     FW_PROBE_OUTLINES, /* a, b */
+                                     FW_PROBE_CARRIER,  /* of, direction */
                                      FW_PROBE_TANGENT, /* on, x, y, direction: of an equilibrium, not of a motion */
                                      FW_PROBE_MODE /* mode; likewise */
 } fw_device_probe_takes;
@@ -46,7 +47,7 @@ typedef enum fw_device_carrier { /* what `of` names: each may be in the device o
 typedef struct fw_device_probe {
     const char *id;
     fw_device_probe_row row;
-    int body, body_b;          /* point or body a, and b; FW_GROUND */
+    int body, body_b;          /* point, outline or body a, and b; FW_GROUND */
     double x_m, y_m;           /* local to it; of the ground: world */
     double bx_m, by_m;         /* of b */
     double direction_rad;      /* in the world, of an opening in the frame of a; NaN: none */

@@ -91,6 +91,13 @@ typedef struct fw_layout {
     int nfault;
 } fw_layout;
 
+/* material of a body, or of what stands, that something may meet: no flexure, lettering or mark */
+bool fw_layout_is_wall(const fw_layout_piece *piece);
+/* is there such a piece of the body, or of what stands (FW_GROUND)? */
+bool fw_layout_has_outline(const fw_layout *layout, int body);
+/* by how much two walls come nearer than they are drawn */
+double fw_layout_walls_m(const fw_layout *layout);
+
 /* FW_GEOMETRY when the parts cannot be drawn: diagnostics name both places, and *layout holds what
    can be shown of it with its faults. */
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,

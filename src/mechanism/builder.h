@@ -26,4 +26,7 @@ fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i);
 
+/* drawn_outlines.c: what probes between outlines are of is drawn */
+fw_status fw_mechanism_check_outlines(const fw_mechanism_builder *b);
+
 #endif

@@ -101,6 +101,9 @@ typedef struct fw_mechanism {
     fw_device_spring *spring;  /* (nspring) local points refer to centres of mass */
     fw_mechanism_hinge *hinge; /* (nhinge) */
     int nbody, npin, njoint, ndriver, nspring, nhinge;
+    const fw_layout *layout; /* what it was built from; NULL: nothing is drawn */
+    const fw_mechanism_mass
+        *drawn; /* (nbody) the bodies there, wherever assembly has moved `body` */
 } fw_mechanism;
 
 /* the same scene of the mechanism's own description, whose points go with centres of mass; a scene

@@ -466,6 +466,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     *mechanism = NULL;
     FW_TRY(check_variant(&b));
     m->variant = variant;
+    m->layout = layout;
     FW_NEED(m->body = fw_arena_array(arena, fw_mechanism_mass, (size_t)device->nbody));
     FW_NEED(m->shape = fw_arena_array(arena, fw_mechanism_shape, (size_t)device->nbody));
     FW_NEED(m->pin = fw_arena_array(arena, fw_mechanism_pin, (size_t)device->nrevolute));
@@ -473,12 +474,13 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(m->hinge = fw_arena_array(arena, fw_mechanism_hinge, (size_t)device->nrevolute));
     FW_NEED(m->joint = fw_arena_array(arena, fw_device_joint, (size_t)device->njoint));
     FW_NEED(m->driver = fw_arena_array(arena, fw_device_driver, (size_t)device->ndriver));
+    m->drawn = m->body;
     m->nbody = device->nbody;
     m->npin = device->nrevolute;
     m->nspring = device->nspring;
     m->njoint = device->njoint;
     m->ndriver = device->ndriver;
-    fw_status status = FW_OK;
+    fw_status status = fw_mechanism_check_outlines(&b);
     for (int i = 0; i < m->nbody; i++)
         status = keep_going(status, build_body(&b, i));
     if (status != FW_OK) return status; /* the rest would only repeat what is missing here */

@@ -148,6 +148,7 @@ static fw_status watch_probes(fw_plan *plan, const fw_mechanism *m, const fw_dev
     for (int i = 0; i < 2; i++)
         FW_TRY(fw_probe_monitor_new(plan->arena, m, scene, NULL, &both[i]));
     options->observe = fw_probe_monitor_record;
+    options->trace = fw_probe_monitor_trace;
     options->whole = true;
     options->context = &both[0], options->other = &both[1];
     return FW_OK;

@@ -82,10 +82,25 @@ static fw_status bind(fw_arena *arena, fw_probe *p) {
     return FW_OK;
 }
 
+/* outlines of all bodies, once for all probes; of a layout that cannot be made there are none */
+static fw_status bind_gap(fw_arena *arena, fw_clearance_things **things, fw_probe *p) {
+    const fw_mechanism *m = p->mechanism;
+    if (p->kind->takes != FW_PROBE_OUTLINES || !m->layout || !m->layout->drawn ||
+        m->layout->nfault > 0)
+        return FW_OK;
+    if (!*things) {
+        FW_NEED(*things = fw_arena_one(arena, fw_clearance_things));
+        FW_TRY(fw_clearance_things_of(arena, m->layout, m, *things));
+    }
+    p->walls_m = fw_layout_walls_m(m->layout);
+    return fw_clearance_gap_new(arena, *things, p->asked->body, p->asked->body_b, &p->gap);
+}
+
 fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
                         const fw_effects_loads *loads, fw_probe **probe) {
     fw_effects_loads own = loads ? *loads : (fw_effects_loads){.nbody = m->nbody};
     const fw_mechanism *strained = m;
+    fw_clearance_things *things = NULL;
     int n = fw_probe_count(m);
     FW_NEED(*probe = fw_arena_array(arena, fw_probe, (size_t)n));
     if (n > 0 && own.strained) FW_TRY(fw_effects_strain(arena, m, &own, &strained));
@@ -95,6 +110,7 @@ fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *m, const fw_device_
         *p = (fw_probe){.asked = asked, .mechanism = m, .loads = own};
         p->in_scene = fw_device_probe_in_scene(asked, scene);
         FW_TRY(bind(arena, p));
+        FW_TRY(bind_gap(arena, &things, p));
     }
     return FW_OK;
 }
@@ -122,6 +138,7 @@ double fw_probe_across(const fw_probe *p, const fw_probe_state *s) {
 }
 
 double fw_probe_origin(const fw_probe *p) {
+    if (p->kind->takes == FW_PROBE_OUTLINES) return fw_probe_gap_drawn(p);
     if (p->kind->takes != FW_PROBE_PAIR) return 0;
     const fw_geometry_vec2 a = p->drawn[0], b = p->drawn[1];
     double dx = b.x - a.x, dy = b.y - a.y, direction = p->asked->direction_rad;

@@ -3,6 +3,7 @@
    one instant, along a motion, about an equilibrium. Theory: docs/theory/probes.md. */
 #ifndef FW_PROBE_PROBE_H
 #define FW_PROBE_PROBE_H
+#include "clearance/clearance.h"
 #include "dynamics/dynamics.h"
 #include "statics/level.h"
 #include "statics/modes.h"
@@ -39,15 +40,25 @@ typedef struct fw_probe {
     double *p, *w, *f;                       /* (3 ports) work of the element */
     bool *on;                                /* (switches) */
     int first_switch;                        /* of the element among all */
+    const fw_clearance_gap *gap;             /* NULL: there are no such outlines */
+    double walls_m;                          /* by how much walls come nearer than drawn */
 } fw_probe;
 
 /* One row per kind: adding one is a line in device/probes.def, and a file. SI values of the kind's
    unit; NaN: not known from this state. NULL for what has no course in time. */
+struct fw_probe_course;
 typedef struct fw_probe_row {
     double (*value)(const fw_probe *p, const fw_probe_state *s);
     double (*across)(const fw_probe *p, const fw_probe_state *s); /* its direction; NULL: nothing */
     /* about an equilibrium, in the modes of small motions there */
     double (*small)(const fw_probe *p, const fw_statics_modes *modes);
+    /* extremes within a piece of the motion, into the course, which instants and parabolas may miss;
+       NULL: they do not */
+    void (*within)(const fw_probe *p, const fw_clearance_path *piece,
+                   struct fw_probe_course *course);
+    /* how far what it is of has been moved, of which relative errors of the motion are; NULL: by as
+       much as the value departs from the drawn one */
+    double (*moved)(const fw_probe *p, const fw_probe_state *s);
 } fw_probe_row;
 #define FW_PROBE(name, ...) extern const fw_probe_row fw_probe_##name;
 #include "device/probes.def"
@@ -64,7 +75,7 @@ fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *mechanism,
 /* SI; NaN: not in this scene, or not known */
 double fw_probe_value(const fw_probe *p, const fw_probe_state *s);
 double fw_probe_across(const fw_probe *p, const fw_probe_state *s);
-/* of a distance or opening as it is drawn; of all else 0 */
+/* of a distance, opening or gap as it is drawn; of all else 0 */
 double fw_probe_origin(const fw_probe *p);
 /* at a row of a motion whose probes are bound to its loads */
 double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row);
@@ -80,6 +91,12 @@ double fw_probe_along(const fw_probe *p, double x, double y);
 bool fw_probe_element_forces(const fw_probe *p, const fw_probe_state *s,
                              fw_effects_port_state *seen);
 
+/* probe_gap.c: as it is where the mechanism starts; NaN: not known */
+double fw_probe_gap_drawn(const fw_probe *p);
+/* by how much more two outlines that meet as drawn may be apart as made: walls that are etched away
+   leave that open */
+double fw_probe_gap_etched_m(const fw_probe *p);
+
 /* ---- along a motion: probe_course.c ---- */
 
 typedef struct fw_probe_extreme {
@@ -93,6 +110,9 @@ typedef struct fw_probe_course { /* of one probe */
     double final;
     double t[2], s[2], a[2]; /* the last two instants */
     int samples;             /* behind the last jump */
+    bool searched;           /* `within` was asked: */
+    double below, above;     /* proved: no value is beyond these */
+    double moved;            /* the largest */
     int count;               /* in all; 0: it has no value in this scene */
     double *time, *value;    /* (kept) every instant and extreme, where asked for */
     size_t kept, room;
@@ -107,6 +127,8 @@ typedef struct fw_probe_monitor { /* of one run */
     const fw_effects_loads *loads; /* that `probe` is bound to */
     fw_probe *probe;               /* (nprobe) */
     fw_probe_course *course;       /* (nprobe) */
+    bool within;                   /* some kind looks within pieces: */
+    fw_clearance_path piece;       /* the one that is looked at */
     bool no_memory;                /* the run has failed */
 } fw_probe_monitor;
 
@@ -116,6 +138,9 @@ fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_probe_monitor *monitor);
 /* an fw_dynamics_observer of whole instants; context is the monitor */
 void fw_probe_monitor_record(void *context, const fw_dynamics_instant *instant);
+
+/* an fw_dynamics_tracer, which gaps need; context is the monitor */
+void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece);
 
 /* fw_dynamics_motion_options.unsettled of probes: twice what two runs differ by, times the margin,
    over thirty times the accuracy wanted (at most 3 %) of the largest departure from the drawn value;
@@ -127,9 +152,10 @@ typedef struct fw_probe_result { /* what a motion did, and by how much that may 
     double maximum, maximum_t_s, minimum, minimum_t_s, final;
     double peak, peak_t_s; /* the larger size of both, with its sign */
     double across, across_t_s;
-    /* what it is as drawn, without any error: of a distance or opening, else 0. Relative errors are
-       of what is beyond it */
+    /* what it is as drawn, without any error: of a distance, opening or gap, else 0. Relative errors
+       are of what is beyond it, or, of a gap, of how far its outlines were moved against each other */
     double origin;
+    double moved; /* of a gap; else NaN */
     /* errors of extremes, of the final value, of `across`: what two runs and the search between
        instants say, and effects left out; infinite without a second run */
     double numeric, final_numeric, across_numeric;

@@ -10,7 +10,11 @@ fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *m, const fw_
     *monitor =
         (fw_probe_monitor){.arena = arena, .mechanism = m, .scene = scene, .history = history};
     FW_NEED(monitor->course = fw_arena_array(arena, fw_probe_course, (size_t)fw_probe_count(m)));
-    return FW_OK;
+    for (int i = 0; i < fw_probe_count(m); i++) {
+        const fw_device_probe_kind *kind = &fw_device_probe_kinds[m->device->probe[i].row];
+        monitor->within = monitor->within || kind->takes == FW_PROBE_OUTLINES;
+    }
+    return monitor->within ? fw_clearance_path_of(arena, m->nbody, 1, &monitor->piece) : FW_OK;
 }
 
 /* ---- extremes ---- */
@@ -59,11 +63,12 @@ static void add_across(fw_probe_course *c, const double t[3], double across) {
     c->a[0] = c->a[1], c->a[1] = across;
 }
 
-static fw_status add(fw_arena *arena, fw_probe_course *c, bool history, double t_s, double value,
-                     double across) {
+/* smooth: a parabola finds its extremes */
+static fw_status add(fw_arena *arena, fw_probe_course *c, bool smooth, bool history, double t_s,
+                     double value, double across) {
     const double t[3] = {c->t[0], c->t[1], t_s}, s[3] = {c->s[0], c->s[1], value};
     double at, top;
-    if (c->samples >= 2 && turns(t, s, &at, &top)) {
+    if (smooth && c->samples >= 2 && turns(t, s, &at, &top)) {
         raise(&c->maximum, 1, top, at, fabs(top - s[1]), false);
         raise(&c->minimum, -1, top, at, fabs(top - s[1]), false);
         if (history && at < t[1]) { /* in the order of time */
@@ -97,7 +102,7 @@ static fw_status take(fw_probe_monitor *w, const fw_dynamics_instant *now) {
         double value = fw_probe_value(p, &state);
         if (isnan(value)) continue;
         if (now->begins) c->samples = 0; /* no parabola across a jump */
-        FW_TRY(add(w->arena, c, w->history && w->history[i], now->t_s, value,
+        FW_TRY(add(w->arena, c, !p->row->within, w->history && w->history[i], now->t_s, value,
                    fw_probe_across(p, &state)));
     }
     return FW_OK;
@@ -113,7 +118,24 @@ void fw_probe_monitor_record(void *context, const fw_dynamics_instant *now) {
         memset(w->course, 0, n * sizeof *w->course);
 }
 
+/* the straight ways of jumps are no part of the motion */
+void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece) {
+    fw_probe_monitor *w = context;
+    if (!w->within || !piece || piece->jump || !w->probe || w->no_memory) return;
+    w->piece.npiece = 0;
+    fw_clearance_path_add(&w->piece, piece);
+    for (int i = 0; i < fw_probe_count(w->mechanism); i++)
+        if (w->probe[i].in_scene && w->probe[i].row->within)
+            w->probe[i].row->within(&w->probe[i], &w->piece, &w->course[i]);
+}
+
 /* ---- errors ---- */
+
+/* what relative errors of the motion are of, at most */
+static double farthest(const fw_probe_course *c, double origin) {
+    if (c->searched) return c->moved;
+    return fmax(fabs(c->maximum.value - origin), fabs(c->minimum.value - origin));
+}
 
 /* what the next model of the hinges changes, relative to the value there. A value that is small
    there counts with a tenth of the largest. Velocities and the forces of joints that are no pins are
@@ -134,7 +156,9 @@ static double level_of(const fw_probe *p, const fw_dynamics_motion *motion,
                                   .still = true};
         value[i] = of(p, &s);
     }
-    double size = fmax(fabs(value[0] - origin), 0.1 * largest), change = fabs(value[1] - value[0]);
+    const fw_probe_state used = {.q = step->at.q, .still = true};
+    double away = p->row->moved ? p->row->moved(p, &used) : fabs(value[0] - origin);
+    double size = fmax(away, 0.1 * largest), change = fabs(value[1] - value[0]);
     return change == 0 ? 0 : change / size;
 }
 
@@ -161,7 +185,8 @@ static void errors(const fw_probe_course *c, const fw_probe_course *o,
         last = fabs(c->final - o->final), aside = fabs(c->across.value - o->across.value);
     }
     double between = fmax(c->maximum.between, c->minimum.between);
-    double far = fmax(fabs(r->maximum - r->origin), fabs(r->minimum - r->origin));
+    if (c->searched) between = fmax(c->minimum.value - c->below, c->above - c->maximum.value);
+    double far = farthest(c, r->origin);
     r->numeric = numeric(most, between, far, estimated, margin);
     r->final_numeric = numeric(last, 0, far, estimated, margin);
     r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin);
@@ -175,6 +200,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
                            .final = (double)NAN,
                            .peak = (double)NAN,
                            .across = (double)NAN,
+                           .moved = (double)NAN,
                            .level = (double)NAN,
                            .across_level = (double)NAN};
     if (c->count == 0) return;
@@ -189,8 +215,12 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
     const fw_probe *p = &monitor->probe[probe];
     r->origin = fw_probe_origin(p);
     errors(c, looser ? &looser->course[probe] : NULL, motion, r);
-    double far = fmax(fabs(r->maximum - r->origin), fabs(r->minimum - r->origin));
-    r->level = level_of(p, motion, fw_probe_value, far, r->origin);
+    if (p->row->moved) r->moved = c->moved;
+    if (p->row->moved && c->minimum.value == 0) { /* how deep they are in each other is not known */
+        r->numeric += fw_probe_gap_etched_m(p);
+        r->final_numeric += fw_probe_gap_etched_m(p);
+    }
+    r->level = level_of(p, motion, fw_probe_value, farthest(c, r->origin), r->origin);
     if (p->row->across) r->across_level = level_of(p, motion, fw_probe_across, r->across, 0);
 }
 
@@ -201,7 +231,7 @@ double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_prob
         const fw_probe_course *c = &tighter->course[i], *o = &looser->course[i];
         if (!tighter->judged[i] || c->count == 0 || o->count == 0) continue;
         double origin = fw_probe_origin(&tighter->probe[i]);
-        double far = fmax(fabs(c->maximum.value - origin), fabs(c->minimum.value - origin));
+        double far = farthest(c, origin);
         double apart = fmax(fabs(c->maximum.value - o->maximum.value),
                             fabs(c->minimum.value - o->minimum.value));
         if (apart > 0) worst = fmax(worst, 2 * margin * apart / (fmin(30 * accuracy, 0.03) * far));

@@ -24,7 +24,7 @@ static fw_verdict_check check_of(const fw_verdict_hinge_verdict *h, const char *
                               .hinge = h};
 }
 
-/* a bound that is not above 0 has no share of it: only its decision counts */
+/* a bound that is what was drawn has no share of it: only its decision counts */
 static fw_verdict_check of_requirement(const fw_verdict_requirement *r, const char *corner) {
     return (fw_verdict_check){.used = r->utilisation,
                               .low = r->utilisation_low,

@@ -78,11 +78,11 @@ typedef struct fw_verdict_requirement {
     double min, max;         /* NaN: no bound on this side */
     double value, low, high; /* with its band; NaN: `why` */
     double margin;           /* from the value to the nearer bound, below 0 beyond it */
-    double utilisation, utilisation_low,
-        utilisation_high; /* bound / value of a min, value / bound of
-                                                              a max; NaN where a bound is not above
-                                                              0 */
-    double numeric;       /* part of the band on either side that a tighter run would take away */
+    double origin; /* the value as drawn, of a maximum, minimum or final value; NaN: a size */
+    /* bound / value of a min, value / bound of a max; where a bound is not above 0 both from the value
+       as drawn: 1 at the bound; NaN: nothing to measure by */
+    double utilisation, utilisation_low, utilisation_high;
+    double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */
     double t_s;     /* when; NaN: no one time */
     fw_verdict_decision decision;

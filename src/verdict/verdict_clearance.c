@@ -23,10 +23,6 @@ static double required(const fw_device *device) {
     return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
 }
 
-static double walls(const fw_layout *layout) {
-    return 2 * layout->edge_m + fabs(layout->flare_m);
-}
-
 /* a bound that is above what is asked for by a tenth of it is enough, and by 1 um where nothing is */
 static fw_clearance_wish wish_of(const fw_device *device, const fw_layout *layout,
                                  const bool *may_meet) {
@@ -34,7 +30,8 @@ static fw_clearance_wish wish_of(const fw_device *device, const fw_layout *layou
     return (fw_clearance_wish){.may_meet = may_meet,
                                .relative = fw_clearance_relative,
                                .enough_m = HUGE_VAL,
-                               .needed_m = walls(layout) + asked + fmax(1e-6, 0.1 * asked),
+                               .needed_m =
+                                   fw_layout_walls_m(layout) + asked + fmax(1e-6, 0.1 * asked),
                                .most = MOST,
                                .most_ever = MOST_EVER};
 }
@@ -97,7 +94,9 @@ static fw_status consume(fw_verdict_clearance_watch *w) {
 }
 
 void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
-    fw_verdict_clearance_watch *w = ((fw_verdict_strain_monitor *)context)->clearance;
+    const fw_verdict_strain_monitor *monitor = context;
+    fw_verdict_clearance_watch *w = monitor->clearance;
+    if (monitor->probe) fw_probe_monitor_trace(monitor->probe, piece);
     if (!w || !w->things) return;
     if (!piece) {
         empty(w);
@@ -259,7 +258,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .scene_index = i,
                                 .box = FW_NONE,
                                 .least = w->least,
-                                .wall_m = walls(layout),
+                                .wall_m = fw_layout_walls_m(layout),
                                 .required_m = required(v->mechanism->device)};
     decide(c, off);
     if (w->parts && off > fw_off_at_most && c->decision == FW_ACCEPT) {
@@ -322,7 +321,7 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                     .scene_index = FW_NONE,
                                     .box = i,
                                     .least = least,
-                                    .wall_m = walls(layout),
+                                    .wall_m = fw_layout_walls_m(layout),
                                     .required_m = required(device)};
         decide(c, wish.off);
         if (least.m <= 0 && !least.at.bound)

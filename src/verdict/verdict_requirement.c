@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is asked of the probes of a device. A value x has the band
 
-     x -+ (n + (l + s) |x - o|)
+     x -+ (n + (l + s) |x - o|), of gaps with M for |x - o|
 
    n: numbers (two runs, the search between instants, effects left out), l: what the next model of
    the hinges changes of this probe at the motion's largest hinge angle, s: stiffness of a flexure
-   against solids, o: its value as drawn. Where l is not known, that of the largest strain, or what
-   the reference cases give, stands for both. A band within the bounds accepts, one wholly beyond a
-   bound rejects. A settling time has the ends that it has with a band b narrower and wider by
-   n + (l + s) b. Theory: docs/theory/probes.md. Test: test_probe.py. */
+   against solids, o: its value as drawn, M: how far the outlines of a gap have been moved against
+   each other. Where l is not known, that of the largest strain, or what the reference cases give,
+   stands for both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling
+   time has the ends that it has with a band b narrower and wider by n + (l + s) b.
+   Theory: docs/theory/probes.md. Test: test_probe.py. */
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -48,6 +49,7 @@ static fw_verdict_requirement blank(const fw_mechanism *m, int asked, int scene)
                                     .low = (double)NAN,
                                     .high = (double)NAN,
                                     .margin = (double)NAN,
+                                    .origin = (double)NAN,
                                     .utilisation = (double)NAN,
                                     .t_s = (double)NAN,
                                     .decision = FW_INCONCLUSIVE,
@@ -111,15 +113,23 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
 
 /* ---- from a value with its band to a decision ---- */
 
-/* the larger of bound / value of a min and value / bound of a max; bounds that are not above 0 have
-   none */
+/* Share that is used of what a min allows, both counted from one reference: what is asked for over what
+   there is, or what is lost over what may be lost; 1 at the bound. NaN: the bound is the reference, and
+   there is nothing to measure by */
+static double share_of(double bound, double value) {
+    if (bound > 0) return fmin(value > 0 ? bound / value : fw_beyond, fw_beyond);
+    if (bound < 0) return fmin(fmax(-value, 0) / -bound, fw_beyond);
+    return (double)NAN;
+}
+
+/* The larger share of both bounds. Of a bound above 0 the reference is 0, else the value as drawn. A max
+   is a min of the opposite. */
 static void use(fw_verdict_requirement *r) {
     double u[3] = {(double)NAN, (double)NAN, (double)NAN};
     const double x[3] = {r->value, r->high, r->low}, y[3] = {r->value, r->low, r->high};
-    for (int i = 0; i < 3; i++) {
-        if (r->min > 0) u[i] = fmin(x[i] > 0 ? r->min / x[i] : fw_beyond, fw_beyond);
-        if (r->max > 0) u[i] = fmax(u[i], fmin(fmax(y[i], 0) / r->max, fw_beyond));
-    }
+    const double least = r->min > 0 ? 0 : r->origin, most = r->max > 0 ? 0 : r->origin;
+    for (int i = 0; i < 3; i++)
+        u[i] = fmax(share_of(r->min - least, x[i] - least), share_of(most - r->max, most - y[i]));
     r->utilisation = u[0], r->utilisation_low = u[1], r->utilisation_high = u[2];
 }
 
@@ -177,33 +187,42 @@ static void put_settling(fw_verdict_requirement *r, const fw_probe_course *cours
     decide(r);
 }
 
+/* of what the errors of a model are shares: what the value is beyond the drawn one; of a gap, whose
+   nearest places change, how far its outlines have been moved against each other */
+static double departure(const fw_probe_result *p, double value) {
+    return isnan(p->moved) ? value - p->origin : p->moved;
+}
+
 static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                   const fw_probe_monitor *monitor, const fw_probe_result *p,
                   fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const double model = model_of(m, motion, p->level),
                  lasting = fw_verdict_motion_lasting_error(m);
-    const double o = p->origin;
+    const bool size = !isnan(p->moved); /* a gap is not below 0 */
     switch (q->measure) {
     case FW_MEASURE_PEAK:
-        put(r, fabs(p->peak), p->numeric, model, lasting, p->peak - o, true);
+        put(r, fabs(p->peak), p->numeric, model, lasting, departure(p, p->peak), true);
         r->t_s = p->peak_t_s;
         return;
     case FW_MEASURE_MAXIMUM:
-        put(r, p->maximum, p->numeric, model, lasting, p->maximum - o, false);
+        r->origin = p->origin;
+        put(r, p->maximum, p->numeric, model, lasting, departure(p, p->maximum), size);
         r->t_s = p->maximum_t_s;
         return;
     case FW_MEASURE_MINIMUM:
-        put(r, p->minimum, p->numeric, model, lasting, p->minimum - o, false);
+        r->origin = p->origin;
+        put(r, p->minimum, p->numeric, model, lasting, departure(p, p->minimum), size);
         r->t_s = p->minimum_t_s;
         return;
     case FW_MEASURE_FINAL:
-        put(r, p->final, p->final_numeric, model, lasting, p->final - o, false);
+        r->origin = p->origin;
+        put(r, p->final, p->final_numeric, model, lasting, departure(p, p->final), size);
         r->t_s = motion->end_s;
         return;
     case FW_MEASURE_PEAK_TO_PEAK:
-        put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting, p->maximum - p->minimum,
-            true);
+        put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting,
+            size ? 2 * p->moved : p->maximum - p->minimum, true);
         return;
     case FW_MEASURE_SETTLING:
         put_settling(r, &monitor->course[q->probe], q->band, p->final_numeric, model, lasting,
@@ -230,6 +249,9 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (r->scene_index != scene || !r->measure) continue;
         const fw_probe_result *p = &v->probed[scene * n + m->device->requirement[r->asked].probe];
         if (p->known) judge(m, v->motion[scene], monitor, p, r);
+        if (!p->known && monitor->within)
+            r->why =
+                "nothing is drawn of its bodies, or all of it lies within a hinge between them";
     }
     return FW_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What clearances are compared on, as JSON: outlines of every body as drawn, flattened to 0.5 nm,
-   hinges' circles, poses of all bodies at many instants, and what the verdict says.
+   hinges' circles, poses of all bodies at many instants, what the verdict says, and gaps that are
+   probed: at those instants, and their extremes.
      clearance_outlines DEVICE.xml SAMPLES
    Distances are no matter of this program: compare.py computes them. */
 #include "plan/plan.h"
@@ -63,6 +64,29 @@ static void motion_of(const fw_verdict_variant_verdict *v, int scene) {
     printf("],\n");
 }
 
+static void gaps(fw_arena *arena, const fw_verdict_variant_verdict *v) {
+    const fw_mechanism *mechanism = v->mechanism;
+    const fw_dynamics_motion *m = v->motion[0];
+    const char *comma = "";
+    fw_probe *probe;
+    printf("\"gaps\":[");
+    if (fw_probe_bind(arena, mechanism, &mechanism->device->scene[0], m->loads, &probe) != FW_OK)
+        exit(6);
+    for (int i = 0; i < fw_probe_count(mechanism); i++) {
+        const fw_probe_result *r = &v->probed[i];
+        if (!probe[i].gap) continue;
+        printf("%s{\"a\":%d,\"b\":%d,\"minimum\":%.13g,\"minimum_t\":%.13g,\"maximum\":%.13g,"
+               "\"moved\":%.13g,\"error\":%.13g,\"m\":[",
+               comma, probe[i].asked->body, probe[i].asked->body_b, r->minimum, r->minimum_t_s,
+               r->maximum, r->moved, r->numeric);
+        for (int k = 0; k < m->nsample; k++)
+            printf("%s%.13g", k ? "," : "", fw_probe_at_row(&probe[i], m, k));
+        printf("]}");
+        comma = ",\n";
+    }
+    printf("],\n");
+}
+
 static void clearance(const fw_verdict_variant_verdict *v) {
     const fw_verdict_clearance *c = &v->clearance[0];
     if (v->nclearance == 0) {
@@ -91,6 +115,7 @@ int main(int argc, char **argv) {
         printf("{");
         pieces(plan->verdict.layout);
         motion_of(&plan->verdict.variant[0], 0);
+        gaps(plan->arena, &plan->verdict.variant[0]);
         clearance(&plan->verdict.variant[0]);
     }
     for (size_t i = 0; !ok && i < plan->diags.count; i++)

@@ -191,6 +191,12 @@ class Probe(unittest.TestCase):
         ('<probe id="a" kind="torque" of="s"/>', "of", "FW-D321", "no torque"),
         ('<probe id="a" kind="stiffness" on="arm"/>', None, "FW-D320", "direction"),
         ('<probe id="a" kind="distance" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
+        ('<probe id="a" kind="gap" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
+        ('<probe id="a" kind="gap" a="arm"/>', None, "FW-D320", "needs b"),
+        ('<probe id="a" kind="gap" a="arm" b="ground" b-x="1 mm"/>', "b-x", "FW-D320", "no meaning"),
+        ('<probe id="a" kind="gap" a="arm" b="ground" direction="0 deg"/>', "direction", "FW-D320", "no meaning"),
+        ('<probe id="a" kind="gap" a="arm" b="ground" on="arm"/>', "on", "FW-D320", "no meaning"),
+        ('<probe id="a" kind="gap" a="arm" b="ground"/>', None, "FW-D323", "nothing is drawn of arm"),
         ('<probe id="a" kind="angle" of="pin"/><probe id="a" kind="angle" on="arm"/>', None, "FW-D045", "a"),
         ('<probe id="a" kind="force" of="pin"/><require probe="a" min="200 um"/>', "min", "FW-D0", "200 um"),
         ('<probe id="a" kind="force" of="pin"/><require probe="a"/>', None, "FW-D322", "asks for nothing"),
@@ -241,6 +247,94 @@ class Probe(unittest.TestCase):
         self.assertEqual(better["found"], "accepts")
         again = self.check("--corners", "none", "--set", "pull=" + better["value"], statuses=(0,))
         self.assertEqual(again["reasons"], [])
+
+    GAP = '<probe id="gap" kind="gap" a="left" b="right"/><probe id="room" kind="gap" a="ground" b="left"/>'
+
+    def with_gap(self, *requirements):
+        text = self.GRIPPER.read_text(encoding="utf-8")
+        return text[:text.index("<require")] + self.GAP + "".join(requirements) + "</device>"
+
+    @staticmethod
+    def plate(row, body):
+        """the gripper's jaws, 0.3 mm by 1.4 mm about the frame, less the 10 um by which corners are round"""
+        x, y, phi = (row[body + "." + k] for k in ("x_m", "y_m", "phi_rad"))
+        c, s = math.cos(phi), math.sin(phi)
+        return [(x + c * u - s * v, y + s * u + c * v) for u, v in ((-.14e-3, -.69e-3), (.14e-3, -.69e-3), (.14e-3, .69e-3), (-.14e-3, .69e-3))]
+
+    @staticmethod
+    def apart(p, q):
+        """of two polygons that do not cross: a corner and its foot"""
+        def foot(c, a, b):
+            dx, dy = b[0] - a[0], b[1] - a[1]
+            t = max(0, min(1, ((c[0] - a[0]) * dx + (c[1] - a[1]) * dy) / (dx * dx + dy * dy)))
+            return math.hypot(c[0] - a[0] - t * dx, c[1] - a[1] - t * dy)
+        return min(foot(c, b[k - 1], b[k]) for a, b in ((p, q), (q, p)) for c in a for k in range(len(b)))
+
+    def test_a_gap_is_the_distance_of_what_is_drawn(self):
+        text = self.with_gap()
+        rows = self.rows(text, "--scene", "close", "--samples", "401")
+        for row in rows:
+            self.assertAlmostEqual(row["gap.gap_m"], self.apart(self.plate(row, "left"), self.plate(row, "right")) - 20e-6, delta=1e-12)
+        self.assertLess(rows[-1]["gap.gap_m"], rows[0]["gap.gap_m"] - 50e-6)
+        self.near(rows[0]["gap.gap_m"], 0.5e-3, 1e-9)
+        least = min(row["gap.gap_m"] for row in rows)
+        found = self.probes(text, "simulate", "--scene", "close")
+        self.assertEqual((found["gap"]["kind"], found["gap"]["unit"]), ("gap", "m"))
+        self.assertLessEqual(found["gap"]["minimum"], least + 1e-9)
+        self.assertGreater(found["gap"]["minimum"] + found["gap"]["error"], least - 1e-6)
+        self.assertLessEqual(abs(found["gap"]["final"] - rows[-1]["gap.gap_m"]), found["gap"]["final_error"] + 1e-9)
+        self.assertGreater(found["room"]["minimum"], 0)
+        pushed = text.replace('<gravity gy', '<force on="left" x="0 mm" y="0 mm" fx="20 uN" law="ramp" rise="4 ms"/><gravity gy')
+        still = self.answer(pushed, "statics", "--scene", "drop")
+        value = {p["id"]: p["value"] for p in still["probes"]}["gap"]
+        self.assertLess(value, 0.49e-3)
+        pose = {b + "." + k: v for b, q in still["q"].items() for k, v in zip(("x_m", "y_m", "phi_rad"), q)}
+        self.assertAlmostEqual(value, self.apart(self.plate(pose, "left"), self.plate(pose, "right")) - 20e-6, delta=1e-12)
+        quasi = self.probes(pushed, "simulate", "--scene", "drop", "--effects", "applied-load,joint-elasticity,gravity")
+        self.near(quasi["gap"]["final"], value, 1e-3)
+        self.assertLessEqual(quasi["gap"]["minimum"], quasi["gap"]["final"])
+        crossed = self.probes(text, "statics", "--scene", "close")  # beside the bead and through each other
+        self.assertLess(crossed["opening"]["value"], 0)
+        self.assertEqual(crossed["gap"]["value"], 0)
+
+    def test_a_gap_is_required_as_drawn_and_as_made(self):
+        text = self.with_gap('<require probe="gap" min="1 um" scene="close"/>')
+        verdict = self.answer(text, "check", "--advice", "none")
+        gap = verdict["requirements"][0]
+        self.assertEqual((gap["kind"], gap["unit"]), ("gap", "m"))
+        drawn = next(p for p in verdict["probes"] if p["id"] == "gap" and p["scene"] == "close")
+        self.assertLess(gap["band"][0], gap["value"])
+        self.assertLess(gap["value"], gap["band"][1])
+        self.assertNotEqual(gap["as_fabricated"]["value"], gap["value"])
+        rejected = text.replace('min="1 um"', 'min="%.17g um" measure="minimum"' % (1e6 * drawn["minimum"] + 30))
+        verdict = self.answer(rejected, "check", "--advice", "none", "--corners", "none", statuses=(1,))
+        self.assertEqual([r["code"] for r in verdict["reasons"]], ["FW-D330"])
+        self.near(verdict["requirements"][0]["value"], drawn["minimum"], 1e-12)
+
+    def test_what_is_not_drawn_has_no_gap(self):
+        text = self.with_gap()
+        extra, name = '<body id="nowhere" mass="1 ug" inertia="1e-20 kg m^2" x="0 mm" y="3 mm"/>', "nowhere"
+        device = text.replace("</mechanism>", extra + '<spring id="k" a="nowhere" b="ground" b-y="4 mm" stiffness="1 N/m"/></mechanism>')
+        device = device.replace('a="ground" b="left"/>', 'a="%s" b="left"/>' % name)
+        result = run("check", self.file(device), "--advice", "none")
+        self.assertEqual(result.returncode, 3, result.stdout)
+        self.assertIn("FW-D323", result.stderr)
+        self.assertIn("nothing is drawn of nowhere", result.stderr)
+
+    def test_bounds_that_are_not_above_0_have_a_share(self):
+        """counted from the value as drawn: a tip that may go back by 5 um, an angle that has to be below -1 mrad"""
+        head = self.GRIPPER.read_text(encoding="utf-8")
+        head = head[:head.index("<require")]
+        device = head + """<require probe="tip" measure="minimum" min="-50 um" scene="close"/><require probe="swing" measure="final" max="-1 mrad" scene="close"/>
+<require probe="opening" measure="minimum" min="-20 um" scene="close"/><require probe="tip" measure="final" min="0 um" scene="close"/></device>"""
+        verdict = self.answer(device, "check", "--corners", "none", "--advice", "none")
+        tip, swing, opening, zero = verdict["requirements"]
+        self.near(1 + tip["utilisation"], 1 + max(0, -tip["value"]) / 50e-6, 1e-9)
+        self.assertLess(swing["value"], 0)
+        self.near(swing["utilisation"], 1e-3 / -swing["value"], 1e-9)
+        drawn = 0.8e-3 - 2 * 0.325e-3
+        self.near(opening["utilisation"], (drawn - opening["value"]) / (drawn + 20e-6), 1e-9)
+        self.assertIsNone(zero["utilisation"])
 
     def test_what_is_made_is_judged_too(self):
         drawn = self.check()
