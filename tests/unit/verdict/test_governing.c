@@ -20,6 +20,7 @@ typedef struct example {
     fw_mechanism_variant flow[2];
     fw_verdict_hinge_verdict drawn[2][2], corner[2][2];
     fw_verdict_fabricated_corner at[2];
+    fw_verdict_fabricated_hinge bound[2];
     fw_verdict_fabricated_verdict made;
     fw_verdict_variant_verdict variant[2];
     fw_verdict verdict;
@@ -35,13 +36,14 @@ static example *example_new(void) {
                              {hinge("A", 0.4, FW_ACCEPT), hinge("B", 0.3, FW_ACCEPT)}},
                    .corner = {{hinge("A", 0.5, FW_ACCEPT), hinge("B", 0.6, FW_ACCEPT)},
                               {hinge("A", 0.8, FW_ACCEPT), hinge("B", 0.7, FW_ACCEPT)}},
-                   .at = {{.what = "nominal"}, {.what = "thickness 49 um"}}};
+                   .at = {{.what = "nominal"}, {.what = "thickness 49 um"}},
+                   .bound = {{.most = 0.8}, {.most = 0.95}}};
     for (int i = 0; i < 2; i++) {
         e->at[i].hinge = e->corner[i];
         e->variant[i] =
             (fw_verdict_variant_verdict){.variant = &e->flow[i], .hinge = e->drawn[i], .nhinge = 2};
     }
-    e->made = (fw_verdict_fabricated_verdict){.corner = e->at, .ncorner = 2};
+    e->made = (fw_verdict_fabricated_verdict){.corner = e->at, .ncorner = 2, .hinge = e->bound};
     e->variant[0].fabricated = &e->made;
     e->verdict = (fw_verdict){.variant = e->variant, .nvariant = 2};
     return e;
@@ -56,12 +58,13 @@ static void the_largest_share_of_every_flow_and_corner(void **state) {
         fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, false, &check, &found), FW_OK);
     assert_true(found);
     assert_string_equal(check.what, "hinge B");
-    assert_true(check.used == 0.6 && check.corner == NULL);
+    assert_true(check.used == 0.6 && check.corner == NULL && isnan(check.most));
     assert_int_equal(
         fw_verdict_governing(e->arena, &e->verdict, FW_CHECK_HINGES, true, &check, &found), FW_OK);
     assert_string_equal(check.what, "hinge A");
     assert_string_equal(check.corner, "thickness 49 um");
     assert_string_equal(check.flow, "one");
+    assert_true(check.most == 0.95); /* which no corner exceeds, of whichever hinge */
     fw_arena_free(e->arena);
 }
 
