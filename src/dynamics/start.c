@@ -13,6 +13,7 @@ static fw_status motion_size(fw_dynamics_problem *problem, const fw_effects_load
     const fw_mechanism *m = problem->mechanism;
     size_t n = 3 * (size_t)m->nbody;
     double *force, *displacement, *rotation, size = 0, speed = 0;
+    const double still = 1e-6; /* where nothing moves round-off is held far below what is seen */
     problem->amplitude = 1;
     if (m->ndriver > 0) return FW_OK;
     if (loads->stretch.law)
@@ -34,7 +35,8 @@ static fw_status motion_size(fw_dynamics_problem *problem, const fw_effects_load
     }
     fw_arena_rewind(problem->arena, mark);
     size = fmax(size, speed);
-    if (valid && size > 0) problem->amplitude = fmin(1, size);
+    if (valid) problem->amplitude = size > 0 ? fmin(1, size) : still;
+    problem->idle = valid && size <= 0;
     return FW_OK;
 }
 

@@ -215,11 +215,17 @@ static reached what_is_reached(const fw_dynamics_recorder *record) {
     return x;
 }
 
+/* What errors are relative to, rad. A mechanism that nothing moves has no deflection, only round-off,
+   which no tolerance makes accurate: there 1e-4 is taken, a thousandth of what a hinge bears. */
+static double relative_to(const fw_dynamics_recorder *record, const reached *x) {
+    return record->problem->idle ? fmax(1e-4, x->angle_rad) : x->angle_rad;
+}
+
 double fw_dynamics_run_error_ratio(const fw_dynamics_recorder *record) {
     const reached x = what_is_reached(record);
     const fw_dynamics_motion_options *o = record->problem->options;
     double wanted = fw_dynamics_tolerance_wanted(record), off = 0;
-    if (x.error_rad > 0) off = x.error_rad / (wanted * x.angle_rad);
+    if (x.error_rad > 0) off = x.error_rad / (wanted * relative_to(record, &x));
     if (o->reactions) off = fmax(off, fw_dynamics_run_extremes_off(record) / wanted);
     double unsettled = !o->unsettled
                            ? 0
@@ -236,7 +242,7 @@ static void warn_inaccurate(const fw_dynamics_run *r) {
     double wanted = fw_dynamics_tolerance_wanted(&r->record), degree = FW_DEG_PER_RAD;
     double accuracy = r->record.motion->accuracy;
     char a[32], b[32], c[32];
-    if (x.error_rad > fmax(nothing, wanted * x.angle_rad))
+    if (x.error_rad > fmax(nothing, wanted * relative_to(&r->record, &x)))
         fw_diag_warning(r->diags, 240, r->problem.scene->place,
                         "scene %s: peaks are uncertain by %s deg where the largest is %s deg, and "
                         "an accuracy of %s is wanted; no tolerance is tight enough: shorten the "

@@ -88,6 +88,10 @@ static double opening(const fw_mechanism_pin *pin, const double *q) {
     return hypot(x[1] - x[0], y[1] - y[0]);
 }
 
+/* below these, which are less than an atom, a mechanism that nothing moves only has round-off: two
+   models do not differ in it */
+static const double fw_still_rad = 1e-11, fw_still_m = 1e-14;
+
 /* Angles count against the largest deflection of any hinge, a displacement across a strip over its
    length counting as one: a stage on leaves moves and hardly turns any. Places of bodies count
    against the largest way of any. least: of both, in the rest of a motion. */
@@ -114,6 +118,7 @@ static void compare(const fw_mechanism *m, const double *rest, const double leas
     }
     step->relative =
         fmax(deflected > 0 ? step->angle_rad / deflected : 0, way > 0 ? apart / way : 0);
+    if (deflected < fw_still_rad && way < fw_still_m) step->relative = 0;
 }
 
 /* ---- what is known without it ---- */
