@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Running the program from tests."""
+import os
 import pathlib
 import re
 import subprocess
 import sys
 
+ALL = bool(os.environ.get("FW_TEST_ALL"))  # ./test --all: the whole of what repeats, not its first part
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 GALLERY = ROOT / "docs/gallery/reference-six-bar/device.xml"
 PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()

@@ -12,9 +12,10 @@ import tempfile
 import unittest
 import xml.dom.minidom
 
-from common import FLOWS, GALLERY, ROOT, run
+from common import ALL, FLOWS, GALLERY, ROOT, run
 
 GALLERY_TEXT = GALLERY.read_text()
+QUIET = ("--advice", "none")  # where what to do about a rejection is not the question
 
 
 def proposals(text):
@@ -101,7 +102,7 @@ class Plan(InTemporary):
     def test_forced_files_say_rejected(self):
         device = self.device(self.shortened(2))
         out = self.here / "out"
-        self.expect(run("plan", device, "-o", out, "--force"), 1)
+        self.expect(run("plan", device, "-o", out, "--force", *QUIET), 1)
         for flow in FLOWS:
             self.assertIn("REJECTED", (out / f"recipes/{flow}.html").read_text())
             self.assertIn(b"REJECTED", (out / f"masks/{flow}.gds").read_bytes())
@@ -113,11 +114,11 @@ class Plan(InTemporary):
 
     def test_overstraining_workspace_rejects(self):
         text = GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"', 'x-min="-900 um" x-max="900 um"')
-        result = self.expect(run("check", self.device(text), "--json"), 1)
+        result = self.expect(run("check", self.device(text), "--json", *QUIET), 1)
         verdict = json.loads(result.stdout)
         self.assertEqual(verdict["verdict"], "reject")
         text = GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"', 'x-min="-5 mm" x-max="5 mm"')
-        result = self.expect(run("check", self.device(text)), 1)
+        result = self.expect(run("check", self.device(text), *QUIET), 1)
         self.assertIn("FW-D201", result.stderr)
 
     def hinges(self, *arguments):
@@ -130,7 +131,7 @@ class Plan(InTemporary):
             self.assertAlmostEqual(hinge["utilisation"], long[name]["utilisation"], delta=2e-4)
 
     def test_colliding_solids_are_not_accepted(self):
-        result = self.expect(run("check", GALLERY, "--set", "flexure[A]/@angle=330 deg"), 4)
+        result = self.expect(run("check", GALLERY, "--set", "flexure[A]/@angle=330 deg", *QUIET), 4)
         self.assertIn("FW-D204", result.stderr)
 
     def test_loads_are_never_left_out(self):
@@ -163,7 +164,8 @@ class Plan(InTemporary):
             "workspace": GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"',
                                               'x-min="-450 um" x-max="450 um"'),
         }
-        for name, text in devices.items():
+        first = ("one weak hinge", "radius and length", "from the drawing", "workspace")  # the others pass no other edge
+        for name, text in devices.items() if ALL else ((n, devices[n]) for n in first):
             with self.subTest(name):
                 device = self.device(text, name.replace(" ", "-") + ".xml")
                 result = run("check", device)
@@ -250,7 +252,7 @@ class Plan(InTemporary):
         verdict = self.judged(device, 4)
         self.assertGreater(verdict["pull_in"][0]["margin"], 1)
         self.assertEqual([r["code"] for r in verdict["reasons"]], ["FW-D248"])
-        result = self.expect(run("check", device), 4)
+        result = self.expect(run("check", device, *QUIET), 4)
         self.assertRegex(result.stdout, r"inconclusive because: scene a .*fringe")
         self.assertRegex(result.stderr, r"fringe .*FW-D248")
         # a step: thrown to the stator from 25 V on, or from 22.9 V with the fringe fields
@@ -267,7 +269,7 @@ class Plan(InTemporary):
         reason, = verdict["reasons"]
         self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D242", "bad", "reject"))
         self.assertRegex(reason["text"], "pull-in of comb drive p is at 27.09 V, below the 60 V")
-        result = self.expect(run("plan", device, "-o", self.here / "o"), 1)
+        result = self.expect(run("plan", device, "-o", self.here / "o", *QUIET), 1)
         self.assertRegex(result.stdout, r"rejected because: p of scene bad .*FW-D242")
         self.assertEqual(json.loads((self.here / "o/verdict.json").read_text())["reasons"], [reason])
         self.assertIn("FW-D242", (self.here / "o/report.html").read_text())
@@ -277,7 +279,7 @@ class Plan(InTemporary):
         self.assertIn("FW-D242", self.expect(run("simulate", device, "--scene", "bad"), 7).stderr)
         # alone; and a voltage that only a sudden start makes too high
         alone = self.arm(self.plate("a", 26.4))
-        self.expect(run("plan", alone, "-o", self.here / "alone"), 1)
+        self.expect(run("plan", alone, "-o", self.here / "alone", *QUIET), 1)
         reason, = self.judged(alone, 1)["reasons"]
         for text in (reason["text"], self.expect(run("simulate", alone), 7).stderr):
             self.assertIn("this is dynamic pull-in", text)
@@ -290,9 +292,9 @@ class Plan(InTemporary):
 
     def test_a_pulse_beyond_pull_in_says_why(self):
         device = self.arm(self.plate("a", 60, 'law="step" end="0.02 ms"'))
-        result = self.expect(run("check", device), 4)
+        result = self.expect(run("check", device, *QUIET), 4)
         self.assertRegex(result.stdout, "inconclusive because: scene a .*60 V, beyond the pull-in voltage 27.09 V")
-        self.assertRegex(run("check", device, "-q").stdout, "beyond the pull-in voltage")
+        self.assertRegex(run("check", device, "-q", *QUIET).stdout, "beyond the pull-in voltage")
 
     def followed(self, text, sentence):
         """the text with the loads of every scene times the share that the sentence names"""
@@ -332,7 +334,8 @@ class Plan(InTemporary):
                          scene("c", '<torque on="arm" value="0.001 uN m"/>')],
                         "the loads (forces, tendon pulls) of scene a"),
         }
-        for name, (scenes, says) in cases.items():
+        first = ("draw", "thrown", "several")  # the others pass no other edge
+        for name, (scenes, says) in cases.items() if ALL else ((n, cases[n]) for n in first):
             with self.subTest(name):
                 device = self.arm(*scenes)
                 result = run("check", device)
@@ -358,12 +361,12 @@ class Plan(InTemporary):
 
     def test_rejected_masks_are_not_an_empty_directory(self):
         out = self.here / "out"
-        result = self.expect(run("mask", self.device(self.shortened(4)), "-o", out), 1)
+        result = self.expect(run("mask", self.device(self.shortened(4)), "-o", out, *QUIET), 1)
         self.assertIn("nothing was written", result.stdout)
         self.assertFalse(out.exists())
 
     def test_what_cannot_be_drawn_is_not_accepted(self):
-        self.assertNotEqual(run("plan", GALLERY, "--set", "die/@width=1 mm", "-o", self.here / "o").returncode, 0)
+        self.assertNotEqual(run("plan", GALLERY, "--set", "die/@width=1 mm", "-o", self.here / "o", *QUIET).returncode, 0)
 
     def test_many_scenes(self):
         scene = re.search(r'  <scene name="step-load".*?</scene>\n', GALLERY_TEXT, re.S).group(0)
@@ -639,7 +642,7 @@ class Usage(InTemporary):
         self.expect(run("check", GALLERY, "--set", "arc=350 deg"), 3)
         result = self.expect(run("check", GALLERY, "--set", "ark=250 deg"), 3)
         self.assertIn("arc", result.stderr)
-        self.expect(run("check", GALLERY, "--set", "limits/@safety-factor=40"), 1)
+        self.expect(run("check", GALLERY, "--set", "limits/@safety-factor=40", *QUIET), 1)
 
     def test_help_everywhere(self):
         for arguments in (["--help"], ["-h"], ["help"], ["--version"], ["plan", "--help"],
