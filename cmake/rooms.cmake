@@ -42,6 +42,10 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/effects/table.c PROPERTIES
 # Under the sanitizers these take longer to optimise than it saves where they run
 set(FW_ROOMS_PLAIN mechanism verdict continuum process wafer recipe report plan study serve cli)
 
+# What tests/edges/edges.py counts: what a program passes. edge: of the control flow; func: starts of functions
+set(FW_EDGES "" CACHE STRING "counters of coverage (clang): edge or func")
+set(FW_ROOMS_FUZZED base quantity xml device)
+
 set(below)
 foreach(room ${FW_ROOMS})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.c)
@@ -53,6 +57,10 @@ foreach(room ${FW_ROOMS})
         target_link_libraries(fw_${room} PUBLIC ${below} ${FW_EXTERN_${room}})
         if(FW_SANITIZE AND room IN_LIST FW_ROOMS_PLAIN)
             target_compile_options(fw_${room} PRIVATE -O0)
+        endif()
+        # in the rooms of tests/fuzz the fuzzer counts edges
+        if(FW_EDGES AND NOT (FW_FUZZ AND room IN_LIST FW_ROOMS_FUZZED))
+            target_compile_options(fw_${room} PRIVATE -fsanitize-coverage=${FW_EDGES},inline-8bit-counters,pc-table)
         endif()
         list(PREPEND below fw_${room})
     endif()

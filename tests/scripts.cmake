@@ -20,6 +20,14 @@ function(fw_script_test name)
     set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS ${ARG_LABEL})
 endfunction()
 
+# a first part, and as whole.NAME, of ./test --all, everything
+function(fw_first_part_of name)
+    cmake_parse_arguments(ARG "" "" "COMMAND;FIRST;WHOLE" ${ARGN})
+    fw_script_test(${name} COMMAND ${ARG_COMMAND} ${ARG_FIRST} TIMEOUT 600)
+    set_property(TEST ${name} APPEND PROPERTY LABELS part)
+    fw_script_test(whole.${name} LABEL long COMMAND ${ARG_COMMAND} ${ARG_WHOLE} TIMEOUT 600)
+endfunction()
+
 fw_script_test(arch.rooms LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/rooms.py)
 fw_script_test(arch.circles LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/circles.py ${PROJECT_BINARY_DIR})
 fw_script_test(arch.constants LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/constants.py)
@@ -109,11 +117,11 @@ include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)
 target_link_libraries(live PRIVATE fw_plan)
-fw_script_test(live.memory COMMAND live memory)
+fw_first_part_of(live.memory COMMAND live memory FIRST 3000 WHOLE 10000)
 
 add_executable(fault_memory fault/memory.c)
 target_link_libraries(fault_memory PRIVATE fw_plan)
-fw_script_test(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml TIMEOUT 600)
+fw_first_part_of(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml FIRST 60 WHOLE 120)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM})
 set_tests_properties(accept.masks accept.wafer accept.random accept.selftest PROPERTIES SKIP_RETURN_CODE 77)

@@ -53,6 +53,8 @@ configure_and_build() {
     directory=$1
     shift
     log=$directory.log
+    # what was compiled before, here or in another directory, is not compiled again
+    ! command -v ccache >/dev/null || export CMAKE_C_COMPILER_LAUNCHER="${CMAKE_C_COMPILER_LAUNCHER-ccache}"
     target=all
     options=
     while [ $# -gt 0 ]; do

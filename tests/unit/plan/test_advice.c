@@ -92,7 +92,7 @@ static double random_part(uint64_t *seed) {
 static void of_random_arms(void **state) {
     (void)state;
     uint64_t seed = 77;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < test_cases(3, 1); k++) {
         fw_arena *arena = fw_arena_new(0);
         double torque = 0.13 + 0.07 * random_part(&seed), share = 1 + 5 * random_part(&seed);
         const char *parameters = fw_arena_printf(
@@ -126,7 +126,7 @@ static void not_monotonous(void **state) {
         double now, low, high;
     } row[] = {{2.2, 2.5, 3}, {1.7, 1, 1.5}, {5.5, 3, 3.4}, {0.3, 0.6, 1}};
     fw_arena *arena = fw_arena_new(0);
-    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i += (size_t)test_cases(1, 3)) {
         const char *parameters = fw_arena_printf(
             arena, "<parameter name=\"a\" value=\"%g\" min=\"0\" max=\"6\"/>", row[i].now);
         const char *text = text_of(arena, parameters, false, "", "0.3 uN m*(a - 1)*(a - 3)");
