@@ -423,6 +423,11 @@ fw_status fw_dynamics_integrator_choose(fw_dynamics_run *r, const fw_effects_loa
                                         const char *name) {
     if (!name || strcmp(name, "auto") == 0) {
         FW_TRY(choose(r, loads));
+        if (r->problem.idle) { /* explicit steps would follow what round-off makes of stiff axes */
+            r->control.integrator = &fw_maths_radau5_row;
+            r->record.motion->reason =
+                "auto: nothing acts, so that there is nothing fast to follow";
+        }
     } else {
         r->control.integrator = fw_maths_stepper_find(name);
         r->record.motion->reason = "asked for";
