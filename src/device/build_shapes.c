@@ -352,7 +352,7 @@ static fw_status file_outline(builder *b) {
     const char *data;
     size_t n;
     fw_drawing drawing;
-    if (!file_stands_alone(b)) return FW_OK;
+    if (!name || !file_stands_alone(b)) return FW_OK; /* misspelt: that was reported */
     if (!name_is_sound(name)) {
         say(b, 310, "file",
             "a drawing lies beside the device file or below: a relative name without \"..\", ':' "

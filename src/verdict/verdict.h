@@ -133,6 +133,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     /* (nscene) of a device much like it, or NULL: what acts there by far acts here
        (fw_effect_choice.like) */
     const fw_dynamics_motion *const *like;
+    bool
+        corner; /* of what the flow makes: bent strips were looked at as drawn, with an allowance */
     /* NULL: not asked for, or the drawn device is not accepted */
     fw_verdict_fabricated_verdict *fabricated;
     fw_verdict_decision drawn; /* decision of the drawn geometry alone */

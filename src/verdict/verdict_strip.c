@@ -13,8 +13,8 @@
 /* of rotation and curvature, and on either wall: more than corners differ by from the drawn device */
 static const double fw_made_share = 0.1, fw_made_m = 1e-6;
 
-typedef struct seen { /* most of a hinge */
-    double turn, strain, forced;
+typedef struct seen {            /* most of a hinge */
+    double turn, strain, forced; /* forced: HUGE_VAL where it is not known apart */
 } seen;
 
 static seen most_of_scenes(const fw_verdict_variant_verdict *v, int k) {
@@ -47,7 +47,9 @@ static seen most_of_boxes(const fw_verdict_variant_verdict *v, int k) {
     return most;
 }
 
-/* Of the strip itself: what its roots have more is the fillets'. Between the instants that were looked
+/* Of the strip itself: what its roots have more is the fillets'; under rotation alone its curvature is
+   even, forces may bend it most between the roots. Of required poses forces are not known apart: there
+   curvature of either sign along the whole strip is allowed for. Between the instants that were looked
    at forces are taken to add a tenth more; their other sign is at most twice as large, and equal in a
    straight strip, where a fifth more is for what its own bending adds to the lever. */
 static fw_clearance_bend bend_of(const fw_verdict_variant_verdict *v, int k, const seen *most) {
@@ -55,11 +57,16 @@ static fw_clearance_bend bend_of(const fw_verdict_variant_verdict *v, int k, con
     const fw_mechanism_hinge *hinge = &v->mechanism->hinge[k];
     fw_clearance_bend b = fw_clearance_bend_of(v->mechanism, hinge);
     double made = (1 + fw_made_share) * (1 + fw_verdict_model_error.strain);
-    double per = made * b.curvature_per_m / b.strain / fmax(1, hinge->closed_form.fibre);
+    const fw_flexure_result *c = &hinge->closed_form;
+    const double per = made * b.curvature_per_m / b.strain,
+                 at_root = per / fmax(1, c->concentration), inside = per / fmax(1, c->fibre);
+    const double turned = fmin(most->turn * c->strain_per_rad, most->strain);
     b.turn_rad = (1 + fw_made_share) * most->turn;
     b.strain = made * most->strain;
-    b.curvature_per_m = per * most->strain;
-    b.forced_per_m = (b.straight ? lever : other_sign) * between * per * most->forced;
+    b.curvature_per_m = isfinite(most->forced)
+                            ? fmin(inside * most->strain, at_root * turned + inside * most->forced)
+                            : at_root * most->strain;
+    b.forced_per_m = (b.straight ? lever : other_sign) * between * inside * most->forced;
     return b;
 }
 
@@ -109,7 +116,7 @@ static fw_status look_at(fw_arena *arena, const fw_layout *layout, const fw_layo
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
                                       fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
-    if (!v->things || v->like) return FW_OK; /* a corner: allowed for */
+    if (!v->things || v->corner) return FW_OK; /* allowed for */
     for (int k = 0; k < m->nhinge; k++) {
         const fw_layout_piece *piece = piece_of(layout, m->hinge[k].pin);
         const seen most[2] = {most_of_scenes(v, k), most_of_boxes(v, k)};
