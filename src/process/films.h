@@ -28,6 +28,10 @@ typedef struct fw_process_stack {
 fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
                                 fw_process_stack *stack, const fw_process_change **absent);
 
+/* as change `change` of step `step` finds it */
+fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *flow, int step,
+                                       int change, fw_process_stack *stack);
+
 /* does `material` lie open anywhere: on top of a column, below films that have holes, or at its
    side, where it stands above the top of the other column */
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,

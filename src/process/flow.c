@@ -2,6 +2,7 @@
 #include "process/judge.h"
 #include "process/process_law.h"
 #include "process/pack.h"
+#include "process/wafer_state.h"
 #include <math.h>
 #include <string.h>
 
@@ -184,9 +185,17 @@ static const fw_process_argument *without_guess(const fw_process_step *s, fw_pro
     return guess ? list : s->argument;
 }
 
+static double finishing_s(const fw_process_step *s) {
+    double sum = 0.0;
+    for (int i = 0; i < s->nfinish; i++)
+        if (s->finish[i].time && !s->finish[i].time->unknown) sum += s->finish[i].time->value;
+    return sum;
+}
+
 static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     fw_process_argument list[FW_LAW_ARGUMENTS];
     fw_quantity none;
+    s->finish_s = finishing_s(s);
     s->derived = NULL;
     s->nderived = 0;
     FW_TRY(derive_all(arena, s));
@@ -281,6 +290,8 @@ static fw_status count_quantities(fw_arena *arena, fw_process_flow *flow) {
     flow->unknown = 0;
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
+        for (int j = 0; j < s->nfinish; j++)
+            if (s->finish[j].time) count_one(flow, list, &n, s->finish[j].time);
         for (int j = 0; j < s->nsetting; j++)
             count_one(flow, list, &n, s->setting[j].q);
         for (int j = 0; j < s->nargument; j++)
@@ -324,10 +335,11 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
     for (int i = 0; i < flow->nstep; i++) {
         FW_TRY(compute_step(arena, &flow->step[i]));
         if (flow->step[i].time.computable)
-            flow->total_s += flow->step[i].time.nominal_s;
+            flow->total_s += flow->step[i].time.nominal_s + flow->step[i].finish_s;
         else
             flow->not_computable++;
     }
+    FW_TRY(fw_process_flow_waits(arena, flow)); /* a laboratory may have changed them */
     FW_TRY(show_edges(arena, flow));
     FW_TRY(count_quantities(arena, flow));
     FW_TRY(fw_process_flow_judge(arena, flow, facts, diags));

@@ -65,11 +65,13 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     }
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
-    const char *name = old->id;
-    fw_place place = old->place;
+    const fw_quantity was = *old;
     *old = *new;
-    old->id = name;
-    old->place = place;
+    old->id = was.id;
+    old->least = was.least; /* what makes sense is the pack's to say */
+    old->most = was.most;
+    old->range = was.range;
+    old->replaced = true;
     FW_TRY(amount(arena, old, &o.is));
     fw_diag_note(diags, 198, id->place, "%s: %s = %s replaces %s; %s", flow->id, o.id, o.is, o.was,
                  o.source);
@@ -117,5 +119,6 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     FW_TRY(replace_all(arena, r.record, flow, diags));
     for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
         if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
+    FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
     return diags->errors > before ? FW_INPUT : FW_OK;
 }

@@ -56,26 +56,6 @@ static fw_status lint_order(fw_process_pack *pack) {
     return FW_OK;
 }
 
-/* the range that the first one of an id gives holds for every one that replaces it */
-static fw_status lint_plausible(fw_process_pack *pack) {
-    const fw_process_flow *f = pack->flow;
-    for (int i = 1; i < f->nquantity; i++) {
-        fw_quantity *q = f->quantity[i];
-        for (int j = 0; j < i; j++) {
-            const fw_quantity *first = f->quantity[j];
-            if (!q->id || !first->id || strcmp(q->id, first->id) != 0) continue;
-            if (!fw_quantity_dimension_equal(q->dimension, first->dimension))
-                fw_diag_error(pack->diags, 169, q->place,
-                              "'%s' replaces the quantity of line %d, which has another dimension; "
-                              "give it a unit of that dimension, or another id",
-                              q->id, first->place.line);
-            else
-                fw_xml_quantity_check_range(q, first, pack->diags);
-        }
-    }
-    return FW_OK;
-}
-
 /* a hazard that speaks of hydrofluoric acid and does not say whether it may be handled alone */
 static void lint_acid(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
@@ -125,12 +105,6 @@ static fw_status lint_people(fw_process_pack *pack) {
     return FW_OK;
 }
 
-static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
-    for (int i = 0; i < a->nincompatible; i++)
-        if (strcmp(a->incompatible[i], b->id) == 0) return true;
-    return false;
-}
-
 /* two steps on one bench whose chemicals must not meet; once per pair of hazards */
 static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
     for (int i = 0; i < f->nstep; i++)
@@ -139,8 +113,7 @@ static void lint_bench(fw_process_pack *pack, const fw_process_flow *f) {
             if (a->equipment != b->equipment) continue;
             for (int s = 0; s < a->nhazard; s++)
                 for (int t = 0; t < b->nhazard; t++)
-                    if (excludes(a->hazard[s], b->hazard[t]) ||
-                        excludes(b->hazard[t], a->hazard[s]))
+                    if (fw_process_must_not_meet(a->hazard[s], b->hazard[t]))
                         fw_diag_warning(pack->diags, 175, b->place,
                                         "steps %s and %s use the same %s, but %s and %s must not "
                                         "meet: use two benches and two waste cans",
@@ -155,7 +128,7 @@ static void lint_waste(fw_process_pack *pack) {
     for (int i = 0; i < f->nhazard; i++)
         for (int j = 0; j < i; j++) {
             const fw_process_hazard *a = &f->hazard[j], *b = &f->hazard[i];
-            if ((excludes(a, b) || excludes(b, a)) && strcmp(a->waste_stream, b->waste_stream) == 0)
+            if (fw_process_must_not_meet(a, b) && strcmp(a->waste_stream, b->waste_stream) == 0)
                 fw_diag_error(pack->diags, 175, b->place,
                               "%s and %s must not meet, but both go to the waste '%s'; give one of "
                               "them a stream of its own",
@@ -172,24 +145,46 @@ static fw_status lint_chemicals(fw_process_pack *pack) {
 static const struct {
     const char *asks;
     fw_status (*check)(fw_process_pack *pack);
+    bool values; /* looks at values, which a laboratory may replace; and at nothing of the file */
 } rules[] = {
-    {"does every value that claims to be stated name a publication?", lint_stated},
-    {"do hazards name hazards and materials that exist?", lint_names},
-    {"do waiting times count from earlier steps?", lint_order},
-    {"do replaced values keep dimension and range?", lint_plausible},
-    {"is nobody alone with what is dangerous, and is there first aid?", lint_people},
-    {"do chemicals stay apart that must not meet?", lint_chemicals},
-    {"is what a step changes on the wafer?", fw_process_lint_absent},
-    {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure},
-    {"does something cover what an etch shall leave?", fw_process_lint_masking},
-    {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked},
-    {"does every layer bear the temperature?", fw_process_lint_heat},
-    {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination},
+    {"does every value that claims to be stated name a publication?", lint_stated, false},
+    {"do hazards name hazards and materials that exist?", lint_names, false},
+    {"do waiting times count from earlier steps?", lint_order, false},
+    {"does every value make sense, and keep dimension and range where it is replaced?",
+     fw_process_lint_ranges, true},
+    {"are set points inside their own tolerances, and lower limits below upper ones?",
+     fw_process_lint_settings, true},
+    {"has every layer a thickness, and is none made of more than there is?",
+     fw_process_lint_thicknesses, true},
+    {"is nobody alone with what is dangerous, and is there first aid?", lint_people, false},
+    {"do chemicals stay apart that must not meet?", lint_chemicals, false},
+    {"is what a step changes on the wafer?", fw_process_lint_absent, false},
+    {"is resist exposed through a mask before it is developed?", fw_process_lint_exposure, false},
+    {"does something cover what an etch shall leave?", fw_process_lint_masking, false},
+    {"is said how fast a chemical takes what it should not?", fw_process_lint_attacked, false},
+    {"does every layer bear the temperature?", fw_process_lint_heat, true},
+    {"is a wet wafer rinsed before what it must not meet, and dried before what must be dry?",
+     fw_process_lint_wet, false},
+    {"does what a step works on lie open, and does metal grow where it shall?",
+     fw_process_lint_reach, false},
+    {"is what a step requires of the wafer true of the wafer that comes?", fw_process_lint_required,
+     false},
+    {"is resist baked before it is used, and the wafer before it is coated?", fw_process_lint_bakes,
+     false},
+    {"is the device finished when the flow has ended?", fw_process_lint_end, false},
+    {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };
 
 fw_status fw_process_pack_lint(fw_process_pack *pack) {
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
         FW_TRY(rules[i].check(pack));
+    return FW_OK;
+}
+
+fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
+    fw_process_pack pack = {.arena = arena, .diags = diags, .flow = flow};
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        if (rules[i].values) FW_TRY(rules[i].check(&pack));
     return FW_OK;
 }
 

@@ -65,6 +65,18 @@ fw_status fw_process_lint_heat(fw_process_pack *pack);
 fw_status fw_process_lint_contamination(fw_process_pack *pack);
 fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
+/* values (FW-D278, FW-D342, FW-D344) */
+fw_status fw_process_lint_ranges(fw_process_pack *pack);
+fw_status fw_process_lint_settings(fw_process_pack *pack);
+fw_status fw_process_lint_thicknesses(fw_process_pack *pack);
+/* the wafer between steps (FW-D335 to FW-D341) */
+fw_status fw_process_lint_wet(fw_process_pack *pack);
+fw_status fw_process_lint_reach(fw_process_pack *pack);
+fw_status fw_process_lint_required(fw_process_pack *pack);
+fw_status fw_process_lint_bakes(fw_process_pack *pack);
+fw_status fw_process_lint_end(fw_process_pack *pack);
+/* either one says that it is incompatible with the other; false where one is NULL */
+bool fw_process_must_not_meet(const fw_process_hazard *a, const fw_process_hazard *b);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */

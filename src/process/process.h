@@ -14,11 +14,12 @@ typedef struct fw_process_source {
 } fw_process_source;
 
 typedef struct fw_process_hazard {
-    const char *id, *ghs, *ppe, *first_aid, *waste_stream, *waste;
+    const char *id, *name, *ghs, *ppe, *first_aid, *waste_stream, *waste;
     const char **incompatible; /* (nincompatible) */
     const char **attacks;      /* (nattacks) materials that it dissolves or sputters */
     int nincompatible, nattacks;
     bool buddy; /* never alone: a step with it needs a second signature and first aid */
+    bool wets;  /* a liquid: a wafer leaves it wet, and carries it along */
     fw_place place;
 } fw_process_hazard;
 
@@ -27,12 +28,14 @@ typedef struct fw_process_equipment {
     int capacity;
     const char *takes; /* groups of contaminants it may meet: "copper"; "" = none */
     fw_place place;
+    bool vacuum; /* wafers lie in a pumped chamber */
 } fw_process_equipment;
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
     const char *id, *name;
     const char *contaminates;     /* group, "copper"; "" = none */
     bool holes;                   /* a film that does not protect what is below it */
+    int conducts;                 /* metal can be plated on it: 1 yes, 0 no, -1: not said */
     const fw_quantity *highest_K; /* temperature that it bears; NULL: not said */
     fw_place place;
 } fw_process_material;
@@ -46,6 +49,7 @@ typedef struct fw_process_setting {
     const char *name;
     const fw_quantity *q;
     const char *tolerance_low, *tolerance_high; /* as written, unit of q; "" = none */
+    fw_place place;
 } fw_process_setting;
 
 typedef struct fw_process_change {
@@ -75,6 +79,7 @@ typedef struct fw_process_exposed {
 typedef struct fw_process_accept {
     const char *measure, *low, *high, *unit;
     int sites, every;
+    fw_place place;
 } fw_process_accept;
 
 typedef struct fw_process_on_fail {
@@ -86,6 +91,42 @@ typedef struct fw_process_lag {
     double min_s, max_s; /* NaN = none */
     fw_place place;
 } fw_process_lag;
+
+/* <requires>: what must be true of the wafer before the step; one of step, material and state */
+typedef struct fw_process_requirement {
+    const char *step;     /* must have been done before; NULL */
+    const char *material; /* is there, or is not; NULL */
+    const char *where;    /* of the material: "all", "structure", "field" */
+    const char *state;    /* key of wafer_states.def; NULL */
+    bool present;
+    fw_place place;
+} fw_process_requirement;
+
+/* <finish>: what is done at the same bench before the wafer leaves it */
+typedef enum fw_process_finish_kind {
+    FW_FINISH_RINSE,
+    FW_FINISH_DRY,
+    FW_FINISH_COOL,
+    FW_FINISH_VENT
+} fw_process_finish_kind;
+
+typedef struct fw_process_finish {
+    fw_process_finish_kind kind;
+    const fw_process_hazard *with; /* rinse: in what; NULL: deionised water */
+    const char *by;                /* dry: "spin", "nitrogen", "critical-point" ...; "" */
+    const fw_quantity *time;       /* NULL: within the step's own time */
+    const char *text;              /* "" */
+    fw_place place;
+} fw_process_finish;
+
+/* how long a wafer may wait between two steps because of what it is like (wafer_state.h) */
+typedef struct fw_process_wait {
+    int from, to; /* steps: end of the one, start of the other */
+    double max_s;
+    const fw_quantity *q; /* where max_s is from; NULL: the program's own default, assumed */
+    bool first_only;      /* of a lot that goes through one by one: for the first wafer */
+    const char *is, *why; /* "wet with h.pan"; "it goes on etching, ..." */
+} fw_process_wait;
 
 /* <derive>: another law on the way, for orientation or as an input */
 typedef struct fw_process_derive {
@@ -124,8 +165,11 @@ typedef struct fw_process_step {
     const fw_process_hazard **hazard;
     fw_process_on_fail *on_fail;
     fw_process_lag *lag;
+    fw_process_finish *finish;        /* (nfinish) in their order */
+    fw_process_requirement *required; /* (nrequired) */
     bool second_signature;
-    int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag;
+    int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag,
+        nfinish, nrequired;
     fw_process_time time; /* computed */
     const fw_quantity *
         *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
@@ -137,6 +181,7 @@ typedef struct fw_process_step {
     fw_process_derive *derive; /* (nderive) */
     int nneed, nderive;
     double attended_s; /* somebody must be there for this long; 0: unattended */
+    double finish_s;   /* of all <finish>es; computed */
 } fw_process_step;
 
 /* <corner of>: what a flow does not make exactly as drawn */
@@ -156,6 +201,13 @@ typedef struct fw_process_corner { /* <corner of q assumed>: an input of what st
     double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
     fw_place place;
 } fw_process_corner;
+
+/* <finished>: what must be true of the wafer when the flow has ended */
+typedef struct fw_process_finished {
+    const char *material, *where; /* "all", "structure", "field" */
+    bool present;
+    fw_place place;
+} fw_process_finished;
 
 typedef struct fw_process_override {    /* a value of the laboratory in the place of the pack's */
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
@@ -184,12 +236,15 @@ typedef struct fw_process_flow {
     const char *fails; /* of them: with what is assumed the flow does not make it; NULL: none is */
     fw_process_material *process_material; /* (nprocess_material) */
     fw_process_corner *corner;             /* (ncorner) */
+    fw_process_finished *finished;         /* (nfinished) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
-    int nprocess_material, nopen_point, ncorner;
+    int nprocess_material, nopen_point, ncorner, nfinished;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */
     fw_process_override *override; /* (noverride) */
     int noverride;
+    fw_process_wait *wait; /* (nwait) computed */
+    int nwait;
     fw_place place;
 } fw_process_flow;
 
@@ -234,6 +289,11 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
 fw_status fw_process_flow_judge_drives(fw_arena *arena, fw_process_flow *flow,
                                        bool insulating_carrier, const fw_process_drive_facts *drive,
                                        int n, fw_diags *diags);
+/* the checks that look at values, once more: after a laboratory has replaced some */
+fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);
+/* false and FW-D278 where the value makes no sense: outside least and most of q, its named range, or that of its
+   dimension */
+bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags);
 /* one reason more of the judgement. 0: the flow cannot make the device, said before all others; -1:
    not guaranteed, said behind them. `why` is kept. */
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 #include "process/pack.h"
+#include "process/wafer_state.h"
 #include "base/sort.h"
 #include <stdlib.h>
 #include <string.h>
@@ -25,13 +26,16 @@ static void read_source(fw_process_pack *pack, const fw_xml_record *e, fw_proces
 }
 
 static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_process_hazard *h) {
+    const char *name = fw_process_pack_text(e, "name");
     *h = (fw_process_hazard){.id = fw_process_pack_text(e, "id"),
+                             .name = name[0] ? name : fw_process_pack_text(e, "id"),
                              .ghs = fw_process_pack_text(e, "ghs"),
                              .ppe = "",
                              .first_aid = "",
                              .waste_stream = "",
                              .waste = "",
                              .buddy = strcmp(fw_process_pack_text(e, "buddy"), "yes") == 0,
+                             .wets = strcmp(fw_process_pack_text(e, "wets"), "yes") == 0,
                              .place = e->element->place};
     size_t most = (size_t)fw_xml_children(e, "incompatible");
     FW_NEED(h->incompatible = fw_arena_array(pack->arena, const char *, most));
@@ -56,10 +60,12 @@ static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_p
 /* of a material's own quantities the process needs what it bears; the others are device/'s */
 static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
                                fw_process_material *m) {
+    const char *conducts = fw_process_pack_text(e, "conducts");
     *m = (fw_process_material){.id = fw_process_pack_text(e, "id"),
                                .name = fw_process_pack_text(e, "name"),
                                .contaminates = fw_process_pack_text(e, "contaminates"),
                                .holes = strcmp(fw_process_pack_text(e, "holes"), "yes") == 0,
+                               .conducts = conducts[0] ? strcmp(conducts, "yes") == 0 : -1,
                                .place = e->element->place};
     for (const fw_xml_record *c = e->first_child; c; c = c->next) {
         if (strcmp(fw_process_pack_text(c, "id"), "highest-temperature") != 0) continue;
@@ -97,8 +103,14 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
     } else if (fw_xml_is(e, "equipment")) {
         fw_process_equipment *q = &f->equipment[f->nequipment++];
         int capacity = (int)fw_process_pack_number(e, "capacity", 1.0);
-        *q = (fw_process_equipment){id->value, fw_process_pack_text(e, "class"), e->element->text,
-                                    capacity,  fw_process_pack_text(e, "takes"), e->element->place};
+        *q =
+            (fw_process_equipment){.id = id->value,
+                                   .class_ = fw_process_pack_text(e, "class"),
+                                   .text = e->element->text,
+                                   .capacity = capacity,
+                                   .takes = fw_process_pack_text(e, "takes"),
+                                   .place = e->element->place,
+                                   .vacuum = strcmp(fw_process_pack_text(e, "vacuum"), "yes") == 0};
         enter(pack, id->value, FW_ID_EQUIPMENT, base, q, id->place);
     } else if (fw_xml_is(e, "hazard")) {
         fw_process_hazard *h = &f->hazard[f->nhazard++];
@@ -158,6 +170,7 @@ static fw_status make_room(fw_process_pack *pack) {
     FW_NEED(f->process_material = fw_arena_array(pack->arena, fw_process_material, n));
     FW_NEED(f->quantity = fw_arena_array(pack->arena, fw_quantity *, n));
     FW_NEED(f->corner = fw_arena_array(pack->arena, fw_process_corner, n));
+    FW_NEED(f->finished = fw_arena_array(pack->arena, fw_process_finished, n));
     FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
     FW_NEED(f->step = fw_arena_array(pack->arena, fw_process_step,
                                      (size_t)fw_xml_children(pack->root, "step")));
@@ -239,6 +252,21 @@ static void read_head(fw_process_pack *pack) {
                       "'%s' is not a length; write it in um or nm", thickness->value);
 }
 
+static void read_finished(fw_process_pack *pack) {
+    fw_process_flow *f = pack->flow;
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
+        const char *where = fw_process_pack_text(e, "where");
+        const fw_xml_attribute *material = fw_process_pack_get(e, "material");
+        if (!fw_xml_is(e, "finished") || !material) continue;
+        fw_process_pack_find(pack, material, FW_ID_MATERIAL);
+        f->finished[f->nfinished++] =
+            (fw_process_finished){.material = material->value,
+                                  .where = where[0] ? where : "all",
+                                  .present = strcmp(fw_process_pack_text(e, "is"), "present") == 0,
+                                  .place = e->element->place};
+    }
+}
+
 /* the records of base.xml, or of the flow, checked against the table; FW_OK although there may be
    mistakes in them */
 static fw_status check(fw_xml_reader *r, bool is_base, const fw_xml_record **root) {
@@ -288,8 +316,10 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
     FW_TRY(read_everything(&pack));
     read_head(&pack);
     fw_process_pack_corners(&pack);
+    read_finished(&pack);
     FW_TRY(fw_process_pack_steps(&pack));
     if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));
+    if (diags->errors == errors) FW_TRY(fw_process_flow_waits(arena, pack.flow));
     if (diags->failed) return FW_NOMEM;
     if (diags->errors > errors) return FW_INPUT;
     *flow = pack.flow;

@@ -31,6 +31,14 @@ static const char *const sides[] = {"front", "back", NULL};
 static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
 static const char *const faces[] = {"top", "middle", "bottom", NULL};
 static const char *const shapes[] = {"slot", "cylinder", "linear", NULL};
+static const char *const finishes[] = {"rinse", "dry", "cool", "vent", NULL};
+static const char *const dryings[] = {"spin", "nitrogen", "oven", "vapour", "critical-point", NULL};
+static const char *const there[] = {"present", "absent", NULL};
+static const char *const states[] = {
+#define X(name, key, longest, is, why) key,
+#include "process/wafer_states.def"
+#undef X
+    NULL};
 static const char *const outcomes[] = {"rework", "continue", "hold", "scrap", NULL};
 
 static const fw_xml_attribute_row process_rows[] = {
@@ -55,18 +63,23 @@ static const fw_xml_attribute_row material_rows[] = {
      .sentence = "Group of contaminants that a tool must take."},
     {"holes", WORD(yes_no), .fallback = "no",
      .sentence = "yes: a film that does not protect what is below it."},
+    {"conducts", WORD(yes_no), .sentence = "Whether metal can be plated on it."},
 };
 static const fw_xml_attribute_row equipment_rows[] = {
     ID,
     {"class", TEXT, REQUIRED, .sentence = "What sort of equipment it is."},
     {"capacity", COUNT, REQUIRED, .sentence = "Wafers that it takes at once."},
     {"takes", TEXT, .datatype = "NMTOKENS", .sentence = "Groups of contaminants that it may meet."},
+    {"vacuum", WORD(yes_no), .fallback = "no", .sentence = "yes: wafers lie in a pumped chamber."},
 };
 static const fw_xml_attribute_row hazard_rows[] = {
     ID,
+    {"name", TEXT, .sentence = "What people call it; without: its id."},
     {"ghs", TEXT, .datatype = "NMTOKENS", REQUIRED, .sentence = "Its pictograms."},
     {"buddy", WORD(yes_no), .fallback = "no",
      .sentence = "yes: never alone; a step with it has a second signature."},
+    {"wets", WORD(yes_no), .fallback = "no",
+     .sentence = "yes: a liquid, which a wafer carries along until it is rinsed."},
 };
 static const fw_xml_attribute_row waste_rows[] = {
     {"stream", TEXT, REQUIRED, .sentence = "Container that it goes into."},
@@ -82,6 +95,12 @@ static const fw_xml_attribute_row corner_rows[] = {
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
     {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
+};
+static const fw_xml_attribute_row finished_rows[] = {
+    {"material", TO(MATERIAL), REQUIRED, .sentence = "Which layer."},
+    {"is", WORD(there), REQUIRED, .sentence = "Whether it is still there at the end."},
+    {"where", WORD(places), .fallback = "all",
+     .sentence = "structure: in what stays of the device; field: in all else."},
 };
 static const fw_xml_attribute_row step_rows[] = {
     ID,
@@ -156,6 +175,20 @@ static const fw_xml_attribute_row on_fail_rows[] = {
     {"then", WORD(outcomes), REQUIRED, .sentence = "What becomes of the wafer."},
     {"goto", TO(STEP), .sentence = "Where it goes on."},
 };
+static const fw_xml_attribute_row finish_rows[] = {
+    {"kind", WORD(finishes), REQUIRED, .sentence = "What is done."},
+    {"with", TO(HAZARD), .sentence = "rinse: in which chemical; without: in deionised water."},
+    {"by", WORD(dryings), .sentence = "dry: how."},
+    {"q", TO(QUANTITY), .sentence = "How long; without: within the time of the step."},
+};
+static const fw_xml_attribute_row requires_rows[] = {
+    {"step", TO(STEP), .sentence = "A step that must have been done before."},
+    {"material", TO(MATERIAL), .sentence = "Or a layer that is there, or is not."},
+    {"state", WORD(states), .sentence = "Or what the wafer is like, or is not."},
+    {"is", WORD(there), .fallback = "present", .sentence = "Whether it is there."},
+    {"where", WORD(places), .fallback = "all",
+     .sentence = "Of a layer. structure: in what stays of the device; field: in all else."},
+};
 static const fw_xml_attribute_row lag_rows[] = {
     {"from", TO(STEP), REQUIRED, .sentence = "The step from whose end it is counted."},
     {"min", AMOUNT, .sentence = "Shortest wait."},
@@ -180,6 +213,8 @@ static const fw_xml_element_row pack_rows[] = {
     Q_ROW("process material"),
     {"corner", "process", ROWS(corner_rows),
      .sentence = "What a flow does not make exactly as drawn."},
+    {"finished", "process", ROWS(finished_rows),
+     .sentence = "What must be true of the wafer when the flow has ended."},
     {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
     {"step", "process", "id", ROWS(step_rows), .sentence = "A step of the flow."},
     {"ppe", "hazard", .text = true, .once = true, .needed = true,
@@ -203,6 +238,10 @@ static const fw_xml_element_row pack_rows[] = {
     {"hazard-ref", "step", ROWS(hazard_ref_rows), .sentence = "A hazard that it has."},
     {"on-fail", "step", .text = true, .needed = true, ROWS(on_fail_rows),
      .sentence = "What to do where it failed."},
+    {"requires", "step", ROWS(requires_rows),
+     .sentence = "What must be true of the wafer before the step."},
+    {"finish", "step", .text = true, ROWS(finish_rows),
+     .sentence = "What is done at the same bench before the wafer leaves it, in this order."},
     {"lag", "step", ROWS(lag_rows), .sentence = "A shortest or longest wait since another step."},
     {"arg", "time derive", ROWS(argument_rows), .sentence = "An argument of the law."},
     {"needs", "time", ROWS(argument_rows),

@@ -262,6 +262,68 @@ static void read_lag(fw_process_pack *pack, const fw_xml_record *e, fw_process_l
                       "<lag>: min is longer than max; exchange them, or make max longer");
 }
 
+/* the words of `finishes` in process_table.c */
+static bool finish_kind(const char *word, fw_process_finish_kind *kind) {
+    static const char *const words[] = {[FW_FINISH_RINSE] = "rinse",
+                                        [FW_FINISH_DRY] = "dry",
+                                        [FW_FINISH_COOL] = "cool",
+                                        [FW_FINISH_VENT] = "vent"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (strcmp(words[i], word) == 0) {
+            *kind = (fw_process_finish_kind)i;
+            return true;
+        }
+    return false;
+}
+
+static void read_finish(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    const fw_xml_attribute *with = fw_process_pack_get(e, "with"),
+                           *by = fw_process_pack_get(e, "by"), *q = fw_process_pack_get(e, "q");
+    fw_process_finish f = {.by = by ? by->value : "",
+                           .time = quantity_of(pack, e, "q"),
+                           .text = e->element->text,
+                           .place = e->element->place};
+    if (with) f.with = fw_process_pack_find(pack, with, FW_ID_HAZARD);
+    if (!finish_kind(fw_process_pack_text(e, "kind"), &f.kind)) return; /* said by the schema */
+    if (with && f.kind != FW_FINISH_RINSE)
+        fw_diag_error(pack->diags, 343, with->place,
+                      "with is what a wafer is rinsed in: it belongs to kind=\"rinse\" only");
+    if (with && f.with && !f.with->wets)
+        fw_diag_error(pack->diags, 343, with->place,
+                      "'%s' is no liquid (wets=\"yes\" of its <hazard>), so that nothing can be "
+                      "rinsed in it",
+                      f.with->id);
+    if ((by != NULL) != (f.kind == FW_FINISH_DRY))
+        fw_diag_error(pack->diags, 343, e->element->place,
+                      by ? "by is how a wafer is dried: it belongs to kind=\"dry\" only"
+                         : "<finish kind=\"dry\"> needs by: a meniscus pulls compliant parts down, "
+                           "so that it matters how they are dried");
+    if (f.time &&
+        !fw_quantity_dimension_equal(f.time->dimension, (fw_quantity_dimension)FW_DIM_TIME))
+        fw_diag_error(pack->diags, 169, q->place, "'%s' is not a time; write it in s or min",
+                      q->value);
+    s->finish[s->nfinish++] = f;
+}
+
+static void read_required(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    const fw_xml_attribute *step = fw_process_pack_get(e, "step"),
+                           *material = fw_process_pack_get(e, "material"),
+                           *state = fw_process_pack_get(e, "state");
+    const char *where = fw_process_pack_text(e, "where");
+    if ((step != NULL) + (material != NULL) + (state != NULL) != 1)
+        fw_diag_error(pack->diags, 345, e->element->place,
+                      "<requires> names one thing: a step, a material or a state");
+    if (step) fw_process_pack_find(pack, step, FW_ID_STEP);
+    if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
+    s->required[s->nrequired++] =
+        (fw_process_requirement){.step = step ? step->value : NULL,
+                                 .material = material ? material->value : NULL,
+                                 .state = state ? state->value : NULL,
+                                 .where = where[0] ? where : "all",
+                                 .present = strcmp(fw_process_pack_text(e, "is"), "absent") != 0,
+                                 .place = e->element->place};
+}
+
 static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_quantity *q = quantity_of(pack, e, "q");
     static const char *const bound[] = {"tol-lo", "tol-hi"};
@@ -272,9 +334,12 @@ static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_s
             fw_diag_error(pack->diags, 171, a->place, "%s='%s' is not a number", a->name, a->value);
     }
     if (q)
-        s->setting[s->nsetting++] = (fw_process_setting){fw_process_pack_text(e, "name"), q,
-                                                         fw_process_pack_text(e, "tol-lo"),
-                                                         fw_process_pack_text(e, "tol-hi")};
+        s->setting[s->nsetting++] =
+            (fw_process_setting){.name = fw_process_pack_text(e, "name"),
+                                 .q = q,
+                                 .tolerance_low = fw_process_pack_text(e, "tol-lo"),
+                                 .tolerance_high = fw_process_pack_text(e, "tol-hi"),
+                                 .place = e->element->place};
 }
 
 static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
@@ -283,7 +348,8 @@ static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
                              .high = fw_process_pack_text(e, "hi"),
                              .unit = fw_process_pack_text(e, "unit"),
                              .sites = (int)fw_process_pack_number(e, "sites", 1.0),
-                             .every = (int)fw_process_pack_number(e, "every", 1.0)};
+                             .every = (int)fw_process_pack_number(e, "every", 1.0),
+                             .place = e->element->place};
 }
 
 static void read_on_fail(fw_process_pack *pack, const fw_xml_record *e, fw_process_on_fail *f) {
@@ -318,6 +384,10 @@ static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_pr
         read_on_fail(pack, c, &s->on_fail[s->non_fail++]);
     else if (fw_xml_is(c, "lag"))
         read_lag(pack, c, &s->lag[s->nlag++]);
+    else if (fw_xml_is(c, "finish"))
+        read_finish(pack, c, s);
+    else if (fw_xml_is(c, "requires"))
+        read_required(pack, c, s);
     return FW_OK;
 }
 
@@ -339,6 +409,10 @@ static fw_status make_room(fw_arena *arena, const fw_xml_record *e, fw_process_s
     FW_NEED(s->on_fail =
                 fw_arena_array(arena, fw_process_on_fail, (size_t)fw_xml_children(e, "on-fail")));
     FW_NEED(s->lag = fw_arena_array(arena, fw_process_lag, (size_t)fw_xml_children(e, "lag")));
+    FW_NEED(s->required = fw_arena_array(arena, fw_process_requirement,
+                                         (size_t)fw_xml_children(e, "requires")));
+    FW_NEED(s->finish =
+                fw_arena_array(arena, fw_process_finish, (size_t)fw_xml_children(e, "finish")));
     return FW_OK;
 }
 

@@ -96,20 +96,32 @@ static bool apply(fw_process_stack *s, const fw_process_change *c) {
     return found;
 }
 
-fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
-                                fw_process_stack *stack, const fw_process_change **absent) {
-    int changes = 0;
-    for (int i = 0; i < flow->nstep && i <= index; i++)
-        changes += flow->step[i].nchange;
-    *stack = (fw_process_stack){.capacity = changes + 1};
+/* the first `changes` changes of step `step`, and all of those before */
+static fw_status stack_of(fw_arena *arena, const fw_process_flow *flow, int step, int changes,
+                          fw_process_stack *stack, const fw_process_change **absent) {
+    int most = 0;
+    for (int i = 0; i < flow->nstep && i <= step; i++)
+        most += flow->step[i].nchange;
+    *stack = (fw_process_stack){.capacity = most + 1};
     if (absent) *absent = NULL;
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_process_cell, (size_t)changes + 1));
-    for (int i = 0; i < flow->nstep && i <= index; i++)
-        for (int j = 0; j < flow->step[i].nchange; j++)
+        FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_process_cell, (size_t)most + 1));
+    for (int i = 0; i < flow->nstep && i <= step; i++)
+        for (int j = 0; j < flow->step[i].nchange && (i < step || j < changes); j++)
             if (!apply(stack, &flow->step[i].change[j]) && absent && !*absent)
                 *absent = &flow->step[i].change[j];
     return FW_OK;
+}
+
+fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, int index,
+                                fw_process_stack *stack, const fw_process_change **absent) {
+    int all = index >= 0 && index < flow->nstep ? flow->step[index].nchange : 0;
+    return stack_of(arena, flow, index, all, stack, absent);
+}
+
+fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *flow, int step,
+                                       int change, fw_process_stack *stack) {
+    return stack_of(arena, flow, step, change, stack, NULL);
 }
 
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,

@@ -60,6 +60,8 @@ typedef struct fw_quantity {
     bool interval;      /* the uncertainty was given as a range: low to high, SI */
     double low, high;
     double least, most; /* plausible range, SI; both 0: none was given */
+    const char *range;  /* name of a plausible range of packs; NULL: that of its dimension */
+    bool replaced;      /* by a laboratory: `place` is in its file */
     fw_quantity_dimension dimension;
     const char *unit; /* as written, for printing */
     fw_quantity_value_status status;

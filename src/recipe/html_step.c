@@ -241,6 +241,46 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
     return FW_OK;
 }
 
+/* at the same bench, after the step's own time */
+static fw_status finishes(const fw_process_step *s, fw_text *out) {
+    if (s->nfinish == 0) return FW_OK;
+    fw_text_add(out, "<p><b>Before it leaves the bench:</b> ");
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        const char *words = fw_recipe_finish_words(out->arena, f);
+        FW_NEED(words);
+        fw_text_add(out, i ? "; " : "");
+        fw_text_escaped(out, words);
+        if (f->time && !f->time->unknown) {
+            fw_text_add(out, " (");
+            fw_schedule_put_duration(out, f->time->value);
+            fw_text_printf(out, ", %s)", fw_quantity_value_status_text(f->time->status));
+        }
+        if (f->text[0]) {
+            fw_text_add(out, ", ");
+            fw_text_escaped(out, f->text);
+        }
+    }
+    fw_text_add(out, ".</p>\n");
+    return FW_OK;
+}
+
+/* what the wafer is like then, and how long it may wait like that */
+static void waits(const fw_process_flow *flow, int index, fw_text *out) {
+    for (int i = 0; i < flow->nwait; i++) {
+        const fw_process_wait *w = &flow->wait[i];
+        if (w->from != index) continue;
+        fw_text_add(out, "<p class=\"note\"><b>Now the wafer is ");
+        fw_text_escaped(out, w->is);
+        fw_text_add(out, ":</b> start ");
+        fw_text_escaped(out, flow->step[w->to].id);
+        fw_text_add(out, " within ");
+        fw_schedule_put_duration(out, w->max_s);
+        fw_text_printf(out, " (%s), since %s.</p>\n",
+                       w->q ? fw_quantity_value_status_text(w->q->status) : "assumed", w->why);
+    }
+}
+
 static void checks(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nendpoint; i++) {
         fw_text_add(out, "<p><b>Endpoint:</b> ");
@@ -391,7 +431,9 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, fw_recipe_slice
     holds(s, out);
     exposures(flow, s, out);
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
+    if (finishes(s, out) != FW_OK) out->failed = 1;
     checks(s, out);
+    waits(flow, index, out);
     failures(s, out);
     hazards(s, out);
     actuals(s, out);

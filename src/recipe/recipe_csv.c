@@ -71,6 +71,27 @@ static fw_status time_rows(fw_text *out, const fw_process_step *s) {
     return FW_OK;
 }
 
+static fw_status finish_rows(fw_text *out, const fw_process_step *s) {
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        const char *words = fw_recipe_finish_words(out->arena, f);
+        FW_NEED(words);
+        const char *name = fw_arena_printf(out->arena, "before it leaves the bench: %s", words);
+        FW_NEED(name);
+        head(out, s, name);
+        bool known = f->time && !f->time->unknown;
+        if (known) fw_recipe_put_plain(out, f->time->value);
+        fw_text_add(out, ",s,");
+        if (known) fw_recipe_put_uncertainty(out, f->time->uncertainty);
+        fw_text_printf(out, ",%s,", known ? fw_quantity_value_status_text(f->time->status) : "");
+        put_csv(out, f->time && f->time->source ? f->time->source
+                     : f->time                  ? ""
+                                                : "within the time of the step");
+        fw_text_add(out, "\n");
+    }
+    return FW_OK;
+}
+
 fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_text *out) {
     fw_text_add(out, "step,title,name,value,unit,uncertainty,status,source\n");
@@ -84,6 +105,7 @@ fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_heade
         for (int j = 0; j < n; j++)
             quantity_row(out, s, &row[j]);
         FW_TRY(time_rows(out, s));
+        FW_TRY(finish_rows(out, s));
     }
     return fw_text_end(out);
 }

@@ -55,7 +55,37 @@ static void times(fw_json *out, const fw_process_time *t) {
     fw_json_end(out);
 }
 
-static fw_status step(fw_json *out, const fw_process_step *s) {
+static void finishes(fw_json *out, const fw_process_step *s) {
+    fw_json_list(out, "finish");
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        fw_json_object(out, NULL);
+        words(out, "words", fw_recipe_finish_words(out->out->arena, f));
+        number(out, "time_s", f->time && !f->time->unknown ? f->time->value : (double)NAN);
+        words(out, "note", f->text);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void waits(fw_json *out, const fw_process_flow *flow, int index) {
+    fw_json_list(out, "waits");
+    for (int i = 0; i < flow->nwait; i++) {
+        const fw_process_wait *w = &flow->wait[i];
+        if (w->from != index) continue;
+        fw_json_object(out, NULL);
+        words(out, "is", w->is);
+        words(out, "to", flow->step[w->to].id);
+        number(out, "max_s", w->max_s);
+        words(out, "status", w->q ? fw_quantity_value_status_text(w->q->status) : "assumed");
+        words(out, "why", w->why);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static fw_status step(fw_json *out, const fw_process_flow *flow, int index) {
+    const fw_process_step *s = &flow->step[index];
     fw_recipe_row *row = NULL;
     int n = 0;
     FW_TRY(fw_recipe_step_rows(out->out->arena, s, &row, &n));
@@ -71,6 +101,8 @@ static fw_status step(fw_json *out, const fw_process_step *s) {
     for (int i = 0; i < n; i++)
         quantity(out, &row[i]);
     fw_json_end(out);
+    finishes(out, s);
+    waits(out, flow, index);
     fw_json_end(out);
     return FW_OK;
 }
@@ -131,7 +163,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     fw_json_list(out, "steps");
     for (int i = 0; i < flow->nstep; i++) {
         fw_json_line(out, 0);
-        FW_TRY(step(out, &flow->step[i]));
+        FW_TRY(step(out, flow, i));
     }
     fw_json_end(out);
     number(out, "total_s", flow->total_s);
@@ -193,6 +225,7 @@ static void holds(fw_json *out, const fw_schedule_shop *shop) {
         fw_json_number(out, "min_s", h->min_s, FW_PLAIN_DIGITS);
         fw_json_number(out, "max_s", h->max_s, FW_PLAIN_DIGITS);
         fw_json_truth(out, "implied", h->implied);
+        words(out, "why", h->why);
         fw_json_end(out);
     }
     fw_json_end(out);

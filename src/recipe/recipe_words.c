@@ -102,6 +102,30 @@ const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time)
     return fw_text_end(&list) == FW_OK ? list.data : NULL;
 }
 
+const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) {
+    static const struct {
+        const char *by, *words;
+    } drying[] = {{"spin", "by spinning"},
+                  {"nitrogen", "with nitrogen"},
+                  {"oven", "in the oven"},
+                  {"vapour", "in alcohol vapour"},
+                  {"critical-point", "at the critical point"}};
+    switch (f->kind) {
+    case FW_FINISH_RINSE:
+        return fw_arena_printf(arena, "rinse in %s", f->with ? f->with->name : "deionised water");
+    case FW_FINISH_DRY:
+        for (size_t i = 0; i < sizeof drying / sizeof drying[0]; i++)
+            if (strcmp(drying[i].by, f->by) == 0)
+                return fw_arena_printf(arena, "dry %s", drying[i].words);
+        return fw_arena_printf(arena, "dry by %s", f->by);
+    case FW_FINISH_COOL:
+        return "let it cool";
+    case FW_FINISH_VENT:
+        return "vent and take it out";
+    }
+    return "";
+}
+
 void fw_recipe_put_moment(fw_text *out, double seconds) {
     long minutes = lround(seconds / 60.0);
     fw_text_printf(out, "day %ld, %02ld:%02ld", minutes / 1440 + 1, minutes / 60 % 24,
@@ -192,6 +216,18 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
     }
 }
 
+/* what the wafer is like, where that is what limits the pause after a task */
+static void put_why(fw_text *out, const fw_schedule_shop *shop, int task, double pause_s) {
+    for (int k = 0; k < shop->nhold; k++) {
+        const fw_schedule_hold *h = &shop->hold[k];
+        if (!h->why || h->from > task || h->to <= task || h->max_s > pause_s * (1 + 1e-9) + 1.0)
+            continue;
+        fw_text_add(out, ", ");
+        fw_text_escaped(out, h->why);
+        return;
+    }
+}
+
 /* "safe stopping points" of the flow, with the longest pause at each; escaped */
 static void put_stops(fw_text *out, const fw_schedule *s) {
     const fw_schedule_shop *shop = s->shop;
@@ -221,6 +257,7 @@ static void put_stops(fw_text *out, const fw_schedule *s) {
             }
             fw_text_add(out, " (");
             fw_schedule_put_duration(out, fmax(0.0, pause));
+            put_why(out, shop, i, pause);
             fw_text_add(out, ")");
         }
     }
@@ -233,10 +270,10 @@ void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
     fw_recipe_put_schedule_summary(out, s);
     fw_text_add(out, "</p>\n");
     if (!s->pause_s) return;
-    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where no hold window of the "
-                     "process file is running: ");
+    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where every wafer is dry and "
+                     "safe and no hold window of the process file is running: ");
     put_stops(out, s);
-    fw_text_add(out, " (longest pause that the windows allow).</p>\n");
+    fw_text_add(out, " (longest pause that the windows and the wafers allow).</p>\n");
     if (!s->feasible) return;
     fw_text_add(out, "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end "
                      "(operator)</th></tr></thead><tbody>\n");

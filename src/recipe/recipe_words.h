@@ -46,4 +46,7 @@ fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_h
 void fw_recipe_html_step(const fw_process_flow *flow, int index, struct fw_recipe_slicer *slicer,
                          const struct fw_recipe_section_scale *scale, fw_text *out);
 
+/* "rinse in deionised water", "dry by spinning" */
+const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *finish);
+
 #endif

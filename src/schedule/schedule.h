@@ -36,7 +36,9 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
 typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
     int from, to;                 /* tasks */
     double min_s, max_s;          /* -INFINITY, INFINITY: none */
-    bool implied; /* not of the pack: two steps that nobody does alone, on the same day */
+    bool implied; /* not of the pack: two steps that nobody does alone, on the same day; or `why` */
+    bool first_only; /* for the first wafer of the lot */
+    const char *why; /* what the wafer is like meanwhile: "wet with h.pan"; NULL: as `implied` */
 } fw_schedule_hold;
 
 typedef struct fw_schedule_shop { /* the problem */

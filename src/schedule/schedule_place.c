@@ -224,6 +224,7 @@ static bool broken(fw_schedule_placing *p, const fw_schedule_group *u, bool insi
         const fw_schedule_hold *h = &shop->hold[k];
         if (h->to < u->from || h->to > u->to || (h->from >= u->from) != inside) continue;
         for (int w = u->first; w < u->first + u->count; w++) {
+            if (h->first_only && w > 0) break;
             double over = p->begin_s[at(p, h->to, w)] - p->finish_s[at(p, h->from, w)] - h->max_s;
             if (!(over > tiny_s)) continue;
             double begin = p->begin_s[at(p, h->from, w)] + over;

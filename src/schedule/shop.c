@@ -54,8 +54,8 @@ static void make_task(making *m, int index) {
     t->load = t->load < 1 ? 1 : t->load > m->shop->wafers ? m->shop->wafers : t->load;
     if (t->alone) m->machine[t->machine].places = capacity;
     if (t->unknown) return;
-    t->duration_s = fmax(s->attended_s, s->time.nominal_s);
-    t->latest_s = fmax(t->duration_s, s->time.stop_s);
+    t->duration_s = fmax(s->attended_s, s->time.nominal_s + s->finish_s);
+    t->latest_s = fmax(t->duration_s, s->time.stop_s + s->finish_s);
 }
 
 static fw_status wrong(making *m, const char *part, size_t n, const char *what) {
@@ -109,7 +109,7 @@ static double same_day_s(const making *m) {
 }
 
 static fw_status make_holds(making *m, fw_schedule_hold **list) {
-    int n = m->flow->nstep;
+    int n = m->flow->nstep + m->flow->nwait;
     for (int i = 0; i < m->flow->nstep; i++)
         n += m->flow->step[i].nlag;
     FW_NEED(*list = fw_arena_array(m->arena, fw_schedule_hold, (size_t)n));
@@ -119,13 +119,28 @@ static fw_status make_holds(making *m, fw_schedule_hold **list) {
             int from = step_index(m->flow, lag->from, strlen(lag->from));
             if (from < 0) continue; /* the pack was refused for it */
             (*list)[m->shop->nhold++] =
-                (fw_schedule_hold){from, i, isnan(lag->min_s) ? -(double)INFINITY : lag->min_s,
-                                   isnan(lag->max_s) ? (double)INFINITY : lag->max_s, false};
+                (fw_schedule_hold){.from = from,
+                                   .to = i,
+                                   .min_s = isnan(lag->min_s) ? -(double)INFINITY : lag->min_s,
+                                   .max_s = isnan(lag->max_s) ? (double)INFINITY : lag->max_s};
         }
     for (int i = 0; i + 1 < m->flow->nstep; i++)
         if (m->task[i].by_day && m->task[i + 1].by_day)
-            (*list)[m->shop->nhold++] =
-                (fw_schedule_hold){i, i + 1, -(double)INFINITY, same_day_s(m), true};
+            (*list)[m->shop->nhold++] = (fw_schedule_hold){.from = i,
+                                                           .to = i + 1,
+                                                           .min_s = -(double)INFINITY,
+                                                           .max_s = same_day_s(m),
+                                                           .implied = true};
+    for (int i = 0; i < m->flow->nwait; i++) {
+        const fw_process_wait *w = &m->flow->wait[i];
+        (*list)[m->shop->nhold++] = (fw_schedule_hold){.from = w->from,
+                                                       .to = w->to,
+                                                       .min_s = -(double)INFINITY,
+                                                       .max_s = w->max_s,
+                                                       .implied = true,
+                                                       .first_only = w->first_only,
+                                                       .why = w->is};
+    }
     return FW_OK;
 }
 

@@ -27,6 +27,8 @@ const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS] = {
      .sentence = "true: nobody knows it yet; what needs it is not computable."},
     {"least", DECIMAL, .sentence = "Lowest value that makes sense at all, with most."},
     {"most", DECIMAL, .sentence = "Highest value that makes sense at all."},
+    {"range", .datatype = "NCName",
+     .sentence = "Or the name of a range that packs share: share, efficiency, anisotropy ..."},
 };
 
 static fw_place value_place(const fw_xml_element *e, const char *name) {
@@ -75,7 +77,7 @@ static void check_names(const fw_xml_element *e, fw_diags *diags) {
                       e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
                       better ? "'?"
                              : "; known are id value u urel lo hi unit status src note "
-                               "unknown least most");
+                               "unknown least most range");
     }
 }
 
@@ -262,12 +264,14 @@ fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
     *q = (fw_quantity){.unit = "", .source = "", .place = element->place};
     check_names(element, diags);
     const fw_xml_attribute *id = fw_xml_attribute_of(element, "id");
-    const fw_xml_attribute *note = fw_xml_attribute_of(element, "note");
+    const fw_xml_attribute *note = fw_xml_attribute_of(element, "note"),
+                           *range = fw_xml_attribute_of(element, "range");
     if (!id || !id->value[0])
         fw_diag_error(diags, 43, element->place, "<q> has no id; add id=\"...\"");
     else
         q->id = id->value;
     q->note = note ? note->value : NULL;
+    q->range = range ? range->value : NULL;
     fw_quantity_unit unit;
     read_unit(element, diags, q, &unit);
     read_status(element, diags, q);

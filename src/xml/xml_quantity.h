@@ -5,7 +5,8 @@
    <q id value unit status src note/> with exactly one of u (standard, in `unit`), urel (relative)
    or lo and hi (uniform between them: u = (hi - lo)/sqrt(12)); or unknown="true" instead of value.
    least and most, both or none, are the range in which a value makes sense at all: what replaces
-   this one must lie there too, which catches A for Ao and min for s. */
+   this one must lie there too, which catches A for Ao and min for s. range names one of those that
+   packs share instead (process/quantity_ranges.def). */
 #ifndef FW_XML_XML_QUANTITY_H
 #define FW_XML_XML_QUANTITY_H
 #include "xml/xml_table.h"
@@ -13,7 +14,7 @@
 #include "quantity/quantity.h"
 
 /* what may stand in <q>, for tables (apart) and schemas; fw_xml_quantity_read has the checks */
-enum { FW_QUANTITY_ROWS = 13 };
+enum { FW_QUANTITY_ROWS = 14 };
 extern const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS];
 
 typedef struct fw_xml_source_text { /* <source id ...>text</source> */

@@ -227,16 +227,21 @@ static void json(void **state) {
         double sum = 0.0;
         for (int k = 0; k < f->nstep; k++) {
             json_t *s = json_array_get(steps, (size_t)k), *t = json_object_get(s, "time_s");
+            double finishing = 0.0;
             assert_string_equal(json_string_value(json_object_get(s, "id")), f->step[k].id);
             assert_true(json_is_boolean(json_object_get(s, "in_source")));
             assert_true(json_is_array(json_object_get(s, "quantities")));
+            json_t *finish = json_object_get(s, "finish"), *one;
+            size_t at;
+            json_array_foreach(finish, at, one)
+                finishing += json_number_value(json_object_get(one, "time_s"));
             size_t missing = json_array_size(json_object_get(s, "not_computable"));
             if (!f->step[k].time.computable) {
                 assert_true(json_is_null(t) && missing > 0);
                 continue;
             }
             assert_int_equal(missing, 0);
-            sum += json_number_value(json_object_get(t, "nominal"));
+            sum += json_number_value(json_object_get(t, "nominal")) + finishing;
             assert_relative(json_number_value(json_object_get(t, "stop")), f->step[k].time.stop_s,
                             5e-12);
             assert_true(json_is_number(json_object_get(t, "first_look")));

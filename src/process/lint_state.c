@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Can every step be done on the wafer that comes to it? Whether it is wet and with what (wafer_state.h), and whether
+   what the step works on lies open (the layers of films.h). The questions a process engineer asks between two lines of
+   a run sheet; each is a function here and a row in lint.c. Theory: docs/theory/process.md, "Lint". */
+#include "process/films.h"
+#include "process/pack.h"
+#include "process/wafer_state.h"
+#include <string.h>
+
+static bool is_op(const fw_process_step *s, const char *op) {
+    return strcmp(s->op, op) == 0;
+}
+
+/* ---- what a wafer carries along ---- */
+
+static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
+    for (int i = 0; i < a->nincompatible; i++)
+        if (strcmp(a->incompatible[i], b->id) == 0) return true;
+    return false;
+}
+
+bool fw_process_must_not_meet(const fw_process_hazard *a, const fw_process_hazard *b) {
+    return a && b && (excludes(a, b) || excludes(b, a));
+}
+
+static void lint_meeting(fw_process_pack *pack, const fw_process_step *s, fw_place place,
+                         const fw_process_hazard *carried, const char *since,
+                         const fw_process_hazard *meets) {
+    if (!fw_process_must_not_meet(carried, meets)) return;
+    fw_diag_error(pack->diags, 336, place,
+                  "step %s brings a wafer that is wet with '%s' (since step %s) into '%s', and "
+                  "the two must not meet; rinse it before: <finish kind=\"rinse\"/> in step %s",
+                  s->id, carried->id, since, meets->id, since);
+}
+
+/* into the chemicals of the step, and from one rinse of it into the next */
+static void lint_carried(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_wafer *before) {
+    const fw_process_flow *f = pack->flow;
+    bool wet = before->is[FW_STATE_WET];
+    const fw_process_hazard *carried = wet ? before->liquid : NULL;
+    const char *since = wet ? f->step[before->since[FW_STATE_WET]].id : s->id;
+    if (fw_process_step_in_liquid(s)) {
+        for (int h = 0; h < s->nhazard; h++)
+            if (s->hazard[h]->wets) lint_meeting(pack, s, s->place, carried, since, s->hazard[h]);
+        since = s->id;
+        carried = NULL;
+        for (int h = s->nhazard - 1; h >= 0 && !carried; h--)
+            if (s->hazard[h]->wets) carried = s->hazard[h];
+    }
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *r = &s->finish[i];
+        if (r->kind != FW_FINISH_RINSE) continue;
+        lint_meeting(pack, s, r->place, carried, since, r->with);
+        carried = r->with;
+        since = s->id;
+    }
+}
+
+static fw_status lint_arrival(fw_process_pack *pack, const fw_process_step *s,
+                              const fw_process_wafer *before) {
+    const fw_process_flow *f = pack->flow;
+    if (!before->is[FW_STATE_WET] || fw_process_step_takes_wet(s)) return FW_OK;
+    const char *wet = fw_process_wafer_words(pack->arena, f, before, FW_STATE_WET);
+    const char *from = f->step[before->since[FW_STATE_WET]].id;
+    FW_NEED(wet);
+    fw_diag_error(pack->diags, 335, s->place,
+                  "step %s (%s, at '%s') takes a wafer that is %s since step %s; rinse and dry it "
+                  "at the bench of step %s: <finish kind=\"rinse\"/> <finish kind=\"dry\" "
+                  "by=\"...\"/>",
+                  s->id, s->op, s->equipment ? s->equipment->id : "", wet, from, from);
+    return FW_OK;
+}
+
+/* acids and bases are rinsed off, not dried on; solvents and water may be dried */
+static void lint_residue(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_wafer *before) {
+    const fw_process_hazard *on = before->is[FW_STATE_WET] ? before->liquid : NULL;
+    for (int h = 0; fw_process_step_in_liquid(s) && h < s->nhazard; h++)
+        if (s->hazard[h]->wets) on = s->hazard[h];
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        if (f->kind == FW_FINISH_RINSE) on = f->with;
+        if (f->kind != FW_FINISH_DRY || !on || !strstr(on->ghs, "GHS05")) continue;
+        fw_diag_error(pack->diags, 347, f->place,
+                      "step %s dries a wafer that is wet with '%s' (%s): what stays goes on "
+                      "etching; rinse before: <finish kind=\"rinse\"/>",
+                      s->id, on->id, on->name);
+    }
+}
+
+static void lint_meniscus(fw_process_pack *pack, const fw_process_step *s,
+                          const fw_process_wafer *after) {
+    static const char *const pulls[] = {"spin", "nitrogen", "oven"};
+    for (int i = 0; i < s->nfinish && after->released; i++)
+        for (size_t k = 0; k < sizeof pulls / sizeof *pulls; k++)
+            if (s->finish[i].kind == FW_FINISH_DRY && strcmp(s->finish[i].by, pulls[k]) == 0)
+                fw_diag_error(pack->diags, 337, s->finish[i].place,
+                              "step %s dries released devices by %s: the meniscus pulls flexures "
+                              "down for good; dry them by=\"critical-point\" or by=\"vapour\"",
+                              s->id, pulls[k]);
+}
+
+fw_status fw_process_lint_wet(fw_process_pack *pack) {
+    fw_process_wafer now = {0};
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        lint_carried(pack, s, &now);
+        FW_TRY(lint_arrival(pack, s, &now));
+        lint_residue(pack, s, &now);
+        fw_process_wafer_pass(pack->flow, i, &now);
+        lint_meniscus(pack, s, &now);
+    }
+    return FW_OK;
+}
+
+/* ---- is what a step works on there, and open? ---- */
+
+/* what covers `material` in a column, films with holes aside; NULL: it lies open there, at its side too, or is not
+   there, or is on the back of the wafer, which nothing here looks at */
+static const char *cover(const fw_process_flow *f, const fw_process_stack *stack, int column,
+                         const char *material) {
+    const char *above = NULL;
+    double beside = 0.0;
+    for (int i = 0; i < stack->n[1 - column]; i++) {
+        const fw_process_cell *c = &stack->cell[1 - column][i];
+        beside = c->bottom + c->height > beside ? c->bottom + c->height : beside;
+    }
+    for (int i = stack->n[column] - 1; i >= 0; i--) {
+        const fw_process_cell *c = &stack->cell[column][i];
+        const fw_process_material *m = fw_process_flow_material(f, c->material);
+        if (strcmp(c->material, material) == 0) {
+            bool side = c->bottom + c->height > beside + 1e-9, back = c->bottom < -1e-9;
+            return side || back ? NULL : above;
+        }
+        if (!(m && m->holes) && !above) above = c->material;
+    }
+    return NULL;
+}
+
+static bool in_column(const char *where, int column) {
+    if (strcmp(where, "all") == 0) return true;
+    return (strcmp(where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
+}
+
+static bool on_column(const fw_process_stack *stack, int column, const char *material) {
+    for (int i = 0; i < stack->n[column]; i++)
+        if (strcmp(stack->cell[column][i].material, material) == 0) return true;
+    return false;
+}
+
+static const char *const part_name[FW_STACK_COLUMNS] = {
+    [FW_STACK_STRUCTURE] = "structure", [FW_STACK_FIELD] = "field"};
+
+/* a removal, a conversion and an exposure need what they work on open to them; one that reaches sideways needs it open
+   anywhere */
+static fw_status lint_open(fw_process_pack *pack, int step, int change) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[step];
+    const fw_process_change *c = &s->change[change];
+    const char *on = strcmp(c->kind, "convert") == 0 ? c->from : c->material;
+    fw_process_stack stack;
+    if (strcmp(c->kind, "add") == 0 || c->back) return FW_OK;
+    FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
+    if (c->reach && fw_process_stack_open(f, &stack, on)) return FW_OK;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        const char *by = in_column(c->where, column) ? cover(f, &stack, column, on) : NULL;
+        if (!by) continue;
+        fw_diag_error(pack->diags, 339, c->place,
+                      "step %s works on '%s' in the %s, but there it lies below '%s'; take that "
+                      "off before, or name the part where it is open (where)",
+                      s->id, on, part_name[column], by);
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+static const char *top(const fw_process_stack *stack, int column) {
+    int n = stack->n[column];
+    return n > 0 ? stack->cell[column][n - 1].material : NULL;
+}
+
+/* metal grows on what conducts, everywhere where that lies open */
+static fw_status lint_plating(fw_process_pack *pack, int step, int change) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[step];
+    const fw_process_change *c = &s->change[change];
+    fw_process_stack stack;
+    if (!is_op(s, "plate") || strcmp(c->kind, "add") != 0) return FW_OK;
+    FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        const char *on = top(&stack, column);
+        const fw_process_material *m = on ? fw_process_flow_material(f, on) : NULL;
+        bool wanted = in_column(c->where, column);
+        if (wanted && (!on || (m && m->conducts == 0)))
+            fw_diag_error(pack->diags, 340, c->place,
+                          "step %s plates '%s' on '%s', which carries no current; a seed must lie "
+                          "open in the %s",
+                          s->id, c->material, on ? on : "nothing", part_name[column]);
+        else if (!wanted && m && m->conducts == 1)
+            fw_diag_error(pack->diags, 340, c->place,
+                          "step %s plates '%s' in the %s only, but '%s' lies open in the %s too "
+                          "and carries current; a mould must cover it",
+                          s->id, c->material, c->where, on, part_name[column]);
+    }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_reach(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++)
+        for (int k = 0; k < pack->flow->step[i].nchange; k++) {
+            FW_TRY(lint_open(pack, i, k));
+            FW_TRY(lint_plating(pack, i, k));
+        }
+    return FW_OK;
+}
+
+/* ---- what a step requires ---- */
+
+static int step_index(const fw_process_flow *f, const char *id) {
+    for (int i = 0; i < f->nstep; i++)
+        if (strcmp(f->step[i].id, id) == 0) return i;
+    return f->nstep;
+}
+
+/* NULL: it is as required; else what is wrong, in words */
+static const char *unlike(fw_process_pack *pack, int step, const fw_process_wafer *before,
+                          const fw_process_requirement *r) {
+    const fw_process_flow *f = pack->flow;
+    if (r->step)
+        return step_index(f, r->step) < step
+                   ? NULL
+                   : fw_arena_printf(pack->arena, "step %s, which must come before it, comes later",
+                                     r->step);
+    if (r->state) {
+        for (int k = 0; k < FW_STATES; k++)
+            if (strcmp(fw_process_state_key((fw_process_state)k), r->state) == 0 &&
+                before->is[k] == r->present)
+                return NULL;
+        return fw_arena_printf(pack->arena, "it wants a wafer that is %s'%s'",
+                               r->present ? "" : "not ", r->state);
+    }
+    fw_process_stack stack;
+    if (fw_process_flow_stack(pack->arena, f, step - 1, &stack, NULL) != FW_OK) return NULL;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        if (in_column(r->where, column) && on_column(&stack, column, r->material) != r->present)
+            return fw_arena_printf(pack->arena, "'%s' is %s in the %s", r->material,
+                                   r->present ? "not there" : "still there", part_name[column]);
+    return NULL;
+}
+
+/* the chamber that was prepared is the next one that the wafer comes to */
+static void lint_chamber(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_wafer *before) {
+    const char *in = before->with[FW_STATE_SEASONED];
+    if (!before->is[FW_STATE_SEASONED] || (s->equipment && strcmp(s->equipment->id, in) == 0))
+        return;
+    fw_diag_error(pack->diags, 345, s->place,
+                  "step %s is at '%s', but since step %s the wafer sits in '%s', which was "
+                  "prepared for it; do it before that step, or after what is done there",
+                  s->id, s->equipment ? s->equipment->id : "",
+                  pack->flow->step[before->since[FW_STATE_SEASONED]].id, in);
+}
+
+static bool makes_layer(const fw_process_step *s) {
+    for (int k = 0; k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, "remove") != 0 && !s->change[k].back) return true;
+    return false;
+}
+
+fw_status fw_process_lint_required(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_wafer now = {0};
+    bool clean = false, asked = false;
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        for (int k = 0; k < s->nrequired; k++) {
+            const char *wrong = unlike(pack, i, &now, &s->required[k]);
+            if (wrong)
+                fw_diag_error(pack->diags, 345, s->required[k].place, "step %s: %s", s->id, wrong);
+        }
+        lint_chamber(pack, s, &now);
+        clean = clean || is_op(s, "clean");
+        if (!clean && !asked && !is_op(s, "inspect") && makes_layer(s)) {
+            asked = true;
+            fw_diag_warning(pack->diags, 346, s->place,
+                            "step %s is the first that works on the wafer, and no step has cleaned "
+                            "it before; add one",
+                            s->id);
+        }
+        fw_process_wafer_pass(f, i, &now);
+    }
+    return FW_OK;
+}
+
+/* ---- bakes ---- */
+
+static bool has_change(const fw_process_step *s, const char *kind) {
+    for (int k = 0; k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, kind) == 0) return true;
+    return false;
+}
+
+/* a wet or dry etch of one part that a resist masks */
+static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
+                      const fw_process_stack *stack, const char *resist) {
+    (void)f;
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_process_change *c = &s->change[k];
+        if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back) continue;
+        int other = in_column(c->where, FW_STACK_STRUCTURE) ? FW_STACK_FIELD : FW_STACK_STRUCTURE;
+        const char *mask = top(stack, other);
+        if (mask && strcmp(mask, resist) == 0) return true;
+    }
+    return false;
+}
+
+typedef struct baked {
+    bool dehydrated;    /* baked since it was last wet, or new */
+    bool hard;          /* the resist was baked after it was developed */
+    const char *resist; /* spun on last; NULL: none */
+} baked;
+
+static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer *before, baked *b) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = &f->step[i];
+    bool etches = is_op(s, "wet-etch") || is_op(s, "dry-etch"), coats = is_op(s, "coat");
+    if (before->is[FW_STATE_UNBAKED] &&
+        (has_change(s, "pattern") || etches || coats || is_op(s, "develop")))
+        fw_diag_error(pack->diags, 341, s->place,
+                      "step %s takes '%s' that no step has baked since step %s; add a soft bake "
+                      "between them",
+                      s->id, before->with[FW_STATE_UNBAKED],
+                      f->step[before->since[FW_STATE_UNBAKED]].id);
+    if (coats && !b->dehydrated)
+        fw_diag_warning(pack->diags, 341, s->place,
+                        "step %s spins a resist on a wafer that was not baked since it was last "
+                        "wet: it holds badly; add a dehydration bake before it",
+                        s->id);
+    if (etches && b->resist && !b->hard) {
+        fw_process_stack stack;
+        FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
+        if (masked_by(f, s, &stack, b->resist))
+            fw_diag_warning(pack->diags, 341, s->place,
+                            "step %s etches through '%s' that was not baked since it was "
+                            "developed: it lifts or flows; add a hard bake before it",
+                            s->id, b->resist);
+    }
+    for (int k = 0; coats && k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, "add") == 0) b->resist = s->change[k].material;
+    if (is_op(s, "develop")) b->hard = false;
+    if (is_op(s, "bake")) b->dehydrated = b->hard = true;
+    if (fw_process_step_in_liquid(s) && !is_op(s, "develop")) b->dehydrated = false;
+    return FW_OK;
+}
+
+fw_status fw_process_lint_bakes(fw_process_pack *pack) {
+    fw_process_wafer now = {0};
+    baked b = {0};
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        FW_TRY(lint_bake(pack, i, &now, &b));
+        fw_process_wafer_pass(pack->flow, i, &now);
+    }
+    return FW_OK;
+}
+
+/* ---- the end ---- */
+
+static void lint_end_layer(fw_process_pack *pack, const fw_process_stack *stack,
+                           const char *material, const char *where, bool present, fw_place place) {
+    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        if (!in_column(where, column) || on_column(stack, column, material) == present) continue;
+        fw_diag_error(pack->diags, 338, place,
+                      present ? "the flow ends without '%s' in the %s; a step that makes it is "
+                                "missing, or one takes it off that should not"
+                              : "the flow ends with '%s' still in the %s; a step that takes it off "
+                                "is missing",
+                      material, part_name[column]);
+        return;
+    }
+}
+
+static fw_status lint_end_state(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_wafer *after;
+    FW_TRY(fw_process_flow_wafers(pack->arena, f, &after));
+    const fw_process_wafer *last = &after[f->nstep - 1];
+    for (int state = 0; state < FW_STATES; state++) {
+        if (!last->is[state]) continue;
+        const char *is = fw_process_wafer_words(pack->arena, f, last, (fw_process_state)state);
+        FW_NEED(is);
+        fw_diag_error(pack->diags, 338, f->step[f->nstep - 1].place,
+                      "the flow ends with wafers %s (since step %s): %s", is,
+                      f->step[last->since[state]].id,
+                      fw_process_state_why((fw_process_state)state));
+    }
+    return FW_OK;
+}
+
+/* a finished wafer is dry and safe, has its device and no resist, and what <finished> says */
+fw_status fw_process_lint_end(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    fw_process_stack stack;
+    if (f->nstep == 0) return FW_OK;
+    FW_TRY(lint_end_state(pack));
+    FW_TRY(fw_process_flow_stack(pack->arena, f, f->nstep - 1, &stack, NULL));
+    for (int i = 0; i < f->nfinished; i++)
+        lint_end_layer(pack, &stack, f->finished[i].material, f->finished[i].where,
+                       f->finished[i].present, f->finished[i].place);
+    if (f->material) lint_end_layer(pack, &stack, f->material, "structure", true, f->place);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; is_op(&f->step[i], "coat") && k < f->step[i].nchange; k++)
+            if (strcmp(f->step[i].change[k].kind, "add") == 0)
+                lint_end_layer(pack, &stack, f->step[i].change[k].material, "all", false,
+                               f->step[i].place);
+    return FW_OK;
+}

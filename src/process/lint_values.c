@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Do the values make sense, wherever they come from: a pack, a laboratory, calibrate? Read once with the pack and again
+   when a laboratory has replaced some (fw_process_flow_lint_values). */
+#include "process/films.h"
+#include "process/pack.h"
+#include "xml/xml_quantity.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- ranges ---- */
+
+typedef struct range {
+    const char *name, *unit;
+    double least, most; /* in the unit */
+    const char *reason;
+} range;
+
+static const range ranges[] = {
+#define X(name, unit, least, most, reason) {name, unit, least, most, reason},
+#include "process/quantity_ranges.def"
+#undef X
+};
+
+static const range *range_of(const fw_quantity *q, fw_quantity_unit *unit) {
+    const char *name = q->range ? q->range : "";
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        const range *r = &ranges[i];
+        if (strcmp(r->name, name) != 0 ||
+            !fw_quantity_unit_parse(r->unit, strlen(r->unit), unit, NULL, NULL))
+            continue;
+        if (fw_quantity_dimension_equal(unit->dimension, q->dimension)) return r;
+    }
+    return NULL;
+}
+
+bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
+    fw_quantity_unit unit;
+    const range *r;
+    if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
+    if (q->unknown || !(r = range_of(q, &unit))) return true;
+    double least = fw_quantity_unit_to_si(&unit, r->least),
+           most = fw_quantity_unit_to_si(&unit, r->most);
+    if (q->value >= least && q->value <= most) return true;
+    char is[32], low[32], high[32];
+    fw_diag_error(diags, 278, q->place,
+                  "'%s' is %s %s, outside its plausible range of %s to %s %s (%s); correct the "
+                  "value or its unit",
+                  q->id ? q->id : "q", fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 6),
+                  q->unit, fw_number_text(low, sizeof low, r->least, 4),
+                  fw_number_text(high, sizeof high, r->most, 4), r->unit, r->reason);
+    return false;
+}
+
+/* the range that the first one of an id gives holds for every one that replaces it */
+fw_status fw_process_lint_ranges(fw_process_pack *pack) {
+    const fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->nquantity; i++) {
+        fw_quantity *q = f->quantity[i];
+        fw_quantity_unit unit;
+        if (q->range && !range_of(q, &unit))
+            fw_diag_error(pack->diags, 169, q->place,
+                          "range='%s' of '%s' is of another dimension than its unit", q->range,
+                          q->id);
+        for (int j = 0; j < i; j++) {
+            const fw_quantity *first = f->quantity[j];
+            if (!q->id || !first->id || strcmp(q->id, first->id) != 0) continue;
+            if (!fw_quantity_dimension_equal(q->dimension, first->dimension))
+                fw_diag_error(pack->diags, 169, q->place,
+                              "'%s' replaces the quantity of line %d, which has another dimension; "
+                              "give it a unit of that dimension, or another id",
+                              q->id, first->place.line);
+            else
+                fw_xml_quantity_check_range(q, first, pack->diags);
+        }
+        bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
+        if (own && (q->least == 0.0 && q->most == 0.0))
+            fw_process_quantity_in_range(q, pack->diags);
+        else if (own && q->replaced)
+            fw_process_quantity_in_range(q, pack->diags);
+    }
+    return FW_OK;
+}
+
+/* ---- set points ---- */
+
+static double bound_of(const char *text) {
+    double value;
+    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : (double)NAN;
+}
+
+static bool limits_cross(fw_process_pack *pack, const fw_process_step *s, const char *what,
+                         double low, double high, fw_place place) {
+    if (!(low > high)) return false;
+    char a[32], b[32];
+    fw_diag_error(pack->diags, 342, place,
+                  "step %s: the lower limit of '%s', %s, is above the upper one, %s; exchange them",
+                  s->id, what, fw_number_text(a, sizeof a, low, 6),
+                  fw_number_text(b, sizeof b, high, 6));
+    return true;
+}
+
+static void lint_setting(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_setting *set) {
+    double low = bound_of(set->tolerance_low), high = bound_of(set->tolerance_high);
+    if (limits_cross(pack, s, set->name, low, high, set->place) || set->q->unknown) return;
+    double is = fw_quantity_in_unit(set->q), slack = 1e-9 * fabs(is);
+    if (!(is < low - slack) && !(is > high + slack)) return;
+    char value[32];
+    fw_diag_error(pack->diags, 342, set->q->replaced ? set->q->place : set->place,
+                  "step %s sets '%s' to %s %s (%s), but allows %s%s%s %s only; correct the value, "
+                  "or what the step allows",
+                  s->id, set->name, fw_number_text(value, sizeof value, is, 6), set->q->unit,
+                  set->q->id ? set->q->id : "q",
+                  isnan(low)    ? "at most "
+                  : isnan(high) ? "at least "
+                                : "",
+                  isnan(low) ? "" : set->tolerance_low,
+                  isnan(high)  ? ""
+                  : isnan(low) ? set->tolerance_high
+                               : fw_arena_printf(pack->arena, " to %s", set->tolerance_high),
+                  set->q->unit);
+}
+
+fw_status fw_process_lint_settings(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        for (int k = 0; k < s->nsetting; k++)
+            lint_setting(pack, s, &s->setting[k]);
+        for (int k = 0; k < s->naccept; k++)
+            limits_cross(pack, s, s->accept[k].measure, bound_of(s->accept[k].low),
+                         bound_of(s->accept[k].high), s->accept[k].place);
+    }
+    return FW_OK;
+}
+
+/* ---- thicknesses ---- */
+
+/* a layer has a thickness, and more of it cannot be turned into another one than there is */
+static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_change *c = &f->step[step].change[change];
+    fw_process_stack stack;
+    if (!c->thickness || c->thickness->unknown) return FW_OK;
+    if (!(c->thickness->value > 0.0)) {
+        fw_diag_error(pack->diags, 278, c->thickness->replaced ? c->thickness->place : c->place,
+                      "step %s changes a layer by the thickness '%s', which is not above 0",
+                      f->step[step].id, c->thickness->id ? c->thickness->id : "q");
+        return FW_OK;
+    }
+    if (strcmp(c->kind, "convert") != 0) return FW_OK;
+    FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        for (int i = stack.n[column] - 1; i >= 0; i--) {
+            const fw_process_cell *cell = &stack.cell[column][i];
+            if (strcmp(cell->material, c->from) != 0) continue;
+            if (!(c->thickness->value >= cell->thickness_m)) break;
+            char made[32], is[32];
+            fw_diag_error(pack->diags, 344, c->thickness->replaced ? c->thickness->place : c->place,
+                          "step %s turns %s um of '%s' into '%s', but the layer is only %s um "
+                          "thick",
+                          f->step[step].id,
+                          fw_number_text(made, sizeof made, c->thickness->value * 1e6, 6), c->from,
+                          c->material, fw_number_text(is, sizeof is, cell->thickness_m * 1e6, 6));
+            return FW_OK;
+        }
+    return FW_OK;
+}
+
+fw_status fw_process_lint_thicknesses(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++)
+        for (int k = 0; k < pack->flow->step[i].nchange; k++)
+            FW_TRY(lint_thickness(pack, i, k));
+    return FW_OK;
+}

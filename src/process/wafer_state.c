@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step takes a wafer from one state to the next:
+     wet       what the step's liquid leaves, then what its <finish>es make of it, in their order; a step without either
+               leaves it as it came
+     unbaked   from a coat to the next bake             coated   from that bake to the exposure
+     image     from the exposure to the developer       hot      after a bake without <finish kind="cool">
+     vacuum    after a tool that is pumped, without <finish kind="vent">
+     seasoned  from what prepares a pumped chamber (op="mount") to the first step in it
+   A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c. */
+#include "process/wafer_state.h"
+#include "process/pack.h"
+#include <string.h>
+
+static const struct {
+    const char *key;
+    double longest_s;
+    const char *is, *why;
+} rows[] = {
+#define X(name, key, longest, is, why) [FW_STATE_##name] = {key, longest, is, why},
+#include "process/wafer_states.def"
+#undef X
+};
+
+const char *fw_process_state_why(fw_process_state state) {
+    return rows[state].why;
+}
+
+const char *fw_process_state_key(fw_process_state state) {
+    return rows[state].key;
+}
+
+static bool is_op(const fw_process_step *s, const char *op) {
+    return strcmp(s->op, op) == 0;
+}
+
+static const fw_process_hazard *last_liquid(const fw_process_step *s) {
+    for (int i = s->nhazard - 1; i >= 0; i--)
+        if (s->hazard[i]->wets) return s->hazard[i];
+    return NULL;
+}
+
+/* operations that are always done in a liquid, whatever the pack says of its chemicals */
+static bool always_in_liquid(const fw_process_step *s) {
+    static const char *const op[] = {"anodise", "displace", "develop", "plate", "wet-etch"};
+    for (size_t i = 0; i < sizeof op / sizeof *op; i++)
+        if (is_op(s, op[i])) return true;
+    return false;
+}
+
+bool fw_process_step_in_liquid(const fw_process_step *s) {
+    static const char *const may[] = {"clean", "strip", "release"};
+    if (always_in_liquid(s)) return true;
+    for (size_t i = 0; i < sizeof may / sizeof *may; i++)
+        if (is_op(s, may[i])) return last_liquid(s) != NULL;
+    return false;
+}
+
+bool fw_process_step_takes_wet(const fw_process_step *s) {
+    if (s->equipment && s->equipment->vacuum) return false;
+    for (int i = 0; i < s->nfinish; i++)
+        if (s->finish[i].kind == FW_FINISH_RINSE || s->finish[i].kind == FW_FINISH_DRY) return true;
+    return fw_process_step_in_liquid(s);
+}
+
+static void set(fw_process_wafer *w, fw_process_state state, int step, const char *with) {
+    w->is[state] = true;
+    w->since[state] = step;
+    w->with[state] = with;
+}
+
+static void wet(const fw_process_step *s, int step, fw_process_wafer *w) {
+    bool touched = fw_process_step_in_liquid(s);
+    if (touched) {
+        w->liquid = last_liquid(s);
+        w->unnamed = !w->liquid;
+        set(w, FW_STATE_WET, step, w->liquid ? w->liquid->id : "");
+    }
+    for (int i = 0; i < s->nfinish; i++) {
+        const fw_process_finish *f = &s->finish[i];
+        switch (f->kind) {
+        case FW_FINISH_RINSE:
+            w->liquid = f->with;
+            w->unnamed = false;
+            set(w, FW_STATE_WET, step, f->with ? f->with->id : "water");
+            break;
+        case FW_FINISH_DRY:
+            w->is[FW_STATE_WET] = false;
+            break;
+        case FW_FINISH_COOL:
+        case FW_FINISH_VENT:
+            break;
+        }
+    }
+}
+
+static bool finished_by(const fw_process_step *s, fw_process_finish_kind kind) {
+    for (int i = 0; i < s->nfinish; i++)
+        if (s->finish[i].kind == kind) return true;
+    return false;
+}
+
+/* a resist is what is spun on: its states go from one to the next, and end with it */
+static void resist(const fw_process_step *s, int step, fw_process_wafer *w) {
+    for (int i = 0; i < s->nchange; i++) {
+        const fw_process_change *c = &s->change[i];
+        if (is_op(s, "coat") && strcmp(c->kind, "add") == 0) {
+            set(w, FW_STATE_UNBAKED, step, c->material);
+            w->is[FW_STATE_COATED] = false;
+        }
+        if (strcmp(c->kind, "pattern") == 0) {
+            w->is[FW_STATE_COATED] = false;
+            set(w, FW_STATE_IMAGE, step, c->material);
+        }
+        for (int r = FW_STATE_UNBAKED; r <= FW_STATE_IMAGE; r++)
+            if (strcmp(c->kind, "remove") == 0 && w->is[r] && strcmp(w->with[r], c->material) == 0)
+                w->is[r] = false;
+    }
+    if (is_op(s, "bake") && w->is[FW_STATE_UNBAKED]) {
+        w->is[FW_STATE_UNBAKED] = false;
+        if (!w->is[FW_STATE_IMAGE]) set(w, FW_STATE_COATED, step, w->with[FW_STATE_UNBAKED]);
+    }
+    if (is_op(s, "develop")) w->is[FW_STATE_IMAGE] = false;
+}
+
+static void tool(const fw_process_step *s, int step, fw_process_wafer *w) {
+    const char *id = s->equipment ? s->equipment->id : "";
+    bool pumped = s->equipment && s->equipment->vacuum;
+    w->is[FW_STATE_HOT] = w->is[FW_STATE_VACUUM] = false;
+    if (is_op(s, "bake") && !finished_by(s, FW_FINISH_COOL)) set(w, FW_STATE_HOT, step, id);
+    if (w->is[FW_STATE_SEASONED] && strcmp(w->with[FW_STATE_SEASONED], id) == 0)
+        w->is[FW_STATE_SEASONED] = false;
+    if (pumped && is_op(s, "mount"))
+        set(w, FW_STATE_SEASONED, step, id);
+    else if (pumped && !finished_by(s, FW_FINISH_VENT))
+        set(w, FW_STATE_VACUUM, step, id);
+}
+
+static bool frees(const fw_process_step *s) {
+    for (int i = 0; i < s->nchange; i++)
+        if (is_op(s, "release") && strcmp(s->change[i].kind, "remove") == 0) return true;
+    return false;
+}
+
+void fw_process_wafer_pass(const fw_process_flow *flow, int step, fw_process_wafer *w) {
+    const fw_process_step *s = &flow->step[step];
+    w->released = w->released || frees(s);
+    wet(s, step, w);
+    resist(s, step, w);
+    tool(s, step, w);
+}
+
+fw_status fw_process_flow_wafers(fw_arena *arena, const fw_process_flow *flow,
+                                 fw_process_wafer **wafer) {
+    fw_process_wafer now = {0};
+    FW_NEED(*wafer = fw_arena_array(arena, fw_process_wafer, (size_t)flow->nstep));
+    for (int i = 0; i < flow->nstep; i++) {
+        fw_process_wafer_pass(flow, i, &now);
+        (*wafer)[i] = now;
+    }
+    return FW_OK;
+}
+
+static const char *name_of(const fw_process_flow *flow, fw_process_state state, const char *id) {
+    switch (state) {
+    case FW_STATE_WET:
+        if (strcmp(id, "water") == 0) return "deionised water";
+        for (int i = flow->nhazard - 1; i >= 0; i--)
+            if (strcmp(flow->hazard[i].id, id) == 0) return flow->hazard[i].name;
+        return "what it was treated with";
+    case FW_STATE_UNBAKED:
+    case FW_STATE_COATED:
+    case FW_STATE_IMAGE:
+        return fw_process_flow_material_name(flow, id);
+    case FW_STATE_HOT:
+    case FW_STATE_VACUUM:
+    case FW_STATE_SEASONED:
+        for (int i = flow->nequipment - 1; i >= 0; i--)
+            if (strcmp(flow->equipment[i].id, id) == 0) return flow->equipment[i].class_;
+        return id;
+    case FW_STATES:
+        break;
+    }
+    return id;
+}
+
+const char *fw_process_wafer_words(fw_arena *arena, const fw_process_flow *flow,
+                                   const fw_process_wafer *w, fw_process_state state) {
+    return fw_arena_printf(arena, "%s %s", rows[state].is, name_of(flow, state, w->with[state]));
+}
+
+static fw_status add_wait(fw_arena *arena, fw_process_flow *flow, const fw_process_wafer *w,
+                          fw_process_state state, int from, int to) {
+    fw_process_wait *grown = fw_arena_grow(arena, flow->wait, (size_t)flow->nwait,
+                                           (size_t)flow->nwait + 1, sizeof *grown);
+    const char *id = fw_arena_printf(arena, "%s.%s-longest", w->with[state], rows[state].key);
+    FW_NEED(grown && id);
+    const fw_quantity *q = fw_process_flow_quantity(flow, id);
+    bool known = q && !q->unknown;
+    flow->wait = grown;
+    fw_process_wait *wait = &flow->wait[flow->nwait++];
+    *wait = (fw_process_wait){.from = from,
+                              .to = to,
+                              .max_s = known ? q->value : rows[state].longest_s,
+                              .q = known ? q : NULL,
+                              .first_only = state == FW_STATE_SEASONED,
+                              .why = rows[state].why};
+    FW_NEED(wait->is = fw_process_wafer_words(arena, flow, w, state));
+    return FW_OK;
+}
+
+fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow) {
+    fw_process_wafer *after;
+    flow->wait = NULL;
+    flow->nwait = 0;
+    FW_TRY(fw_process_flow_wafers(arena, flow, &after));
+    for (int i = 0; i + 1 < flow->nstep; i++)
+        for (int state = 0; state < FW_STATES; state++) {
+            int to = i + 1;
+            if (!after[i].is[state] || after[i].since[state] != i) continue;
+            /* to the step that ends it; what is wet, hot or pumped goes on at once */
+            while (to < flow->nstep && after[to].is[state] && after[to].since[state] == i)
+                to++;
+            if (to < flow->nstep)
+                FW_TRY(add_wait(arena, flow, &after[i], (fw_process_state)state, i, to));
+        }
+    return FW_OK;
+}

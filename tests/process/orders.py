@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""orders.py LINT_PACKS [--update]: the three packs with every step left out once, and every pair of neighbouring steps
+exchanged once, and what the program says of each: docs/process-orders.md, kept as a golden file that a process engineer
+can read. What a step that is left out was named in (a <lag> from it, a goto to it) goes with it."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PACKS = ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie")
+HEAD = """# What is said of a flow with a step too few, or two in the wrong order
+
+Every step of the three packs left out once, every pair of neighbouring steps exchanged once (`tests/process/orders.py`).
+*refused*: an error, no plan is made. *warned*: the plan is made, and says so. *accepted*: nothing is said; the last
+column has the reason why that is right. A message is the first of its case.
+"""
+
+# why nothing need be said where nothing is: of a step that is left out (id), or of a pair that is exchanged (id id)
+LOOKS = "it measures and changes nothing; what it would have found stays unseen"
+FINE = {
+    "S04": LOOKS, "S12": LOOKS, "S15": LOOKS, "S19": LOOKS, "S23": LOOKS, "C19": LOOKS, "C23": LOOKS, "C28": LOOKS,
+    "D11": LOOKS, "D13": LOOKS,
+    "S10": "only some resists need it, and the resist is not stated",
+    "S02 S01": "the wafer may be cleaned before it is measured", "C02 C01": "the wafer may be cleaned before it is measured",
+    "D02 D01": "the wafer may be cleaned before it is measured",
+    "S06 S05": "the primer may be there before the carrier",
+    "S13 S12": "the resist may be measured after its hard bake as well",
+    "S16 S15": "the aluminium may be measured without the resist as well",
+    "C17": "no heat follows before the developer, and the hold is shorter than the way there",
+    "C03 C02": "the bath may be mixed before the wafer is clean",
+    "C04 C03": "the wafer may wait in the cell for the bath",
+    "C14 C13": "the bead may be taken off before the bake",
+    "C15 C14": "the resist may take up water before the bead is off",
+    "D11 D10": "the cut may be measured with its resist",
+    "D12 D11": "the cut may be measured after the release",
+}
+
+
+def split(text):
+    """the pack before its first step, (id, op, text) of every step, and what follows"""
+    parts = re.split(r"(?=^  <step )", text, flags=re.M)
+    last, tail = parts[-1].split("</step>")
+    steps = parts[1:-1] + [last + "</step>\n"]
+    return parts[0], [(re.search(r'id="(\w+)"', s)[1], re.search(r'title="([^"]*)"', s)[1], s) for s in steps], \
+        tail.lstrip("\n")
+
+
+def without(steps, k):
+    gone = steps[k][0]
+    rest = []
+    for i, (name, title, s) in enumerate(steps):
+        if i == k:
+            continue
+        s = re.sub(rf'    <lag from="{gone}"[^>]*/>\n', "", s)
+        rest.append((name, title, s.replace(f'goto="{gone}"', f'goto="{name}"')))
+    return rest
+
+
+def exchanged(steps, k):
+    a, b = steps[k], steps[k + 1]
+    # a hold that ran from the one to the other would now run backwards
+    b = (b[0], b[1], re.sub(rf'    <lag from="{a[0]}"[^>]*/>\n', "", b[2]))
+    return steps[:k] + [b, a] + steps[k + 2:]
+
+
+def cases(text):
+    head, steps, tail = split(text)
+    whole = lambda list_: head + "".join(s for _, _, s in list_) + tail
+    yield "as it is", "", whole(steps)
+    for k, (name, title, _) in enumerate(steps):
+        yield f"without {name}", title, whole(without(steps, k))
+    for k in range(len(steps) - 1):
+        yield f"{steps[k + 1][0]} before {steps[k][0]}", f"{steps[k + 1][1]} / {steps[k][1]}", whole(exchanged(steps, k))
+
+
+def outcome(lines, plain):
+    """what is said that is not said of the pack as it is"""
+    new = [line for line in lines if line[1:] not in plain]
+    errors = [line for line in new if line[1] == "error"]
+    first = (errors or new or [None])[0]
+    word = "refused" if errors else "warned" if new else "accepted"
+    return word, first
+
+
+def said(program, name, folder):
+    made = list(cases((ROOT / f"processes/{name}.xml").read_text(encoding="utf-8")))
+    files = []
+    for i, (_, _, text) in enumerate(made):
+        files.append(folder / f"{i:03d}.xml")
+        files[-1].write_text(text, encoding="utf-8")
+    run = subprocess.run([program, ROOT / "processes/base.xml", *files], capture_output=True, text=True, check=True)
+    lines = {}
+    for line in run.stdout.splitlines():
+        cells = line.split("\t")
+        lines.setdefault(cells[0], []).append(cells)
+    plain = {tuple(c[1:]) for c in lines[str(files[0])]}
+    for (case, title, _), file in zip(made, files):
+        yield case, title, *outcome([(c[0], *c[1:]) for c in lines[str(file)]],
+                                    {tuple(c) for c in plain} if case != "as it is" else {("accepted",)})
+
+
+def page(program):
+    out = [HEAD]
+    count = {}
+    with tempfile.TemporaryDirectory() as kept:
+        for name in PACKS:
+            folder = pathlib.Path(kept) / name
+            folder.mkdir()
+            out.append(f"\n## {name}\n\n| case | step | outcome | first message |\n|---|---|---|---|\n")
+            for case, title, word, first in said(program, name, folder):
+                key = case.replace("without ", "").replace(" before ", " ")
+                text = f"{first[2]}: {first[3]}" if first and len(first) > 3 else FINE.get(key, "")
+                if word == "accepted" and case != "as it is" and key not in FINE:
+                    count.setdefault("unexplained", []).append(f"{name}: {case}")
+                count[word] = count.get(word, 0) + 1
+                out.append(f"| {case} | {title} | {word} | {text.replace('|', '/')} |\n")
+    return "".join(out), count
+
+
+def main():
+    text, count = page(sys.argv[1])
+    golden = ROOT / "docs/process-orders.md"
+    print(", ".join(f"{v} {k}" for k, v in count.items() if isinstance(v, int)))
+    if "--update" in sys.argv:
+        golden.write_text(text, encoding="utf-8")
+    bad = count.get("unexplained", [])
+    for case in bad:
+        print(f"accepted without a reason in FINE: {case}")
+    same = golden.exists() and golden.read_text(encoding="utf-8") == text
+    if not same:
+        print("docs/process-orders.md is not what the program says; look at it with --update")
+    return 1 if bad or not same else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
