@@ -405,21 +405,34 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
 
 /* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
    the device's walls where it is a liquid (films.h) */
+/* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open */
+static fw_status open_part(maker *m, int i, const double top[], int *open) {
+    const fw_process_film *f = &m->films->film[i];
+    bool up[FW_STACK_COLUMNS];
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        up[column] = f->in[column] && fabs(f->top_m - top[column]) <= TOUCH_M;
+    *open = up[0] || up[1] ? i : -1;
+    if (*open < 0 || !f->in[0] || !f->in[1] || up[0] == up[1]) return FW_OK;
+    int column = up[0] ? 0 : 1;
+    return split(m, i, column, mask_edge(m, f, OTHER - column), open);
+}
+
 static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
     bool open = false, walls = fw_process_step_is_wet(s) && x->rate && m->flow->material &&
                                same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
-        fw_process_film *f = &m->films->film[i];
-        bool up = (f->in[0] && fabs(f->top_m - top[0]) <= TOUCH_M) ||
-                  (f->in[1] && fabs(f->top_m - top[1]) <= TOUCH_M);
-        if (!same(f->material, x->material) || !up || f->shortened || isnan(f->thickness_m))
-            continue;
+        const fw_process_film *whole = &m->films->film[i];
+        int at = -1;
+        if (same(whole->material, x->material) && !whole->shortened && !isnan(whole->thickness_m))
+            FW_TRY(open_part(m, i, top, &at));
+        if (at < 0) continue;
         open = true;
         if (isnan(loss)) continue;
+        fw_process_film *f = &m->films->film[at];
         if (loss >= f->thickness_m) {
-            drop(m->films, i);
+            drop(m->films, at);
             continue;
         }
         f->head_m = wall_at(f, f->top_m - loss);

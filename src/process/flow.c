@@ -212,7 +212,27 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     fw_process_law_answer answer;
     FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
     fw_process_law_window(&answer, s->k, s->overrun, &s->time);
-    return use.law->derive ? use.law->derive(arena, &use, &answer, s) : FW_OK;
+    if (use.law->derive) FW_TRY(use.law->derive(arena, &use, &answer, s));
+    return FW_OK;
+}
+
+/* what the step takes of materials that lie open: the number of the reasons and of the sections */
+static fw_status derive_losses(fw_arena *arena, const fw_process_flow *flow, fw_process_step *s) {
+    for (int i = 0; i < s->nexposed; i++) {
+        const fw_process_exposed *x = &s->exposed[i];
+        const fw_quantity *q = x->rate ? x->rate : x->selectivity;
+        double most, loss = fw_process_exposed_loss(s, x, &most);
+        if (!isfinite(loss)) continue;
+        const char *name = fw_arena_printf(arena, "lost of the open %s, over-etch included",
+                                           fw_process_flow_material_name(flow, x->material));
+        FW_NEED(name);
+        double u = isfinite(most) && most > 0.0 ? 0.5 * loss * (1.0 - loss / most) : 0.5 * loss;
+        FW_TRY(fw_process_step_derive(arena, s, name, loss, u, (fw_quantity_dimension)FW_DIM_LENGTH,
+                                      "um", fw_process_status_worse(q->status, s->time.status),
+                                      x->rate ? "computed: rate time (1 + over-etch)"
+                                              : "computed: depth (1 + over-etch)/selectivity"));
+    }
+    return FW_OK;
 }
 
 /* ---- edges ---- */
@@ -329,17 +349,22 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
         FW_TRY(check_facts(flow, facts, diags));
         fill_mask(flow, facts);
     }
+    for (int i = 0; i < flow->nstep; i++)
+        fw_process_step_overrun(&flow->step[i]);
+    FW_TRY(fw_process_flow_fill_texts(arena, flow, diags));
     FW_TRY(solve_edges(arena, flow, facts));
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {
         FW_TRY(compute_step(arena, &flow->step[i]));
+        FW_TRY(derive_losses(arena, flow, &flow->step[i]));
         if (flow->step[i].time.computable)
             flow->total_s += flow->step[i].time.nominal_s + flow->step[i].finish_s;
         else
             flow->not_computable++;
     }
-    FW_TRY(fw_process_flow_waits(arena, flow)); /* a laboratory may have changed them */
+    FW_TRY(fw_process_flow_fill_texts(arena, flow, diags)); /* with what was computed now */
+    FW_TRY(fw_process_flow_waits(arena, flow));             /* a laboratory may have changed them */
     FW_TRY(show_edges(arena, flow));
     FW_TRY(count_quantities(arena, flow));
     FW_TRY(fw_process_flow_judge(arena, flow, facts, diags));

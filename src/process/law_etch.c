@@ -5,11 +5,15 @@
 #include <math.h>
 #include <string.h>
 
-/* t = d/R(T), R(T) = R0 exp[(Ea/kB)(1/T0 - 1/T)].
+/* t = d/R(T), R(T) = R0 exp[(Ea/kB)(1/T0 - 1/T)]; where Ea, T0 or T is not known, R = R0.
    d m, R0 m/s, Ea J, T0 and T K; t s. Valid for one reaction mechanism, for aluminium in phosphoric
    and nitric acid 15 to 55 Cel (Ea 0.36 to 0.55 eV from three published pairs).
    Test: test_law.c, arrhenius. */
 static fw_status arrhenius_time(fw_process_law_call *call, const double *x, double *result) {
+    if (isnan(x[4])) {
+        *result = x[0] / x[1];
+        return FW_OK;
+    }
     if (x[3] <= 0.0 || x[4] <= 0.0) {
         call->why = "a temperature is not above absolute zero";
         return FW_INPUT;
@@ -22,9 +26,9 @@ static fw_status arrhenius_time(fw_process_law_call *call, const double *x, doub
 static const fw_process_law_argument arrhenius_argument[] = {
     {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
-    {"activation_energy", FW_DIM_ENERGY, FW_LAW_REQUIRED, false, NULL},
-    {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL},
-    {"temperature", FW_DIM_TEMPERATURE, FW_LAW_REQUIRED, false, NULL}};
+    {"activation_energy", FW_DIM_ENERGY, FW_LAW_WHEN_KNOWN, false, NULL},
+    {"reference_temperature", FW_DIM_TEMPERATURE, FW_LAW_WHEN_KNOWN, false, NULL},
+    {"temperature", FW_DIM_TEMPERATURE, FW_LAW_WHEN_KNOWN, false, NULL}};
 const fw_process_law fw_process_law_arrhenius = {
     .name = "arrhenius",
     .formula = "t = thickness/(rate exp(Ea/k (1/T0 - 1/T)))",
@@ -34,7 +38,7 @@ const fw_process_law fw_process_law_arrhenius = {
 };
 
 /* (1 + kappa A)/(1 + kappa A_ref): the etch slows down with the open area.
-   kappa 1/m2, A m2; factor on the time, 1. kappa from two dummy areas.
+   kappa 1/m2, A m2; factor on the time, 1; 1 where one of them is not known. kappa from two dummy areas.
    Source: Mogab, J. Electrochem. Soc. 124 (1977) 1262. Test: test_law.c, loading. */
 static double loading_factor(double kappa_per_m2, double area_m2, double reference_m2) {
     return (1.0 + kappa_per_m2 * area_m2) / (1.0 + kappa_per_m2 * reference_m2);
@@ -42,16 +46,16 @@ static double loading_factor(double kappa_per_m2, double area_m2, double referen
 
 static fw_status loading_time(fw_process_law_call *call, const double *x, double *result) {
     (void)call;
-    *result = x[0] / x[1] * loading_factor(x[2], x[3], x[4]);
+    *result = x[0] / x[1] * (isnan(x[2]) ? 1.0 : loading_factor(x[2], x[3], x[4]));
     return FW_OK;
 }
 
 static const fw_process_law_argument loading_argument[] = {
     {"thickness", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     {"rate", FW_DIM_SPEED, FW_LAW_REQUIRED, false, NULL},
-    {"loading", FW_DIM_PER_AREA, FW_LAW_REQUIRED, false, NULL},
-    {"open_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL},
-    {"reference_area", FW_DIM_AREA, FW_LAW_REQUIRED, false, NULL}};
+    {"loading", FW_DIM_PER_AREA, FW_LAW_WHEN_KNOWN, false, NULL},
+    {"open_area", FW_DIM_AREA, FW_LAW_WHEN_KNOWN, false, NULL},
+    {"reference_area", FW_DIM_AREA, FW_LAW_WHEN_KNOWN, false, NULL}};
 const fw_process_law fw_process_law_loading = {
     .name = "loading",
     .formula = "t = thickness/rate (1 + kappa A)/(1 + kappa A_ref)",
@@ -131,7 +135,7 @@ double fw_process_arde_integral(double width_m, double depth_m, bool cylinder) {
    Lett. 55 (1989) 2730); or, shape "linear", t = (D + c D^2/(2 w))/R0 for R = R0/(1 + c z/w). D, w
    m, R0 m/s at zero aspect ratio, S and c 1; t s. The narrowest opening of the mask decides. In
    SF6/O2 the lag may come from ions, not radicals (Jansen et al. 1997): S is empirical, to be read
-   off two slots of different width. Optional loading factor. Test: test_law.c, arde. */
+   off two slots of different width. The loading factor where loading and both areas are known. Test: test_law.c, arde. */
 static fw_status arde_time(fw_process_law_call *call, const double *x, double *result) {
     bool linear = strcmp(call->shape, "linear") == 0;
     bool cylinder = strcmp(call->shape, "cylinder") == 0;
@@ -160,9 +164,9 @@ static const fw_process_law_argument arde_argument[] = {
     [WIDTH] = {"width", FW_DIM_LENGTH, FW_LAW_REQUIRED, false, NULL},
     [PROBABILITY] = {"probability", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
     [LAG] = {"lag", FW_DIM_NONE, FW_LAW_OPTIONAL, false, NULL},
-    [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_OPTIONAL, false, NULL},
-    [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL},
-    [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_OPTIONAL, false, NULL}};
+    [LOADING] = {"loading", FW_DIM_PER_AREA, FW_LAW_WHEN_KNOWN, false, NULL},
+    [OPEN_AREA] = {"open_area", FW_DIM_AREA, FW_LAW_WHEN_KNOWN, false, NULL},
+    [REFERENCE_AREA] = {"reference_area", FW_DIM_AREA, FW_LAW_WHEN_KNOWN, false, NULL}};
 const fw_process_law fw_process_law_arde = {
     .name = "arde",
     .formula = "t = (D + S J(w, D))/R0",

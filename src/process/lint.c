@@ -183,6 +183,7 @@ fw_status fw_process_pack_lint(fw_process_pack *pack) {
 
 fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     fw_process_pack pack = {.arena = arena, .diags = diags, .flow = flow};
+    FW_TRY(fw_process_flow_fill_texts(arena, flow, diags)); /* tolerances that go with a value */
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
         if (rules[i].values) FW_TRY(rules[i].check(&pack));
     return FW_OK;

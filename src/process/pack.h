@@ -50,6 +50,11 @@ double fw_process_pack_number(const fw_xml_record *e, const char *name, double a
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
 
 fw_status fw_process_pack_steps(fw_process_pack *pack);
+/* after the steps: keeps the texts that name values (FW-D348) */
+fw_status fw_process_pack_texts(fw_process_pack *pack);
+fw_status fw_process_flow_fill_texts(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);
+/* takes the share from its quantity, where it has one */
+void fw_process_step_overrun(fw_process_step *step);
 /* <corner>s of the flow; mistakes are FW-D260 */
 void fw_process_pack_corners(fw_process_pack *pack);
 

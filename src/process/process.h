@@ -159,6 +159,7 @@ typedef struct fw_process_step {
     fw_process_setting *setting;
     const char *law, *expression;
     double overrun, k;
+    const fw_quantity *overrun_from; /* NULL: overrun is a number of the pack */
     fw_process_argument *argument;
     const char **endpoint;
     fw_process_accept *accept;
@@ -209,6 +210,13 @@ typedef struct fw_process_finished {
     fw_place place;
 } fw_process_finished;
 
+/* a text that names values between braces (step_texts.c) */
+typedef struct fw_process_text {
+    const char **slot; /* where it is shown, filled in */
+    const char *raw;
+    fw_place place;
+} fw_process_text;
+
 typedef struct fw_process_override {    /* a value of the laboratory in the place of the pack's */
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
 } fw_process_override;
@@ -244,7 +252,8 @@ typedef struct fw_process_flow {
     fw_process_override *override; /* (noverride) */
     int noverride;
     fw_process_wait *wait; /* (nwait) computed */
-    int nwait;
+    fw_process_text *text; /* (ntext) */
+    int nwait, ntext;
     fw_place place;
 } fw_process_flow;
 

@@ -64,6 +64,11 @@ fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const c
     return FW_OK;
 }
 
+void fw_process_step_overrun(fw_process_step *s) {
+    const fw_quantity *q = s->overrun_from;
+    if (q) s->overrun = q->unknown ? 0.0 : q->value;
+}
+
 const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name) {
     return fw_xml_cell_of(e, name)->given;
 }

@@ -37,6 +37,28 @@ typedef struct input {
     int n;
 } input;
 
+static const fw_quantity *given(const fw_process_law_use *use, const char *name) {
+    for (int j = 0; j < use->nargument; j++)
+        if (strcmp(use->argument[j].name, name) == 0) return use->argument[j].q;
+    return NULL;
+}
+
+/* is the law's correction made: are all its FW_LAW_WHEN_KNOWN arguments there and known? */
+static bool corrected(const fw_process_law_use *use) {
+    for (int i = 0; i < use->law->nargument; i++) {
+        const fw_process_law_argument *a = &use->law->argument[i];
+        const fw_quantity *q = given(use, a->name);
+        if (a->need == FW_LAW_WHEN_KNOWN && (!q || q->unknown)) return false;
+    }
+    return true;
+}
+
+/* an argument of a correction that is not made */
+static bool left_out(const fw_process_law_use *use, const char *name) {
+    int at = use->law->argument ? fw_process_law_argument_index(use->law, name) : -1;
+    return at >= 0 && use->law->argument[at].need == FW_LAW_WHEN_KNOWN && !corrected(use);
+}
+
 static void collect(const fw_process_law_use *use, input *in) {
     const fw_process_law *law = use->law;
     *in = (input){.n = law->argument ? law->nargument : use->nargument};
@@ -48,8 +70,7 @@ static void collect(const fw_process_law_use *use, input *in) {
             in->q[i] = use->argument[i].q;
         } else {
             in->name[i] = law->argument[i].name;
-            for (int j = 0; j < use->nargument; j++)
-                if (strcmp(use->argument[j].name, in->name[i]) == 0) in->q[i] = use->argument[j].q;
+            in->q[i] = left_out(use, in->name[i]) ? NULL : given(use, in->name[i]);
         }
         if (in->q[i]) {
             in->x[i] = in->q[i]->unknown ? (double)NAN : in->q[i]->value;
@@ -93,6 +114,7 @@ static fw_status missing(fw_arena *arena, const fw_process_law_use *use,
     for (int i = 0; i < use->nargument + use->nneed; i++) {
         const fw_process_argument *a =
             i < use->nargument ? &use->argument[i] : &use->need[i - use->nargument];
+        if (i < use->nargument && left_out(use, a->name)) continue;
         if (a->q->unknown)
             FW_TRY(
                 add_text(arena, &answer->missing, &answer->nmissing, missing_name(arena, use, a)));
@@ -103,10 +125,7 @@ static fw_status missing(fw_arena *arena, const fw_process_law_use *use,
     if (!use->law->stated) answer->status = fw_process_status_worse(answer->status, FW_DERIVED);
     for (int i = 0; i < use->law->nargument; i++) {
         const fw_process_law_argument *a = &use->law->argument[i];
-        bool given = false;
-        for (int j = 0; j < use->nargument; j++)
-            given = given || strcmp(use->argument[j].name, a->name) == 0;
-        if (!given && a->need == FW_LAW_REQUIRED)
+        if (!given(use, a->name) && a->need == FW_LAW_REQUIRED)
             FW_TRY(add_text(arena, &answer->missing, &answer->nmissing, in_words(arena, a->name)));
     }
     return FW_OK;

@@ -29,7 +29,13 @@
 
 enum { FW_LAW_ARGUMENTS = 24 }; /* most arguments of one law */
 
-typedef enum fw_process_law_need { FW_LAW_REQUIRED, FW_LAW_OPTIONAL } fw_process_law_need;
+typedef enum fw_process_law_need {
+    FW_LAW_REQUIRED,
+    FW_LAW_OPTIONAL,
+    /* of a correction that is made where all such arguments of the law are known, and not at all where one is not: what is
+       not known there leaves the time computable, and counts neither for its status nor for its uncertainty */
+    FW_LAW_WHEN_KNOWN
+} fw_process_law_need;
 
 typedef struct fw_process_law_argument {
     const char *name;

@@ -318,6 +318,7 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
     fw_process_pack_corners(&pack);
     read_finished(&pack);
     FW_TRY(fw_process_pack_steps(&pack));
+    FW_TRY(fw_process_pack_texts(&pack));
     if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));
     if (diags->errors == errors) FW_TRY(fw_process_flow_waits(arena, pack.flow));
     if (diags->failed) return FW_NOMEM;

@@ -143,7 +143,8 @@ static const fw_xml_attribute_row set_rows[] = {
 };
 static const fw_xml_attribute_row time_rows[] = {
     {"law", TOKEN, REQUIRED, .sentence = "How the time is computed."},
-    {"overrun", AMOUNT, REQUIRED, .sentence = "Share that is added beyond the end."},
+    {"overrun", TEXT, REQUIRED,
+     .sentence = "Share that is added beyond the end: a number, or the id of a quantity."},
     {"k", AMOUNT, REQUIRED, .sentence = "Standard uncertainties between first look and clear-by."},
     {"shape", WORD(shapes), .sentence = "Of what is filled or emptied, where the law asks."},
 };

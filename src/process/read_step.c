@@ -68,7 +68,7 @@ static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
                                    law->argument[at].dimension));
     }
     for (int i = 0; i < law->nargument; i++) {
-        bool given = law->argument[i].need == FW_LAW_OPTIONAL;
+        bool given = law->argument[i].need != FW_LAW_REQUIRED;
         for (const fw_xml_record *c = e->first_child; c && !given; c = c->next)
             given = fw_xml_is(c, "arg") &&
                     strcmp(fw_process_pack_text(c, "name"), law->argument[i].name) == 0;
@@ -133,9 +133,30 @@ static const fw_process_law *law_of(fw_process_pack *pack, const fw_xml_record *
     return NULL;
 }
 
+/* a number, or a quantity of its own so that it is written once */
+static void read_overrun(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, "overrun");
+    double value;
+    if (!a) return;
+    if (fw_number_parse(a->value, strlen(a->value), &value)) {
+        s->overrun = value;
+        if (!(value >= 0.0 && value <= 100.0))
+            fw_diag_error(pack->diags, 171, a->place,
+                          "overrun=\"%s\" is not between 0 and 100: it is a share of the time",
+                          a->value);
+        return;
+    }
+    s->overrun_from = fw_process_pack_find(pack, a, FW_ID_QUANTITY);
+    if (s->overrun_from &&
+        !fw_quantity_dimension_equal(s->overrun_from->dimension, (fw_quantity_dimension){0}))
+        fw_diag_error(pack->diags, 169, a->place, "'%s' is no share; give it the unit 1 or %%",
+                      a->value);
+    fw_process_step_overrun(s);
+}
+
 static fw_status read_time(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_process_law *law = law_of(pack, e);
-    s->overrun = fw_process_pack_number(e, "overrun", 0.0);
+    read_overrun(pack, e, s);
     s->k = fw_process_pack_number(e, "k", 2.0);
     s->shape = fw_process_pack_text(e, "shape");
     FW_TRY(read_arguments(pack, e, "arg", &s->argument, &s->nargument));
@@ -330,7 +351,8 @@ static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_s
     for (int i = 0; i < 2; i++) {
         const fw_xml_attribute *a = fw_process_pack_get(e, bound[i]);
         double value;
-        if (a && a->value[0] && !fw_number_parse(a->value, strlen(a->value), &value))
+        if (a && a->value[0] && !strchr(a->value, '{') &&
+            !fw_number_parse(a->value, strlen(a->value), &value))
             fw_diag_error(pack->diags, 171, a->place, "%s='%s' is not a number", a->name, a->value);
     }
     if (q)

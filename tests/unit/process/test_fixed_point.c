@@ -370,7 +370,7 @@ static void perturb_one_and_look(void **state) {
     assert_true(moved(base.bias_m, now.bias_m) && moved(base.nominal_s, now.nominal_s));
     assert_true(moved(base.flare_m, now.flare_m) && moved(base.edge_slope, now.edge_slope));
     f = with_known_anisotropy();
-    step_of(f, "S18")->overrun = 0.2;
+    set(f, "rie.overetch", 0.2);
     now = look(f);
     assert_true(moved(base.bias_m, now.bias_m) && moved(base.stop_s, now.stop_s));
     assert_true(moved(base.edge_slope, now.edge_slope) && moved(base.nominal_s, now.nominal_s));
@@ -458,14 +458,15 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
         const char *text = pack_text(arena, SILICON, &n), *base = pack_text(arena, "base", &nb);
         text = replaced(
             arena, text,
-            "<time law=\"arde\" shape=\"slot\" overrun=\"0.1\" k=\"2\"><arg name=\"depth\"",
+            "<time law=\"arde\" shape=\"slot\" overrun=\"rie.overetch\" k=\"2\"><arg "
+            "name=\"depth\"",
             "<time law=\"rate\" overrun=\"0.05\" k=\"2\"><arg name=\"thickness\" q=\"si.d\"/>"
             "<arg name=\"rate\" q=\"rie.R\"/></time><derive name=\"slot\" unit=\"min\" "
             "law=\"arde\">"
             "<arg name=\"depth\"",
             &n);
-        text = replaced(arena, text, "<arg name=\"probability\" q=\"rie.S\"/></time>",
-                        "<arg name=\"probability\" q=\"rie.S\"/></derive>", &n);
+        text = replaced(arena, text, "q=\"rie.A-reference\"/></time>",
+                        "q=\"rie.A-reference\"/></derive>", &n);
         fw_process_flow *f = NULL;
         diags = fw_diags_new(arena);
         assert_int_equal(

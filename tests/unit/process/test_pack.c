@@ -197,7 +197,7 @@ static void the_unknown_is_unknown(void **state) {
                                          "cu.bath-T", "release.R", "seed.R"};
     static const char *const silicon[] = {"al.power", "al.R",         "al.base", "resist.type",
                                           "pan.T",    "pan.c-nitric", "rie.A",   "rie.electrode",
-                                          "rie.bias", "rie.kappa",    "rie.T",   "wafer.D"};
+                                          "rie.bias", "rie.kappa",    "rie.T",   "rie.A-reference"};
     fw_process_flow *c = read_pack(arena, COPPER, NULL, NULL, &diags),
                     *s = read_pack(arena, SILICON, NULL, NULL, &diags);
     for (size_t i = 0; i < sizeof copper / sizeof copper[0]; i++)
@@ -232,8 +232,8 @@ static void mistakes(void **state) {
         {"<expr>phosphoric + nitric + water</expr>", "<expr>phosphoric + nitrc + water</expr>", 170,
          ""},
         {"<expr>phosphoric + nitric + water</expr>", "", 170, "needs an <expr>"},
-        {"overrun=\"0\" k=\"2\"", "overrun=\"some\" k=\"2\"", 171, "overrun"},
-        {"tol-lo=\"0.95\"", "tol-lo=\"low\"", 171, "tol-lo"},
+        {"overrun=\"0\" k=\"2\"", "overrun=\"some\" k=\"2\"", 165, "overrun"},
+        {"tol-lo=\"98\"", "tol-lo=\"low\"", 171, "tol-lo"},
         {"max=\"2\" unit=\"h\"", "min=\"3\" max=\"2\" unit=\"h\"", 171, "min is longer"},
         {"max=\"2\" unit=\"h\"", "max=\"2\" unit=\"um\"", 169, "unit of time"},
         {"<change kind=\"remove\" material=\"carrier-wax\"/>",

@@ -80,9 +80,9 @@ static void mistakes(void **state) {
         {SILICON, "<finish kind=\"dry\" by=\"spin\"/>", "<finish kind=\"dry\"/>", 343, "needs by"},
         {SILICON, "<finish kind=\"rinse\"/>", "<finish kind=\"rinse\" with=\"h.uv\"/>", 343,
          "no liquid"},
-        {SILICON, "tol-lo=\"48\" tol-hi=\"52\"", "tol-lo=\"52\" tol-hi=\"48\"", 342, "exchange"},
-        {SILICON, "tol-lo=\"48\" tol-hi=\"52\"", "tol-lo=\"30\" tol-hi=\"40\"", 342, "allows"},
-        {SILICON, "lo=\"48\" hi=\"52\" unit=\"um\"", "lo=\"52\" hi=\"48\" unit=\"um\"", 342,
+        {SILICON, "tol-lo=\"98\" tol-hi=\"102\"", "tol-lo=\"102\" tol-hi=\"98\"", 342, "exchange"},
+        {SILICON, "tol-lo=\"98\" tol-hi=\"102\"", "tol-lo=\"30\" tol-hi=\"40\"", 342, "allows"},
+        {SILICON, "lo=\"60\" hi=\"75\" unit=\"deg\"", "lo=\"75\" hi=\"60\" unit=\"deg\"", 342,
          "above"},
         {COPPER, "<q id=\"cu.eta\" value=\"0.97\"", "<q id=\"cu.eta\" value=\"97\"", 278,
          "no bath deposits more"},
@@ -109,13 +109,21 @@ static void a_laboratory_meets_the_same_checks(void **state) {
         const char *flow, *id, *value, *unit;
         int number; /* 0: fine */
     } lab[] = {
-        {COPPER, "cu.eta", "97", "1", 278},     {COPPER, "cu.eta", "97", "%", 0},
-        {COPPER, "ps.P", "0", "1", 278},        {SILICON, "rie.A", "1.5", "1", 278},
-        {SILICON, "rie.A", "0.97", "1", 0},     {SILICON, "rie.selectivity", "-3", "1", 278},
-        {SILICON, "pan.R", "-10", "Ao/s", 278}, {SILICON, "pan.R", "10000", "Ao/s", 278},
-        {SILICON, "hard.T", "131", "Cel", 271}, {SILICON, "si.d", "60", "um", 342},
-        {COPPER, "ps.d", "526", "um", 344},     {SILICON, "al.d", "-1", "um", 278},
-        {COPPER, "ps.J", "20", "mA/cm2", 0},    {COPPER, "develop.R-porous", "-1", "um/min", 278},
+        {COPPER, "cu.eta", "97", "1", 278},
+        {COPPER, "cu.eta", "97", "%", 0},
+        {COPPER, "ps.P", "0", "1", 278},
+        {SILICON, "rie.A", "1.5", "1", 278},
+        {SILICON, "rie.A", "0.97", "1", 0},
+        {SILICON, "rie.selectivity", "-3", "1", 278},
+        {SILICON, "pan.R", "-10", "Ao/s", 278},
+        {SILICON, "pan.R", "10000", "Ao/s", 278},
+        {SILICON, "hard.T", "131", "Cel", 271},
+        {SILICON, "si.d", "60", "um", 0},
+        {SILICON, "bake.T", "108", "Cel", 342},
+        {COPPER, "ps.d", "526", "um", 344},
+        {SILICON, "al.d", "-1", "um", 278},
+        {COPPER, "ps.J", "20", "mA/cm2", 0},
+        {COPPER, "develop.R-porous", "-1", "um/min", 278},
     };
     for (size_t i = 0; i < sizeof lab / sizeof lab[0]; i++) {
         fw_diags quiet = fw_diags_new(arena);

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Texts of packs that name values (step_texts.c), and that no text repeats a value of its step: what changes, changes
+   everywhere. */
+#include "pack_fixture.h"
+#include "process/calibrate.h"
+#include <ctype.h>
+
+static void put_value(fw_process_flow *f, const char *id, double factor) {
+    fw_quantity *q = (fw_quantity *)fw_process_flow_quantity(f, id);
+    assert_non_null(q);
+    q->value *= factor;
+}
+
+static const char *derive_like(const fw_process_step *s, const char *part) {
+    for (int i = 0; i < s->nderive; i++)
+        if (strstr(s->derive[i].name, part)) return s->derive[i].name;
+    return "";
+}
+
+static void texts_follow_their_values(void **state) {
+    (void)state;
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    const fw_process_step *etch = step_of(f, "S18"), *in = step_of(f, "S01");
+    assert_string_equal(derive_like(etch, "with breaks"),
+                        "with breaks of 10 min after every 30 min");
+    assert_string_equal(in->setting[0].tolerance_low, "48");
+    assert_non_null(strstr(etch->purpose, "In parts"));
+    assert_non_null(strstr(step_of(f, "S14")->endpoint[0], "after clear 10 % more"));
+    put_value(f, "rie.break", 1.5);
+    put_value(f, "si.d", 0.5);
+    put_value(f, "al.overetch", 3);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_string_equal(derive_like(etch, "with breaks"),
+                        "with breaks of 15 min after every 30 min");
+    assert_string_equal(in->setting[0].tolerance_high, "26");
+    assert_non_null(strstr(step_of(f, "S14")->endpoint[0], "after clear 30 % more"));
+    assert_relative(step_of(f, "S14")->overrun, 0.3, 1e-15);
+    assert_relative(f->bias_m, 1.3e-6, 1e-12); /* the same share goes to the mask */
+}
+
+static void what_names_nothing_is_said(void **state) {
+    (void)state;
+    static const char *const bad[] = {"{no.such}", "{rie.break:um}", "{=}", "{rie.break",
+                                      "{rie.break*x}"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, SILICON, "after every {rie.part}",
+                              fw_arena_printf(arena, "after every %s", bad[i]), &diags));
+        assert_int_equal(diags.item[0].number, 348);
+    }
+}
+
+/* "10 min" as a number and a unit in a raw text of a step, and a quantity that the step uses has that value in that unit:
+   it must be named instead. Only texts of the steps; notes of quantities say where a number is from. */
+static bool repeats(const fw_process_flow *f, const char *text, const fw_quantity *q) {
+    (void)f;
+    if (q->unknown || !q->unit || strcmp(q->unit, "1") == 0) return false;
+    for (const char *c = text; *c; c++) {
+        char *end;
+        bool starts = isdigit((unsigned char)*c) &&
+                      (c == text || (!isdigit((unsigned char)c[-1]) && c[-1] != '.' &&
+                                     c[-1] != '{' && !isalpha((unsigned char)c[-1])));
+        if (!starts) continue;
+        double value = strtod(c, &end);
+        size_t n = strlen(q->unit);
+        if (end == c || *end != ' ' || strncmp(end + 1, q->unit, n) != 0 ||
+            isalnum((unsigned char)end[1 + n]))
+            continue;
+        if (fabs(value - fw_quantity_in_unit(q)) <= 1e-9 * fabs(value)) return true;
+    }
+    return false;
+}
+
+static const char *raw_of(const fw_process_flow *f, const char *const *slot) {
+    for (int i = 0; i < f->ntext; i++)
+        if (f->text[i].slot == (const char **)slot) return f->text[i].raw;
+    return *slot;
+}
+
+static int look(const fw_process_flow *f, const fw_process_step *s, const char *const *slot) {
+    const char *text = raw_of(f, slot);
+    const fw_quantity *used[200];
+    int n = 0, found = 0;
+    for (int i = 0; i < s->nsetting; i++)
+        used[n++] = s->setting[i].q;
+    for (int i = 0; i < s->nargument; i++)
+        used[n++] = s->argument[i].q;
+    for (int d = 0; d < s->nderive; d++)
+        for (int i = 0; i < s->derive[d].nargument; i++)
+            used[n++] = s->derive[d].argument[i].q;
+    for (int i = 0; i < n; i++)
+        if (repeats(f, text, used[i])) {
+            print_error("%s: '%s' repeats %s\n", s->id, text, used[i]->id);
+            found++;
+        }
+    return found;
+}
+
+static void no_text_repeats_a_value(void **state) {
+    (void)state;
+    static const char *const pack[] = {SILICON, COPPER, "soi-deep-rie"};
+    int found = 0;
+    for (int p = 0; p < 3; p++) {
+        fw_process_flow *f = read_pack(arena, pack[p], NULL, NULL, &diags);
+        for (int i = 0; i < f->nstep; i++) {
+            const fw_process_step *s = &f->step[i];
+            found += look(f, s, &s->purpose);
+            for (int k = 0; k < s->nendpoint; k++)
+                found += look(f, s, &s->endpoint[k]);
+            for (int k = 0; k < s->nderive; k++)
+                found += look(f, s, &s->derive[k].name);
+            for (int k = 0; k < s->nsetting; k++)
+                found += look(f, s, &s->setting[k].name);
+            for (int k = 0; k < s->naccept; k++)
+                found += look(f, s, &s->accept[k].measure);
+            for (int k = 0; k < s->non_fail; k++)
+                found += look(f, s, &s->on_fail[k].text);
+        }
+    }
+    assert_int_equal(found, 0);
+}
+
+/* a bath that is warmer, and an open area that loads the plasma: blanks of the sheet that do something once filled in */
+static void what_is_entered_changes_the_time(void **state) {
+    (void)state;
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_relative(step_of(f, "S14")->time.nominal_s, 1000, 1e-12);
+    assert_int_equal(step_of(f, "S14")->time.status,
+                     FW_DERIVED); /* a guess that is not used does not count */
+    double plasma = step_of(f, "S18")->time.nominal_s;
+    measured(f, "pan.T", 313.15, 0.5);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    double slower = exp(0.5 * 1.602176634e-19 / 1.380649e-23 * (1 / 295.15 - 1 / 313.15));
+    assert_relative(step_of(f, "S14")->time.nominal_s, 1000 / slower, 1e-9);
+    assert_relative(step_of(f, "S21")->time.nominal_s, 1000 / slower, 1e-9);
+    assert_relative(step_of(f, "S18")->time.nominal_s, plasma, 1e-15);
+    measured(f, "rie.kappa", 100, 1); /* of the reference area alone nothing follows */
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    assert_relative(step_of(f, "S18")->time.nominal_s, plasma, 1e-15);
+    measured(f, "rie.A-reference", 1e-4, 0);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    double open = 30 * (28e-6 - 5e-6);
+    assert_relative(step_of(f, "S18")->time.nominal_s, plasma * (1 + 100 * open) / (1 + 100 * 1e-4),
+                    1e-12);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(texts_follow_their_values), TEST(what_names_nothing_is_said),
+        TEST(no_text_repeats_a_value), TEST(what_is_entered_changes_the_time)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
