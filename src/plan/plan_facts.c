@@ -139,6 +139,13 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     for (int i = 0; i < wafer->ncell; i++)
         if (wafer->cell[i].mask)
             add_mask(wafer->cell[i].mask, term, n, wafer->cell[i].placed, facts);
+    facts->wafer_diameter_m = wafer->form.diameter_m;
+    for (int i = 0; i < wafer->grid.nsite; i++) {
+        const fw_wafer_site *site = &wafer->grid.site[i];
+        double x = fmax(fabs((double)site->x), fabs((double)site->x + wafer->grid.width)),
+               y = fmax(fabs((double)site->y), fabs((double)site->y + wafer->grid.height));
+        facts->wafer_reach_m = fmax(facts->wafer_reach_m, 1e-9 * hypot(x, y));
+    }
     facts->wafer_area_m2 =
         (double)wafer->grid.nsite * wafer->grid.width * wafer->grid.height * 1e-18;
     return FW_OK;

@@ -103,6 +103,18 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill_plated(flow, m);
 }
 
+/* the pack's own wafer stands in until the device file lays one out */
+static void set_wafer(fw_process_flow *flow, const fw_process_mask_facts *m) {
+    fw_quantity *q = fw_process_flow_own_quantity(flow, "wafer.D");
+    if (!q || !usable(m->wafer_diameter_m)) return;
+    q->value = m->wafer_diameter_m;
+    q->uncertainty = 0.0;
+    q->unknown = q->interval = false;
+    q->status = FW_DERIVED;
+    q->source = "device file, <wafer>";
+    q->note = NULL;
+}
+
 static void forget_mask(fw_process_flow *flow) {
     for (int i = 0; i < flow->nquantity; i++)
         if (flow->quantity[i]->id && strncmp(flow->quantity[i]->id, "mask.", 5) == 0)
@@ -343,6 +355,7 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
     forget_mask(flow);
     forget_derived(flow);
     if (facts) FW_TRY(set_thickness(arena, flow, facts));
+    if (facts) set_wafer(flow, facts);
     if (facts && facts->structure_area_m2 == 0.0 && facts->die_area_m2 == 0.0)
         facts = NULL; /* nothing was drawn */
     if (facts) {
@@ -369,6 +382,7 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(count_quantities(arena, flow));
     FW_TRY(fw_process_flow_judge(arena, flow, facts, diags));
     FW_TRY(fw_process_lint_computed(arena, flow, diags));
+    FW_TRY(fw_process_lint_wafer(arena, flow, facts));
     FW_TRY(tell(arena, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -181,6 +181,33 @@ fw_status fw_process_pack_lint(fw_process_pack *pack) {
     return FW_OK;
 }
 
+/* dies outside the circle that a step works in: their devices are not made */
+static fw_status lint_across(fw_arena *arena, fw_process_flow *flow,
+                             const fw_process_mask_facts *facts, const fw_process_step *s,
+                             const fw_process_change *c) {
+    if (!c->across || c->across->unknown || !facts || !(facts->wafer_reach_m > 0.0)) return FW_OK;
+    double needs = 2.0 * facts->wafer_reach_m, is = c->across->value;
+    if (needs <= is) return FW_OK;
+    char a[32], b[32];
+    return fw_process_flow_add_reason(
+        arena, flow, 0,
+        fw_arena_printf(arena,
+                        "step %s works inside a circle of %s mm (%s), but the outermost die "
+                        "reaches across %s mm. Nearest change: a tool that wide, or a wider edge "
+                        "exclusion of the <wafer>",
+                        s->id, fw_number_text(a, sizeof a, is * 1e3, 4),
+                        c->across->id ? c->across->id : "across",
+                        fw_number_text(b, sizeof b, needs * 1e3, 4)));
+}
+
+fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
+                                const fw_process_mask_facts *facts) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            FW_TRY(lint_across(arena, flow, facts, &flow->step[i], &flow->step[i].change[k]));
+    return FW_OK;
+}
+
 fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     fw_process_pack pack = {.arena = arena, .diags = diags, .flow = flow};
     FW_TRY(fw_process_flow_fill_texts(arena, flow, diags)); /* tolerances that go with a value */

@@ -70,6 +70,9 @@ fw_status fw_process_lint_heat(fw_process_pack *pack);
 fw_status fw_process_lint_contamination(fw_process_pack *pack);
 fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
+/* after fw_process_flow_judge: does the flow reach every die of the wafer? */
+fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
+                                const fw_process_mask_facts *facts);
 /* values (FW-D278, FW-D342, FW-D344) */
 fw_status fw_process_lint_ranges(fw_process_pack *pack);
 fw_status fw_process_lint_settings(fw_process_pack *pack);

@@ -61,6 +61,8 @@ typedef struct fw_process_change {
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
     const fw_quantity *anisotropy; /* of a masked etch, A = 1 - lateral/vertical; may be NULL */
     const fw_quantity *spread; /* of a plating, largest local thickness over mean; may be NULL */
+    const fw_quantity
+        *across;              /* the change is made inside a circle of this diameter; may be NULL */
     const fw_quantity *reach; /* of a removal: so far sideways from every opening, below what stays;
                                  may be NULL */
     fw_process_face compensate; /* the face that the mask brings to where it is drawn */
@@ -267,6 +269,8 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
+    /* of the wafer itself, and how far from its centre the outermost die reaches; 0: no wafer is laid out */
+    double wafer_diameter_m, wafer_reach_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
     /* (ngap) openings by name, as drawn; the narrowest slot need not be among them */
     const fw_process_mask_gap *gap;

@@ -127,6 +127,8 @@ static const fw_xml_attribute_row change_rows[] = {
     {"compensate", WORD(faces), .fallback = "middle",
      .sentence = "The face whose edge the mask brings to where it is drawn."},
     {"spread", TO(QUANTITY), .sentence = "Of a plating: largest local thickness over the mean."},
+    {"across", TO(QUANTITY),
+     .sentence = "Diameter of the circle about the wafer's centre inside which it is made."},
     {"reach", TO(QUANTITY),
      .sentence = "remove: how far it goes sideways from every opening, below what stays."},
 };

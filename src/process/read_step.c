@@ -220,6 +220,7 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
                                  strcmp(fw_process_pack_text(e, "profile"), "isotropic") == 0,
                              .anisotropy = quantity_of(pack, e, "anisotropy"),
                              .spread = quantity_of(pack, e, "spread"),
+                             .across = quantity_of(pack, e, "across"),
                              .reach = quantity_of(pack, e, "reach"),
                              .compensate = face_of(fw_process_pack_text(e, "compensate")),
                              .place = e->element->place};
@@ -236,6 +237,10 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
         !fw_quantity_dimension_equal(c->reach->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "the reach of <change> is not a length; write it in um or nm");
+    if (c->across &&
+        !fw_quantity_dimension_equal(c->across->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "across of <change> is not a length; write it in mm");
     if (c->reach && strcmp(c->kind, "remove") != 0)
         fw_diag_error(pack->diags, 161, e->element->place,
                       "reach is how far a removal goes sideways: it belongs to kind='remove' only");

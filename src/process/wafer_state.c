@@ -188,6 +188,15 @@ const char *fw_process_wafer_words(fw_arena *arena, const fw_process_flow *flow,
     return fw_arena_printf(arena, "%s %s", rows[state].is, name_of(flow, state, w->with[state]));
 }
 
+/* the pack's own hold says it more strictly */
+static bool held(const fw_process_flow *flow, int from, int to, double max_s) {
+    for (int k = 0; k < flow->step[to].nlag; k++)
+        if (strcmp(flow->step[to].lag[k].from, flow->step[from].id) == 0 &&
+            flow->step[to].lag[k].max_s <= max_s)
+            return true;
+    return false;
+}
+
 static fw_status add_wait(fw_arena *arena, fw_process_flow *flow, const fw_process_wafer *w,
                           fw_process_state state, int from, int to) {
     fw_process_wait *grown = fw_arena_grow(arena, flow->wait, (size_t)flow->nwait,
@@ -197,13 +206,16 @@ static fw_status add_wait(fw_arena *arena, fw_process_flow *flow, const fw_proce
     const fw_quantity *q = fw_process_flow_quantity(flow, id);
     bool known = q && !q->unknown;
     flow->wait = grown;
+    if (held(flow, from, to, known ? q->value : rows[state].longest_s)) return FW_OK;
     fw_process_wait *wait = &flow->wait[flow->nwait++];
     *wait = (fw_process_wait){.from = from,
                               .to = to,
                               .max_s = known ? q->value : rows[state].longest_s,
                               .q = known ? q : NULL,
                               .first_only = state == FW_STATE_SEASONED,
-                              .why = rows[state].why};
+                              .why = state == FW_STATE_WET && !w->liquid && !w->unnamed
+                                         ? "it dries to stains where it is left"
+                                         : rows[state].why};
     FW_NEED(wait->is = fw_process_wafer_words(arena, flow, w, state));
     return FW_OK;
 }

@@ -256,7 +256,7 @@ static fw_status finishes(const fw_process_step *s, fw_text *out) {
             fw_schedule_put_duration(out, f->time->value);
             fw_text_printf(out, ", %s)", fw_quantity_value_status_text(f->time->status));
         }
-        if (f->text[0]) {
+        if (f->text[0] && f->kind != FW_FINISH_RINSE) {
             fw_text_add(out, ", ");
             fw_text_escaped(out, f->text);
         }

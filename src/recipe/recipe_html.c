@@ -173,6 +173,10 @@ static void summary_row(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < 4; i++) {
         fw_text_add(out, "<td class=\"n\">");
         fw_schedule_put_duration(out, value[i]);
+        if (i == 0 && s->finish_s > 0.0) {
+            fw_text_add(out, " + ");
+            fw_schedule_put_duration(out, s->finish_s);
+        }
         fw_text_add(out, "</td>");
     }
     fw_text_add(out, "</tr>\n");
@@ -195,7 +199,8 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "</b></td><td colspan=\"3\"></td></tr>\n</tbody></table>\n"
                 "<p class=\"small\">First look = planned (1 - k u), clear by = planned (1 + k u), "
                 "stop = clear by (1 + overrun); u is the relative standard uncertainty of the "
-                "time, k = 2.</p>\n");
+                "time, k = 2. Behind a + what is done at the same bench before the wafer leaves it."
+                "</p>\n");
 }
 
 static void sources(const fw_process_flow *flow, fw_text *out) {

@@ -112,7 +112,10 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) 
                   {"critical-point", "at the critical point"}};
     switch (f->kind) {
     case FW_FINISH_RINSE:
-        return fw_arena_printf(arena, "rinse in %s", f->with ? f->with->name : "deionised water");
+        return fw_arena_printf(arena, "rinse in %s",
+                               f->text[0] ? f->text
+                               : f->with  ? f->with->name
+                                          : "deionised water");
     case FW_FINISH_DRY:
         for (size_t i = 0; i < sizeof drying / sizeof drying[0]; i++)
             if (strcmp(drying[i].by, f->by) == 0)

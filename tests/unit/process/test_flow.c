@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/constants.h"
 #include "pack_fixture.h"
 #include "process/process_law.h"
 #include "process/films.h"
@@ -50,7 +51,9 @@ static void copper(void **state) {
     assert_string_equal(s->time.contribution[0], "area 2.86 %");
     assert_relative(shown(f, "C05", "current"), 0.2770885, 1e-6);
     assert_relative(shown(f, "C05", "time for 2 um"), 110.4149070, 1e-8);
-    assert_relative(shown(f, "C07", "sheet resistance"), 0.5333333, 1e-6);
+    /* 4 dV/(J share R^2) with share R^2 = structures/pi */
+    assert_relative(shown(f, "C07", "sheet resistance"), 4 * 0.02 * FW_PI / (200 * 30 * 5e-6),
+                    1e-9);
     assert_relative(step_of(f, "C15")->time.nominal_s, 4608.0, 1e-9);
     assert_relative(shown(f, "C16", "light on"), 141.4285714, 1e-9);
     /* u(D) 7 %, u(I) 5 %: 117.1 to 165.8 s at 2 u */
