@@ -204,6 +204,20 @@ static double finishing_s(const fw_process_step *s) {
     return sum;
 }
 
+/* pauses between parts of `t` s: none after the last */
+static double pausing_s(const fw_process_step *s, double t_s) {
+    if (!s->pulse || s->pulse->unknown || s->pause->unknown || !(s->pulse->value > 0.0)) return 0.0;
+    return fmax(0.0, ceil(t_s / s->pulse->value * (1.0 - 1e-12)) - 1.0) * s->pause->value;
+}
+
+static void book(fw_process_step *s) {
+    double t = s->time.nominal_s * (1.0 + s->overrun);
+    s->booked_s = s->booked_stop_s = 0.0;
+    if (!s->time.computable) return;
+    s->booked_s = t + pausing_s(s, t) + s->finish_s;
+    s->booked_stop_s = s->time.stop_s + pausing_s(s, s->time.stop_s) + s->finish_s;
+}
+
 static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     fw_process_argument list[FW_LAW_ARGUMENTS];
     fw_quantity none;
@@ -225,6 +239,7 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
     fw_process_law_window(&answer, s->k, s->overrun, &s->time);
     if (use.law->derive) FW_TRY(use.law->derive(arena, &use, &answer, s));
+    book(s);
     return FW_OK;
 }
 
@@ -372,7 +387,7 @@ fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
         FW_TRY(compute_step(arena, &flow->step[i]));
         FW_TRY(derive_losses(arena, flow, &flow->step[i]));
         if (flow->step[i].time.computable)
-            flow->total_s += flow->step[i].time.nominal_s + flow->step[i].finish_s;
+            flow->total_s += flow->step[i].booked_s;
         else
             flow->not_computable++;
     }

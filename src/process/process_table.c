@@ -149,6 +149,8 @@ static const fw_xml_attribute_row time_rows[] = {
      .sentence = "Share that is added beyond the end: a number, or the id of a quantity."},
     {"k", AMOUNT, REQUIRED, .sentence = "Standard uncertainties between first look and clear-by."},
     {"shape", WORD(shapes), .sentence = "Of what is filled or emptied, where the law asks."},
+    {"pulse", TO(QUANTITY), .sentence = "The step is done in parts of at most this time."},
+    {"pause", TO(QUANTITY), .sentence = "How long it pauses between the parts."},
 };
 static const fw_xml_attribute_row derive_rows[] = {
     {"name", TEXT, REQUIRED, .sentence = "What is computed on the way."},

@@ -159,6 +159,16 @@ static fw_status read_time(fw_process_pack *pack, const fw_xml_record *e, fw_pro
     read_overrun(pack, e, s);
     s->k = fw_process_pack_number(e, "k", 2.0);
     s->shape = fw_process_pack_text(e, "shape");
+    s->pulse = quantity_of(pack, e, "pulse");
+    s->pause = quantity_of(pack, e, "pause");
+    if ((s->pulse != NULL) != (s->pause != NULL))
+        fw_diag_error(pack->diags, 162, e->element->place,
+                      "parts and pauses belong together: give pulse and pause, or neither");
+    const fw_quantity *part[] = {s->pulse, s->pause};
+    for (int i = 0; i < 2; i++)
+        if (part[i] &&
+            !fw_quantity_dimension_equal(part[i]->dimension, (fw_quantity_dimension)FW_DIM_TIME))
+            fw_diag_error(pack->diags, 169, e->element->place, "'%s' is not a time", part[i]->id);
     FW_TRY(read_arguments(pack, e, "arg", &s->argument, &s->nargument));
     FW_TRY(read_arguments(pack, e, "needs", &s->need, &s->nneed));
     if (!law) return FW_OK;

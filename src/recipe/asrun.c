@@ -454,8 +454,7 @@ static total sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run) {
         t.repeated += times - 1;
         t.out += deviations(flow, run, e);
         t.actual_s += e->end_s - e->start_s;
-        if (flow->step[i].time.computable)
-            t.planned_s += flow->step[i].time.nominal_s + flow->step[i].finish_s;
+        if (flow->step[i].time.computable) t.planned_s += flow->step[i].booked_s;
     }
     return t;
 }
@@ -471,7 +470,7 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
         int times;
         const fw_recipe_asrun_entry *e = last_of(run, s, &times);
         const double cell[] = {
-            s->time.computable ? s->time.nominal_s + s->finish_s : (double)NAN,
+            s->time.computable ? s->booked_s : (double)NAN,
             s->time.computable ? s->time.first_look_s : (double)NAN,
             s->time.computable ? s->time.stop_s : (double)NAN,
             e ? e->end_s - e->start_s : (double)NAN,

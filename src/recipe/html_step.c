@@ -223,6 +223,19 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
     fw_text_add(out, "</tr></table>\n");
+    if (s->booked_s > t->nominal_s * (1.0 + 1e-9)) {
+        fw_text_add(out, "<p class=\"small\">At the machine: <b>");
+        fw_schedule_put_duration(out, s->booked_s);
+        fw_text_add(out, "</b>, with the over-etch");
+        if (s->pulse) {
+            fw_text_add(out, ", a pause of ");
+            fw_schedule_put_duration(out, s->pause->value);
+            fw_text_add(out, " after every ");
+            fw_schedule_put_duration(out, s->pulse->value);
+        }
+        fw_text_add(out, s->finish_s > 0.0 ? " and what follows at the bench" : "");
+        fw_text_add(out, ".</p>\n");
+    }
     const fw_process_law *law = fw_process_law_find(s->law);
     if (law && law->stated) /* the row "time" above has said it all */
         return FW_OK;

@@ -151,7 +151,7 @@ static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
     long at = midnight + 8L * 3600L;
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
-        double run = s->time.computable ? fmin(s->time.nominal_s + s->finish_s, 1e8) : 0.0;
+        double run = fmin(s->booked_s, 1e8);
         long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
         long end = at + (lasts > attended ? lasts : attended);
         FW_TRY(entry(out, flow, header, s, NULL, false, at, end));

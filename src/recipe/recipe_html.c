@@ -166,20 +166,18 @@ static void summary_row(const fw_process_step *s, fw_text *out) {
     fw_text_printf(out, "%s</td><td>%s</td>", s->second_signature ? " <b>(2)</b>" : "",
                    s->in_source ? "source" : "added");
     if (!t->computable) {
-        fw_text_add(out, "<td colspan=\"4\"><b>NOT COMPUTABLE</b></td></tr>\n");
+        fw_text_add(out, "<td colspan=\"5\"><b>NOT COMPUTABLE</b></td></tr>\n");
         return;
     }
     const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s};
     for (int i = 0; i < 4; i++) {
         fw_text_add(out, "<td class=\"n\">");
         fw_schedule_put_duration(out, value[i]);
-        if (i == 0 && s->finish_s > 0.0) {
-            fw_text_add(out, " + ");
-            fw_schedule_put_duration(out, s->finish_s);
-        }
         fw_text_add(out, "</td>");
     }
-    fw_text_add(out, "</tr>\n");
+    fw_text_add(out, "<td class=\"n\">");
+    fw_schedule_put_duration(out, s->booked_s);
+    fw_text_add(out, "</td></tr>\n");
 }
 
 static void summary(const fw_process_flow *flow, fw_text *out) {
@@ -187,19 +185,20 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
                 "<h3>Steps and times</h3>\n<table class=\"small\"><thead><tr><th>Step</th>"
                 "<th>Title; (2) needs two signatures</th><th>In</th><th class=\"n\">Planned</th>"
                 "<th class=\"n\">First look</th><th class=\"n\">Clear by</th><th class=\"n\">"
-                "Stop</th></tr></thead><tbody>\n");
+                "Stop</th><th class=\"n\">At the machine</th></tr></thead><tbody>\n");
     for (int i = 0; i < flow->nstep; i++)
         summary_row(&flow->step[i], out);
     fw_text_printf(out,
-                   "<tr><td></td><td><b>Sum of the planned times of %d computable steps</b></td>"
-                   "<td></td><td class=\"n\"><b>",
+                   "<tr><td></td><td><b>Sum of %d computable steps</b></td>"
+                   "<td></td><td colspan=\"4\"></td><td class=\"n\"><b>",
                    flow->nstep - flow->not_computable);
     fw_schedule_put_duration(out, flow->total_s);
     fw_text_add(out,
-                "</b></td><td colspan=\"3\"></td></tr>\n</tbody></table>\n"
+                "</b></td></tr>\n</tbody></table>\n"
                 "<p class=\"small\">First look = planned (1 - k u), clear by = planned (1 + k u), "
                 "stop = clear by (1 + overrun); u is the relative standard uncertainty of the "
-                "time, k = 2. Behind a + what is done at the same bench before the wafer leaves it."
+                "time, k = 2. At the machine: planned (1 + overrun), with pauses and with what "
+                "is done at the same bench before the wafer leaves it."
                 "</p>\n");
 }
 

@@ -102,6 +102,7 @@ static fw_status step(fw_json *out, const fw_process_flow *flow, int index) {
         quantity(out, &row[i]);
     fw_json_end(out);
     finishes(out, s);
+    number(out, "booked_s", s->time.computable ? s->booked_s : (double)NAN);
     waits(out, flow, index);
     fw_json_end(out);
     return FW_OK;

@@ -255,6 +255,67 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     return name_operators(arena, shop, s.best.run, s.best.nrun);
 }
 
+/* a schedule of a problem with less freedom, `later_s` later, is one of this problem too: does it keep the working day? */
+static bool fits_day(const fw_schedule_shop *shop, const fw_schedule *of, double later_s) {
+    for (int i = 0; i < of->nrun; i++) {
+        const fw_schedule_task *t = &shop->task[of->run[i].task];
+        double start = of->run[i].start_s + later_s,
+               there = t->by_day ? t->duration_s : t->attended_s;
+        if (there > 0.0 && fw_schedule_calendar_fit(&shop->calendar, start, there) > start + 1e-6)
+            return false;
+    }
+    return true;
+}
+
+static fw_status take_over(fw_arena *arena, const fw_schedule *of, double later_s,
+                           fw_schedule *out) {
+    fw_schedule_run *run = fw_arena_array(arena, fw_schedule_run, (size_t)of->nrun);
+    FW_NEED(run);
+    memcpy(run, of->run, (size_t)of->nrun * sizeof *run);
+    for (int i = 0; i < of->nrun; i++) {
+        run[i].start_s += later_s;
+        run[i].end_s += later_s;
+    }
+    out->feasible = true;
+    out->why = NULL;
+    out->rule = of->rule;
+    out->run = run;
+    out->nrun = of->nrun;
+    out->makespan_s = of->makespan_s;
+    out->gap = out->bound.best_s > 0.0 ? out->makespan_s / out->bound.best_s - 1.0 : 0.0;
+    out->optimal = out->gap <= 1e-9;
+    if (out->optimal) out->gap = 0.0;
+    return FW_OK;
+}
+
+static bool better(const fw_schedule *a, const fw_schedule *b) {
+    return a->feasible && (!b->feasible || a->makespan_s < b->makespan_s - 1e-6);
+}
+
+/* The search is no proof, so that it may miss what it finds for fewer people, or without a working day: neither may be
+   better than what is handed out. Cost: one search more for every operator that can be busy at once, and one. */
+static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, int effort,
+                                 fw_schedule *out) {
+    fw_schedule_shop less = *shop;
+    fw_schedule other = *out;
+    int most = shop->operators < shop->wafers ? shop->operators : shop->wafers;
+    if (most > shop->nmachine) most = shop->nmachine;
+    for (int k = shop->operators > most ? most : shop->operators - 1; k > 0 && !out->optimal; k--) {
+        less.operators = k;
+        other.feasible = false;
+        FW_TRY(solve(arena, &less, effort, &other));
+        if (better(&other, out)) FW_TRY(take_over(arena, &other, 0.0, out));
+    }
+    if (out->optimal || fw_schedule_calendar_round(&shop->calendar)) return FW_OK;
+    less = *shop;
+    less.calendar = (fw_schedule_calendar){0.0, 86400.0, true};
+    other.feasible = false;
+    FW_TRY(solve(arena, &less, effort, &other));
+    if (better(&other, out) && fits_day(shop, &other, shop->calendar.open_s))
+        FW_TRY(take_over(arena, &other, shop->calendar.open_s, out));
+    return FW_OK;
+}
+
 /* NULL, or why nobody can ever stand there long enough */
 static const char *day_too_short(fw_arena *arena, const fw_schedule_shop *shop) {
     for (int i = 0; i < shop->ntask; i++) {
@@ -300,5 +361,6 @@ fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int e
         return FW_OK;
     }
     lower_bounds(shop, earliest_s, out->start_s, &out->bound);
-    return solve(arena, shop, effort, out);
+    FW_TRY(solve(arena, shop, effort, out));
+    return solve_with_less(arena, shop, effort, out);
 }

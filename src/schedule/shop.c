@@ -54,8 +54,8 @@ static void make_task(making *m, int index) {
     t->load = t->load < 1 ? 1 : t->load > m->shop->wafers ? m->shop->wafers : t->load;
     if (t->alone) m->machine[t->machine].places = capacity;
     if (t->unknown) return;
-    t->duration_s = fmax(s->attended_s, s->time.nominal_s + s->finish_s);
-    t->latest_s = fmax(t->duration_s, s->time.stop_s + s->finish_s);
+    t->duration_s = fmax(s->attended_s, s->booked_s);
+    t->latest_s = fmax(t->duration_s, s->booked_stop_s);
 }
 
 static fw_status wrong(making *m, const char *part, size_t n, const char *what) {

@@ -233,15 +233,20 @@ static void json(void **state) {
             assert_true(json_is_array(json_object_get(s, "quantities")));
             json_t *finish = json_object_get(s, "finish"), *one;
             size_t at;
-            json_array_foreach(finish, at, one)
-                finishing += json_number_value(json_object_get(one, "time_s"));
+            json_array_foreach(finish, at, one) finishing +=
+                json_number_value(json_object_get(one, "time_s"));
             size_t missing = json_array_size(json_object_get(s, "not_computable"));
             if (!f->step[k].time.computable) {
                 assert_true(json_is_null(t) && missing > 0);
                 continue;
             }
             assert_int_equal(missing, 0);
-            sum += json_number_value(json_object_get(t, "nominal")) + finishing;
+            double booked = json_number_value(json_object_get(s, "booked_s"));
+            double took = json_number_value(json_object_get(t, "nominal")) + finishing;
+            assert_true(booked >= took * (1 - 1e-12));
+            if (f->step[k].overrun == 0.0 && !f->step[k].pulse)
+                assert_relative(booked, took, 1e-11);
+            sum += booked;
             assert_relative(json_number_value(json_object_get(t, "stop")), f->step[k].time.stop_s,
                             5e-12);
             assert_true(json_is_number(json_object_get(t, "first_look")));

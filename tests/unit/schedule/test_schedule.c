@@ -242,9 +242,43 @@ static void repeatable(void **state) {
     assert_memory_equal(a.run, b.run, (size_t)a.nrun * sizeof *a.run);
 }
 
+/* more people, or the whole day, never make a plan later */
+static void never_worse_than_its_relaxations(void **state) {
+    (void)state;
+    int most = test_cases(5, 3);
+    for (int silicon = 0; silicon < 2; silicon++)
+        for (int wafers = 2; wafers <= most; wafers++) {
+            double before = (double)INFINITY;
+            for (int k = 1; k <= 3; k++) {
+                fw_schedule_shop shop = silicon ? shop_of(arena, si_rows, SI_ROWS, wafers, k)
+                                                : shop_of(arena, cu_rows, CU_ROWS, wafers, k);
+                fw_schedule all, day;
+                assert_int_equal(fw_schedule_solve(arena, &shop, 100, &all), FW_OK);
+                check_schedule(&all);
+                assert_true(all.makespan_s <= before + 1e-6);
+                before = all.makespan_s;
+                fw_schedule_shop by_day = shop;
+                by_day.calendar = (fw_schedule_calendar){8 * 3600.0, 20 * 3600.0, false};
+                assert_int_equal(fw_schedule_solve(arena, &by_day, 100, &day), FW_OK);
+                check_schedule(&day);
+                assert_true(day.makespan_s >= all.makespan_s - 1e-6 ||
+                            all.gap > 0.0); /* the day is a restriction */
+                bool fits = true;
+                for (int i = 0; i < all.nrun && fits; i++) {
+                    double at = all.run[i].start_s + 8 * 3600.0,
+                           there = shop.task[all.run[i].task].attended_s;
+                    fits = there <= 0.0 ||
+                           fw_schedule_calendar_fit(&by_day.calendar, at, there) <= at + 1e-6;
+                }
+                if (fits) assert_true(day.makespan_s <= all.makespan_s + 1e-6);
+            }
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(greedy_reference), cmocka_unit_test(brute_force),
-        cmocka_unit_test(random_shops), cmocka_unit_test(line), cmocka_unit_test(repeatable)};
+        cmocka_unit_test(random_shops),     cmocka_unit_test(line),
+        cmocka_unit_test(repeatable),       cmocka_unit_test(never_worse_than_its_relaxations)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
