@@ -52,4 +52,7 @@ double fw_process_undercut_needed(double width_m, double depth_m, double etched_
 /* smallest line or space, contact or proximity printing */
 double fw_process_print_limit(double wavelength_m, double gap_m, double resist_m);
 
+/* what change the whole flow was judged with and does not refuse, in words */
+fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text);
+
 #endif

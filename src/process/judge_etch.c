@@ -294,23 +294,6 @@ static fw_status lag(fw_process_judge *j, const fw_process_cut *c) {
 
 /* ---- no bias at all ---- */
 
-static fw_status nearest(const fw_process_judge *j, const char **text) {
-    const fw_process_fixed_point *p = &j->flow->edges;
-    fw_process_numbers t = {0};
-    fw_text list = fw_text_new(j->arena);
-    if (isfinite(p->least_gap_m))
-        fw_text_printf(&list, "draw it at least %s um wide",
-                       fw_process_judge_um(&t, p->least_gap_m));
-    if (isfinite(p->least_anisotropy))
-        fw_text_printf(&list, "%san etch with an anisotropy of at least %s",
-                       list.length ? ", or " : "",
-                       fw_process_judge_number(&t, p->least_anisotropy, 5));
-    if (!list.length) fw_text_add(&list, "a thinner layer");
-    FW_TRY(fw_text_end(&list));
-    *text = list.data;
-    return FW_OK;
-}
-
 static fw_status unsolved(fw_process_judge *j) {
     const fw_process_fixed_point *p = &j->flow->edges;
     if (p->solved) return FW_OK;
@@ -318,7 +301,7 @@ static fw_status unsolved(fw_process_judge *j) {
     const char *what = p->ncls ? p->cls[0].name : "opening", *change;
     double drawn = p->ncls ? p->cls[0].drawn_m : 0.0;
     const char *wide = fw_process_judge_um(&t, drawn);
-    FW_TRY(nearest(j, &change));
+    FW_TRY(fw_process_judge_nearest(j, &change));
     fw_diag_warning(j->diags, 181, j->flow->place,
                     "in flow %s bias, etch time and gap have no common solution: the mask would "
                     "have to close the %s, %s um as drawn",
@@ -343,11 +326,13 @@ static fw_status open_slot(fw_process_judge *j) {
                     "in flow %s the compensation of %s um per edge closes the narrowest slot of %s "
                     "um on the mask",
                     j->flow->id, by, slot);
+    const char *change;
+    FW_TRY(fw_process_judge_nearest(j, &change));
     return fw_process_judge_reason(
         j, FW_ANSWER_NO,
         "the compensation of %s um per edge closes the narrowest slot of %s um on the mask. "
-        "Nearest change: slots wider than %s um",
-        by, slot, fw_process_judge_um(&t, 2.0 * bias));
+        "Nearest change: %s",
+        by, slot, change);
 }
 
 fw_status fw_process_judge_etching(fw_process_judge *j) {

@@ -66,3 +66,24 @@ fw_status fw_process_judge_reason(fw_process_judge *j, fw_process_answer weight,
     j->verdict = worse(j->verdict, weight);
     return FW_OK;
 }
+
+/* what was judged with the whole flow (nearest.c); "" while that is still looked for */
+fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text) {
+    const fw_process_flow *f = j->flow;
+    fw_process_numbers t = {0};
+    fw_text list = fw_text_new(j->arena);
+    fw_text_add(&list, "");
+    if (f->nearest_known && !isnan(f->nearest_gap_m))
+        fw_text_printf(&list, "openings at least %s um wide",
+                       fw_process_judge_um(&t, f->nearest_gap_m));
+    if (f->nearest_known && !isnan(f->nearest_anisotropy))
+        fw_text_printf(&list, "%san etch with an anisotropy of at least %s",
+                       list.length ? ", or " : "",
+                       fw_process_judge_number(&t, f->nearest_anisotropy, 5));
+    if (!list.length)
+        fw_text_add(&list,
+                    "no width of the openings alone is enough; a thinner layer or another etch");
+    FW_TRY(fw_text_end(&list));
+    *text = list.data;
+    return FW_OK;
+}

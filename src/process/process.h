@@ -257,6 +257,11 @@ typedef struct fw_process_flow {
     int unknown;                   /* ... and that are unknown */
     fw_process_override *override; /* (noverride) */
     int noverride;
+    /* of what is refused: an opening, and an anisotropy of the device's cut, with which the whole flow refuses nothing;
+       NaN: there is none. Known after fw_process_flow_compute. */
+    double nearest_gap_m, nearest_anisotropy;
+    bool nearest_known;
+    bool tight;            /* something on the mask prints in perfect contact only */
     fw_process_wait *wait; /* (nwait) computed */
     fw_process_text *text; /* (ntext) */
     int nwait, ntext;

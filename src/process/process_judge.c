@@ -1,20 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/judge.h"
 #include <math.h>
+#include <string.h>
+
+static const char LINE[] = "narrowest line";
 
 static fw_status printable(fw_process_judge *j, const char *what, double drawn, double on_mask,
                            double hard, double safe, double resist) {
     fw_process_numbers t = {0};
     const char *thick = fw_process_judge_um(&t, resist), *size = fw_process_judge_um(&t, on_mask),
                *as_drawn = fw_process_judge_um(&t, drawn);
-    if (on_mask < hard)
+    if (on_mask < hard) {
+        const char *change;
+        if (strcmp(what, LINE) == 0) { /* its bias is that of all edges, whatever its width */
+            FW_NEED(change = fw_arena_printf(j->arena, "draw it %s um wide",
+                                             fw_process_judge_um(&t, drawn + (safe - on_mask))));
+        } else
+            FW_TRY(fw_process_judge_nearest(j, &change));
         return fw_process_judge_reason(
             j, FW_ANSWER_NO,
             "the %s is %s um on the mask (%s um drawn), below what %s um of resist "
-            "can print in contact, 1.5 sqrt(lambda h/2) = %s um. Nearest change: draw it "
-            "%s um wide or use a thinner resist",
-            what, size, as_drawn, thick, fw_process_judge_um(&t, hard),
-            fw_process_judge_um(&t, drawn + (safe - on_mask)));
+            "can print in contact, 1.5 sqrt(lambda h/2) = %s um. Nearest change: %s; or a thinner "
+            "resist",
+            what, size, as_drawn, thick, fw_process_judge_um(&t, hard), change);
+    }
+    j->flow->tight = j->flow->tight || on_mask < safe;
     if (on_mask < safe)
         return fw_process_judge_reason(
             j, FW_ANSWER_OPEN,
@@ -59,8 +69,7 @@ static fw_status lithography(fw_process_judge *j) {
     double twice = 2.0 * j->flow->bias_m;
     FW_TRY(print_drawn(j, "narrowest slot", j->facts->narrowest_slot_m,
                        j->facts->narrowest_slot_m - twice, &p));
-    return print_drawn(j, "narrowest line", j->facts->narrowest_line_m,
-                       j->facts->narrowest_line_m + twice, &p);
+    return print_drawn(j, LINE, j->facts->narrowest_line_m, j->facts->narrowest_line_m + twice, &p);
 }
 
 /* a deposit must stay below its mould: no mushroom while f_J d < h */
@@ -112,6 +121,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                           .verdict = FW_ANSWER_FINE};
     flow->reason = NULL;
     flow->nreason = 0;
+    flow->tight = false;
     FW_TRY(fw_process_judge_etching(&j));
     FW_TRY(lithography(&j));
     FW_TRY(mould(&j));
@@ -195,14 +205,16 @@ static fw_status drive_gap(fw_process_judge *j, const fw_process_drive_facts *d,
         fw_arena_printf(j->arena, "gap of comb drive %s", d->id ? d->id : "(unnamed)");
     FW_NEED(what);
     bool limited = printing_of(j->flow, &p);
-    if (on_mask <= 0.0)
+    if (on_mask <= 0.0) {
+        const char *change;
+        FW_TRY(fw_process_judge_nearest(j, &change));
         FW_TRY(fw_process_judge_reason(
             j, FW_ANSWER_NO,
             "the compensation of %s um per edge closes the %s, %s um drawn, on the mask. "
-            "Nearest change: a gap above %s um",
+            "Nearest change: %s",
             fw_process_judge_um(&t, j->flow->bias_m), what, fw_process_judge_um(&t, d->gap_m),
-            fw_process_judge_um(&t, 2.0 * j->flow->bias_m + (limited ? p.safe_m : 0.0))));
-    else if (limited)
+            change));
+    } else if (limited)
         FW_TRY(printable(j, what, d->gap_m, on_mask, p.hard_m, p.safe_m, p.resist_m));
     if (on_mask <= 0.0 || (limited && on_mask < p.hard_m))
         fw_diag_warning(diags, 208, d->place,

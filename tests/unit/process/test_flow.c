@@ -207,7 +207,7 @@ static void lithography(void **state) {
     fw_process_flow *f = computed(COPPER, NULL, NULL, &facts);
     assert_int_equal(f->manufacturable, 0);
     assert_true(reason(f, "1.5 sqrt(lambda h/2) = 2.7 um"));
-    assert_true(reason(f, "Nearest change: draw it 4.05 um wide"));
+    assert_true(reason(f, "Nearest change: openings at least 4.1 um wide"));
     facts.narrowest_slot_m = 3.5e-6; /* prints in perfect contact only */
     f = computed(COPPER, NULL, NULL, &facts);
     assert_int_equal(f->manufacturable, -1);
