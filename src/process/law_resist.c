@@ -82,10 +82,9 @@ static bool dose_of(const double *x, double *dose, const char **why) {
 }
 
 /* t = D/I; D given, or linear between pairs of resist thickness and dose, never beyond them.
-   D J/m2, I W/m2 as measured today at the mask; t s of light.
+   I W/m2, D J/m2, thickness m; t s. The error of the thickness counts with the slope of the table.
    Error: the doses of one table rise and fall together (lamp meter, resist lot, developer), so that
-   a table with 7 % gives a dose with 7 %, which stands for a coat as thick as looked up: whether it
-   is that thick, its own step accepts or not. Test: test_law.c, dose. */
+   a table with 7 % gives a dose with 7 %. Test: test_law.c, dose. */
 static fw_status dose_time(fw_process_law_call *call, const double *x, double *result) {
     double dose = 0.0;
     if (x[DOSE_INTENSITY] <= 0.0) {
@@ -95,12 +94,6 @@ static fw_status dose_time(fw_process_law_call *call, const double *x, double *r
     if (!dose_of(x, &dose, &call->why)) return FW_INPUT;
     *result = dose / x[DOSE_INTENSITY];
     return FW_OK;
-}
-
-static void dose_slope(const double *x, double result, double *dx) {
-    (void)x;
-    (void)result;
-    dx[DOSE_THICKNESS] = 0.0; /* see above; the others by difference */
 }
 
 static fw_status dose_derive(fw_arena *arena, const fw_process_law_use *use,
@@ -137,7 +130,6 @@ const fw_process_law fw_process_law_dose = {
     .argument = dose_argument,
     .nargument = DOSE_FIRST + 2 * DOSE_PAIRS,
     .evaluate = dose_time,
-    .slope = dose_slope,
     .derive = dose_derive,
 };
 

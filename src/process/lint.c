@@ -351,9 +351,24 @@ static fw_status lint_most(fw_arena *arena, fw_process_flow *flow, const fw_proc
     return fw_process_flow_add_reason(arena, flow, -1, why);
 }
 
+/* a time so uncertain that its first look would be before the start */
+static fw_status lint_uncertain(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s) {
+    char u[32];
+    if (!s->time.computable || s->k * s->time.relative_uncertainty < 1.0) return FW_OK;
+    return fw_process_flow_add_reason(
+        arena, flow, -1,
+        fw_arena_printf(
+            arena,
+            "the time of step %s has a standard uncertainty of %s %%: there is no first "
+            "look that is early enough; look from the start on, or measure %s first",
+            s->id, fw_number_text(u, sizeof u, 100.0 * s->time.relative_uncertainty, 3),
+            s->time.ncontribution ? s->time.contribution[0] : "its inputs"));
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
+        FW_TRY(lint_uncertain(arena, flow, s));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
         for (int k = 0; k < s->nderive; k++)

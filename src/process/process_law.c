@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/process_law.h"
+#include "base/text.h"
 #include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>
@@ -212,6 +213,19 @@ static fw_status uncertainty(fw_arena *arena, const fw_process_law *law, fw_proc
     return FW_OK;
 }
 
+/* "a usable value among si.d, rie.R: width, rate and probability must be above zero" */
+static fw_status unusable(fw_arena *arena, const fw_process_law_use *use, const char *why,
+                          fw_process_law_answer *answer) {
+    fw_text list = fw_text_new(arena);
+    fw_text_add(&list, use->nargument > 1 ? "a usable value among " : "a usable value of ");
+    for (int i = 0; i < use->nargument; i++)
+        fw_text_printf(&list, "%s%s", i ? ", " : "",
+                       use->argument[i].q->id ? use->argument[i].q->id : use->argument[i].name);
+    fw_text_printf(&list, ": %s", why);
+    FW_TRY(fw_text_end(&list));
+    return add_text(arena, &answer->missing, &answer->nmissing, list.data);
+}
+
 fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
                                   fw_process_law_answer *answer) {
     input in;
@@ -236,14 +250,11 @@ fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use
     else if (status == FW_OK)
         answer->computable = true;
     if (!answer->computable)
-        return add_text(arena, &answer->missing, &answer->nmissing,
-                        fw_arena_printf(arena, "a usable input: %s",
-                                        call.why ? call.why : "outside the law's range"));
+        return unusable(arena, use, call.why ? call.why : "outside the law's range", answer);
     FW_TRY(uncertainty(arena, use->law, &call, &in, answer));
     if (!isfinite(answer->uncertainty)) {
         answer->computable = false;
-        return add_text(arena, &answer->missing, &answer->nmissing,
-                        "a usable input: the uncertainty is not finite");
+        return unusable(arena, use, "the uncertainty is not finite", answer);
     }
     return FW_OK;
 }

@@ -314,8 +314,10 @@ static void dose(void **state) {
     a = TIME_OF("dose", {"intensity", "mW/cm2", 10, 0.5}, {"thickness", "um", 16, 0.5},
                 {"thickness_1", "um", 10, 0}, {"dose_1", "mJ/cm2", 900, 63},
                 {"thickness_2", "um", 24, 0}, {"dose_2", "mJ/cm2", 2100, 147});
-    assert_relative(a.uncertainty / a.value, hypot(0.07, 0.05), 1e-8);
-    assert_int_equal(a.ncontribution, 2);
+    /* and the thickness counts with the slope of the table, 1200/14 mJ/cm2 per um */
+    double slope = 1200.0 / 14 * 0.5 / (900 + 1200.0 * 6 / 14);
+    assert_relative(a.uncertainty / a.value, hypot(hypot(0.07, 0.05), slope), 1e-8);
+    assert_int_equal(a.ncontribution, 3);
     assert_string_equal(a.contribution[0], "dose table 7 %");
     assert_string_equal(a.contribution[1], "intensity 5 %");
     fw_process_law_window(&a, 2.0, 0.0, &time);

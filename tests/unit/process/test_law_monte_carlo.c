@@ -49,9 +49,7 @@ static void draw(const fw_process_law_use *use, double scale, fw_quantity *q,
                 same = k;
         z[i] = same < i ? z[same] : normal();
         q[i] = *use->argument[i].q;
-        bool held =
-            use->law == &fw_process_law_dose && strcmp(use->argument[i].name, "thickness") == 0;
-        if (!held) q[i].value += scale * z[i] * q[i].uncertainty; /* law_resist.c says why */
+        q[i].value += scale * z[i] * q[i].uncertainty;
         q[i].uncertainty = 0.0;
         a[i] = (fw_process_argument){use->argument[i].name, &q[i]};
     }
