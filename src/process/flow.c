@@ -365,14 +365,6 @@ static fw_status tell(fw_arena *arena, const fw_process_flow *flow, fw_diags *di
     return FW_OK;
 }
 
-fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
-                                  const fw_process_mask_facts *facts, fw_diags *diags) {
-    flow->nearest_known = false;
-    FW_TRY(fw_process_flow_compute_once(arena, flow, facts, diags));
-    bool drawn = facts && facts->structure_area_m2 > 0.0;
-    return flow->manufacturable == 0 && drawn ? fw_process_flow_nearest(arena, flow, facts) : FW_OK;
-}
-
 fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
                                        const fw_process_mask_facts *facts, fw_diags *diags) {
     forget_mask(flow);

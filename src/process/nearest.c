@@ -34,7 +34,7 @@ static double rounded_up(double x_m) { /* what a person draws */
 
 /* Bisection in the logarithm between what is drawn and twenty times that, then up to the next 0.1 um, and judged once
    more. NaN: no width that far is enough, another reason refuses. Error: 0.1 um above the least. Cost: some 12 times
-   fw_process_flow_compute, only for what is refused. Test: test_nearest.c. */
+   fw_process_flow_compute, only for what is refused. Test: test_fixed_point.c, a_proposal_is_accepted_and_least. */
 static fw_status least_gap(trial *t, double *gap_m) {
     double low = t->facts->narrowest_slot_m, high = 20.0 * low;
     bool made;
@@ -88,8 +88,8 @@ static fw_status least_anisotropy(trial *t, double *least) {
     return status;
 }
 
-fw_status fw_process_flow_nearest(fw_arena *arena, fw_process_flow *flow,
-                                  const fw_process_mask_facts *facts) {
+static fw_status nearest(fw_arena *arena, fw_process_flow *flow,
+                         const fw_process_mask_facts *facts) {
     trial t = {.arena = arena, .flow = flow, .facts = facts};
     double gap, A;
     fw_mark mark = fw_arena_mark(arena);
@@ -102,4 +102,12 @@ fw_status fw_process_flow_nearest(fw_arena *arena, fw_process_flow *flow,
     flow->nearest_known = true;
     fw_diags quiet = fw_diags_new(arena); /* all was said already */
     return fw_process_flow_compute_once(arena, flow, facts, &quiet);
+}
+
+fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
+                                  const fw_process_mask_facts *facts, fw_diags *diags) {
+    flow->nearest_known = false;
+    FW_TRY(fw_process_flow_compute_once(arena, flow, facts, diags));
+    bool drawn = facts && facts->structure_area_m2 > 0.0;
+    return flow->manufacturable == 0 && drawn ? nearest(arena, flow, facts) : FW_OK;
 }

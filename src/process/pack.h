@@ -58,10 +58,6 @@ void fw_process_step_overrun(fw_process_step *step);
 /* one pass of fw_process_flow_compute */
 fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
                                        const fw_process_mask_facts *facts, fw_diags *diags);
-/* of a flow that refuses: finds nearest_gap_m and nearest_anisotropy, and computes it once more with them in its reasons.
-   Wants facts with areas. */
-fw_status fw_process_flow_nearest(fw_arena *arena, fw_process_flow *flow,
-                                  const fw_process_mask_facts *facts);
 /* <corner>s of the flow; mistakes are FW-D260 */
 void fw_process_pack_corners(fw_process_pack *pack);
 
