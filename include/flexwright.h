@@ -105,8 +105,9 @@ typedef struct fw_design_options {
     const char *mask_flatten; /* "inside" (default): vertices on the arcs; "equal-area": chords
                                  that enclose the area of the arc */
     /* of the schedules */
-    int32_t wafers, operators;  /* 1..50; default 1 */
-    const char *day;            /* working day, default "08:00-18:00"; "none": round the clock */
+    int32_t wafers, operators; /* 1..50; default 1 */
+    const char *day; /* working day, default "08:00-18:00"; "08:00-12:00,13:00-18:00" with a
+                                   break; "none": round the clock; "... from 2026-11-23": first day */
     const char *planning_times; /* times for steps whose own is not computable:
                                    "S03=90 min,S09=20 s"; marked in the schedule */
     const char *laboratory; /* files of laboratory packs, commas between: their values replace those

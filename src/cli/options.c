@@ -181,7 +181,11 @@ static const char *take_operators(fw_cli_options *o, const char *v) {
 static const char *take_day(fw_cli_options *o, const char *v) {
     fw_schedule_calendar day;
     o->design.day = v;
-    return fw_schedule_calendar_parse(v, &day) ? NULL : "needs two times like 08:00-18:00, or none";
+    return fw_schedule_calendar_parse(v, &day)
+               ? NULL
+               : "needs times like 08:00-18:00 or 08:00-12:00,13:00-18:00, or none; and \" from "
+                 "2026-11-23\" behind them for a "
+                 "first day";
 }
 
 static const char *take_lab(fw_cli_options *o, const char *v) {
@@ -429,8 +433,9 @@ static const fw_cli_option_row table[] = {
     {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
      take_operators},
     {"day", 0, "FROM-TO",
-     "working day, Monday to Friday; default 08:00-18:00; none: round the clock. What needs nobody "
-     "may go on over night",
+     "working day, Monday to Friday; default 08:00-18:00; with breaks 08:00-12:00,13:00-18:00; "
+     "none: round the clock; "
+     "\"08:00-18:00 from 2026-11-23\": the first day. What needs nobody may go on over night",
      FW_OPT_SCHEDULE, take_day},
     {"planned", 0, "LIST",
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "

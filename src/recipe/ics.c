@@ -1,12 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* iCalendar (RFC 5545). Times start at a fixed Monday, so that the same plan gives the same bytes:
-   the calendar program moves it to the real day. */
+/* iCalendar (RFC 5545). Without a first day (--day "... from DATE") times start at a fixed Monday, so that the same plan
+   gives the same bytes: the calendar program moves it to the real day. */
 #include "recipe/recipe_words.h"
 #include <math.h>
 #include <string.h>
 
 static const char stamp[] = "20250101T000000Z";
-static const long midnight = 20094L * 86400L; /* 2025-01-06, a Monday */
+
+static long midnight(const fw_schedule *plan) {
+    const long monday = 20094L; /* 2025-01-06 */
+    return 86400L *
+           (plan && plan->shop->calendar.first_day ? plan->shop->calendar.first_day : monday);
+}
 
 /* CRLF, and a break with one space before the 75th byte; never inside a UTF-8 character */
 static void line(fw_text *out, const char *text) {
@@ -34,16 +39,12 @@ static void escaped(fw_text *out, const char *text) {
     }
 }
 
-/* days since 1970-01-01 to a civil date: Hinnant, chrono-compatible date algorithms */
+/* a time of the laboratory's own clock, of no zone (RFC 5545, 3.3.5, form 1) */
 static void put_date(fw_text *out, long seconds) {
-    long day = seconds / 86400, rest = seconds % 86400;
-    long z = day + 719468, era = z / 146097, doe = z - era * 146097;
-    long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
-    long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
-    long d = doy - (153 * mp + 2) / 5 + 1, m = mp < 10 ? mp + 3 : mp - 9;
-    long y = yoe + era * 400 + (m <= 2 ? 1 : 0);
-    fw_text_printf(out, "%04ld%02ld%02ldT%02ld%02ld%02ldZ", y, m, d, rest / 3600, rest / 60 % 60,
-                   rest % 60);
+    long day = seconds / 86400, rest = seconds % 86400, civil[3];
+    fw_schedule_civil(day, civil);
+    fw_text_printf(out, "%04ld%02ld%02ldT%02ld%02ld%02ld", civil[0], civil[1], civil[2],
+                   rest / 3600, rest / 60 % 60, rest % 60);
 }
 
 static fw_status property(fw_text *out, const char *name, const char *value, bool escape) {
@@ -135,7 +136,8 @@ static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
     for (int i = 0; i < plan->nrun; i++) {
         const fw_schedule_run *r = &plan->run[i];
         const fw_process_step *s = &flow->step[r->task];
-        long start = midnight + lround(r->start_s), end = midnight + lround(ceil(r->end_s));
+        long start = midnight(plan) + lround(r->start_s),
+             end = midnight(plan) + lround(ceil(r->end_s));
         load l = {r, plan->shop->wafers > 1, plan->shop->operators > 1};
         FW_TRY(entry(out, flow, header, s, &l, false, start, end));
         if (r->operator_ < 0) continue;
@@ -148,7 +150,7 @@ static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
 /* one wafer, one step after the other */
 static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
                           const fw_recipe_header *header) {
-    long at = midnight + 8L * 3600L;
+    long at = midnight(header->schedule) + 8L * 3600L;
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         double run = fmin(s->booked_s, 1e8);

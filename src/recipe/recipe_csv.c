@@ -110,8 +110,8 @@ fw_status fw_recipe_write_csv(const fw_process_flow *flow, const fw_recipe_heade
     return fw_text_end(out);
 }
 
-static void moment(fw_text *out, double seconds) {
-    fw_recipe_put_moment(out, seconds);
+static void moment(fw_text *out, const fw_schedule *s, double seconds) {
+    fw_recipe_put_moment(out, &s->shop->calendar, seconds);
     fw_text_add(out, "\",");
 }
 
@@ -137,12 +137,12 @@ fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_rec
         fw_text_add(out, ",");
         if (r->operator_ >= 0) fw_text_printf(out, "%d", r->operator_ + 1);
         fw_text_add(out, ",\"");
-        moment(out, r->start_s);
+        moment(out, s, r->start_s);
         fw_text_add(out, "\"");
-        moment(out, r->end_s);
+        moment(out, s, r->end_s);
         if (r->operator_ >= 0) {
             fw_text_add(out, "\"");
-            moment(out, r->start_s + t->attended_s);
+            moment(out, s, r->start_s + t->attended_s);
         } else
             fw_text_add(out, ",");
         fw_recipe_put_plain(out, r->start_s);

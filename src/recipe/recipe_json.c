@@ -4,6 +4,7 @@
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
+#include <stdio.h>
 
 /* NULL is "" */
 static void words(fw_json *out, const char *key, const char *text) {
@@ -269,6 +270,19 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
     fw_json_number(out, "day_open_s", shop->calendar.open_s, FW_PLAIN_DIGITS);
     fw_json_number(out, "day_close_s", shop->calendar.close_s, FW_PLAIN_DIGITS);
     fw_json_truth(out, "weekends", shop->calendar.weekends);
+    fw_json_list(out, "breaks_s");
+    for (int i = 0; i < shop->calendar.breaks; i++)
+        for (int k = 0; k < 2; k++)
+            number(out, NULL, shop->calendar.break_s[i][k]);
+    fw_json_end(out);
+    if (shop->calendar.first_day) {
+        long civil[3];
+        fw_schedule_civil(shop->calendar.first_day, civil);
+        char date[40];
+        snprintf(date, sizeof date, "%04ld-%02ld-%02ld", civil[0], civil[1], civil[2]);
+        words(out, "first_day", date);
+    } else
+        fw_json_null(out, "first_day");
     fw_json_truth(out, "feasible", s->feasible);
     words(out, "why", s->why);
     words(out, "at_stop_times", s->late);

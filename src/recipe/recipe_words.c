@@ -129,8 +129,16 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) 
     return "";
 }
 
-void fw_recipe_put_moment(fw_text *out, double seconds) {
-    long minutes = lround(seconds / 60.0);
+void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *c, double seconds) {
+    static const char *const name[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
+    long minutes = lround(seconds / 60.0), civil[3];
+    if (c->first_day) {
+        fw_schedule_civil(c->first_day + minutes / 1440, civil);
+        fw_text_printf(out, "%s %04ld-%02ld-%02ld, %02ld:%02ld",
+                       name[fw_schedule_calendar_weekday(c, minutes / 1440)], civil[0], civil[1],
+                       civil[2], minutes / 60 % 24, minutes % 60);
+        return;
+    }
     fw_text_printf(out, "day %ld, %02ld:%02ld", minutes / 1440 + 1, minutes / 60 % 24,
                    minutes % 60);
 }
@@ -148,6 +156,11 @@ static void put_day(fw_text *out, const fw_schedule_calendar *c) {
     long open = lround(c->open_s / 60.0), close = lround(c->close_s / 60.0);
     fw_text_printf(out, "%02ld:%02ld to %02ld:%02ld, Monday to Friday", open / 60, open % 60,
                    close / 60, close % 60);
+    for (int i = 0; i < c->breaks; i++) {
+        long from = lround(c->break_s[i][0] / 60.0), to = lround(c->break_s[i][1] / 60.0);
+        fw_text_printf(out, "%s %02ld:%02ld to %02ld:%02ld", i ? "," : ", nobody there", from / 60,
+                       from % 60, to / 60, to % 60);
+    }
 }
 
 static void put_percent(fw_text *out, double part) {
@@ -189,7 +202,7 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
     fw_text_printf(out, ": %s", s->unknown ? "at least " : "");
     fw_schedule_put_duration(out, s->makespan_s);
     fw_text_add(out, ", until ");
-    fw_recipe_put_moment(out, s->start_s + s->makespan_s);
+    fw_recipe_put_moment(out, &s->shop->calendar, s->start_s + s->makespan_s);
     fw_text_add(out, ". No schedule is shorter than ");
     fw_schedule_put_duration(out, s->bound.best_s);
     fw_text_add(out, " (");
@@ -291,9 +304,9 @@ void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
             fw_text_add(out, n++ ? "; " : "");
             fw_recipe_put_wafers(out, r);
             fw_text_add(out, ": ");
-            fw_recipe_put_moment(out, r->start_s);
+            fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
             fw_text_add(out, " to ");
-            fw_recipe_put_moment(out, r->end_s);
+            fw_recipe_put_moment(out, &s->shop->calendar, r->end_s);
             if (r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
         }
         fw_text_add(out, "</td></tr>\n");

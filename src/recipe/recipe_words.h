@@ -29,7 +29,8 @@ void fw_recipe_put_unit(fw_text *out, const char *unit);
 /* NULL: no memory */
 const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time);
 
-void fw_recipe_put_moment(fw_text *out, double seconds);             /* "day 2, 13:05" */
+/* "day 2, 13:05", or "Mon 2026-11-23, 13:05" where the calendar knows the first day */
+void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *calendar, double seconds);
 void fw_recipe_put_wafers(fw_text *out, const fw_schedule_run *run); /* "3" or "1-6" */
 /* sentences about a schedule: how long, how good, what is not known; escaped for XML and HTML */
 void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s);

@@ -60,9 +60,9 @@ static void hover(fw_text *out, const fw_schedule *s, const fw_schedule_run *r) 
     fw_markup(out, "{s} {s}; wafer ", t->id, t->title);
     fw_recipe_put_wafers(out, r);
     fw_text_add(out, "; ");
-    fw_recipe_put_moment(out, r->start_s);
+    fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
     fw_text_add(out, " to ");
-    fw_recipe_put_moment(out, r->end_s);
+    fw_recipe_put_moment(out, &s->shop->calendar, r->end_s);
     if (t->unknown) fw_text_add(out, "; time unknown");
     fw_svg_close(out, "title");
     fw_svg_close(out, "rect\n");
@@ -267,10 +267,11 @@ static void panels(picture *p) {
     for (double t = fw_schedule_calendar_fit(c, 0.0, 1.0); t < end - 1e-6; t = p->next_s) {
         char title[40];
         int day = (int)(t / 86400.0);
-        p->open_s = t;
+        p->open_s = day * 86400.0 + c->open_s;
         p->close_s = day * 86400.0 + c->close_s;
         p->next_s = fw_schedule_calendar_fit(c, p->close_s, 1.0);
-        snprintf(title, sizeof title, "day %d, %s", day + 1, name[day % 7]);
+        snprintf(title, sizeof title, "day %d, %s", day + 1,
+                 name[fw_schedule_calendar_weekday(c, day)]);
         if (anything(p)) panel(p, title);
     }
 }

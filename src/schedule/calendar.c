@@ -6,36 +6,78 @@
 static const double day_s = 86400.0;
 
 bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
-    return c->open_s <= 0.0 && c->close_s >= day_s;
+    return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0;
+}
+
+/* days since 1970-01-01 to a civil date and back: Hinnant, chrono-compatible date algorithms */
+void fw_schedule_civil(long day, long civil[3]) {
+    long z = day + 719468, era = z / 146097, doe = z - era * 146097;
+    long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
+    long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
+    civil[1] = mp < 10 ? mp + 3 : mp - 9;
+    civil[2] = doy - (153 * mp + 2) / 5 + 1;
+    civil[0] = yoe + era * 400 + (civil[1] <= 2 ? 1 : 0);
+}
+
+static long day_of(long y, long m, long d) {
+    y -= m <= 2;
+    long era = y / 400, yoe = y - era * 400, doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
+    return era * 146097 + yoe * 365 + yoe / 4 - yoe / 100 + doy - 719468;
+}
+
+int fw_schedule_calendar_weekday(const fw_schedule_calendar *c, long day) {
+    return (int)((c->first_day ? c->first_day + 3 + day : day) % 7); /* 1970 began on a Thursday */
 }
 
 static bool working(const fw_schedule_calendar *c, double day) {
-    return c->weekends || fmod(day, 7.0) < 5.0;
+    return c->weekends || fw_schedule_calendar_weekday(c, (long)day) < 5;
 }
 
-/* Earliest t >= from with [t, t + length] inside one working day. from, length s >= 0. INFINITY
-   where length is longer than the day. It never falls when `from` rises: what the bounds rest on.
+/* the k-th stretch of a day without a break, s of the day; false: there are not so many */
+static bool stretch(const fw_schedule_calendar *c, int k, double span[2]) {
+    if (k > c->breaks) return false;
+    span[0] = k == 0 ? c->open_s : c->break_s[k - 1][1];
+    span[1] = k == c->breaks ? c->close_s : c->break_s[k][0];
+    return true;
+}
+
+static double longest_stretch(const fw_schedule_calendar *c) {
+    double span[2], most = 0.0;
+    for (int k = 0; stretch(c, k, span); k++)
+        most = fmax(most, span[1] - span[0]);
+    return most;
+}
+
+/* Earliest t >= from with [t, t + length] inside one working day, without a break. from, length s >= 0. INFINITY where
+   length is longer than any stretch of a day. It never falls when `from` rises: what the bounds rest on.
    Cost: at most three days looked at. Test: test_calendar.c. */
 double fw_schedule_calendar_fit(const fw_schedule_calendar *c, double from_s, double length_s) {
+    double span[2];
     if (fw_schedule_calendar_round(c)) return from_s;
-    if (length_s > c->close_s - c->open_s + 1e-9 || !isfinite(from_s)) return (double)INFINITY;
-    for (double day = floor(from_s / day_s);; day += 1.0) {
-        double t = fmax(from_s, day * day_s + c->open_s);
-        if (working(c, day) && t + length_s <= day * day_s + c->close_s + 1e-9) return t;
-    }
+    if (length_s > longest_stretch(c) + 1e-9 || !isfinite(from_s)) return (double)INFINITY;
+    for (double day = floor(from_s / day_s);; day += 1.0)
+        for (int k = 0; working(c, day) && stretch(c, k, span); k++) {
+            double t = fmax(from_s, day * day_s + span[0]);
+            if (t + length_s <= day * day_s + span[1] + 1e-9) return t;
+        }
 }
 
 /* Earliest t with a working time of work_s between from_s and t. Test: test_calendar.c. */
 double fw_schedule_calendar_worked(const fw_schedule_calendar *c, double from_s, double work_s) {
+    double span[2];
     if (fw_schedule_calendar_round(c)) return from_s + work_s;
     if (work_s <= 0.0 || !isfinite(from_s)) return from_s;
-    for (double day = floor(from_s / day_s);; day += 1.0) {
-        if (!working(c, day)) continue;
-        double open = fmax(from_s, day * day_s + c->open_s), close = day * day_s + c->close_s;
-        if (open >= close) continue;
-        if (work_s <= close - open) return open + work_s;
-        work_s -= close - open;
-    }
+    for (double day = floor(from_s / day_s);; day += 1.0)
+        for (int k = 0; working(c, day) && stretch(c, k, span); k++) {
+            double open = fmax(from_s, day * day_s + span[0]), close = day * day_s + span[1];
+            if (open >= close) continue;
+            if (work_s <= close - open) return open + work_s;
+            work_s -= close - open;
+        }
+}
+
+double fw_schedule_calendar_start(const fw_schedule_calendar *c) {
+    return fw_schedule_calendar_fit(c, 0.0, 1.0);
 }
 
 /* "08:00" at text; 24:00 is the end of the day */
@@ -48,13 +90,47 @@ static const char *clock_of(const char *text, double *seconds) {
     return minute > 59 || *seconds > day_s ? NULL : text + 5;
 }
 
+/* " from 2026-11-23" to the end of the text */
+static bool date_of(const char *text, long *day) {
+    static const char before[] = " from ", shape[] = "0000-00-00";
+    long part[3] = {0, 0, 0}, civil[3];
+    if (strncmp(text, before, sizeof before - 1) != 0) return false;
+    text += sizeof before - 1;
+    if (strlen(text) != sizeof shape - 1) return false;
+    for (int i = 0, k = 0; shape[i]; i++) {
+        if (shape[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
+        if (shape[i] == '-')
+            k++;
+        else
+            part[k] = 10 * part[k] + text[i] - '0';
+    }
+    if (part[0] < 1971 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
+    *day = day_of(part[0], part[1], part[2]);
+    fw_schedule_civil(*day, civil);
+    return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
+}
+
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {
     *c = (fw_schedule_calendar){.open_s = 0.0, .close_s = day_s};
-    if (strcmp(text, "none") == 0) return true;
-    const char *at = clock_of(text, &c->open_s);
-    if (!at || *at++ != '-') return false;
-    at = clock_of(at, &c->close_s);
-    return at && *at == '\0' && c->open_s < c->close_s;
+    if (strncmp(text, "none", 4) == 0) {
+        text += 4;
+        return !*text || date_of(text, &c->first_day);
+    }
+    for (double open, close = -1.0;; text++) {
+        const char *at = clock_of(text, &open);
+        bool first = close < 0.0;
+        if (!at || *at++ != '-' || (!first && !(open > close))) return false;
+        if (!first) {
+            if (c->breaks == 4) return false;
+            c->break_s[c->breaks][0] = close;
+            c->break_s[c->breaks++][1] = open;
+        } else
+            c->open_s = open;
+        text = clock_of(at, &close);
+        if (!text || !(open < close)) return false;
+        c->close_s = close;
+        if (*text != ',') return !*text || date_of(text, &c->first_day);
+    }
 }
 
 void fw_schedule_put_duration(fw_text *out, double seconds) {

@@ -11,7 +11,10 @@
 /* when people are there, in seconds of a day that starts at 0:00 */
 typedef struct fw_schedule_calendar {
     double open_s, close_s; /* 0 <= open < close <= 86400; 0 and 86400: round the clock */
-    bool weekends;          /* people come on days 6 and 7 too; day 1 is a Monday */
+    bool weekends;          /* people come on Saturdays and Sundays too */
+    double break_s[4][2];   /* (breaks) ascending, inside the day: nobody is there from ... to */
+    int breaks;
+    long first_day; /* of the plan, days since 1970-01-01; 0: not stated, day 1 is a Monday */
 } fw_schedule_calendar;
 
 typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
@@ -100,7 +103,8 @@ typedef struct fw_schedule_options {
     int effort;            /* schedules tried; 0: by size */
 } fw_schedule_options;
 
-/* "08:00-18:00" or "none"; false: it is neither */
+/* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan
+   begins on a date; false: it is none of these */
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
@@ -134,6 +138,12 @@ double fw_schedule_calendar_fit(const fw_schedule_calendar *calendar, double fro
 double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double from_s,
                                    double work_s);
 bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
+/* when the first working day begins, s from 0:00 of day 1 */
+double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
+/* 0: Monday; `day` counts from 0 */
+int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);
+/* year, month and day of the month of a day since 1970-01-01 */
+void fw_schedule_civil(long day, long civil[3]);
 
 /* ---- durations in words ---- */
 

@@ -108,7 +108,8 @@ static fw_status new_line(fw_arena *arena, size_t most, int places, fw_schedule_
 fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
                                   fw_schedule_placing *p) {
     size_t all = (size_t)shop->ntask * (size_t)shop->wafers;
-    *p = (fw_schedule_placing){.shop = shop, .start_s = shop->calendar.open_s, .tie_s = FW_TIE_S};
+    *p = (fw_schedule_placing){
+        .shop = shop, .start_s = fw_schedule_calendar_start(&shop->calendar), .tie_s = FW_TIE_S};
     FW_NEED(p->load = fw_arena_array(arena, int, (size_t)shop->ntask));
     FW_NEED(p->priority = fw_arena_array(arena, double, all));
     FW_NEED(p->release_s = fw_arena_array(arena, double, all));

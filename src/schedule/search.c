@@ -308,11 +308,11 @@ static fw_status solve_with_less(fw_arena *arena, const fw_schedule_shop *shop, 
     }
     if (out->optimal || fw_schedule_calendar_round(&shop->calendar)) return FW_OK;
     less = *shop;
-    less.calendar = (fw_schedule_calendar){0.0, 86400.0, true};
+    less.calendar = (fw_schedule_calendar){.open_s = 0.0, .close_s = 86400.0, .weekends = true};
     other.feasible = false;
     FW_TRY(solve(arena, &less, effort, &other));
-    if (better(&other, out) && fits_day(shop, &other, shop->calendar.open_s))
-        FW_TRY(take_over(arena, &other, shop->calendar.open_s, out));
+    if (better(&other, out) && fits_day(shop, &other, out->start_s))
+        FW_TRY(take_over(arena, &other, out->start_s, out));
     return FW_OK;
 }
 
@@ -332,7 +332,7 @@ static const char *day_too_short(fw_arena *arena, const fw_schedule_shop *shop) 
 
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                             fw_schedule *out) {
-    *out = (fw_schedule){.shop = shop, .start_s = shop->calendar.open_s};
+    *out = (fw_schedule){.shop = shop, .start_s = fw_schedule_calendar_start(&shop->calendar)};
     if (shop->wafers > MOST_WAFERS || shop->operators > MOST_OPERATORS) return FW_LIMIT;
     if (shop->ntask > MOST_TASKS) {
         FW_NEED(out->pause_s = fw_arena_array(arena, double, (size_t)shop->ntask));

@@ -156,7 +156,9 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
     if (!fw_schedule_calendar_parse(options->day ? options->day : FW_WORKING_DAY,
                                     &m.shop->calendar)) {
         fw_diag_error(diags, 199, (fw_place){0},
-                      "working day '%s' is not like 08:00-18:00, or none for round the clock",
+                      "working day '%s' is not like 08:00-18:00, 08:00-12:00,13:00-18:00, or none "
+                      "for round the clock; "
+                      "a first day stands behind it: 08:00-18:00 from 2026-11-23",
                       options->day);
         return FW_USAGE;
     }

@@ -45,7 +45,8 @@ static const row si_rows[] = {
 
 enum { CU_ROWS = sizeof cu_rows / sizeof cu_rows[0], SI_ROWS = sizeof si_rows / sizeof si_rows[0] };
 
-static const fw_schedule_calendar round_the_clock = {0.0, 86400.0, true};
+static const fw_schedule_calendar round_the_clock = {
+    .open_s = 0.0, .close_s = 86400.0, .weekends = true};
 
 static inline fw_schedule_hold hold_of(int from, int to, double min_s, double max_s) {
     return (fw_schedule_hold){.from = from, .to = to, .min_s = min_s, .max_s = max_s};

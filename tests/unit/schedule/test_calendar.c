@@ -7,19 +7,24 @@ static bool there(const fw_schedule_calendar *c,
                   long minute) { /* during the minute that starts now */
     long day = minute / 1440;
     double s = 60.0 * (double)(minute % 1440);
-    return (c->weekends || day % 7 < 5) && s >= c->open_s && s < c->close_s;
+    for (int i = 0; i < c->breaks; i++)
+        if (s >= c->break_s[i][0] && s < c->break_s[i][1]) return false;
+    return (c->weekends || (day + (c->first_day ? 5 : 0)) % 7 < 5) && s >= c->open_s &&
+           s < c->close_s;
 }
 
 static void by_minutes(void **state) {
     (void)state;
-    const fw_schedule_calendar list[] = {{8 * 3600.0, 18 * 3600.0, false},
-                                         {0, 86400.0, true},
-                                         {6 * 3600.0, 86400.0, true},
-                                         {9.5 * 3600.0, 12 * 3600.0, false}};
+    static const char *const text[] = {"08:00-18:00", "none", "06:00-24:00", "09:30-12:00",
+                                       "07:00-09:00,09:30-12:00,13:00-17:00 from 2026-11-21"};
+    fw_schedule_calendar list[5]; /* the last one begins on a Saturday */
+    for (int k = 0; k < 5; k++)
+        assert_true(fw_schedule_calendar_parse(text[k], &list[k]));
+    list[1].weekends = list[2].weekends = true;
     static const long length[] = {1, 7, 60, 149, 150, 151, 600, 601};
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 5; k++) {
         const fw_schedule_calendar *c = &list[k];
-        long longest = (long)((c->close_s - c->open_s) / 60.0);
+        long longest = k == 4 ? 240 : (long)((c->close_s - c->open_s) / 60.0);
         for (long from = 0; from < 9 * 1440; from += 97)
             for (int i = 0; i < 8; i++) {
                 double got =
@@ -60,7 +65,19 @@ static void parsing(void **state) {
                                       "08:00-08:00",
                                       "08:00 18:00",
                                       "08:00-18:00x",
+                                      "08:00-12:00,11:00-18:00",
+                                      "08:00-12:00,",
+                                      "08:00-18:00 from 2026-02-29",
+                                      "08:00-18:00 from 2026-2-9",
+                                      "none from",
                                       "08-18"};
+    assert_true(fw_schedule_calendar_parse("none from 2024-02-29", &c));
+    assert_int_equal(fw_schedule_calendar_weekday(&c, 0), 3); /* a Thursday */
+    assert_true(fw_schedule_calendar_parse("08:00-18:00 from 2126-01-01", &c));
+    assert_int_equal(fw_schedule_calendar_weekday(&c, 0), 1);
+    long civil[3];
+    fw_schedule_civil(c.first_day + 31, civil);
+    assert_true(civil[0] == 2126 && civil[1] == 2 && civil[2] == 1);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
         assert_false(fw_schedule_calendar_parse(bad[i], &c));
 }

@@ -163,7 +163,8 @@ static void days(void **state) {
     int failing;
     shop.hold = holds;
     shop.nhold = 1;
-    shop.calendar = (fw_schedule_calendar){8 * 3600.0, 18 * 3600.0, true};
+    shop.calendar =
+        (fw_schedule_calendar){.open_s = 8 * 3600.0, .close_s = 18 * 3600.0, .weekends = true};
     /* B takes 11 h 40 min, so that C falls on the next morning: B starts 20:10 at night at the
        earliest, which needs somebody; C within 10 min of 8:00 never comes */
     assert_int_equal(fw_schedule_network_earliest(&shop, 8 * 3600.0, at, &ok, &failing), FW_OK);

@@ -193,7 +193,8 @@ static void random_shops(void **state) {
             hold[k] = hold_of(from, to, -(double)INFINITY, between + 60.0 * below(300));
         }
         if (below(2))
-            shop.calendar = (fw_schedule_calendar){8 * 3600.0, 18 * 3600.0, below(2) == 0};
+            shop.calendar = (fw_schedule_calendar){
+                .open_s = 8 * 3600.0, .close_s = 18 * 3600.0, .weekends = below(2) == 0};
         fw_schedule got;
         assert_int_equal(fw_schedule_solve(arena, &shop, 20, &got), FW_OK);
         assert_true(got.feasible || got.why);
@@ -258,7 +259,8 @@ static void never_worse_than_its_relaxations(void **state) {
                 assert_true(all.makespan_s <= before + 1e-6);
                 before = all.makespan_s;
                 fw_schedule_shop by_day = shop;
-                by_day.calendar = (fw_schedule_calendar){8 * 3600.0, 20 * 3600.0, false};
+                by_day.calendar = (fw_schedule_calendar){
+                    .open_s = 8 * 3600.0, .close_s = 20 * 3600.0, .weekends = false};
                 assert_int_equal(fw_schedule_solve(arena, &by_day, 100, &day), FW_OK);
                 check_schedule(&day);
                 assert_true(day.makespan_s >= all.makespan_s - 1e-6 ||
