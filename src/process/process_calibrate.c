@@ -83,6 +83,18 @@ static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *l
     return FW_OK;
 }
 
+/* a result meets the range of the quantity that it replaces: no rate below 0, no share above 1 */
+static fw_status check_result(const fw_process_flow *flow, const fw_process_calibrated *c,
+                              fw_place place, fw_diags *diags) {
+    const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
+    if (!old) return FW_OK;
+    fw_quantity q = *old;
+    q.value = c->value;
+    q.unknown = false;
+    q.place = place;
+    return fw_process_quantity_in_range(&q, diags) ? FW_OK : FW_INPUT;
+}
+
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration) {
@@ -115,6 +127,8 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
         if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
         w->nknown = w->nout;
     }
+    for (int k = 0; k < w->nout; k++)
+        if (check_result(flow, &out[k], measurement[0].place, diags) != FW_OK) status = FW_INPUT;
     FW_TRY(status);
     *calibration = (fw_process_calibration){out, w->nout};
     return diags->failed ? FW_NOMEM : FW_OK;

@@ -275,6 +275,14 @@ static void contradictions(void **state) {
     put("plating-mass", "", 0, (fw_quantity_dimension)FW_DIM_MASS, 1e-4, 1e-6,
         (fw_quantity_dimension)FW_DIM_CHARGE, 500, 1);
     assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    nrow = 0; /* a rate below 0, and one that no etch has: never written into a laboratory pack */
+    put("etch-rate", "al.R", 0, LENGTH, -1e-6, 1e-8, TIME, 1000.0, 1.0);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(last_number(&diags), 278);
+    nrow = 0;
+    put("etch-rate", "pan.R", 0, LENGTH, 1e-3, 1e-5, TIME, 100.0, 1.0);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_int_equal(last_number(&diags), 278);
     /* two rates that agree become one */
     nrow = 0;
     put("etch-rate", "rie.R", 0, LENGTH, 50.5e-6, 0.5e-6, TIME, 5400.0, 0.0);
