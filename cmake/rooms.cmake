@@ -49,10 +49,6 @@ endif()
 set(FW_EDGES "" CACHE STRING "counters of coverage (clang): edge or func")
 set(FW_ROOMS_FUZZED base quantity xml device)
 
-# What tests/edges/edges.py counts: what a program passes. edge: of the control flow; func: starts of functions
-set(FW_EDGES "" CACHE STRING "counters of coverage (clang): edge or func")
-set(FW_ROOMS_FUZZED base quantity xml device)
-
 set(below)
 foreach(room ${FW_ROOMS})
     file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.c)
@@ -78,7 +74,7 @@ endforeach()
 set(kernel_level -O3)
 if(FW_SANITIZE)
     # unrolled lines with a check at each take clang nine minutes; AddressSanitizer sees where a wrong pointer goes
-    set(kernel_level "")
+    set(kernel_level -O0)
     set_source_files_properties(${PROJECT_SOURCE_DIR}/src/multibody/kernel_blocks.c PROPERTIES
                                 COMPILE_OPTIONS -fno-sanitize=pointer-overflow)
 endif()

@@ -64,10 +64,10 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
                tests/data/hinge)
 # a seed is the same device on every machine; what a long run says is in tests/judge/README.md
-fw_script_test(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>
-               --program ${FW_PROGRAM} --seed 7001 --count 24)
 # every step of the packs left out, every pair exchanged: docs/process-orders.md
 fw_script_test(process.orders COMMAND ${Python3_EXECUTABLE} tests/process/orders.py $<TARGET_FILE:lint_packs>)
+fw_first_part_of(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>
+                 --program ${FW_PROGRAM} --seed 7001 FIRST --count 10 WHOLE --count 24)
 # clearances of random devices against GEOS; a longer run is in tests/clearance/README.md
 fw_script_test(clearance.random COMMAND /usr/bin/python3 tests/clearance/compare.py
                $<TARGET_FILE:clearance_outlines> --seed 1 --count 6)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """random_masks.py PROGRAM [--scripts DIR] [--keep DIR]: masks of random devices (random_devices.py) before judge.py.
 
-FW_MASKS_COUNT (14) devices that can be drawn, from seed FW_MASKS_FIRST (0) on. A device that is refused must have a reason of
+FW_MASKS_COUNT (6; with FW_TEST_ALL=1, as in ./test --all, 14) devices that can be drawn, from seed FW_MASKS_FIRST (0) on. A device that is refused must have a reason of
 those below, and at least six of ten must be drawn; what was refused is listed."""
 import argparse
 import collections
@@ -72,7 +72,7 @@ def main():
     if not shutil.which("klayout"):
         print("SKIPPED: klayout is not installed (Debian: apt-get install klayout python3-gdspy libgeos-dev)")
         return 77
-    first, count = (int(os.environ.get("FW_MASKS_" + k, v)) for k, v in (("FIRST", 0), ("COUNT", 14)))
+    first, count = (int(os.environ.get("FW_MASKS_" + k, v)) for k, v in (("FIRST", 0), ("COUNT", 14 if os.environ.get("FW_TEST_ALL") else 6)))
     with tempfile.TemporaryDirectory() as temporary:
         where = asked.keep or pathlib.Path(temporary)
         where.mkdir(parents=True, exist_ok=True)

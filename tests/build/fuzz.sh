@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A short run of every fuzz harness, from the gallery and the broken files, under ASan and UBSan.
-# RUNS=1000000 tests/build/fuzz.sh for a long one. LIVE_RUNS=3000: the functions behind the page, too, whose
+# RUNS=1000000 tests/build/fuzz.sh for a long one; 40000 runs, with FW_TEST_ALL=1 (./test --all) 100000. LIVE_RUNS=3000: the functions behind the page, too, whose
 # harness needs all rooms; test_live_hostile has a short run of the same.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -35,5 +35,5 @@ run() { # HARNESS RUNS
     tail -12 "$log"
     return $status
 }
-run device "${RUNS:-100000}"
+run device "${RUNS:-$([ -n "${FW_TEST_ALL:-}" ] && echo 100000 || echo 40000)}"
 [ -z "${LIVE_RUNS:-}" ] || run live "$LIVE_RUNS"

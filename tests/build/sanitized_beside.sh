@@ -17,7 +17,9 @@ beside=$!
 for device in docs/gallery/*/device.xml; do
     status=0
     case $device in */copper-nodder/*) expected=1 ;; *) expected=0 ;; esac # rejected, accepted
-    "$build/flexwright" plan "$device" --accuracy 3e-2 --advice none -o "$out/plan" -q >/dev/null || status=$?
+    corners=auto # of devices whose corners take ten times what the drawing takes: what the others run, too
+    case $device in */four-tendons/* | */free-form-gripper/*) [ -n "${FW_TEST_ALL:-}" ] || corners=none ;; esac
+    "$build/flexwright" plan "$device" --accuracy 3e-2 --advice none --corners $corners -o "$out/plan" -q >/dev/null || status=$?
     [ "$status" -eq "$expected" ] || { echo "$device: status $status, not $expected"; exit 1; }
     "$build/flexwright" simulate "$device" --accuracy 3e-2 --json >/dev/null
 done

@@ -10,4 +10,4 @@ cmake --build build-threads --target cancel_threads >build-threads/log 2>&1 || {
     tail -40 build-threads/log
     exit 1
 }
-FW_CANCEL_MOMENTS=2 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/cancel_threads
+FW_CANCEL_MOMENTS=1 TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1" build-threads/tests/cancel_threads

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which limit governs, end to end: fatigue of a motion whose cycles are known, more cycles and smaller failure
 probabilities allow less, a stated strength rules alone, what is asked for without data is an error."""
+import functools
 import json
 import math
 import unittest
@@ -16,7 +17,9 @@ STRENGTH, YOUNGS = 250e6, 115e9
 AMPLITUDE, LIFE, B, DUCTILITY, C = 110e6, 1e7, -0.1, 0.3, -0.51
 
 
+@functools.cache
 def check(device, *sets, status=None):
+    """asked once of the same device"""
     arguments = [part for s in sets for part in ("--set", s)]
     # limits are those of the drawn device, and changes to it are not of interest
     done = run("check", device, "--json", "--corners", "none", "--advice", "none", *arguments)
@@ -56,8 +59,8 @@ class Limits(unittest.TestCase):
 
     def test_more_cycles_allow_less(self):
         before = 0.0
-        for n in ("1e4", "1e6", "1e8", "1e10"):
-            document = check(NODDER, f"limits/@cycles={n}")
+        for n in (1e4, 1e6, 1e7, 3e9):
+            document = check(NODDER, f"limits/@cycles={n:g}")
             for hinge in document["hinges"]:
                 self.assertGreaterEqual(hinge["utilisation"], before if hinge["id"] == "A" else 0)
             now = document["governing"]["fatigue_utilisation"]

@@ -164,7 +164,7 @@ class Plan(InTemporary):
             "workspace": GALLERY_TEXT.replace('x-min="-150 um" x-max="150 um"',
                                               'x-min="-450 um" x-max="450 um"'),
         }
-        first = ("one weak hinge", "radius and length", "from the drawing", "workspace")  # the others pass no other edge
+        first = ("one weak hinge", "radius and length", "workspace")  # the others pass no other edge
         for name, text in devices.items() if ALL else ((n, devices[n]) for n in first):
             with self.subTest(name):
                 device = self.device(text, name.replace(" ", "-") + ".xml")

@@ -21,7 +21,8 @@ with tempfile.TemporaryDirectory() as here:
     (pathlib.Path(here) / "docs").symlink_to(ROOT / "docs")
     pages = text + "".join((ROOT / "docs" / page).read_text()
                            for page in ("tutorial.md", "mechanisms/README.md", "gallery/README.md"))
-    commands = [line.strip() for line in pages.splitlines() if line.startswith("    build/flexwright")]
+    # once each, though pages share some
+    commands = list(dict.fromkeys(line.strip() for line in pages.splitlines() if line.startswith("    build/flexwright")))
     if len(commands) < 12:
         problems.append("README or the tutorial has lost its commands")
     for command in commands:

@@ -20,6 +20,7 @@ static fw_design_options options(void) {
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.samples = 51;
     o.hinge_model = "revolute"; /* what is asked here is asked of any model, and pins are fast */
+    if (!test_cases(1, 0)) o.corners = "none";
     return o;
 }
 
@@ -277,7 +278,7 @@ typedef struct worker {
 
 static void *work(void *argument) { /* no cmocka in here: it is not made for threads */
     worker *w = argument;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0, n = test_cases(4, 2); i < n; i++) {
         fw_design_options o = options();
         fw_design *design = fw_design_new(&o);
         const char *text = NULL;
@@ -523,7 +524,7 @@ static void memory_runs_out(void **state) {
     assert_true(same);
     long all = fw_arena_count(), nomem = 0;
     for (long i = 0; i < 60;
-         i += test_cases(1, 4)) /* dense where the library itself allocates, then over all */
+         i += test_cases(1, 6)) /* dense where the library itself allocates, then over all */
         for (int ever = 0; ever < 2; ever++) {
             long n = i < 30 ? i + 1 : all - (i - 30) * (all / 30);
             fw_arena_fail_at(n, ever);
@@ -534,7 +535,7 @@ static void memory_runs_out(void **state) {
                 fail_msg("allocation %ld of %ld%s: status %d", n, all, ever ? " and later" : "",
                          status);
         }
-    assert_true(nomem > 30 / test_cases(1, 4));
+    assert_true(nomem > 30 / test_cases(1, 6));
     fw_design_free(design);
 }
 

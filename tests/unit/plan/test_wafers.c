@@ -16,6 +16,7 @@ static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies
     o.dies = dies;
     o.verdict.with_advice = false;
     o.verdict.corners = FW_CORNERS_NONE; /* as drawn: quick */
+    o.verdict.motion.accuracy = 3e-2;
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);
     if (fw_plan_load(plan, FW_TEST_SOURCE_DIR "/" WAFER) != FW_OK || fw_plan_judge(plan) != FW_OK ||
