@@ -63,9 +63,9 @@ fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOU
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
 fw_script_test(judge.self LABEL quick COMMAND ${Python3_EXECUTABLE} tests/judge/self_test.py $<TARGET_FILE:judge>
                tests/data/hinge)
-# a seed is the same device on every machine; what a long run says is in tests/judge/README.md
 # every step of the packs left out, every pair exchanged: docs/process-orders.md
 fw_script_test(process.orders COMMAND ${Python3_EXECUTABLE} tests/process/orders.py $<TARGET_FILE:lint_packs>)
+# a seed is the same device on every machine; what a long run says is in tests/judge/README.md
 fw_first_part_of(judge.random COMMAND ${Python3_EXECUTABLE} tests/judge/judge.py --judge $<TARGET_FILE:judge>
                  --program ${FW_PROGRAM} --seed 7001 FIRST --count 10 WHOLE --count 24)
 # clearances of random devices against GEOS; a longer run is in tests/clearance/README.md

@@ -21,25 +21,34 @@ static const range ranges[] = {
 #undef X
 };
 
-static const range *range_of(const fw_quantity *q, fw_quantity_unit *unit) {
-    const char *name = q->range ? q->range : "";
-    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-        const range *r = &ranges[i];
-        if (strcmp(r->name, name) != 0 ||
-            !fw_quantity_unit_parse(r->unit, strlen(r->unit), unit, NULL, NULL))
-            continue;
-        if (fw_quantity_dimension_equal(unit->dimension, q->dimension)) return r;
-    }
-    return NULL;
+enum { RANGES = sizeof ranges / sizeof ranges[0] };
+
+typedef struct units { /* of the rows, read once */
+    fw_quantity_unit of[RANGES];
+} units;
+
+static void read_units(units *u) {
+    for (int i = 0; i < RANGES; i++)
+        fw_quantity_unit_parse(ranges[i].unit, strlen(ranges[i].unit), &u->of[i], NULL, NULL);
 }
 
-bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
-    fw_quantity_unit unit;
-    const range *r;
+/* index, or -1 */
+static int range_of(const units *u, const fw_quantity *q) {
+    const char *name = q->range ? q->range : "";
+    for (int i = 0; i < RANGES; i++)
+        if (strcmp(ranges[i].name, name) == 0 &&
+            fw_quantity_dimension_equal(u->of[i].dimension, q->dimension))
+            return i;
+    return -1;
+}
+
+static bool in_range(const units *u, const fw_quantity *q, fw_diags *diags) {
     if (q->least != 0.0 || q->most != 0.0) return fw_xml_quantity_check_range(q, q, diags);
-    if (q->unknown || !(r = range_of(q, &unit))) return true;
-    double least = fw_quantity_unit_to_si(&unit, r->least),
-           most = fw_quantity_unit_to_si(&unit, r->most);
+    int at = q->unknown ? -1 : range_of(u, q);
+    if (at < 0) return true;
+    const range *r = &ranges[at];
+    double least = fw_quantity_unit_to_si(&u->of[at], r->least),
+           most = fw_quantity_unit_to_si(&u->of[at], r->most);
     if (q->value >= least && q->value <= most) return true;
     char is[32], low[32], high[32];
     fw_diag_error(diags, 278, q->place,
@@ -51,13 +60,20 @@ bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
     return false;
 }
 
+bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags) {
+    units u;
+    read_units(&u);
+    return in_range(&u, q, diags);
+}
+
 /* the range that the first one of an id gives holds for every one that replaces it */
 fw_status fw_process_lint_ranges(fw_process_pack *pack) {
     const fw_process_flow *f = pack->flow;
+    units u;
+    read_units(&u);
     for (int i = 0; i < f->nquantity; i++) {
         fw_quantity *q = f->quantity[i];
-        fw_quantity_unit unit;
-        if (q->range && !range_of(q, &unit))
+        if (q->range && range_of(&u, q) < 0)
             fw_diag_error(pack->diags, 169, q->place,
                           "range='%s' of '%s' is of another dimension than its unit", q->range,
                           q->id);
@@ -74,9 +90,9 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
         if (own && (q->least == 0.0 && q->most == 0.0))
-            fw_process_quantity_in_range(q, pack->diags);
+            in_range(&u, q, pack->diags);
         else if (own && q->replaced)
-            fw_process_quantity_in_range(q, pack->diags);
+            in_range(&u, q, pack->diags);
     }
     return FW_OK;
 }
