@@ -52,7 +52,7 @@ static void fill(fw_process_flow *flow, const char *id, double value, double unc
     q->unknown = !isfinite(value) || !isfinite(uncertainty);
     q->value = q->unknown ? 0.0 : value;
     q->uncertainty = q->unknown ? 0.0 : uncertainty;
-    q->status = FW_DERIVED;
+    q->status = q->u_status = FW_DERIVED;
     q->source = "this device's own mask";
 }
 
@@ -85,7 +85,7 @@ static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill(flow, "mask.plated-area", area, u);
     fw_quantity *whole = fw_process_flow_own_quantity(flow, "mask.plated-area");
     if (!whole) return;
-    whole->status = worst;
+    whole->status = whole->u_status = worst;
     whole->source = "this device's own mask, contact ring and thief of the pack";
 }
 
@@ -110,7 +110,7 @@ static void set_wafer(fw_process_flow *flow, const fw_process_mask_facts *m) {
     q->value = m->wafer_diameter_m;
     q->uncertainty = 0.0;
     q->unknown = q->interval = false;
-    q->status = FW_DERIVED;
+    q->status = q->u_status = FW_DERIVED;
     q->source = "device file, <wafer>";
     q->note = NULL;
 }

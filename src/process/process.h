@@ -144,8 +144,9 @@ typedef struct fw_process_time { /* what a law returns */
     bool computable;
     double nominal_s, first_look_s, clear_by_s, stop_s;
     double relative_uncertainty;
-    fw_quantity_value_status status; /* worst of the inputs */
-    const char **missing;            /* (nmissing) names of unknown inputs */
+    fw_quantity_value_status status;   /* worst of the inputs */
+    fw_quantity_value_status u_status; /* worst of the uncertainties that count */
+    const char **missing;              /* (nmissing) names of unknown inputs */
     int nmissing;
     const char **contribution; /* (ncontribution) "area 5 %", largest first */
     int ncontribution;

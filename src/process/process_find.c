@@ -57,6 +57,7 @@ fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const c
                        .dimension = dimension,
                        .unit = unit,
                        .status = status,
+                       .u_status = status,
                        .source = source,
                        .place = step->place};
     grown[step->nderived++] = q;

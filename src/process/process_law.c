@@ -204,6 +204,7 @@ static fw_status uncertainty(fw_arena *arena, const fw_process_law *law, fw_proc
     for (int i = 0; i < n; i++) {
         char text[32];
         if (!(fabs(part[i].part) > 0.0) || answer->value == 0.0) continue;
+        answer->u_status = fw_process_status_worse(answer->u_status, part[i].q->u_status);
         fw_number_text(text, sizeof text, fabs(100.0 * part[i].part / answer->value), 3);
         const char *name = in_words(arena, part[i].name);
         FW_NEED(name);
@@ -229,7 +230,7 @@ static fw_status unusable(fw_arena *arena, const fw_process_law_use *use, const 
 fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
                                   fw_process_law_answer *answer) {
     input in;
-    *answer = (fw_process_law_answer){.status = FW_MEASURED};
+    *answer = (fw_process_law_answer){.status = FW_MEASURED, .u_status = FW_MEASURED};
     FW_TRY(missing(arena, use, answer));
     if (answer->nmissing > 0) return FW_OK;
     collect(use, &in);
@@ -265,6 +266,7 @@ void fw_process_law_window(const fw_process_law_answer *answer, double k, double
                            fw_process_time *time) {
     *time = (fw_process_time){.computable = answer->computable,
                               .status = answer->status,
+                              .u_status = answer->u_status,
                               .missing = answer->missing,
                               .nmissing = answer->nmissing,
                               .contribution = answer->contribution,

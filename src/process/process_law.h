@@ -59,10 +59,11 @@ typedef struct fw_process_law_call {
 
 typedef struct fw_process_law_answer {
     bool computable;
-    double value, uncertainty;       /* SI, standard */
-    fw_quantity_value_status status; /* worst of the inputs */
-    const char **missing;            /* (nmissing) */
-    const char **contribution;       /* (ncontribution) */
+    double value, uncertainty;         /* SI, standard */
+    fw_quantity_value_status status;   /* worst of the inputs */
+    fw_quantity_value_status u_status; /* of the inputs' uncertainties that count */
+    const char **missing;              /* (nmissing) */
+    const char **contribution;         /* (ncontribution) */
     int nmissing, ncontribution;
 } fw_process_law_answer;
 

@@ -140,6 +140,7 @@ static fw_status read_derived_ids(fw_process_pack *pack, const fw_xml_record *st
                            .unknown = true,
                            .unit = fw_process_pack_text(c, "unit"),
                            .status = FW_DERIVED,
+                           .u_status = FW_DERIVED,
                            .source = "computed",
                            .place = c->element->place};
         fw_quantity_unit unit;

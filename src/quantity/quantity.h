@@ -65,8 +65,9 @@ typedef struct fw_quantity {
     fw_quantity_dimension dimension;
     const char *unit; /* as written, for printing */
     fw_quantity_value_status status;
-    const char *source; /* text of the source */
-    const char *note;   /* may be NULL */
+    fw_quantity_value_status u_status; /* of the uncertainty, which may be somebody else's */
+    const char *source;                /* text of the source */
+    const char *note;                  /* may be NULL */
     fw_place place;
 } fw_quantity;
 

@@ -174,6 +174,10 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     tolerance(row, out);
     fw_text_add(out, "</td><td>");
     tagged(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
+    if (!q->unknown && q->uncertainty > 0.0 && q->u_status != q->status) {
+        fw_text_add(out, " ± ");
+        tagged(out, fw_quantity_value_status_text(q->u_status));
+    }
     fw_text_add(out, " ");
     source_of(flow, q->source, out);
     if (q->note) {
@@ -244,7 +248,9 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, "</i>, ");
     tagged(out, fw_quantity_value_status_text(t->status));
     if (t->ncontribution > 0) {
-        fw_text_add(out, ", uncertainty from ");
+        fw_text_add(out, ", uncertainty ");
+        tagged(out, fw_quantity_value_status_text(t->u_status));
+        fw_text_add(out, ", from ");
         for (int i = 0; i < t->ncontribution && i < 4; i++) {
             fw_text_add(out, i ? ", " : "");
             fw_text_escaped(out, t->contribution[i]);

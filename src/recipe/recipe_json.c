@@ -29,6 +29,10 @@ static void quantity(fw_json *out, const fw_recipe_row *row) {
     else
         fw_json_number(out, "uncertainty", fw_recipe_row_uncertainty(q), FW_UNCERTAINTY_DIGITS);
     words(out, "status", q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
+    if (q->unknown || !(q->uncertainty > 0.0))
+        fw_json_null(out, "uncertainty_status");
+    else
+        words(out, "uncertainty_status", fw_quantity_value_status_text(q->u_status));
     words(out, "source", q->source);
     if (q->note) words(out, "note", q->note);
     fw_json_end(out);
@@ -53,6 +57,7 @@ static void times(fw_json *out, const fw_process_time *t) {
     number(out, "stop", t->stop_s);
     fw_json_number(out, "relative_uncertainty", t->relative_uncertainty, FW_UNCERTAINTY_DIGITS);
     words(out, "status", fw_quantity_value_status_text(t->status));
+    words(out, "uncertainty_status", fw_quantity_value_status_text(t->u_status));
     fw_json_end(out);
 }
 

@@ -21,6 +21,8 @@ const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS] = {
     {"unit", .required = true, .sentence = "1 for a pure number."},
     {"status", .kind = FW_KIND_WORD, .words = status_words, .required = true,
      .sentence = "How well it is known."},
+    {"u-status", .kind = FW_KIND_WORD, .words = status_words,
+     .sentence = "How well its uncertainty is known, where that is not from the same source."},
     {"src", .datatype = "NCName", .required = true, .sentence = "The <source> it is from."},
     {"note", .sentence = "For people."},
     {"unknown", .kind = FW_KIND_WORD, .words = true_word,
@@ -76,7 +78,7 @@ static void check_names(const fw_xml_element *e, fw_diags *diags) {
         fw_diag_error(diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
                       e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
                       better ? "'?"
-                             : "; known are id value u urel lo hi unit status src note "
+                             : "; known are id value u urel lo hi unit status u-status src note "
                                "unknown least most range");
     }
 }
@@ -130,6 +132,16 @@ static void read_status(const fw_xml_element *e, fw_diags *diags, fw_quantity *q
         fw_diag_error(diags, 48, a->place,
                       "status \"%s\" is not one of measured, stated, derived, "
                       "typical, assumed",
+                      a->value);
+}
+
+/* the same words; that of the value where it is not given */
+static void read_u_status(const fw_xml_element *e, fw_diags *diags, fw_quantity *q) {
+    const fw_xml_attribute *a = fw_xml_attribute_of(e, "u-status");
+    q->u_status = q->status;
+    if (a && !fw_quantity_value_status_parse(a->value, &q->u_status))
+        fw_diag_error(diags, 48, a->place,
+                      "u-status \"%s\" is not one of measured, stated, derived, typical, assumed",
                       a->value);
 }
 
@@ -275,6 +287,7 @@ fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
     fw_quantity_unit unit;
     read_unit(element, diags, q, &unit);
     read_status(element, diags, q);
+    read_u_status(element, diags, q);
     read_source(element, source, nsource, diags, q);
     read_value(element, diags, &unit, q);
     read_range(element, diags, &unit, q);

@@ -14,7 +14,7 @@
 #include "quantity/quantity.h"
 
 /* what may stand in <q>, for tables (apart) and schemas; fw_xml_quantity_read has the checks */
-enum { FW_QUANTITY_ROWS = 14 };
+enum { FW_QUANTITY_ROWS = 15 };
 extern const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS];
 
 typedef struct fw_xml_source_text { /* <source id ...>text</source> */

@@ -144,10 +144,33 @@ static void what_is_entered_changes_the_time(void **state) {
                     1e-12);
 }
 
+/* a value of the publication with an uncertainty of ours says so, and so does the time that follows */
+static void an_uncertainty_has_its_own_status(void **state) {
+    (void)state;
+    static const char *const pack[] = {SILICON, COPPER, "soi-deep-rie"};
+    int ours = 0;
+    for (int p = 0; p < 3; p++) {
+        fw_process_flow *f = read_pack(arena, pack[p], NULL, NULL, &diags);
+        for (int i = 0; i < f->nquantity; i++) {
+            const fw_quantity *q = f->quantity[i];
+            if (q->status != FW_STATED || q->uncertainty == 0.0 || q->unknown) continue;
+            assert_int_equal(q->u_status, FW_ASSUMED);
+            ours++;
+        }
+        if (p > 0) continue;
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        assert_int_equal(step_of(f, "S14")->time.status, FW_DERIVED);
+        assert_int_equal(step_of(f, "S14")->time.u_status, FW_ASSUMED);
+    }
+    assert_int_equal(ours, 16);
+    assert_null(read_pack(arena, SILICON, "u-status=\"assumed\"", "u-status=\"ours\"", &diags));
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(texts_follow_their_values), TEST(what_names_nothing_is_said),
-        TEST(no_text_repeats_a_value), TEST(what_is_entered_changes_the_time)};
+        TEST(no_text_repeats_a_value), TEST(what_is_entered_changes_the_time),
+        TEST(an_uncertainty_has_its_own_status)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
