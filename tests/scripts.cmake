@@ -147,12 +147,12 @@ list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost cli.hinge:60 accept.masks:50 hard.test_hard_verdict:50 hard.valgrind:50 cli.program:50 unit.continuum.test_solid:45
-        unit.continuum.test_continuum:45 hard.test_hard_friction:45 accuracy.survey:40 hard.test_hard_combinations:35
-        hard.test_hard_contact:35 web.page:70 build.threads:50 build.bytes:28 fuzz.device:30 effects.absent:28 docs.json:27
-        accept.wafer:27 cli.advice:20 hard.test_hard_bounds:20 hard.test_hard_windows:20 hard.test_hard_periods:20 serve.robust:20
-        hard.test_hard_surfaces:20 accept.random:20 fault.files:20 cli.tradeoff:19 serve.mutants:18 cli.workspace:17 live.memory:15
-        hard.test_hard_kink:15 unit.plan.test_advice:14 accuracy.reference:14 docs.readme:13 cli.effects:13 cli.limits:11
+foreach(cost cli.hinge:60 accept.masks:65 hard.test_hard_verdict:50 hard.valgrind:50 cli.program:55 unit.continuum.test_solid:45
+        unit.continuum.test_continuum:45 hard.test_hard_friction:45 accuracy.survey:30 hard.test_hard_combinations:35
+        hard.test_hard_contact:35 web.page:110 build.threads:60 build.bytes:20 fuzz.device:40 effects.absent:28 docs.json:35
+        accept.wafer:60 cli.advice:90 hard.test_hard_bounds:20 hard.test_hard_windows:20 hard.test_hard_periods:20 serve.robust:20
+        hard.test_hard_surfaces:20 accept.random:15 fault.files:15 cli.tradeoff:30 serve.mutants:18 cli.workspace:60 live.memory:15
+        hard.test_hard_kink:15 unit.plan.test_advice:14 accuracy.reference:14 docs.readme:13 cli.effects:13 cli.limits:25
         unit.statics.test_bounds:11 fault.memory:10 hard.test_hard_memory:10 whole.dynamics.test_method_motions:9
         hard.test_hard_nonsmooth:9 whole.plan.test_design:8 gate.counts:8 docs.limits:7)
     string(REPLACE ":" ";" cost ${cost})

@@ -59,7 +59,7 @@ class Effects(unittest.TestCase):
         with tempfile.TemporaryDirectory() as here:
             device = pathlib.Path(here) / "device.xml"
             device.write_text(text.replace(old, new) if old else text)
-            done = run("mask", device, "-o", pathlib.Path(here) / "out")
+            done = run("mask", device, "--corners", "none", "-o", pathlib.Path(here) / "out")
             self.assertEqual(done.returncode, 0, done.stderr)
             return done.stderr, (pathlib.Path(here) / "out/masks/al-masked-rie.svg").read_text()
 
