@@ -9,6 +9,7 @@
 #include "recipe/asrun.h"
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- `flexwright calibrate`: measured coupons in, laboratory pack out ---- */
 
@@ -122,6 +123,31 @@ static fw_status print_log(fw_plan *plan, const fw_process_flow *flow, const fw_
     return FW_OK;
 }
 
+static fw_status head_name(fw_plan *plan, const fw_cli_options *options, const char **name) {
+    FW_NEED(*name = fw_arena_printf(plan->arena, "%s.head", options->run));
+    return FW_OK;
+}
+
+/* the log against its head; without one only its beginning can be told to be whole */
+static fw_status check_head(fw_plan *plan, const fw_cli_options *options,
+                            const fw_recipe_asrun *run) {
+    const char *name;
+    char *text;
+    size_t n;
+    FW_TRY(head_name(plan, options, &name));
+    if (access(name, F_OK) != 0) {
+        if (run->nentry > 0)
+            fw_diag_warning(
+                &plan->diags, 283, (fw_place){options->run, 1, 1},
+                "there is no %s: whether lines were removed at the end of the log cannot "
+                "be told",
+                name);
+        return FW_OK;
+    }
+    FW_TRY(fw_input_read(plan->arena, name, LARGEST_LOG, &plan->diags, &text, &n));
+    return fw_recipe_asrun_check_head(run, name, text, n, &plan->diags);
+}
+
 static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *hash,
                           const fw_cli_options *options) {
     char *text;
@@ -130,6 +156,7 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
+    FW_TRY(check_head(plan, options, &run));
     return print_log(plan, pf->flow, &run, options->json);
 }
 
@@ -146,10 +173,16 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
         FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, file->text, file->n,
                                     &plan->diags, &run));
     }
+    FW_TRY(check_head(plan, options, &run));
     FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, options->entry, &plan->diags, &line));
     const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
     FW_NEED(all);
     FW_TRY(fw_append_text(file, all, strlen(all)));
+    const char *head, *name, *chain = strrchr(line, '='); /* a line ends with its chain */
+    FW_NEED(chain = fw_arena_strndup(plan->arena, chain + 1, strcspn(chain + 1, "\n")));
+    FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry + 1, chain, &head));
+    FW_TRY(head_name(plan, options, &name));
+    FW_TRY(fw_output_single(plan->arena, name, head, strlen(head), &plan->diags));
     if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry + 1);
     return FW_OK;
 }

@@ -251,9 +251,11 @@ fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
         size_t length = strcspn(line, "\n"), words;
         if (r.place.line == 1) {
             FW_TRY(read_first(&r, plan_sha256, line, length, run));
+            memcpy(run->begun, run->chain, sizeof run->begun);
         } else {
             FW_TRY(unchain(&r, line, length, run->chain, &words));
-            FW_TRY(read_entry(&r, line, words, '\t', &run->entry[run->nentry++]));
+            FW_TRY(read_entry(&r, line, words, '\t', &run->entry[run->nentry]));
+            memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);
         }
         line += length + 1;
     }

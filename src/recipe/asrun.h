@@ -19,6 +19,7 @@ typedef struct fw_recipe_asrun_entry {
     const char *start, *end, *by, *second, *tool, *bath, *note; /* as written; NULL: not given */
     fw_recipe_measured *measured;
     int nmeasured, line;
+    char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;
 
 typedef struct fw_recipe_asrun {
@@ -26,6 +27,7 @@ typedef struct fw_recipe_asrun {
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
     char chain[65]; /* of the last line */
+    char begun[65]; /* of the first one */
 } fw_recipe_asrun;
 
 /* reads and verifies a log. FW_INPUT: FW-D280 (damaged or changed), FW-D281 (of another plan or
@@ -43,6 +45,12 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_diags *diags,
                               const char **line);
+
+/* asrun_head.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
+   others */
+fw_status fw_recipe_asrun_head(fw_arena *arena, int nentry, const char *chain, const char **line);
+fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *file, const char *text,
+                                     size_t n, fw_diags *diags);
 
 /* planned against actual, as a table and as JSON */
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,

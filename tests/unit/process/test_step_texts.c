@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts of packs that name values (step_texts.c), and that no text repeats a value of its step: what changes, changes
    everywhere. */
+#include "base/text.h"
 #include "pack_fixture.h"
 #include "process/calibrate.h"
 #include <ctype.h>
@@ -166,11 +167,111 @@ static void an_uncertainty_has_its_own_status(void **state) {
     assert_null(read_pack(arena, SILICON, "u-status=\"assumed\"", "u-status=\"ours\"", &diags));
 }
 
+/* every text that a flow shows, filled in; freed with the arena */
+static const char *all_texts(const fw_process_flow *f) {
+    fw_text out = fw_text_new(arena);
+    fw_text_add(&out, "");
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        fw_text_printf(&out, "%s\n%s\n", s->title, s->purpose);
+        for (int k = 0; k < s->nendpoint; k++)
+            fw_text_printf(&out, "%s\n", s->endpoint[k]);
+        for (int k = 0; k < s->nderive; k++)
+            fw_text_printf(&out, "%s\n", s->derive[k].name);
+        for (int k = 0; k < s->nsetting; k++)
+            fw_text_printf(&out, "%s\n", s->setting[k].name);
+        for (int k = 0; k < s->naccept; k++)
+            fw_text_printf(&out, "%s\n", s->accept[k].measure);
+        for (int k = 0; k < s->non_fail; k++)
+            fw_text_printf(&out, "%s: %s\n", s->on_fail[k].condition, s->on_fail[k].text);
+    }
+    for (int i = 0; i < f->nreason; i++)
+        fw_text_printf(&out, "%s\n", f->reason[i]);
+    fw_text_printf(&out, "%s\n", f->bias_note);
+    assert_int_equal(fw_text_end(&out), FW_OK);
+    return out.data;
+}
+
+/* "90 min" as a word of its own */
+static bool says(const char *texts, const char *token) {
+    size_t n = strlen(token);
+    for (const char *at = strstr(texts, token); at; at = strstr(at + 1, token)) {
+        bool starts = at == texts || (!isalnum((unsigned char)at[-1]) && at[-1] != '.');
+        if (starts && !isalnum((unsigned char)at[n]) && at[n] != '/') return true;
+    }
+    return false;
+}
+
+typedef struct
+    printed { /* quantities of the flow, and what its steps derive, as they are printed */
+    const char *token[1200];
+    int n;
+} printed;
+
+static void print_one(printed *p, const fw_quantity *q) {
+    char value[32];
+    bool shown = !q->unknown && q->unit && strcmp(q->unit, "1") != 0;
+    fw_number_text(value, sizeof value, shown ? fw_quantity_in_unit(q) : 0.0, 4);
+    assert_true(p->n < 1200);
+    p->token[p->n++] = shown ? fw_arena_printf(arena, "%s %s", value, q->unit) : "";
+}
+
+static printed *print_all(const fw_process_flow *f) {
+    printed *p = fw_arena_one(arena, printed);
+    for (int i = 0; i < f->nquantity; i++)
+        print_one(p, f->quantity[i]);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nderived; k++)
+            print_one(p, f->step[i].derived[k]);
+    return p;
+}
+
+static bool still_true(const printed *now, const char *token) {
+    for (int i = 0; i < now->n; i++)
+        if (strcmp(now->token[i], token) == 0) return true;
+    return false;
+}
+
+/* Each input in turn is changed by some per cent: a text that still says the former value of a quantity that changed with
+   it, where no other has that value, was not told. */
+static void nothing_stays_when_a_value_changes(void **state) {
+    (void)state;
+    static const char *const pack[] = {SILICON, COPPER, "soi-deep-rie"};
+    int stale = 0, changed = 0;
+    for (int p = 0; p < 3; p++) {
+        fw_process_flow *f = read_pack(arena, pack[p], NULL, NULL, &diags);
+        for (int i = 0; i < f->nquantity; i++) {
+            fw_quantity *q = f->quantity[i], was = *q;
+            fw_mark mark = fw_arena_mark(arena);
+            if (q->unknown || q->status == FW_DERIVED || q->value == 0.0) continue;
+            diags = fw_diags_new(arena);
+            assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+            const printed *before = print_all(f);
+            q->value *= q->range && strcmp(q->range, "anisotropy") == 0 ? 0.993 : 1.0137;
+            assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+            const printed *after = print_all(f);
+            const char *texts = all_texts(f);
+            for (int k = 0; k < before->n && before->n == after->n; k++) {
+                const char *old = before->token[k];
+                if (!old[0] || strcmp(old, after->token[k]) == 0) continue;
+                changed++;
+                if (!says(texts, old) || still_true(after, old)) continue;
+                print_error("%s, %s changed: a text still says %s\n", pack[p], was.id, old);
+                stale++;
+            }
+            *q = was;
+            fw_arena_rewind(arena, mark);
+        }
+    }
+    assert_true(changed > 300);
+    assert_int_equal(stale, 0);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {
-        TEST(texts_follow_their_values), TEST(what_names_nothing_is_said),
-        TEST(no_text_repeats_a_value), TEST(what_is_entered_changes_the_time),
-        TEST(an_uncertainty_has_its_own_status)};
+        TEST(texts_follow_their_values),         TEST(what_names_nothing_is_said),
+        TEST(no_text_repeats_a_value),           TEST(what_is_entered_changes_the_time),
+        TEST(an_uncertainty_has_its_own_status), TEST(nothing_stays_when_a_value_changes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -281,8 +281,38 @@ static void no_room(void **state) {
     assert_int_equal(fw_append_open(arena, "/nonexistent/log", 10, &diags, &file), FW_IO);
 }
 
+/* lines taken off at the end are seen by the head; one line more than it says is an interrupted entry */
+static void heads(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    const char *log = three(), *head, *second;
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_head(arena, 3, run.chain, &head), FW_OK);
+    assert_int_equal(fw_recipe_asrun_head(arena, 2, run.entry[1].chain, &second), FW_OK);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "h", head, strlen(head), &diags), FW_OK);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "h", second, strlen(second), &diags), FW_OK);
+    const char *none;
+    assert_int_equal(fw_recipe_asrun_head(arena, 0, run.begun, &none), FW_OK);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "h", none, strlen(none), &diags), FW_OK);
+    for (size_t i = 0; i < strlen(head); i++) { /* any byte of it */
+        char *bad = fw_arena_strdup(arena, head);
+        bad[i] = bad[i] == '3' ? '4' : '3';
+        if (strcmp(bad, head) == 0) continue;
+        assert_int_equal(fw_recipe_asrun_check_head(&run, "h", bad, strlen(bad), &diags), FW_INPUT);
+        assert_int_equal(fw_recipe_asrun_check_head(&run, "h", head, i, &diags), FW_INPUT);
+    }
+    size_t n = strlen(log) - 1;
+    while (log[n - 1] != '\n')
+        n--;
+    assert_int_equal(read_log(log, n, &run), FW_OK); /* the chain sees nothing */
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "h", head, strlen(head), &diags), FW_INPUT);
+    assert_int_equal(diags.item[diags.count - 1].number, 280);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "removed at its end"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(heads, setup, teardown),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
