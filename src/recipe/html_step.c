@@ -100,7 +100,7 @@ static void source_of(const fw_process_flow *flow, const char *source, fw_text *
     fw_text_escaped(out, source);
 }
 
-static void step_head(const fw_process_step *s, fw_text *out) {
+static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "&ensp;");
@@ -108,7 +108,7 @@ static void step_head(const fw_process_step *s, fw_text *out) {
     fw_text_printf(out, "</h2><div class=\"meta\">%s%s%s</div></header>\n",
                    s->in_source ? "described in the source" : "added, not in the source",
                    s->mask[0] ? "<br>mask " : "", s->mask);
-    fw_text_add(out, "<div class=\"pair\"><div><p>");
+    fw_text_add(out, picture ? "<div class=\"pair\"><div><p>" : "<p>");
     fw_text_escaped(out, s->purpose);
     fw_text_add(out, "</p>\n");
     if (s->equipment) {
@@ -123,7 +123,6 @@ static void step_head(const fw_process_step *s, fw_text *out) {
         if (s->batch >= 99) fw_text_add(out, ". Once per lot");
         fw_text_add(out, ".</p>\n");
     }
-    fw_text_add(out, "</div><div>");
 }
 
 static void tolerance(const fw_recipe_row *row, fw_text *out) {
@@ -188,11 +187,17 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     fw_text_add(out, "</td><td></td></tr>\n");
 }
 
+/* a stated time, known: the window below shows it with its status */
+static bool only_the_time(const fw_process_step *s, const fw_recipe_row *row, int n) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    return n == 1 && law && law->stated && row[0].q == s->argument[0].q && !row[0].q->unknown;
+}
+
 static fw_status quantities(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
     fw_recipe_row *row = NULL;
     int n = 0, derived = 0;
     FW_TRY(fw_recipe_step_rows(out->arena, s, &row, &n));
-    if (n == 0) return FW_OK;
+    if (n == 0 || only_the_time(s, row, n)) return FW_OK;
     fw_text_add(out,
                 "<table class=\"small\"><thead><tr><th style=\"width:28%\">Setting</th><th "
                 "class=\"n\">Planned</th><th>Allowed</th><th style=\"width:36%\">Status, source"
@@ -217,33 +222,16 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_text_add(out, ".</p>\n");
         return FW_OK;
     }
-    const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s};
+    const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s, s->booked_s};
     fw_text_add(out,
                 "<table class=\"window\"><tr><th>Planned</th><th>First look</th><th>Clear by</th>"
-                "<th>Stop</th></tr><tr>");
-    for (int i = 0; i < 4; i++) {
+                "<th>Stop</th><th>At the machine</th></tr><tr>");
+    for (int i = 0; i < 5; i++) {
         fw_text_printf(out, "<td>%s", i == 0 ? "<b>" : "");
         fw_schedule_put_duration(out, value[i]);
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
-    fw_text_add(out, "</tr></table>\n");
-    if (s->booked_s > t->nominal_s * (1.0 + 1e-9)) {
-        fw_text_add(out, "<p class=\"small\">At the machine: <b>");
-        fw_schedule_put_duration(out, s->booked_s);
-        fw_text_add(out, "</b>, with the over-etch");
-        if (s->pulse) {
-            fw_text_add(out, ", a pause of ");
-            fw_schedule_put_duration(out, s->pause->value);
-            fw_text_add(out, " after every ");
-            fw_schedule_put_duration(out, s->pulse->value);
-        }
-        fw_text_add(out, s->finish_s > 0.0 ? " and what follows at the bench" : "");
-        fw_text_add(out, ".</p>\n");
-    }
-    const fw_process_law *law = fw_process_law_find(s->law);
-    if (law && law->stated) /* the row "time" above has said it all */
-        return FW_OK;
-    fw_text_add(out, "<p class=\"small\">Time: law <i>");
+    fw_text_add(out, "</tr></table>\n<p class=\"small\">Time: law <i>");
     fw_text_escaped(out, s->law);
     fw_text_add(out, "</i>, ");
     tagged(out, fw_quantity_value_status_text(t->status));
@@ -255,6 +243,12 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
             fw_text_add(out, i ? ", " : "");
             fw_text_escaped(out, t->contribution[i]);
         }
+    }
+    if (s->pulse && s->booked_s > t->nominal_s * (1.0 + s->overrun) + s->finish_s + 1e-6) {
+        fw_text_add(out, "; a pause of ");
+        fw_schedule_put_duration(out, s->pause->value);
+        fw_text_add(out, " after every ");
+        fw_schedule_put_duration(out, s->pulse->value);
     }
     fw_text_add(out, ".</p>\n");
     return FW_OK;
@@ -300,35 +294,12 @@ static void waits(const fw_process_flow *flow, int index, fw_text *out) {
     }
 }
 
-static void checks(const fw_process_step *s, fw_text *out) {
+static void endpoints(const fw_process_step *s, fw_text *out) {
     for (int i = 0; i < s->nendpoint; i++) {
         fw_text_add(out, "<p><b>Endpoint:</b> ");
         fw_text_escaped(out, s->endpoint[i]);
         fw_text_add(out, "</p>\n");
     }
-    if (s->naccept == 0) return;
-    fw_text_add(out,
-                "<table class=\"small\"><tr><th>Accept when</th><th>Limits</th><th>Sites, every"
-                "</th><th style=\"width:34%\">Measured</th></tr>\n");
-    for (int i = 0; i < s->naccept; i++) {
-        const fw_process_accept *a = &s->accept[i];
-        fw_recipe_row limits = {.low = a->low, .high = a->high};
-        fw_text_add(out, "<tr><td>");
-        fw_text_escaped(out, a->measure);
-        fw_text_add(out, "</td><td>");
-        tolerance(&limits, out);
-        fw_text_add(out, limits.low[0] || limits.high[0] ? " " : "");
-        fw_recipe_put_unit(out, a->unit);
-        fw_text_printf(out, "</td><td>%d, ", a->sites);
-        if (a->every == 1)
-            fw_text_add(out, "every wafer");
-        else if (a->every >= 99)
-            fw_text_add(out, "first wafer");
-        else
-            fw_text_printf(out, "first and every %dth", a->every);
-        fw_text_add(out, "</td><td></td></tr>\n");
-    }
-    fw_text_add(out, "</table>\n");
 }
 
 static void failures(const fw_process_step *s, fw_text *out) {
@@ -389,38 +360,6 @@ static void exposures(const fw_process_flow *flow, const fw_process_step *s, fw_
     }
 }
 
-static void hazards(const fw_process_step *s, fw_text *out) {
-    for (int i = 0; i < s->nhazard; i++) {
-        const fw_process_hazard *h = s->hazard[i];
-        fw_text_add(out, "<div class=\"hazard\"><b>Hazard");
-        if (strcmp(h->ghs, "none") != 0) {
-            fw_text_add(out, " ");
-            fw_text_escaped(out, h->ghs);
-        }
-        fw_text_printf(out, "%s.</b> Wear and keep ready: ",
-                       h->buddy ? ". Never alone: buddy and second signature" : "");
-        fw_text_escaped(out, h->ppe);
-        fw_text_add(out, ".<br><b>First aid:</b> ");
-        fw_text_escaped(out, h->first_aid);
-        if (strcmp(h->waste_stream, "none") != 0) {
-            fw_text_add(out, "<br><b>Waste, ");
-            fw_text_escaped(out, h->waste_stream);
-            fw_text_add(out, ":</b> ");
-            fw_text_escaped(out, h->waste);
-            fw_text_add(out, ".");
-        }
-        fw_text_add(out, "</div>\n");
-    }
-}
-
-static void actuals(const fw_process_step *s, fw_text *out) {
-    fw_text_printf(
-        out,
-        "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool ID</td><td>Bath or "
-        "bottle lot</td><td>Initials</td><td>%s</td></tr></table>\n",
-        s->second_signature ? "<b>Second signature</b>" : "Remarks");
-}
-
 /* what the section of this step cannot know, where the step before had not said it */
 static fw_status section_notes(const fw_process_flow *flow, int index, fw_text *out) {
     fw_process_films now, before;
@@ -435,26 +374,30 @@ static fw_status section_notes(const fw_process_flow *flow, int index, fw_text *
     return FW_OK;
 }
 
-void fw_recipe_html_step(const fw_process_flow *flow, int index, fw_recipe_slicer *slicer,
-                         const fw_recipe_section_scale *scale, fw_text *out) {
+void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe_header *header,
+                         fw_recipe_slicer *slicer, const fw_recipe_section_scale *scale,
+                         fw_text *out) {
     const fw_process_step *s = &flow->step[index];
+    bool changes = fw_process_step_changes(s); /* else the wafer looks as before */
     fw_text_add(out, "<section class=\"step\" id=\"");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "\">\n");
-    step_head(s, out);
-    fw_status drawn = slicer ? fw_recipe_section_exact(slicer, flow, scale, index, out)
-                             : fw_recipe_section_svg(flow, index, out);
-    if (drawn == FW_OK && slicer) drawn = section_notes(flow, index, out);
+    step_head(s, changes, out);
+    fw_recipe_html_hazard_line(flow, s, out);
+    fw_text_add(out, changes ? "</div><div>" : "");
+    fw_status drawn = !changes ? FW_OK
+                      : slicer ? fw_recipe_section_exact(slicer, flow, scale, index, out)
+                               : fw_recipe_section_svg(flow, index, out);
+    if (drawn == FW_OK && slicer && changes) drawn = section_notes(flow, index, out);
     if (drawn != FW_OK) out->failed = 1;
-    fw_text_add(out, "</div></div>\n");
+    fw_text_add(out, changes ? "</div></div>\n" : "");
     holds(s, out);
     exposures(flow, s, out);
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     if (finishes(s, out) != FW_OK) out->failed = 1;
-    checks(s, out);
+    endpoints(s, out);
+    fw_recipe_html_wafers(s, header, out);
     waits(flow, index, out);
     failures(s, out);
-    hazards(s, out);
-    actuals(s, out);
     fw_text_add(out, "</section>\n");
 }

@@ -33,14 +33,14 @@ static void overrides_table(const fw_process_flow *flow, fw_text *out) {
 static const char style[] =
     "@page{size:A4;margin:13mm 13mm 14mm}\n"
     "*{box-sizing:border-box}\n"
-    "body{font:9pt/1.28 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
+    "body{font:8.5pt/1.24 Helvetica,Arial,'Liberation Sans',sans-serif;color:#000;background:#fff;"
     "max-width:184mm;margin:0 auto;padding:4mm 0}\n"
     "h1{font-size:17pt;line-height:1.15;margin:0 0 1mm}\n"
-    "h2{font-size:12pt;line-height:1.2;margin:0}\n"
+    "h2{font-size:11pt;line-height:1.2;margin:0}\n"
     "h3{font-size:10pt;margin:3mm 0 1mm;break-after:avoid}\n"
-    "p{margin:0.8mm 0}\n"
+    "p{margin:0.5mm 0}\n"
     ".lead{color:#333;margin-bottom:3mm}\n"
-    "table{border-collapse:collapse;width:100%;margin:1.2mm 0}\n"
+    "table{border-collapse:collapse;width:100%;margin:0.8mm 0}\n"
     "td.id{white-space:nowrap}\n"
     "th,td{border:0.5pt solid #888;padding:0.4mm 1.2mm;text-align:left;vertical-align:top}\n"
     "th{font-weight:bold;background:#f0f0f0;-webkit-print-color-adjust:exact;"
@@ -56,16 +56,21 @@ static const char style[] =
     ".tag.assumed,.tag.unknown{border-style:dashed}\n.tag.unknown{font-weight:bold}\n"
     ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:2mm 0}\n"
     ".nc{border:1.4pt solid #000;padding:1.2mm 2mm;margin:1.5mm 0}\n"
-    ".step{border:0.9pt solid #000;padding:1.4mm 2.4mm;margin:0 0 2.5mm;break-inside:avoid}\n"
+    ".step{border:0.9pt solid #000;padding:1.2mm 2mm;margin:0 0 2mm;box-decoration-break:clone;"
+    "-webkit-box-decoration-break:clone}\n"
     ".step>header{display:flex;justify-content:space-between;align-items:flex-start;gap:4mm;"
-    "border-bottom:0.5pt solid #888;padding-bottom:1.2mm;margin-bottom:1.2mm}\n"
+    "border-bottom:0.5pt solid #888;padding-bottom:0.8mm;margin-bottom:0.8mm;break-after:avoid}\n"
+    ".pair,.window,.hazard,.note,.nc{break-inside:avoid}\n"
     ".meta{font-size:8pt;text-align:right;white-space:nowrap;padding-top:0.8mm}\n"
     ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
-    ".pair>div:last-child{width:70mm}\n.pair svg{width:70mm;height:auto;display:block}\n"
-    ".small{font-size:7.8pt}\n.muted{color:#444}\n"
-    ".hazard{border:0.9pt solid #000;padding:0.7mm 1.8mm;margin:1mm 0;font-size:8pt}\n"
-    ".window td{text-align:center;font-size:10pt}\n.window th{text-align:center}\n"
-    ".actual td{height:7.5mm;width:16.6%;font-size:7.5pt;color:#444}\n"
+    ".pair>div:last-child{width:58mm}\n.pair svg{width:58mm;height:auto;display:block}\n"
+    ".small{font-size:7.2pt}\n.muted{color:#444}\n"
+    ".hazard{border:0.9pt solid #000;padding:0.3mm 1.5mm;margin:0.8mm 0;font-size:8pt}\n"
+    ".window td{text-align:center;font-size:9pt}\n.window th{text-align:center}\n"
+    ".actual td{height:7mm;width:12.5%;font-size:7pt;color:#444}\n.sources{columns:2}\n"
+    ".wafers td{height:5.4mm}\n.wafers td.w{white-space:nowrap}\n.wafers td.off{background:#ddd;"
+    "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
+    ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
     ".rejected{border:2.2pt solid #000;text-align:center;font-size:13pt;font-weight:bold;"
     "letter-spacing:0.08em;padding:1.6mm;margin:0 0 3mm}\n"
     "@media screen{.rejected{position:sticky;top:0;background:#fff;z-index:1}}\n"
@@ -101,6 +106,23 @@ static void hash_row(fw_text *out, const char *name, const char *hash) {
     fw_text_add(out, "</td></tr>\n");
 }
 
+/* "Plate M1: file masks/al-masked-rie.gds" of every mask that a step exposes */
+static void plates(const fw_process_flow *flow, fw_text *out) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const char *mask = flow->step[i].mask;
+        bool again = !mask[0];
+        for (int k = 0; k < i && !again; k++)
+            again = strcmp(flow->step[k].mask, mask) == 0;
+        if (again) continue;
+        fw_text_add(out, "<tr><td class=\"k\">Plate ");
+        fw_text_escaped(out, mask);
+        fw_text_add(out, "</td><td colspan=\"3\">file masks/");
+        fw_text_escaped(out, flow->id);
+        fw_text_add(out, ".gds; plate no. ____________&ensp; inspected ____________</td>"
+                         "</tr>\n");
+    }
+}
+
 static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     fw_text_add(out, "<h1>Run sheet: ");
     fw_text_escaped(out, flow->title);
@@ -120,6 +142,8 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
     blank_row(out, "Lot", "Wafer IDs");
     blank_row(out, "Date", "Operator");
     blank_row(out, "Buddy (HF steps)", "Laboratory");
+    blank_row(out, "Revision of this sheet", "Approved by, date");
+    plates(flow, out);
     hash_row(out, "Mask set, SHA-256", h->mask_sha256);
     hash_row(out, "Process file, SHA-256", flow->sha256);
     fw_text_add(out, "<tr><td class=\"k\">Process version</td><td>");
@@ -203,7 +227,7 @@ static void summary(const fw_process_flow *flow, fw_text *out) {
 }
 
 static void sources(const fw_process_flow *flow, fw_text *out) {
-    fw_text_add(out, "<h3>Sources</h3>\n<ol class=\"small\">\n");
+    fw_text_add(out, "<h3>Sources</h3>\n<ol class=\"small sources\">\n");
     for (int i = 0; i < flow->nsource; i++) {
         fw_text_add(out, "<li>");
         fw_text_escaped(out, flow->source[i].text);
@@ -242,9 +266,11 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
         FW_TRY(fw_recipe_section_scale_of(out->arena, flow, header->cut, &scale));
         FW_TRY(fw_recipe_html_pictures(flow, header, &slicer, &scale, out));
     }
+    fw_recipe_html_hazards(flow, out);
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
-        fw_recipe_html_step(flow, i, cut ? &slicer : NULL, &scale, out);
+        fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);
+    fw_recipe_html_deviations(out);
     sources(flow, out);
     fw_text_add(out, "</body>\n</html>\n");
     return fw_text_end(out);

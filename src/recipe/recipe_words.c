@@ -279,18 +279,26 @@ static void put_stops(fw_text *out, const fw_schedule *s) {
     }
 }
 
-void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
-    const fw_schedule *s = header->schedule;
-    if (!s) return;
-    fw_text_add(out, "<h3>Schedule</h3>\n<p class=\"small\">");
-    fw_recipe_put_schedule_summary(out, s);
-    fw_text_add(out, "</p>\n");
-    if (!s->pause_s) return;
-    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where every wafer is dry and "
-                     "safe and no hold window of the process file is running: ");
-    put_stops(out, s);
-    fw_text_add(out, " (longest pause that the windows and the wafers allow).</p>\n");
-    if (!s->feasible) return;
+/* a line for the one wafer: every step and when it begins */
+static void one_wafer(fw_text *out, const fw_schedule *s) {
+    double day = -1.0;
+    fw_text_add(out, "<p class=\"small\"><b>Begins:</b> ");
+    for (int k = 0; k < s->nrun; k++) {
+        const fw_schedule_run *r = &s->run[k];
+        long minutes = lround(r->start_s / 60.0);
+        fw_text_add(out, k ? ", " : "");
+        fw_text_escaped(out, s->shop->task[r->task].id);
+        fw_text_add(out, s->shop->task[r->task].unknown ? " (time unknown) " : " ");
+        if (floor(r->start_s / 86400.0) > day)
+            fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
+        else
+            fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
+        day = floor(r->start_s / 86400.0);
+    }
+    fw_text_add(out, ".</p>\n");
+}
+
+static void all_wafers(fw_text *out, const fw_schedule *s) {
     fw_text_add(out, "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end "
                      "(operator)</th></tr></thead><tbody>\n");
     for (int i = 0; i < s->shop->ntask; i++) {
@@ -312,4 +320,22 @@ void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
         fw_text_add(out, "</td></tr>\n");
     }
     fw_text_add(out, "</tbody></table>\n");
+}
+
+void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
+    const fw_schedule *s = header->schedule;
+    if (!s) return;
+    fw_text_add(out, "<h3>Schedule</h3>\n<p class=\"small\">");
+    fw_recipe_put_schedule_summary(out, s);
+    fw_text_add(out, "</p>\n");
+    if (!s->pause_s) return;
+    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where every wafer is dry and "
+                     "safe and no hold window of the process file is running: ");
+    put_stops(out, s);
+    fw_text_add(out, " (longest pause that the windows and the wafers allow).</p>\n");
+    if (!s->feasible) return;
+    if (s->shop->wafers == 1)
+        one_wafer(out, s);
+    else
+        all_wafers(out, s);
 }

@@ -44,10 +44,20 @@ struct fw_recipe_section_scale;
 fw_status fw_recipe_html_pictures(const fw_process_flow *flow, const fw_recipe_header *header,
                                   struct fw_recipe_slicer *slicer,
                                   const struct fw_recipe_section_scale *scale, fw_text *out);
-void fw_recipe_html_step(const fw_process_flow *flow, int index, struct fw_recipe_slicer *slicer,
+void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe_header *header,
+                         struct fw_recipe_slicer *slicer,
                          const struct fw_recipe_section_scale *scale, fw_text *out);
 
 /* "rinse in deionised water", "dry by spinning" */
 const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *finish);
+
+/* html_wafers.c: a column for every wafer of the schedule; the hazards of a step by number; the table of hazards; what
+   deviated */
+void fw_recipe_html_wafers(const fw_process_step *step, const fw_recipe_header *header,
+                           fw_text *out);
+void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *step,
+                                fw_text *out);
+void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);
+void fw_recipe_html_deviations(fw_text *out);
 
 #endif

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/films.h"
 #include "../process/pack_fixture.h"
 #include "recipe/recipe.h"
 #include <jansson.h>
@@ -72,7 +73,15 @@ static void html(void **state) {
         const char *text = written(fw_recipe_write_html, f, "six & <b>", false, NULL);
         check_nesting(text);
         assert_int_equal(occurrences(text, "<section class=\"step\""), f->nstep);
-        assert_int_equal(occurrences(text, "<svg "), f->nstep);
+        int changes = 0, hazards = 0;
+        for (int k = 0; k < f->nstep; k++)
+            changes += fw_process_step_changes(&f->step[k]);
+        for (int k = 0; k < f->nhazard; k++) /* each that a step has, once */
+            for (int m = 0, met = 0; m < f->nstep && !met; m++)
+                for (int h = 0; h < f->step[m].nhazard && !met; h++)
+                    hazards += met = f->step[m].hazard[h] == &f->hazard[k];
+        assert_int_equal(occurrences(text, "<svg "), changes);
+        assert_int_equal(occurrences(text, "<tr id=\"hazard-"), hazards);
         assert_int_equal(occurrences(text, "TIME NOT COMPUTABLE"), f->not_computable);
         assert_int_equal(occurrences(text, "NOT COMPUTABLE</b></td>"), f->not_computable);
         assert_null(strstr(text, "<script"));
@@ -92,7 +101,7 @@ static void html(void **state) {
         int signatures = 0;
         for (int k = 0; k < f->nstep; k++)
             signatures += f->step[k].second_signature;
-        assert_int_equal(occurrences(text, "Second signature</b>"), signatures);
+        assert_int_equal(occurrences(text, "<b>second signature</b>"), signatures);
     }
 }
 

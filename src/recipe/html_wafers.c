@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What people write on the run sheet: a column for every wafer and a cell for every site, what becomes of the lot, what
+   deviated; and the hazards, each once, by the bench where they are met. */
+#include "recipe/recipe_words.h"
+#include <string.h>
+
+enum { WAFERS_ABREAST = 3 }; /* columns that still hold five sites that one can write into */
+
+/* ---- values of wafers ---- */
+
+static void limits(const fw_process_accept *a, fw_text *out) {
+    if (a->low[0] && a->high[0]) {
+        fw_text_escaped(out, a->low);
+        fw_text_add(out, " to ");
+        fw_text_escaped(out, a->high);
+    } else if (a->low[0] || a->high[0]) {
+        fw_text_add(out, a->low[0] ? "&ge; " : "&le; ");
+        fw_text_escaped(out, a->low[0] ? a->low : a->high);
+    }
+    bool unit = strcmp(a->unit, "1") != 0;
+    fw_text_add(out, unit && (a->low[0] || a->high[0]) ? " " : "");
+    fw_recipe_put_unit(out, a->unit);
+    fw_text_printf(out, a->sites > 1 ? ", %d sites" : "", a->sites);
+    if (a->every >= 99)
+        fw_text_add(out, ", first wafer");
+    else if (a->every > 1)
+        fw_text_printf(out, ", first and every %dth", a->every);
+}
+
+static bool sampled(const fw_process_accept *a, int wafer) {
+    return wafer == 0 || (a->every < 99 && wafer % a->every == 0);
+}
+
+static void sites(const fw_process_accept *a, int wafer, fw_text *out) {
+    if (!sampled(a, wafer)) {
+        fw_text_add(out, "<td class=\"off\"></td>");
+        return;
+    }
+    fw_text_add(out, "<td class=\"w\">");
+    bool ticked = strcmp(a->unit, "yes/no") == 0;
+    for (int k = 0; k < a->sites && k < 9; k++)
+        fw_text_add(out, ticked ? "<span class=\"box\"></span>" : "<span class=\"s\"></span>");
+    fw_text_add(out, "</td>");
+}
+
+static void blank_row(const char *name, int n, fw_text *out) {
+    fw_text_printf(out, "<tr><td colspan=\"2\">%s</td>", name);
+    for (int w = 0; w < n; w++)
+        fw_text_add(out, "<td class=\"w\"></td>");
+    fw_text_add(out, "</tr>\n");
+}
+
+static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bool one,
+                        fw_text *out) {
+    fw_text_add(out, "<table class=\"small wafers\"><thead><tr><th style=\"width:30%\">Accept when"
+                     "</th><th style=\"width:17%\">Limits</th>");
+    for (int w = first; w < first + n; w++)
+        if (lot)
+            fw_text_add(out, "<th>Lot</th>");
+        else
+            fw_text_printf(out, "<th>Wafer %d</th>", w + 1);
+    fw_text_add(out, "</tr></thead><tbody>\n");
+    for (int i = 0; i < s->naccept; i++) {
+        fw_text_add(out, "<tr><td>");
+        fw_text_escaped(out, s->accept[i].measure);
+        fw_text_add(out, "</td><td>");
+        limits(&s->accept[i], out);
+        fw_text_add(out, "</td>");
+        for (int w = first; w < first + n; w++)
+            sites(&s->accept[i], w, out);
+        fw_text_add(out, "</tr>\n");
+    }
+    if (one) { /* what is written once goes into one line */
+        fw_text_add(out, "</tbody></table>\n");
+        return;
+    }
+    blank_row("Start; end", n, out);
+    blank_row("Tool; bath or bottle lot", n, out);
+    blank_row(s->second_signature ? "Initials; <b>second signature</b>" : "Initials", n, out);
+    fw_text_add(out, "</tbody></table>\n");
+}
+
+static void one_line(const fw_process_step *s, fw_text *out) {
+    fw_text_printf(out,
+                   "<table class=\"actual\"><tr><td>Start</td><td>End</td><td>Tool</td><td>Bath or "
+                   "bottle lot</td><td>%s</td><td>Wafers in, out</td><td>Scrapped, on hold</td>"
+                   "<td>Deviation no.</td></tr></table>\n",
+                   s->second_signature ? "Initials; <b>second signature</b>" : "Initials");
+}
+
+void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *header, fw_text *out) {
+    int wafers = header->schedule ? header->schedule->shop->wafers : 1;
+    bool lot = s->batch >= 99;
+    if (lot) wafers = 1;
+    for (int first = 0; first < wafers; first += WAFERS_ABREAST)
+        some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,
+                    lot, wafers == 1, out);
+    if (wafers == 1) {
+        one_line(s, out);
+        return;
+    }
+    fw_text_add(out, "<p class=\"small\">Wafers in ______ out ______ scrapped ______ on hold "
+                     "______&ensp;Deviation no. ______</p>\n");
+}
+
+/* ---- hazards ---- */
+
+/* from 1, in the order in which the steps meet them; 0: none meets it */
+static int number_of(const fw_process_flow *flow, const fw_process_hazard *h) {
+    int n = 0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nhazard; k++) {
+            const fw_process_hazard *is = flow->step[i].hazard[k];
+            bool met = false;
+            for (int j = 0; j <= i && !met; j++)
+                for (int m = 0; m < (j == i ? k : flow->step[j].nhazard) && !met; m++)
+                    met = flow->step[j].hazard[m] == is;
+            if (met) continue;
+            n++;
+            if (is == h) return n;
+        }
+    return 0;
+}
+
+void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *s,
+                                fw_text *out) {
+    bool alone = true;
+    if (s->nhazard == 0) return;
+    fw_text_add(out, "<p class=\"hazard\"><b>Hazard</b> ");
+    for (int i = 0; i < s->nhazard; i++) {
+        int n = number_of(flow, s->hazard[i]);
+        fw_text_printf(out, "%s<a href=\"#hazard-%d\">%d</a> ", i ? "; " : "", n, n);
+        fw_text_escaped(out, s->hazard[i]->name);
+        alone = alone && !s->hazard[i]->buddy;
+    }
+    fw_text_add(out, alone ? "</p>\n" : ". <b>Never alone: buddy and second signature.</b></p>\n");
+}
+
+/* "acid wet bench: S14, S21" */
+static void benches(const fw_process_flow *flow, const fw_process_hazard *h, fw_text *out) {
+    int said = 0;
+    for (int e = 0; e < flow->nequipment; e++) {
+        const fw_process_equipment *q = &flow->equipment[e];
+        int n = 0;
+        for (int i = 0; i < flow->nstep; i++)
+            for (int k = 0; k < flow->step[i].nhazard; k++) {
+                if (flow->step[i].hazard[k] != h || flow->step[i].equipment != q) continue;
+                if (n == 0) {
+                    fw_text_add(out, said++ ? "; " : "");
+                    fw_text_escaped(out, q->class_);
+                }
+                fw_text_add(out, n++ ? ", " : ": ");
+                fw_text_escaped(out, flow->step[i].id);
+            }
+    }
+}
+
+static void hazard(const fw_process_flow *flow, const fw_process_hazard *h, int n, fw_text *out) {
+    fw_text_printf(out, "<tr id=\"hazard-%d\"><td class=\"n\"><b>%d</b></td><td><b>", n, n);
+    fw_text_escaped(out, h->name);
+    fw_text_add(out, "</b><br>");
+    if (strcmp(h->ghs, "none") != 0) fw_text_escaped(out, h->ghs);
+    fw_text_add(out, h->buddy ? "<br><b>never alone</b>" : "");
+    fw_text_add(out, "<br>");
+    benches(flow, h, out);
+    fw_text_add(out, "</td><td>");
+    fw_text_escaped(out, h->ppe);
+    fw_text_add(out, "</td><td>");
+    fw_text_escaped(out, h->first_aid);
+    fw_text_add(out, "</td><td>");
+    if (strcmp(h->waste_stream, "none") != 0) {
+        fw_text_add(out, "<b>");
+        fw_text_escaped(out, h->waste_stream);
+        fw_text_add(out, ":</b> ");
+        fw_text_escaped(out, h->waste);
+    }
+    fw_text_add(out, "</td></tr>\n");
+}
+
+void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
+    int most = 0;
+    for (int i = 0; i < flow->nhazard; i++)
+        most += number_of(flow, &flow->hazard[i]) > 0;
+    if (most == 0) return;
+    fw_text_add(out,
+                "<h3>Hazards: read before the lot begins</h3>\n<p>Emergency number ____________ "
+                "&ensp; Nearest shower, eye wash, first aid ____________</p>\n"
+                "<table class=\"small\"><thead><tr><th></th><th style=\"width:21%\">Hazard, bench: "
+                "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:19%\">"
+                "Waste</th></tr></thead><tbody>\n");
+    for (int n = 1; n <= most; n++)
+        for (int i = 0; i < flow->nhazard; i++)
+            if (number_of(flow, &flow->hazard[i]) == n) hazard(flow, &flow->hazard[i], n, out);
+    fw_text_add(out, "</tbody></table>\n");
+}
+
+/* ---- the lot ---- */
+
+void fw_recipe_html_deviations(fw_text *out) {
+    fw_text_add(out,
+                "<h3>Deviations, and what became of the lot</h3>\n<table class=\"small blank\">"
+                "<thead><tr><th style=\"width:6%\">No.</th><th style=\"width:10%\">Step</th>"
+                "<th style=\"width:12%\">Wafers</th><th>What was done otherwise, and why</th>"
+                "<th style=\"width:20%\">Decided by, date</th></tr></thead><tbody>\n");
+    for (int i = 1; i <= 6; i++)
+        fw_text_printf(out, "<tr><td>%d</td><td></td><td></td><td></td><td></td></tr>\n", i);
+    fw_text_add(out, "</tbody></table>\n<p>Lot closed: wafers finished ______ scrapped ______"
+                     "&ensp; by ____________ date ____________</p>\n");
+}
