@@ -20,7 +20,7 @@ static void limits(const fw_process_accept *a, fw_text *out) {
     bool unit = strcmp(a->unit, "1") != 0;
     fw_text_add(out, unit && (a->low[0] || a->high[0]) ? " " : "");
     fw_recipe_put_unit(out, a->unit);
-    fw_text_printf(out, a->sites > 1 ? ", %d sites" : "", a->sites);
+    if (a->sites > 1) fw_text_printf(out, ", %d sites", a->sites);
     if (a->every >= 99)
         fw_text_add(out, ", first wafer");
     else if (a->every > 1)

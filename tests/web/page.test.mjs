@@ -230,7 +230,7 @@ describe("the six-bar", () => {
         await page.waitForSelector(".step");
         assert.ok((await page.locator(".step").count()) > 15);
         assert.match(await page.locator(".step.missing .not-computable").first().textContent(), /NOT COMPUTABLE, missing: \w/);
-        assert.ok((await page.locator(".section-picture svg").count()) > 15);
+        assert.ok((await page.locator(".section-picture svg").count()) >= 10); // of the steps that change the wafer
         await page.waitForFunction(() => document.querySelector(".schedule img")?.naturalWidth > 300);
         const [sheet] = await Promise.all([page.context().waitForEvent("page"), page.click('a:has-text("Run sheet")')]);
         await sheet.waitForLoadState();
