@@ -66,7 +66,7 @@ class Sections(unittest.TestCase):
                     if step["changes"]:
                         self.assertIn(step["title"], words)
             html = (self.out / "recipes" / (flow + ".html")).read_text()
-            self.assertEqual(html.count("<svg "), len(steps) + 1)  # one for each step, and what is made
+            self.assertEqual(html.count("<svg "), sum(s["changes"] for s in steps) + 1)  # of every change, and what is made
 
     def test_wrong_cuts(self):
         for cut in ("1,2,3", "flexure:nobody", "1,1,1,1"):
