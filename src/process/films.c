@@ -28,11 +28,6 @@ static bool same(const char *a, const char *b) {
     return strcmp(a, b) == 0;
 }
 
-static bool touches(const fw_process_change *c, int column) {
-    if (same(c->where, "all")) return true;
-    return same(c->where, "structure") == (column == FW_STACK_STRUCTURE);
-}
-
 static fw_status note(maker *m, const char *sentence) {
     FW_NEED(sentence);
     fw_process_films *f = m->films;
@@ -198,7 +193,7 @@ static fw_status add_front(maker *m, const fw_process_change *c, fw_process_film
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
     bool whole = same(c->where, "all") && fabs(top[0] - top[1]) <= TOUCH_M;
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!touches(c, column)) continue;
+        if (!fw_process_where_holds(c->where, column)) continue;
         fw_process_film f = film;
         f.in[column] = true;
         if (whole) f.in[OTHER - column] = true;
@@ -219,8 +214,8 @@ static fw_status add(maker *m, const fw_process_change *c) {
     if (!c->back) return add_front(m, c, film, height);
     film.top_m = floor_of(m->films);
     film.bottom_m = film.top_m - height;
-    film.in[0] = touches(c, 0);
-    film.in[1] = touches(c, 1);
+    film.in[0] = fw_process_where_holds(c->where, 0);
+    film.in[1] = fw_process_where_holds(c->where, 1);
     film.foot_m = film.head_m = printed_m(m);
     return add_film(m, film);
 }
@@ -238,8 +233,8 @@ static fw_status expose(maker *m, const fw_process_change *c) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++)
         for (int i = 0, n = m->films->n; i < n; i++) {
             int at = i;
-            if (!same(m->films->film[i].material, c->material) || !touches(c, column) ||
-                !m->films->film[i].in[column])
+            if (!same(m->films->film[i].material, c->material) ||
+                !fw_process_where_holds(c->where, column) || !m->films->film[i].in[column])
                 continue;
             if (!same(c->where, "all")) FW_TRY(split(m, i, column, foot, &at));
             fw_process_film *f = &m->films->film[at];
@@ -260,7 +255,7 @@ static fw_status convert(maker *m, const fw_process_change *c) {
             if (m->films->film[i].in[column] && same(m->films->film[i].material, c->from) &&
                 (at < 0 || m->films->film[i].top_m > m->films->film[at].top_m))
                 at = i;
-        if (at < 0 || !touches(c, column)) continue;
+        if (at < 0 || !fw_process_where_holds(c->where, column)) continue;
         FW_TRY(drawn_height(m, c, &height, &shortened));
         if (!same(c->where, "all"))
             FW_TRY(split(m, at, column, mask_edge(m, &m->films->film[at], OTHER - column), &at));
@@ -403,8 +398,6 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
     return FW_OK;
 }
 
-/* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
-   the device's walls where it is a liquid (films.h) */
 /* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open */
 static fw_status open_part(maker *m, int i, const double top[], int *open) {
     const fw_process_film *f = &m->films->film[i];
@@ -417,6 +410,8 @@ static fw_status open_part(maker *m, int i, const double top[], int *open) {
     return split(m, i, column, mask_edge(m, f, OTHER - column), open);
 }
 
+/* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
+   the device's walls where it is a liquid (films.h) */
 static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
     double top[] = {top_of(m->films, 0), top_of(m->films, 1)};

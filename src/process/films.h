@@ -32,6 +32,18 @@ fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, in
 fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *flow, int step,
                                        int change, fw_process_stack *stack);
 
+/* is the column in this part of the wafer ("all", "structure", "field")? */
+bool fw_process_where_holds(const char *where, int column);
+/* is there a film of the material in the column? */
+bool fw_process_stack_holds(const fw_process_stack *stack, int column, const char *material);
+/* topmost film of a column; NULL: it has none */
+const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column);
+/* topmost film of the material in a column; NULL: it is not there. *cover: material of the topmost film above it that has
+   no holes; NULL: it lies open there, or at its side, where it stands above the top of the other column */
+const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
+                                             const fw_process_stack *stack, int column,
+                                             const char *material, const char **cover);
+
 /* does `material` lie open anywhere: on top of a column, below films that have holes, or at its
    side, where it stands above the top of the other column */
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,

@@ -2,7 +2,6 @@
 #include "process/judge.h"
 #include "process/process_law.h"
 #include "process/pack.h"
-#include "process/wafer_state.h"
 #include <math.h>
 #include <string.h>
 
@@ -392,7 +391,6 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
             flow->not_computable++;
     }
     FW_TRY(fw_process_flow_fill_texts(arena, flow, diags)); /* with what was computed now */
-    FW_TRY(fw_process_flow_waits(arena, flow));             /* a laboratory may have changed them */
     FW_TRY(show_edges(arena, flow));
     FW_TRY(count_quantities(arena, flow));
     FW_TRY(fw_process_flow_judge(arena, flow, facts, diags));

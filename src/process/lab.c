@@ -2,6 +2,7 @@
 /* Laboratory packs: values that replace those of a flow by id. */
 #include "process/calibrate.h"
 #include "process/pack.h"
+#include "process/wafer_state.h"
 #include <string.h>
 
 static bool computed_id(const fw_quantity *q) {
@@ -120,5 +121,6 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
         if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
     FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
+    FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;
 }

@@ -7,10 +7,6 @@
 #include "process/wafer_state.h"
 #include <string.h>
 
-static bool is_op(const fw_process_step *s, const char *op) {
-    return strcmp(s->op, op) == 0;
-}
-
 /* ---- what a wafer carries along ---- */
 
 static bool excludes(const fw_process_hazard *a, const fw_process_hazard *b) {
@@ -44,9 +40,7 @@ static void lint_carried(fw_process_pack *pack, const fw_process_step *s,
         for (int h = 0; h < s->nhazard; h++)
             if (s->hazard[h]->wets) lint_meeting(pack, s, s->place, carried, since, s->hazard[h]);
         since = s->id;
-        carried = NULL;
-        for (int h = s->nhazard - 1; h >= 0 && !carried; h--)
-            if (s->hazard[h]->wets) carried = s->hazard[h];
+        carried = fw_process_step_liquid(s);
     }
     for (int i = 0; i < s->nfinish; i++) {
         const fw_process_finish *r = &s->finish[i];
@@ -76,8 +70,7 @@ static fw_status lint_arrival(fw_process_pack *pack, const fw_process_step *s,
 static void lint_residue(fw_process_pack *pack, const fw_process_step *s,
                          const fw_process_wafer *before) {
     const fw_process_hazard *on = before->is[FW_STATE_WET] ? before->liquid : NULL;
-    for (int h = 0; fw_process_step_in_liquid(s) && h < s->nhazard; h++)
-        if (s->hazard[h]->wets) on = s->hazard[h];
+    if (fw_process_step_in_liquid(s) && fw_process_step_liquid(s)) on = fw_process_step_liquid(s);
     for (int i = 0; i < s->nfinish; i++) {
         const fw_process_finish *f = &s->finish[i];
         if (f->kind == FW_FINISH_RINSE) on = f->with;
@@ -116,39 +109,6 @@ fw_status fw_process_lint_wet(fw_process_pack *pack) {
 
 /* ---- is what a step works on there, and open? ---- */
 
-/* what covers `material` in a column, films with holes aside; NULL: it lies open there, at its side too, or is not
-   there, or is on the back of the wafer, which nothing here looks at */
-static const char *cover(const fw_process_flow *f, const fw_process_stack *stack, int column,
-                         const char *material) {
-    const char *above = NULL;
-    double beside = 0.0;
-    for (int i = 0; i < stack->n[1 - column]; i++) {
-        const fw_process_cell *c = &stack->cell[1 - column][i];
-        beside = c->bottom + c->height > beside ? c->bottom + c->height : beside;
-    }
-    for (int i = stack->n[column] - 1; i >= 0; i--) {
-        const fw_process_cell *c = &stack->cell[column][i];
-        const fw_process_material *m = fw_process_flow_material(f, c->material);
-        if (strcmp(c->material, material) == 0) {
-            bool side = c->bottom + c->height > beside + 1e-9, back = c->bottom < -1e-9;
-            return side || back ? NULL : above;
-        }
-        if (!(m && m->holes) && !above) above = c->material;
-    }
-    return NULL;
-}
-
-static bool in_column(const char *where, int column) {
-    if (strcmp(where, "all") == 0) return true;
-    return (strcmp(where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
-}
-
-static bool on_column(const fw_process_stack *stack, int column, const char *material) {
-    for (int i = 0; i < stack->n[column]; i++)
-        if (strcmp(stack->cell[column][i].material, material) == 0) return true;
-    return false;
-}
-
 static const char *const part_name[FW_STACK_COLUMNS] = {
     [FW_STACK_STRUCTURE] = "structure", [FW_STACK_FIELD] = "field"};
 
@@ -164,8 +124,10 @@ static fw_status lint_open(fw_process_pack *pack, int step, int change) {
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
     if (c->reach && fw_process_stack_open(f, &stack, on)) return FW_OK;
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        const char *by = in_column(c->where, column) ? cover(f, &stack, column, on) : NULL;
-        if (!by) continue;
+        const char *by;
+        const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, &by);
+        bool back = cell && cell->bottom < -1e-9; /* of the wafer: nothing here looks at it */
+        if (!fw_process_where_holds(c->where, column) || !cell || !by || back) continue;
         fw_diag_error(pack->diags, 339, c->place,
                       "step %s works on '%s' in the %s, but there it lies below '%s'; take that "
                       "off before, or name the part where it is open (where)",
@@ -176,8 +138,8 @@ static fw_status lint_open(fw_process_pack *pack, int step, int change) {
 }
 
 static const char *top(const fw_process_stack *stack, int column) {
-    int n = stack->n[column];
-    return n > 0 ? stack->cell[column][n - 1].material : NULL;
+    const fw_process_cell *cell = fw_process_stack_top(stack, column);
+    return cell ? cell->material : NULL;
 }
 
 /* metal grows on what conducts, everywhere where that lies open */
@@ -186,12 +148,12 @@ static fw_status lint_plating(fw_process_pack *pack, int step, int change) {
     const fw_process_step *s = &f->step[step];
     const fw_process_change *c = &s->change[change];
     fw_process_stack stack;
-    if (!is_op(s, "plate") || strcmp(c->kind, "add") != 0) return FW_OK;
+    if (!fw_process_step_is_op(s, "plate") || strcmp(c->kind, "add") != 0) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
         const char *on = top(&stack, column);
         const fw_process_material *m = on ? fw_process_flow_material(f, on) : NULL;
-        bool wanted = in_column(c->where, column);
+        bool wanted = fw_process_where_holds(c->where, column);
         if (wanted && (!on || (m && m->conducts == 0)))
             fw_diag_error(pack->diags, 340, c->place,
                           "step %s plates '%s' on '%s', which carries no current; a seed must lie "
@@ -223,30 +185,35 @@ static int step_index(const fw_process_flow *f, const char *id) {
     return f->nstep;
 }
 
-/* NULL: it is as required; else what is wrong, in words */
-static const char *unlike(fw_process_pack *pack, int step, const fw_process_wafer *before,
-                          const fw_process_requirement *r) {
+/* *wrong: what is not as required, in words; NULL: all is */
+static fw_status unlike(fw_process_pack *pack, int step, const fw_process_wafer *before,
+                        const fw_process_requirement *r, const char **wrong) {
     const fw_process_flow *f = pack->flow;
-    if (r->step)
-        return step_index(f, r->step) < step
-                   ? NULL
-                   : fw_arena_printf(pack->arena, "step %s, which must come before it, comes later",
-                                     r->step);
+    fw_process_stack stack;
+    *wrong = NULL;
+    if (r->step) {
+        if (step_index(f, r->step) >= step)
+            FW_NEED(*wrong = fw_arena_printf(
+                        pack->arena, "step %s, which must come before it, comes later", r->step));
+        return FW_OK;
+    }
     if (r->state) {
         for (int k = 0; k < FW_STATES; k++)
             if (strcmp(fw_process_state_key((fw_process_state)k), r->state) == 0 &&
                 before->is[k] == r->present)
-                return NULL;
-        return fw_arena_printf(pack->arena, "it wants a wafer that is %s'%s'",
-                               r->present ? "" : "not ", r->state);
+                return FW_OK;
+        FW_NEED(*wrong = fw_arena_printf(pack->arena, "it wants a wafer that is %s'%s'",
+                                         r->present ? "" : "not ", r->state));
+        return FW_OK;
     }
-    fw_process_stack stack;
-    if (fw_process_flow_stack(pack->arena, f, step - 1, &stack, NULL) != FW_OK) return NULL;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        if (in_column(r->where, column) && on_column(&stack, column, r->material) != r->present)
-            return fw_arena_printf(pack->arena, "'%s' is %s in the %s", r->material,
-                                   r->present ? "not there" : "still there", part_name[column]);
-    return NULL;
+    FW_TRY(fw_process_flow_stack(pack->arena, f, step - 1, &stack, NULL));
+    for (int column = 0; column < FW_STACK_COLUMNS && !*wrong; column++)
+        if (fw_process_where_holds(r->where, column) &&
+            fw_process_stack_holds(&stack, column, r->material) != r->present)
+            FW_NEED(*wrong = fw_arena_printf(pack->arena, "'%s' is %s in the %s", r->material,
+                                             r->present ? "not there" : "still there",
+                                             part_name[column]));
+    return FW_OK;
 }
 
 /* the chamber that was prepared is the next one that the wafer comes to */
@@ -275,13 +242,14 @@ fw_status fw_process_lint_required(fw_process_pack *pack) {
     for (int i = 0; i < f->nstep; i++) {
         const fw_process_step *s = &f->step[i];
         for (int k = 0; k < s->nrequired; k++) {
-            const char *wrong = unlike(pack, i, &now, &s->required[k]);
+            const char *wrong;
+            FW_TRY(unlike(pack, i, &now, &s->required[k], &wrong));
             if (wrong)
                 fw_diag_error(pack->diags, 345, s->required[k].place, "step %s: %s", s->id, wrong);
         }
         lint_chamber(pack, s, &now);
-        clean = clean || is_op(s, "clean");
-        if (!clean && !asked && !is_op(s, "inspect") && makes_layer(s)) {
+        clean = clean || fw_process_step_is_op(s, "clean");
+        if (!clean && !asked && !fw_process_step_is_op(s, "inspect") && makes_layer(s)) {
             asked = true;
             fw_diag_warning(pack->diags, 346, s->place,
                             "step %s is the first that works on the wafer, and no step has cleaned "
@@ -302,13 +270,12 @@ static bool has_change(const fw_process_step *s, const char *kind) {
 }
 
 /* a wet or dry etch of one part that a resist masks */
-static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
-                      const fw_process_stack *stack, const char *resist) {
-    (void)f;
+static bool masked_by(const fw_process_step *s, const fw_process_stack *stack, const char *resist) {
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
         if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back) continue;
-        int other = in_column(c->where, FW_STACK_STRUCTURE) ? FW_STACK_FIELD : FW_STACK_STRUCTURE;
+        int other = fw_process_where_holds(c->where, FW_STACK_STRUCTURE) ? FW_STACK_FIELD
+                                                                         : FW_STACK_STRUCTURE;
         const char *mask = top(stack, other);
         if (mask && strcmp(mask, resist) == 0) return true;
     }
@@ -324,9 +291,10 @@ typedef struct baked {
 static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer *before, baked *b) {
     const fw_process_flow *f = pack->flow;
     const fw_process_step *s = &f->step[i];
-    bool etches = is_op(s, "wet-etch") || is_op(s, "dry-etch"), coats = is_op(s, "coat");
+    bool etches = fw_process_step_is_op(s, "wet-etch") || fw_process_step_is_op(s, "dry-etch"),
+         coats = fw_process_step_is_op(s, "coat");
     if (before->is[FW_STATE_UNBAKED] &&
-        (has_change(s, "pattern") || etches || coats || is_op(s, "develop")))
+        (has_change(s, "pattern") || etches || coats || fw_process_step_is_op(s, "develop")))
         fw_diag_error(pack->diags, 341, s->place,
                       "step %s takes '%s' that no step has baked since step %s; add a soft bake "
                       "between them",
@@ -340,7 +308,7 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
     if (etches && b->resist && !b->hard) {
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-        if (masked_by(f, s, &stack, b->resist))
+        if (masked_by(s, &stack, b->resist))
             fw_diag_warning(pack->diags, 341, s->place,
                             "step %s etches through '%s' that was not baked since it was "
                             "developed: it lifts or flows; add a hard bake before it",
@@ -348,9 +316,9 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
     }
     for (int k = 0; coats && k < s->nchange; k++)
         if (strcmp(s->change[k].kind, "add") == 0) b->resist = s->change[k].material;
-    if (is_op(s, "develop")) b->hard = false;
-    if (is_op(s, "bake")) b->dehydrated = b->hard = true;
-    if (fw_process_step_in_liquid(s) && !is_op(s, "develop")) b->dehydrated = false;
+    if (fw_process_step_is_op(s, "develop")) b->hard = false;
+    if (fw_process_step_is_op(s, "bake")) b->dehydrated = b->hard = true;
+    if (fw_process_step_in_liquid(s) && !fw_process_step_is_op(s, "develop")) b->dehydrated = false;
     return FW_OK;
 }
 
@@ -369,7 +337,9 @@ fw_status fw_process_lint_bakes(fw_process_pack *pack) {
 static void lint_end_layer(fw_process_pack *pack, const fw_process_stack *stack,
                            const char *material, const char *where, bool present, fw_place place) {
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!in_column(where, column) || on_column(stack, column, material) == present) continue;
+        if (!fw_process_where_holds(where, column) ||
+            fw_process_stack_holds(stack, column, material) == present)
+            continue;
         fw_diag_error(pack->diags, 338, place,
                       present ? "the flow ends without '%s' in the %s; a step that makes it is "
                                 "missing, or one takes it off that should not"
@@ -409,7 +379,7 @@ fw_status fw_process_lint_end(fw_process_pack *pack) {
                        f->finished[i].present, f->finished[i].place);
     if (f->material) lint_end_layer(pack, &stack, f->material, "structure", true, f->place);
     for (int i = 0; i < f->nstep; i++)
-        for (int k = 0; is_op(&f->step[i], "coat") && k < f->step[i].nchange; k++)
+        for (int k = 0; fw_process_step_is_op(&f->step[i], "coat") && k < f->step[i].nchange; k++)
             if (strcmp(f->step[i].change[k].kind, "add") == 0)
                 lint_end_layer(pack, &stack, f->step[i].change[k].material, "all", false,
                                f->step[i].place);

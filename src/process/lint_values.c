@@ -89,10 +89,8 @@ fw_status fw_process_lint_ranges(fw_process_pack *pack) {
                 fw_xml_quantity_check_range(q, first, pack->diags);
         }
         bool own = fw_process_flow_own_quantity(f, q->id) == q && q->status != FW_DERIVED;
-        if (own && (q->least == 0.0 && q->most == 0.0))
-            in_range(&u, q, pack->diags);
-        else if (own && q->replaced)
-            in_range(&u, q, pack->diags);
+        bool asked = q->least != 0.0 || q->most != 0.0; /* when its element was read */
+        if (own && (!asked || q->replaced)) in_range(&u, q, pack->diags);
     }
     return FW_OK;
 }

@@ -87,10 +87,8 @@ fw_status fw_process_lint_attacked(fw_process_pack *pack) {
 }
 
 static bool on_wafer(const fw_process_stack *stack, const char *material) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        for (int i = 0; i < stack->n[column]; i++)
-            if (strcmp(stack->cell[column][i].material, material) == 0) return true;
-    return false;
+    return fw_process_stack_holds(stack, FW_STACK_STRUCTURE, material) ||
+           fw_process_stack_holds(stack, FW_STACK_FIELD, material);
 }
 
 static void lint_hot(fw_process_pack *pack, const fw_process_step *s, const fw_process_stack *stack,

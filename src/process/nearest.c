@@ -11,11 +11,15 @@ typedef struct trial {
     fw_process_flow *flow;
     const fw_process_mask_facts *facts;
     fw_process_mask_gap *gap; /* (facts->ngap) */
+    /* where bias, time and gap begin to have a solution (fixed_point.c): below it nothing is made; NaN: they have one */
+    double fold_gap_m, fold_anisotropy;
 } trial;
 
 /* every opening at least so wide: made, and printed with the gap of the flow, not in perfect contact only */
 static fw_status with_gap(trial *t, double gap_m, bool *made) {
     fw_process_mask_facts facts = *t->facts;
+    *made = false;
+    if (gap_m < t->fold_gap_m) return FW_OK;
     fw_diags quiet = fw_diags_new(t->arena);
     for (int i = 0; i < facts.ngap; i++) {
         t->gap[i] = t->facts->gap[i];
@@ -54,6 +58,8 @@ static fw_status least_gap(trial *t, double *gap_m) {
 }
 
 static fw_status with_anisotropy(trial *t, fw_quantity *q, double value, bool *made) {
+    *made = false;
+    if (value < t->fold_anisotropy) return FW_OK;
     fw_diags quiet = fw_diags_new(t->arena);
     q->value = value;
     fw_status status = fw_process_flow_compute_once(t->arena, t->flow, t->facts, &quiet);
@@ -90,7 +96,11 @@ static fw_status least_anisotropy(trial *t, double *least) {
 
 static fw_status nearest(fw_arena *arena, fw_process_flow *flow,
                          const fw_process_mask_facts *facts) {
-    trial t = {.arena = arena, .flow = flow, .facts = facts};
+    trial t = {.arena = arena,
+               .flow = flow,
+               .facts = facts,
+               .fold_gap_m = flow->edges.least_gap_m,
+               .fold_anisotropy = flow->edges.least_anisotropy};
     double gap, A;
     fw_mark mark = fw_arena_mark(arena);
     FW_NEED(t.gap = fw_arena_array(arena, fw_process_mask_gap, (size_t)facts->ngap + 1));

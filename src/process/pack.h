@@ -43,6 +43,8 @@ void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attrib
                            fw_process_id_kind kind);
 const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *name);
 const char *fw_process_pack_text(const fw_xml_record *e, const char *name); /* "" when absent */
+/* "all" when absent */
+const char *fw_process_pack_where(const fw_xml_record *e);
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 

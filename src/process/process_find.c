@@ -79,6 +79,11 @@ const char *fw_process_pack_text(const fw_xml_record *e, const char *name) {
     return a ? a->value : "";
 }
 
+const char *fw_process_pack_where(const fw_xml_record *e) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, "where");
+    return a ? a->value : "all";
+}
+
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent) {
     const fw_xml_cell *cell = fw_xml_cell_of(e, name);
     return cell->ok ? cell->number : absent;

@@ -256,13 +256,12 @@ static void read_head(fw_process_pack *pack) {
 static void read_finished(fw_process_pack *pack) {
     fw_process_flow *f = pack->flow;
     for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
-        const char *where = fw_process_pack_text(e, "where");
         const fw_xml_attribute *material = fw_process_pack_get(e, "material");
         if (!fw_xml_is(e, "finished") || !material) continue;
         fw_process_pack_find(pack, material, FW_ID_MATERIAL);
         f->finished[f->nfinished++] =
             (fw_process_finished){.material = material->value,
-                                  .where = where[0] ? where : "all",
+                                  .where = fw_process_pack_where(e),
                                   .present = strcmp(fw_process_pack_text(e, "is"), "present") == 0,
                                   .place = e->element->place};
     }

@@ -216,14 +216,20 @@ static fw_process_face face_of(const char *word) {
                                          : FW_FACE_MIDDLE;
 }
 
+static void want_length(fw_process_pack *pack, const fw_xml_record *e, const fw_quantity *q,
+                        const char *what, const char *units) {
+    if (q && !fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+        fw_diag_error(pack->diags, 169, e->element->place,
+                      "%s <change> is not a length; write it in %s", what, units);
+}
+
 static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_process_change *c) {
     const fw_xml_attribute *material = fw_process_pack_get(e, "material"),
-                           *where = fw_process_pack_get(e, "where"),
                            *from = fw_process_pack_get(e, "from");
     *c = (fw_process_change){.kind = fw_process_pack_text(e, "kind"),
                              .material = fw_process_pack_text(e, "material"),
                              .thickness = quantity_of(pack, e, "thickness"),
-                             .where = where ? where->value : "all",
+                             .where = fw_process_pack_where(e),
                              .from = fw_process_pack_text(e, "from"),
                              .back = strcmp(fw_process_pack_text(e, "side"), "back") == 0,
                              .isotropic =
@@ -239,18 +245,9 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
         fw_process_pack_find(pack, from, FW_ID_MATERIAL);
     else if (strcmp(c->kind, "convert") == 0)
         fw_diag_error(pack->diags, 162, e->element->place, "<change kind='convert'> needs 'from'");
-    if (c->thickness &&
-        !fw_quantity_dimension_equal(c->thickness->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->element->place,
-                      "the thickness of <change> is not a length; write it in um or nm");
-    if (c->reach &&
-        !fw_quantity_dimension_equal(c->reach->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->element->place,
-                      "the reach of <change> is not a length; write it in um or nm");
-    if (c->across &&
-        !fw_quantity_dimension_equal(c->across->dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
-        fw_diag_error(pack->diags, 169, e->element->place,
-                      "across of <change> is not a length; write it in mm");
+    want_length(pack, e, c->thickness, "the thickness of", "um or nm");
+    want_length(pack, e, c->reach, "the reach of", "um or nm");
+    want_length(pack, e, c->across, "across of", "mm");
     if (c->reach && strcmp(c->kind, "remove") != 0)
         fw_diag_error(pack->diags, 161, e->element->place,
                       "reach is how far a removal goes sideways: it belongs to kind='remove' only");
@@ -345,7 +342,6 @@ static void read_required(fw_process_pack *pack, const fw_xml_record *e, fw_proc
     const fw_xml_attribute *step = fw_process_pack_get(e, "step"),
                            *material = fw_process_pack_get(e, "material"),
                            *state = fw_process_pack_get(e, "state");
-    const char *where = fw_process_pack_text(e, "where");
     if ((step != NULL) + (material != NULL) + (state != NULL) != 1)
         fw_diag_error(pack->diags, 345, e->element->place,
                       "<requires> names one thing: a step, a material or a state");
@@ -355,7 +351,7 @@ static void read_required(fw_process_pack *pack, const fw_xml_record *e, fw_proc
         (fw_process_requirement){.step = step ? step->value : NULL,
                                  .material = material ? material->value : NULL,
                                  .state = state ? state->value : NULL,
-                                 .where = where[0] ? where : "all",
+                                 .where = fw_process_pack_where(e),
                                  .present = strcmp(fw_process_pack_text(e, "is"), "absent") != 0,
                                  .place = e->element->place};
 }

@@ -10,9 +10,9 @@ static double drawn_height(const fw_quantity *thickness) {
     return 1.5 + 2.5 * log10(1.0 + thickness->value / 0.1e-6);
 }
 
-static bool in_column(const fw_process_change *c, int column) {
-    if (strcmp(c->where, "all") == 0) return true;
-    return (strcmp(c->where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
+bool fw_process_where_holds(const char *where, int column) {
+    if (strcmp(where, "all") == 0) return true;
+    return (strcmp(where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
 }
 
 static double top_of(const fw_process_stack *s, int column) {
@@ -83,7 +83,7 @@ static bool apply(fw_process_stack *s, const fw_process_change *c) {
     bool found = false;
     double below = bottom_of(s);
     for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!in_column(c, column)) continue;
+        if (!fw_process_where_holds(c->where, column)) continue;
         if (strcmp(c->kind, "add") == 0)
             found = add(s, column, c, below) || found;
         else if (strcmp(c->kind, "remove") == 0)
@@ -124,19 +124,39 @@ fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *f
     return stack_of(arena, flow, step, change, stack, NULL);
 }
 
+bool fw_process_stack_holds(const fw_process_stack *stack, int column, const char *material) {
+    for (int i = 0; i < stack->n[column]; i++)
+        if (strcmp(stack->cell[column][i].material, material) == 0) return true;
+    return false;
+}
+
+const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int column) {
+    int n = stack->n[column];
+    return n > 0 ? &stack->cell[column][n - 1] : NULL;
+}
+
+const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
+                                             const fw_process_stack *stack, int column,
+                                             const char *material, const char **cover) {
+    double beside = top_of(stack, FW_STACK_COLUMNS - 1 - column);
+    *cover = NULL;
+    for (int i = stack->n[column] - 1; i >= 0; i--) {
+        const fw_process_cell *c = &stack->cell[column][i];
+        if (strcmp(c->material, material) == 0) {
+            if (c->bottom + c->height > beside + 1e-9) *cover = NULL;
+            return c;
+        }
+        const fw_process_material *m = fw_process_flow_material(flow, c->material);
+        if (!*cover && !(m && m->holes)) *cover = c->material;
+    }
+    return NULL;
+}
+
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
                            const char *material) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        double beside = top_of(stack, FW_STACK_COLUMNS - 1 - column);
-        bool covered = false;
-        for (int i = stack->n[column] - 1; i >= 0; i--) {
-            const fw_process_cell *c = &stack->cell[column][i];
-            bool side = c->bottom + c->height > beside + 1e-9;
-            if (strcmp(c->material, material) == 0 && (!covered || side)) return true;
-            const fw_process_material *m = fw_process_flow_material(flow, c->material);
-            covered = covered || !(m && m->holes);
-        }
-    }
+    const char *cover;
+    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        if (fw_process_stack_find(flow, stack, column, material, &cover) && !cover) return true;
     return false;
 }
 

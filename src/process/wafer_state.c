@@ -11,6 +11,8 @@
 #include "process/pack.h"
 #include <string.h>
 
+static const char WATER[] = "water"; /* in the place of a chemical's id */
+
 static const struct {
     const char *key;
     double longest_s;
@@ -29,11 +31,11 @@ const char *fw_process_state_key(fw_process_state state) {
     return rows[state].key;
 }
 
-static bool is_op(const fw_process_step *s, const char *op) {
+bool fw_process_step_is_op(const fw_process_step *s, const char *op) {
     return strcmp(s->op, op) == 0;
 }
 
-static const fw_process_hazard *last_liquid(const fw_process_step *s) {
+const fw_process_hazard *fw_process_step_liquid(const fw_process_step *s) {
     for (int i = s->nhazard - 1; i >= 0; i--)
         if (s->hazard[i]->wets) return s->hazard[i];
     return NULL;
@@ -43,7 +45,7 @@ static const fw_process_hazard *last_liquid(const fw_process_step *s) {
 static bool always_in_liquid(const fw_process_step *s) {
     static const char *const op[] = {"anodise", "displace", "develop", "plate", "wet-etch"};
     for (size_t i = 0; i < sizeof op / sizeof *op; i++)
-        if (is_op(s, op[i])) return true;
+        if (fw_process_step_is_op(s, op[i])) return true;
     return false;
 }
 
@@ -51,7 +53,7 @@ bool fw_process_step_in_liquid(const fw_process_step *s) {
     static const char *const may[] = {"clean", "strip", "release"};
     if (always_in_liquid(s)) return true;
     for (size_t i = 0; i < sizeof may / sizeof *may; i++)
-        if (is_op(s, may[i])) return last_liquid(s) != NULL;
+        if (fw_process_step_is_op(s, may[i])) return fw_process_step_liquid(s) != NULL;
     return false;
 }
 
@@ -69,10 +71,8 @@ static void set(fw_process_wafer *w, fw_process_state state, int step, const cha
 }
 
 static void wet(const fw_process_step *s, int step, fw_process_wafer *w) {
-    bool touched = fw_process_step_in_liquid(s);
-    if (touched) {
-        w->liquid = last_liquid(s);
-        w->unnamed = !w->liquid;
+    if (fw_process_step_in_liquid(s)) {
+        w->liquid = fw_process_step_liquid(s);
         set(w, FW_STATE_WET, step, w->liquid ? w->liquid->id : "");
     }
     for (int i = 0; i < s->nfinish; i++) {
@@ -80,8 +80,7 @@ static void wet(const fw_process_step *s, int step, fw_process_wafer *w) {
         switch (f->kind) {
         case FW_FINISH_RINSE:
             w->liquid = f->with;
-            w->unnamed = false;
-            set(w, FW_STATE_WET, step, f->with ? f->with->id : "water");
+            set(w, FW_STATE_WET, step, f->with ? f->with->id : WATER);
             break;
         case FW_FINISH_DRY:
             w->is[FW_STATE_WET] = false;
@@ -103,7 +102,7 @@ static bool finished_by(const fw_process_step *s, fw_process_finish_kind kind) {
 static void resist(const fw_process_step *s, int step, fw_process_wafer *w) {
     for (int i = 0; i < s->nchange; i++) {
         const fw_process_change *c = &s->change[i];
-        if (is_op(s, "coat") && strcmp(c->kind, "add") == 0) {
+        if (fw_process_step_is_op(s, "coat") && strcmp(c->kind, "add") == 0) {
             set(w, FW_STATE_UNBAKED, step, c->material);
             w->is[FW_STATE_COATED] = false;
         }
@@ -115,21 +114,22 @@ static void resist(const fw_process_step *s, int step, fw_process_wafer *w) {
             if (strcmp(c->kind, "remove") == 0 && w->is[r] && strcmp(w->with[r], c->material) == 0)
                 w->is[r] = false;
     }
-    if (is_op(s, "bake") && w->is[FW_STATE_UNBAKED]) {
+    if (fw_process_step_is_op(s, "bake") && w->is[FW_STATE_UNBAKED]) {
         w->is[FW_STATE_UNBAKED] = false;
         if (!w->is[FW_STATE_IMAGE]) set(w, FW_STATE_COATED, step, w->with[FW_STATE_UNBAKED]);
     }
-    if (is_op(s, "develop")) w->is[FW_STATE_IMAGE] = false;
+    if (fw_process_step_is_op(s, "develop")) w->is[FW_STATE_IMAGE] = false;
 }
 
 static void tool(const fw_process_step *s, int step, fw_process_wafer *w) {
     const char *id = s->equipment ? s->equipment->id : "";
     bool pumped = s->equipment && s->equipment->vacuum;
     w->is[FW_STATE_HOT] = w->is[FW_STATE_VACUUM] = false;
-    if (is_op(s, "bake") && !finished_by(s, FW_FINISH_COOL)) set(w, FW_STATE_HOT, step, id);
+    if (fw_process_step_is_op(s, "bake") && !finished_by(s, FW_FINISH_COOL))
+        set(w, FW_STATE_HOT, step, id);
     if (w->is[FW_STATE_SEASONED] && strcmp(w->with[FW_STATE_SEASONED], id) == 0)
         w->is[FW_STATE_SEASONED] = false;
-    if (pumped && is_op(s, "mount"))
+    if (pumped && fw_process_step_is_op(s, "mount"))
         set(w, FW_STATE_SEASONED, step, id);
     else if (pumped && !finished_by(s, FW_FINISH_VENT))
         set(w, FW_STATE_VACUUM, step, id);
@@ -137,7 +137,8 @@ static void tool(const fw_process_step *s, int step, fw_process_wafer *w) {
 
 static bool frees(const fw_process_step *s) {
     for (int i = 0; i < s->nchange; i++)
-        if (is_op(s, "release") && strcmp(s->change[i].kind, "remove") == 0) return true;
+        if (fw_process_step_is_op(s, "release") && strcmp(s->change[i].kind, "remove") == 0)
+            return true;
     return false;
 }
 
@@ -163,7 +164,7 @@ fw_status fw_process_flow_wafers(fw_arena *arena, const fw_process_flow *flow,
 static const char *name_of(const fw_process_flow *flow, fw_process_state state, const char *id) {
     switch (state) {
     case FW_STATE_WET:
-        if (strcmp(id, "water") == 0) return "deionised water";
+        if (strcmp(id, WATER) == 0) return "deionised water";
         for (int i = flow->nhazard - 1; i >= 0; i--)
             if (strcmp(flow->hazard[i].id, id) == 0) return flow->hazard[i].name;
         return "what it was treated with";
@@ -199,24 +200,26 @@ static bool held(const fw_process_flow *flow, int from, int to, double max_s) {
 
 static fw_status add_wait(fw_arena *arena, fw_process_flow *flow, const fw_process_wafer *w,
                           fw_process_state state, int from, int to) {
+    const char *id = fw_arena_printf(arena, "%s.%s-longest", w->with[state], rows[state].key);
+    FW_NEED(id);
+    const fw_quantity *q = fw_process_flow_quantity(flow, id);
+    if (q && q->unknown) q = NULL;
+    double longest_s = q ? q->value : rows[state].longest_s;
+    bool water = state == FW_STATE_WET && strcmp(w->with[state], WATER) == 0;
+    if (held(flow, from, to, longest_s)) return FW_OK;
     fw_process_wait *grown = fw_arena_grow(arena, flow->wait, (size_t)flow->nwait,
                                            (size_t)flow->nwait + 1, sizeof *grown);
-    const char *id = fw_arena_printf(arena, "%s.%s-longest", w->with[state], rows[state].key);
-    FW_NEED(grown && id);
-    const fw_quantity *q = fw_process_flow_quantity(flow, id);
-    bool known = q && !q->unknown;
+    const char *is = fw_process_wafer_words(arena, flow, w, state);
+    FW_NEED(grown && is);
     flow->wait = grown;
-    if (held(flow, from, to, known ? q->value : rows[state].longest_s)) return FW_OK;
-    fw_process_wait *wait = &flow->wait[flow->nwait++];
-    *wait = (fw_process_wait){.from = from,
-                              .to = to,
-                              .max_s = known ? q->value : rows[state].longest_s,
-                              .q = known ? q : NULL,
-                              .first_only = state == FW_STATE_SEASONED,
-                              .why = state == FW_STATE_WET && !w->liquid && !w->unnamed
-                                         ? "it dries to stains where it is left"
-                                         : rows[state].why};
-    FW_NEED(wait->is = fw_process_wafer_words(arena, flow, w, state));
+    flow->wait[flow->nwait++] =
+        (fw_process_wait){.from = from,
+                          .to = to,
+                          .max_s = longest_s,
+                          .q = q,
+                          .first_only = state == FW_STATE_SEASONED,
+                          .is = is,
+                          .why = water ? "it dries to stains where it is left" : rows[state].why};
     return FW_OK;
 }
 

@@ -15,11 +15,9 @@ typedef enum fw_process_state {
 
 typedef struct fw_process_wafer { /* after a step */
     bool is[FW_STATES];
-    int since[FW_STATES];        /* index of the step that brought it about */
-    const char *with[FW_STATES]; /* id of the chemical, resist or tool */
-    /* WET: NULL is deionised water, and what is known of no chemical has is[WET] and `unnamed` */
-    const fw_process_hazard *liquid;
-    bool unnamed;
+    int since[FW_STATES];            /* index of the step that brought it about */
+    const char *with[FW_STATES];     /* id of the chemical, resist or tool */
+    const fw_process_hazard *liquid; /* WET: NULL is deionised water, or what no chemical names */
     bool released; /* compliant parts are free: a meniscus that dries pulls them down */
 } fw_process_wafer;
 
@@ -28,8 +26,12 @@ fw_status fw_process_flow_wafers(fw_arena *arena, const fw_process_flow *flow,
                                  fw_process_wafer **wafer);
 /* from one step on: *wafer is that before the step and becomes that after it */
 void fw_process_wafer_pass(const fw_process_flow *flow, int step, fw_process_wafer *wafer);
-/* fills in flow->wait: one for every state that a step brings about */
+/* fills in flow->wait, one for every state that a step brings about: when a flow was read, and again when values were
+   replaced */
 fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow);
+bool fw_process_step_is_op(const fw_process_step *step, const char *op);
+/* the last of its chemicals that wets; NULL: none does */
+const fw_process_hazard *fw_process_step_liquid(const fw_process_step *step);
 /* does the step work in a liquid? */
 bool fw_process_step_in_liquid(const fw_process_step *step);
 /* may a wet wafer come to the step? */

@@ -26,13 +26,6 @@ static void link_of(fw_arena *arena, const char *before, const char *words, size
         chain[0] = '\0';
 }
 
-/* days since 1970-01-01 of a civil date: 365 a year, a day for every leap year before it, counted
-   from March so that February ends the year. Test: test_asrun.c, dates. */
-static double days_of(int year, int month, int day) {
-    int y = month <= 2 ? year - 1 : year, m = (month + 9) % 12;
-    return 365.0 * y + y / 4 - y / 100 + y / 400 + (m * 306 + 5) / 10 + day - 1 - 719468;
-}
-
 static bool digits(const char *s, int n, int *value) {
     *value = 0;
     for (int i = 0; i < n; i++) {
@@ -44,20 +37,15 @@ static bool digits(const char *s, int n, int *value) {
 
 /* YYYY-MM-DDTHH:MM or with :SS behind */
 static bool read_time(const char *s, double *time_s) {
-    static const int length[] = {31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
-    int year, month, day, hour, minute, second = 0;
+    int hour, minute, second = 0;
+    long day;
     size_t n = strlen(s);
-    if ((n != 16 && n != 19) || s[4] != '-' || s[7] != '-' || s[10] != 'T' || s[13] != ':')
+    if ((n != 16 && n != 19) || !fw_schedule_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
         return false;
-    if (!digits(s, 4, &year) || !digits(s + 5, 2, &month) || !digits(s + 8, 2, &day) ||
-        !digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute))
-        return false;
+    if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
     if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;
-    bool leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    if (year < 1970 || month < 1 || month > 12 || day < 1 || day > length[month - 1] ||
-        (month == 2 && day == 29 && !leap) || hour > 23 || minute > 59 || second > 59)
-        return false;
-    *time_s = 86400.0 * days_of(year, month, day) + 3600.0 * hour + 60.0 * minute + second;
+    if (hour > 23 || minute > 59 || second > 59) return false;
+    *time_s = 86400.0 * (double)day + 3600.0 * hour + 60.0 * minute + second;
     return true;
 }
 

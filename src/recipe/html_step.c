@@ -125,20 +125,6 @@ static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
     }
 }
 
-static void tolerance(const fw_recipe_row *row, fw_text *out) {
-    if (row->low[0] && row->high[0]) {
-        fw_text_escaped(out, row->low);
-        fw_text_add(out, " to ");
-        fw_text_escaped(out, row->high);
-    } else if (row->low[0]) {
-        fw_text_add(out, "&ge; ");
-        fw_text_escaped(out, row->low);
-    } else if (row->high[0]) {
-        fw_text_add(out, "&le; ");
-        fw_text_escaped(out, row->high);
-    }
-}
-
 static void value_cell(const fw_quantity *q, fw_text *out) {
     if (q->unknown) {
         fw_text_add(out, "____________");
@@ -170,7 +156,7 @@ static void quantity_row(const fw_process_flow *flow, const fw_recipe_row *row, 
     fw_text_add(out, "</td><td class=\"n\">");
     value_cell(q, out);
     fw_text_add(out, "</td><td>");
-    tolerance(row, out);
+    fw_recipe_put_limits(out, row->low, row->high);
     fw_text_add(out, "</td><td>");
     tagged(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     if (!q->unknown && q->uncertainty > 0.0 && q->u_status != q->status) {

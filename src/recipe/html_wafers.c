@@ -9,14 +9,7 @@ enum { WAFERS_ABREAST = 3 }; /* columns that still hold five sites that one can 
 /* ---- values of wafers ---- */
 
 static void limits(const fw_process_accept *a, fw_text *out) {
-    if (a->low[0] && a->high[0]) {
-        fw_text_escaped(out, a->low);
-        fw_text_add(out, " to ");
-        fw_text_escaped(out, a->high);
-    } else if (a->low[0] || a->high[0]) {
-        fw_text_add(out, a->low[0] ? "&ge; " : "&le; ");
-        fw_text_escaped(out, a->low[0] ? a->low : a->high);
-    }
+    fw_recipe_put_limits(out, a->low, a->high);
     bool unit = strcmp(a->unit, "1") != 0;
     fw_text_add(out, unit && (a->low[0] || a->high[0]) ? " " : "");
     fw_recipe_put_unit(out, a->unit);
@@ -105,30 +98,38 @@ void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *hea
 
 /* ---- hazards ---- */
 
-/* from 1, in the order in which the steps meet them; 0: none meets it */
-static int number_of(const fw_process_flow *flow, const fw_process_hazard *h) {
-    int n = 0;
-    for (int i = 0; i < flow->nstep; i++)
-        for (int k = 0; k < flow->step[i].nhazard; k++) {
-            const fw_process_hazard *is = flow->step[i].hazard[k];
-            bool met = false;
-            for (int j = 0; j <= i && !met; j++)
-                for (int m = 0; m < (j == i ? k : flow->step[j].nhazard) && !met; m++)
-                    met = flow->step[j].hazard[m] == is;
-            if (met) continue;
-            n++;
-            if (is == h) return n;
-        }
-    return 0;
+typedef struct hazards { /* those that steps have, in the order in which they meet them */
+    const fw_process_hazard **of;
+    int n;
+} hazards;
+
+/* index, or n */
+static int place_of(const hazards *met, const fw_process_hazard *h) {
+    int i = 0;
+    while (i < met->n && met->of[i] != h)
+        i++;
+    return i;
+}
+
+static hazards met_by(const fw_process_flow *flow, fw_text *out) {
+    hazards met = {
+        .of = fw_arena_array(out->arena, const fw_process_hazard *, (size_t)flow->nhazard)};
+    if (!met.of) out->failed = 1;
+    for (int i = 0; met.of && i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nhazard; k++)
+            if (place_of(&met, flow->step[i].hazard[k]) == met.n)
+                met.of[met.n++] = flow->step[i].hazard[k];
+    return met;
 }
 
 void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *s,
                                 fw_text *out) {
+    const hazards met = met_by(flow, out);
     bool alone = true;
     if (s->nhazard == 0) return;
     fw_text_add(out, "<p class=\"hazard\"><b>Hazard</b> ");
     for (int i = 0; i < s->nhazard; i++) {
-        int n = number_of(flow, s->hazard[i]);
+        int n = place_of(&met, s->hazard[i]) + 1;
         fw_text_printf(out, "%s<a href=\"#hazard-%d\">%d</a> ", i ? "; " : "", n, n);
         fw_text_escaped(out, s->hazard[i]->name);
         alone = alone && !s->hazard[i]->buddy;
@@ -178,19 +179,16 @@ static void hazard(const fw_process_flow *flow, const fw_process_hazard *h, int 
 }
 
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
-    int most = 0;
-    for (int i = 0; i < flow->nhazard; i++)
-        most += number_of(flow, &flow->hazard[i]) > 0;
-    if (most == 0) return;
+    const hazards met = met_by(flow, out);
+    if (met.n == 0) return;
     fw_text_add(out,
                 "<h3>Hazards: read before the lot begins</h3>\n<p>Emergency number ____________ "
                 "&ensp; Nearest shower, eye wash, first aid ____________</p>\n"
                 "<table class=\"small\"><thead><tr><th></th><th style=\"width:21%\">Hazard, bench: "
                 "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:19%\">"
                 "Waste</th></tr></thead><tbody>\n");
-    for (int n = 1; n <= most; n++)
-        for (int i = 0; i < flow->nhazard; i++)
-            if (number_of(flow, &flow->hazard[i]) == n) hazard(flow, &flow->hazard[i], n, out);
+    for (int i = 0; i < met.n; i++)
+        hazard(flow, met.of[i], i + 1, out);
     fw_text_add(out, "</tbody></table>\n");
 }
 

@@ -102,6 +102,14 @@ const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time)
     return fw_text_end(&list) == FW_OK ? list.data : NULL;
 }
 
+void fw_recipe_put_limits(fw_text *out, const char *low, const char *high) {
+    const bool both = low[0] && high[0];
+    fw_text_add(out, both ? "" : low[0] ? "&ge; " : high[0] ? "&le; " : "");
+    fw_text_escaped(out, low);
+    fw_text_add(out, both ? " to " : "");
+    fw_text_escaped(out, high);
+}
+
 const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) {
     static const struct {
         const char *by, *words;

@@ -48,6 +48,8 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
                          struct fw_recipe_slicer *slicer,
                          const struct fw_recipe_section_scale *scale, fw_text *out);
 
+/* "48 to 52", ">= 48", "<= 52", or nothing; escaped */
+void fw_recipe_put_limits(fw_text *out, const char *low, const char *high);
 /* "rinse in deionised water", "dry by spinning" */
 const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *finish);
 

@@ -90,13 +90,9 @@ static const char *clock_of(const char *text, double *seconds) {
     return minute > 59 || *seconds > day_s ? NULL : text + 5;
 }
 
-/* " from 2026-11-23" to the end of the text */
-static bool date_of(const char *text, long *day) {
-    static const char before[] = " from ", shape[] = "0000-00-00";
+bool fw_schedule_date_parse(const char *text, long *day) {
+    static const char shape[] = "0000-00-00";
     long part[3] = {0, 0, 0}, civil[3];
-    if (strncmp(text, before, sizeof before - 1) != 0) return false;
-    text += sizeof before - 1;
-    if (strlen(text) != sizeof shape - 1) return false;
     for (int i = 0, k = 0; shape[i]; i++) {
         if (shape[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
         if (shape[i] == '-')
@@ -104,10 +100,18 @@ static bool date_of(const char *text, long *day) {
         else
             part[k] = 10 * part[k] + text[i] - '0';
     }
-    if (part[0] < 1971 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
+    if (part[0] < 1970 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
     *day = day_of(part[0], part[1], part[2]);
-    fw_schedule_civil(*day, civil);
+    fw_schedule_civil(*day, civil); /* the 30th of February is another day */
     return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
+}
+
+/* " from 2026-11-23" to the end of the text; 1970, whose first day would be 0, is none */
+static bool date_of(const char *text, long *day) {
+    static const char before[] = " from ";
+    const size_t n = sizeof before - 1;
+    return strncmp(text, before, n) == 0 && fw_schedule_date_parse(text + n, day) &&
+           text[n + 10] == '\0' && *day >= 365;
 }
 
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {

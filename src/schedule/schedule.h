@@ -142,6 +142,8 @@ bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round 
 double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
 /* 0: Monday; `day` counts from 0 */
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);
+/* "2026-11-23", whatever follows: days since 1970-01-01. false: no date, or one before */
+bool fw_schedule_date_parse(const char *text, long *day);
 /* year, month and day of the month of a day since 1970-01-01 */
 void fw_schedule_civil(long day, long civil[3]);
 

@@ -127,8 +127,12 @@ static size_t cells(const search *s) {
     return (size_t)s->shop->ntask * (size_t)s->shop->wafers;
 }
 
+static bool at_bound(double makespan_s, double bound_s) {
+    return makespan_s <= bound_s * (1.0 + 1e-9) + 1e-6;
+}
+
 static bool done(const search *s) {
-    return s->best.any && s->best.makespan_s <= s->bound_s * (1.0 + 1e-9) + 1e-6;
+    return s->best.any && at_bound(s->best.makespan_s, s->bound_s);
 }
 
 static bool try_rule(search *s, fw_schedule_rule rule) {
@@ -221,6 +225,13 @@ static int usual_effort(const fw_schedule_shop *shop) {
     return n > 4000 ? 4000 : n;
 }
 
+/* makespan against the bound */
+static void measure(fw_schedule *out) {
+    const double bound_s = out->bound.best_s;
+    out->optimal = at_bound(out->makespan_s, bound_s);
+    out->gap = out->optimal || !(bound_s > 0.0) ? 0.0 : out->makespan_s / bound_s - 1.0;
+}
+
 static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                        fw_schedule *out) {
     search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
@@ -247,9 +258,7 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     out->rule = fw_schedule_rule_text(s.best.rule);
     out->nrun = s.best.nrun;
     out->makespan_s = s.best.makespan_s;
-    out->optimal = done(&s);
-    out->gap = out->bound.best_s > 0.0 ? out->makespan_s / out->bound.best_s - 1.0 : 0.0;
-    if (out->optimal) out->gap = 0.0;
+    measure(out);
     qsort(s.best.run, (size_t)s.best.nrun, sizeof *s.best.run, by_start);
     out->run = s.best.run;
     return name_operators(arena, shop, s.best.run, s.best.nrun);
@@ -282,9 +291,7 @@ static fw_status take_over(fw_arena *arena, const fw_schedule *of, double later_
     out->run = run;
     out->nrun = of->nrun;
     out->makespan_s = of->makespan_s;
-    out->gap = out->bound.best_s > 0.0 ? out->makespan_s / out->bound.best_s - 1.0 : 0.0;
-    out->optimal = out->gap <= 1e-9;
-    if (out->optimal) out->gap = 0.0;
+    measure(out);
     return FW_OK;
 }
 

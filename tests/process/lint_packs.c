@@ -2,19 +2,11 @@
 /* lint_packs BASE FLOW...: what reading, computing and scheduling a flow says, a line each of file, severity, number and
    message, tab between them; a flow that nothing is said of has the line "file, accepted". For tests/process/orders.py. */
 #include "base/output.h"
+#include "process/plain_facts.h"
 #include "schedule/schedule.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* of a 3 mm device on a 5.6 mm by 5 mm die, 30 times */
-static const fw_process_mask_facts facts = {.structure_area_m2 = 5e-6,
-                                            .die_area_m2 = 28e-6,
-                                            .perimeter_m = 0.08,
-                                            .narrowest_slot_m = 10e-6,
-                                            .narrowest_line_m = 10e-6,
-                                            .deepest_hinge_width_m = 10e-6,
-                                            .dies = 30};
 
 static const char *text_of(fw_arena *arena, const char *path, size_t *n) {
     fw_diags diags = fw_diags_new(arena);
@@ -34,7 +26,7 @@ static void judge(const char *base_file, const char *file) {
     const char *base = text_of(arena, base_file, &nb), *text = text_of(arena, file, &n);
     int said = 0;
     if (fw_process_flow_read(arena, base_file, base, nb, file, text, n, &diags, &flow) == FW_OK &&
-        fw_process_flow_compute(arena, flow, &facts, &diags) == FW_OK)
+        fw_process_flow_compute(arena, flow, &plain_facts, &diags) == FW_OK)
         fw_schedule_make(arena, flow, &options, &diags, &schedule);
     for (size_t i = 0; i < diags.count; i++) {
         const fw_diag *d = &diags.item[i];

@@ -3,6 +3,7 @@
 #ifndef FW_TESTS_PACKS_H
 #define FW_TESTS_PACKS_H
 #include "base/output.h"
+#include "plain_facts.h"
 #include "process/process.h"
 #include "test.h"
 
@@ -62,14 +63,5 @@ static inline void measured(fw_process_flow *flow, const char *id, double value,
     q->uncertainty = uncertainty;
     q->status = FW_MEASURED;
 }
-
-/* a 3 mm device on a 5.6 by 5 mm die, 30 times */
-static const fw_process_mask_facts plain_facts = {.structure_area_m2 = 5e-6,
-                                                  .die_area_m2 = 28e-6,
-                                                  .perimeter_m = 0.08,
-                                                  .narrowest_slot_m = 10e-6,
-                                                  .narrowest_line_m = 10e-6,
-                                                  .deepest_hinge_width_m = 10e-6,
-                                                  .dies = 30};
 
 #endif
