@@ -24,7 +24,7 @@ static fw_status read_override(fw_device_reader *r, const fw_xml_record *record,
 }
 
 static fw_status build_material(fw_device_reader *r, const fw_xml_record *record) {
-    static const fw_quantity_dimension pressure = {-1, 1, -2, 0, 0, 0, 0},
+    static const fw_quantity_dimension pressure = {-1, 1, -2, 0, 0, 0, 0, 0},
                                        density = {.m = -3, .kg = 1};
     static const fw_xml_element_row no_row = {.name = "material"};
     fw_xml_element nothing = {.name = "material"};

@@ -9,7 +9,7 @@
 
 /* ---- limit data ---- */
 
-#define PRESSURE .dimension = {-1, 1, -2, 0, 0, 0, 0}
+#define PRESSURE .dimension = {-1, 1, -2, 0, 0, 0, 0, 0}
 #define AT(name) .offset = offsetof(fw_device_limit_data, name)
 
 typedef struct limit_row {
@@ -125,10 +125,10 @@ static const char *const ids[IDS] = {"youngs",    "poisson",        "density", "
                                      "expansion", "modulus-change", "c11",     "c12",      "c44"};
 
 static const fw_quantity_dimension dimension_of[IDS] = {
-    [YOUNGS] = {-1, 1, -2, 0, 0, 0, 0},   [DENSITY] = {.m = -3, .kg = 1},
-    [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0}, [EXPANSION] = {.K = -1},
-    [MODULUS_CHANGE] = {.K = -1},         [C11] = {-1, 1, -2, 0, 0, 0, 0},
-    [C12] = {-1, 1, -2, 0, 0, 0, 0},      [C44] = {-1, 1, -2, 0, 0, 0, 0}};
+    [YOUNGS] = {-1, 1, -2, 0, 0, 0, 0, 0},   [DENSITY] = {.m = -3, .kg = 1},
+    [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0, 0}, [EXPANSION] = {.K = -1},
+    [MODULUS_CHANGE] = {.K = -1},         [C11] = {-1, 1, -2, 0, 0, 0, 0, 0},
+    [C12] = {-1, 1, -2, 0, 0, 0, 0, 0},      [C44] = {-1, 1, -2, 0, 0, 0, 0, 0}};
 
 static fw_quantity *slot(fw_device_material *m, int k) {
     fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,        &m->strength,

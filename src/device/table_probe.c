@@ -15,7 +15,7 @@ static const char kinds_are[] =
     ".";
 #undef FW_PROBE
 #define FW_PROBE(name, unit, suffix, m, kg, s, rad, takes, sentence)                               \
-    {#name, unit, suffix, {m, kg, s, 0, 0, 0, rad}, takes, sentence},
+    {#name, unit, suffix, {m, kg, s, 0, 0, 0, rad, 0}, takes, sentence},
 const fw_device_probe_kind fw_device_probe_kinds[FW_PROBE_KINDS] = {
 #include "device/probes.def"
 };

@@ -318,6 +318,35 @@ static fw_mechanism_variant mechanism_alone(void) {
                                   .explicit_damping_scale = 1};
 }
 
+static bool on_test_die(const fw_mask_table *table, const char *id, size_t n) {
+    for (int i = 0; i < table->npattern; i++)
+        if (strlen(table->pattern[i].id) == n && memcmp(table->pattern[i].id, id, n) == 0)
+            return true;
+    return false;
+}
+
+/* what steps read off a pattern, and marks that they align by, are on the test die */
+static void check_coupons(fw_plan *plan, const fw_process_flow *flow, const fw_mask_table *table) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->naccept; k++) {
+            const fw_process_accept *a = &s->accept[k];
+            if (a->coupon[0] && !on_test_die(table, a->coupon, strlen(a->coupon)))
+                fw_diag_error(&plan->diags, 372, a->place,
+                              "step %s reads coupon '%s', which masks/%s.xml does not have", s->id,
+                              a->coupon, flow->id);
+        }
+        for (const char *at = s->align.to ? s->align.marks : ""; *at;) {
+            size_t n = strcspn(at, " ");
+            if (n > 0 && !on_test_die(table, at, n))
+                fw_diag_error(&plan->diags, 372, s->align.place,
+                              "step %s aligns by '%.*s', which masks/%s.xml does not have", s->id,
+                              (int)n, at, flow->id);
+            at += n + strspn(at + n, " ");
+        }
+    }
+}
+
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -335,7 +364,9 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     FW_NEED(table);
     FW_TRY(fw_mask_table_read(plan->arena, name, xml, n, &plan->diags, table));
     pf->table = table;
-    return FW_OK;
+    size_t errors = plan->diags.errors;
+    check_coupons(plan, pf->flow, table);
+    return plan->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 
 static const char *flow_names(fw_plan *plan) {
@@ -383,8 +414,8 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
 }
 
 /* a plan of its own for messages and memory, over the packs of this one */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
-                           int nset, const fw_device **device, fw_verdict_variant_verdict *variant) {
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
+                           const fw_device **device, fw_verdict_variant_verdict *variant) {
     size_t n = (size_t)plan->options.nset, more = (size_t)nset;
     fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + more);
     fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
@@ -395,7 +426,8 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
     other.arena = arena;
     other.diags = fw_diags_new(arena);
     other.flow = flow;
-    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
+    FW_TRY(
+        fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
     other.device = *device;
     fw_device_material own;
     FW_TRY(own_material(&other, &own));

@@ -154,6 +154,7 @@ static const struct {
      fw_process_lint_ranges, true},
     {"are set points inside their own tolerances, and lower limits below upper ones?",
      fw_process_lint_settings, true},
+    {"can prices be added, and does a filling serve a wafer?", fw_process_lint_prices, true},
     {"has every layer a thickness, and is none made of more than there is?",
      fw_process_lint_thicknesses, true},
     {"is nobody alone with what is dangerous, and is there first aid?", lint_people, false},
@@ -172,6 +173,8 @@ static const struct {
     {"is resist baked before it is used, and the wafer before it is coated?", fw_process_lint_bakes,
      false},
     {"is the device finished when the flow has ended?", fw_process_lint_end, false},
+    {"is every mask but the first aligned to one before it?", fw_process_lint_plates, false},
+    {"is what a step uses up among its hazards?", fw_process_lint_uses, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
 };
 

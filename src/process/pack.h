@@ -12,7 +12,9 @@ typedef enum fw_process_id_kind {
     FW_ID_EQUIPMENT,
     FW_ID_HAZARD,
     FW_ID_QUANTITY,
-    FW_ID_STEP
+    FW_ID_STEP,
+    FW_ID_CONSUMABLE,
+    FW_ID_BATH
 } fw_process_id_kind;
 
 typedef struct fw_process_id {
@@ -45,11 +47,22 @@ const fw_xml_attribute *fw_process_pack_get(const fw_xml_record *e, const char *
 const char *fw_process_pack_text(const fw_xml_record *e, const char *name); /* "" when absent */
 /* "all" when absent */
 const char *fw_process_pack_where(const fw_xml_record *e);
+/* the quantity that an attribute names; NULL: none, or a diagnostic */
+const fw_quantity *fw_process_pack_quantity(fw_process_pack *pack, const fw_xml_record *e,
+                                            const char *name);
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
 /* the flow's quantity with this id, to be filled in; NULL: it has none */
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
+
+/* read_bath.c: baths and prices of both files, once all ids are known and before the steps; then what
+   a step takes of them, and how its mask is aligned */
+fw_status fw_process_pack_baths(fw_process_pack *pack);
+fw_status fw_process_pack_consumable(fw_process_pack *pack, const fw_xml_record *e,
+                                     fw_process_consumable *consumable);
+void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
+void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 
 fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* after the steps: keeps the texts that name values (FW-D348) */
@@ -75,12 +88,17 @@ fw_status fw_process_lint_heat(fw_process_pack *pack);
 fw_status fw_process_lint_contamination(fw_process_pack *pack);
 fw_status fw_process_lint_exposure(fw_process_pack *pack);
 fw_status fw_process_lint_masking(fw_process_pack *pack);
+/* masks one after the other (FW-D373) */
+fw_status fw_process_lint_plates(fw_process_pack *pack);
+/* hazards of what a step uses up (FW-D374) */
+fw_status fw_process_lint_uses(fw_process_pack *pack);
 /* after fw_process_flow_judge: does the flow reach every die of the wafer? */
 fw_status fw_process_lint_wafer(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts);
 /* values (FW-D278, FW-D342, FW-D344) */
 fw_status fw_process_lint_ranges(fw_process_pack *pack);
 fw_status fw_process_lint_settings(fw_process_pack *pack);
+fw_status fw_process_lint_prices(fw_process_pack *pack);
 fw_status fw_process_lint_thicknesses(fw_process_pack *pack);
 /* the wafer between steps (FW-D335 to FW-D341) */
 fw_status fw_process_lint_wet(fw_process_pack *pack);

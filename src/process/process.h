@@ -28,7 +28,8 @@ typedef struct fw_process_equipment {
     int capacity;
     const char *takes; /* groups of contaminants it may meet: "copper"; "" = none */
     fw_place place;
-    bool vacuum; /* wafers lie in a pumped chamber */
+    bool vacuum;              /* wafers lie in a pumped chamber */
+    const fw_quantity *price; /* money per s; may be unknown */
 } fw_process_equipment;
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
@@ -39,6 +40,53 @@ typedef struct fw_process_material { /* for the wafer's layer stack */
     const fw_quantity *highest_K; /* temperature that it bears; NULL: not said */
     fw_place place;
 } fw_process_material;
+
+typedef enum fw_process_amount { /* what a consumable is counted in */
+                                 FW_AMOUNT_L,
+                                 FW_AMOUNT_kg,
+                                 FW_AMOUNT_PIECE
+} fw_process_amount;
+
+typedef struct fw_process_consumable {
+    const char *id, *name;
+    fw_process_amount amount;
+    const fw_process_hazard *hazard; /* NULL: none */
+    const fw_quantity *price;        /* money per m3, per kg or for a piece; may be unknown */
+    fw_place place;
+} fw_process_consumable;
+
+typedef struct fw_process_part { /* of a bath */
+    const fw_process_consumable *of;
+    const fw_quantity *q;      /* parts by volume; kg/m3 or mol/m3 of the bath, or share by mass */
+    const fw_quantity *factor; /* molar mass of mol/m3, density of a share; NULL: none is needed */
+} fw_process_part;
+
+typedef struct fw_process_bath {
+    const char *id, *name, *text;
+    const fw_quantity *volume;   /* of one filling, m3; NULL: one part is stated */
+    const fw_quantity *one_part; /* m3; NULL */
+    const fw_quantity *serves;   /* wafers, one after the other; NULL: all of a lot in one step */
+    fw_process_part *part;       /* (npart) */
+    int npart;
+    fw_place place;
+} fw_process_bath;
+
+typedef enum fw_process_taker { FW_PER_WAFER, FW_PER_LOAD, FW_PER_LOT } fw_process_taker;
+
+typedef struct fw_process_use { /* <uses>: one of bath and consumable */
+    const fw_process_bath *bath;
+    const fw_process_consumable *consumable;
+    const fw_quantity *q; /* of the consumable */
+    fw_process_taker per;
+    fw_place place;
+} fw_process_use;
+
+typedef struct fw_process_align { /* of the mask that a step exposes */
+    const char *to, *marks;
+    bool back;
+    const fw_quantity *overlay; /* m */
+    fw_place place;
+} fw_process_align;
 
 typedef struct fw_process_argument {
     const char *name;
@@ -80,6 +128,7 @@ typedef struct fw_process_exposed {
 
 typedef struct fw_process_accept {
     const char *measure, *low, *high, *unit;
+    const char *coupon; /* id of the pattern that is looked at; "" */
     int sites, every;
     fw_place place;
 } fw_process_accept;
@@ -171,9 +220,11 @@ typedef struct fw_process_step {
     fw_process_lag *lag;
     fw_process_finish *finish;        /* (nfinish) in their order */
     fw_process_requirement *required; /* (nrequired) */
+    fw_process_use *use;              /* (nuse) */
+    fw_process_align align;           /* to NULL: none */
     bool second_signature;
     int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag,
-        nfinish, nrequired;
+        nfinish, nrequired, nuse;
     fw_process_time time; /* computed */
     const fw_quantity *
         *derived; /* (nderived) computed on the way: current, charge, mass, rpm ... */
@@ -253,7 +304,9 @@ typedef struct fw_process_flow {
     fw_process_corner *corner;             /* (ncorner) */
     fw_process_finished *finished;         /* (nfinished) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
-    int nprocess_material, nopen_point, ncorner, nfinished;
+    fw_process_consumable *consumable; /* (nconsumable) */
+    fw_process_bath *bath;             /* (nbath) */
+    int nprocess_material, nopen_point, ncorner, nfinished, nconsumable, nbath;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */
     fw_process_override *override; /* (noverride) */

@@ -84,6 +84,12 @@ const char *fw_process_pack_where(const fw_xml_record *e) {
     return a ? a->value : "all";
 }
 
+const fw_quantity *fw_process_pack_quantity(fw_process_pack *pack, const fw_xml_record *e,
+                                            const char *name) {
+    const fw_xml_attribute *a = fw_process_pack_get(e, name);
+    return a ? fw_process_pack_find(pack, a, FW_ID_QUANTITY) : NULL;
+}
+
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent) {
     const fw_xml_cell *cell = fw_xml_cell_of(e, name);
     return cell->ok ? cell->number : absent;
@@ -118,8 +124,8 @@ static const char *nearest(const fw_process_pack *pack, const char *wrong,
 
 void *fw_process_pack_find(fw_process_pack *pack, const fw_xml_attribute *attribute,
                            fw_process_id_kind kind) {
-    static const char *const word[] = {"source", "material", "equipment",
-                                       "hazard", "quantity", "step"};
+    static const char *const word[] = {"source",   "material", "equipment",  "hazard",
+                                       "quantity", "step",     "consumable", "bath"};
     const fw_process_id *found = find(pack, attribute->value);
     if (found && found->kind == kind) return found->item;
     const char *best = nearest(pack, attribute->value, kind);

@@ -6,7 +6,7 @@
 #include "process/process.h"
 
 #define FW_DIM(m, kg, s, A, K, mol, rad)                                                           \
-    { m, kg, s, A, K, mol, rad }
+    { m, kg, s, A, K, mol, rad, 0 }
 #define FW_DIM_NONE            FW_DIM(0, 0, 0, 0, 0, 0, 0)
 #define FW_DIM_LENGTH          FW_DIM(1, 0, 0, 0, 0, 0, 0)
 #define FW_DIM_AREA            FW_DIM(2, 0, 0, 0, 0, 0, 0)

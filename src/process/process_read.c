@@ -116,6 +116,14 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
         fw_process_hazard *h = &f->hazard[f->nhazard++];
         FW_TRY(read_hazard(pack, e, h));
         enter(pack, id->value, FW_ID_HAZARD, base, h, id->place);
+    } else if (fw_xml_is(e, "consumable")) {
+        fw_process_consumable *c = &f->consumable[f->nconsumable++];
+        FW_TRY(fw_process_pack_consumable(pack, e, c));
+        enter(pack, id->value, FW_ID_CONSUMABLE, base, c, id->place);
+    } else if (fw_xml_is(e, "bath")) {
+        fw_process_bath *b = &f->bath[f->nbath++];
+        *b = (fw_process_bath){.id = id->value, .place = e->element->place};
+        enter(pack, id->value, FW_ID_BATH, base, b, id->place);
     } else if (fw_xml_is(e, "q")) {
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
@@ -157,6 +165,7 @@ static int count_ids(const fw_xml_record *root) {
     for (const fw_xml_record *c = root->first_child; c; c = c->next) {
         n++;
         if (fw_xml_is(c, "step")) n += fw_xml_children(c, "derive");
+        if (fw_xml_is(c, "consumable") || fw_xml_is(c, "equipment")) n++; /* its price */
     }
     return n;
 }
@@ -172,6 +181,8 @@ static fw_status make_room(fw_process_pack *pack) {
     FW_NEED(f->quantity = fw_arena_array(pack->arena, fw_quantity *, n));
     FW_NEED(f->corner = fw_arena_array(pack->arena, fw_process_corner, n));
     FW_NEED(f->finished = fw_arena_array(pack->arena, fw_process_finished, n));
+    FW_NEED(f->consumable = fw_arena_array(pack->arena, fw_process_consumable, n));
+    FW_NEED(f->bath = fw_arena_array(pack->arena, fw_process_bath, n));
     FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
     FW_NEED(f->step = fw_arena_array(pack->arena, fw_process_step,
                                      (size_t)fw_xml_children(pack->root, "step")));
@@ -317,6 +328,7 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
     read_head(&pack);
     fw_process_pack_corners(&pack);
     read_finished(&pack);
+    FW_TRY(fw_process_pack_baths(&pack));
     FW_TRY(fw_process_pack_steps(&pack));
     FW_TRY(fw_process_pack_texts(&pack));
     if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));

@@ -39,6 +39,8 @@ static const char *const states[] = {
 #include "process/wafer_states.def"
 #undef X
     NULL};
+static const char *const amounts[] = {"L", "kg", "piece", NULL};
+static const char *const takers[] = {"wafer", "load", "lot", NULL};
 static const char *const outcomes[] = {"rework", "continue", "hold", "scrap", NULL};
 
 static const fw_xml_attribute_row process_rows[] = {
@@ -80,6 +82,48 @@ static const fw_xml_attribute_row hazard_rows[] = {
      .sentence = "yes: never alone; a step with it has a second signature."},
     {"wets", WORD(yes_no), .fallback = "no",
      .sentence = "yes: a liquid, which a wafer carries along until it is rinsed."},
+};
+static const fw_xml_attribute_row consumable_rows[] = {
+    ID,
+    {"name", TEXT, REQUIRED, .sentence = "What people call it, with its strength or grade."},
+    {"unit", WORD(amounts), .fallback = "L",
+     .sentence =
+         "What it is counted in. Its price is the quantity ID.price, in a currency per L, "
+         "per kg or for a piece; a laboratory pack may give it although the pack does not."},
+    {"hazard", TO(HAZARD), .sentence = "What is dangerous about it."},
+};
+static const fw_xml_attribute_row bath_rows[] = {
+    ID,
+    {"name", TEXT, REQUIRED, .sentence = "What people call it."},
+    {"volume", TO(QUANTITY), .sentence = "Of one filling."},
+    {"one-part", TO(QUANTITY), .sentence = "Or volume of one part; the filling is all of them."},
+    {"serves", TO(QUANTITY),
+     .sentence = "How many wafers go through one filling, one after the other; without: all of a "
+                 "lot, and every step has a filling of its own."},
+};
+static const fw_xml_attribute_row part_rows[] = {
+    {"of", TO(CONSUMABLE), REQUIRED, .sentence = "Of what."},
+    {"q", TO(QUANTITY), REQUIRED,
+     .sentence = "How much: parts by volume of a liquid; of what is counted in kg mass or amount "
+                 "of substance per volume of the bath, or its share by mass."},
+    {"molar-mass", TO(QUANTITY), .sentence = "Where q is an amount of substance per volume."},
+    {"density", TO(QUANTITY), .sentence = "Of the bath, where q is a share by mass."},
+};
+static const fw_xml_attribute_row uses_rows[] = {
+    {"bath", TO(BATH), .sentence = "A bath that the step works in."},
+    {"consumable", TO(CONSUMABLE), .sentence = "Or what it uses up by itself."},
+    {"q", TO(QUANTITY), .sentence = "How much of the consumable: a volume, a mass or a number."},
+    {"per", WORD(takers), .fallback = "wafer",
+     .sentence = "load: of as many wafers as the step takes at once."},
+};
+static const fw_xml_attribute_row align_rows[] = {
+    {"to", TEXT, REQUIRED, .sentence = "Mask that an earlier step has exposed."},
+    {"side", WORD(sides), .fallback = "front",
+     .sentence = "Of the wafer that this plate is on; back: its marks are looked at through the "
+                 "wafer or from below, and the plate is the mirror image."},
+    {"overlay", TO(QUANTITY), REQUIRED, .sentence = "Largest distance of the two images."},
+    {"marks", TEXT, .datatype = "NMTOKENS",
+     .sentence = "Patterns of the mask table that show it, by their ids."},
 };
 static const fw_xml_attribute_row waste_rows[] = {
     {"stream", TEXT, REQUIRED, .sentence = "Container that it goes into."},
@@ -171,6 +215,8 @@ static const fw_xml_attribute_row accept_rows[] = {
     {"unit", TEXT, REQUIRED, .sentence = "Of lo and hi."},
     {"sites", COUNT, REQUIRED, .sentence = "At how many sites of a wafer."},
     {"every", COUNT, REQUIRED, .sentence = "On every so many wafers."},
+    {"coupon", TEXT, .datatype = "NCName",
+     .sentence = "Pattern of the test die that is looked at: an id of masks/FLOW.xml."},
 };
 static const fw_xml_attribute_row hazard_ref_rows[] = {
     {"ref", TO(HAZARD), REQUIRED, .sentence = "A hazard of the step."},
@@ -215,6 +261,10 @@ static const fw_xml_element_row pack_rows[] = {
     {"equipment", "process", "id", .text = true, ROWS(equipment_rows),
      .sentence = "A machine or a bench."},
     {"hazard", "process", "id", ROWS(hazard_rows), .sentence = "What is dangerous."},
+    {"consumable", "process", "id", ROWS(consumable_rows),
+     .sentence = "A chemical, a gas or a piece that a lot uses up."},
+    {"bath", "process", "id", .text = true, ROWS(bath_rows),
+     .sentence = "What a bath is mixed from; the text says how."},
     Q_ROW("process material"),
     {"corner", "process", ROWS(corner_rows),
      .sentence = "What a flow does not make exactly as drawn."},
@@ -230,6 +280,7 @@ static const fw_xml_element_row pack_rows[] = {
      .sentence = "Where it goes afterwards."},
     {"incompatible", "hazard", ROWS(incompatible_rows), .sentence = "Two that must not meet."},
     {"attacks", "hazard", ROWS(attacks_rows), .sentence = "What it harms."},
+    {"part", "bath", .needed = true, ROWS(part_rows), .sentence = "What the bath is mixed from."},
     {"purpose", "step", .text = true, .once = true, .needed = true,
      .sentence = "Why the step is there."},
     {"change", "step", ROWS(change_rows), .sentence = "What becomes of a layer."},
@@ -240,6 +291,9 @@ static const fw_xml_element_row pack_rows[] = {
     {"derive", "step", ROWS(derive_rows), .sentence = "Another law on the way."},
     {"endpoint", "step", .text = true, .needed = true, .sentence = "How people see its end."},
     {"accept", "step", .needed = true, ROWS(accept_rows), .sentence = "What is measured after it."},
+    {"uses", "step", ROWS(uses_rows), .sentence = "What the step uses up."},
+    {"align", "step", .once = true, ROWS(align_rows),
+     .sentence = "To which earlier mask its own is aligned, and how well."},
     {"hazard-ref", "step", ROWS(hazard_ref_rows), .sentence = "A hazard that it has."},
     {"on-fail", "step", .text = true, .needed = true, ROWS(on_fail_rows),
      .sentence = "What to do where it failed."},
@@ -276,8 +330,8 @@ static const fw_xml_element_row laboratory[] = {
 
 static const fw_xml_element_row *const pack_parts[] = {pack_rows, NULL};
 static const fw_xml_element_row *const laboratory_parts[] = {laboratory, NULL};
-static const char *const spaces[] = {"name",   "source",   "material", "equipment",
-                                     "hazard", "quantity", "step"};
+static const char *const spaces[] = {"name",     "source", "material",   "equipment", "hazard",
+                                     "quantity", "step",   "consumable", "bath"};
 #define FILE_OF(what, rows)                                                                        \
     .file = what, .root = "process", .urn = "urn:flexwright:process:1",                            \
     .source = "src/process/process_table.c", .part = rows, .space = spaces,                        \

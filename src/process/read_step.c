@@ -4,12 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-static const fw_quantity *quantity_of(fw_process_pack *pack, const fw_xml_record *e,
-                                      const char *name) {
-    const fw_xml_attribute *a = fw_process_pack_get(e, name);
-    return a ? fw_process_pack_find(pack, a, FW_ID_QUANTITY) : NULL;
-}
-
 static fw_status dimension_error(fw_process_pack *pack, const fw_xml_record *e, const char *what,
                                  fw_quantity_dimension got, fw_quantity_dimension wanted) {
     const fw_xml_attribute *a = fw_process_pack_get(e, "q");
@@ -28,7 +22,7 @@ static fw_status read_arguments(fw_process_pack *pack, const fw_xml_record *e, c
     FW_NEED(*list = fw_arena_array(pack->arena, fw_process_argument, most));
     for (const fw_xml_record *c = e->first_child; c; c = c->next) {
         if (!fw_xml_is(c, child)) continue;
-        const fw_quantity *q = quantity_of(pack, c, "q");
+        const fw_quantity *q = fw_process_pack_quantity(pack, c, "q");
         const char *name = fw_process_pack_text(c, "name");
         for (int i = 0; i < *n; i++)
             if (strcmp((*list)[i].name, name) == 0)
@@ -61,7 +55,7 @@ static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
                           best ? "'?" : "");
             continue;
         }
-        const fw_quantity *value = quantity_of(pack, c, "q");
+        const fw_quantity *value = fw_process_pack_quantity(pack, c, "q");
         if (value && !law->argument[at].any_dimension &&
             !fw_quantity_dimension_equal(value->dimension, law->argument[at].dimension))
             FW_TRY(dimension_error(pack, c, name->value, value->dimension,
@@ -159,8 +153,8 @@ static fw_status read_time(fw_process_pack *pack, const fw_xml_record *e, fw_pro
     read_overrun(pack, e, s);
     s->k = fw_process_pack_number(e, "k", 2.0);
     s->shape = fw_process_pack_text(e, "shape");
-    s->pulse = quantity_of(pack, e, "pulse");
-    s->pause = quantity_of(pack, e, "pause");
+    s->pulse = fw_process_pack_quantity(pack, e, "pulse");
+    s->pause = fw_process_pack_quantity(pack, e, "pause");
     if ((s->pulse != NULL) != (s->pause != NULL))
         fw_diag_error(pack->diags, 162, e->element->place,
                       "parts and pauses belong together: give pulse and pause, or neither");
@@ -190,7 +184,7 @@ static fw_status read_derive(fw_process_pack *pack, const fw_xml_record *e, fw_p
         fw_diag_error(pack->diags, 169, unit->place, "'%s' is not a unit", unit->value);
     d->dimension = parsed.dimension;
     if (id) d->q = fw_process_pack_find(pack, id, FW_ID_QUANTITY);
-    d->most = quantity_of(pack, e, "most");
+    d->most = fw_process_pack_quantity(pack, e, "most");
     if (d->most && !fw_quantity_dimension_equal(d->most->dimension, d->dimension))
         fw_diag_error(pack->diags, 169, e->element->place,
                       "most='%s' cannot be the limit of a value in '%s'; name a quantity of the "
@@ -228,16 +222,16 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
                            *from = fw_process_pack_get(e, "from");
     *c = (fw_process_change){.kind = fw_process_pack_text(e, "kind"),
                              .material = fw_process_pack_text(e, "material"),
-                             .thickness = quantity_of(pack, e, "thickness"),
+                             .thickness = fw_process_pack_quantity(pack, e, "thickness"),
                              .where = fw_process_pack_where(e),
                              .from = fw_process_pack_text(e, "from"),
                              .back = strcmp(fw_process_pack_text(e, "side"), "back") == 0,
                              .isotropic =
                                  strcmp(fw_process_pack_text(e, "profile"), "isotropic") == 0,
-                             .anisotropy = quantity_of(pack, e, "anisotropy"),
-                             .spread = quantity_of(pack, e, "spread"),
-                             .across = quantity_of(pack, e, "across"),
-                             .reach = quantity_of(pack, e, "reach"),
+                             .anisotropy = fw_process_pack_quantity(pack, e, "anisotropy"),
+                             .spread = fw_process_pack_quantity(pack, e, "spread"),
+                             .across = fw_process_pack_quantity(pack, e, "across"),
+                             .reach = fw_process_pack_quantity(pack, e, "reach"),
                              .compensate = face_of(fw_process_pack_text(e, "compensate")),
                              .place = e->element->place};
     if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
@@ -258,8 +252,8 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
 static void read_exposed(fw_process_pack *pack, const fw_xml_record *e, fw_process_exposed *x) {
     const fw_xml_attribute *material = fw_process_pack_get(e, "material");
     *x = (fw_process_exposed){.material = fw_process_pack_text(e, "material"),
-                              .rate = quantity_of(pack, e, "rate"),
-                              .selectivity = quantity_of(pack, e, "selectivity"),
+                              .rate = fw_process_pack_quantity(pack, e, "rate"),
+                              .selectivity = fw_process_pack_quantity(pack, e, "selectivity"),
                               .place = e->element->place};
     if (material) fw_process_pack_find(pack, material, FW_ID_MATERIAL);
     if (!fw_process_pack_get(e, "rate") == !fw_process_pack_get(e, "selectivity"))
@@ -313,7 +307,7 @@ static void read_finish(fw_process_pack *pack, const fw_xml_record *e, fw_proces
     const fw_xml_attribute *with = fw_process_pack_get(e, "with"),
                            *by = fw_process_pack_get(e, "by"), *q = fw_process_pack_get(e, "q");
     fw_process_finish f = {.by = by ? by->value : "",
-                           .time = quantity_of(pack, e, "q"),
+                           .time = fw_process_pack_quantity(pack, e, "q"),
                            .text = e->element->text,
                            .place = e->element->place};
     if (with) f.with = fw_process_pack_find(pack, with, FW_ID_HAZARD);
@@ -357,7 +351,7 @@ static void read_required(fw_process_pack *pack, const fw_xml_record *e, fw_proc
 }
 
 static void read_set(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
-    const fw_quantity *q = quantity_of(pack, e, "q");
+    const fw_quantity *q = fw_process_pack_quantity(pack, e, "q");
     static const char *const bound[] = {"tol-lo", "tol-hi"};
     for (int i = 0; i < 2; i++) {
         const fw_xml_attribute *a = fw_process_pack_get(e, bound[i]);
@@ -380,6 +374,7 @@ static void read_accept(const fw_xml_record *e, fw_process_accept *a) {
                              .low = fw_process_pack_text(e, "lo"),
                              .high = fw_process_pack_text(e, "hi"),
                              .unit = fw_process_pack_text(e, "unit"),
+                             .coupon = fw_process_pack_text(e, "coupon"),
                              .sites = (int)fw_process_pack_number(e, "sites", 1.0),
                              .every = (int)fw_process_pack_number(e, "every", 1.0),
                              .place = e->element->place};
@@ -421,6 +416,10 @@ static fw_status read_child(fw_process_pack *pack, const fw_xml_record *c, fw_pr
         read_finish(pack, c, s);
     else if (fw_xml_is(c, "requires"))
         read_required(pack, c, s);
+    else if (fw_xml_is(c, "uses"))
+        fw_process_pack_use(pack, c, s);
+    else if (fw_xml_is(c, "align"))
+        fw_process_pack_align(pack, c, s);
     return FW_OK;
 }
 
@@ -444,6 +443,7 @@ static fw_status make_room(fw_arena *arena, const fw_xml_record *e, fw_process_s
     FW_NEED(s->lag = fw_arena_array(arena, fw_process_lag, (size_t)fw_xml_children(e, "lag")));
     FW_NEED(s->required = fw_arena_array(arena, fw_process_requirement,
                                          (size_t)fw_xml_children(e, "requires")));
+    FW_NEED(s->use = fw_arena_array(arena, fw_process_use, (size_t)fw_xml_children(e, "uses")));
     FW_NEED(s->finish =
                 fw_arena_array(arena, fw_process_finish, (size_t)fw_xml_children(e, "finish")));
     return FW_OK;

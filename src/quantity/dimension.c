@@ -10,47 +10,51 @@ typedef struct named {
 
 /* what users of this program meet, with the unit that suits a 3 mm device */
 static const named known[] = {
-    {{0, 0, 0, 0, 0, 0, 0}, "pure number", NULL},
-    {{1, 0, 0, 0, 0, 0, 0}, "length", "um"},
-    {{2, 0, 0, 0, 0, 0, 0}, "area", "um^2"},
-    {{3, 0, 0, 0, 0, 0, 0}, "volume", "mL"},
-    {{4, 0, 0, 0, 0, 0, 0}, "second moment of area", "um^4"},
-    {{0, 1, 0, 0, 0, 0, 0}, "mass", "mg"},
-    {{0, 0, 1, 0, 0, 0, 0}, "time", "ms"},
-    {{0, 0, -1, 0, 0, 0, 0}, "frequency", "Hz"},
-    {{0, 0, 0, 1, 0, 0, 0}, "electric current", "mA"},
-    {{0, 0, 0, 0, 1, 0, 0}, "temperature", "Cel"},
-    {{0, 0, 0, 0, 0, 1, 0}, "amount of substance", "mol"},
-    {{0, 0, -1, 0, 0, 1, 0}, "gas flow", "{sccm}"},
-    {{0, 0, 0, 0, 0, 0, 1}, "angle", "deg"},
-    {{0, 0, -1, 0, 0, 0, 1}, "angular velocity", "rad/s"},
-    {{0, 0, -2, 0, 0, 0, 1}, "angular acceleration", "rad/s^2"},
-    {{1, 0, -1, 0, 0, 0, 0}, "velocity", "mm/s"},
-    {{1, 0, -2, 0, 0, 0, 0}, "acceleration", "m/s^2"},
-    {{1, 1, -2, 0, 0, 0, 0}, "force", "uN"},
-    {{2, 1, -2, 0, 0, 0, 0}, "torque or energy", "uN mm"},
-    {{2, 1, -3, 0, 0, 0, 0}, "power", "W"},
-    {{-1, 1, -2, 0, 0, 0, 0}, "pressure or stress", "GPa"},
-    {{-3, 1, 0, 0, 0, 0, 0}, "density", "g/cm3"},
-    {{2, 1, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2"},
-    {{0, 1, -2, 0, 0, 0, 0}, "stiffness", "N/m"},
-    {{0, 1, -1, 0, 0, 0, 0}, "damping", "N s/m"},
-    {{2, 1, -2, 0, 0, 0, -1}, "torsional stiffness", "N m/rad"},
-    {{2, 1, -1, 0, 0, 0, -1}, "torsional damping", "N m s/rad"},
-    {{0, 0, 1, 1, 0, 0, 0}, "electric charge", "C"},
-    {{-2, 0, 0, 1, 0, 0, 0}, "current density", "mA/cm2"},
-    {{2, 1, -3, -1, 0, 0, 0}, "voltage", "V"},
-    {{2, 1, -3, -2, 0, 0, 0}, "electric resistance", "ohm"},
-    {{-2, -1, 4, 2, 0, 0, 0}, "capacitance", "pF"},
-    {{0, 1, -2, -1, 0, 0, 0}, "magnetic flux density", "mT"},
-    {{0, 1, 0, 0, 0, -1, 0}, "molar mass", "g/mol"},
-    {{-3, 0, 0, 0, 0, 1, 0}, "concentration", "mol/L"},
-    {{2, 1, -2, 0, 0, -1, 0}, "molar energy", "kJ/mol"},
-    {{2, 0, -1, 0, 0, 0, 0}, "diffusivity", "cm2/s"},
-    {{0, 1, -3, 0, 0, 0, 0}, "power density", "mW/cm2"},
-    {{0, 0, 0, 0, -1, 0, 0}, "change per temperature", "K^-1"},
-    {{-1, 1, -1, 0, 0, 0, 0}, "viscosity", "uPa s"},
-    {{-2, 1, -2, 0, 0, 0, 0}, "stress gradient", "MPa/um"},
+    {{0, 0, 0, 0, 0, 0, 0, 0}, "pure number", NULL},
+    {{1, 0, 0, 0, 0, 0, 0, 0}, "length", "um"},
+    {{2, 0, 0, 0, 0, 0, 0, 0}, "area", "um^2"},
+    {{3, 0, 0, 0, 0, 0, 0, 0}, "volume", "mL"},
+    {{4, 0, 0, 0, 0, 0, 0, 0}, "second moment of area", "um^4"},
+    {{0, 1, 0, 0, 0, 0, 0, 0}, "mass", "mg"},
+    {{0, 0, 1, 0, 0, 0, 0, 0}, "time", "ms"},
+    {{0, 0, -1, 0, 0, 0, 0, 0}, "frequency", "Hz"},
+    {{0, 0, 0, 1, 0, 0, 0, 0}, "electric current", "mA"},
+    {{0, 0, 0, 0, 1, 0, 0, 0}, "temperature", "Cel"},
+    {{0, 0, 0, 0, 0, 1, 0, 0}, "amount of substance", "mol"},
+    {{0, 0, -1, 0, 0, 1, 0, 0}, "gas flow", "{sccm}"},
+    {{0, 0, 0, 0, 0, 0, 1, 0}, "angle", "deg"},
+    {{0, 0, -1, 0, 0, 0, 1, 0}, "angular velocity", "rad/s"},
+    {{0, 0, -2, 0, 0, 0, 1, 0}, "angular acceleration", "rad/s^2"},
+    {{1, 0, -1, 0, 0, 0, 0, 0}, "velocity", "mm/s"},
+    {{1, 0, -2, 0, 0, 0, 0, 0}, "acceleration", "m/s^2"},
+    {{1, 1, -2, 0, 0, 0, 0, 0}, "force", "uN"},
+    {{2, 1, -2, 0, 0, 0, 0, 0}, "torque or energy", "uN mm"},
+    {{2, 1, -3, 0, 0, 0, 0, 0}, "power", "W"},
+    {{-1, 1, -2, 0, 0, 0, 0, 0}, "pressure or stress", "GPa"},
+    {{-3, 1, 0, 0, 0, 0, 0, 0}, "density", "g/cm3"},
+    {{2, 1, 0, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2"},
+    {{0, 1, -2, 0, 0, 0, 0, 0}, "stiffness", "N/m"},
+    {{0, 1, -1, 0, 0, 0, 0, 0}, "damping", "N s/m"},
+    {{2, 1, -2, 0, 0, 0, -1, 0}, "torsional stiffness", "N m/rad"},
+    {{2, 1, -1, 0, 0, 0, -1, 0}, "torsional damping", "N m s/rad"},
+    {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C"},
+    {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2"},
+    {{2, 1, -3, -1, 0, 0, 0, 0}, "voltage", "V"},
+    {{2, 1, -3, -2, 0, 0, 0, 0}, "electric resistance", "ohm"},
+    {{-2, -1, 4, 2, 0, 0, 0, 0}, "capacitance", "pF"},
+    {{0, 1, -2, -1, 0, 0, 0, 0}, "magnetic flux density", "mT"},
+    {{0, 1, 0, 0, 0, -1, 0, 0}, "molar mass", "g/mol"},
+    {{-3, 0, 0, 0, 0, 1, 0, 0}, "concentration", "mol/L"},
+    {{2, 1, -2, 0, 0, -1, 0, 0}, "molar energy", "kJ/mol"},
+    {{2, 0, -1, 0, 0, 0, 0, 0}, "diffusivity", "cm2/s"},
+    {{0, 1, -3, 0, 0, 0, 0, 0}, "power density", "mW/cm2"},
+    {{0, 0, 0, 0, -1, 0, 0, 0}, "change per temperature", "K^-1"},
+    {{-1, 1, -1, 0, 0, 0, 0, 0}, "viscosity", "uPa s"},
+    {{-2, 1, -2, 0, 0, 0, 0, 0}, "stress gradient", "MPa/um"},
+    {{0, 0, 0, 0, 0, 0, 0, 1}, "price", "EUR"},
+    {{-3, 0, 0, 0, 0, 0, 0, 1}, "price of a volume", "EUR/L"},
+    {{0, -1, 0, 0, 0, 0, 0, 1}, "price of a mass", "EUR/kg"},
+    {{0, 0, -1, 0, 0, 0, 0, 1}, "price of a time", "EUR/h"},
 };
 
 static const named *find(fw_quantity_dimension d) {
@@ -61,7 +65,7 @@ static const named *find(fw_quantity_dimension d) {
 
 bool fw_quantity_dimension_equal(fw_quantity_dimension a, fw_quantity_dimension b) {
     return a.m == b.m && a.kg == b.kg && a.s == b.s && a.A == b.A && a.K == b.K && a.mol == b.mol &&
-           a.rad == b.rad;
+           a.rad == b.rad && a.money == b.money;
 }
 
 const char *fw_quantity_dimension_unit(fw_quantity_dimension d) {
@@ -75,8 +79,8 @@ const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d)
     const struct {
         const char *symbol;
         int exponent;
-    } part[] = {{"m", d.m}, {"kg", d.kg},   {"s", d.s},    {"A", d.A},
-                {"K", d.K}, {"mol", d.mol}, {"rad", d.rad}};
+    } part[] = {{"m", d.m}, {"kg", d.kg},   {"s", d.s},     {"A", d.A},
+                {"K", d.K}, {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
     fw_text text = fw_text_new(arena);
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (part[i].exponent == 0) continue;

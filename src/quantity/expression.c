@@ -270,10 +270,10 @@ static bool raise(parser *p, size_t offset, fw_quantity_value *base,
     if (base->value < 0.0 && e != rint(e))
         return fail(p, offset, 29,
                     "a negative number to a broken power is not real; check the sign of the base");
-    int8_t *const part[] = {&base->dimension.m,  &base->dimension.kg, &base->dimension.s,
-                            &base->dimension.A,  &base->dimension.K,  &base->dimension.mol,
-                            &base->dimension.rad};
-    for (int i = 0; i < 7; i++) {
+    int8_t *const part[] = {&base->dimension.m,   &base->dimension.kg,   &base->dimension.s,
+                            &base->dimension.A,   &base->dimension.K,    &base->dimension.mol,
+                            &base->dimension.rad, &base->dimension.money};
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         double raised = *part[i] * e;
         if (raised != rint(raised) || fabs(raised) > 127.0)
             return fail(p, offset, 30,

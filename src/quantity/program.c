@@ -357,8 +357,8 @@ static const char *no_root(fw_arena *arena, fw_quantity_dimension d) {
 }
 
 static bool halve(fw_quantity_dimension *d) {
-    int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad};
-    for (int i = 0; i < 7; i++) {
+    int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad, &d->money};
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (*part[i] % 2 != 0) return false;
         *part[i] = (int8_t)(*part[i] / 2);
     }

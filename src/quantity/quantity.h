@@ -8,10 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* exponents of m, kg, s, A, K, mol, rad. The angle is kept apart so that "5 deg" is not "0.0873" by
-   accident; where a formula multiplies by an angle the table says so (N m/rad). */
+/* exponents of m, kg, s, A, K, mol, rad and money. The angle is kept apart so that "5 deg" is not "0.0873" by
+   accident; where a formula multiplies by an angle the table says so (N m/rad). All currencies are one
+   dimension and nothing knows their rates: who adds prices asks fw_quantity_unit_currency. */
 typedef struct fw_quantity_dimension {
-    int8_t m, kg, s, A, K, mol, rad;
+    int8_t m, kg, s, A, K, mol, rad, money;
 } fw_quantity_dimension;
 
 bool fw_quantity_dimension_equal(fw_quantity_dimension a, fw_quantity_dimension b);
@@ -34,6 +35,8 @@ bool fw_quantity_unit_parse(const char *text, size_t n, fw_quantity_unit *unit, 
    very number 10e-6. */
 double fw_quantity_unit_to_si(const fw_quantity_unit *unit, double value);
 double fw_quantity_unit_from_si(const fw_quantity_unit *unit, double value);
+/* the currency of a price, "EUR" of "EUR/L"; NULL: there is none in it */
+const char *fw_quantity_unit_currency(const char *text);
 /* all unit symbols, for "did you mean" and the reference page */
 const char *const *fw_quantity_unit_names(size_t *count);
 /* "did you mean 'um'?" for a misspelt unit, or NULL. Of several that are equally near the one with

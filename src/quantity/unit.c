@@ -7,49 +7,51 @@
 #include <string.h>
 
 #define NONE                                                                                       \
-    { 0, 0, 0, 0, 0, 0, 0 }
+    { 0, 0, 0, 0, 0, 0, 0, 0 }
 #define LENGTH                                                                                     \
-    { 1, 0, 0, 0, 0, 0, 0 }
+    { 1, 0, 0, 0, 0, 0, 0, 0 }
 #define MASS                                                                                       \
-    { 0, 1, 0, 0, 0, 0, 0 }
+    { 0, 1, 0, 0, 0, 0, 0, 0 }
 #define TIME                                                                                       \
-    { 0, 0, 1, 0, 0, 0, 0 }
+    { 0, 0, 1, 0, 0, 0, 0, 0 }
 #define RATE                                                                                       \
-    { 0, 0, -1, 0, 0, 0, 0 }
+    { 0, 0, -1, 0, 0, 0, 0, 0 }
 #define CURRENT                                                                                    \
-    { 0, 0, 0, 1, 0, 0, 0 }
+    { 0, 0, 0, 1, 0, 0, 0, 0 }
 #define TEMPERATURE                                                                                \
-    { 0, 0, 0, 0, 1, 0, 0 }
+    { 0, 0, 0, 0, 1, 0, 0, 0 }
 #define AMOUNT                                                                                     \
-    { 0, 0, 0, 0, 0, 1, 0 }
+    { 0, 0, 0, 0, 0, 1, 0, 0 }
 #define AMOUNT_RATE                                                                                \
-    { 0, 0, -1, 0, 0, 1, 0 }
+    { 0, 0, -1, 0, 0, 1, 0, 0 }
 #define ANGLE                                                                                      \
-    { 0, 0, 0, 0, 0, 0, 1 }
+    { 0, 0, 0, 0, 0, 0, 1, 0 }
 #define SPIN                                                                                       \
-    { 0, 0, -1, 0, 0, 0, 1 }
+    { 0, 0, -1, 0, 0, 0, 1, 0 }
+#define MONEY                                                                                      \
+    { 0, 0, 0, 0, 0, 0, 0, 1 }
 #define VOLUME                                                                                     \
-    { 3, 0, 0, 0, 0, 0, 0 }
+    { 3, 0, 0, 0, 0, 0, 0, 0 }
 #define CONCENTRATION                                                                              \
-    { -3, 0, 0, 0, 0, 1, 0 }
+    { -3, 0, 0, 0, 0, 1, 0, 0 }
 #define FORCE                                                                                      \
-    { 1, 1, -2, 0, 0, 0, 0 }
+    { 1, 1, -2, 0, 0, 0, 0, 0 }
 #define PRESSURE                                                                                   \
-    { -1, 1, -2, 0, 0, 0, 0 }
+    { -1, 1, -2, 0, 0, 0, 0, 0 }
 #define ENERGY                                                                                     \
-    { 2, 1, -2, 0, 0, 0, 0 }
+    { 2, 1, -2, 0, 0, 0, 0, 0 }
 #define POWER                                                                                      \
-    { 2, 1, -3, 0, 0, 0, 0 }
+    { 2, 1, -3, 0, 0, 0, 0, 0 }
 #define CHARGE                                                                                     \
-    { 0, 0, 1, 1, 0, 0, 0 }
+    { 0, 0, 1, 1, 0, 0, 0, 0 }
 #define VOLTAGE                                                                                    \
-    { 2, 1, -3, -1, 0, 0, 0 }
+    { 2, 1, -3, -1, 0, 0, 0, 0 }
 #define RESISTANCE                                                                                 \
-    { 2, 1, -3, -2, 0, 0, 0 }
+    { 2, 1, -3, -2, 0, 0, 0, 0 }
 #define FLUX_DENSITY                                                                               \
-    { 0, 1, -2, -1, 0, 0, 0 }
+    { 0, 1, -2, -1, 0, 0, 0, 0 }
 #define CAPACITANCE                                                                                \
-    { -2, -1, 4, 2, 0, 0, 0 }
+    { -2, -1, 4, 2, 0, 0, 0, 0 }
 
 /* symbol, factor to SI, offset, dimension */
 #define UNIT_TABLE(X)                                                                              \
@@ -155,7 +157,32 @@
     X("rpm", FW_PI / 30.0, 0.0, SPIN)                                                              \
     /* cm3 per minute of ideal gas at the ice point and one standard atmosphere */                 \
     X("{sccm}", FW_STANDARD_ATMOSPHERE_Pa / 1e6 / (60.0 * FW_GAS_J_PER_mol_K * FW_ICE_POINT_K),    \
-      0.0, AMOUNT_RATE)
+      0.0, AMOUNT_RATE)                                                                            \
+    /* currencies, by ISO 4217: of one dimension, at no rate (fw_quantity_unit_currency) */        \
+    X("AUD", 1.0, 0.0, MONEY)                                                                      \
+    X("BRL", 1.0, 0.0, MONEY)                                                                      \
+    X("CAD", 1.0, 0.0, MONEY)                                                                      \
+    X("CHF", 1.0, 0.0, MONEY)                                                                      \
+    X("CNY", 1.0, 0.0, MONEY)                                                                      \
+    X("CZK", 1.0, 0.0, MONEY)                                                                      \
+    X("DKK", 1.0, 0.0, MONEY)                                                                      \
+    X("EUR", 1.0, 0.0, MONEY)                                                                      \
+    X("GBP", 1.0, 0.0, MONEY)                                                                      \
+    X("HUF", 1.0, 0.0, MONEY)                                                                      \
+    X("ILS", 1.0, 0.0, MONEY)                                                                      \
+    X("INR", 1.0, 0.0, MONEY)                                                                      \
+    X("JPY", 1.0, 0.0, MONEY)                                                                      \
+    X("KRW", 1.0, 0.0, MONEY)                                                                      \
+    X("MXN", 1.0, 0.0, MONEY)                                                                      \
+    X("NOK", 1.0, 0.0, MONEY)                                                                      \
+    X("NZD", 1.0, 0.0, MONEY)                                                                      \
+    X("PLN", 1.0, 0.0, MONEY)                                                                      \
+    X("SEK", 1.0, 0.0, MONEY)                                                                      \
+    X("SGD", 1.0, 0.0, MONEY)                                                                      \
+    X("TRY", 1.0, 0.0, MONEY)                                                                      \
+    X("TWD", 1.0, 0.0, MONEY)                                                                      \
+    X("USD", 1.0, 0.0, MONEY)                                                                      \
+    X("ZAR", 1.0, 0.0, MONEY)
 
 #define X(symbol, factor, offset, ...) symbol,
 static const char *const names[] = {UNIT_TABLE(X)};
@@ -223,9 +250,9 @@ static size_t exponent_length(const char *text, size_t n, bool minus_allowed, in
 }
 
 bool fw_quantity_dimension_combine(fw_quantity_dimension *d, fw_quantity_dimension by, int times) {
-    int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad};
-    const int8_t add[] = {by.m, by.kg, by.s, by.A, by.K, by.mol, by.rad};
-    for (int i = 0; i < 7; i++) {
+    int8_t *const part[] = {&d->m, &d->kg, &d->s, &d->A, &d->K, &d->mol, &d->rad, &d->money};
+    const int8_t add[] = {by.m, by.kg, by.s, by.A, by.K, by.mol, by.rad, by.money};
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         int sum = *part[i] + add[i] * times;
         if (sum < -127 || sum > 127) return false;
         *part[i] = (int8_t)sum;
@@ -317,4 +344,17 @@ double fw_quantity_unit_from_si(const fw_quantity_unit *unit, double value) {
     double inverse = whole_inverse(unit->factor);
     value -= unit->offset;
     return inverse > 0.0 ? value * inverse : value / unit->factor;
+}
+
+const char *fw_quantity_unit_currency(const char *text) {
+    size_t n = strlen(text);
+    for (size_t at = 0; at < n;) {
+        size_t length = symbol_length(text + at, n - at);
+        for (size_t i = 0; i < UNIT_COUNT && length > 0; i++)
+            if (rows[i].dimension.money != 0 && strlen(names[i]) == length &&
+                memcmp(names[i], text + at, length) == 0)
+                return names[i];
+        at += length > 0 ? length : 1;
+    }
+    return NULL;
 }

@@ -100,6 +100,28 @@ static void source_of(const fw_process_flow *flow, const char *source, fw_text *
     fw_text_escaped(out, source);
 }
 
+/* how the mask comes to lie on what is there */
+static void alignment(const fw_process_step *s, fw_text *out) {
+    const fw_process_align *a = &s->align;
+    if (!a->to) return;
+    fw_text_add(out, "<p><b>Align</b> plate ");
+    fw_text_escaped(out, s->mask);
+    fw_text_add(out, a->back ? " on the back, mirrored, to " : " to ");
+    fw_text_escaped(out, a->to);
+    if (a->marks[0]) {
+        fw_text_add(out, " by ");
+        fw_text_escaped(out, a->marks);
+    }
+    fw_text_add(out, "; images at most ");
+    if (a->overlay->unknown)
+        fw_text_add(out, "______");
+    else
+        fw_recipe_put_value(out, fw_quantity_in_unit(a->overlay));
+    fw_text_add(out, " ");
+    fw_recipe_put_unit(out, a->overlay->unit);
+    fw_text_add(out, " apart. Read: ______</p>\n");
+}
+
 static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
@@ -111,6 +133,7 @@ static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
     fw_text_add(out, picture ? "<div class=\"pair\"><div><p>" : "<p>");
     fw_text_escaped(out, s->purpose);
     fw_text_add(out, "</p>\n");
+    alignment(s, out);
     if (s->equipment) {
         fw_text_add(out, "<p class=\"small\"><b>Equipment:</b> ");
         fw_text_escaped(out, s->equipment->class_);
@@ -208,12 +231,12 @@ static fw_status time_box(const fw_process_step *s, fw_text *out) {
         fw_text_add(out, ".</p>\n");
         return FW_OK;
     }
+    static const char *const name[] = {"Planned", "First look", "Clear by", "Stop",
+                                       "At the machine"};
     const double value[] = {t->nominal_s, t->first_look_s, t->clear_by_s, t->stop_s, s->booked_s};
-    fw_text_add(out,
-                "<table class=\"window\"><tr><th>Planned</th><th>First look</th><th>Clear by</th>"
-                "<th>Stop</th><th>At the machine</th></tr><tr>");
+    fw_text_add(out, "<table class=\"window\"><tr>");
     for (int i = 0; i < 5; i++) {
-        fw_text_printf(out, "<td>%s", i == 0 ? "<b>" : "");
+        fw_text_printf(out, "<td><span>%s</span> %s", name[i], i == 0 ? "<b>" : "");
         fw_schedule_put_duration(out, value[i]);
         fw_text_add(out, i == 0 ? "</b></td>" : "</td>");
     }
@@ -370,15 +393,15 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "\">\n");
     step_head(s, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
+    holds(s, out);
+    exposures(flow, s, out);
+    if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;
     fw_text_add(out, changes ? "</div><div>" : "");
     fw_status drawn = !changes ? FW_OK
                       : slicer ? fw_recipe_section_exact(slicer, flow, scale, index, out)
                                : fw_recipe_section_svg(flow, index, out);
-    if (drawn == FW_OK && slicer && changes) drawn = section_notes(flow, index, out);
     if (drawn != FW_OK) out->failed = 1;
     fw_text_add(out, changes ? "</div></div>\n" : "");
-    holds(s, out);
-    exposures(flow, s, out);
     if (quantities(flow, s, out) != FW_OK || time_box(s, out) != FW_OK) out->failed = 1;
     if (finishes(s, out) != FW_OK) out->failed = 1;
     endpoints(s, out);

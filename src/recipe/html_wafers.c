@@ -56,6 +56,11 @@ static void some_wafers(const fw_process_step *s, int first, int n, bool lot, bo
     for (int i = 0; i < s->naccept; i++) {
         fw_text_add(out, "<tr><td>");
         fw_text_escaped(out, s->accept[i].measure);
+        if (s->accept[i].coupon[0]) {
+            fw_text_add(out, " <span class=\"muted\">on coupon ");
+            fw_text_escaped(out, s->accept[i].coupon);
+            fw_text_add(out, "</span>");
+        }
         fw_text_add(out, "</td><td>");
         limits(&s->accept[i], out);
         fw_text_add(out, "</td>");
@@ -159,8 +164,11 @@ static void benches(const fw_process_flow *flow, const fw_process_hazard *h, fw_
 static void hazard(const fw_process_flow *flow, const fw_process_hazard *h, int n, fw_text *out) {
     fw_text_printf(out, "<tr id=\"hazard-%d\"><td class=\"n\"><b>%d</b></td><td><b>", n, n);
     fw_text_escaped(out, h->name);
-    fw_text_add(out, "</b><br>");
-    if (strcmp(h->ghs, "none") != 0) fw_text_escaped(out, h->ghs);
+    fw_text_add(out, "</b>");
+    if (strcmp(h->ghs, "none") != 0) {
+        fw_text_add(out, "<br>");
+        fw_text_escaped(out, h->ghs);
+    }
     fw_text_add(out, h->buddy ? "<br><b>never alone</b>" : "");
     fw_text_add(out, "<br>");
     benches(flow, h, out);
@@ -184,7 +192,7 @@ void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out,
                 "<h3>Hazards: read before the lot begins</h3>\n<p>Emergency number ____________ "
                 "&ensp; Nearest shower, eye wash, first aid ____________</p>\n"
-                "<table class=\"small\"><thead><tr><th></th><th style=\"width:21%\">Hazard, bench: "
+                "<table class=\"small\"><thead><tr><th></th><th style=\"width:29%\">Hazard, bench: "
                 "steps</th><th>Wear and keep ready</th><th>First aid</th><th style=\"width:19%\">"
                 "Waste</th></tr></thead><tbody>\n");
     for (int i = 0; i < met.n; i++)

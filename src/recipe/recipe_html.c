@@ -54,7 +54,7 @@ static const char style[] =
     ".tag{display:inline-block;border:0.5pt solid #000;border-radius:1.6mm;padding:0 1.3mm;"
     "font-size:7.5pt;white-space:nowrap}\n"
     ".tag.assumed,.tag.unknown{border-style:dashed}\n.tag.unknown{font-weight:bold}\n"
-    ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:2mm 0}\n"
+    ".note{border-left:2.2pt solid #000;padding:0.3mm 0 0.3mm 2.5mm;margin:1mm 0}\n"
     ".nc{border:1.4pt solid #000;padding:1.2mm 2mm;margin:1.5mm 0}\n"
     ".step{border:0.9pt solid #000;padding:1.2mm 2mm;margin:0 0 2mm;box-decoration-break:clone;"
     "-webkit-box-decoration-break:clone}\n"
@@ -66,8 +66,8 @@ static const char style[] =
     ".pair>div:last-child{width:58mm}\n.pair svg{width:58mm;height:auto;display:block}\n"
     ".small{font-size:7.2pt}\n.muted{color:#444}\ntd .muted{font-size:6.5pt;line-height:1.1}\n"
     ".hazard{border:0.9pt solid #000;padding:0.3mm 1.5mm;margin:0.8mm 0;font-size:8pt}\n"
-    ".window td{text-align:center;font-size:9pt}\n.window th{text-align:center}\n"
-    ".actual td{height:7mm;width:12.5%;font-size:7pt;color:#444}\n.sources{columns:2}\n"
+    ".window td{text-align:center;white-space:nowrap}\n.window span{font-size:7.2pt;color:#333}\n"
+    ".actual td{height:6.4mm;width:12.5%;font-size:7pt;color:#444}\n.sources{columns:2}\n"
     ".wafers td{height:5.4mm}\n.wafers td.w{white-space:nowrap}\n.wafers td.off{background:#ddd;"
     "-webkit-print-color-adjust:exact;print-color-adjust:exact}\n"
     ".s{display:inline-block;width:8.6mm;height:4.4mm;border:0.4pt solid #888;margin-right:0.5mm}\n"
@@ -267,6 +267,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
         FW_TRY(fw_recipe_html_pictures(flow, header, &slicer, &scale, out));
     }
     fw_recipe_html_hazards(flow, out);
+    FW_TRY(fw_recipe_html_bill(flow, header, out));
     fw_text_add(out, "<h3>Step by step</h3>\n");
     for (int i = 0; i < flow->nstep; i++)
         fw_recipe_html_step(flow, i, header, cut ? &slicer : NULL, &scale, out);

@@ -62,4 +62,11 @@ void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_st
 void fw_recipe_html_hazards(const fw_process_flow *flow, fw_text *out);
 void fw_recipe_html_deviations(fw_text *out);
 
+/* recipe_bill.c: what the lot uses up */
+struct fw_json;
+fw_status fw_recipe_html_bill(const fw_process_flow *flow, const fw_recipe_header *header,
+                              fw_text *out);
+fw_status fw_recipe_json_bill(const fw_process_flow *flow, const fw_recipe_header *header,
+                              struct fw_json *out);
+
 #endif

@@ -342,7 +342,7 @@ static void place_cell(fw_text *out, const fw_quantity *q) {
 
 static void quantity_row(fw_text *out, const used *u) {
     const fw_quantity *q = u->q;
-    fw_quantity_unit unit = {1.0, 0.0, {0, 0, 0, 0, 0, 0, 0}};
+    fw_quantity_unit unit = {1.0, 0.0, {0, 0, 0, 0, 0, 0, 0, 0}};
     bool known = q->unit && q->unit[0] &&
                  fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL);
     fw_markup(out, "<tr><th scope=\"row\">{s}</th><td>{s}</td><td class=\"n\">", u->name, u->where);

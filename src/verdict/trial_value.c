@@ -14,8 +14,8 @@ static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
     const struct {
         const char *symbol;
         int power;
-    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},    {"A", d.A},
-                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}};
+    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},     {"A", d.A},
+                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
     fw_text text = fw_text_new(arena);
     fw_text_add(&text, "");
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {

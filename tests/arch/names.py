@@ -20,8 +20,10 @@ RETIRED = {
     "unsure": "nonlinearity", "pushes": "modal_loads", "tie": "joint", "ties": "joints", "ntie": "njoint",
     "price": "cost", "closer": "refinement",
 }
-# where such a word is the field's own: a kink of a strip's outline, ties of a schedule's tied operations
-KEPT = {("flexure", "kink"), ("flexure", "kinks"), ("schedule", "tie"), ("schedule", "ties")}
+# where such a word is the field's own: a kink of a strip's outline, ties of a schedule's tied operations, the
+# price of a bottle
+KEPT = {("flexure", "kink"), ("flexure", "kinks"), ("schedule", "tie"), ("schedule", "ties"),
+        ("process", "price"), ("process", "price_units")}
 
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
 STRING = re.compile(r'"(\\.|[^"\\\n])*"')

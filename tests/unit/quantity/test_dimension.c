@@ -9,12 +9,12 @@ static void dimensions_have_names(void **state) {
     assert_string_equal(fw_quantity_dimension_text(arena, (fw_quantity_dimension){.m = 1}),
                         "length");
     assert_string_equal(
-        fw_quantity_dimension_text(arena, (fw_quantity_dimension){2, 1, -2, 0, 0, 0, -1}),
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){2, 1, -2, 0, 0, 0, -1, 0}),
         "torsional stiffness");
     assert_string_equal(fw_quantity_dimension_text(arena, (fw_quantity_dimension){0}),
                         "pure number");
     assert_string_equal(
-        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 0, -3, 0, 0, 0, 1}),
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 0, -3, 0, 0, 0, 1, 0}),
         "m s^-3 rad");
     assert_string_equal(fw_quantity_dimension_phrase(arena, (fw_quantity_dimension){.rad = 1}),
                         "an angle");
@@ -43,7 +43,7 @@ static void dimensions_without_memory(void **state) {
     fw_arena *arena = fw_arena_new(0);
     fw_arena_fail_at(1, 1);
     const char *text =
-        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 2, 3, 4, 5, 6, 7});
+        fw_quantity_dimension_text(arena, (fw_quantity_dimension){1, 2, 3, 4, 5, 6, 7, 0});
     const char *phrase = fw_quantity_dimension_phrase(arena, (fw_quantity_dimension){.rad = 1});
     fw_arena_fail_at(0, 0);
     assert_non_null(text);

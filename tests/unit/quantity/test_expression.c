@@ -4,8 +4,8 @@
 #include "test.h"
 
 static const fw_quantity_dimension pure = {0}, length = {.m = 1}, angle = {.rad = 1},
-                                   area = {.m = 2}, force = {1, 1, -2, 0, 0, 0, 0},
-                                   mass = {.kg = 1}, turning = {2, 1, -2, 0, 0, 0, -1},
+                                   area = {.m = 2}, force = {1, 1, -2, 0, 0, 0, 0, 0},
+                                   mass = {.kg = 1}, turning = {2, 1, -2, 0, 0, 0, -1, 0},
                                    rate = {.s = -1};
 static const fw_quantity_name_value items[] = {
     {"t", 10e-6, {.m = 1}}, {"arc", 4.0, {.rad = 1}}, {"n", 3.0, {0}}, {"zero", 0.0, {0}}};
@@ -39,7 +39,7 @@ static void values(void **state) {
         {"sqrt((3 um)^2 + (4 um)^2)", length, 5e-6},
         {"240 deg", angle, 4 * pi / 3},
         {"6 um / 2 um", pure, 3},
-        {"1 / 2 um/s", {-1, 0, 1, 0, 0, 0, 0}, 5e5}, /* a unit binds tighter than / */
+        {"1 / 2 um/s", {-1, 0, 1, 0, 0, 0, 0, 0}, 5e5}, /* a unit binds tighter than / */
         {"300 um/arc", length, 75e-6},               /* rad is forgiven in a quotient */
         {"arc * 100 um", length, 4e-4},
         {"1 um + 300 um/arc", length, 76e-6},
@@ -71,7 +71,7 @@ static void values(void **state) {
         {"50 %", pure, 0.5},
         {"100 1/s", rate, 100},
         {"10 s^-1", rate, 10},
-        {"20 mA/cm2", {-2, 0, 0, 1, 0, 0, 0}, 200},
+        {"20 mA/cm2", {-2, 0, 0, 1, 0, 0, 0, 0}, 200},
         {"20 Cel", {.K = 1}, 293.15},
         {"-40 Cel", {.K = 1}, 233.15},
         {"20 Cel - 40 Cel", {.K = 1}, -20},
@@ -80,7 +80,7 @@ static void values(void **state) {
         {"1e3", pure, 1000},
         {".5", pure, 0.5},
         {"5.", pure, 5},
-        {"2 eV", {2, 1, -2, 0, 0, 0, 0}, 2 * 1.602176634e-19},
+        {"2 eV", {2, 1, -2, 0, 0, 0, 0, 0}, 2 * 1.602176634e-19},
         {"n", pure, 3},
         {"5 min", {.s = 1}, 300},
         {"5 um*min(1, 2)", length, 5e-6},
@@ -122,7 +122,7 @@ static void errors(void **state) {
         {"2*3", angle, 24, 0, "deg"},
         {"12 umm", length, 21, 3, "did you mean 'um'"},
         {"12 xm", length, 21, 3, "did you mean 'um'"},
-        {"12 qPa", (fw_quantity_dimension){-1, 1, -2, 0, 0, 0, 0}, 21, 3, "did you mean 'GPa'"},
+        {"12 qPa", (fw_quantity_dimension){-1, 1, -2, 0, 0, 0, 0, 0}, 21, 3, "did you mean 'GPa'"},
         {"300,5 um", length, 20, 3, "the decimal sign is a point, not a comma: write '300.5'"},
         {"2*(1,25 um)", length, 20, 4, "write '1.25'"},
         {"12 um, 3 um", length, 20, 5, "only between the arguments"},

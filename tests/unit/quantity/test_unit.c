@@ -122,9 +122,13 @@ static void every_symbol_has_its_value(void **state) {
     (void)state;
     size_t count;
     const char *const *names = fw_quantity_unit_names(&count);
-    assert_int_equal(count, COUNT);
+    size_t currencies = 0;
     for (size_t i = 0; i < count; i++) {
         const row *r = literal;
+        if (fw_quantity_unit_currency(names[i])) {
+            currencies++;
+            continue;
+        }
         while (r < literal + COUNT && strcmp(r->symbol, names[i]) != 0)
             r++;
         if (r == literal + COUNT) fail_msg("%s is not in the literal table", names[i]);
@@ -133,10 +137,36 @@ static void every_symbol_has_its_value(void **state) {
         assert_relative(unit.factor, r->factor, 4e-16);
         assert_near(unit.offset, r->offset, 0.0);
         fw_quantity_dimension d = unit.dimension;
-        int got[] = {d.m, d.kg, d.s, d.A, d.K, d.mol, d.rad};
-        int want[] = {r->m, r->kg, r->s, r->A, r->K, r->mol, r->rad};
+        int got[] = {d.m, d.kg, d.s, d.A, d.K, d.mol, d.rad, d.money};
+        int want[] = {r->m, r->kg, r->s, r->A, r->K, r->mol, r->rad, 0};
         assert_memory_equal(got, want, sizeof got);
     }
+    assert_int_equal(count, COUNT + currencies);
+    assert_true(currencies >= 20);
+}
+
+/* all of one dimension, which no other unit has; named in what is composed of them */
+static void currencies(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *is;
+        double factor;
+        fw_quantity_dimension d;
+    } at[] = {{"EUR", "EUR", 1, {.money = 1}},
+              {"USD/L", "USD", 1e3, {.m = -3, .money = 1}},
+              {"CHF/kg", "CHF", 1, {.kg = -1, .money = 1}},
+              {"JPY h-1", "JPY", 1.0 / 3600, {.s = -1, .money = 1}}};
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        fw_quantity_unit unit;
+        assert_true(parse(at[i].text, &unit));
+        assert_relative(unit.factor, at[i].factor, 1e-14);
+        assert_true(fw_quantity_dimension_equal(unit.dimension, at[i].d));
+        assert_string_equal(fw_quantity_unit_currency(at[i].text), at[i].is);
+    }
+    assert_null(fw_quantity_unit_currency("um/min"));
+    assert_null(fw_quantity_unit_currency("{sccm}"));
+    assert_null(fw_quantity_unit_currency("EURO/L"));
+    assert_null(fw_quantity_unit_currency(""));
 }
 
 static void composed_units(void **state) {
@@ -146,23 +176,23 @@ static void composed_units(void **state) {
         double factor;
         fw_quantity_dimension d;
     } good[] = {
-        {"N m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1}},
-        {"N.m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1}},
-        {"N*m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1}},
-        {"mA/cm2", 10.0, {-2, 0, 0, 1, 0, 0, 0}},
-        {"Ao/s", 1e-10, {1, 0, -1, 0, 0, 0, 0}},
-        {"g/cm3", 1000.0, {-3, 1, 0, 0, 0, 0, 0}},
-        {"mg mm^2", 1e-12, {2, 1, 0, 0, 0, 0, 0}},
-        {"um^2", 1e-12, {2, 0, 0, 0, 0, 0, 0}},
-        {"s-1", 1.0, {0, 0, -1, 0, 0, 0, 0}},
-        {"s^-1", 1.0, {0, 0, -1, 0, 0, 0, 0}},
-        {"1/min", 1.0 / 60.0, {0, 0, -1, 0, 0, 0, 0}},
-        {"m/s/s", 1.0, {1, 0, -2, 0, 0, 0, 0}},
-        {"um/min", 1e-6 / 60.0, {1, 0, -1, 0, 0, 0, 0}},
-        {"kJ/mol", 1000.0, {2, 1, -2, 0, 0, -1, 0}},
-        {"W/m/Cel", 1.0, {1, 1, -3, 0, -1, 0, 0}},
-        {" um ", 1e-6, {1, 0, 0, 0, 0, 0, 0}},
-        {"%/K", 0.01, {0, 0, 0, 0, -1, 0, 0}},
+        {"N m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1, 0}},
+        {"N.m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1, 0}},
+        {"N*m/rad", 1.0, {2, 1, -2, 0, 0, 0, -1, 0}},
+        {"mA/cm2", 10.0, {-2, 0, 0, 1, 0, 0, 0, 0}},
+        {"Ao/s", 1e-10, {1, 0, -1, 0, 0, 0, 0, 0}},
+        {"g/cm3", 1000.0, {-3, 1, 0, 0, 0, 0, 0, 0}},
+        {"mg mm^2", 1e-12, {2, 1, 0, 0, 0, 0, 0, 0}},
+        {"um^2", 1e-12, {2, 0, 0, 0, 0, 0, 0, 0}},
+        {"s-1", 1.0, {0, 0, -1, 0, 0, 0, 0, 0}},
+        {"s^-1", 1.0, {0, 0, -1, 0, 0, 0, 0, 0}},
+        {"1/min", 1.0 / 60.0, {0, 0, -1, 0, 0, 0, 0, 0}},
+        {"m/s/s", 1.0, {1, 0, -2, 0, 0, 0, 0, 0}},
+        {"um/min", 1e-6 / 60.0, {1, 0, -1, 0, 0, 0, 0, 0}},
+        {"kJ/mol", 1000.0, {2, 1, -2, 0, 0, -1, 0, 0}},
+        {"W/m/Cel", 1.0, {1, 1, -3, 0, -1, 0, 0, 0}},
+        {" um ", 1e-6, {1, 0, 0, 0, 0, 0, 0, 0}},
+        {"%/K", 0.01, {0, 0, 0, 0, -1, 0, 0, 0}},
     };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         fw_quantity_unit unit;
@@ -229,6 +259,7 @@ static void decimals_stay_exact(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(currencies),
         cmocka_unit_test(every_symbol_has_its_value),
         cmocka_unit_test(composed_units),
         cmocka_unit_test(decimals_stay_exact),
