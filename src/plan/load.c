@@ -115,6 +115,21 @@ static fw_status read_packs(fw_plan *plan) {
     return FW_OK;
 }
 
+/* other ways of doing steps of this flow that the laboratory packs choose */
+static fw_status choices_of_packs(fw_plan *plan, const char *flow, fw_process_choice **choice,
+                                  int *n) {
+    if (!plan->options.laboratory) return FW_OK;
+    if (!plan->lab) FW_TRY(read_packs(plan));
+    for (int i = 0; i < plan->nlab; i++) {
+        fw_plan_lab_pack *pack = &plan->lab[i];
+        int before = *n;
+        FW_TRY(
+            fw_process_lab_choices(plan->arena, pack->file, pack->xml, pack->n, flow, choice, n));
+        pack->used = pack->used || *n > before;
+    }
+    return FW_OK;
+}
+
 /* the laboratory packs of the options, into one flow */
 static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
     if (!plan->options.laboratory) return FW_OK;
@@ -354,8 +369,12 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     size_t n;
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
-    FW_TRY(fw_process_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length,
-                                name, xml, n, &plan->diags, &pf->flow));
+    fw_process_choice *choice = NULL;
+    int nchoice = 0;
+    FW_TRY(choices_of_packs(plan, pf->use->ref, &choice, &nchoice));
+    FW_TRY(fw_process_flow_read_chosen(plan->arena, plan->base_file, plan->base_xml,
+                                       plan->base_length, name, xml, n, choice, nchoice,
+                                       &plan->diags, &pf->flow));
     FW_TRY(apply_packs(plan, pf->flow));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);

@@ -64,6 +64,9 @@ fw_status fw_process_pack_consumable(fw_process_pack *pack, const fw_xml_record 
 void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 
+/* alternative.c: lists the alternatives, and puts the chosen ones in the places of their steps */
+fw_status fw_process_pack_choose(fw_process_pack *pack, const fw_process_choice *choice, int n);
+
 fw_status fw_process_pack_steps(fw_process_pack *pack);
 /* after the steps: keeps the texts that name values (FW-D348) */
 fw_status fw_process_pack_texts(fw_process_pack *pack);

@@ -279,6 +279,18 @@ typedef struct fw_process_override {    /* a value of the laboratory in the plac
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
 } fw_process_override;
 
+typedef struct fw_process_alternative { /* another way of doing a step */
+    const char *id, *title, *step;
+    bool chosen;
+    const char *instead_of; /* title of the step whose place it took; NULL: not chosen */
+    fw_place place;
+} fw_process_alternative;
+
+typedef struct fw_process_choice { /* of a laboratory */
+    const char *alternative;
+    fw_place place;
+} fw_process_choice;
+
 typedef struct fw_process_flow {
     const char *id, *version, *title, *file, *sha256;
     const char *material;         /* id of the structural material */
@@ -304,8 +316,10 @@ typedef struct fw_process_flow {
     fw_process_corner *corner;             /* (ncorner) */
     fw_process_finished *finished;         /* (nfinished) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
-    fw_process_consumable *consumable; /* (nconsumable) */
-    fw_process_bath *bath;             /* (nbath) */
+    fw_process_consumable *consumable;   /* (nconsumable) */
+    fw_process_bath *bath;               /* (nbath) */
+    fw_process_alternative *alternative; /* (nalternative) */
+    int nalternative;
     int nprocess_material, nopen_point, ncorner, nfinished, nconsumable, nbath;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */
@@ -354,6 +368,11 @@ typedef struct fw_process_drive_facts { /* a comb drive of a scene that holds in
 fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
                                size_t base_n, const char *file, const char *xml, size_t n,
                                fw_diags *diags, fw_process_flow **flow);
+/* the same with other ways of doing some steps (FW-D375) */
+fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
+                                      size_t base_n, const char *file, const char *xml, size_t n,
+                                      const fw_process_choice *choice, int nchoice, fw_diags *diags,
+                                      fw_process_flow **flow);
 /* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
    again with other facts. facts NULL or without any area: no mask yet, what needs it is NOT
    COMPUTABLE. */

@@ -308,6 +308,14 @@ static fw_status read_files(fw_xml_reader *base, const char *base_file, const ch
 fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const char *base_xml,
                                size_t base_n, const char *file, const char *xml, size_t n,
                                fw_diags *diags, fw_process_flow **flow) {
+    return fw_process_flow_read_chosen(arena, base_file, base_xml, base_n, file, xml, n, NULL, 0,
+                                       diags, flow);
+}
+
+fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, const char *base_xml,
+                                      size_t base_n, const char *file, const char *xml, size_t n,
+                                      const fw_process_choice *choice, int nchoice, fw_diags *diags,
+                                      fw_process_flow **flow) {
     fw_xml_reader base = {.arena = arena, .diags = diags, .table = &fw_process_pack_table};
     fw_xml_reader own = base;
     fw_process_pack pack = {.arena = arena, .diags = diags};
@@ -321,6 +329,7 @@ fw_status fw_process_flow_read(fw_arena *arena, const char *base_file, const cha
     fw_sha256(xml, n, hash);
     FW_NEED(pack.flow->sha256 = fw_arena_strdup(arena, hash));
     pack.flow->file = file;
+    FW_TRY(fw_process_pack_choose(&pack, choice, nchoice));
     fw_status status = read_sources(&pack);
     if (status != FW_OK && status != FW_INPUT) return status;
     FW_TRY(make_room(&pack));

@@ -125,6 +125,13 @@ static const fw_xml_attribute_row align_rows[] = {
     {"marks", TEXT, .datatype = "NMTOKENS",
      .sentence = "Patterns of the mask table that show it, by their ids."},
 };
+static const fw_xml_attribute_row alternative_rows[] = {
+    {"id", TOKEN, REQUIRED, .sentence = "Name that a laboratory pack uses."},
+    {"title", TEXT, REQUIRED, .sentence = "What people call it."},
+};
+static const fw_xml_attribute_row use_rows[] = {
+    {"alternative", TOKEN, REQUIRED, .sentence = "An <alternative> of the flow."},
+};
 static const fw_xml_attribute_row waste_rows[] = {
     {"stream", TEXT, REQUIRED, .sentence = "Container that it goes into."},
 };
@@ -271,7 +278,10 @@ static const fw_xml_element_row pack_rows[] = {
     {"finished", "process", ROWS(finished_rows),
      .sentence = "What must be true of the wafer when the flow has ended."},
     {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
-    {"step", "process", "id", ROWS(step_rows), .sentence = "A step of the flow."},
+    {"alternative", "process", ROWS(alternative_rows),
+     .sentence = "Another way of doing a step: a whole <step> with the id of the one whose place "
+                 "it takes when a laboratory pack says <use alternative>."},
+    {"step", "process alternative", "id", ROWS(step_rows), .sentence = "A step of the flow."},
     {"ppe", "hazard", .text = true, .once = true, .needed = true,
      .sentence = "Protection that people wear."},
     {"firstaid", "hazard", .text = true, .once = true, .needed = true,
@@ -324,6 +334,7 @@ static const fw_xml_element_row laboratory[] = {
     {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
     {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
      .sentence = "Where numbers are from."},
+    {"use", "process", ROWS(use_rows), .sentence = "How the laboratory does a step."},
     Q_ROW("process"),
     {0},
 };

@@ -122,7 +122,24 @@ static void alignment(const fw_process_step *s, fw_text *out) {
     fw_text_add(out, " apart. Read: ______</p>\n");
 }
 
-static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
+/* other ways of doing it, and the one that was chosen */
+static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text *out) {
+    for (int i = 0; i < flow->nalternative; i++) {
+        const fw_process_alternative *a = &flow->alternative[i];
+        if (strcmp(a->step, s->id) != 0) continue;
+        fw_text_add(out, a->chosen ? "<p class=\"small\"><b>Chosen by the laboratory:</b> "
+                                   : "<p class=\"small\"><b>Another way:</b> ");
+        fw_text_escaped(out, a->title);
+        fw_text_add(out, " (");
+        fw_text_escaped(out, a->id);
+        fw_text_add(out, a->chosen ? "), instead of: " : ")");
+        fw_text_escaped(out, a->instead_of ? a->instead_of : "");
+        fw_text_add(out, ".</p>\n");
+    }
+}
+
+static void step_head(const fw_process_flow *flow, const fw_process_step *s, bool picture,
+                      fw_text *out) {
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "&ensp;");
@@ -134,6 +151,7 @@ static void step_head(const fw_process_step *s, bool picture, fw_text *out) {
     fw_text_escaped(out, s->purpose);
     fw_text_add(out, "</p>\n");
     alignment(s, out);
+    ways(flow, s, out);
     if (s->equipment) {
         fw_text_add(out, "<p class=\"small\"><b>Equipment:</b> ");
         fw_text_escaped(out, s->equipment->class_);
@@ -391,7 +409,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "<section class=\"step\" id=\"");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "\">\n");
-    step_head(s, changes, out);
+    step_head(flow, s, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
     holds(s, out);
     exposures(flow, s, out);
