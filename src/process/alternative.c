@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Other ways of doing a step: <alternative> holds a whole <step> with the id of the one whose place it takes when a
-   laboratory pack says <use alternative="...">. It is put there before anything is read from the steps, so that every
+   laboratory pack says <choose alternative="...">. It is put there before anything is read from the steps, so that every
    check, time and picture is of the flow as it is run. */
 #include "base/text.h"
 #include "process/calibrate.h"
@@ -123,7 +123,7 @@ fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *
     if (status != FW_OK || !of || strcmp(of->value, flow) != 0) return FW_OK;
     for (const fw_xml_element *e = root->first_child; e; e = e->next) {
         const fw_xml_attribute *a =
-            strcmp(e->name, "use") == 0 ? fw_xml_attribute_of(e, "alternative") : NULL;
+            strcmp(e->name, "choose") == 0 ? fw_xml_attribute_of(e, "alternative") : NULL;
         if (!a) continue;
         fw_process_choice *grown =
             fw_arena_grow(arena, *choice, (size_t)*nchoice, (size_t)*nchoice + 1, sizeof *grown);

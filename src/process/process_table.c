@@ -129,7 +129,7 @@ static const fw_xml_attribute_row alternative_rows[] = {
     {"id", TOKEN, REQUIRED, .sentence = "Name that a laboratory pack uses."},
     {"title", TEXT, REQUIRED, .sentence = "What people call it."},
 };
-static const fw_xml_attribute_row use_rows[] = {
+static const fw_xml_attribute_row choose_rows[] = {
     {"alternative", TOKEN, REQUIRED, .sentence = "An <alternative> of the flow."},
 };
 static const fw_xml_attribute_row waste_rows[] = {
@@ -280,7 +280,7 @@ static const fw_xml_element_row pack_rows[] = {
     {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
     {"alternative", "process", ROWS(alternative_rows),
      .sentence = "Another way of doing a step: a whole <step> with the id of the one whose place "
-                 "it takes when a laboratory pack says <use alternative>."},
+                 "it takes when a laboratory pack says <choose alternative>."},
     {"step", "process alternative", "id", ROWS(step_rows), .sentence = "A step of the flow."},
     {"ppe", "hazard", .text = true, .once = true, .needed = true,
      .sentence = "Protection that people wear."},
@@ -334,7 +334,7 @@ static const fw_xml_element_row laboratory[] = {
     {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
     {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
      .sentence = "Where numbers are from."},
-    {"use", "process", ROWS(use_rows), .sentence = "How the laboratory does a step."},
+    {"choose", "process", ROWS(choose_rows), .sentence = "How the laboratory does a step."},
     Q_ROW("process"),
     {0},
 };

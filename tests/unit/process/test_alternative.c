@@ -49,7 +49,7 @@ static void of_a_laboratory(void **state) {
     (void)state;
     const char *lab =
         "<process xmlns=\"urn:flexwright:process:1\" "
-        "flow=\"copper-on-porous-silicon\"><use alternative=\"sc1-clean\"/></process>";
+        "flow=\"copper-on-porous-silicon\"><choose alternative=\"sc1-clean\"/></process>";
     fw_process_choice *choice = NULL;
     int n = 0;
     fw_process_flow *flow;
