@@ -57,6 +57,7 @@ static fw_status run(work *w) {
     fw_sha256(text, w->n, hash);
     FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
     FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, &found));
+    FW_TRY(fw_process_calibration_correlate(w->arena, flow, row, nrow, &found));
     fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
     FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
     FW_TRY(fw_process_calibration_text(flow, &found, &table));

@@ -26,6 +26,11 @@ typedef struct fw_process_calibrated {
 typedef struct fw_process_calibration {
     const fw_process_calibrated *item; /* (count) one for every id */
     int count;
+    /* what is correlated: ids (njoint), of the items first and then of those of the flow that the coupons used, and
+       their correlations (njoint njoint); NULL: not asked for, or nothing is */
+    const char *const *joint;
+    const double *correlation;
+    int njoint;
 } fw_process_calibration;
 
 /* CSV with the header coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit (docs/theory/
@@ -38,6 +43,10 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration);
+/* coupon_covariance.c: fills joint and correlation of what was found from these rows */
+fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flow *flow,
+                                           const fw_process_measurement *measurement, int n,
+                                           fw_process_calibration *calibration);
 /* the laboratory pack: <process flow="..."> with a <q status="measured"> for each */
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,

@@ -219,6 +219,26 @@ static void put_test(fw_text *out, const fw_process_calibrated *c) {
     fw_text_number(out, c->probability, 2);
 }
 
+/* a row for every quantity, so that a person can read it, and a slip is seen as one */
+static void put_correlation(const fw_process_calibration *c, fw_text *out) {
+    if (c->njoint == 0) return;
+    fw_text_add(out, "  <correlation of=\"");
+    for (int i = 0; i < c->njoint; i++)
+        fw_text_printf(out, "%s%s", i ? " " : "", c->joint[i]);
+    fw_text_add(out, "\">\n");
+    for (int i = 0; i < c->njoint; i++) {
+        fw_text_add(out, "    <row");
+        attribute(out, "of", c->joint[i]);
+        fw_text_add(out, " values=\"");
+        for (int k = 0; k < c->njoint; k++) {
+            fw_text_add(out, k ? " " : "");
+            fw_text_number(out, c->correlation[i * c->njoint + k], 6);
+        }
+        fw_text_add(out, "\"/>\n");
+    }
+    fw_text_add(out, "  </correlation>\n");
+}
+
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,
                                       const char *measured_file, const char *measured_sha256,
@@ -254,6 +274,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         put_test(out, c);
         fw_text_add(out, "\"/>\n");
     }
+    put_correlation(calibration, out);
     fw_text_add(out, "</process>\n");
     return fw_text_end(out);
 }
