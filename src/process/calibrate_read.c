@@ -219,6 +219,16 @@ static void put_test(fw_text *out, const fw_process_calibrated *c) {
     fw_text_number(out, c->probability, 2);
 }
 
+/* of one value: its wafers, readings and days */
+static void put_source(const fw_process_calibrated *c, fw_text *out) {
+    if (!c->source) return;
+    fw_text_printf(out, "  <source id=\"%s-measured\" kind=\"measured\"", c->id);
+    if (c->date) attribute(out, "date", c->date);
+    fw_text_add(out, ">");
+    fw_text_escaped(out, c->source);
+    fw_text_add(out, "</source>\n");
+}
+
 /* a row for every quantity, so that a person can read it, and a slip is seen as one */
 static void put_correlation(const fw_process_calibration *c, fw_text *out) {
     if (c->njoint == 0) return;
@@ -250,9 +260,14 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" "
         "title=\"Values of the laboratory\"");
     attribute(out, "flow", flow->id);
-    fw_text_add(out, ">\n  <source id=\"coupons\" kind=\"measured\">measured coupons, ");
-    fw_text_escaped(out, measured_file);
-    fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
+    fw_text_add(out, ">\n");
+    if (calibration->count == 0 || !calibration->item[0].source) {
+        fw_text_add(out, "  <source id=\"coupons\" kind=\"measured\">measured coupons, ");
+        fw_text_escaped(out, measured_file);
+        fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
+    }
+    for (int i = 0; i < calibration->count; i++)
+        put_source(&calibration->item[i], out);
     for (int i = 0; i < calibration->count; i++) {
         const fw_process_calibrated *c = &calibration->item[i];
         const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
@@ -266,7 +281,10 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_number(out, u, 4);
         fw_text_add(out, "\"");
         attribute(out, "unit", q->unit);
-        fw_text_add(out, " status=\"measured\" src=\"coupons\" note=\"");
+        fw_text_add(out, " status=\"measured\"");
+        attribute(out, "src",
+                  c->source ? fw_arena_printf(out->arena, "%s-measured", c->id) : "coupons");
+        fw_text_add(out, " note=\"");
         fw_text_escaped(out, c->coupon);
         fw_text_add(out, ": ");
         fw_text_escaped(out, c->note);

@@ -54,6 +54,25 @@ typedef struct fw_process_coupon {
     fw_status (*fit)(fw_process_coupon_work *work);
 } fw_process_coupon;
 
+/* coupon_covariance.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
+   coupons used (id and C are m and m m, made here). u (n): standard uncertainties of the rows; shared: errors of what the
+   rows were measured under, and of the flow, too. SI */
+typedef struct fw_process_covariance {
+    const char **id;
+    double *C;
+    int m;
+} fw_process_covariance;
+fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *flow,
+                                       const fw_process_measurement *measurement, int n,
+                                       const fw_process_calibration *found, const double *u,
+                                       bool shared, fw_process_covariance *out);
+/* coupon_covariance.c: the correlations of those ids that are correlated at all, into `calibration` */
+fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
+                                  const double *deviation, fw_process_calibration *calibration);
+
+/* lab_correlation.c: can errors be correlated like this? r (n n), L (n n) is used */
+bool fw_process_correlation_possible(const double *r, int n, double *L);
+
 /* process_calibrate.c: of a kind's name, or NULL; all rows through all kinds, into work->out */
 const fw_process_coupon *fw_process_coupon_kind(const char *name);
 fw_status fw_process_coupon_fit_all(fw_process_coupon_work *work,

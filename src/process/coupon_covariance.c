@@ -59,19 +59,20 @@ static bool results(const problem *p, const source *s, double by, fw_process_cou
     return good;
 }
 
-static int sources_of(const problem *p, const fw_process_coupon_work *w, source *list) {
+static int sources_of(const problem *p, const fw_process_coupon_work *w, const double *u,
+                      bool shared, source *list) {
     int n = 0;
     for (int i = 0; i < p->n; i++) {
         const fw_process_measurement *r = &p->row[i];
         const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
         bool first = true;
-        list[n++] = (source){.row = i, .u = r->uncertainty};
+        if (u[i] > 0.0) list[n++] = (source){.row = i, .u = u[i]};
         for (int k = 0; k < i; k++)
             first = first && fw_process_coupon_kind(p->row[k].coupon) != kind;
-        if (r->at_uncertainty > 0.0 && (first || !kind->one_run))
+        if (shared && r->at_uncertainty > 0.0 && (first || !kind->one_run))
             list[n++] = (source){.row = i, .at = true, .u = r->at_uncertainty};
     }
-    for (int i = 0; i < w->nused; i++)
+    for (int i = 0; shared && i < w->nused; i++)
         list[n++] = (source){.row = -1, .q = w->used[i], .u = w->used[i]->uncertainty};
     return n;
 }
@@ -99,26 +100,63 @@ static fw_status add_source(const problem *p, const source *s, int own, int m,
     return FW_OK;
 }
 
-/* results that go with no other one leave the matrix */
-static fw_status keep_joint(fw_arena *arena, const char **id, const double *C, int m,
-                            fw_process_calibration *out) {
+fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *flow,
+                                       const fw_process_measurement *measurement, int n,
+                                       const fw_process_calibration *found, const double *u,
+                                       bool shared, fw_process_covariance *out) {
+    problem p = {arena, flow, measurement, n, found};
+    fw_process_coupon_work *w = fw_arena_one(arena, fw_process_coupon_work);
+    FW_NEED(w);
+    FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
+    fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
+    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_COUPON_USED));
+    double value[FW_COUPON_RESULTS];
+    fw_status status;
+    FW_NEED(row ? list : NULL);
+    const source none = {.row = -1};
+    if (!results(&p, &none, 0.0, w, row, value, &status))
+        return status == FW_OK ? FW_INTERNAL : status;
+    int nsource = sources_of(&p, w, u, shared, list), count = found->count, m = count + w->nused;
+    *out = (fw_process_covariance){.m = m};
+    FW_NEED(out->id = fw_arena_array(arena, const char *, (size_t)m));
+    FW_NEED(out->C = fw_arena_array(arena, double, (size_t)(m * m)));
+    for (int i = 0; i < m; i++)
+        out->id[i] = i < count ? found->item[i].id : w->used[i - count]->id;
+    for (int s = 0, own = count; s < nsource; s++)
+        FW_TRY(add_source(&p, &list[s], list[s].q ? own++ : -1, m, w, row, out->C));
+    return FW_OK;
+}
+
+fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
+                                  const double *deviation, fw_process_calibration *out) {
     static const double least = 1e-3; /* below, it changes no digit that is printed */
-    int kept[FW_COUPON_RESULTS + FW_COUPON_USED], n = 0;
+    int *kept = fw_arena_array(arena, int, (size_t)of->m), n = 0, m = of->m;
+    FW_NEED(kept);
     for (int i = 0; i < m; i++) {
         bool joint = false;
         for (int k = 0; k < m; k++)
-            joint = joint || (k != i && fabs(C[i * m + k]) >= least);
-        if (joint) kept[n++] = i;
+            joint =
+                joint || (k != i && fabs(of->C[i * m + k]) >= least * deviation[i] * deviation[k]);
+        if (joint && deviation[i] > 0.0) kept[n++] = i;
     }
+    out->joint = NULL, out->correlation = NULL, out->njoint = 0;
     if (n == 0) return FW_OK;
     const char **names = fw_arena_array(arena, const char *, (size_t)n);
     double *r = fw_arena_array(arena, double, (size_t)(n * n));
     FW_NEED(names ? r : NULL);
     for (int i = 0; i < n; i++) {
-        names[i] = id[kept[i]];
+        names[i] = of->id[kept[i]];
         for (int k = 0; k < n; k++)
-            r[i * n + k] = i == k ? 1.0 : C[kept[i] * m + kept[k]];
+            r[i * n + k] =
+                i == k ? 1.0
+                       : of->C[kept[i] * m + kept[k]] / (deviation[kept[i]] * deviation[kept[k]]);
     }
+    double *L = fw_arena_array(arena, double, (size_t)(n * n));
+    FW_NEED(L);
+    /* wafers that do not all have the same coupons may give what no errors can have: towards independence until they can */
+    while (!fw_process_correlation_possible(r, n, L))
+        for (int i = 0; i < n * n; i++)
+            r[i] *= i % (n + 1) ? 0.95 : 1.0;
     out->joint = names;
     out->correlation = r;
     out->njoint = n;
@@ -136,31 +174,16 @@ static fw_status keep_joint(fw_arena *arena, const char **id, const double *C, i
 fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flow *flow,
                                            const fw_process_measurement *measurement, int n,
                                            fw_process_calibration *calibration) {
-    problem p = {arena, flow, measurement, n, calibration};
-    calibration->joint = NULL, calibration->correlation = NULL, calibration->njoint = 0;
-    fw_process_coupon_work *w = fw_arena_one(arena, fw_process_coupon_work);
-    FW_NEED(w);
-    FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
-    fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
-    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_COUPON_USED));
-    double value[FW_COUPON_RESULTS];
-    fw_status status;
-    FW_NEED(row ? list : NULL);
-    const source none = {.row = -1};
-    if (!results(&p, &none, 0.0, w, row, value, &status)) return status;
-    int nsource = sources_of(&p, w, list), count = calibration->count, m = count + w->nused;
-    const char *id[FW_COUPON_RESULTS + FW_COUPON_USED];
-    double *C = fw_arena_array(arena, double, (size_t)(m * m));
-    FW_NEED(C);
-    for (int i = 0; i < m; i++)
-        id[i] = i < count ? calibration->item[i].id : w->used[i - count]->id;
-    for (int s = 0, own = count; s < nsource; s++)
-        FW_TRY(add_source(&p, &list[s], list[s].q ? own++ : -1, m, w, row, C));
-    double deviation[FW_COUPON_RESULTS + FW_COUPON_USED];
-    for (int i = 0; i < m; i++)
-        deviation[i] = fmax(sqrt(C[i * m + i]), i < count ? calibration->item[i].uncertainty : 0.0);
-    for (int i = 0; i < m; i++)
-        for (int k = 0; k < m; k++)
-            C[i * m + k] /= deviation[i] * deviation[k];
-    return keep_joint(arena, id, C, m, calibration);
+    double *u = fw_arena_array(arena, double, (size_t)n);
+    fw_process_covariance all;
+    FW_NEED(u);
+    for (int i = 0; i < n; i++)
+        u[i] = measurement[i].uncertainty;
+    FW_TRY(fw_process_coupon_covariance(arena, flow, measurement, n, calibration, u, true, &all));
+    double *deviation = fw_arena_array(arena, double, (size_t)all.m);
+    FW_NEED(deviation);
+    for (int i = 0; i < all.m; i++)
+        deviation[i] = fmax(sqrt(all.C[i * all.m + i]),
+                            i < calibration->count ? calibration->item[i].uncertainty : 0.0);
+    return fw_process_coupon_joint(arena, &all, deviation, calibration);
 }

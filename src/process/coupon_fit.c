@@ -196,7 +196,14 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
         return fw_process_coupon_wrong(w, w->measurement[0], "%s gives no finite value of %s",
                                        coupon, id);
     if (w->nout == FW_COUPON_RESULTS) return FW_LIMIT;
-    w->out[w->nout++] = (fw_process_calibrated){
-        id, value, uncertainty, coupon, note, fit->chi_square, p, w->n, fit->freedom};
+    w->out[w->nout++] = (fw_process_calibrated){.id = id,
+                                                .value = value,
+                                                .uncertainty = uncertainty,
+                                                .coupon = coupon,
+                                                .note = note,
+                                                .chi_square = fit->chi_square,
+                                                .probability = p,
+                                                .rows = w->n,
+                                                .freedom = fit->freedom};
     return FW_OK;
 }

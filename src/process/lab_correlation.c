@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <correlation> of a laboratory pack: which of its values have errors that go together. */
+#include "process/coupon.h"
 #include "process/pack.h"
 #include <math.h>
 #include <string.h>
@@ -95,12 +96,11 @@ static fw_status check_symmetry(const matrix *m) {
 /* Is R + e I positive definite? Cholesky's factorization: the first pivot that is not above zero says no. e = 1e-5 stands
    for what is lost by writing six digits. R (n n) symmetric with a unit diagonal. Cost n^3/3.
    Source: Golub and Van Loan, Matrix Computations, 4.2. Test: test_correlation.c, wrong_matrices. */
-static bool possible(const matrix *m, double *L) {
+bool fw_process_correlation_possible(const double *r, int n, double *L) {
     const double lost = 1e-5;
-    int n = m->n;
     for (int i = 0; i < n; i++)
         for (int k = 0; k <= i; k++) {
-            double sum = m->r[i * n + k] + (i == k ? lost : 0.0);
+            double sum = r[i * n + k] + (i == k ? lost : 0.0);
             for (int j = 0; j < k; j++)
                 sum -= L[i * n + j] * L[k * n + j];
             if (i == k && !(sum > 0.0)) return false;
@@ -140,7 +140,7 @@ fw_status fw_process_correlation_read(fw_arena *arena, const fw_xml_record *e,
         return fw_diag_error(diags, 211, of->place,
                              "the <correlation> has %d rows for %d quantities", row, m->n);
     FW_TRY(check_symmetry(m));
-    if (!possible(m, L))
+    if (!fw_process_correlation_possible(m->r, m->n, L))
         return fw_diag_error(diags, 211, of->place,
                              "no errors can be correlated like this: the matrix is not positive "
                              "semidefinite; take the one that calibrate wrote");

@@ -35,7 +35,7 @@ static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of)
                          best ? "'?" : "", list.data);
 }
 
-static fw_status check_row(fw_diags *diags, const fw_process_measurement *r) {
+fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
     const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     if (!kind) return unknown_kind(diags, r);
     const char *is = fw_quantity_dimension_text(diags->arena, r->dimension),
@@ -127,7 +127,7 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     *w = (fw_process_coupon_work){
         .arena = arena, .flow = flow, .known = out, .out = out, .diags = diags};
     for (int i = 0; i < n; i++) {
-        fw_status of_row = check_row(diags, &measurement[i]);
+        fw_status of_row = fw_process_measurement_check(&measurement[i], diags);
         if (of_row == FW_NOMEM) return of_row;
         if (of_row != FW_OK) status = of_row;
     }
