@@ -100,7 +100,7 @@ static fw_status times_of(builder *b, const fw_recipe_asrun_entry *e) {
     if (strcmp(judged, "short") != 0 && strcmp(judged, "long") != 0) return FW_OK;
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_schedule_put_duration(&planned, e->step->booked_s);
-    fw_text_add(&planned, ", ");
+    fw_text_add(&planned, "; ");
     fw_schedule_put_duration(&planned, e->step->time.first_look_s);
     fw_text_add(&planned, " to ");
     fw_schedule_put_duration(&planned, e->step->booked_stop_s);
@@ -139,7 +139,7 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
         if (!s->q->unknown) {
             fw_recipe_put_value(&planned, fw_quantity_in_unit(s->q));
-            fw_text_add(&planned, ", ");
+            fw_text_add(&planned, "; ");
         }
         put_span(&planned, s->low, s->high, s->q->unit);
         fw_recipe_put_value(&is, s->value);

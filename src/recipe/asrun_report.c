@@ -57,8 +57,9 @@ static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *
         fw_text_add(out, "<p>None: everything that was logged is inside of its limits.</p>\n");
         return FW_OK;
     }
-    fw_text_add(out, "<table><thead><tr><th>Step</th><th>Wafer</th><th>What</th><th>Planned</th>"
-                     "<th>Actual</th><th>Who; note</th></tr></thead><tbody>\n");
+    fw_text_add(
+        out, "<table><thead><tr><th>Step</th><th>Wafer</th><th>What</th><th>Planned; allowed</th>"
+             "<th>Actual</th><th>Who; note</th></tr></thead><tbody>\n");
     for (int i = 0; i < n; i++) {
         const fw_recipe_asrun_entry *e = list[i].entry;
         fw_text_printf(out, "<tr><td>%s ", e->step->id);
@@ -117,14 +118,21 @@ static fw_status collect(fw_arena *arena, const fw_recipe_asrun *run, const fw_p
 static void broken(const fw_recipe_chart *c, fw_text *out) {
     for (int i = 0; i < c->npoint; i++) {
         const fw_recipe_chart_point *p = &c->point[i];
-        if (!p->outside && !p->beyond && !p->run && !p->range_beyond) continue;
-        fw_text_add(out, " <span class=\"bad\">Wafer ");
-        fw_text_escaped(out, p->label);
-        fw_text_printf(out, ":%s%s%s%s.</span>", p->outside ? " a value is not accepted;" : "",
-                       p->beyond ? " the mean is beyond its control limits;" : "",
-                       p->run ? " it continues a run of eight or more on one side of the centre;"
-                              : "",
-                       p->range_beyond ? " the range is beyond its control limits;" : "");
+        const char *what[] = {p->outside ? "a value is not accepted" : NULL,
+                              p->beyond ? "the mean is beyond its control limits" : NULL,
+                              p->run ? "a run of eight or more on one side of the centre" : NULL,
+                              p->range_beyond ? "the range is beyond its control limits" : NULL};
+        int n = 0;
+        for (size_t k = 0; k < sizeof what / sizeof what[0]; k++) {
+            if (!what[k]) continue;
+            fw_text_add(out, n++ ? ", " : " <span class=\"bad\">Wafer ");
+            if (n == 1) {
+                fw_text_escaped(out, p->label);
+                fw_text_add(out, ": ");
+            }
+            fw_text_add(out, what[k]);
+        }
+        if (n) fw_text_add(out, ".</span>");
     }
 }
 

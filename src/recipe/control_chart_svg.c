@@ -16,11 +16,18 @@ enum {
     BELOW = 40
 };
 
+typedef struct named { /* a level and where its value is written */
+    const char *name;
+    double value, y;
+} named;
+
 typedef struct panel {
     double low, high; /* of the values */
     double top, height;
     const fw_recipe_chart *chart;
     fw_text *out;
+    named named[6];
+    int nnamed;
 } panel;
 
 static double y_of(const panel *p, double value) {
@@ -74,16 +81,34 @@ static void frame(const panel *p, const char *name) {
     fw_text_add(out, "</text>\n");
 }
 
-/* a line across the panel with its value at the right edge */
-static void level(const panel *p, double value, const char *style, const char *name, bool above) {
+/* a line across the panel; its value is written at the right edge by names() */
+static void level(panel *p, double value, const char *style, const char *name) {
     if (!isfinite(value)) return;
     double y = y_of(p, value);
-    fw_text_printf(p->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" %s/>", LEFT,
+    fw_text_printf(p->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" %s/>\n", LEFT,
                    WIDTH - RIGHT, y, y, style);
-    fw_text_printf(p->out, "<text x=\"%d\" y=\"%.1f\">%s ", WIDTH - RIGHT + 5,
-                   above ? y - 1 : y + 8, name);
-    fw_recipe_put_value(p->out, value);
-    fw_text_add(p->out, "</text>\n");
+    int at = p->nnamed++;
+    for (; at > 0 && p->named[at - 1].y > y; at--) /* from above to below */
+        p->named[at] = p->named[at - 1];
+    p->named[at] = (named){name, value, y};
+}
+
+/* one below the other where they would meet, and none below the panel */
+static void names(panel *p) {
+    const double line = 12.0;
+    double below = p->top + p->height + 4.0;
+    for (int i = 1; i < p->nnamed; i++)
+        p->named[i].y = fmax(p->named[i].y, p->named[i - 1].y + line);
+    for (int i = p->nnamed - 1; i >= 0; i--) {
+        p->named[i].y = fmin(p->named[i].y, below);
+        below = p->named[i].y - line;
+    }
+    for (int i = 0; i < p->nnamed; i++) {
+        fw_text_printf(p->out, "<text x=\"%d\" y=\"%.1f\">%s ", WIDTH - RIGHT + 5,
+                       p->named[i].y + 4, p->named[i].name);
+        fw_recipe_put_value(p->out, p->named[i].value);
+        fw_text_add(p->out, "</text>\n");
+    }
 }
 
 static const char dashed[] = "stroke=\"#b00\" stroke-dasharray=\"6 3\"";
@@ -131,7 +156,12 @@ static void labels(const fw_recipe_chart *c, double y, fw_text *out) {
 }
 
 static void means(const fw_recipe_chart *c, fw_text *out) {
-    panel p = {(double)INFINITY, -(double)INFINITY, TOP, MEANS, c, out};
+    panel p = {.low = (double)INFINITY,
+               .high = -(double)INFINITY,
+               .top = TOP,
+               .height = MEANS,
+               .chart = c,
+               .out = out};
     for (int i = 0; i < c->npoint; i++)
         take(&p, c->point[i].mean);
     take(&p, c->low), take(&p, c->high);
@@ -143,29 +173,31 @@ static void means(const fw_recipe_chart *c, fw_text *out) {
             out, "<rect x=\"%d\" y=\"%.1f\" width=\"%d\" height=\"%.1f\" fill=\"#e3f4ea\"/>\n",
             LEFT, y_of(&p, top), WIDTH - LEFT - RIGHT, fmax(y_of(&p, bottom) - y_of(&p, top), 0.0));
     frame(&p, c->size > 1 ? "mean of the sites" : "value");
-    if (!c->limits) level(&p, 0.5 * (c->low + c->high), dotted, "planned", false);
-    level(&p, c->high, green, "accept", true);
-    level(&p, c->low, green, "accept", false);
+    if (!c->limits) level(&p, 0.5 * (c->low + c->high), dotted, "planned");
+    level(&p, c->high, green, "accept");
+    level(&p, c->low, green, "accept");
     if (c->limits) {
-        level(&p, c->upper, dashed, "UCL", false);
-        level(&p, c->centre, solid, "centre", false);
-        level(&p, c->lower, dashed, "LCL", true);
+        level(&p, c->upper, dashed, "UCL");
+        level(&p, c->centre, solid, "centre");
+        level(&p, c->lower, dashed, "LCL");
     }
+    names(&p);
     points(&p, false);
 }
 
 static void ranges(const fw_recipe_chart *c, fw_text *out) {
-    panel p = {0.0, 0.0, TOP + MEANS + BETWEEN, RANGES, c, out};
+    panel p = {.top = TOP + MEANS + BETWEEN, .height = RANGES, .chart = c, .out = out};
     for (int i = 0; i < c->npoint; i++)
         take(&p, c->point[i].range);
     if (c->limits) take(&p, c->range_upper);
     p.high = p.high > 0.0 ? 1.12 * p.high : 1.0;
     frame(&p, c->size > 1 ? "range" : "moving range");
     if (c->limits) {
-        level(&p, c->range_upper, dashed, "UCL", false);
-        level(&p, c->range_centre, solid, "mean", false);
-        if (c->range_lower > 0.0) level(&p, c->range_lower, dashed, "LCL", true);
+        level(&p, c->range_upper, dashed, "UCL");
+        level(&p, c->range_centre, solid, "mean");
+        if (c->range_lower > 0.0) level(&p, c->range_lower, dashed, "LCL");
     }
+    names(&p);
     points(&p, true);
     labels(c, p.top + p.height + 16, out);
 }
