@@ -8,9 +8,7 @@
 #include "process/calibrate.h"
 #include "recipe/asrun.h"
 #include <stdio.h>
-#include <math.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 /* ---- the head of a log, beside it ---- */
@@ -210,14 +208,6 @@ static fw_status entry_words(fw_arena *arena, const fw_cli_options *o, const cha
     return FW_OK;
 }
 
-/* the clock of the wall, as the log has it: seconds since 1970-01-01T00:00 there */
-static double local_now(void) {
-    time_t now = time(NULL);
-    struct tm local;
-    if (now == (time_t)-1 || !localtime_r(&now, &local)) return (double)NAN;
-    return difftime(now, 0) + (double)local.tm_gmtoff;
-}
-
 /* the file is locked from here to the end, so that two entries never have one line before them */
 static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, const char *hash,
                         const fw_cli_options *options) {
@@ -239,8 +229,8 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
                                     &plan->diags, &run));
     }
     FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
-    FW_TRY(
-        fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, local_now(), &plan->diags, &line));
+    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, fw_cli_local_time(),
+                               &plan->diags, &line));
     const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
     FW_NEED(all);
     FW_TRY(fw_append_text(file, all, strlen(all)));

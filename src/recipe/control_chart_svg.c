@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A control chart as a picture: means above, ranges below. What is accepted is a band, limits are dashed lines, points that
    break a rule are red and filled. */
+#include "base/svg.h"
 #include "recipe/control_chart.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
@@ -53,40 +54,35 @@ static void widen(panel *p) {
     p->high += 0.08 * span;
 }
 
-static double step_of(double span) { /* 1, 2 or 5 times a power of ten, about five in the panel */
-    double raw = span / 5.0, power = pow(10.0, floor(log10(raw)));
-    double part = raw / power;
-    return power * (part > 5.0 ? 10.0 : part > 2.0 ? 5.0 : part > 1.0 ? 2.0 : 1.0);
+static void put_label(fw_text *out, double x, double y, const char *name, double value) {
+    fw_svg_open(out, "text x='{c}' y='{c}'", x, y);
+    fw_text_printf(out, "%s ", name);
+    fw_recipe_put_value(out, value);
+    fw_svg_close(out, "text\n");
 }
 
 static void frame(const panel *p, const char *name) {
     fw_text *out = p->out;
-    fw_text_printf(out,
-                   "<rect x=\"%d\" y=\"%.1f\" width=\"%d\" height=\"%.1f\" fill=\"none\" "
-                   "stroke=\"#999\"/>\n",
-                   LEFT, p->top, WIDTH - LEFT - RIGHT, p->height);
-    double step = step_of((p->high - p->low) * 170.0 / p->height);
+    const double right = WIDTH - RIGHT;
+    double step = fw_svg_nice((p->high - p->low) * MEANS / p->height / 5.0);
     for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
-        fw_text_printf(out,
-                       "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>"
-                       "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">",
-                       LEFT, WIDTH - RIGHT, y_of(p, v), y_of(p, v), LEFT - 6, y_of(p, v) + 4);
-        fw_recipe_put_value(out, fabs(v) < 1e-6 * step ? 0.0 : v);
-        fw_text_add(out, "</text>\n");
+        fw_svg_put(out, "path stroke='#ddd' d='M{c} {c}H{c}'\n", (double)LEFT, y_of(p, v), right);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", LEFT - 6.0, y_of(p, v) + 4.0);
+        fw_svg_tick(out, v, step);
+        fw_svg_close(out, "text\n");
     }
-    fw_text_printf(out,
-                   "<text transform=\"translate(14 %.1f) rotate(-90)\" text-anchor=\"middle\">",
-                   p->top + p->height / 2);
-    fw_text_escaped(out, name);
-    fw_text_add(out, "</text>\n");
+    fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='none' stroke='#999'\n",
+               (double)LEFT, p->top, right - LEFT, p->height);
+    fw_svg_put(out, "text transform='translate(14 {c}) rotate(-90)' text-anchor='middle'>{s}\n",
+               p->top + 0.5 * p->height, name);
 }
 
 /* a line across the panel; its value is written at the right edge by names() */
 static void level(panel *p, double value, const char *style, const char *name) {
     if (!isfinite(value)) return;
     double y = y_of(p, value);
-    fw_text_printf(p->out, "<line x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\" %s/>\n", LEFT,
-                   WIDTH - RIGHT, y, y, style);
+    fw_svg_put(p->out, "path {r} d='M{c} {c}H{c}'\n", style, (double)LEFT, y,
+               (double)(WIDTH - RIGHT));
     int at = p->nnamed++;
     for (; at > 0 && p->named[at - 1].y > y; at--) /* from above to below */
         p->named[at] = p->named[at - 1];
@@ -103,56 +99,45 @@ static void names(panel *p) {
         p->named[i].y = fmin(p->named[i].y, below);
         below = p->named[i].y - line;
     }
-    for (int i = 0; i < p->nnamed; i++) {
-        fw_text_printf(p->out, "<text x=\"%d\" y=\"%.1f\">%s ", WIDTH - RIGHT + 5,
-                       p->named[i].y + 4, p->named[i].name);
-        fw_recipe_put_value(p->out, p->named[i].value);
-        fw_text_add(p->out, "</text>\n");
-    }
+    for (int i = 0; i < p->nnamed; i++)
+        put_label(p->out, WIDTH - RIGHT + 5.0, p->named[i].y + 4.0, p->named[i].name,
+                  p->named[i].value);
 }
 
-static const char dashed[] = "stroke=\"#b00\" stroke-dasharray=\"6 3\"";
-static const char solid[] = "stroke=\"#555\"";
-static const char dotted[] = "stroke=\"#2a7\" stroke-dasharray=\"2 3\"";
-static const char green[] = "stroke=\"#2a7\"";
+static const char dashed[] = "stroke='#b00' stroke-dasharray='6 3'";
+static const char solid[] = "stroke='#555'";
+static const char dotted[] = "stroke='#2a7' stroke-dasharray='2 3'";
+static const char green[] = "stroke='#2a7'";
 
 static void points(const panel *p, bool ranges) {
     const fw_recipe_chart *c = p->chart;
-    double before[2] = {(double)NAN, (double)NAN};
+    char command = 'M';
+    fw_svg_path(p->out, "fill='none' stroke='#357'");
     for (int i = 0; i < c->npoint; i++) {
-        const fw_recipe_chart_point *q = &c->point[i];
-        double value = ranges ? q->range : q->mean, x = x_of(c, i);
+        double value = ranges ? c->point[i].range : c->point[i].mean;
         if (isnan(value)) continue;
-        if (!isnan(before[0]))
-            fw_text_printf(p->out,
-                           "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" "
-                           "stroke=\"#357\"/>",
-                           before[0], before[1], x, y_of(p, value));
-        before[0] = x, before[1] = y_of(p, value);
+        fw_svg_point(p->out, command, x_of(c, i), y_of(p, value), 2);
+        command = 'L';
     }
+    fw_svg_path_end(p->out);
     for (int i = 0; i < c->npoint; i++) {
         const fw_recipe_chart_point *q = &c->point[i];
         double value = ranges ? q->range : q->mean;
         bool bad = ranges ? q->range_beyond : q->beyond || q->run || q->outside;
-        if (isnan(value)) continue;
-        fw_text_printf(p->out,
-                       "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%s\" fill=\"%s\" stroke=\"%s\"/>\n",
-                       x_of(c, i), y_of(p, value), bad ? "5" : "3.5",
-                       bad               ? "#d22"
-                       : q->n == c->size ? "#357"
-                                         : "#fff",
+        const char *fill = q->n == c->size ? "#357" : "#fff";
+        if (!isnan(value))
+            fw_svg_put(p->out, "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='{r}'\n",
+                       x_of(c, i), y_of(p, value), bad ? 5.0 : 3.5, bad ? "#d22" : fill,
                        bad ? "#800" : "#357");
     }
 }
 
 static void labels(const fw_recipe_chart *c, double y, fw_text *out) {
     int every = c->npoint / 16 + 1;
-    for (int i = 0; i < c->npoint; i += every) {
-        fw_text_printf(out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x_of(c, i), y);
-        fw_text_escaped(out, c->point[i].label);
-        fw_text_add(out, "</text>");
-    }
-    fw_text_printf(out, "<text x=\"%d\" y=\"%.1f\">wafer</text>\n", WIDTH - RIGHT + 5, y);
+    for (int i = 0; i < c->npoint; i += every)
+        fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='middle'>{s}\n", x_of(c, i), y,
+                   c->point[i].label);
+    fw_svg_put(out, "text x='{c}' y='{c}'>wafer\n", WIDTH - RIGHT + 5.0, y);
 }
 
 static void means(const fw_recipe_chart *c, fw_text *out) {
@@ -169,9 +154,9 @@ static void means(const fw_recipe_chart *c, fw_text *out) {
     widen(&p);
     double top = isnan(c->high) ? p.high : c->high, bottom = isnan(c->low) ? p.low : c->low;
     if (!isnan(c->high) || !isnan(c->low))
-        fw_text_printf(
-            out, "<rect x=\"%d\" y=\"%.1f\" width=\"%d\" height=\"%.1f\" fill=\"#e3f4ea\"/>\n",
-            LEFT, y_of(&p, top), WIDTH - LEFT - RIGHT, fmax(y_of(&p, bottom) - y_of(&p, top), 0.0));
+        fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='#e3f4ea'\n",
+                   (double)LEFT, y_of(&p, top), (double)(WIDTH - LEFT - RIGHT),
+                   fmax(y_of(&p, bottom) - y_of(&p, top), 0.0));
     frame(&p, c->size > 1 ? "mean of the sites" : "value");
     if (!c->limits) level(&p, 0.5 * (c->low + c->high), dotted, "planned");
     level(&p, c->high, green, "accept");
@@ -203,20 +188,20 @@ static void ranges(const fw_recipe_chart *c, fw_text *out) {
 }
 
 void fw_recipe_chart_svg(const fw_recipe_chart *c, fw_text *out) {
-    int height = TOP + MEANS + BETWEEN + RANGES + BELOW;
-    fw_text_printf(out,
-                   "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" role=\"img\" "
-                   "font-family=\"sans-serif\" font-size=\"11\">\n<title>",
-                   WIDTH, height);
-    fw_text_escaped(out, c->title);
-    fw_text_printf(out, "</title>\n<text x=\"%d\" y=\"16\" font-size=\"13\">", LEFT);
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = TOP + MEANS + BETWEEN + RANGES + BELOW,
+                                      .size = FW_SVG_SIZE_NONE,
+                                      .font = fw_svg_font_page,
+                                      .font_size = 11});
+    fw_svg_title(out, "{s}", c->title);
+    fw_svg_open(out, "text x='{c}' y='16' font-size='13'", (double)LEFT);
     fw_text_escaped(out, c->title);
     if (c->unit[0]) {
         fw_text_add(out, ", ");
         fw_recipe_put_unit(out, c->unit);
     }
-    fw_text_add(out, "</text>\n");
+    fw_svg_close(out, "text\n");
     means(c, out);
     ranges(c, out);
-    fw_text_add(out, "</svg>\n");
+    fw_svg_end(out);
 }
