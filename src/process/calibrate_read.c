@@ -326,5 +326,15 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
         put_test(out, c);
         fw_text_add(out, "\n");
     }
+    static const double worth = 0.05; /* weaker ones change no window that a person reads */
+    for (int i = 0; i < calibration->njoint; i++)
+        for (int k = i + 1; k < calibration->njoint; k++) {
+            double r = calibration->correlation[i * calibration->njoint + k];
+            if (fabs(r) < worth) continue;
+            fw_text_printf(out, "%s with %s: correlation ", calibration->joint[i],
+                           calibration->joint[k]);
+            fw_text_number(out, r, 2);
+            fw_text_add(out, "\n");
+        }
     return fw_text_end(out);
 }

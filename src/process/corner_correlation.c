@@ -50,13 +50,17 @@ static void take_along(fw_verdict_fabrication_input *in, int n, int i,
     }
 }
 
-static fw_status name_both(fw_arena *arena, fw_verdict_fabrication_input *in, int n, int i,
-                           double L[FW_FABRICATION_INPUTS][FW_FABRICATION_INPUTS]) {
+static fw_status name_parts(fw_arena *arena, fw_verdict_fabrication_input *in, int n, int i,
+                            double L[FW_FABRICATION_INPUTS][FW_FABRICATION_INPUTS]) {
     static const double named = 0.05; /* less decides nothing that a person reads */
     for (int k = i + 1; k < n; k++)
         if (fabs(L[k][i]) > named)
-            FW_NEED(in[i].name = fw_arena_printf(arena, "%s, with what goes along of %s",
-                                                 in[i].name, in[k].q.id));
+            FW_NEED(in[i].name =
+                        fw_arena_printf(arena, "%s (taking %s along)", in[i].name, in[k].q.id));
+    for (int k = 0; k < i; k++)
+        if (fabs(L[i][k]) > named)
+            FW_NEED(in[i].name =
+                        fw_arena_printf(arena, "%s (apart from %s)", in[i].name, in[k].q.id));
     return FW_OK;
 }
 
@@ -71,7 +75,7 @@ fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication
         if (!(in[i].sigma > 0.0)) return FW_OK;
     if (!factor(in, n, L)) return FW_OK;
     for (int i = 0; i < n; i++) {
-        FW_TRY(name_both(arena, in, n, i, L));
+        FW_TRY(name_parts(arena, in, n, i, L));
         take_along(in, n, i, L); /* of later inputs as they are: their own turn comes */
     }
     for (int i = 0; i < n; i++) {

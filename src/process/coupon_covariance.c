@@ -154,9 +154,10 @@ fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *
     double *L = fw_arena_array(arena, double, (size_t)(n * n));
     FW_NEED(L);
     /* wafers that do not all have the same coupons may give what no errors can have: towards independence until they can */
-    while (!fw_process_correlation_possible(r, n, L))
+    for (int round = 0; round < 400 && !fw_process_correlation_possible(r, n, L); round++)
         for (int i = 0; i < n * n; i++)
             r[i] *= i % (n + 1) ? 0.95 : 1.0;
+    if (!fw_process_correlation_possible(r, n, L)) return FW_INTERNAL; /* something is no number */
     out->joint = names;
     out->correlation = r;
     out->njoint = n;

@@ -149,6 +149,28 @@ class Flowback(unittest.TestCase):
         self.assertIn("wafer 1", said)
         self.assertFalse((self.here / "lab.xml").exists())
 
+    def test_corners(self):
+        """an edge and an anisotropy that are read off the same lines: one is high where the other is low"""
+        (self.here / "lot.csv").write_text("""coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit
+cd-lines,line,10,7.9,0.2,um,,,
+cd-lines,space,10,12.05,0.2,um,,,
+undercut-ladder,width,16,13.10,0.08,um,50.5,0.3,um
+undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
+""")
+        lab, alone = self.here / "lab.xml", self.here / "alone.xml"
+        self.expect(run("calibrate", self.here / "lot.csv", "--flow", SILICON, "-o", lab))
+        text = lab.read_text()
+        start, end = text.index("  <correlation"), text.index("</correlation>") + len("</correlation>\n")
+        alone.write_text(text[:start] + text[end:])
+        used = []
+        for pack in (lab, alone):
+            verdict = json.loads(self.expect(run("check", STAGE, "--lab", pack, "--json")).stdout)
+            used.append(verdict["governing"]["utilisation"])
+        self.assertLess(used[0], 0.95 * used[1])
+        # a matrix that cannot be is refused at its line
+        lab.write_text(text.replace('values="1 -', 'values="1 -1'))
+        self.assertRegex(self.expect(run("check", STAGE, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
+
     def test_an_old_log(self):
         """one of before there were wafers is read, and goes on"""
         self.expect(self.command("--entry", "S01; start=2026-11-01T08:00; end=2026-11-01T08:08; by=AB; thickness=50.1"))

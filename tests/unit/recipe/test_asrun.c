@@ -335,6 +335,51 @@ static void wafer_lists(void **state) {
         if (fw_recipe_asrun_wafers(arena, bad[i], &wrong) || !wrong) fail_msg("'%s'", bad[i]);
 }
 
+/* Whatever is typed is refused or taken, and what is taken is read again as the same: entries with bytes changed, left out
+   and doubled. */
+static void anything_typed(void **state) {
+    (void)state;
+    static const char *const good[] = {
+        "wafer=A-7; instrument=p 2; thickness=9.1 9.0 9.2 9.15 8.9 um; note=a = b, c",
+        "thickness=left:9.1 top:9.0 um; set current density=0.0204 A/cm2; set bath temperature=24 "
+        "Cel",
+        "wafer=1; coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 um, u=0.05 um, at=25 C/cm2"};
+    uint64_t seed = 11;
+    int taken = 0;
+    lot_wafers = "1,2,A-7";
+    const char *log = begun();
+    for (int i = 0; i < test_cases(60000, 6000); i++) {
+        fw_mark mark = fw_arena_mark(arena);
+        char *words = fw_arena_strdup(arena, entry(good[i % 3]));
+        fw_recipe_asrun run, again;
+        const char *line;
+        for (int k = 0; k < 1 + i % 4; k++) {
+            size_t n = strlen(words), at;
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            at = sizeof of_C22 - 1 + (size_t)(seed >> 33) % (n - sizeof of_C22 + 1);
+            char other = " ;,=:.-0159aeu/\x01\xff"[(seed >> 20) % 17];
+            if (seed >> 62)
+                words[at] = other;
+            else if (n > sizeof of_C22 + 4)
+                memmove(words + at, words + at + 1, n - at);
+        }
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+        assert_true(status == FW_OK || status == FW_INPUT);
+        if (status == FW_OK) {
+            const char *both = fw_arena_printf(arena, "%s%s", log, line);
+            taken++;
+            if (read_log(both, strlen(both), &again) != FW_OK) fail_msg("%s", line);
+            assert_int_equal(again.nentry, 1);
+            fw_text text = fw_text_new(arena);
+            assert_int_equal(fw_recipe_asrun_write_text(flow, &again, &text), FW_OK);
+        } else
+            assert_true(diags.errors > 0);
+        fw_arena_rewind(arena, mark);
+    }
+    assert_true(taken > 100);
+}
+
 /* each wafer has its own last entry */
 static void wafers_are_no_repetitions(void **state) {
     (void)state;
@@ -488,6 +533,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_values, setup, teardown),
         cmocka_unit_test_setup_teardown(wafer_lists, setup, teardown),
+        cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
         cmocka_unit_test_setup_teardown(the_clock, setup, teardown),
     };
