@@ -48,6 +48,7 @@ fw_script_test(cli.frames COMMAND ${Python3_EXECUTABLE} tests/cli/test_frames.py
 fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM})
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})
 fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
+fw_script_test(cli.flowback COMMAND ${Python3_EXECUTABLE} tests/cli/test_flowback.py ${FW_PROGRAM})
 fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py ${FW_PROGRAM})
 fw_script_test(cli.tradeoff COMMAND ${Python3_EXECUTABLE} tests/cli/test_tradeoff.py ${FW_PROGRAM})
 fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})

@@ -11,6 +11,35 @@
 #include <string.h>
 #include <unistd.h>
 
+/* ---- the head of a log, beside it ---- */
+
+static const size_t LARGEST_LOG = 16u << 20;
+
+static fw_status head_name(fw_arena *arena, const char *file, const char **name) {
+    FW_NEED(*name = fw_arena_printf(arena, "%s.head", file));
+    return FW_OK;
+}
+
+/* the log against its head; without one only its beginning can be told to be whole */
+static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file,
+                            const fw_recipe_asrun *run) {
+    const char *name;
+    char *text;
+    size_t n;
+    FW_TRY(head_name(arena, file, &name));
+    if (access(name, F_OK) != 0) {
+        if (run->nentry > 0)
+            fw_diag_warning(
+                diags, 283, (fw_place){file, 1, 1},
+                "there is no %s: whether lines were removed at the end of the log cannot "
+                "be told",
+                name);
+        return FW_OK;
+    }
+    FW_TRY(fw_input_read(arena, name, LARGEST_LOG, diags, &text, &n));
+    return fw_recipe_asrun_check_head(run, name, text, n, diags);
+}
+
 /* ---- `flexwright calibrate`: measured coupons in, laboratory pack out ---- */
 
 enum { MOST_BYTES = 8 * 1024 * 1024 };
@@ -44,19 +73,42 @@ static fw_status read_flow(work *w, fw_process_flow **flow) {
                                 &w->diags, flow);
 }
 
+static fw_status of_table(work *w, const fw_process_flow *flow, const char *file, const char *text,
+                          fw_process_calibration *found) {
+    fw_process_measurement *row;
+    int nrow;
+    FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
+    FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, found));
+    return fw_process_calibration_correlate(w->arena, flow, row, nrow, found);
+}
+
+/* a log is verified as far as it can be without its device: chain, head and entries, not the plan's hash */
+static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, const char *text,
+                        const char *hash, fw_process_calibration *found) {
+    const char *slash = strrchr(file, '/');
+    fw_recipe_asrun run;
+    fw_process_readings readings;
+    FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
+    FW_TRY(check_head(w->arena, &w->diags, file, &run));
+    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &readings));
+    readings.file = slash ? slash + 1 : file;
+    readings.sha256 = hash;
+    return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);
+}
+
 static fw_status run(work *w) {
     const char *file = w->options->device, *slash = strrchr(file, '/');
     fw_process_flow *flow;
-    fw_process_measurement *row;
     fw_process_calibration found;
     char *text, hash[65];
-    int nrow;
     FW_TRY(read_flow(w, &flow));
     FW_TRY(fw_input_read(w->arena, file, MOST_BYTES, &w->diags, &text, &w->n));
     w->text = text;
     fw_sha256(text, w->n, hash);
-    FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
-    FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, &found));
+    if (fw_recipe_asrun_is_log(text, w->n))
+        FW_TRY(of_log(w, flow, file, text, hash, &found));
+    else
+        FW_TRY(of_table(w, flow, file, text, &found));
     fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
     FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
     FW_TRY(fw_process_calibration_text(flow, &found, &table));
@@ -92,8 +144,6 @@ int fw_cli_command_calibrate(fw_cli_options *options) {
 
 /* ---- the as-run log ---- */
 
-static const size_t LARGEST_LOG = 16u << 20;
-
 /* the one flow that the log is about */
 static fw_plan_flow *flow_of(fw_plan *plan) {
     fw_plan_flow *found = NULL;
@@ -123,29 +173,12 @@ static fw_status print_log(fw_plan *plan, const fw_process_flow *flow, const fw_
     return FW_OK;
 }
 
-static fw_status head_name(fw_plan *plan, const fw_cli_options *options, const char **name) {
-    FW_NEED(*name = fw_arena_printf(plan->arena, "%s.head", options->run));
-    return FW_OK;
-}
-
-/* the log against its head; without one only its beginning can be told to be whole */
-static fw_status check_head(fw_plan *plan, const fw_cli_options *options,
-                            const fw_recipe_asrun *run) {
-    const char *name;
-    char *text;
-    size_t n;
-    FW_TRY(head_name(plan, options, &name));
-    if (access(name, F_OK) != 0) {
-        if (run->nentry > 0)
-            fw_diag_warning(
-                &plan->diags, 283, (fw_place){options->run, 1, 1},
-                "there is no %s: whether lines were removed at the end of the log cannot "
-                "be told",
-                name);
-        return FW_OK;
-    }
-    FW_TRY(fw_input_read(plan->arena, name, LARGEST_LOG, &plan->diags, &text, &n));
-    return fw_recipe_asrun_check_head(run, name, text, n, &plan->diags);
+/* --report FILE: an HTML page; with - it has standard output for itself */
+static fw_status write_report(fw_plan *plan, const fw_process_flow *flow,
+                              const fw_recipe_asrun *run, const fw_cli_options *options) {
+    fw_text page = fw_text_new(plan->arena);
+    FW_TRY(fw_recipe_asrun_write_html(flow, run, &page));
+    return fw_output_single(plan->arena, options->report, page.data, page.length, &plan->diags);
 }
 
 static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *hash,
@@ -156,32 +189,55 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
-    FW_TRY(check_head(plan, options, &run));
+    FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
+    if (options->report) FW_TRY(write_report(plan, pf->flow, &run, options));
+    if (options->report && strcmp(options->report, "-") == 0) return FW_OK;
     return print_log(plan, pf->flow, &run, options->json);
+}
+
+/* the entry with what the other options say of it */
+static fw_status entry_words(fw_arena *arena, const fw_cli_options *o, const char **words) {
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, o->entry);
+    if (o->wafer) fw_text_printf(&text, "; wafer=%s", o->wafer);
+    if (o->instrument) fw_text_printf(&text, "; instrument=%s", o->instrument);
+    for (int i = 0; i < o->nlogged; i++)
+        fw_text_printf(&text, "; %s%s", o->logged[i].before, o->logged[i].words);
+    FW_TRY(fw_text_end(&text));
+    *words = text.data;
+    return FW_OK;
 }
 
 /* the file is locked from here to the end, so that two entries never have one line before them */
 static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, const char *hash,
                         const fw_cli_options *options) {
     fw_recipe_asrun run = {0};
-    const char *first = "", *line;
+    const char *first = "", *line, *words, *wafers = NULL, *wrong;
+    FW_TRY(entry_words(plan->arena, options, &words));
+    if (file->n > 0 && options->wafer_ids)
+        return fw_diag_error(&plan->diags, 282, (fw_place){options->run, 1, 1},
+                             "the wafers of a lot are stated where its log begins, and this one "
+                             "has begun");
     if (file->n == 0) {
-        FW_TRY(fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, &first));
+        if (options->wafer_ids)
+            FW_NEED(wafers = fw_recipe_asrun_wafers(plan->arena, options->wafer_ids, &wrong));
+        FW_TRY(fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, &first));
         FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, first, strlen(first),
                                     &plan->diags, &run));
     } else {
         FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, file->text, file->n,
                                     &plan->diags, &run));
     }
-    FW_TRY(check_head(plan, options, &run));
-    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, options->entry, &plan->diags, &line));
+    FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
+    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, fw_cli_local_time(),
+                               &plan->diags, &line));
     const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
     FW_NEED(all);
     FW_TRY(fw_append_text(file, all, strlen(all)));
     const char *head, *name, *chain = strrchr(line, '='); /* a line ends with its chain */
     FW_NEED(chain = fw_arena_strndup(plan->arena, chain + 1, strcspn(chain + 1, "\n")));
     FW_TRY(fw_recipe_asrun_head(plan->arena, run.nentry + 1, chain, &head));
-    FW_TRY(head_name(plan, options, &name));
+    FW_TRY(head_name(plan->arena, options->run, &name));
     FW_TRY(fw_output_single(plan->arena, name, head, strlen(head), &plan->diags));
     if (!options->quiet) printf("%s: entry %d\n", options->run, run.nentry + 1);
     return FW_OK;
@@ -205,6 +261,11 @@ static fw_status keep(fw_plan *plan, const fw_cli_options *options) {
 int fw_cli_command_log(fw_cli_options *options) {
     int exit_status;
     if (!options->run) return fw_cli_usage("log needs --run FILE, the log");
+    if (!options->entry && (options->wafer || options->instrument || options->nlogged > 0))
+        return fw_cli_usage("--wafer, --instrument, --site, --setting and --coupon belong to an "
+                            "--entry");
+    if (options->entry && options->report)
+        return fw_cli_usage("--report is of a log that is read: leave out --entry");
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
     int status = fw_design_judge(design);

@@ -3,11 +3,13 @@
 #include "cli/options.h"
 #include "cli/session.h"
 #include "serve/serve.h"
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <time.h>
 
 /* the first signal asks to stop, the second one stops; a handler sees nothing but what is static */
 static fw_cancel interrupted;
@@ -66,4 +68,11 @@ int fw_cli_run(int argc, char **argv) {
         status = last_words(command->run(&options));
     fw_cli_options_free(&options);
     return status;
+}
+
+double fw_cli_local_time(void) {
+    struct tm local;
+    time_t now = time(NULL);
+    if (now == (time_t)-1 || !localtime_r(&now, &local)) return (double)NAN;
+    return (double)now + (double)local.tm_gmtoff;
 }

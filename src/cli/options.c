@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/options.h"
+#include "cli/options_log.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
 #include "plan/ladder.h"
@@ -324,23 +325,6 @@ static const char *take_deck(fw_cli_options *o, const char *v) {
     return *v ? NULL : "needs the name of a directory";
 }
 
-static const char *take_run(fw_cli_options *o, const char *v) {
-    o->run = v;
-    return *v ? NULL : "needs the name of a file";
-}
-
-static const char *take_entry(fw_cli_options *o, const char *v) {
-    o->entry = v;
-    return *v ? NULL : "needs the words of an entry, see flexwright log --help";
-}
-
-static const char *take_lot(fw_cli_options *o, const char *v) {
-    o->lot = v;
-    for (const char *c = v; *c; c++)
-        if ((unsigned char)*c < 0x20) return "has characters that cannot stand in a line";
-    return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
-}
-
 /* ---- of serve ---- */
 
 static const char *take_port(fw_cli_options *o, const char *v) {
@@ -509,12 +493,34 @@ static const fw_cli_option_row table[] = {
      "input decks of the solids for CalculiX: every hinge, linear and at finite rotation, and the "
      "mechanism under each scene; each file whole or not at all",
      FW_OPT_HINGE, take_deck},
-    {"run", 0, "FILE", "the log, which only grows; made by the first entry", FW_OPT_LOG, take_run},
+    {"run", 0, "FILE", "the log, which only grows; made by the first entry", FW_OPT_LOG,
+     fw_cli_take_run},
     {"entry", 0, "WORDS",
      "one step as it was run: \"C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; "
      "thickness=9.1\", further second, tool, bath, note and what the step measures",
-     FW_OPT_LOG, take_entry},
-    {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, take_lot},
+     FW_OPT_LOG, fw_cli_take_entry},
+    {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, fw_cli_take_lot},
+    {"wafers", 0, "LIST",
+     "wafers of the lot, for a log that begins: how many, or their ids with commas between",
+     FW_OPT_LOG, fw_cli_take_wafer_ids},
+    {"wafer", 0, "ID", "of which wafer the entry is; without it, of the whole lot", FW_OPT_LOG,
+     fw_cli_take_wafer},
+    {"site", 0, "MEASURE=VALUES",
+     "what the step measures, at the sites centre, top, left, bottom, right: \"thickness=9.1 9.0 "
+     "9.2 9.1 9.1 um\", or fewer by name: \"thickness=centre:9.1 left:9.0 um\"; repeatable",
+     FW_OPT_LOG, fw_cli_take_site},
+    {"setting", 0, "NAME=VALUE",
+     "what was really set, of the settings of the step: \"power=251 W\"; repeatable", FW_OPT_LOG,
+     fw_cli_take_setting},
+    {"coupon", 0, "WORDS",
+     "a coupon as calibrate takes it: \"arde-slots, drawn=10 um, value=45.6 45.4 45.7 45.5 45.6 "
+     "um, "
+     "u=0.1 um, at=90 min\"; repeatable",
+     FW_OPT_LOG, fw_cli_take_coupon},
+    {"instrument", 0, "NAME", "with which it was measured", FW_OPT_LOG, fw_cli_take_instrument},
+    {"report", 0, "FILE",
+     "planned against actual as a page with control charts; - is standard output", FW_OPT_LOG,
+     fw_cli_take_report},
     {"port", 0, "N", "port of the page; default: a free one", FW_OPT_SERVE, take_port},
     {"no-browser", 0, NULL, "only print the address", FW_OPT_SERVE, take_no_browser},
     {"ipv6", 0, NULL, "listen on ::1 as well as on 127.0.0.1", FW_OPT_SERVE, take_ipv6},

@@ -21,7 +21,12 @@ typedef struct fw_cli_options {
     const char *svg;               /* of assemble and hinge */
     const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *lot; /* of log */
-    int port;                      /* of serve; 0: a free one */
+    const char *wafer, *wafer_ids, *instrument, *report;
+    struct {
+        const char *before, *words; /* "set ", "power=251 W" */
+    } logged[FW_MOST_SETS];
+    int nlogged;
+    int port; /* of serve; 0: a free one */
     bool no_browser, ipv6;
     const char *settings; /* of tradeoff; NULL: all */
     double budget_s;

@@ -21,11 +21,17 @@ typedef struct fw_process_calibrated {
     const char *note;               /* how, and what it is correlated with */
     double chi_square, probability; /* of the residuals; probability of a larger one */
     int rows, freedom;              /* freedom 0: nothing to test */
+    const char *source, *date; /* which wafers, how many readings, when; NULL: those of the file */
 } fw_process_calibrated;
 
 typedef struct fw_process_calibration {
     const fw_process_calibrated *item; /* (count) one for every id */
     int count;
+    /* what is correlated: ids (njoint), of the items first and then of those of the flow that the coupons used, and
+       their correlations (njoint njoint); NULL: not asked for, or nothing is */
+    const char *const *joint;
+    const double *correlation;
+    int njoint;
 } fw_process_calibration;
 
 /* CSV with the header coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit (docs/theory/
@@ -38,6 +44,35 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration);
+/* FW_INPUT and FW-D211 where a row lacks what its coupon needs */
+fw_status fw_process_measurement_check(const fw_process_measurement *row, fw_diags *diags);
+
+/* ---- coupons of several wafers, at several sites of each ---- */
+
+typedef struct fw_process_reading {
+    fw_process_measurement
+        row;                 /* value: mean of the sites; uncertainty: the instrument's, 0: none */
+    const char *wafer;       /* "": of the lot */
+    const char *step, *date; /* where it was logged, "2026-11-20" */
+    double squares;          /* sum of the squared distances of its sites from their mean, SI */
+    int nsite;               /* 0: looked at, not measured */
+} fw_process_reading;
+
+typedef struct fw_process_readings {
+    fw_process_reading *item; /* (n) */
+    int n;
+    const char *lot, *file, *sha256; /* lot may be NULL */
+} fw_process_readings;
+
+/* calibrate_wafers.c: every wafer by itself, then what they have in common; with the correlations */
+fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *flow,
+                                      const fw_process_readings *readings, fw_diags *diags,
+                                      fw_process_calibration *calibration);
+
+/* coupon_covariance.c: fills joint and correlation of what was found from these rows */
+fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flow *flow,
+                                           const fw_process_measurement *measurement, int n,
+                                           fw_process_calibration *calibration);
 /* the laboratory pack: <process flow="..."> with a <q status="measured"> for each */
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,

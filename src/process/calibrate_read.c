@@ -219,6 +219,36 @@ static void put_test(fw_text *out, const fw_process_calibrated *c) {
     fw_text_number(out, c->probability, 2);
 }
 
+/* of one value: its wafers, readings and days */
+static void put_source(const fw_process_calibrated *c, fw_text *out) {
+    if (!c->source) return;
+    fw_text_printf(out, "  <source id=\"%s-measured\" kind=\"measured\"", c->id);
+    if (c->date) attribute(out, "date", c->date);
+    fw_text_add(out, ">");
+    fw_text_escaped(out, c->source);
+    fw_text_add(out, "</source>\n");
+}
+
+/* a row for every quantity, so that a person can read it, and a slip is seen as one */
+static void put_correlation(const fw_process_calibration *c, fw_text *out) {
+    if (c->njoint == 0) return;
+    fw_text_add(out, "  <correlation of=\"");
+    for (int i = 0; i < c->njoint; i++)
+        fw_text_printf(out, "%s%s", i ? " " : "", c->joint[i]);
+    fw_text_add(out, "\">\n");
+    for (int i = 0; i < c->njoint; i++) {
+        fw_text_add(out, "    <row");
+        attribute(out, "of", c->joint[i]);
+        fw_text_add(out, " values=\"");
+        for (int k = 0; k < c->njoint; k++) {
+            fw_text_add(out, k ? " " : "");
+            fw_text_number(out, c->correlation[i * c->njoint + k], 6);
+        }
+        fw_text_add(out, "\"/>\n");
+    }
+    fw_text_add(out, "  </correlation>\n");
+}
+
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,
                                       const char *measured_file, const char *measured_sha256,
@@ -230,9 +260,14 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" "
         "title=\"Values of the laboratory\"");
     attribute(out, "flow", flow->id);
-    fw_text_add(out, ">\n  <source id=\"coupons\" kind=\"measured\">measured coupons, ");
-    fw_text_escaped(out, measured_file);
-    fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
+    fw_text_add(out, ">\n");
+    if (calibration->count == 0 || !calibration->item[0].source) {
+        fw_text_add(out, "  <source id=\"coupons\" kind=\"measured\">measured coupons, ");
+        fw_text_escaped(out, measured_file);
+        fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
+    }
+    for (int i = 0; i < calibration->count; i++)
+        put_source(&calibration->item[i], out);
     for (int i = 0; i < calibration->count; i++) {
         const fw_process_calibrated *c = &calibration->item[i];
         const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
@@ -246,7 +281,10 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_number(out, u, 4);
         fw_text_add(out, "\"");
         attribute(out, "unit", q->unit);
-        fw_text_add(out, " status=\"measured\" src=\"coupons\" note=\"");
+        fw_text_add(out, " status=\"measured\"");
+        attribute(out, "src",
+                  c->source ? fw_arena_printf(out->arena, "%s-measured", c->id) : "coupons");
+        fw_text_add(out, " note=\"");
         fw_text_escaped(out, c->coupon);
         fw_text_add(out, ": ");
         fw_text_escaped(out, c->note);
@@ -254,6 +292,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         put_test(out, c);
         fw_text_add(out, "\"/>\n");
     }
+    put_correlation(calibration, out);
     fw_text_add(out, "</process>\n");
     return fw_text_end(out);
 }
@@ -287,5 +326,15 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
         put_test(out, c);
         fw_text_add(out, "\n");
     }
+    static const double worth = 0.05; /* weaker ones change no window that a person reads */
+    for (int i = 0; i < calibration->njoint; i++)
+        for (int k = i + 1; k < calibration->njoint; k++) {
+            double r = calibration->correlation[i * calibration->njoint + k];
+            if (fabs(r) < worth) continue;
+            fw_text_printf(out, "%s with %s: correlation ", calibration->joint[i],
+                           calibration->joint[k]);
+            fw_text_number(out, r, 2);
+            fw_text_add(out, "\n");
+        }
     return fw_text_end(out);
 }

@@ -24,7 +24,7 @@ double fw_process_chi_square_above(double x, int n);
 
 /* Kinds of coupons: a file coupon_*.c and a line in coupons.def each. Private to process/. */
 
-enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64 };
+enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64, FW_COUPON_USED = 32 };
 
 /* of a larger chi square: below, the data contradict */
 #define FW_COUPON_LEAST_PROBABILITY 0.001
@@ -39,6 +39,10 @@ typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     fw_process_calibrated *out; /* (nout) room for FW_COUPON_RESULTS in all */
     int nout;
     fw_diags *diags;
+    const fw_quantity *used[FW_COUPON_USED]; /* (nused) of the flow, with their uncertainty */
+    int nused;
+    const fw_quantity *shifted; /* one of them, counted with this much more: coupon_covariance.c */
+    double shift;
 } fw_process_coupon_work;
 
 typedef struct fw_process_coupon {
@@ -46,8 +50,33 @@ typedef struct fw_process_coupon {
     fw_quantity_dimension measured; /* of every row */
     bool any_measured;              /* ... or as the kind says */
     bool drawn, at;                 /* columns that it needs */
+    bool one_run; /* what stands under `at` is the same, with one error, in all rows */
     fw_status (*fit)(fw_process_coupon_work *work);
 } fw_process_coupon;
+
+/* coupon_covariance.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
+   coupons used (id and C are m and m m, made here). u (n): standard uncertainties of the rows; shared: errors of what the
+   rows were measured under, and of the flow, too. SI */
+typedef struct fw_process_covariance {
+    const char **id;
+    double *C;
+    int m;
+} fw_process_covariance;
+fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *flow,
+                                       const fw_process_measurement *measurement, int n,
+                                       const fw_process_calibration *found, const double *u,
+                                       bool shared, fw_process_covariance *out);
+/* coupon_covariance.c: the correlations of those ids that are correlated at all, into `calibration` */
+fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
+                                  const double *deviation, fw_process_calibration *calibration);
+
+/* lab_correlation.c: can errors be correlated like this? r (n n), L (n n) is used */
+bool fw_process_correlation_possible(const double *r, int n, double *L);
+
+/* process_calibrate.c: of a kind's name, or NULL; all rows through all kinds, into work->out */
+const fw_process_coupon *fw_process_coupon_kind(const char *name);
+fw_status fw_process_coupon_fit_all(fw_process_coupon_work *work,
+                                    const fw_process_measurement *measurement, int n);
 
 #define FW_PROCESS_COUPON(name) extern const fw_process_coupon fw_process_coupon_##name;
 #include "process/coupons.def"
@@ -61,8 +90,9 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *work, const char *id, d
 /* FW-D211 at the row */
 fw_status fw_process_coupon_wrong(fw_process_coupon_work *work, const fw_process_measurement *at,
                                   const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* what a kind before this one found, else the flow's own; false: neither is known */
-bool fw_process_coupon_value(const fw_process_coupon_work *work, const char *id, double *value,
+/* what a kind before this one found, else the flow's own; false: neither is known. uncertainty NULL: it is taken as
+   exact */
+bool fw_process_coupon_value(fw_process_coupon_work *work, const char *id, double *value,
                              double *uncertainty);
 /* all rows stand under one condition of dimension d, which is set; FW-D211 otherwise */
 fw_status fw_process_coupon_condition(fw_process_coupon_work *work, fw_quantity_dimension d,

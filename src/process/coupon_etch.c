@@ -77,10 +77,10 @@ static fw_status selectivity(fw_process_coupon_work *w) {
                                   "etched depth over the loss of the mask");
 }
 
-const fw_process_coupon fw_process_coupon_etch_rate = {"etch-rate", FW_DIM_LENGTH, false,
-                                                       false,       true,          rates};
-const fw_process_coupon fw_process_coupon_step = {"al-step", FW_DIM_LENGTH, false,
-                                                  false,     true,          selectivity};
+const fw_process_coupon fw_process_coupon_etch_rate = {"etch-rate", FW_DIM_LENGTH, false, false,
+                                                       true,        false,         rates};
+const fw_process_coupon fw_process_coupon_step = {"al-step", FW_DIM_LENGTH, false,      false,
+                                                  true,      false,         selectivity};
 
 /* ---- lines undercut in a ladder of widths ---- */
 
@@ -161,7 +161,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_ladder = {
-    "undercut-ladder", FW_DIM_LENGTH, false, true, true, fit_ladder};
+    "undercut-ladder", FW_DIM_LENGTH, false, true, true, true, fit_ladder};
 
 /* ---- slots: the lag of narrow openings ---- */
 
@@ -226,5 +226,5 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, "rie.S", fmax(S, 0.0), f.uncertainty[1], &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_slots = {"arde-slots", FW_DIM_LENGTH, false,
+const fw_process_coupon fw_process_coupon_slots = {"arde-slots", FW_DIM_LENGTH, false,    true,
                                                    true,         true,          fit_slots};

@@ -33,8 +33,8 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
                : "edge on the wafer against the mask");
 }
 
-const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH, false,
-                                                      true,       false,         fit_lines};
+const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH, false,    true,
+                                                      false,      false,         fit_lines};
 
 /* ---- resist over spin speed ---- */
 
@@ -42,8 +42,8 @@ const fw_process_coupon fw_process_coupon_cd_lines = {"cd-lines", FW_DIM_LENGTH,
    Two parameters in closed form; the error of the speed counts with a, which is iterated. d, d0 m;
    w rad/s; a 1. Source: docs/theory/calibrate.md. Test: test_calibrate.c. */
 static fw_status fit_spin(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], one[FW_COUPON_ROWS], x[FW_COUPON_ROWS], w0, u0;
-    if (!fw_process_coupon_value(w, "resist.w0", &w0, &u0))
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], one[FW_COUPON_ROWS], x[FW_COUPON_ROWS], w0;
+    if (!fw_process_coupon_value(w, "resist.w0", &w0, NULL))
         return fw_process_coupon_wrong(
             w, w->measurement[0],
             "resist.w0 is not known in this flow; enter it in a laboratory pack");
@@ -78,14 +78,13 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
     return fw_process_coupon_give(w, "resist.a", f.value[1], f.uncertainty[1], &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_spin = {"spin", FW_DIM_LENGTH, false,
-                                                  false,  true,          fit_spin};
+const fw_process_coupon fw_process_coupon_spin = {"spin", FW_DIM_LENGTH, false,   false,
+                                                  true,   false,         fit_spin};
 
 /* ---- plating ---- */
 
 static fw_status need(fw_process_coupon_work *w, const char *id, double *value) {
-    double u;
-    if (fw_process_coupon_value(w, id, value, &u)) return FW_OK;
+    if (fw_process_coupon_value(w, id, value, NULL)) return FW_OK;
     return fw_process_coupon_wrong(
         w, w->measurement[0], "%s is not known in this flow; enter it in a laboratory pack", id);
 }
@@ -135,7 +134,7 @@ static int pads_of(const fw_process_coupon_work *w, bool wide, double size_m, do
    s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source: Faraday's law. Test:
    test_calibrate.c. */
 static fw_status by_pads(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, n, M, rho, widest = 0.0, d = 0.0, u_d;
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, n, M, rho, widest = 0.0, d = 0.0;
     FW_TRY(need(w, "cu.n", &n));
     FW_TRY(need(w, "cu.M", &M));
     FW_TRY(need(w, "cu.rho", &rho));
@@ -153,7 +152,7 @@ static fw_status by_pads(fw_process_coupon_work *w) {
     FW_TRY(fw_process_coupon_give(w, "cu.eta", eta, u, &wide,
                                   "thickness of the widest pads over charge"));
     int narrow = pads_of(w, false, 30.0e-6 * (1.0 + 1e-9), y, s);
-    if (narrow == 0 || widest < 100.0e-6 || !fw_process_coupon_value(w, "cu.d", &d, &u_d))
+    if (narrow == 0 || widest < 100.0e-6 || !fw_process_coupon_value(w, "cu.d", &d, NULL))
         return FW_OK;
     fw_process_fit thin = fw_process_fit_mean(y, s, narrow);
     double f = thin.value[0] / wide.value[0];
@@ -166,7 +165,7 @@ static fw_status by_pads(fw_process_coupon_work *w) {
                                   note);
 }
 
-const fw_process_coupon fw_process_coupon_mass = {"plating-mass", FW_DIM_MASS, false,
-                                                  false,          true,        by_mass};
-const fw_process_coupon fw_process_coupon_pads = {"plating-pads", FW_DIM_LENGTH, false,
+const fw_process_coupon fw_process_coupon_mass = {"plating-mass", FW_DIM_MASS, false,  false,
+                                                  true,           false,       by_mass};
+const fw_process_coupon fw_process_coupon_pads = {"plating-pads", FW_DIM_LENGTH, false,  true,
                                                   true,           true,          by_pads};

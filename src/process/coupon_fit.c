@@ -116,18 +116,27 @@ bool fw_process_coupon_has(const fw_process_flow *flow, const char *id) {
     return fw_process_flow_quantity(flow, id) != NULL;
 }
 
-bool fw_process_coupon_value(const fw_process_coupon_work *w, const char *id, double *value,
+static void note_use(fw_process_coupon_work *w, const fw_quantity *q) {
+    for (int i = 0; i < w->nused; i++)
+        if (w->used[i] == q) return;
+    if (q->uncertainty > 0.0 && w->nused < FW_COUPON_USED) w->used[w->nused++] = q;
+}
+
+bool fw_process_coupon_value(fw_process_coupon_work *w, const char *id, double *value,
                              double *uncertainty) {
     for (int i = 0; i < w->nknown; i++)
         if (strcmp(w->known[i].id, id) == 0) {
             *value = w->known[i].value;
-            *uncertainty = w->known[i].uncertainty;
+            if (uncertainty) *uncertainty = w->known[i].uncertainty;
             return true;
         }
     const fw_quantity *q = fw_process_flow_quantity(w->flow, id);
     if (!q || q->unknown) return false;
-    *value = q->value;
-    *uncertainty = q->uncertainty;
+    *value = q->value + (q == w->shifted ? w->shift : 0.0);
+    if (uncertainty) {
+        *uncertainty = q->uncertainty;
+        note_use(w, q);
+    }
     return true;
 }
 
@@ -187,7 +196,14 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
         return fw_process_coupon_wrong(w, w->measurement[0], "%s gives no finite value of %s",
                                        coupon, id);
     if (w->nout == FW_COUPON_RESULTS) return FW_LIMIT;
-    w->out[w->nout++] = (fw_process_calibrated){
-        id, value, uncertainty, coupon, note, fit->chi_square, p, w->n, fit->freedom};
+    w->out[w->nout++] = (fw_process_calibrated){.id = id,
+                                                .value = value,
+                                                .uncertainty = uncertainty,
+                                                .coupon = coupon,
+                                                .note = note,
+                                                .chi_square = fit->chi_square,
+                                                .probability = p,
+                                                .rows = w->n,
+                                                .freedom = fit->freedom};
     return FW_OK;
 }

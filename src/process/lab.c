@@ -67,6 +67,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const fw_quantity was = *old;
+    FW_TRY(fw_process_correlation_forget(arena, flow, old->id));
     *old = *new;
     old->id = was.id;
     old->least = was.least; /* what makes sense is the pack's to say */
@@ -101,6 +102,12 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
         if (id && (status = replace(arena, flow, diags, id, &q)) != FW_OK && status != FW_INPUT)
             return status;
     }
+    if (diags->errors == before)
+        for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+            if (!fw_xml_is(e, "correlation")) continue;
+            status = fw_process_correlation_read(arena, e, flow, diags);
+            if (status != FW_OK && status != FW_INPUT) return status;
+        }
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 

@@ -26,9 +26,13 @@ static fw_status spin_derive(fw_arena *arena, const fw_process_law_use *use,
                       *a = fw_process_law_input(use, "exponent");
     if (!d || !d0 || !w0 || !a) return FW_OK;
     double speed = w0->value * pow(d0->value / d->value, 1.0 / a->value);
-    double share = hypot(d->uncertainty / d->value, d0->uncertainty / d0->value) / a->value;
+    double by_d0 = d0->uncertainty / d0->value / a->value;
+    double share = hypot(d->uncertainty / d->value / a->value, by_d0);
     double by_a = log(d0->value / d->value) / (a->value * a->value) * a->uncertainty;
     share = hypot(hypot(share, by_a), w0->uncertainty / w0->value);
+    /* both are of one spin curve; a thicker reference spins faster, a larger exponent slower where it is thicker */
+    double crossed = -2.0 * fw_quantity_correlation(d0, a) * by_d0 * by_a;
+    if (crossed != 0.0) share = sqrt(fmax(share * share + crossed, 0.0));
     return fw_process_step_derive(arena, step, "spin speed", speed, speed * share,
                                   (fw_quantity_dimension)FW_DIM_ROTATION, "rpm", answer->status,
                                   "computed: spin curve");

@@ -53,6 +53,16 @@ const fw_quantity *fw_process_pack_quantity(fw_process_pack *pack, const fw_xml_
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
+/* lab_correlation.c: a <correlation> of a laboratory pack into the quantities of the flow (FW-D211); what is known of one
+   that is replaced holds no longer */
+fw_status fw_process_correlation_read(fw_arena *arena, const fw_xml_record *e,
+                                      fw_process_flow *flow, fw_diags *diags);
+fw_status fw_process_correlation_forget(fw_arena *arena, fw_process_flow *flow, const char *id);
+
+/* corner_correlation.c: turns correlated inputs (n) into independent ones that make the same device */
+fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *input,
+                                         int n);
+
 /* the flow's quantity with this id, to be filled in; NULL: it has none */
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
 

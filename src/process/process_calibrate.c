@@ -15,7 +15,7 @@ enum { KINDS = sizeof table / sizeof table[0] };
 
 /* ---- the whole table ---- */
 
-static const fw_process_coupon *kind_of(const char *name) {
+const fw_process_coupon *fw_process_coupon_kind(const char *name) {
     for (int i = 0; i < KINDS; i++)
         if (strcmp(table[i]->name, name) == 0) return table[i];
     return NULL;
@@ -35,8 +35,8 @@ static fw_status unknown_kind(fw_diags *diags, const fw_process_measurement *of)
                          best ? "'?" : "", list.data);
 }
 
-static fw_status check_row(fw_diags *diags, const fw_process_measurement *r) {
-    const fw_process_coupon *kind = kind_of(r->coupon);
+fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     if (!kind) return unknown_kind(diags, r);
     const char *is = fw_quantity_dimension_text(diags->arena, r->dimension),
                *want = fw_quantity_dimension_text(diags->arena, kind->measured);
@@ -95,6 +95,28 @@ static fw_status check_result(const fw_process_flow *flow, const fw_process_cali
     return fw_process_quantity_in_range(&q, diags) ? FW_OK : FW_INPUT;
 }
 
+fw_status fw_process_coupon_fit_all(fw_process_coupon_work *w,
+                                    const fw_process_measurement *measurement, int n) {
+    fw_status status = FW_OK;
+    for (int k = 0; k < KINDS; k++) {
+        w->n = 0;
+        for (int i = 0; i < n; i++) {
+            if (fw_process_coupon_kind(measurement[i].coupon) != table[k]) continue;
+            if (w->n == FW_COUPON_ROWS)
+                return fw_process_coupon_wrong(w, &measurement[i],
+                                               "more than %d rows of one coupon", FW_COUPON_ROWS);
+            w->measurement[w->n++] = &measurement[i];
+        }
+        if (w->n == 0) continue;
+        fw_status of_kind = table[k]->fit(w);
+        if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
+        if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
+        if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
+        w->nknown = w->nout;
+    }
+    return status;
+}
+
 fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
                                const fw_process_measurement *measurement, int n, fw_diags *diags,
                                fw_process_calibration *calibration) {
@@ -105,31 +127,17 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     *w = (fw_process_coupon_work){
         .arena = arena, .flow = flow, .known = out, .out = out, .diags = diags};
     for (int i = 0; i < n; i++) {
-        fw_status of_row = check_row(diags, &measurement[i]);
+        fw_status of_row = fw_process_measurement_check(&measurement[i], diags);
         if (of_row == FW_NOMEM) return of_row;
         if (of_row != FW_OK) status = of_row;
     }
     if (n == 0) return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
     FW_TRY(status);
-    for (int k = 0; k < KINDS; k++) {
-        w->n = 0;
-        for (int i = 0; i < n; i++) {
-            if (kind_of(measurement[i].coupon) != table[k]) continue;
-            if (w->n == FW_COUPON_ROWS)
-                return fw_process_coupon_wrong(w, &measurement[i],
-                                               "more than %d rows of one coupon", FW_COUPON_ROWS);
-            w->measurement[w->n++] = &measurement[i];
-        }
-        if (w->n == 0) continue;
-        fw_status of_kind = table[k]->fit(w);
-        if (of_kind == FW_OK) of_kind = join(arena, diags, out, &w->nout);
-        if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
-        if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
-        w->nknown = w->nout;
-    }
+    status = fw_process_coupon_fit_all(w, measurement, n);
+    if (status != FW_OK && status != FW_INPUT) return status;
     for (int k = 0; k < w->nout; k++)
         if (check_result(flow, &out[k], measurement[0].place, diags) != FW_OK) status = FW_INPUT;
     FW_TRY(status);
-    *calibration = (fw_process_calibration){out, w->nout};
+    *calibration = (fw_process_calibration){.item = out, .count = w->nout};
     return diags->failed ? FW_NOMEM : FW_OK;
 }

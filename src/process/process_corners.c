@@ -168,5 +168,5 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
     fw_process_wear wear = fw_process_flow_wear(flow);
     if (*ninput < FW_FABRICATION_INPUTS) *ninput += wear_input(&wear, variant, &list[*ninput]);
     *input = list;
-    return FW_OK;
+    return fw_process_corners_independent(arena, list, *ninput);
 }

@@ -330,12 +330,25 @@ static const fw_xml_attribute_row laboratory_source_rows[] = {
     {"kind", WORD(source_kinds), .sentence = "What sort of source it is."},
     {"date", TEXT, .datatype = "date", .sentence = "When it was measured."},
 };
+static const fw_xml_attribute_row correlation_rows[] = {
+    {"of", TEXT, REQUIRED, .sentence = "ids of the quantities, with blanks between."},
+};
+static const fw_xml_attribute_row row_rows[] = {
+    {"of", TOKEN, REQUIRED,
+     .sentence = "The quantity of this row; rows stand in the order of the ids."},
+    {"values", TEXT, REQUIRED,
+     .sentence = "Its correlations with all of them, -1 to 1, with blanks between; 1 with itself."},
+};
 static const fw_xml_element_row laboratory[] = {
     {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
     {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
      .sentence = "Where numbers are from."},
     {"choose", "process", ROWS(choose_rows), .sentence = "How the laboratory does a step."},
     Q_ROW("process"),
+    {"correlation", "process", ROWS(correlation_rows),
+     .sentence =
+         "How the errors of quantities go together that were found from the same measurements."},
+    {"row", "correlation", .needed = true, ROWS(row_rows), .sentence = "A row of the matrix."},
     {0},
 };
 

@@ -55,6 +55,11 @@ typedef enum fw_quantity_value_status { /* from best to worst; a result inherits
 const char *fw_quantity_value_status_text(fw_quantity_value_status status);
 bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *status);
 
+typedef struct fw_quantity_correlated { /* what a quantity was fitted together with */
+    const char *id;
+    double correlation; /* -1 to 1 */
+} fw_quantity_correlated;
+
 typedef struct fw_quantity {
     const char *id;     /* may be NULL */
     bool unknown;       /* no value: whatever needs it is NOT COMPUTABLE */
@@ -68,11 +73,16 @@ typedef struct fw_quantity {
     fw_quantity_dimension dimension;
     const char *unit; /* as written, for printing */
     fw_quantity_value_status status;
-    fw_quantity_value_status u_status; /* of the uncertainty, which may be somebody else's */
-    const char *source;                /* text of the source */
-    const char *note;                  /* may be NULL */
+    fw_quantity_value_status u_status;        /* of the uncertainty, which may be somebody else's */
+    const char *source;                       /* text of the source */
+    const char *note;                         /* may be NULL */
+    const fw_quantity_correlated *correlated; /* (ncorrelated) all others are independent of it */
+    int ncorrelated;
     fw_place place;
 } fw_quantity;
+
+/* correlation.c: of the errors of two different quantities, -1 to 1; 0 where nothing is known of it */
+double fw_quantity_correlation(const fw_quantity *a, const fw_quantity *b);
 
 /* value in its own unit, e.g. 9 for 9e-6 m in "um" */
 double fw_quantity_in_unit(const fw_quantity *q);

@@ -1,50 +1,85 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was done, beside what was planned. The log is a text of lines that only grows: the first one
-   names the flow and the hash of its plan (recipes/FLOW.json), every other one is a step as it was
-   run. Each ends with chain=, the SHA-256 of the line before it (its chain) and of its own words,
+   names the flow, the hash of its plan (recipes/FLOW.json) and the wafers of the lot, every other one is a step as it was
+   run, of one wafer or of all. Each ends with chain=, the SHA-256 of the line before it (its chain) and of its own words,
    so that a line that was changed, removed or moved afterwards is seen. Fields are separated by
    tabs. */
 #ifndef FW_RECIPE_ASRUN_H
 #define FW_RECIPE_ASRUN_H
+#include "process/calibrate.h"
 #include "process/process.h"
 
+enum { FW_RECIPE_SITES = 5, FW_RECIPE_WAFERS = 50 };
+extern const char
+    *const fw_recipe_site_name[FW_RECIPE_SITES]; /* centre, top, left, bottom, right */
+
 typedef struct fw_recipe_measured {
-    const char *measure, *value; /* one of the step's <accept measure>s; a number, yes or no */
-    double number;               /* NaN: yes or no */
+    const char *measure, *value; /* one of the step's <accept measure>s; as it was written */
+    double number; /* mean of the sites in the unit of the run sheet; NaN: yes or no */
+    double site[FW_RECIPE_SITES]; /* NaN: not measured there; one value without a name: the first */
+    int nsite;                    /* 0: yes or no */
 } fw_recipe_measured;
+
+typedef struct fw_recipe_set { /* what was set, or measured of what was set */
+    const char *name, *text;
+    const fw_quantity *q;   /* what was planned; NULL: read without the log's plan */
+    double value;           /* in the unit of q; NaN: a text */
+    const char *low, *high; /* what the step allows, as written in the unit of q; "": any */
+} fw_recipe_set;
+
+typedef struct fw_recipe_coupon {
+    const char *text;
+    fw_process_measurement
+        row; /* value: mean of the sites; uncertainty: the instrument's, 0: not given */
+    double site[FW_RECIPE_SITES]; /* SI */
+    int nsite;                    /* 0: looked at, not measured */
+} fw_recipe_coupon;
 
 typedef struct fw_recipe_asrun_entry {
     const fw_process_step *step;
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
-    const char *start, *end, *by, *second, *tool, *bath, *note; /* as written; NULL: not given */
+    /* as written; NULL: not given; wafer NULL: the whole lot */
+    const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
     fw_recipe_measured *measured;
-    int nmeasured, line;
+    fw_recipe_set *set;
+    fw_recipe_coupon *coupon;
+    int nmeasured, nset, ncoupon, line;
     char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;
 
 typedef struct fw_recipe_asrun {
     const char *plan, *lot;
+    const char **wafer; /* (nwafer) ids of the lot; 0: the log was begun without */
+    int nwafer;
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
     char chain[65]; /* of the last line */
     char begun[65]; /* of the first one */
 } fw_recipe_asrun;
 
+/* does the text begin as a log does? */
+bool fw_recipe_asrun_is_log(const char *text, size_t n);
 /* reads and verifies a log. FW_INPUT: FW-D280 (damaged or changed), FW-D281 (of another plan or
-   flow), FW-D282 (an entry that cannot be). */
+   flow), FW-D282 and FW-D278 (an entry that cannot be). plan_sha256 NULL: of whatever plan of this flow; then settings are
+   not looked at. */
 fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run);
 
-/* the line that begins a log, and the line of one entry written as
-     C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; thickness=9.1; note=...
-   with second, tool, bath and the step's measures as further words. *line ends with a newline; what
-   is wrong with the entry is FW-D282, what a cautious colleague would ask is a warning FW-D283. */
+/* "6" or "A1,A2,B7" as the ids of a lot with commas between; NULL and *wrong: it is neither */
+const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong);
+/* the line that begins a log (lot and wafers may be NULL), and the line of one entry written as
+     C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; wafer=3; thickness=9.1 9.0 9.2 9.1 9.1 um;
+     set current=0.2 A; coupon=plating-pads, drawn=1000 um, value=9.1 um, u=0.05 um, at=25 C/cm2
+   with second, tool, bath, instrument, note and the step's measures as further words. *line ends with a newline; what
+   is wrong with the entry is FW-D282, a value that makes no sense FW-D278, what a cautious colleague would ask a warning
+   FW-D283. now_s: local time, NaN: not known. */
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
-                                const char *plan_sha256, const char *lot, const char **line);
+                                const char *plan_sha256, const char *lot, const char *wafers,
+                                const char **line);
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
-                              const fw_recipe_asrun *run, const char *words, fw_diags *diags,
-                              const char **line);
+                              const fw_recipe_asrun *run, const char *words, double now_s,
+                              fw_diags *diags, const char **line);
 
 /* asrun_head.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
    others */
@@ -52,10 +87,27 @@ fw_status fw_recipe_asrun_head(fw_arena *arena, int nentry, const char *chain, c
 fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *file, const char *text,
                                      size_t n, fw_diags *diags);
 
-/* planned against actual, as a table and as JSON */
+/* ---- planned against actual ---- */
+
+typedef struct fw_recipe_deviation {
+    const fw_recipe_asrun_entry *entry;
+    const char *what, *planned, *actual; /* "thickness", "8.1 to 9.9 um", "7.9 um" */
+} fw_recipe_deviation;
+/* asrun_deviation.c: what is out of its limits in the last entry of every step and wafer, in the order of the flow */
+fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_recipe_asrun *run, fw_recipe_deviation **list,
+                                     int *n);
+
+/* as a table, as JSON, and as a page with control charts (asrun_report.c) */
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out);
 fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out);
+fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out);
+
+/* asrun_calibrate.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers */
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+                                   fw_process_readings *readings);
 
 #endif

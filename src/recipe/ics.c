@@ -9,8 +9,7 @@ static const char stamp[] = "20250101T000000Z";
 
 static long midnight(const fw_schedule *plan) {
     const long monday = 20094L; /* 2025-01-06 */
-    return 86400L *
-           (plan && plan->shop->calendar.first_day ? plan->shop->calendar.first_day : monday);
+    return 86400L * (plan && plan->shop->calendar.dated ? plan->shop->calendar.first_day : monday);
 }
 
 /* CRLF, and a break with one space before the 75th byte; never inside a UTF-8 character */
@@ -42,6 +41,7 @@ static void escaped(fw_text *out, const char *text) {
 /* a time of the laboratory's own clock, of no zone (RFC 5545, 3.3.5, form 1) */
 static void put_date(fw_text *out, long seconds) {
     long day = seconds / 86400, rest = seconds % 86400, civil[3];
+    if (rest < 0) rest += 86400, day--; /* before 1970 */
     fw_schedule_civil(day, civil);
     fw_text_printf(out, "%04ld%02ld%02ldT%02ld%02ld%02ld", civil[0], civil[1], civil[2],
                    rest / 3600, rest / 60 % 60, rest % 60);

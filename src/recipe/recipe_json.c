@@ -281,7 +281,7 @@ fw_status fw_recipe_write_schedule_json(const fw_process_flow *flow, const fw_re
         for (int k = 0; k < 2; k++)
             number(out, NULL, shop->calendar.break_s[i][k]);
     fw_json_end(out);
-    if (shop->calendar.first_day) {
+    if (shop->calendar.dated) {
         long civil[3];
         fw_schedule_civil(shop->calendar.first_day, civil);
         char date[40];

@@ -140,7 +140,7 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) 
 void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *c, double seconds) {
     static const char *const name[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
     long minutes = lround(seconds / 60.0), civil[3];
-    if (c->first_day) {
+    if (c->dated) {
         fw_schedule_civil(c->first_day + minutes / 1440, civil);
         fw_text_printf(out, "%s %04ld-%02ld-%02ld, %02ld:%02ld",
                        name[fw_schedule_calendar_weekday(c, minutes / 1440)], civil[0], civil[1],

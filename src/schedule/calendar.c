@@ -9,9 +9,15 @@ bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
     return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0;
 }
 
-/* days since 1970-01-01 to a civil date and back: Hinnant, chrono-compatible date algorithms */
+/* quotient towards minus infinity, as days before 1970 need it */
+static long whole(long a, long b) {
+    return a / b - (a % b < 0 ? 1 : 0);
+}
+
+/* Days since 1970-01-01, negative before it, to a date of the Gregorian calendar and back; exact for the years -5000 to
+   20000. Source: Hinnant, chrono-compatible date algorithms. Test: test_calendar.c, centuries (against counting days). */
 void fw_schedule_civil(long day, long civil[3]) {
-    long z = day + 719468, era = z / 146097, doe = z - era * 146097;
+    long z = day + 719468, era = whole(z, 146097), doe = z - era * 146097;
     long yoe = (doe - doe / 1460 + doe / 36524 - doe / 146096) / 365;
     long doy = doe - (365 * yoe + yoe / 4 - yoe / 100), mp = (5 * doy + 2) / 153;
     civil[1] = mp < 10 ? mp + 3 : mp - 9;
@@ -21,12 +27,14 @@ void fw_schedule_civil(long day, long civil[3]) {
 
 static long day_of(long y, long m, long d) {
     y -= m <= 2;
-    long era = y / 400, yoe = y - era * 400, doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
+    long era = whole(y, 400), yoe = y - era * 400,
+         doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
     return era * 146097 + yoe * 365 + yoe / 4 - yoe / 100 + doy - 719468;
 }
 
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *c, long day) {
-    return (int)((c->first_day ? c->first_day + 3 + day : day) % 7); /* 1970 began on a Thursday */
+    long monday = c->dated ? c->first_day + 3 + day : day; /* 1970 began on a Thursday */
+    return (int)(monday - 7 * whole(monday, 7));
 }
 
 static bool working(const fw_schedule_calendar *c, double day) {
@@ -100,25 +108,26 @@ bool fw_schedule_date_parse(const char *text, long *day) {
         else
             part[k] = 10 * part[k] + text[i] - '0';
     }
-    if (part[0] < 1970 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
+    if (part[0] < 1 || part[1] < 1 || part[1] > 12 || part[2] < 1) return false;
     *day = day_of(part[0], part[1], part[2]);
     fw_schedule_civil(*day, civil); /* the 30th of February is another day */
     return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
 }
 
-/* " from 2026-11-23" to the end of the text; 1970, whose first day would be 0, is none */
-static bool date_of(const char *text, long *day) {
-    static const char before[] = " from ";
+/* " from 2026-11-23" to the end of the text; a plan that begins in 9999 could end where dates have no four digits */
+static bool date_of(const char *text, fw_schedule_calendar *c) {
+    static const char before[] = " from ", last[] = "9999";
     const size_t n = sizeof before - 1;
-    return strncmp(text, before, n) == 0 && fw_schedule_date_parse(text + n, day) &&
-           text[n + 10] == '\0' && *day >= 365;
+    return c->dated = strncmp(text, before, n) == 0 &&
+                      fw_schedule_date_parse(text + n, &c->first_day) && text[n + 10] == '\0' &&
+                      strncmp(text + n, last, sizeof last - 1) != 0;
 }
 
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {
     *c = (fw_schedule_calendar){.open_s = 0.0, .close_s = day_s};
     if (strncmp(text, "none", 4) == 0) {
         text += 4;
-        return !*text || date_of(text, &c->first_day);
+        return !*text || date_of(text, c);
     }
     for (double open, close = -1.0;; text++) {
         const char *at = clock_of(text, &open);
@@ -133,7 +142,7 @@ bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {
         text = clock_of(at, &close);
         if (!text || !(open < close)) return false;
         c->close_s = close;
-        if (*text != ',') return !*text || date_of(text, &c->first_day);
+        if (*text != ',') return !*text || date_of(text, c);
     }
 }
 

@@ -14,7 +14,8 @@ typedef struct fw_schedule_calendar {
     bool weekends;          /* people come on Saturdays and Sundays too */
     double break_s[4][2];   /* (breaks) ascending, inside the day: nobody is there from ... to */
     int breaks;
-    long first_day; /* of the plan, days since 1970-01-01; 0: not stated, day 1 is a Monday */
+    bool dated;     /* first_day is stated; without it day 1 is a Monday */
+    long first_day; /* of the plan, days since 1970-01-01, negative before */
 } fw_schedule_calendar;
 
 typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
@@ -142,7 +143,8 @@ bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round 
 double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
 /* 0: Monday; `day` counts from 0 */
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);
-/* "2026-11-23", whatever follows: days since 1970-01-01. false: no date, or one before */
+/* "2026-11-23", whatever follows: days since 1970-01-01, negative before. false: no date of the
+   years 1 to 9999 */
 bool fw_schedule_date_parse(const char *text, long *day);
 /* year, month and day of the month of a day since 1970-01-01 */
 void fw_schedule_civil(long day, long civil[3]);

@@ -8,10 +8,10 @@ fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_in
     fw_verdict_fabrication fabricated = {.thickness_ratio = 1.0, .youngs_ratio = 1.0};
     for (int i = 0; i < ninput; i++) {
         double off = x[i] - input[i].drawn;
-        fabricated.edge_m += input[i].edge_m * (x[i] - input[i].even);
-        fabricated.flare_m += input[i].flare_m * off;
-        fabricated.thickness_ratio += input[i].thickness * off;
-        fabricated.youngs_ratio += input[i].youngs * off;
+        fabricated.edge_m += input[i].edge_m * (x[i] - input[i].even) + input[i].edge_at_m;
+        fabricated.flare_m += input[i].flare_m * off + input[i].flare_at_m;
+        fabricated.thickness_ratio += input[i].thickness * off + input[i].thickness_at;
+        fabricated.youngs_ratio += input[i].youngs * off + input[i].youngs_at;
     }
     return fabricated;
 }

@@ -9,8 +9,8 @@
 enum { FW_FABRICATION_INPUTS = 6 }; /* at most, of one flow: 64 corners */
 
 /* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
-     edge += edge_m (x - even), flare += flare_m (x - drawn), relative thickness and modulus
-   likewise */
+     edge += edge_m (x - even) + edge_at_m, flare += flare_m (x - drawn) + flare_at_m, relative
+   thickness and modulus likewise */
 typedef struct fw_verdict_fabrication_input {
     const char *name; /* "printed edge" */
     fw_quantity q;    /* unit, status, source and note of the range */
@@ -18,6 +18,8 @@ typedef struct fw_verdict_fabrication_input {
     double even;      /* at which edges are where they are drawn: what the mask compensates */
     double nominal, low, high, sigma; /* low <= nominal <= high; sigma: standard uncertainty */
     double edge_m, flare_m, thickness, youngs; /* per unit of x */
+    /* the same at drawn and even: 0, but where an input goes with others (process/corner_correlation.c) */
+    double edge_at_m, flare_at_m, thickness_at, youngs_at;
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */
 } fw_verdict_fabrication_input;

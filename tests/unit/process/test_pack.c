@@ -36,7 +36,8 @@ static fw_status reference_page(fw_text *out) {
                 "A process pack is XML in UTF-8: a flow, or what all flows share (`base.xml`). "
                 "What it means is in [theory/process.md](../theory/process.md).\n"
                 "The schema for editors is [process.rng](../../processes/process.rng). A "
-                "laboratory pack is a `<process>` with `flow`, and only `<source>` and `<q>` "
+                "laboratory pack is a `<process>` with `flow`, and only `<source>`, `<q>` and "
+                "`<correlation>` "
                 "in it ([laboratory.rng](../../processes/laboratory.rng)).\n");
     for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
         fw_xml_page_element(e, out);

@@ -15,6 +15,8 @@ static fw_diags diags;
 static fw_process_flow *flow;
 static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
+static double now = (double)NAN;      /* of the clock; NaN: there is none */
+static const char *lot_wafers = NULL; /* of logs that begin */
 static int setup(void **state) {
     (void)state;
     arena = fw_arena_new(0);
@@ -24,6 +26,8 @@ static int setup(void **state) {
 }
 static int teardown(void **state) {
     (void)state;
+    lot_wafers = NULL;
+    now = (double)NAN;
     fw_arena_free(arena);
     return 0;
 }
@@ -38,7 +42,7 @@ static const char *with(const char *log, const char *words, int number) {
     fw_recipe_asrun run;
     const char *line = NULL;
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, &diags, &line);
+    fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
     if (number) {
         assert_int_equal(status, FW_INPUT);
         assert_int_equal(diags.item[diags.count - 1].number, number);
@@ -50,7 +54,7 @@ static const char *with(const char *log, const char *words, int number) {
 
 static const char *begun(void) {
     const char *line;
-    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", &line), FW_OK);
+    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", lot_wafers, &line), FW_OK);
     return line;
 }
 
@@ -215,6 +219,211 @@ static void planned_against_actual(void **state) {
     assert_true(holds(&text, "waited 21 min since C20: OUT of 0 s to 15 min"));
 }
 
+/* ---- wafers, sites, settings, coupons ---- */
+
+static const char of_C22[] =
+    "C22; start=2026-11-20T10:30; end=2026-11-20T10:52; by=AB; second=CD; ";
+
+static const char *entry(const char *more) {
+    return fw_arena_printf(arena, "%s%s", of_C22, more);
+}
+
+static void sites_and_settings(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    lot_wafers = "1,2,A-7";
+    const char *log =
+        with(begun(),
+             entry("wafer=A-7; instrument=profilometer 2; thickness=9.1 9.0 9.2 9.15 8.9 um; "
+                   "thickness below the mould's top=left:0.0068 centre:0.0069 mm; "
+                   "set current density=0.0204 A/cm2; set bath temperature=24.5 Cel; "
+                   "coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 9.1 9.1 um, u=0.05 um, "
+                   "at=25 C/cm2, u-at=0.2 C/cm2"),
+             0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(run.nwafer, 3);
+    const fw_recipe_asrun_entry *e = &run.entry[0];
+    assert_string_equal(e->wafer, "A-7");
+    assert_string_equal(e->instrument, "profilometer 2");
+    assert_int_equal(e->nmeasured, 2);
+    assert_int_equal(e->measured[0].nsite, 5);
+    assert_near(e->measured[0].number, 9.07, 1e-12);
+    assert_near(e->measured[0].site[4], 8.9, 0.0);
+    assert_int_equal(e->measured[1].nsite, 2);
+    assert_near(e->measured[1].site[0], 6.9, 1e-12);
+    assert_near(e->measured[1].site[2], 6.8, 1e-12);
+    assert_true(isnan(e->measured[1].site[1]));
+    assert_int_equal(e->nset, 2);
+    assert_near(e->set[0].value, 20.4, 1e-12);
+    assert_near(e->set[1].value, 24.5, 1e-12);
+    assert_int_equal(e->ncoupon, 1);
+    const fw_process_measurement *m = &e->coupon[0].row;
+    assert_near(m->drawn_m, 1e-3, 1e-18);
+    assert_near(m->value, 9.1e-6, 1e-18);
+    assert_near(m->uncertainty, 0.05e-6, 1e-18);
+    assert_near(m->at, 25e4, 1e-9);
+    assert_near(m->at_uncertainty, 2e3, 1e-9);
+    assert_int_equal(e->coupon[0].nsite, 5);
+    /* 20.4 mA/cm2 where 19.8 to 20.2 are allowed */
+    fw_recipe_deviation *list;
+    int n;
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    assert_int_equal(n, 1);
+    assert_string_equal(list[0].what, "setting current density");
+    assert_string_equal(list[0].planned, "20; 19.8 to 20.2 mA/cm2");
+    assert_string_equal(list[0].actual, "20.4 mA/cm2");
+}
+
+/* what the plan does not know is refused with what there is */
+static void refused_values(void **state) {
+    (void)state;
+    static const struct {
+        const char *words, *says;
+        int number;
+    } bad[] = {
+        {"wafer=9", "there are: 1, 2, A-7", 282},
+        {"wafer=", "not written as name=value", 282},
+        {"thicknes=9.1 um", "did you mean 'thickness'", 282},
+        {"thickness=9.1 s", "thickness is given in um", 282},
+        {"thickness=9.1 9.0 um", "2 values, and is measured at 5 sites", 282},
+        {"thickness=9.1 9.0 9 9 9 9 um", "five sites", 282},
+        {"thickness=middle:9.1 um", "a site is centre", 282},
+        {"thickness=left:9.1 left:9.0 um", "given twice", 282},
+        {"thickness=left:9.1 9.0 um", "either all sites have names", 282},
+        {"thickness=left:x um", "a number stands behind", 282},
+        {"thickness=um", "give a number", 282},
+        {"thickness=nan um", "give a number", 282},
+        {"thickness=9.1 um; thickness=9.2 um", "given twice", 282},
+        {"thickness=-9.1 mm", "plausible range", 278},
+        {"thickness=9100 mm", "plausible range", 278},
+        {"set power=200 W", "C22 sets no 'power'", 282},
+        {"set current density=20 V", "current density is given in mA/cm2", 282},
+        {"set current density=-20 mA/cm2", "plausible range", 278},
+        {"set bath temperature=2400 Cel", "plausible range", 278},
+        {"set current density=20 mA/cm2; set current density=20 mA/cm2", "given twice", 282},
+        {"coupon=plating-pad, value=9 um, u=1 um", "did you mean 'plating-pads'", 211},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, at=25 C/cm2", "add u=", 282},
+        {"coupon=plating-pads, drawn=1 mm, value=9 s, u=1 s, at=25 C/cm2", "is measured as", 211},
+        {"coupon=plating-pads, drawn=1 s, value=9 um, u=1 um, at=25 C/cm2", "no length", 282},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 s, at=25 C/cm2", "another dimension",
+         282},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=-1 um, at=25 C/cm2", "not below 0", 282},
+        {"coupon=plating-pads, drawn=1 mm, value=9 um, u=1 um", "needs the columns at", 211},
+        {"coupon=plating-pads, value=9 um, u=1 um, at=25 C/cm2", "drawn_um", 211},
+        {"coupon=plating-pads, colour=red, value=9 um, u=1 um", "a coupon has no 'colour'", 282},
+        {"coupon=plating-pads, drawn=1 mm, value=9000 km, u=1 um, at=25 C/cm2", "plausible range",
+         278},
+    };
+    lot_wafers = "1,2,A-7";
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        with(begun(), entry(bad[i].words), bad[i].number);
+        const char *said = diags.item[diags.count - 1].message;
+        if (!strstr(said, bad[i].says)) fail_msg("%s: %s", bad[i].words, said);
+    }
+    lot_wafers = NULL; /* a log of before there were wafers */
+    with(begun(), entry("wafer=1"), 282);
+    with(begun(), entry("thickness=9.1"), 0);
+}
+
+static void wafer_lists(void **state) {
+    (void)state;
+    const char *wrong;
+    assert_string_equal(fw_recipe_asrun_wafers(arena, "3", &wrong), "1,2,3");
+    assert_string_equal(fw_recipe_asrun_wafers(arena, "W1,W2", &wrong), "W1,W2");
+    static const char *const bad[] = {"", "a b", "1,,2", "1,1", "51,", "a\tb", ",", "1,2,", "a=b"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        if (fw_recipe_asrun_wafers(arena, bad[i], &wrong) || !wrong) fail_msg("'%s'", bad[i]);
+}
+
+/* Whatever is typed is refused or taken, and what is taken is read again as the same: entries with bytes changed, left out
+   and doubled. */
+static void anything_typed(void **state) {
+    (void)state;
+    static const char *const good[] = {
+        "wafer=A-7; instrument=p 2; thickness=9.1 9.0 9.2 9.15 8.9 um; note=a = b, c",
+        "thickness=left:9.1 top:9.0 um; set current density=0.0204 A/cm2; set bath temperature=24 "
+        "Cel",
+        "wafer=1; coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 um, u=0.05 um, at=25 C/cm2"};
+    uint64_t seed = 11;
+    int taken = 0;
+    lot_wafers = "1,2,A-7";
+    const char *log = begun();
+    for (int i = 0; i < test_cases(60000, 6000); i++) {
+        fw_mark mark = fw_arena_mark(arena);
+        char *words = fw_arena_strdup(arena, entry(good[i % 3]));
+        fw_recipe_asrun run, again;
+        const char *line;
+        for (int k = 0; k < 1 + i % 4; k++) {
+            size_t n = strlen(words), at;
+            seed = seed * 6364136223846793005u + 1442695040888963407u;
+            at = sizeof of_C22 - 1 + (size_t)(seed >> 33) % (n - sizeof of_C22 + 1);
+            char other = " ;,=:.-0159aeu/\x01\xff"[(seed >> 20) % 17];
+            if (seed >> 62)
+                words[at] = other;
+            else if (n > sizeof of_C22 + 4)
+                memmove(words + at, words + at + 1, n - at);
+        }
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        fw_status status = fw_recipe_asrun_add(arena, flow, &run, words, now, &diags, &line);
+        assert_true(status == FW_OK || status == FW_INPUT);
+        if (status == FW_OK) {
+            const char *both = fw_arena_printf(arena, "%s%s", log, line);
+            taken++;
+            if (read_log(both, strlen(both), &again) != FW_OK) fail_msg("%s", line);
+            assert_int_equal(again.nentry, 1);
+            fw_text text = fw_text_new(arena);
+            assert_int_equal(fw_recipe_asrun_write_text(flow, &again, &text), FW_OK);
+        } else
+            assert_true(diags.errors > 0);
+        fw_arena_rewind(arena, mark);
+    }
+    assert_true(taken > 100);
+}
+
+/* each wafer has its own last entry */
+static void wafers_are_no_repetitions(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
+    lot_wafers = "1,2";
+    const char *log = with(begun(), entry("wafer=1; thickness=9.1 um"), 0);
+    log = with(log, entry("wafer=2; thickness=7.1 um"), 0);
+    log = with(log, entry("wafer=1; thickness=9.2 um"), 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "1 of 28 steps run, 1 repeated, 1 outside of their limits"));
+    assert_true(holds(&text, ", wafer 1 (run 2 times)"));
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_true(holds(&json, "\"wafer\":\"1\""));
+    assert_true(holds(&json, "\"deviations\":[{\"step\":\"C22\",\"wafer\":\"2\",\"what\":"
+                             "\"thickness\",\"planned\":\"8.1 to 9.9 um\",\"actual\":"
+                             "\"7.1 um\"}]"));
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&page, "<svg"));
+    assert_true(holds(&page, "too few for control limits, which need 8"));
+    assert_true(holds(&page, "a value is not accepted"));
+}
+
+/* the year 2126 has not come; ages ago is asked about; before 1970 and far ahead are dates like others */
+static void the_clock(void **state) {
+    (void)state;
+    const char *some = "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=A";
+    now = 86400.0 * 20777.0 + 36000.0; /* 2026-11-20T10:00 */
+    with(begun(), some, 0);
+    assert_int_equal(diags.count, 2); /* the step before, and a value that is not there */
+    with(begun(), "C20; start=2026-11-20T10:00; end=2126-11-20T10:09; by=A", 282);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "is in the future"));
+    with(begun(), "C20; start=2026-11-22T10:00; end=2026-11-22T10:09; by=A", 282);
+    with(begun(), "C20; start=1926-11-20T10:00; end=1926-11-20T10:09; by=A", 0);
+    assert_non_null(strstr(diags.item[0].message, "more than a year ago"));
+    now = (double)NAN;
+    fw_recipe_asrun run;
+    const char *log = with(begun(), "C20; start=1969-12-31T23:59; end=2126-01-01T00:01; by=A", 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_near(run.entry[0].start_s, -60.0, 0.0);
+    assert_near(run.entry[0].end_s, 86400.0 * 56978.0 + 60.0, 0.0);
+}
+
 /* ---- the file ---- */
 static const char *temporary(void) {
     const char *path = fw_arena_printf(
@@ -321,6 +530,12 @@ int main(void) {
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
+        cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
+        cmocka_unit_test_setup_teardown(refused_values, setup, teardown),
+        cmocka_unit_test_setup_teardown(wafer_lists, setup, teardown),
+        cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
+        cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
+        cmocka_unit_test_setup_teardown(the_clock, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,8 +9,7 @@ static bool there(const fw_schedule_calendar *c,
     double s = 60.0 * (double)(minute % 1440);
     for (int i = 0; i < c->breaks; i++)
         if (s >= c->break_s[i][0] && s < c->break_s[i][1]) return false;
-    return (c->weekends || (day + (c->first_day ? 5 : 0)) % 7 < 5) && s >= c->open_s &&
-           s < c->close_s;
+    return (c->weekends || (day + (c->dated ? 5 : 0)) % 7 < 5) && s >= c->open_s && s < c->close_s;
 }
 
 static void by_minutes(void **state) {
@@ -82,7 +81,47 @@ static void parsing(void **state) {
         assert_false(fw_schedule_calendar_parse(bad[i], &c));
 }
 
+/* every day of the years 1 to 9999, counted one by one by the rule of leap years */
+static void centuries(void **state) {
+    (void)state;
+    static const int length[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+    long day, first;
+    assert_true(fw_schedule_date_parse("0001-01-01", &first));
+    day = first;
+    for (int y = 1; y <= 9999; y++)
+        for (int m = 1; m <= 12; m++) {
+            bool leap = (y % 4 == 0 && y % 100 != 0) || y % 400 == 0;
+            for (int d = 1; d <= length[m - 1] + (m == 2 && leap); d++, day++) {
+                long civil[3];
+                fw_schedule_civil(day, civil);
+                if (civil[0] != y || civil[1] != m || civil[2] != d)
+                    fail_msg("day %ld: %ld-%ld-%ld", day, civil[0], civil[1], civil[2]);
+            }
+        }
+    long at;
+    assert_true(fw_schedule_date_parse("1970-01-01", &at) && at == 0);
+    assert_true(fw_schedule_date_parse("9999-12-31", &at) && at == day - 1);
+    assert_false(fw_schedule_date_parse("0000-12-31", &at));
+    assert_false(fw_schedule_date_parse("1900-02-29", &at));
+    static const struct {
+        const char *text;
+        int weekday; /* 0: Monday */
+    } known[] = {{"none from 1970-01-01", 3}, {"none from 1969-07-20", 6},
+                 {"none from 1900-01-01", 0}, {"none from 2000-02-29", 1},
+                 {"none from 2126-11-23", 5}, {"none from 2400-02-29", 1},
+                 {"none from 0001-01-01", 0}, {"none from 9998-12-31", 3}};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        fw_schedule_calendar c;
+        assert_true(fw_schedule_calendar_parse(known[i].text, &c) && c.dated);
+        if (fw_schedule_calendar_weekday(&c, 0) != known[i].weekday) fail_msg("%s", known[i].text);
+        assert_int_equal(fw_schedule_calendar_weekday(&c, 9), (known[i].weekday + 9) % 7);
+    }
+    fw_schedule_calendar c; /* a plan of that year could end in five digits */
+    assert_false(fw_schedule_calendar_parse("none from 9999-01-01", &c));
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(by_minutes), cmocka_unit_test(parsing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(by_minutes), cmocka_unit_test(parsing),
+                                       cmocka_unit_test(centuries)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

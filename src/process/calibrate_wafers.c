@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Coupons of a lot: several wafers, several sites of each. */
+#include "process/coupon.h"
+#include "maths/student.h"
+#include <math.h>
+#include <string.h>
+
+enum { MOST_WAFERS = 64, MOST_IDS = FW_COUPON_RESULTS + FW_COUPON_USED };
+
+typedef struct wafer { /* calibrated by itself */
+    const char *name;
+    fw_process_measurement *row; /* (nrow) */
+    double *chance, *shared; /* (nrow) standard uncertainties: of the sites, of the instrument */
+    int *reading;            /* (nrow) which one it was */
+    int nrow;
+    fw_process_calibration found;
+    fw_process_covariance of_chance, of_shared;
+} wafer;
+
+typedef struct lot {
+    fw_arena *arena;
+    const fw_process_flow *flow;
+    const fw_process_readings *readings;
+    fw_diags *diags;
+    wafer *wafer; /* (nwafer) */
+    int nwafer;
+    const char *id[MOST_IDS]; /* (nid) items of any wafer, then what the coupons used of the flow */
+    int nid, nitem;
+} lot;
+
+static bool alike(const fw_process_reading *a, const fw_process_reading *b) {
+    return strcmp(a->row.coupon, b->row.coupon) == 0 && strcmp(a->row.feature, b->row.feature) == 0;
+}
+
+/* Two standard uncertainties stand for 95.45 % of a normal distribution wherever the plan uses them. A deviation that is
+   known from n degrees of freedom only is widened by t(97.725 %, n)/2, so that they do so here.
+   Source: JCGM 100:2008, G.3. Test: test_wafers.c, coverage. */
+static double widened(int n) {
+    return 0.5 * fw_maths_student_quantile(0.97724986805182079, n);
+}
+
+/* Of the sites of one reading: s^2/nsite, s pooled over all readings of the same coupon and feature, which scatter alike,
+   s^2 = sum of squares/sum(nsite - 1). *freedom: that sum; 0: one site each, and nothing is known */
+static double chance_of(const fw_process_readings *all, const fw_process_reading *of,
+                        int *freedom) {
+    double squares = 0.0;
+    *freedom = 0;
+    for (int i = 0; i < all->n; i++)
+        if (alike(&all->item[i], of) && all->item[i].nsite > 1) {
+            squares += all->item[i].squares;
+            *freedom += all->item[i].nsite - 1;
+        }
+    if (*freedom == 0 || of->nsite == 0) return 0.0;
+    return sqrt(squares / *freedom / of->nsite) * widened(*freedom);
+}
+
+static fw_status add_row(lot *l, wafer *w, int index) {
+    const fw_process_reading *r = &l->readings->item[index];
+    int freedom;
+    double chance = chance_of(l->readings, r, &freedom);
+    w->row[w->nrow] = r->row;
+    w->chance[w->nrow] = chance;
+    w->shared[w->nrow] = r->row.uncertainty;
+    w->reading[w->nrow] = index;
+    w->row[w->nrow].uncertainty = r->nsite == 0 ? 1.0 : hypot(chance, r->row.uncertainty);
+    if (!(w->row[w->nrow++].uncertainty > 0.0))
+        return fw_diag_error(l->diags, 211, r->row.place,
+                             "all sites of %s read the same, so that nothing says how exactly: add "
+                             "u=, the standard uncertainty of the instrument",
+                             r->row.coupon);
+    return FW_OK;
+}
+
+static fw_status wafer_of(lot *l, const char *name, wafer **w) {
+    for (int i = 0; i < l->nwafer; i++)
+        if (strcmp(l->wafer[i].name, name) == 0) {
+            *w = &l->wafer[i];
+            return FW_OK;
+        }
+    if (l->nwafer == MOST_WAFERS) return FW_LIMIT;
+    size_t n = (size_t)l->readings->n;
+    *w = &l->wafer[l->nwafer++];
+    (*w)->name = name;
+    FW_NEED((*w)->row = fw_arena_array(l->arena, fw_process_measurement, n));
+    FW_NEED((*w)->chance = fw_arena_array(l->arena, double, n));
+    FW_NEED((*w)->shared = fw_arena_array(l->arena, double, n));
+    FW_NEED((*w)->reading = fw_arena_array(l->arena, int, n));
+    return FW_OK;
+}
+
+static fw_status note_ids(lot *l, const wafer *w, bool items) {
+    int from = items ? 0 : w->found.count, to = items ? w->found.count : w->of_shared.m;
+    for (int k = from; k < to; k++) {
+        bool known = false;
+        for (int i = 0; i < l->nid; i++)
+            known = known || strcmp(l->id[i], w->of_shared.id[k]) == 0;
+        if (known) continue;
+        if (l->nid == MOST_IDS) return FW_LIMIT;
+        l->id[l->nid++] = w->of_shared.id[k];
+    }
+    return FW_OK;
+}
+
+static fw_status calibrate_each(lot *l) {
+    fw_status status = FW_OK;
+    for (int i = 0; i < l->nwafer; i++) {
+        wafer *w = &l->wafer[i];
+        size_t said = l->diags->count;
+        fw_status of_wafer =
+            fw_process_calibrate(l->arena, l->flow, w->row, w->nrow, l->diags, &w->found);
+        if (of_wafer == FW_INPUT) {
+            status = FW_INPUT;
+            for (size_t d = said; w->name[0] && d < l->diags->count; d++)
+                FW_NEED(l->diags->item[d].message = fw_arena_printf(
+                            l->arena, "wafer %s: %s", w->name, l->diags->item[d].message));
+            continue;
+        }
+        FW_TRY(of_wafer);
+        FW_TRY(fw_process_coupon_covariance(l->arena, l->flow, w->row, w->nrow, &w->found,
+                                            w->chance, false, &w->of_chance));
+        FW_TRY(fw_process_coupon_covariance(l->arena, l->flow, w->row, w->nrow, &w->found,
+                                            w->shared, true, &w->of_shared));
+    }
+    FW_TRY(status);
+    for (int i = 0; i < l->nwafer; i++)
+        FW_TRY(note_ids(l, &l->wafer[i], true));
+    l->nitem = l->nid;
+    for (int i = 0; i < l->nwafer; i++)
+        FW_TRY(note_ids(l, &l->wafer[i], false));
+    return FW_OK;
+}
+
+/* which of a wafer's results has the id; -1: none */
+static int at(const wafer *w, const char *id) {
+    for (int i = 0; i < w->of_shared.m; i++)
+        if (strcmp(w->of_shared.id[i], id) == 0) return i;
+    return -1;
+}
+
+typedef struct moments { /* of one id over the wafers that have it */
+    int n;
+    double mean, variance;       /* of the values; variance of one wafer, n - 1 */
+    double chance, shared, rest; /* variances: mean of the wafers' own; rest of the fit's */
+    double between, u;           /* scatter from wafer to wafer, variance; what is stated */
+    double gain; /* of the part of u that is chance once more; 0: wafers differ by more */
+} moments;
+
+/* what the fit states beyond what its rows carry (a ladder read by what stands) */
+static double rest_of(const wafer *w, int k) {
+    double u = w->found.item[k].uncertainty;
+    int m = w->of_shared.m;
+    return fmax(u * u - w->of_chance.C[k * m + k] - w->of_shared.C[k * m + k], 0.0);
+}
+
+/* u^2 = (chance + rest)/W + shared + b (1 + 1/W). shared, of the instrument and of what all wafers were measured under,
+   does not average out. The last term is there because the plan is about the next wafer, not about the mean of these:
+   b = variance (t(W - 1)/2)^2 - chance - rest, what really differs from wafer to wafer, widened for the few that there
+   are, but at least (chance + rest) sqrt(2/(W - 1)), the standard uncertainty of such an estimate where nothing differs: a
+   scatter that cannot be seen is not taken to be absent. Then it is correlated as chance is. One wafer: b is not known.
+   Source: DerSimonian and Laird, Control. Clin. Trials 7 (1986) 177 (moments); JCGM 100:2008, G.3 and E.4.3 (deviation of
+   a variance). Test: test_wafers.c, coverage. */
+static moments moments_of(const lot *l, const char *id) {
+    moments o = {0};
+    for (int i = 0; i < l->nwafer; i++) {
+        const wafer *w = &l->wafer[i];
+        int k = at(w, id), m = w->of_shared.m;
+        if (k < 0 || k >= w->found.count) continue;
+        o.n++;
+        o.mean += w->found.item[k].value;
+        o.chance += w->of_chance.C[k * m + k];
+        o.shared += w->of_shared.C[k * m + k];
+        o.rest += rest_of(w, k);
+    }
+    o.mean /= o.n, o.chance /= o.n, o.shared /= o.n, o.rest /= o.n;
+    for (int i = 0; i < l->nwafer; i++) {
+        int k = at(&l->wafer[i], id);
+        if (k < 0 || k >= l->wafer[i].found.count) continue;
+        double off = l->wafer[i].found.item[k].value - o.mean;
+        o.variance += o.n > 1 ? off * off / (o.n - 1) : 0.0;
+    }
+    double own = o.chance + o.rest, wide = o.n > 1 ? widened(o.n - 1) : 0.0, next = 1.0 + 1.0 / o.n;
+    double unseen = o.n > 1 ? own * sqrt(2.0 / (o.n - 1)) : 0.0;
+    o.between = fmax(o.variance - own, 0.0);
+    double b = fmax(o.variance * wide * wide - own, unseen);
+    if (o.between < unseen) o.gain = sqrt(b / own * next); /* nothing says that they differ */
+    o.u = sqrt(own / o.n + o.shared + b * next);
+    return o;
+}
+
+/* covariance of two means: what is by chance is independent from wafer to wafer, what is shared is the same in all */
+static double covariance_of(const lot *l, const char *a, const char *b, double gains) {
+    double chance = 0.0, shared = 0.0;
+    int na = 0, nb = 0, both = 0;
+    for (int i = 0; i < l->nwafer; i++) {
+        const wafer *w = &l->wafer[i];
+        int p = at(w, a), q = at(w, b), m = w->of_shared.m;
+        na += p >= 0, nb += q >= 0;
+        if (p < 0 || q < 0) continue;
+        both++;
+        chance += w->of_chance.C[p * m + q];
+        shared += w->of_shared.C[p * m + q];
+    }
+    if (both == 0) return 0.0;
+    return chance / ((double)na * nb) + shared / both + gains * chance / both;
+}
+
+/* ---- in words ---- */
+
+static void put_percent(fw_text *out, double part, double whole) {
+    fw_text_number(out, whole != 0.0 ? 100.0 * part / fabs(whole) : 0.0, 2);
+    fw_text_add(out, " %");
+}
+
+static fw_status note_of(const lot *l, const moments *o, const char *first, const char **note) {
+    fw_text text = fw_text_new(l->arena);
+    fw_text_add(&text, first);
+    if (o->n > 1) {
+        fw_text_printf(&text, "; mean of %d wafers, which differ by ", o->n);
+        put_percent(&text, sqrt(o->between), o->mean);
+        fw_text_printf(&text, " (standard, %d degree%s of freedom); the next wafer is meant",
+                       o->n - 1, o->n > 2 ? "s" : "");
+    } else
+        fw_text_add(&text, "; of one wafer: how the next one differs is not known");
+    FW_TRY(fw_text_end(&text));
+    *note = text.data;
+    return FW_OK;
+}
+
+static bool behind(const fw_process_calibrated *c, const fw_process_reading *r) {
+    const char *found = strstr(c->coupon, r->row.coupon);
+    if (!found) return false;
+    return strcmp(r->row.coupon, "etch-rate") != 0 || strcmp(r->row.feature, c->id) == 0;
+}
+
+/* "arde-slots of wafers 1, 2, 3: 105 readings, 84 degrees of freedom, step S18, 2026-11-20 to 2026-11-22; lot L7, log
+   lot7.log" */
+static fw_status source_of(const lot *l, fw_process_calibrated *c) {
+    const char *first = NULL, *last = NULL, *step = NULL;
+    int readings = 0, freedom = 0;
+    fw_text text = fw_text_new(l->arena), wafers = fw_text_new(l->arena);
+    fw_text_add(&wafers, "");
+    for (int i = 0, n = 0; i < l->nwafer; i++) {
+        const wafer *w = &l->wafer[i];
+        bool any = false;
+        for (int k = 0; k < w->nrow; k++) {
+            const fw_process_reading *r = &l->readings->item[w->reading[k]];
+            if (!behind(c, r)) continue;
+            any = true;
+            readings += r->nsite > 0 ? r->nsite : 1;
+            freedom += r->nsite > 1 ? r->nsite - 1 : 0;
+            if (!first || strcmp(r->date, first) < 0) first = r->date;
+            if (!last || strcmp(r->date, last) > 0) last = r->date;
+            step = r->step;
+        }
+        if (any && w->name[0]) fw_text_printf(&wafers, "%s%s", n++ ? ", " : "", w->name);
+    }
+    FW_TRY(fw_text_end(&wafers));
+    fw_text_printf(&text, "%s%s%s: n = %d reading%s", c->coupon,
+                   wafers.length ? strchr(wafers.data, ',') ? " of wafers " : " of wafer " : "",
+                   wafers.data, readings, readings == 1 ? "" : "s");
+    if (freedom > 0) fw_text_printf(&text, ", %d degrees of freedom of the sites", freedom);
+    if (step) fw_text_printf(&text, ", step %s, %s", step, first);
+    if (step && strcmp(first, last) != 0) fw_text_printf(&text, " to %s", last);
+    if (l->readings->lot) fw_text_printf(&text, "; lot %s", l->readings->lot);
+    fw_text_printf(&text, "; log %s, SHA-256 %.16s", l->readings->file, l->readings->sha256);
+    FW_TRY(fw_text_end(&text));
+    c->source = text.data;
+    c->date = last;
+    return FW_OK;
+}
+
+/* ---- the whole lot ---- */
+
+static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, double *gain) {
+    moments o = moments_of(l, id);
+    char text[32];
+    *c = (fw_process_calibrated){.id = id, .value = o.mean, .uncertainty = o.u};
+    *gain = o.gain;
+    for (int i = 0; i < l->nwafer; i++) {
+        int k = at(&l->wafer[i], id);
+        if (k < 0 || k >= l->wafer[i].found.count) continue;
+        const fw_process_calibrated *of = &l->wafer[i].found.item[k];
+        if (!c->coupon || strlen(of->coupon) > strlen(c->coupon)) c->coupon = of->coupon;
+        if (!c->note) c->note = of->note;
+        c->chi_square += of->chi_square;
+        c->freedom += of->freedom;
+        c->rows += of->rows;
+    }
+    c->probability = fw_process_chi_square_above(c->chi_square, c->freedom);
+    if (c->probability < FW_COUPON_LEAST_PROBABILITY)
+        return fw_diag_error(l->diags, 212, l->readings->item[0].row.place,
+                             "the values of %s scatter more around their model than their "
+                             "uncertainties allow, all wafers together: a probability of %s; %s is "
+                             "not calibrated from them",
+                             c->coupon, fw_number_text(text, sizeof text, c->probability, 2), id);
+    FW_TRY(note_of(l, &o, c->note, &c->note));
+    return source_of(l, c);
+}
+
+fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *flow,
+                                      const fw_process_readings *readings, fw_diags *diags,
+                                      fw_process_calibration *calibration) {
+    lot *l = fw_arena_one(arena, lot);
+    fw_status status = FW_OK;
+    FW_NEED(l);
+    l->arena = arena, l->flow = flow, l->readings = readings, l->diags = diags;
+    FW_NEED(l->wafer = fw_arena_array(arena, wafer, MOST_WAFERS));
+    if (readings->n == 0)
+        return fw_diag_error(diags, 211, (fw_place){.file = readings->file},
+                             "the log holds no coupon; enter what was read with --coupon");
+    for (int i = 0; i < readings->n; i++) {
+        wafer *w;
+        FW_TRY(wafer_of(l, readings->item[i].wafer, &w));
+        fw_status of_row = add_row(l, w, i);
+        if (of_row == FW_NOMEM) return of_row;
+        if (of_row != FW_OK) status = of_row;
+    }
+    FW_TRY(status);
+    FW_TRY(calibrate_each(l));
+    fw_process_covariance all = {.id = l->id, .m = l->nid};
+    double deviation[MOST_IDS] = {0}, gain[MOST_IDS] = {0};
+    fw_process_calibrated *item = fw_arena_array(arena, fw_process_calibrated, (size_t)l->nitem);
+    FW_NEED(item);
+    FW_NEED(all.C = fw_arena_array(arena, double, (size_t)(all.m * all.m)));
+    for (int i = 0; i < l->nitem; i++)
+        FW_TRY(combine(l, &item[i], l->id[i], &gain[i]));
+    for (int i = 0; i < all.m; i++)
+        for (int k = 0; k < all.m; k++)
+            all.C[i * all.m + k] = covariance_of(l, l->id[i], l->id[k], gain[i] * gain[k]);
+    for (int i = 0; i < all.m; i++)
+        deviation[i] = i < l->nitem ? item[i].uncertainty : sqrt(all.C[i * all.m + i]);
+    *calibration = (fw_process_calibration){.item = item, .count = l->nitem};
+    return fw_process_coupon_joint(arena, &all, deviation, calibration);
+}

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Planned against actual: durations against their windows, waiting times against their limits,
+   measured values against what is accepted, settings against what was planned. */
+#include "base/json.h"
+#include "base/text.h"
+#include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- text ---- */
+static void put_cell(fw_text *out, double seconds, int width) {
+    fw_text cell = fw_text_new(out->arena);
+    if (isnan(seconds))
+        fw_text_add(&cell, "-");
+    else
+        fw_schedule_put_duration(&cell, seconds);
+    if (fw_text_end(&cell) != FW_OK) {
+        out->failed = 1;
+        return;
+    }
+    fw_text_printf(out, "%*s", width, cell.data);
+}
+
+static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
+                         const fw_recipe_measured *m) {
+    const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+    bool fine = fw_recipe_asrun_accepted(a, m), yes = isnan(m->number);
+    bool unit = !yes && strcmp(a->unit, "1") != 0;
+    fw_text_printf(out, "      %s = ", m->measure);
+    if (yes)
+        fw_text_add(out, m->value);
+    else
+        fw_recipe_put_value(out, m->number);
+    fw_text_printf(out, "%s%s", unit ? " " : "", unit ? a->unit : "");
+    if (m->nsite > 1) fw_text_printf(out, ", mean of %d sites", m->nsite);
+    fw_text_printf(out, ": %s", fine ? "accepted" : "OUT of ");
+    if (!fine && yes)
+        fw_text_add(out, "yes");
+    else if (!fine)
+        fw_text_printf(out, "%s to %s", a->low[0] ? a->low : "any", a->high[0] ? a->high : "any");
+    fw_text_add(out, "\n");
+}
+
+static void put_setting(fw_text *out, const fw_recipe_set *s) {
+    fw_text_printf(out, "      set %s = %s", s->name, s->text);
+    if (s->q && !s->q->unknown) {
+        fw_text_add(out, ", planned ");
+        fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
+    }
+    if (!fw_recipe_asrun_allowed(s))
+        fw_text_printf(out, ": OUT of %s to %s", s->low[0] ? s->low : "any",
+                       s->high[0] ? s->high : "any");
+    fw_text_add(out, "\n");
+}
+
+static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
+    for (int i = 0; i < e->nmeasured; i++)
+        put_measured(out, e, &e->measured[i]);
+    for (int i = 0; i < e->nset; i++)
+        put_setting(out, &e->set[i]);
+    for (int i = 0; i < e->ncoupon; i++)
+        fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
+    for (int i = 0; i < e->step->nlag; i++) {
+        const fw_process_lag *l = &e->step->lag[i];
+        double wait = fw_recipe_asrun_waited(run, l, e);
+        if (isnan(wait) || fw_recipe_asrun_wait_is_fine(l, wait)) continue;
+        fw_text_printf(out, "      waited ");
+        fw_schedule_put_duration(out, fmax(wait, 0.0));
+        fw_text_printf(out, " since %s: OUT of ", l->from);
+        fw_schedule_put_duration(out, isnan(l->min_s) ? 0.0 : l->min_s);
+        fw_text_add(out, " to ");
+        if (isnan(l->max_s))
+            fw_text_add(out, "any");
+        else
+            fw_schedule_put_duration(out, l->max_s);
+        fw_text_add(out, "\n");
+    }
+    if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
+}
+
+typedef struct total {
+    int logged, out, repeated;
+    double planned_s, actual_s;
+} total;
+
+static fw_status sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_arena *arena,
+                        total *t) {
+    fw_recipe_deviation *list;
+    *t = (total){0};
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        bool any = false;
+        for (int k = 0; k < run->nentry; k++) {
+            const fw_recipe_asrun_entry *e = &run->entry[k];
+            if (e->step != s) continue;
+            any = true;
+            if (!fw_recipe_asrun_is_last(run, e)) {
+                t->repeated++;
+                continue;
+            }
+            t->actual_s += e->end_s - e->start_s;
+            if (s->time.computable) t->planned_s += s->booked_s;
+        }
+        t->logged += any;
+    }
+    return fw_recipe_asrun_deviations(arena, flow, run, &list, &t->out);
+}
+
+static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
+    int times = 0;
+    for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
+        times += e->step == last->step &&
+                 (e->wafer == last->wafer ||
+                  (e->wafer && last->wafer && strcmp(e->wafer, last->wafer) == 0));
+    return times;
+}
+
+/* e NULL: the step is open */
+static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
+                     const fw_recipe_asrun_entry *e, fw_text *out) {
+    bool known = s->time.computable;
+    const double cell[] = {
+        known ? s->booked_s : (double)NAN,
+        known ? s->time.first_look_s : (double)NAN,
+        known ? s->booked_stop_s : (double)NAN,
+        e ? e->end_s - e->start_s : (double)NAN,
+    };
+    fw_text_printf(out, "%-5s", s->id);
+    for (int k = 0; k < 4; k++)
+        put_cell(out, cell[k], 15);
+    fw_text_printf(out, "  %-9s %s", e ? fw_recipe_asrun_in_time(s, cell[3]) : "open", s->title);
+    if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
+    if (e && times_of(run, e) > 1) fw_text_printf(out, " (run %d times)", times_of(run, e));
+    fw_text_add(out, "\n");
+    if (e) details(run, e, out);
+}
+
+fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out) {
+    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
+                   run->lot ? run->lot : "", run->plan);
+    fw_text_printf(out, "%-5s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
+                   "stop", "actual", "judged", "title");
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        bool any = false;
+        for (int k = 0; k < run->nentry; k++) {
+            const fw_recipe_asrun_entry *e = &run->entry[k];
+            if (e->step != s || !fw_recipe_asrun_is_last(run, e)) continue;
+            put_step(run, s, e, out);
+            any = true;
+        }
+        if (!any) put_step(run, s, NULL, out);
+    }
+    total t;
+    FW_TRY(sum_up(flow, run, out->arena, &t));
+    fw_text_printf(out, "\n%d of %d steps run, %d repeated, %d outside of their limits; planned ",
+                   t.logged, flow->nstep, t.repeated, t.out);
+    fw_schedule_put_duration(out, t.planned_s);
+    fw_text_add(out, " for them, actual ");
+    fw_schedule_put_duration(out, t.actual_s);
+    fw_text_add(out, "\n");
+    return fw_text_end(out);
+}
+
+/* ---- JSON ---- */
+static void put_number(fw_json *out, const char *key, double value) {
+    fw_json_number(out, key, value, FW_PLAIN_DIGITS);
+}
+
+/* what nobody wrote down is left out */
+static void put_text(fw_json *out, const char *key, const char *value) {
+    if (value) fw_json_text(out, key, value);
+}
+
+static void sites_json(const fw_recipe_measured *m, fw_json *out) {
+    if (m->nsite < 2) return;
+    fw_json_object(out, "sites");
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i])) put_number(out, fw_recipe_site_name[i], m->site[i]);
+    fw_json_end(out);
+}
+
+static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "measured");
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "measure", m->measure);
+        if (isnan(m->number))
+            put_text(out, "value", m->value);
+        else
+            put_number(out, "value", m->number);
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        put_text(out, "unit", a->unit);
+        fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
+        sites_json(m, out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "settings");
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        fw_json_object(out, NULL);
+        fw_json_text(out, "name", s->name);
+        if (isnan(s->value))
+            put_text(out, "value", s->text);
+        else
+            put_number(out, "value", s->value);
+        put_number(out, "planned", s->q->unknown ? (double)NAN : fw_quantity_in_unit(s->q));
+        put_text(out, "unit", s->q->unit);
+        fw_json_truth(out, "accepted", fw_recipe_asrun_allowed(s));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    fw_json_list(out, "coupons");
+    for (int i = 0; i < e->ncoupon; i++)
+        fw_json_text(out, NULL, e->coupon[i].text);
+    fw_json_end(out);
+}
+
+static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
+    fw_json_list(out, "waited");
+    for (int i = 0; i < e->step->nlag; i++) {
+        const fw_process_lag *l = &e->step->lag[i];
+        double wait = fw_recipe_asrun_waited(run, l, e);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "from", l->from);
+        put_number(out, "waited_s", wait);
+        put_number(out, "min_s", l->min_s);
+        put_number(out, "max_s", l->max_s);
+        if (isnan(wait))
+            fw_json_null(out, "accepted");
+        else
+            fw_json_truth(out, "accepted", fw_recipe_asrun_wait_is_fine(l, wait));
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
+    put_text(out, "wafer", e->wafer);
+    put_text(out, "start", e->start);
+    put_text(out, "end", e->end);
+    put_number(out, "actual_s", e->end_s - e->start_s);
+    put_text(out, "judged", fw_recipe_asrun_in_time(e->step, e->end_s - e->start_s));
+    put_text(out, "by", e->by);
+    put_text(out, "second", e->second);
+    put_text(out, "tool", e->tool);
+    put_text(out, "instrument", e->instrument);
+    put_text(out, "bath", e->bath);
+    put_text(out, "note", e->note);
+    measured_json(e, out);
+    settings_json(e, out);
+    waited_json(run, e, out);
+}
+
+/* the last entry of a step itself, and the last ones of its other wafers in a list */
+static void runs_json(const fw_recipe_asrun *run, const fw_process_step *s, fw_json *out) {
+    const fw_recipe_asrun_entry *last = NULL;
+    int times = 0, wafers = 0;
+    for (int k = 0; k < run->nentry; k++) {
+        if (run->entry[k].step != s) continue;
+        last = &run->entry[k];
+        times++;
+        wafers += fw_recipe_asrun_is_last(run, last);
+    }
+    fw_json_whole(out, "times", times);
+    if (last) entry_json(run, last, out);
+    if (wafers < 2) return;
+    fw_json_list(out, "others");
+    for (int k = 0; k < run->nentry; k++) {
+        const fw_recipe_asrun_entry *e = &run->entry[k];
+        if (e->step != s || e == last || !fw_recipe_asrun_is_last(run, e)) continue;
+        fw_json_object(out, NULL);
+        entry_json(run, e, out);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
+static fw_status deviations_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                 fw_json *out, fw_arena *arena) {
+    fw_recipe_deviation *list;
+    int n;
+    FW_TRY(fw_recipe_asrun_deviations(arena, flow, run, &list, &n));
+    fw_json_list(out, "deviations");
+    for (int i = 0; i < n; i++) {
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", list[i].entry->step->id);
+        put_text(out, "wafer", list[i].entry->wafer);
+        fw_json_text(out, "what", list[i].what);
+        fw_json_text(out, "planned", list[i].planned);
+        fw_json_text(out, "actual", list[i].actual);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    put_text(out, "schema", "flexwright.as-run/1");
+    put_text(out, "flow", flow->id);
+    put_text(out, "lot", run->lot);
+    if (run->nwafer > 0) {
+        fw_json_list(out, "wafers");
+        for (int i = 0; i < run->nwafer; i++)
+            fw_json_text(out, NULL, run->wafer[i]);
+        fw_json_end(out);
+    }
+    put_text(out, "plan_sha256", run->plan);
+    put_text(out, "chain", run->chain);
+    fw_json_list(out, "steps");
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_process_time *p = &s->time;
+        fw_json_line(out, 0);
+        fw_json_object(out, NULL);
+        fw_json_text(out, "id", s->id);
+        put_number(out, "planned_s", p->computable ? p->nominal_s : (double)NAN);
+        put_number(out, "first_look_s", p->computable ? p->first_look_s : (double)NAN);
+        put_number(out, "stop_s", p->computable ? s->booked_stop_s : (double)NAN);
+        runs_json(run, s, out);
+        fw_json_end(out);
+    }
+    total t;
+    FW_TRY(sum_up(flow, run, text->arena, &t));
+    fw_json_end(out);
+    fw_json_whole(out, "logged", t.logged);
+    fw_json_whole(out, "repeated", t.repeated);
+    fw_json_whole(out, "outside", t.out);
+    put_number(out, "planned_s", t.planned_s);
+    put_number(out, "actual_s", t.actual_s);
+    FW_TRY(deviations_json(flow, run, out, text->arena));
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}

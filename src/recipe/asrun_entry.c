@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One entry of an as-run log, checked against the plan that the log is bound to. */
+#include "base/text.h"
+#include "recipe/asrun_parts.h"
+#include "schedule/schedule.h"
+#include <math.h>
+#include <string.h>
+
+static bool digits(const char *s, int n, int *value) {
+    *value = 0;
+    for (int i = 0; i < n; i++) {
+        if (s[i] < '0' || s[i] > '9') return false;
+        *value = 10 * *value + (s[i] - '0');
+    }
+    return true;
+}
+
+/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
+static bool read_time(const char *s, double *time_s) {
+    int hour, minute, second = 0;
+    long day;
+    size_t n = strlen(s);
+    if ((n != 16 && n != 19) || !fw_schedule_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
+        return false;
+    if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
+    if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;
+    if (hour > 23 || minute > 59 || second > 59) return false;
+    *time_s = 86400.0 * (double)day + 3600.0 * hour + 60.0 * minute + second;
+    return true;
+}
+
+static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const char *id) {
+    for (int i = 0; i < r->flow->nstep; i++)
+        if (strcmp(r->flow->step[i].id, id) == 0) return &r->flow->step[i];
+    const char *best = NULL;
+    for (int i = 0, least = 3; i < r->flow->nstep; i++) {
+        int d = fw_edit_distance(id, r->flow->step[i].id, 2);
+        if (d < least) {
+            least = d;
+            best = r->flow->step[i].id;
+        }
+    }
+    fw_diag_error(r->diags, 282, r->place, "flow %s has no step '%s'%s%s%s", r->flow->id, id,
+                  best ? "; did you mean '" : "", best ? best : "", best ? "'?" : "");
+    return NULL;
+}
+
+static const char *const own_words[] = {"start", "end",  "by",    "second",    "tool",
+                                        "bath",  "note", "wafer", "instrument"};
+enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
+
+/* <accept> of the step with this name, or NULL */
+static const fw_process_accept *accept_of(const fw_process_step *step, const char *measure) {
+    for (int i = 0; i < step->naccept; i++)
+        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
+    return NULL;
+}
+
+static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                              const char *name, const char *value) {
+    const fw_process_accept *a = accept_of(e->step, name);
+    fw_recipe_measured m = {.measure = name, .value = value, .number = (double)NAN};
+    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted */
+    if (!r->bound) return FW_OK;
+    if (!a) {
+        const char *known[MOST_NAMES];
+        int n = 0;
+        for (int i = 0; i < e->step->naccept && n < MOST_NAMES - OWN_WORDS; i++)
+            known[n++] = e->step->accept[i].measure;
+        for (int i = 0; i < OWN_WORDS; i++)
+            known[n++] = own_words[i];
+        return fw_recipe_asrun_unknown(
+            r, fw_arena_printf(r->arena, "step %s measures no", e->step->id), name, known, n);
+    }
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        m.site[i] = (double)NAN;
+    bool word = strcmp(value, "yes") == 0 || strcmp(value, "no") == 0;
+    if (!word && strcmp(a->unit, "yes/no") == 0)
+        return fw_diag_error(r->diags, 282, r->place, "%s=%s: say yes or no", name, value);
+    if (!word) {
+        fw_recipe_asrun_values v;
+        const fw_quantity any = {0};
+        FW_TRY(fw_recipe_asrun_values_read(r, name, value, a->sites, &v));
+        FW_TRY(fw_recipe_asrun_values_in(r, name, a->unit, &any, &v));
+        memcpy(m.site, v.site, sizeof m.site);
+        m.nsite = v.n;
+        m.number = fw_recipe_asrun_mean(m.site);
+    }
+    for (int i = 0; i < e->nmeasured; i++)
+        if (strcmp(e->measured[i].measure, name) == 0)
+            return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
+    e->measured[e->nmeasured++] = m;
+    return FW_OK;
+}
+
+/* ---- what was set ---- */
+
+/* a setting of the step, or what the plan computes for it (a current, a spin speed) */
+static bool setting_of(const fw_process_step *s, const char *name, fw_recipe_set *set) {
+    for (int i = 0; i < s->nsetting; i++)
+        if (strcmp(s->setting[i].name, name) == 0) {
+            set->q = s->setting[i].q;
+            set->low = s->setting[i].tolerance_low;
+            set->high = s->setting[i].tolerance_high;
+            return true;
+        }
+    for (int i = 0; i < s->nderived; i++)
+        if (s->derived[i]->id && strcmp(s->derived[i]->id, name) == 0) {
+            set->q = s->derived[i];
+            return true;
+        }
+    return false;
+}
+
+static fw_status no_setting(const fw_recipe_asrun_reader *r, const fw_process_step *s,
+                            const char *name) {
+    const char *known[MOST_NAMES];
+    int n = 0;
+    for (int i = 0; i < s->nsetting && n < MOST_NAMES; i++)
+        known[n++] = s->setting[i].name;
+    for (int i = 0; i < s->nderived && n < MOST_NAMES; i++)
+        if (s->derived[i]->id) known[n++] = s->derived[i]->id;
+    return fw_recipe_asrun_unknown(r, fw_arena_printf(r->arena, "step %s sets no", s->id), name,
+                                   known, n);
+}
+
+static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                              const char *name, const char *value) {
+    fw_recipe_set set = {.name = name, .text = value, .value = (double)NAN, .low = "", .high = ""};
+    name += strspn(name, " ");
+    set.name = name;
+    for (int i = 0; i < e->nset; i++)
+        if (strcmp(e->set[i].name, name) == 0)
+            return fw_diag_error(r->diags, 282, r->place, "set %s is given twice", name);
+    if (!setting_of(e->step, name, &set) && r->bound) return no_setting(r, e->step, name);
+    if (!set.q) { /* read without its plan, as calibrate does, which needs no settings */
+        e->set[e->nset++] = set;
+        return FW_OK;
+    }
+    fw_recipe_asrun_values v;
+    double number;
+    size_t first = strcspn(value, " ");
+    bool text = set.q->unknown && strcmp(set.q->unit, "1") == 0 &&
+                !fw_number_parse(value, first, &number); /* which resist */
+    if (!text) {
+        FW_TRY(fw_recipe_asrun_values_read(r, name, value, 1, &v));
+        FW_TRY(fw_recipe_asrun_values_in(r, name, set.q->unit, set.q, &v));
+        set.value = v.site[0];
+    }
+    e->set[e->nset++] = set;
+    return FW_OK;
+}
+
+static fw_status read_coupon(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                             const char *value) {
+    return fw_recipe_asrun_coupon_read(r, value, &e->coupon[e->ncoupon++]);
+}
+
+static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {
+    const fw_recipe_asrun *run = r->run;
+    for (int i = 0; i < run->nwafer; i++)
+        if (strcmp(run->wafer[i], id) == 0) return FW_OK;
+    if (run->nwafer == 0)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "wafer=%s: the log was begun without wafers; begin one with --wafers, "
+                             "how many there are or their ids",
+                             id);
+    return fw_recipe_asrun_unknown(r, "the lot has no wafer", id, run->wafer, run->nwafer);
+}
+
+static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                           const char *name, const char *value) {
+    const struct {
+        const char *name;
+        const char **text;
+        double *time_s; /* NULL: a text */
+    } field[] = {{"start", &e->start, &e->start_s},
+                 {"end", &e->end, &e->end_s},
+                 {"by", &e->by, NULL},
+                 {"second", &e->second, NULL},
+                 {"tool", &e->tool, NULL},
+                 {"bath", &e->bath, NULL},
+                 {"note", &e->note, NULL},
+                 {"wafer", &e->wafer, NULL},
+                 {"instrument", &e->instrument, NULL}};
+    for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
+        if (strcmp(field[i].name, name) != 0) continue;
+        if (*field[i].text)
+            return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
+        *field[i].text = value;
+        if (field[i].time_s && !read_time(value, field[i].time_s))
+            return fw_diag_error(r->diags, 282, r->place,
+                                 "%s=%s is not a time; write 2026-11-20T10:00, local time of the "
+                                 "laboratory",
+                                 name, value);
+        return field[i].text == &e->wafer ? check_wafer(r, value) : FW_OK;
+    }
+    if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
+    if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
+    return read_measure(r, e, name, value);
+}
+
+/* what no entry may lack */
+static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
+    if (lacks)
+        return fw_diag_error(r->diags, 282, r->place, "the entry of step %s lacks %s=", e->step->id,
+                             lacks);
+    if (e->end_s < e->start_s)
+        return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
+    if (e->step->second_signature && (!e->second || strcmp(e->second, e->by) == 0))
+        return fw_diag_error(r->diags, 282, r->place,
+                             "step %s is never done alone: add second= with the initials of the "
+                             "other person",
+                             e->step->id);
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
+                                     char separator, fw_recipe_asrun_entry *e) {
+    char *copy = fw_arena_strndup(r->arena, words, n);
+    FW_NEED(copy);
+    *e = (fw_recipe_asrun_entry){
+        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+    size_t most = 1;
+    for (const char *s = copy; *s; s++)
+        most += *s == separator;
+    FW_NEED(e->measured = fw_arena_array(r->arena, fw_recipe_measured, most));
+    FW_NEED(e->set = fw_arena_array(r->arena, fw_recipe_set, most));
+    FW_NEED(e->coupon = fw_arena_array(r->arena, fw_recipe_coupon, most));
+    for (char *word = copy, *next; word; word = next) {
+        char *end = strchr(word, separator);
+        next = end ? end + 1 : NULL;
+        if (end) *end = '\0';
+        word += strspn(word, " ");
+        for (size_t length = strlen(word); length > 0 && word[length - 1] == ' ';)
+            word[--length] = '\0';
+        if (!word[0]) continue;
+        char *equal = strchr(word, '=');
+        if (!e->step) {
+            /* the step's id, alone or as step=ID */
+            const char *id = equal && strncmp(word, "step=", 5) == 0 ? equal + 1 : word;
+            if (!(e->step = step_of(r, id))) return FW_INPUT;
+            continue;
+        }
+        if (!equal || equal == word || !equal[1])
+            return fw_diag_error(r->diags, 282, r->place, "'%s' is not written as name=value",
+                                 word);
+        *equal = '\0';
+        FW_TRY(read_word(r, e, word, equal + 1));
+    }
+    if (!e->step)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "the entry names no step; add step= with its id");
+    return check_entry(r, e);
+}

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Planned against actual as a page: deviations in plain words, control charts of what was measured, every entry. */
+#include "base/text.h"
+#include "recipe/asrun_parts.h"
+#include "recipe/control_chart.h"
+#include "recipe/recipe_words.h"
+#include <math.h>
+#include <string.h>
+
+static const char style[] =
+    "body{font:14px/1.4 sans-serif;max-width:60em;margin:1.5em auto;padding:0 1em;color:#222}"
+    "table{border-collapse:collapse;width:100%;margin:.5em 0 1.5em}"
+    "td,th{border:1px solid #bbb;padding:.25em .5em;text-align:left;vertical-align:top}"
+    "th{background:#f0f0f0}td.n{text-align:right;white-space:nowrap}.bad{color:#b00;font-weight:"
+    "bold}"
+    "figure{margin:1em 0;break-inside:avoid}figcaption{font-size:13px}svg{width:100%;height:auto}"
+    "@media print{body{margin:0;max-width:none;font-size:11px}}@page{size:A4;margin:14mm}";
+
+static void heading(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
+    fw_text_add(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+                     "<title>As run");
+    if (run->lot) {
+        fw_text_add(out, ", lot ");
+        fw_text_escaped(out, run->lot);
+    }
+    fw_text_printf(
+        out, "</title><style>%s</style></head><body>\n<h1>Planned against actual</h1>\n<p>", style);
+    fw_text_escaped(out, flow->title);
+    if (run->lot) {
+        fw_text_add(out, ", lot <b>");
+        fw_text_escaped(out, run->lot);
+        fw_text_add(out, "</b>");
+    }
+    if (run->nwafer) fw_text_add(out, ", wafers ");
+    for (int i = 0; i < run->nwafer; i++) {
+        fw_text_add(out, i ? ", " : "");
+        fw_text_escaped(out, run->wafer[i]);
+    }
+    fw_text_printf(out, ". Plan %.12s, log up to %.12s, %d entries.</p>\n", run->plan, run->chain,
+                   run->nentry);
+}
+
+/* ---- deviations ---- */
+
+static void cell(fw_text *out, const char *text) {
+    fw_text_add(out, "<td>");
+    fw_text_escaped(out, text ? text : "");
+    fw_text_add(out, "</td>");
+}
+
+static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
+    fw_recipe_deviation *list;
+    int n;
+    FW_TRY(fw_recipe_asrun_deviations(out->arena, flow, run, &list, &n));
+    fw_text_add(out, "<h2>Deviations</h2>\n");
+    if (n == 0) {
+        fw_text_add(out, "<p>None: everything that was logged is inside of its limits.</p>\n");
+        return FW_OK;
+    }
+    fw_text_add(
+        out, "<table><thead><tr><th>Step</th><th>Wafer</th><th>What</th><th>Planned; allowed</th>"
+             "<th>Actual</th><th>Who; note</th></tr></thead><tbody>\n");
+    for (int i = 0; i < n; i++) {
+        const fw_recipe_asrun_entry *e = list[i].entry;
+        fw_text_printf(out, "<tr><td>%s ", e->step->id);
+        fw_text_escaped(out, e->step->title);
+        fw_text_add(out, "</td>");
+        cell(out, e->wafer ? e->wafer : "lot");
+        cell(out, list[i].what);
+        cell(out, list[i].planned);
+        fw_text_add(out, "<td class=\"bad\">");
+        fw_text_escaped(out, list[i].actual);
+        fw_text_add(out, "</td><td>");
+        fw_text_escaped(out, e->by);
+        if (e->note) {
+            fw_text_add(out, "; ");
+            fw_text_escaped(out, e->note);
+        }
+        fw_text_add(out, "</td></tr>\n");
+    }
+    fw_text_add(out, "</tbody></table>\n");
+    return FW_OK;
+}
+
+/* ---- charts ---- */
+
+static double range_of(const fw_recipe_measured *m) {
+    double low = (double)INFINITY, high = -(double)INFINITY;
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i])) low = fmin(low, m->site[i]), high = fmax(high, m->site[i]);
+    return high - low;
+}
+
+static fw_status collect(fw_arena *arena, const fw_recipe_asrun *run, const fw_process_step *s,
+                         const fw_process_accept *a, fw_recipe_chart *c) {
+    *c = (fw_recipe_chart){.unit = strcmp(a->unit, "1") == 0 ? "" : a->unit,
+                           .low = fw_recipe_asrun_limit(a->low, (double)NAN),
+                           .high = fw_recipe_asrun_limit(a->high, (double)NAN)};
+    FW_NEED(c->title = fw_arena_printf(arena, "%s: %s", s->id, a->measure));
+    FW_NEED(c->point = fw_arena_array(arena, fw_recipe_chart_point, (size_t)run->nentry + 1));
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (e->step != s || !fw_recipe_asrun_is_last(run, e)) continue;
+        for (int k = 0; k < e->nmeasured; k++) {
+            const fw_recipe_measured *m = &e->measured[k];
+            if (strcmp(m->measure, a->measure) != 0 || isnan(m->number)) continue;
+            c->point[c->npoint++] =
+                (fw_recipe_chart_point){.label = e->wafer ? e->wafer : "lot",
+                                        .mean = m->number,
+                                        .range = range_of(m),
+                                        .n = m->nsite,
+                                        .outside = !fw_recipe_asrun_accepted(a, m)};
+        }
+    }
+    return FW_OK;
+}
+
+static void broken(const fw_recipe_chart *c, fw_text *out) {
+    for (int i = 0; i < c->npoint; i++) {
+        const fw_recipe_chart_point *p = &c->point[i];
+        const char *what[] = {p->outside ? "a value is not accepted" : NULL,
+                              p->beyond ? "the mean is beyond its control limits" : NULL,
+                              p->run ? "a run of eight or more on one side of the centre" : NULL,
+                              p->range_beyond ? "the range is beyond its control limits" : NULL};
+        int n = 0;
+        for (size_t k = 0; k < sizeof what / sizeof what[0]; k++) {
+            if (!what[k]) continue;
+            fw_text_add(out, n++ ? ", " : " <span class=\"bad\">Wafer ");
+            if (n == 1) {
+                fw_text_escaped(out, p->label);
+                fw_text_add(out, ": ");
+            }
+            fw_text_add(out, what[k]);
+        }
+        if (n) fw_text_add(out, ".</span>");
+    }
+}
+
+static void caption(const fw_recipe_chart *c, fw_text *out) {
+    bool sites = c->size > 1;
+    fw_text_add(out, "<figcaption>");
+    if (!c->limits)
+        fw_text_printf(out,
+                       "%d %s: too few for control limits, which need %d. Only what is accepted is "
+                       "shown.",
+                       c->counted, c->counted == 1 ? "wafer" : "wafers", FW_CHART_LEAST);
+    else
+        fw_text_printf(out, "%simits %s of %d %s%s.", c->counted < FW_CHART_FIRM ? "Trial l" : "L",
+                       sites ? "by mean range (A2, D3, D4)" : "by mean moving range (2.66; 3.267)",
+                       c->counted, sites ? "subgroups" : "individual values",
+                       c->counted < FW_CHART_FIRM ? "; firm from 20 on" : "");
+    if (c->counted < c->npoint)
+        fw_text_printf(out, " Hollow points have another number of sites and are not judged by "
+                            "them.");
+    broken(c, out);
+    fw_text_add(out, "</figcaption>");
+}
+
+/* particles, cracks, bubbles that nobody found: the table of entries has them */
+static bool all_zero(const fw_recipe_chart *c) {
+    for (int i = 0; i < c->npoint; i++)
+        if (c->point[i].mean != 0.0 || c->point[i].range != 0.0) return false;
+    return true;
+}
+
+static fw_status charts(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    fw_text_add(out, "<h2>Control charts</h2>\n");
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].naccept; k++) {
+            fw_recipe_chart c;
+            FW_TRY(collect(out->arena, run, &flow->step[i], &flow->step[i].accept[k], &c));
+            if (c.npoint == 0 || all_zero(&c)) continue;
+            fw_recipe_chart_judge(&c);
+            fw_text_add(out, "<figure>\n");
+            fw_recipe_chart_svg(&c, out);
+            caption(&c, out);
+            fw_text_add(out, "</figure>\n");
+            n++;
+        }
+    if (n == 0) fw_text_add(out, "<p>No number other than 0 was measured yet.</p>\n");
+    return FW_OK;
+}
+
+/* ---- every entry ---- */
+
+static void duration(fw_text *out, double seconds, bool known) {
+    fw_text_add(out, "<td class=\"n\">");
+    if (known) fw_schedule_put_duration(out, seconds);
+    fw_text_add(out, "</td>");
+}
+
+static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
+    const char *between = "";
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        bool fine = fw_recipe_asrun_accepted(fw_recipe_asrun_accept(e->step, m->measure), m);
+        fw_text_printf(out, "%s%s", between, fine ? "" : "<span class=\"bad\">");
+        fw_text_escaped(out, m->measure);
+        fw_text_add(out, " = ");
+        fw_text_escaped(out, m->value);
+        fw_text_add(out, fine ? "" : "</span>");
+        between = "<br>";
+    }
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        bool fine = fw_recipe_asrun_allowed(s);
+        fw_text_printf(out, "%s%sset ", between, fine ? "" : "<span class=\"bad\">");
+        fw_text_escaped(out, s->name);
+        fw_text_add(out, " = ");
+        fw_text_escaped(out, s->text);
+        if (s->q && !s->q->unknown) {
+            fw_text_add(out, " (planned ");
+            fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
+            fw_text_add(out, ")");
+        }
+        fw_text_add(out, fine ? "" : "</span>");
+        between = "<br>";
+    }
+    for (int i = 0; i < e->ncoupon; i++) {
+        fw_text_printf(out, "%scoupon ", between);
+        fw_text_escaped(out, e->coupon[i].text);
+        between = "<br>";
+    }
+}
+
+static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
+    fw_text_add(out, "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
+                     "<th>Planned</th><th>Actual</th><th>By; tool; instrument</th><th>Values and "
+                     "settings</th></tr></thead><tbody>\n");
+    for (int s = 0; s < flow->nstep; s++)
+        for (int i = 0; i < run->nentry; i++) {
+            const fw_recipe_asrun_entry *e = &run->entry[i];
+            if (e->step != &flow->step[s]) continue;
+            fw_text_printf(out, "<tr><td>%s%s</td>", e->step->id,
+                           fw_recipe_asrun_is_last(run, e) ? "" : " (repeated later)");
+            cell(out, e->wafer ? e->wafer : "lot");
+            cell(out, e->start);
+            duration(out, e->step->booked_s, e->step->time.computable);
+            duration(out, e->end_s - e->start_s, true);
+            fw_text_add(out, "<td>");
+            fw_text_escaped(out, e->by);
+            const char *more[] = {e->second, e->tool, e->instrument, e->bath};
+            for (size_t k = 0; k < sizeof more / sizeof more[0]; k++) {
+                if (!more[k]) continue;
+                fw_text_add(out, "; ");
+                fw_text_escaped(out, more[k]);
+            }
+            fw_text_add(out, "</td><td>");
+            put_values(e, out);
+            fw_text_add(out, "</td></tr>\n");
+        }
+    fw_text_add(out, "</tbody></table>\n");
+}
+
+fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                     fw_text *out) {
+    heading(flow, run, out);
+    FW_TRY(deviations(flow, run, out));
+    FW_TRY(charts(flow, run, out));
+    entries(flow, run, out);
+    fw_text_add(out,
+                "<p>Control charts after Montgomery, Introduction to Statistical Quality Control, "
+                "chapter 6, and the NIST/SEMATECH e-Handbook, 6.3.2. Out of control: beyond a "
+                "limit, or the eighth and every further point on one side of the centre. Red: such "
+                "a point, or one with a value that is not accepted.</p>\n</body></html>\n");
+    return fw_text_end(out);
+}

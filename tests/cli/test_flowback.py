@@ -1,0 +1,184 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measured values flow back: a mock lot of six wafers is logged, reported, calibrated and planned again, in one command
+each and with nothing copied between them; what cannot be is refused, with what there is."""
+import json
+import math
+import pathlib
+import random
+import tempfile
+import unittest
+import xml.etree.ElementTree as tree
+
+from common import FLOWS, ROOT, run
+
+SILICON, COPPER = FLOWS
+STAGE = ROOT / "docs/gallery/comb-stage/device.xml"
+SPACE = "{urn:flexwright:process:1}"
+
+
+def knudsen(x):
+    """transmission of a slot of depth/width x (Berman)"""
+    if x < 1e-3:
+        return 1 - x / 2 + x * x / 4 - x**3 / 24
+    s = math.sqrt(1 + x * x)
+    return (1 + s - x) / 2 - 1.5 * (x - math.asinh(x))**2 / (x**3 + 3 * x * x + 4 - (x * x + 4) * s)
+
+
+def depth(width, travelled, lag):
+    """root of D + S J(w, D) = R t by bisection, J by the trapezoidal rule; all in um"""
+    def transport(end, n=400):
+        f = [1 / knudsen(end * i / n / width) - 1 for i in range(n + 1)]
+        return end / n * (sum(f) - (f[0] + f[-1]) / 2)
+    low, high = 0.0, travelled
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if middle + lag * transport(middle) < travelled else (low, middle)
+    return low
+
+
+class Flowback(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        self.here = pathlib.Path(self.temporary.name)
+        self.log = self.here / "lot.log"
+        self.random = random.Random(1)
+
+    def expect(self, result, status=0):
+        self.assertEqual(result.returncode, status, result.stdout[-2000:] + result.stderr[-4000:])
+        return result
+
+    def command(self, *arguments):
+        return run("log", STAGE, "--flow", SILICON, "--run", self.log, *arguments)
+
+    def sites(self, mean, spread):
+        return " ".join(f"{self.random.gauss(mean, spread):.3f}" for _ in range(5))
+
+    def etch(self, wafer, *more, power="250 W", rate=0.545, lag=0.09):
+        coupons = []
+        for width in (5, 10, 20, 50, 100):
+            values = self.sites(depth(width, rate * 90, lag), 0.25)
+            coupons += ["--coupon", f"arde-slots, drawn={width} um, value={values} um, u=0.05 um, at=90 min, u-at=3 s"]
+        return self.command("--entry", f"S18; start=2026-11-0{wafer}T08:00; end=2026-11-0{wafer}T10:05; by=AB; second=CD",
+                            "--wafer", wafer, "--instrument", "profilometer 2", "--setting", f"power={power}",
+                            "--site", f"aluminium left={self.sites(0.42, 0.01)} um", *coupons, *more)
+
+    def lot(self):
+        for wafer in range(1, 7):
+            first = ("--lot", "L7", "--wafers", "6") if wafer == 1 else ()
+            self.expect(self.etch(wafer, *first, power="262 W" if wafer == 3 else "250 W",
+                                  rate=0.545 * (1 + 0.01 * self.random.gauss(0, 1))))
+
+    def test_a_lot(self):
+        self.lot()
+        page = self.here / "report.html"
+        done = json.loads(self.expect(self.command("--report", page, "--json")).stdout)
+        self.assertEqual(done["wafers"], list("123456"))
+        self.assertEqual([(d["step"], d["wafer"], d["what"]) for d in done["deviations"]],
+                         [("S18", "3", "setting power")])
+        step = next(s for s in done["steps"] if s["id"] == "S18")
+        self.assertEqual(step["times"], 6)
+        self.assertEqual(len(step["others"]), 5)
+        self.assertEqual(sorted(step["measured"][0]["sites"]), ["bottom", "centre", "left", "right", "top"])
+        text = page.read_text()
+        tree.fromstring(text[text.index("<svg"):text.index("</svg>") + 6])
+        self.assertIn("262", text)
+        # log -> laboratory pack -> plan
+        lab = self.here / "lab.xml"
+        self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", lab))
+        root = tree.parse(lab).getroot()
+        values = {q.get("id"): q for q in root.iter(SPACE + "q")}
+        sources = {s.get("id"): s for s in root.iter(SPACE + "source")}
+        self.assertEqual(set(values), {"rie.R", "rie.S"})
+        for identity, truth, most in (("rie.R", 0.545, 0.03), ("rie.S", 0.09, 0.03)):
+            q = values[identity]
+            self.assertEqual(q.get("status"), "measured")
+            self.assertLess(abs(float(q.get("value")) - truth), 2.5 * float(q.get("u")))
+            self.assertLess(float(q.get("u")), most)
+            source = sources[q.get("src")]
+            self.assertEqual(source.get("date"), "2026-11-06")
+            for words in ("wafers 1, 2, 3, 4, 5, 6", "n = 150 readings", "step S18", "2026-11-01 to 2026-11-06",
+                          "lot L7", "lot.log"):
+                self.assertIn(words, source.text)
+        rows = [[float(v) for v in r.get("values").split()] for r in root.iter(SPACE + "row")]
+        self.assertEqual(rows[0][1], rows[1][0])
+        self.expect(run("plan", STAGE, "--flow", SILICON, "--lab", lab, "-o", self.here / "out", "-q"))
+        recipe = json.loads((self.here / "out/recipes" / f"{SILICON}.json").read_text())
+        self.assertEqual({o["id"] for o in recipe["overrides"]}, {"rie.R", "rie.S"})
+        # the same log gives the same bytes
+        self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "again.xml"))
+        self.assertEqual(lab.read_bytes(), (self.here / "again.xml").read_bytes())
+
+    def test_refused(self):
+        self.expect(self.etch(1, "--lot", "L7", "--wafers", "2"))
+        whole = self.log.read_text()
+        entry = "S18; start=2026-11-02T08:00; end=2026-11-02T10:05; by=AB; second=CD"
+        for more, says in ((("--wafer", "3"), "there are: 1, 2"),
+                           (("--setting", "pover=250 W"), "did you mean 'power'"),
+                           (("--setting", "power=250 V"), "is given in W"),
+                           (("--setting", "power=-1 W"), "plausible range"),
+                           (("--site", "aluminium left=1 2 um"), "measured at 5 sites"),
+                           (("--coupon", "arde-slot, drawn=10 um, value=45 um, u=1 um, at=90 min"), "did you mean"),
+                           (("--wafers", "3"), "has begun")):
+            said = self.expect(self.command("--entry", entry, *more), 3).stderr
+            self.assertIn(says, said)
+        said = self.expect(self.command("--entry", entry.replace("2026-11-02T10:05", "2126-11-02T10:05")), 3).stderr
+        self.assertIn("in the future", said)
+        self.assertEqual(self.log.read_text(), whole)
+        self.expect(self.command("--wafer", "1"), 2)
+        self.expect(self.command("--entry", entry, "--report", "x.html"), 2)
+        # a line that is taken off, or changed, is seen by calibrate as by log
+        self.expect(self.etch(2))
+        both = self.log.read_text()
+        self.log.write_text(whole)
+        for result in (run("calibrate", self.log, "--flow", SILICON), self.command()):
+            self.assertIn("removed at its end", self.expect(result, 3).stderr)
+        self.log.write_text(both.replace("drawn=10 um", "drawn=11 um"))
+        self.assertIn("FW-D280", self.expect(run("calibrate", self.log, "--flow", SILICON), 3).stderr)
+        self.log.write_text(both)
+        self.assertIn("FW-D281", self.expect(run("calibrate", self.log, "--flow", COPPER), 3).stderr)
+
+    def test_out_of_range(self):
+        """a rate that no etch has is refused, with the reason, and nothing is written"""
+        words = "S14; start=2026-11-01T08:00; end=2026-11-01T08:25; by=AB; second=CD"
+        self.expect(self.command("--entry", words, "--wafers", "1", "--wafer", "1", "--coupon",
+                                 "etch-rate, pan.R, value=900 901 899 900 902 um, at=15 min"))
+        said = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "lab.xml"), 3).stderr
+        self.assertIn("FW-D278", said)
+        self.assertIn("wafer 1", said)
+        self.assertFalse((self.here / "lab.xml").exists())
+
+    def test_corners(self):
+        """an edge and an anisotropy that are read off the same lines: one is high where the other is low"""
+        (self.here / "lot.csv").write_text("""coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit
+cd-lines,line,10,7.9,0.2,um,,,
+cd-lines,space,10,12.05,0.2,um,,,
+undercut-ladder,width,16,13.10,0.08,um,50.5,0.3,um
+undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
+""")
+        lab, alone = self.here / "lab.xml", self.here / "alone.xml"
+        self.expect(run("calibrate", self.here / "lot.csv", "--flow", SILICON, "-o", lab))
+        text = lab.read_text()
+        start, end = text.index("  <correlation"), text.index("</correlation>") + len("</correlation>\n")
+        alone.write_text(text[:start] + text[end:])
+        used = []
+        for pack in (lab, alone):
+            verdict = json.loads(self.expect(run("check", STAGE, "--lab", pack, "--json")).stdout)
+            used.append(verdict["governing"]["utilisation"])
+        self.assertLess(used[0], 0.95 * used[1])
+        # a matrix that cannot be is refused at its line
+        lab.write_text(text.replace('values="1 -', 'values="1 -1'))
+        self.assertRegex(self.expect(run("check", STAGE, "--lab", lab), 3).stderr, r"lab\.xml:\d+:\d+: error: ")
+
+    def test_an_old_log(self):
+        """one of before there were wafers is read, and goes on"""
+        self.expect(self.command("--entry", "S01; start=2026-11-01T08:00; end=2026-11-01T08:08; by=AB; thickness=50.1"))
+        self.assertNotIn("wafers=", self.log.read_text())
+        self.expect(self.command())
+        said = self.expect(run("calibrate", self.log, "--flow", SILICON), 3).stderr
+        self.assertIn("holds no coupon", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
