@@ -325,6 +325,7 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     size_t n;
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
+    pf->file = name, pf->xml = xml, pf->xml_length = n;
     FW_TRY(fw_process_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length,
                                 name, xml, n, &plan->diags, &pf->flow));
     FW_TRY(apply_packs(plan, pf->flow));
@@ -336,6 +337,14 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     FW_TRY(fw_mask_table_read(plan->arena, name, xml, n, &plan->diags, table));
     pf->table = table;
     return FW_OK;
+}
+
+fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow) {
+    fw_plan other = *plan;
+    other.diags = fw_diags_new(plan->arena); /* what there is to say of it has been said */
+    FW_TRY(fw_process_flow_read(plan->arena, plan->base_file, plan->base_xml, plan->base_length,
+                                pf->file, pf->xml, pf->xml_length, &other.diags, flow));
+    return apply_packs(&other, *flow);
 }
 
 static const char *flow_names(fw_plan *plan) {
@@ -383,8 +392,8 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
 }
 
 /* a plan of its own for messages and memory, over the packs of this one */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
-                           int nset, const fw_device **device, fw_verdict_variant_verdict *variant) {
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
+                           const fw_device **device, fw_verdict_variant_verdict *variant) {
     size_t n = (size_t)plan->options.nset, more = (size_t)nset;
     fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + more);
     fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
@@ -395,7 +404,8 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
     other.arena = arena;
     other.diags = fw_diags_new(arena);
     other.flow = flow;
-    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
+    FW_TRY(
+        fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
     other.device = *device;
     fw_device_material own;
     FW_TRY(own_material(&other, &own));

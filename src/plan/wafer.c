@@ -20,6 +20,7 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     options.nset = plan->options.nset + plan->device->wafer.nsweep;
     options.dies = plan->dies;
     options.verdict.with_advice = false;
+    options.measurements = FW_MEASUREMENTS_NONE;
     fw_plan *step = plan->step[v] = fw_plan_new(&options);
     FW_NEED(step);
     fw_arena_stop_with(step->arena, fw_arena_request(plan->arena));
@@ -141,5 +142,6 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
     FW_TRY(fw_plan_masks(plan));
     FW_TRY(make_all(plan));
     FW_TRY(fw_plan_compute_wafers(plan));
+    FW_TRY(fw_plan_measurements_find(plan, true));
     return fw_plan_schedules(plan);
 }

@@ -11,9 +11,9 @@
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
     for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] =
-            (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow, plan->flow[i].mask,
-                             plan->flow[i].mask_error, plan->flow[i].violated};
+        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
+                                   plan->flow[i].mask,        plan->flow[i].mask_error,
+                                   plan->flow[i].violated,    plan->flow[i].measuring};
     return flow;
 }
 
@@ -90,7 +90,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .rejected = plan->verdict.decision == FW_REJECT,
                               .schedule = pf->schedule,
                               .mask = pf->mask,
-                              .cut = pf->cut};
+                              .cut = pf->cut,
+                              .measuring = pf->measuring};
 }
 
 /* of a rejected device */

@@ -313,6 +313,7 @@ static void flow(fw_json *json, const fw_report_flow *f) {
         fw_json_text(json, "drawn", word(v->drawn));
         as_fabricated(json, v);
     }
+    fw_measuring_json(json, f->measuring);
     fw_json_end(json);
 }
 
