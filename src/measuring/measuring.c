@@ -383,6 +383,7 @@ fw_status fw_measuring_run(fw_arena *arena, const fw_measuring_request *request,
     FW_NEED(m && w.item && w.input && w.ninput ? m : NULL);
     *m = (fw_measuring){.hinge = FW_NONE, .requirement = FW_NONE, .nothing = ""};
     m->judged_made = v->fabricated != NULL;
+    m->asked = request->bands;
     FW_TRY(fw_process_readings(arena, request->flow, &w.reading, &w.nreading));
     FW_TRY(find_quantities(&w));
     if (m->judged_made) {

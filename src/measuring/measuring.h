@@ -47,6 +47,7 @@ typedef struct fw_measuring_item { /* one input, measured alone */
 
 typedef struct fw_measuring { /* of one flow */
     bool judged_made;         /* else corners were not judged: only windows */
+    bool asked;               /* for bands: then it stands in the verdict, too */
     bool banded;              /* the corners were searched again for each input: there are bands */
     int hinge, requirement;   /* of the variant: which governs; the other FW_NONE, or both */
     const char *what;         /* "hinge A", "requirement stroke" */

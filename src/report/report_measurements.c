@@ -95,7 +95,7 @@ fw_status fw_report_section_measurements(fw_report_page *page) {
 void fw_report_measurements_text(fw_text *out, const fw_report_input *in) {
     for (int i = 0; i < in->nflow; i++) {
         const fw_measuring *m = in->flow[i].measuring;
-        if (!m || !m->first || m->decision != FW_INCONCLUSIVE) continue;
+        if (!m || !m->asked || !m->first || m->decision != FW_INCONCLUSIVE) continue;
         fw_text_printf(out, "\n%s: %s\n", in->flow[i].flow ? in->flow[i].flow->id : "", m->first);
     }
 }

@@ -3,7 +3,7 @@
 #include "pack_fixture.h"
 #include "process/readings.h"
 
-static const double WIDTH = 0.05e-6, DEPTH = 0.2e-6, STEP = 0.02e-6, TIME = 1.0;
+static const double WIDTH = 0.05e-6, DEPTH = 0.25e-6, STEP = 0.02e-6, TIME = 1.0;
 
 static const fw_process_reading *list;
 static int n;
