@@ -125,7 +125,7 @@ typedef struct fw_design_options {
     int32_t figures;
     /* Which measurement narrows the verdict's bands and the steps' time windows most. "auto" (default):
        after fw_design_judge where what a flow makes is undecided and advice is sought; to first order,
-       which costs little, after fw_design_fabricate. "all": bands after fw_design_judge in any case,
+       which costs little, where recipes or the report are written. "all": bands after fw_design_judge in any case,
        some ten devices more a flow. "none" */
     const char *measurements;
 } fw_design_options;

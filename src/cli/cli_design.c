@@ -81,7 +81,6 @@ int fw_cli_command_plan(fw_cli_options *options) {
 }
 
 int fw_cli_command_mask(fw_cli_options *options) {
-    if (!options->design.measurements) options->design.measurements = "none"; /* not shown */
     return fabricate(options, FW_DESIGN_MASKS, "-masks", FW_DOCUMENT_MASKS_JSON);
 }
 

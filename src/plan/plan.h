@@ -16,7 +16,8 @@
 
 /* of which flows it is computed what measuring is worth, and how closely */
 typedef enum fw_plan_measurements {
-    /* bands of undecided ones where advice is sought; else, where something is fabricated, first order */
+    /* bands of undecided ones where advice is sought; else, where recipe or report is written, first
+       order */
     FW_MEASUREMENTS_AUTO,
     FW_MEASUREMENTS_ALL, /* bands of all */
     FW_MEASUREMENTS_NONE
@@ -69,6 +70,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const char *file, *xml;      /* the pack as read */
     size_t xml_length;
     const fw_measuring *measuring; /* NULL: not asked for */
+    const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */

@@ -4,7 +4,7 @@
 
 /* Bands cost the corners once more for every input. Where what a flow makes is undecided and changes are
    searched for they are a small part of that; else they are asked for. */
-static bool wanted(const fw_plan *plan, const fw_verdict_variant_verdict *v, bool fabricated,
+static bool wanted(const fw_plan *plan, const fw_verdict_variant_verdict *v, bool written,
                    bool *bands) {
     bool undecided = v->fabricated && v->fabricated->decision == FW_INCONCLUSIVE;
     bool given = plan->verdict.decision != FW_REJECT || plan->options.force;
@@ -18,7 +18,7 @@ static bool wanted(const fw_plan *plan, const fw_verdict_variant_verdict *v, boo
         break;
     }
     *bands = undecided && plan->options.verdict.with_advice;
-    return *bands || (fabricated && given);
+    return *bands || (written && given);
 }
 
 static fw_status find(fw_plan *plan, fw_plan_flow *pf, const fw_verdict_variant_verdict *v,
@@ -43,14 +43,15 @@ static fw_status find(fw_plan *plan, fw_plan_flow *pf, const fw_verdict_variant_
     return fw_measuring_run(plan->arena, &request, &pf->measuring);
 }
 
-fw_status fw_plan_measurements_find(fw_plan *plan, bool fabricated) {
+fw_status fw_plan_measurements_find(fw_plan *plan, bool written) {
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
         bool bands;
-        if (!pf->flow || !wanted(plan, v, fabricated, &bands)) continue;
-        if (pf->measuring && !pf->wafer) continue; /* with a plate the times are others */
+        if (!pf->flow || !wanted(plan, v, written, &bands)) continue;
+        if (pf->measuring && pf->measured_on == pf->wafer) continue;
         FW_TRY(find(plan, pf, v, bands));
+        pf->measured_on = pf->wafer; /* with a plate the times are others */
     }
     return FW_OK;
 }

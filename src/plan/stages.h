@@ -29,9 +29,9 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */
 fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts);
-/* what measuring is worth, of the flows that the options name (plan_measurements.c). fabricated: recipes
-   may be written */
-fw_status fw_plan_measurements_find(fw_plan *plan, bool fabricated);
+/* what measuring is worth, of the flows that the options name (plan_measurements.c). written: for a
+   recipe or a report that is about to be */
+fw_status fw_plan_measurements_find(fw_plan *plan, bool written);
 /* once the plate is laid out: currents and rates for what is really on it. What there is to say of
    the flow has been said. */
 fw_status fw_plan_compute_wafers(fw_plan *plan);

@@ -142,6 +142,5 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
     FW_TRY(fw_plan_masks(plan));
     FW_TRY(make_all(plan));
     FW_TRY(fw_plan_compute_wafers(plan));
-    FW_TRY(fw_plan_measurements_find(plan, true));
     return fw_plan_schedules(plan);
 }

@@ -31,6 +31,9 @@ fw_status fw_recipe_write_ics(const fw_process_flow *flow, const fw_recipe_heade
                               fw_text *out);
 fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out);
+/* which measurement pays; only with header->measuring */
+fw_status fw_recipe_write_measurements_json(const fw_process_flow *flow,
+                                            const fw_recipe_header *header, fw_text *out);
 /* who does what when; only with header->schedule */
 fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);

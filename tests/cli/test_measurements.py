@@ -138,9 +138,10 @@ class Measurements(unittest.TestCase):
         self.assertEqual(run("plan", COMB, "-o", out, "-q").returncode, 0)
         flow = json.loads((out / "verdict.json").read_text())["flows"][0]
         self.assertIsNone(flow["measurements"])  # accepted: no bands
-        said = json.loads((out / f"recipes/{flow['id']}.json").read_text())["measurements"]
+        said = json.loads((out / f"recipes/{flow['id']}.measurements.json").read_text())["measurements"]
         self.assertNotIn("band", said)  # to first order, at the cost of the laws alone
         self.assertEqual(said["devices"], 0)
+        self.assertNotIn("measurements", json.loads((out / f"recipes/{flow['id']}.json").read_text()))
         sheet = html.unescape((out / f"recipes/{flow['id']}.html").read_text())
         table = sheet[sheet.index("What to measure first"):sheet.index("Steps and times")]
         self.assertEqual(len(re.findall("<tr><td", table)), 5)
