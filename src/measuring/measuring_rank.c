@@ -204,22 +204,37 @@ static void say_share(fw_text *text, const fw_measuring *m, const fw_measuring_i
     fw_text_add(text, " % in all");
 }
 
+static bool pays(const fw_measuring *m, const fw_measuring_item *item) {
+    if (!m->what) return false;
+    return m->banded ? item->decides || item->narrowing > alike
+                     : item->share - item->share_after > alike;
+}
+
+/* what is worth more, and cannot be had: a bound on what knowing it would do */
+static void say_unread(fw_text *text, const fw_measuring *m, const fw_measuring_item *item) {
+    fw_text_printf(text, "; %s%s would be worth more, ", proper(item->name) ? "" : "the ",
+                   item->name);
+    fw_measuring_put_worth(text, m, item);
+    fw_text_add(text, " if it were known exactly, but nothing in this flow reads it");
+}
+
 /* "Measure the anisotropy first (rie.A; coupon undercut-ladder, with cd-lines): the band of hinge A goes
-   from 79.7..90.9 % to 83.1..86.0 %." */
+   from 79.7..90.9 % to 83.1..86.0 %." The first that can be read; where none can, the first of all. */
 static fw_status say_first(fw_arena *arena, fw_measuring *m) {
-    const fw_measuring_item *item = m->nitem ? &m->item[0] : NULL;
-    bool narrows = item && m->banded && (item->decides || item->narrowing > alike);
-    bool first_order = item && !m->banded && item->share - item->share_after > alike;
-    if (!m->what || !(narrows || first_order)) return FW_OK;
+    const fw_measuring_item *top = m->nitem ? &m->item[0] : NULL, *item = top;
+    if (!top || !pays(m, top)) return FW_OK;
+    for (int i = 0; i < m->nitem && !item->by; i++)
+        if (m->item[i].by && pays(m, &m->item[i])) item = &m->item[i];
     fw_text text = fw_text_new(arena);
     fw_text_printf(&text, "Measure %s%s first (", proper(item->name) ? "" : "the ", item->name);
     fw_text_printf(&text, "%s%s%s): %s", item->id ? item->id : "", item->id ? "; " : "",
                    item->by ? item->by : "nothing in this flow reads it",
                    item->by ? "" : "if it were known exactly, ");
-    if (narrows)
+    if (m->banded)
         say_band(&text, m, item);
     else
         say_share(&text, m, item);
+    if (item != top) say_unread(&text, m, top);
     fw_text_add(&text, ".");
     FW_TRY(fw_text_end(&text));
     m->first = text.data;

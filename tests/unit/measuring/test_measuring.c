@@ -153,6 +153,17 @@ static void nothing_reads_it(void **state) {
     fw_text text = fw_text_new(arena);
     fw_measuring_put_value(&text, &m.item[0], true);
     assert_string_equal(text.data, "if known exactly");
+    /* of two the one that can be read, though it is worth less */
+    item[0] = made(NULL, "Young's modulus", 0.85, 0.99, FW_INCONCLUSIVE);
+    item[0].by = NULL, item[0].after = 0;
+    item[1] = made("litho.edge", "printed edge", 0.80, 1.01, FW_INCONCLUSIVE);
+    rank(2);
+    assert_null(m.item[0].id);
+    assert_string_equal(
+        m.first, "Measure the printed edge first (litho.edge; coupon undercut-ladder): the "
+                 "band of hinge A goes from 79.0..102.0 % to 80.0..101.0 %; Young's modulus "
+                 "would be worth more, 85.0..99.0 % if it were known exactly, but nothing in "
+                 "this flow reads it.");
 }
 
 /* without bands the shares of the uncertainty rank; a band that gets no narrower is nothing to say */
