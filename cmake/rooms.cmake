@@ -14,7 +14,7 @@ find_library(LAPACK_LIBRARY lapack REQUIRED)
 
 set(FW_ROOMS base maths geometry drawing quantity xml device flexure layout mechanism effects multibody assembly
              dynamics statics workspace clearance probe
-             verdict continuum process schedule mask wafer recipe report plan study serve cli)
+             verdict continuum process measuring schedule mask wafer recipe report plan study serve cli)
 set(FW_EXTERN_maths PkgConfig::GSL ${LAPACKE_LIBRARY} ${LAPACK_LIBRARY} m)
 set(FW_EXTERN_xml PkgConfig::XML2)
 set(FW_EXTERN_mask PkgConfig::ZLIB)
@@ -40,7 +40,7 @@ set_source_files_properties(${PROJECT_SOURCE_DIR}/src/effects/table.c PROPERTIES
                             "${effects_without}")
 
 # Under the sanitizers these take longer to optimise than it saves where they run
-set(FW_ROOMS_PLAIN mechanism verdict continuum process wafer recipe report plan study serve cli)
+set(FW_ROOMS_PLAIN mechanism verdict continuum process measuring wafer recipe report plan study serve cli)
 if(FW_SANITIZE) # all but this one, of which a test asks for a million Jacobians
     set_source_files_properties(${PROJECT_SOURCE_DIR}/src/continuum/mesh.c PROPERTIES COMPILE_OPTIONS -O1)
 endif()

@@ -123,6 +123,11 @@ typedef struct fw_design_options {
        The motion's own tables need neither. Without rtol these figures are what the tolerance is
        chosen by, and always found. */
     int32_t figures;
+    /* Which measurement narrows the verdict's bands and the steps' time windows most. "auto" (default):
+       after fw_design_judge where what a flow makes is undecided and advice is sought; to first order,
+       which costs little, where recipes or the report are written. "all": bands after fw_design_judge in any case,
+       some ten devices more a flow. "none" */
+    const char *measurements;
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

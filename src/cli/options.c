@@ -77,6 +77,11 @@ static const char *take_advice(fw_cli_options *o, const char *v) {
     return auto_or_none(v);
 }
 
+static const char *take_measurements(fw_cli_options *o, const char *v) {
+    o->design.measurements = v;
+    return strcmp(v, "all") == 0 || !auto_or_none(v) ? NULL : "needs auto, all or none";
+}
+
 static const char *take_quiet(fw_cli_options *o, const char *v) {
     (void)v;
     o->quiet = true;
@@ -395,6 +400,13 @@ static const fw_cli_option_row table[] = {
      "auto: for a design that is not accepted, the smallest changes that would be are searched "
      "for, each one computed; none: the verdict only, in a fraction of the time",
      FW_OPT_VERDICT, take_advice},
+    {"measurements", 0, "WHICH",
+     "which input of a flow to measure first: by how much knowing each as exactly as its coupon "
+     "reads "
+     "it narrows the verdict's band and the steps' time windows. auto: with a recipe, and where "
+     "what a "
+     "flow makes is undecided; all: always; none: never",
+     FW_OPT_VERDICT, take_measurements},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL", "how flexures enter the mechanism: {names}", FW_OPT_PLAN,
      take_hinge_model},

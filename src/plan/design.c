@@ -111,6 +111,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!known(o->stabilise, fw_dynamics_stabilisation_at)) return "there is no such stabilisation";
     if (!auto_or_none(o->corners)) return "corners must be auto or none";
     if (!auto_or_none(o->advice)) return "advice must be auto or none";
+    if (!auto_or_none(o->measurements) && strcmp(o->measurements, "all") != 0)
+        return "measurements must be auto, all or none";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
         return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
@@ -152,7 +154,8 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
                            &o.method,         &o.integrator,   &o.stabilise,     &o.at,
                            &o.independent,    &o.rates,        &o.accelerations, &o.corners,
                            &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
-                           &o.planning_times, &o.laboratory,   &o.cut,           &o.advice};
+                           &o.planning_times, &o.laboratory,   &o.cut,           &o.advice,
+                           &o.measurements};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -177,6 +180,9 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->accelerations = o.accelerations;
     if (is_none(o.corners)) p->verdict.corners = FW_CORNERS_NONE;
     if (is_none(o.advice)) p->verdict.with_advice = false;
+    p->measurements = is_none(o.measurements)        ? FW_MEASUREMENTS_NONE
+                      : auto_or_none(o.measurements) ? FW_MEASUREMENTS_AUTO
+                                                     : FW_MEASUREMENTS_ALL;
     m->effects = effects_of(o.effects);
     if (!d->wrong_option) m->effects.hinge = (fw_effects_hinge_model)hinge_model_of(o.hinge_model);
     m->method = o.method;

@@ -139,6 +139,7 @@ fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *r,
     fw_plan_design_cancel_with(*design, live->settings.cancel);
     fw_verdict_options *judge = &fw_plan_design_plan(*design)->options.verdict;
     judge->with_advice = false;
+    fw_plan_design_plan(*design)->options.measurements = FW_MEASUREMENTS_NONE;
     judge->at_a_glance = !r->full;
     judge->motion.energies = !r->full; /* then its motion is the one that is shown */
     fw_status status = r->set ? apply_sets(r, *design) : FW_OK;

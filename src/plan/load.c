@@ -362,6 +362,17 @@ static void check_coupons(fw_plan *plan, const fw_process_flow *flow, const fw_m
     }
 }
 
+/* as the laboratory packs of the options have it */
+static fw_status read_flow(fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow) {
+    fw_process_choice *choice = NULL;
+    int n = 0;
+    FW_TRY(choices_of_packs(plan, pf->use->ref, &choice, &n));
+    FW_TRY(fw_process_flow_read_chosen(plan->arena, plan->base_file, plan->base_xml,
+                                       plan->base_length, pf->file, pf->xml, pf->xml_length, choice,
+                                       n, &plan->diags, flow));
+    return apply_packs(plan, *flow);
+}
+
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -369,13 +380,8 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     size_t n;
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
-    fw_process_choice *choice = NULL;
-    int nchoice = 0;
-    FW_TRY(choices_of_packs(plan, pf->use->ref, &choice, &nchoice));
-    FW_TRY(fw_process_flow_read_chosen(plan->arena, plan->base_file, plan->base_xml,
-                                       plan->base_length, name, xml, n, choice, nchoice,
-                                       &plan->diags, &pf->flow));
-    FW_TRY(apply_packs(plan, pf->flow));
+    pf->file = name, pf->xml = xml, pf->xml_length = n;
+    FW_TRY(read_flow(plan, pf, &pf->flow));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
@@ -386,6 +392,12 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     size_t errors = plan->diags.errors;
     check_coupons(plan, pf->flow, table);
     return plan->diags.errors > errors ? FW_INPUT : FW_OK;
+}
+
+fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow) {
+    fw_plan other = *plan;
+    other.diags = fw_diags_new(plan->arena); /* what there is to say of it has been said */
+    return read_flow(&other, pf, flow);
 }
 
 static const char *flow_names(fw_plan *plan) {

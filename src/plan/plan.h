@@ -8,10 +8,20 @@
 #define FW_PLAN_PLAN_H
 #include "assembly/kinematics.h"
 #include "statics/modes.h"
+#include "measuring/measuring.h"
 #include "wafer/wafer.h"
 #include "report/report.h"
 #include "recipe/recipe.h"
 #include "schedule/schedule.h"
+
+/* of which flows it is computed what measuring is worth, and how closely */
+typedef enum fw_plan_measurements {
+    /* bands of undecided ones where advice is sought; else, where recipe or report is written, first
+       order */
+    FW_MEASUREMENTS_AUTO,
+    FW_MEASUREMENTS_ALL, /* bands of all */
+    FW_MEASUREMENTS_NONE
+} fw_plan_measurements;
 
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
@@ -34,6 +44,7 @@ typedef struct fw_plan_options {
     fw_schedule_options schedule; /* wafers, operators, working day */
     size_t memory_cap;            /* 0: 512 MiB */
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
+    fw_plan_measurements measurements;
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -56,6 +67,10 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const char *wafer_sha256;
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
     const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */
+    const char *file, *xml;      /* the pack as read */
+    size_t xml_length;
+    const fw_measuring *measuring; /* NULL: not asked for */
+    const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */

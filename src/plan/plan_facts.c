@@ -151,14 +151,18 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     return FW_OK;
 }
 
-/* facts of a flow, computed with them; the wafer's own where it is laid out */
+fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts) {
+    FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
+                              fw_plan_insulated(pf), facts));
+    facts->dies = plan->dies;
+    return pf->wafer ? add_wafer_facts(plan->arena, pf->wafer, facts) : FW_OK;
+}
+
+/* a flow computed with its facts */
 static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
     fw_process_mask_facts facts;
-    FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
-                              fw_plan_insulated(pf), &facts));
-    facts.dies = plan->dies;
-    if (pf->wafer) FW_TRY(add_wafer_facts(plan->arena, pf->wafer, &facts));
+    FW_TRY(fw_plan_flow_facts(plan, pf, &facts));
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
     fw_process_drive_facts *drive;
     int n;

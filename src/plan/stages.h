@@ -10,14 +10,16 @@
 fw_status fw_plan_need_material(fw_plan *plan);
 /* the description of a loaded plan read again with nset more settings, and its variants, in `arena`;
    what was read of packs is shared. FW_INPUT: they are not allowed, and nothing says why */
-fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set,
-                           int nset, const fw_device **device, fw_verdict_variant_verdict *variant);
+fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
+                           const fw_device **device, fw_verdict_variant_verdict *variant);
 /* the description's text read once more with other settings, and the drawings that it names */
 fw_status fw_plan_device_again(fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
                                fw_diags *diags, const fw_device **device);
 /* the variant of a flow, and what that may make of a device that is not drawn yet */
 fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);
+/* the flow of a pack read once more, with the laboratory's values: to be changed by whoever asks */
+fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -25,6 +27,11 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
                              bool insulated, fw_process_mask_facts *facts);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
+/* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */
+fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts);
+/* what measuring is worth, of the flows that the options name (plan_measurements.c). written: for a
+   recipe or a report that is about to be */
+fw_status fw_plan_measurements_find(fw_plan *plan, bool written);
 /* once the plate is laid out: currents and rates for what is really on it. What there is to say of
    the flow has been said. */
 fw_status fw_plan_compute_wafers(fw_plan *plan);

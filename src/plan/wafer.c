@@ -20,6 +20,7 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     options.nset = plan->options.nset + plan->device->wafer.nsweep;
     options.dies = plan->dies;
     options.verdict.with_advice = false;
+    options.measurements = FW_MEASUREMENTS_NONE;
     fw_plan *step = plan->step[v] = fw_plan_new(&options);
     FW_NEED(step);
     fw_arena_stop_with(step->arena, fw_arena_request(plan->arena));

@@ -11,9 +11,9 @@
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
     for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] =
-            (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow, plan->flow[i].mask,
-                             plan->flow[i].mask_error, plan->flow[i].violated};
+        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
+                                   plan->flow[i].mask,        plan->flow[i].mask_error,
+                                   plan->flow[i].violated,    plan->flow[i].measuring};
     return flow;
 }
 
@@ -52,6 +52,7 @@ static fw_status report_ladders(fw_plan *plan, fw_plan_ladders *ladders) {
 
 fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
     FW_TRY(fw_plan_assumptions(plan));
+    FW_TRY(fw_plan_measurements_find(plan, true));
     fw_plan_ladders ladders;
     fw_report_hinge *hinge;
     fw_report_input input = fw_plan_report_input(plan);
@@ -90,7 +91,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .rejected = plan->verdict.decision == FW_REJECT,
                               .schedule = pf->schedule,
                               .mask = pf->mask,
-                              .cut = pf->cut};
+                              .cut = pf->cut,
+                              .measuring = pf->measuring};
 }
 
 /* of a rejected device */
@@ -352,11 +354,12 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
         const char *ending;
         fw_status (*write)(const fw_process_flow *flow, const fw_recipe_header *header,
                            fw_text *out);
-        bool of_schedule, of_cut;
+        bool of_schedule, of_cut, of_measuring;
     } format[] = {{".html", fw_recipe_write_html, .of_cut = false},
                   {".csv", fw_recipe_write_csv, .of_cut = false},
                   {".ics", fw_recipe_write_ics, .of_cut = false},
                   {".json", fw_recipe_write_json, .of_cut = false},
+                  {".measurements.json", fw_recipe_write_measurements_json, .of_measuring = true},
                   {".schedule.json", fw_recipe_write_schedule_json, .of_schedule = true},
                   {".schedule.csv", fw_recipe_write_schedule_csv, .of_schedule = true},
                   {".schedule.svg", fw_recipe_write_schedule_svg, .of_schedule = true},
@@ -368,6 +371,7 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
         fw_text text = fw_text_new(w->scratch);
         if (format[i].of_schedule && !header.schedule) continue;
         if (format[i].of_cut && !header.cut) continue;
+        if (format[i].of_measuring && !header.measuring) continue;
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }
@@ -431,6 +435,7 @@ static fw_status write_manifest(writer *w) {
 static fw_status write_all(writer *w, unsigned what) {
     fw_plan *plan = w->plan;
     FW_TRY(fw_plan_assumptions(plan));
+    if (what & (FW_WRITE_RECIPES | FW_WRITE_REPORT)) FW_TRY(fw_plan_measurements_find(plan, true));
     if (what & FW_WRITE_VERDICT) {
         fw_text json = fw_text_new(w->scratch);
         FW_TRY(fw_plan_verdict_json(plan, &json));

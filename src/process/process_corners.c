@@ -96,6 +96,15 @@ static bool anisotropy(const fw_process_fixed_point *p, const fw_process_corner 
     return true;
 }
 
+/* does an input that is known exactly still make something else than the drawing? */
+static bool moves(const fw_verdict_fabrication_input *in) {
+    static const double least_m = 1e-15, least = 1e-12; /* rounding */
+    double off = in->nominal - in->drawn;
+    return fabs(in->edge_m * (in->nominal - in->even)) > least_m ||
+           fabs(in->flare_m * off) > least_m || fabs(in->thickness * off) > least ||
+           fabs(in->youngs * off) > least;
+}
+
 static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
                  const fw_mechanism_variant *v, fw_verdict_fabrication_input *in) {
     bool unknown = c->q && c->q->unknown;
@@ -128,7 +137,7 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         in->drawn = q->value;
         break;
     }
-    return in->high > in->low;
+    return in->high > in->low || moves(in);
 }
 
 /* what wet steps take of every open face, l: the mask adds the known l at the edges, and the layer

@@ -4,6 +4,7 @@
 #define FW_RECIPE_RECIPE_H
 #include "base/text.h"
 #include "mask/mask.h"
+#include "measuring/measuring.h"
 #include "process/process.h"
 #include "schedule/schedule.h"
 
@@ -16,9 +17,10 @@ typedef struct fw_recipe_cut { /* where the wafer is cut open, and how much of i
 typedef struct fw_recipe_header {
     const char *device, *flow_sha256, *mask_sha256, *program_version;
     bool rejected;
-    const fw_schedule *schedule; /* NULL: none was asked for */
-    const fw_mask *mask;         /* NULL: none was made; then the layers are drawn not to scale */
-    const fw_recipe_cut *cut;    /* NULL: the same */
+    const fw_schedule *schedule;   /* NULL: none was asked for */
+    const fw_mask *mask;           /* NULL: none was made; then the layers are drawn not to scale */
+    const fw_recipe_cut *cut;      /* NULL: the same */
+    const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
@@ -29,6 +31,9 @@ fw_status fw_recipe_write_ics(const fw_process_flow *flow, const fw_recipe_heade
                               fw_text *out);
 fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out);
+/* which measurement pays; only with header->measuring */
+fw_status fw_recipe_write_measurements_json(const fw_process_flow *flow,
+                                            const fw_recipe_header *header, fw_text *out);
 /* who does what when; only with header->schedule */
 fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_recipe_header *header,
                                        fw_text *out);

@@ -256,6 +256,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     front(flow, header, out);
     judgement(flow, out);
     overrides_table(flow, out);
+    fw_recipe_html_measurements(header, out);
     summary(flow, out);
     fw_recipe_html_schedule(header, out);
     fw_recipe_slicer slicer;

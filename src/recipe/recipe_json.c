@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The JSON of this room: flexwright.recipe/1, flexwright.schedule/1, flexwright.sections/1. */
+/* The JSON of this room: flexwright.recipe/1, flexwright.measurements/1, flexwright.schedule/1,
+   flexwright.sections/1. */
 #include "base/json.h"
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe_words.h"
@@ -195,6 +196,21 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     words(out, "bias_note", flow->bias_note);
     edges(flow, out);
     FW_TRY(fw_recipe_json_bill(flow, header, out));
+    fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}
+
+/* beside the recipe, which a log is bound to: that one says what is done, whatever is known of it */
+fw_status fw_recipe_write_measurements_json(const fw_process_flow *flow,
+                                            const fw_recipe_header *header, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_INDENTED), *out = &json;
+    fw_json_object(out, NULL);
+    words(out, "schema", "flexwright.measurements/1");
+    words(out, "flow", flow->id);
+    words(out, "device", header->device);
+    fw_json_truth(out, "rejected", header->rejected);
+    if (header->rejected) words(out, "banner", "REJECTED");
+    fw_measuring_json(out, header->measuring);
     fw_json_end(out);
     return fw_json_finish(out, "\n");
 }

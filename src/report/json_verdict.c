@@ -313,6 +313,8 @@ static void flow(fw_json *json, const fw_report_flow *f) {
         fw_json_text(json, "drawn", word(v->drawn));
         as_fabricated(json, v);
     }
+    /* what is found with the recipes, to first order, stands there: a verdict does not change by them */
+    fw_measuring_json(json, f->measuring && f->measuring->asked ? f->measuring : NULL);
     fw_json_end(json);
 }
 

@@ -14,6 +14,7 @@
 #include "mask/mask.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
+#include "measuring/measuring.h"
 #include "process/process.h"
 #include "recipe/recipe.h"
 #include "statics/modes.h"
@@ -22,10 +23,11 @@
 
 typedef struct fw_report_flow { /* one process flow of the device */
     const fw_verdict_variant_verdict *variant;
-    const fw_process_flow *flow; /* NULL: not computed */
-    const fw_mask *mask;         /* NULL: not built, `mask_error` says why */
-    const char *mask_error;      /* NULL: the design was rejected, or masks were not asked for */
-    const fw_mask *violated;     /* its findings are listed; NULL: no rule is broken */
+    const fw_process_flow *flow;   /* NULL: not computed */
+    const fw_mask *mask;           /* NULL: not built, `mask_error` says why */
+    const char *mask_error;        /* NULL: the design was rejected, or masks were not asked for */
+    const fw_mask *violated;       /* its findings are listed; NULL: no rule is broken */
+    const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
 } fw_report_flow;
 
 typedef struct fw_report_input {
@@ -127,6 +129,8 @@ fw_status fw_report_rest_probes_text(const fw_mechanism *mechanism, const fw_dev
                                      const fw_statics *statics, fw_text *out);
 /* what each flow makes of the device, at its corners */
 void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict);
+/* what to measure first where that is undecided */
+void fw_report_measurements_text(fw_text *out, const fw_report_input *input);
 /* peaks, statistics, effects of one scene; holds a measured CPU time */
 fw_status fw_report_simulate_text(const fw_device_scene *scene, const fw_mechanism *mechanism,
                                   const fw_dynamics_motion *motion, fw_text *out);

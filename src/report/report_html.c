@@ -203,6 +203,7 @@ static const struct {
     {"hinges", "Hinges", fw_report_section_hinges, NULL},
     {"clearance", "Clearance", fw_report_section_clearance, NULL},
     {"made", "As fabricated", fw_report_section_fabricated, NULL},
+    {"measurements", "Measurements", fw_report_section_measurements, fw_report_has_measurements},
     {"requirements", "Requirements", fw_report_section_requirements, fw_report_has_requirements},
     {"motion", "Motion", fw_report_section_motion, NULL},
     {"workspace", "Workspace", fw_report_section_workspace, NULL},

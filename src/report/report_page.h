@@ -184,6 +184,8 @@ fw_status fw_report_section_device(fw_report_page *page);
 fw_status fw_report_section_hinges(fw_report_page *page);
 fw_status fw_report_section_clearance(fw_report_page *page); /* report_clearance.c */
 fw_status fw_report_section_fabricated(fw_report_page *page);
+fw_status fw_report_section_measurements(fw_report_page *page); /* report_measurements.c */
+bool fw_report_has_measurements(const fw_report_page *page);
 bool fw_report_has_requirements(const fw_report_page *page);
 fw_status fw_report_section_requirements(fw_report_page *page);
 fw_status fw_report_section_motion(fw_report_page *page);

@@ -159,6 +159,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (style.detail >= 0) fw_report_requirements_text(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) fw_report_fabricated_text(out, v);
+    fw_report_measurements_text(out, input);
     advice(out, v);
     parameters(out, v);
     for (int i = 0; style.detail >= 0 && v->decision != FW_REJECT && i < input->nflow; i++)

@@ -41,6 +41,7 @@ static const option_row options[] = {
     {"effects", "effects", ALL},
     {"corners", "corners", ALL},
     {"advice", "advice", CHECK | MADE},
+    {"measurements", "measurements", CHECK | MADE},
     {"hinge_model", "hinge-model", ALL},
     {"force", "force", MADE},
     {"mask_tolerance", "mask-tolerance", MADE},

@@ -231,9 +231,41 @@ static fw_status run_point(const fw_verdict_search *s, const double *x,
     return status;
 }
 
-/* bit for bit: where the two are one corner, both were made from the same ends of ranges */
-static bool is_known(const fw_verdict_search *s, const double *x) {
-    return s->known && memcmp(s->known->x, x, (size_t)s->v->ninput * sizeof *x) == 0;
+/* bit for bit: where two points make one device, both were made from the same ends of ranges */
+static bool is_same(const fw_verdict_fabrication *a, const fw_verdict_fabrication *b) {
+    return a->edge_m == b->edge_m && a->flare_m == b->flare_m &&
+           a->thickness_ratio == b->thickness_ratio && a->youngs_ratio == b->youngs_ratio;
+}
+
+/* a device that was run before this search, or in it: of one range the end of a slope is a corner */
+static bool known_device(const fw_verdict_search *s, const double *x, fw_verdict_known *out) {
+    const fw_verdict_variant_verdict *v = s->v;
+    const fw_verdict_fabrication made = fw_verdict_fabrication_at(v->input, v->ninput, x);
+    for (int i = 0; i < s->nknown; i++) {
+        *out = s->known[i];
+        if (is_same(&out->made, &made)) return true;
+    }
+    for (int i = 0; i < s->fabricated->ncorner; i++) {
+        const fw_verdict_fabricated_corner *c = &s->fabricated->corner[i];
+        *out = (fw_verdict_known){fw_verdict_fabrication_at(v->input, v->ninput, c->x), c,
+                                  s->ln + (size_t)i * (size_t)s->ncheck};
+        if (is_same(&out->made, &made)) return true;
+    }
+    return false;
+}
+
+/* what is known of a device, as this search names it */
+static fw_status take_known(const fw_verdict_search *s, const fw_verdict_known *known,
+                            const double *x, fw_verdict_fabricated_corner *corner, double *ln) {
+    size_t n = (size_t)s->v->ninput;
+    double *kept = fw_arena_array(s->arena, double, n);
+    FW_NEED(kept);
+    memcpy(kept, x, n * sizeof *kept);
+    *corner = *known->corner;
+    corner->x = kept;
+    FW_TRY(describe(s, x, &corner->what));
+    memcpy(ln, known->ln, (size_t)s->ncheck * sizeof *ln);
+    return FW_OK;
 }
 
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits) {
@@ -241,11 +273,12 @@ fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned 
     int point = fabricated->ncorner;
     if (point >= FW_MOST_POINTS) return FW_OK; /* never: there is room for all that is ever run */
     double *ln = s->ln + (size_t)point * (size_t)s->ncheck;
-    if (is_known(s, x)) {
-        fabricated->corner[point] = *s->known;
-        memcpy(ln, s->known_ln, (size_t)s->ncheck * sizeof *ln);
+    fw_verdict_known known;
+    if (known_device(s, x, &known)) {
+        FW_TRY(take_known(s, &known, x, &fabricated->corner[point], ln));
     } else {
         FW_TRY(run_point(s, x, &fabricated->corner[point], ln));
+        s->judged++;
     }
     s->bits[point] = bits;
     fabricated->ncorner++;

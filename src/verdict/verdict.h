@@ -123,7 +123,23 @@ typedef struct fw_verdict_fabricated_verdict {
     double held_share;   /* share of every range about the nominal that would do; NaN: not asked */
     const char *control; /* a sentence: what must be known or held; NULL: it accepts */
     const char *reason;  /* a sentence: why it does not accept */
+    const double *ln;    /* (ncorner x ncheck) of the search that found it, for one that follows */
+    int ncheck;
 } fw_verdict_fabricated_verdict;
+
+/* share of a limit that is used, the least and the most of the devices that were run. high
+   INFINITY: one of them has a flexure that is cut through; both NaN: none has a value */
+typedef struct fw_verdict_band {
+    double low, high;
+} fw_verdict_band;
+
+/* what a flow makes of a device, with ranges that may be others than those it was judged with */
+typedef struct fw_verdict_ranges {
+    fw_verdict_decision decision; /* of the corners, as fw_verdict_fabricated_verdict has it */
+    const fw_verdict_band *hinge; /* (nhinge) both ends are looked for of the hinge asked for */
+    const fw_verdict_band *requirement; /* (nrequirement) of its utilisation, both ends */
+    int judged;                         /* devices that were run for it and for nothing before */
+} fw_verdict_ranges;
 
 typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickness */
     const fw_mechanism_variant *variant;
@@ -302,6 +318,14 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *verdict);
+/* The same search with other ranges (input, ninput), after fw_verdict_as_fabricated with the same
+   device, layout and options: its bands. Devices that were run for v->fabricated are not run again.
+   hinge: of v, or FW_NONE. v is left alone. Test: tests/unit/verdict/test_ranges.c */
+fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict_options *options,
+                                  const fw_verdict_variant_verdict *v,
+                                  const fw_verdict_fabrication_input *input, int ninput, int hinge,
+                                  fw_verdict_ranges *out);
 /* the worst of a requirement over the corners that were run; NULL: none was */
 const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
                                                           int k, int *corner);

@@ -26,9 +26,23 @@ static void corner_point(const fw_verdict_variant_verdict *v, unsigned bits, dou
         x[i] = bits >> i & 1u ? v->input[i].high : v->input[i].low;
 }
 
+/* an input that is known exactly has one value, and no second end to run */
+static bool has_range(const fw_verdict_fabrication_input *in) {
+    return in->high > in->low;
+}
+
+/* bits of inputs without a range: corners have them clear */
+static unsigned without_range(const fw_verdict_variant_verdict *v) {
+    unsigned bits = 0;
+    for (int i = 0; i < v->ninput; i++)
+        bits |= has_range(&v->input[i]) ? 0u : 1u << i;
+    return bits;
+}
+
 /* inputs that change nothing but edges have the same slopes, scaled */
 static bool edges_only(const fw_verdict_fabrication_input *in) {
-    return in->edge_m != 0.0 && in->flare_m == 0.0 && in->thickness == 0.0 && in->youngs == 0.0;
+    return has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 && in->thickness == 0.0 &&
+           in->youngs == 0.0;
 }
 
 static int first_edge(const fw_verdict_variant_verdict *v) {
@@ -46,6 +60,7 @@ static fw_status slopes(fw_verdict_search *s) {
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
         int like = edges_only(in) ? first_edge(v) : i, n = v->ninput;
+        if (!has_range(in)) continue; /* slopes are 0: it stays where it is */
         for (int r = 0; like < i && r < s->ncheck; r++)
             s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
         if (like < i) continue;
@@ -69,13 +84,13 @@ static double estimate(const fw_verdict_search *s, int check, unsigned bits) {
     return ln;
 }
 
-/* the corner where the estimate is largest; inputs of no account are as in `like` */
-static unsigned worst_corner(const fw_verdict_search *s, int check, unsigned like) {
+/* the corner where the estimate is largest (up) or least; inputs of no account are as in `like` */
+static unsigned end_corner(const fw_verdict_search *s, int check, bool up, unsigned like) {
     unsigned bits = 0;
     for (int i = 0; i < s->v->ninput; i++) {
         double slope = s->slope[check * s->v->ninput + i];
         double size = fabs(slope) * (s->v->input[i].high - s->v->input[i].low);
-        bool high = size < fw_of_no_account ? like >> i & 1u : slope > 0.0;
+        bool high = size < fw_of_no_account ? like >> i & 1u : (slope > 0.0) == up;
         bits |= high ? 1u << i : 0u;
     }
     return bits;
@@ -87,14 +102,14 @@ static int find_corner(const fw_verdict_search *s, unsigned bits) {
     return FW_NONE;
 }
 
-/* the worst corner of a check, as one that was run where the difference is of no account */
-static unsigned choose(const fw_verdict_search *s, int check) {
+/* that corner of a check, as one that was run where the difference is of no account */
+static unsigned choose(const fw_verdict_search *s, int check, bool up) {
     for (int p = 0; p < s->fabricated->ncorner; p++)
         if (s->bits[p] != FW_NO_CORNER) {
-            unsigned bits = worst_corner(s, check, s->bits[p]);
+            unsigned bits = end_corner(s, check, up, s->bits[p]);
             if (bits == s->bits[p]) return bits;
         }
-    return worst_corner(s, check, 0);
+    return end_corner(s, check, up, 0);
 }
 
 /* how far off the estimates of checks that may matter were at a corner that was run */
@@ -151,8 +166,9 @@ static double upper_at(const fw_verdict_search *s, int check, unsigned bits) {
 /* the highest of these bounds, over all corners or those that were not run */
 static double highest_bound(const fw_verdict_search *s, int check, bool unrun, unsigned *at) {
     double highest = -HUGE_VAL;
+    const unsigned fixed = without_range(s->v);
     for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
-        if (unrun && find_corner(s, bits) != FW_NONE) continue;
+        if ((bits & fixed) || (unrun && find_corner(s, bits) != FW_NONE)) continue;
         double upper = upper_at(s, check, bits);
         if (upper > highest) highest = upper, *at = bits;
     }
@@ -192,7 +208,7 @@ static fw_status run_next(fw_verdict_search *s, bool *ran) {
     unsigned next = FW_NO_CORNER;
     for (int r = 0; r < s->ncheck; r++) {
         if (isnan(s->ln[r])) continue;
-        unsigned bits = choose(s, r);
+        unsigned bits = choose(s, r, true);
         double upper = estimate(s, r, bits) + s->fabricated->error;
         double bar = fmin(largest, log(near_limit(s, r)));
         bool first = s->fabricated->ncorner == s->first; /* one is run in any case */
@@ -219,18 +235,17 @@ static bool no_slope(const fw_verdict_search *s) {
 
 static fw_status run_all(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
+    const unsigned fixed = without_range(s->v);
     s->fabricated->all = true;
     for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
-        if (find_corner(s, bits) != FW_NONE) continue;
+        if ((bits & fixed) || find_corner(s, bits) != FW_NONE) continue;
         corner_point(s->v, bits, x);
         FW_TRY(fw_verdict_search_run(s, x, bits));
     }
     return FW_OK;
 }
 
-/* the nominal device, its slopes, the corners that may govern; where first order is not to be
-   trusted, all of them */
-static fw_status search(fw_verdict_search *s) {
+fw_status fw_verdict_search_corners(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
     nominal_point(s->v, x);
     FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
@@ -240,6 +255,19 @@ static fw_status search(fw_verdict_search *s) {
     for (bool ran = true; ran && s->fabricated->error <= fw_trusted;)
         FW_TRY(run_next(s, &ran));
     return s->fabricated->error > fw_trusted ? run_all(s) : FW_OK;
+}
+
+fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
+    double x[FW_FABRICATION_INPUTS];
+    bool one = s->first == 0 || without_range(s->v) + 1u == 1u << s->v->ninput;
+    if (one || s->fabricated->all || isnan(s->ln[check])) return FW_OK; /* no other corner */
+    for (int up = 0; up < 2; up++) {
+        unsigned bits = choose(s, check, up);
+        if (find_corner(s, bits) != FW_NONE) continue;
+        corner_point(s->v, bits, x);
+        FW_TRY(fw_verdict_search_run(s, x, bits));
+    }
+    return FW_OK;
 }
 
 /* ---- what it says ---- */
@@ -277,7 +305,7 @@ static void first_order(fw_verdict_search *s, int k) {
 }
 
 /* the worst of everything that was run, and the hinge that makes it so */
-static void govern(fw_verdict_search *s) {
+void fw_verdict_search_govern(fw_verdict_search *s) {
     fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     double most = -1.0;
     fabricated->governing = FW_NONE;
@@ -354,9 +382,9 @@ static bool clearances_count(const fw_verdict_variant_verdict *v) {
     return false;
 }
 
-static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_layout *layout,
-                            const fw_verdict_options *options, fw_verdict_variant_verdict *v,
-                            fw_verdict_search *s) {
+fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict_options *options,
+                                  const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
     size_t n = (size_t)v->ninput, h = (size_t)v->nhinge;
     *s = (fw_verdict_search){.arena = arena,
                              .device = device,
@@ -376,6 +404,8 @@ static fw_status new_search(fw_arena *arena, const fw_device *device, const fw_l
     FW_NEED(s->slope = fw_arena_array(arena, double, (size_t)s->ncheck *n));
     for (size_t k = 0; k < h; k++)
         FW_NEED(s->fabricated->hinge[k].share = fw_arena_array(arena, double, n));
+    s->fabricated->ln = s->ln;
+    s->fabricated->ncheck = s->ncheck;
     s->fabricated->held = FW_NONE;
     s->fabricated->held_share = (double)NAN;
     return FW_OK;
@@ -389,14 +419,17 @@ static fw_status try_suspect(fw_verdict_search *s, bool *decided) {
     FW_TRY(fw_verdict_search_run(s, s->v->suspect, FW_NO_CORNER));
     *decided = alone || s->fabricated->corner[0].decision != FW_ACCEPT;
     if (*decided) return FW_OK;
-    fw_verdict_fabricated_corner *known =
+    fw_verdict_fabricated_corner *corner =
         fw_arena_one(s->arena, fw_verdict_fabricated_corner); /* the search may come to it */
+    fw_verdict_known *known = fw_arena_one(s->arena, fw_verdict_known);
     double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck);
-    FW_NEED(known && ln ? known : NULL);
-    *known = s->fabricated->corner[0];
+    FW_NEED(known && corner && ln ? known : NULL);
+    *corner = s->fabricated->corner[0];
     memcpy(ln, s->ln, (size_t)s->ncheck * sizeof *ln);
+    *known = (fw_verdict_known){fw_verdict_fabrication_at(s->v->input, s->v->ninput, s->v->suspect),
+                                corner, ln};
     s->known = known;
-    s->known_ln = ln;
+    s->nknown = 1;
     s->fabricated->ncorner = 0;
     return FW_OK;
 }
@@ -412,14 +445,14 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     /* what is undecided as drawn stays so; a glance, which does not refine, is told how much further
        its corner is from the limit */
     if (alone ? !v->suspect : v->drawn != FW_ACCEPT) return FW_OK;
-    FW_TRY(new_search(arena, device, layout, options, v, &s));
+    FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
     FW_TRY(try_suspect(&s, &decided));
-    if (!decided) FW_TRY(search(&s));
+    if (!decided) FW_TRY(fw_verdict_search_corners(&s));
     for (int k = 0; k < v->nhinge; k++) {
         tightest(&s, k);
         if (!decided && s.first > 0) first_order(&s, k);
     }
-    govern(&s);
+    fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
     if (s.fabricated->decision == FW_ACCEPT) return FW_OK;
     if (quick) {

@@ -65,6 +65,13 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
 
 /* ---- verdict_corners.c, corner_search.c: devices at points of the ranges of a flow ---- */
 
+/* a device that was run before: whatever the ranges, the same device comes of the same fabrication */
+typedef struct fw_verdict_known {
+    fw_verdict_fabrication made;
+    const fw_verdict_fabricated_corner *corner;
+    const double *ln; /* (ncheck) */
+} fw_verdict_known;
+
 typedef struct fw_verdict_search {
     fw_arena *arena; /* of the plan */
     const fw_device *device;
@@ -77,8 +84,9 @@ typedef struct fw_verdict_search {
     bool clearances; /* some pair uses so much of its distance that corners are asked how much */
     double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
-    const fw_verdict_fabricated_corner *known; /* a point that was run before the others, or NULL */
-    const double *known_ln;                    /* (ncheck) */
+    const fw_verdict_known *known; /* (nknown) */
+    int nknown;
+    int judged;    /* points that were run, and not known */
     int first;     /* how many points there were when the slopes were known */
     double *slope; /* (ncheck x ninput) d ln U / dx about the nominal; NaN: none */
 } fw_verdict_search;
@@ -86,6 +94,17 @@ typedef struct fw_verdict_search {
 enum { FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) };
 #define FW_NO_CORNER (~0u)
 
+/* for ranges of v; options are those of the drawn device's verdict */
+fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict_options *options,
+                                  const fw_verdict_variant_verdict *v, fw_verdict_search *s);
+/* the nominal device, its slopes, the corners that may govern; all corners where first order is not
+   to be trusted */
+fw_status fw_verdict_search_corners(fw_verdict_search *s);
+/* after it: the corners where a check is highest and lowest to first order, where they were not run */
+fw_status fw_verdict_search_ends(fw_verdict_search *s, int check);
+/* what the corners that were run say: decision, governing hinge and corner of s->fabricated */
+void fw_verdict_search_govern(fw_verdict_search *s);
 /* runs the device at x and keeps it as the next corner of s->fabricated */
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
 /* what would have to be held so that it accepts: fabricated->held and control */

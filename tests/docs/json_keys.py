@@ -17,7 +17,7 @@ sections = {name: set(re.findall(r"`(\w+)`", text))
 # keys of these objects are ids of bodies and joints
 BY_ID = {"q", "com", "v", "a", "before", "after", "shape", "damped_shape", "velocity", "acceleration", "revolute_N", "tie_N_Nm",
          "driver_N_or_Nm", "limit_rad", "boundary_share", "dq"}
-SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model"}
+SHARED = {"effects": "Effects: the ledger", "pull_in": "Pull-in", "hinge_model": "Hinge model", "measurements": "measurements"}
 problems, seen, documents = [], {}, 0
 
 SIX = "docs/gallery/reference-six-bar/device.xml"
@@ -26,6 +26,7 @@ COMB = "docs/gallery/comb-stage/device.xml"
 RUNS = (
     ("verdict", ["check", SIX]),
     ("verdict", ["check", SIX, "--set", "limits/@safety-factor=12"]),
+    ("verdict", ["check", GRIPPER, "--measurements", "all"]),
     ("verdict", ["check", COMB, "--set", "volts=110 V", "--advice", "none"]),
     ("simulate", ["simulate", COMB]),
     ("simulate", ["simulate", "docs/mechanisms/slider-crank.xml"]),
@@ -101,6 +102,7 @@ with tempfile.TemporaryDirectory() as here:
     walk(json.loads((pathlib.Path(here) / "s/certificate.json").read_text()), "workspace-certificate")
     walk(json.loads((pathlib.Path(here) / "o/masks/al-masked-rie.order.json").read_text()), "order")
     walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.sections.json").read_text()), "sections")
+    walk(json.loads((pathlib.Path(here) / "o/recipes/al-masked-rie.measurements.json").read_text()), "measurements")
     subprocess.run([program, "mask", "tests/data/wafer/leaf-wafer.xml", "-q", "-o", f"{here}/w"], cwd=ROOT, capture_output=True,
                    timeout=240)
     walk(json.loads((pathlib.Path(here) / "w/masks/al-masked-rie-wafer.json").read_text()), "wafer")

@@ -51,6 +51,19 @@ def calibrate_program(run, _):
     return {"edge": value * 1e-6, "u_edge": u * 1e-6}
 
 
+def measurements(g):
+    E, u_e = g["D"] * (1 + g["over"]), g["u_w"] / 2 / sqrt(6)
+    return {"u_e": u_e, "u_A": sqrt((g["u_w"] / 2) ** 2 / 5 + u_e**2 + ((1 - g["A"]) * g["u_d"]) ** 2) / E,
+            "range": 2 * g["gauge"] / g["D"]}
+
+
+def measurements_program(run, _):
+    flow = run("check", "docs/gallery/reference-six-bar/device.xml", "--measurements", "all", "--json")["flows"][0]
+    item = {x["id"]: x for x in flow["measurements"]["ranked"]}
+    return {"u_e": item["made.al-edge"]["u_measured"] * 1e-6, "u_A": item["rie.A"]["u_measured"],
+            "narrower": item["rie.A"]["narrowing"]}
+
+
 def transmission(x):
     """Knudsen's, of a slot x times as deep as wide"""
     if x < 1e-3:

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which measurement goes first, and what is said of it. */
+#include "measuring/measuring_rank.h"
+#include "base/sort.h"
+#include "base/text.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* bands and windows that differ by less than this are alike: rounding, and what nobody reads */
+static const double alike = 1e-6;
+
+/* ---- what a measurement does ---- */
+
+/* infinite where a flexure was gone at a corner, and is not any more */
+static double narrowing(const fw_verdict_band *now, const fw_verdict_band *then) {
+    if (isnan(now->high) || isnan(then->high)) return 0.0;
+    if (isinf(now->high) && isinf(then->high)) return 0.0;
+    return (now->high - now->low) - (then->high - then->low);
+}
+
+static bool band_moves(const fw_verdict_band *now, const fw_verdict_band *then) {
+    if (isnan(now->high) || isnan(then->high)) return isnan(now->high) != isnan(then->high);
+    if (isinf(now->high) != isinf(then->high)) return true;
+    return fabs(now->low - then->low) > alike ||
+           (isfinite(now->high) && fabs(now->high - then->high) > alike);
+}
+
+static bool changes(const fw_measuring *m, const fw_measuring_item *item) {
+    if (item->nwindow > 0 || item->needed > 0) return true;
+    if (!item->made) return false;
+    if (!m->banded) return item->share - item->share_after > alike;
+    for (int i = 0; i < m->nrequirement; i++)
+        if (band_moves(&m->requirements[i], &item->requirement[i])) return true;
+    return item->decision != m->decision || band_moves(&m->band, &item->band);
+}
+
+/* ---- the order ---- */
+
+static int more(double a, double b) {
+    return fw_order_doubles(round(b / alike), round(a / alike));
+}
+
+/* What decides goes first, then what narrows the governing band most, then, as where no bands were asked
+   for, what takes most of its standard uncertainty; then what makes steps computable, then what narrows
+   their windows; the rest by name, so that the order is always the same. */
+static int by_worth(const void *x, const void *y) {
+    const fw_measuring_item *a = x, *b = y;
+    if (a->decides != b->decides) return a->decides ? -1 : 1;
+    int order = more(a->narrowing, b->narrowing);
+    if (!order) order = more(a->share - a->share_after, b->share - b->share_after);
+    if (!order) order = b->opens - a->opens;
+    if (!order) order = b->needed - a->needed;
+    if (!order) order = more(a->windows, b->windows);
+    if (!order && (a->id == NULL) != (b->id == NULL)) order = a->id ? -1 : 1;
+    return order || !a->id ? order : strcmp(a->id, b->id);
+}
+
+/* ---- words ---- */
+
+static void percent(fw_text *out, double share) {
+    fw_text_real(out, "%.1f", 100.0 * share);
+}
+
+static void put_shares(fw_text *out, const fw_measuring_item *item) {
+    fw_text_number(out, 100.0 * item->share, 2);
+    fw_text_add(out, " to ");
+    fw_text_number(out, 100.0 * item->share_after, 2);
+    fw_text_add(out, " %");
+}
+
+void fw_measuring_put_band(fw_text *out, const fw_verdict_band *band) {
+    if (isnan(band->high)) {
+        fw_text_add(out, "not known");
+        return;
+    }
+    if (isinf(band->low)) {
+        fw_text_add(out, "cut through");
+        return;
+    }
+    percent(out, band->low);
+    if (isinf(band->high)) {
+        fw_text_add(out, " % to cut through");
+        return;
+    }
+    fw_text_add(out, "..");
+    percent(out, band->high);
+    fw_text_add(out, " %");
+}
+
+double fw_measuring_in_unit(const fw_quantity *like, double x, bool difference) {
+    fw_quantity_unit unit;
+    fw_quantity q = *like;
+    if (isnan(x)) return x;
+    q.value = x;
+    if (!difference) return fw_quantity_in_unit(&q);
+    if (!q.unit || !fw_quantity_unit_parse(q.unit, strlen(q.unit), &unit, NULL, NULL)) return x;
+    unit.offset = 0.0;
+    return fw_quantity_unit_from_si(&unit, x);
+}
+
+void fw_measuring_put_value(fw_text *out, const fw_measuring_item *item, bool after) {
+    double u = after ? item->after : item->before;
+    if (after && !item->by && !isnan(item->value)) {
+        fw_text_add(out, "if known exactly");
+        return;
+    }
+    if (isnan(item->value) || (!after && item->unknown && isnan(u))) {
+        fw_text_add(out, "unknown");
+        return;
+    }
+    if (!after && item->q.interval) {
+        fw_text_number(out, fw_measuring_in_unit(&item->q, item->q.low, false), 4);
+        fw_text_add(out, " to ");
+        fw_text_number(out, fw_measuring_in_unit(&item->q, item->q.high, false), 4);
+    } else {
+        fw_text_number(out, fw_measuring_in_unit(&item->q, item->value, false), 6);
+        fw_text_add(out, " +- ");
+        fw_text_number(out, fw_measuring_in_unit(&item->q, u, true), 2);
+    }
+    if (item->q.unit && strcmp(item->q.unit, "1") != 0) fw_text_printf(out, " %s", item->q.unit);
+}
+
+void fw_measuring_put_worth(fw_text *out, const fw_measuring *m, const fw_measuring_item *item) {
+    if (!item->made) return;
+    if (m->banded) {
+        fw_measuring_put_band(out, &item->band);
+        if (item->decides)
+            fw_text_add(out, item->decision == FW_ACCEPT ? ": accepted" : ": rejected");
+    } else {
+        put_shares(out, item);
+    }
+}
+
+/* ---- windows ---- */
+
+/* what a window loses, relative to where it lies */
+static double lost(const fw_measuring_window *w) {
+    if (isnan(w->before_s[0]) || isnan(w->after_s[0])) return 0.0;
+    return ((w->before_s[1] - w->before_s[0]) - (w->after_s[1] - w->after_s[0])) / w->before_s[1];
+}
+
+static void put_window(fw_text *out, const double *s, double unit_s) {
+    if (isnan(s[0])) {
+        fw_text_add(out, "not computable");
+        return;
+    }
+    fw_text_number(out, s[0] / unit_s, 4);
+    fw_text_add(out, "..");
+    fw_text_number(out, s[1] / unit_s, 4);
+}
+
+void fw_measuring_put_windows(fw_text *out, const fw_measuring_item *item) {
+    int best = 0;
+    for (int i = 1; i < item->nwindow; i++)
+        if (lost(&item->window[i]) > lost(&item->window[best])) best = i;
+    if (item->nwindow > 0) {
+        const fw_measuring_window *w = &item->window[best];
+        double longest = isnan(w->before_s[1]) ? w->after_s[1] : w->before_s[1];
+        bool minutes = longest >= 600.0;
+        fw_text_printf(out, "%s: ", w->step);
+        put_window(out, w->before_s, minutes ? 60.0 : 1.0);
+        fw_text_add(out, " to ");
+        put_window(out, w->after_s, minutes ? 60.0 : 1.0);
+        fw_text_add(out, minutes ? " min" : " s");
+        if (item->nwindow > 1)
+            fw_text_printf(out, ", and %d more step%s", item->nwindow - 1,
+                           item->nwindow > 2 ? "s" : "");
+    }
+    if (item->needed_for)
+        fw_text_printf(out, "%snot computable without it: %s", item->nwindow ? "; " : "",
+                       item->needed_for);
+}
+
+/* a proper name takes no article */
+static bool proper(const char *name) {
+    return name[0] >= 'A' && name[0] <= 'Z';
+}
+
+static void say_decision(fw_text *text, const fw_measuring_item *item) {
+    if (!item->decides) return;
+    fw_text_add(text, item->decision == FW_ACCEPT ? ", and all that the flow makes is accepted"
+                                                  : ", and what the flow makes is rejected");
+}
+
+static void say_band(fw_text *text, const fw_measuring *m, const fw_measuring_item *item) {
+    fw_text_printf(text, "the band of %s goes from ", m->what);
+    fw_measuring_put_band(text, &m->band);
+    fw_text_add(text, " to ");
+    fw_measuring_put_band(text, &item->band);
+    if (item->governs && strcmp(item->governs, m->what) != 0 && isfinite(item->most)) {
+        fw_text_printf(text, " (%s then governs, with up to ", item->governs);
+        percent(text, item->most);
+        fw_text_add(text, " %)");
+    }
+    say_decision(text, item);
+}
+
+static void say_share(fw_text *text, const fw_measuring *m, const fw_measuring_item *item) {
+    fw_text_printf(text, "the standard uncertainty that it brings to %s goes from ", m->what);
+    put_shares(text, item);
+    fw_text_add(text, " of the limit, of ");
+    fw_text_number(text, 100.0 * m->sigma, 2);
+    fw_text_add(text, " % in all");
+}
+
+static bool pays(const fw_measuring *m, const fw_measuring_item *item) {
+    if (!m->what) return false;
+    return m->banded ? item->decides || item->narrowing > alike
+                     : item->share - item->share_after > alike;
+}
+
+/* what is worth more, and cannot be had: a bound on what knowing it would do */
+static void say_unread(fw_text *text, const fw_measuring *m, const fw_measuring_item *item) {
+    fw_text_printf(text, "; %s%s would be worth more, ", proper(item->name) ? "" : "the ",
+                   item->name);
+    fw_measuring_put_worth(text, m, item);
+    fw_text_add(text, " if it were known exactly, but nothing in this flow reads it");
+}
+
+/* "Measure the anisotropy first (rie.A; coupon undercut-ladder, with cd-lines): the band of hinge A goes
+   from 79.7..90.9 % to 83.1..86.0 %." The first that can be read; where none can, the first of all. */
+static fw_status say_first(fw_arena *arena, fw_measuring *m) {
+    const fw_measuring_item *top = m->nitem ? &m->item[0] : NULL, *item = top;
+    if (!top || !pays(m, top)) return FW_OK;
+    for (int i = 0; i < m->nitem && !item->by; i++)
+        if (m->item[i].by && pays(m, &m->item[i])) item = &m->item[i];
+    fw_text text = fw_text_new(arena);
+    fw_text_printf(&text, "Measure %s%s first (", proper(item->name) ? "" : "the ", item->name);
+    fw_text_printf(&text, "%s%s%s): %s", item->id ? item->id : "", item->id ? "; " : "",
+                   item->by ? item->by : "nothing in this flow reads it",
+                   item->by ? "" : "if it were known exactly, ");
+    if (m->banded)
+        say_band(&text, m, item);
+    else
+        say_share(&text, m, item);
+    if (item != top) say_unread(&text, m, top);
+    fw_text_add(&text, ".");
+    FW_TRY(fw_text_end(&text));
+    m->first = text.data;
+    return FW_OK;
+}
+
+fw_status fw_measuring_rank(fw_arena *arena, fw_measuring *m, fw_measuring_item *item, int n) {
+    fw_text nothing = fw_text_new(arena);
+    int kept = 0;
+    for (int i = 0; i < n; i++) {
+        fw_measuring_item *x = &item[i];
+        x->narrowing = x->made && m->banded ? narrowing(&m->band, &x->band) : 0.0;
+        x->decides = x->made && m->banded && m->decision == FW_INCONCLUSIVE &&
+                     x->decision != FW_INCONCLUSIVE;
+        if (changes(m, x)) {
+            item[kept++] = *x;
+            continue;
+        }
+        fw_text_printf(&nothing, "%s%s%s%s%s", nothing.length ? ", " : "", x->name,
+                       x->id ? " (" : "", x->id ? x->id : "", x->id ? ")" : "");
+    }
+    if (kept > 1) qsort(item, (size_t)kept, sizeof *item, by_worth);
+    fw_text_add(&nothing, "");
+    FW_TRY(fw_text_end(&nothing));
+    m->nothing = nothing.length ? nothing.data : "";
+    m->item = item;
+    m->nitem = kept;
+    return say_first(arena, m);
+}

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What can be read, and how exactly: the rows that a laboratory is meant to get from each coupon, at the
+   flow's own values, go through calibrate itself; what comes out has the uncertainty that the real rows
+   will give. */
+#include "process/measurable.h"
+#include "base/constants.h"
+#include "base/text.h"
+#include "process/calibrate.h"
+#include "process/coupon.h"
+#include <math.h>
+#include <string.h>
+
+enum { ROWS = 64, READINGS = 32 };
+
+/* how exactly one reading is made: standard uncertainties of the pack, SI */
+typedef struct meant {
+    fw_arena *arena;
+    const fw_process_flow *flow;
+    double width_m, depth_m, step_m, time_s;
+    fw_process_measurement row[ROWS];
+    int n;
+} meant;
+
+static double known(const fw_process_flow *flow, const char *id) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, id);
+    double value;
+    return q && fw_process_flow_nominal(flow, q, &value) ? value : (double)NAN;
+}
+
+/* a row whose value or condition is not a number reads nothing: the flow lacks what it follows from */
+static void add(meant *m, fw_process_measurement row) {
+    bool bare = isnan(row.at);
+    if (m->n == ROWS || !(row.uncertainty > 0.0) || !isfinite(row.value) ||
+        (!bare && !(row.at > 0.0)))
+        return;
+    m->row[m->n++] = row;
+}
+
+static fw_process_measurement lengths(const char *coupon, const char *feature, double drawn_m,
+                                      double value, double uncertainty) {
+    return (fw_process_measurement){.coupon = coupon,
+                                    .feature = feature,
+                                    .drawn_m = drawn_m,
+                                    .value = value,
+                                    .uncertainty = uncertainty,
+                                    .at = (double)NAN,
+                                    .dimension = FW_DIM_LENGTH};
+}
+
+/* ---- the rows of each coupon: sizes are those of the patterns in masks/ ---- */
+
+static const double cd_um[] = {4, 6, 10}, slot_um[] = {4, 5, 7, 10, 20, 50, 100},
+                    line_um[] = {10, 12, 16, 20, 24}, pad_um[] = {10, 30, 100, 300};
+
+/* where an edge stands against the mask: coupon_films.c */
+static void of_lines(meant *m) {
+    const char *al = "made.al-edge";
+    bool etched = fw_process_coupon_has(m->flow, al);
+    double e = etched ? known(m->flow, al) - fw_process_coupon_loss(m->flow)
+                      : known(m->flow, "litho.edge");
+    for (size_t i = 0; i < sizeof cd_um / sizeof cd_um[0]; i++) {
+        double w = cd_um[i] * 1e-6;
+        add(m, lengths("cd-lines", "line", w, w + 2.0 * e, m->width_m));
+        add(m, lengths("cd-lines", "space", w, w - 2.0 * e, m->width_m));
+    }
+}
+
+/* depths after 0.9 of the time of wide openings, before the etch is through: to first order in the lag
+   D = R t - S J(w, R t), which moves no uncertainty of the fit by as much as the readings do */
+static void of_slots(meant *m) {
+    double R = known(m->flow, "rie.R"), S = known(m->flow, "rie.S");
+    double D = m->flow->thickness ? 0.9 * known(m->flow, m->flow->thickness->id) : (double)NAN;
+    for (size_t i = 0; i < sizeof slot_um / sizeof slot_um[0]; i++) {
+        double w = slot_um[i] * 1e-6, depth = D;
+        for (int k = 0; k < 40 && isfinite(depth); k++) /* contracts by S (1/K - 1) */
+            depth = D - S * fw_process_arde_integral(w, depth, false);
+        fw_process_measurement row = lengths("arde-slots", "", w, depth, m->depth_m);
+        row.at = D / R;
+        row.at_uncertainty = m->time_s;
+        row.at_dimension = (fw_quantity_dimension)FW_DIM_TIME;
+        add(m, row);
+    }
+}
+
+/* tops of lines that stand, once the device layer is through with the over-etch: coupon_etch.c */
+static void of_ladder(meant *m) {
+    double A = known(m->flow, "rie.A"), over = known(m->flow, "rie.overetch");
+    double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
+    double E = D * (1.0 + (isnan(over) ? 0.0 : over)), edge = known(m->flow, "made.al-edge");
+    double lost = fw_process_coupon_loss(m->flow) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
+    for (size_t i = 0; i < sizeof line_um / sizeof line_um[0]; i++) {
+        double w = line_um[i] * 1e-6;
+        fw_process_measurement row =
+            lengths("undercut-ladder", "width", w, w - 2.0 * lost, m->width_m);
+        row.at = E;
+        row.at_uncertainty = m->depth_m;
+        row.at_dimension = (fw_quantity_dimension)FW_DIM_LENGTH;
+        if (row.value > 0.0) add(m, row);
+    }
+}
+
+static void of_mask_step(meant *m) {
+    double S = known(m->flow, "rie.selectivity");
+    double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
+    fw_process_measurement row = lengths("al-step", "", (double)NAN, D / S, m->step_m);
+    row.at = D;
+    row.at_uncertainty = m->depth_m;
+    row.at_dimension = (fw_quantity_dimension)FW_DIM_LENGTH;
+    if (isfinite(D)) add(m, row);
+}
+
+/* the planned thickness at the planned charge per area; narrow pads as thick as flexures come out */
+static void of_pads(meant *m) {
+    double d = known(m->flow, "cu.d"), made = known(m->flow, "made.cu"),
+           q = d * known(m->flow, "cu.n") * FW_FARADAY_C_PER_mol * known(m->flow, "cu.rho") /
+               (known(m->flow, "cu.eta") * known(m->flow, "cu.M"));
+    for (size_t i = 0; i < sizeof pad_um / sizeof pad_um[0]; i++) {
+        bool narrow = pad_um[i] <= 30.0 && isfinite(made);
+        fw_process_measurement row =
+            lengths("plating-pads", "", pad_um[i] * 1e-6, narrow ? made : d, m->step_m);
+        row.at = q;
+        row.at_uncertainty = 0.0;
+        row.at_dimension = (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0);
+        if (isfinite(q)) add(m, row);
+    }
+}
+
+/* Half of the film of a step whose time is thickness over rate, timed and measured: once a rate. A rate
+   that goes with no film, as that of a bake, is a rule and nothing to read. */
+static void of_rates(meant *m) {
+    for (int i = 0; i < m->flow->nstep; i++) {
+        const fw_process_step *s = &m->flow->step[i];
+        const fw_quantity *rate = NULL, *film = NULL;
+        for (int k = 0; k < s->nargument; k++) {
+            if (strcmp(s->argument[k].name, "rate") == 0) rate = s->argument[k].q;
+            for (int c = 0; c < s->nchange; c++)
+                if (strcmp(s->argument[k].name, "thickness") == 0 &&
+                    s->change[c].thickness == s->argument[k].q)
+                    film = s->argument[k].q;
+        }
+        bool again = false;
+        for (int k = 0; rate && k < m->n; k++)
+            again = again || strcmp(m->row[k].feature, rate->id) == 0;
+        if (!rate || !film || rate->unknown || film->unknown || again) continue;
+        double d = 0.5 * film->value;
+        fw_process_measurement row = lengths("etch-rate", rate->id, (double)NAN, d, m->step_m);
+        row.at = d / rate->value;
+        row.at_uncertainty = m->time_s;
+        row.at_dimension = (fw_quantity_dimension)FW_DIM_TIME;
+        add(m, row);
+    }
+}
+
+/* a coupon, and those whose result its own law takes; in the order of coupons.def */
+static const struct {
+    const char *coupon, *with;
+    void (*before)(meant *m), (*rows)(meant *m);
+} table[] = {
+    {"cd-lines", NULL, NULL, of_lines},    {"etch-rate", NULL, NULL, of_rates},
+    {"arde-slots", NULL, NULL, of_slots},  {"undercut-ladder", "cd-lines", of_lines, of_ladder},
+    {"al-step", NULL, NULL, of_mask_step}, {"plating-pads", NULL, NULL, of_pads},
+};
+enum { KINDS = sizeof table / sizeof table[0] };
+
+/* ---- through calibrate ---- */
+
+static bool is_listed(const fw_process_measurable *list, int n, const char *id) {
+    return fw_process_measurable_of(list, n, id) != NULL;
+}
+
+static fw_status read_coupon(meant *m, int kind, fw_process_measurable *list, int *n) {
+    fw_process_calibration found = {0};
+    fw_diags quiet = fw_diags_new(m->arena); /* a coupon that this flow cannot have reads nothing */
+    m->n = 0;
+    if (table[kind].before) table[kind].before(m);
+    int first = m->n;
+    table[kind].rows(m);
+    if (m->n == first) return FW_OK;
+    fw_status status = fw_process_calibrate(m->arena, m->flow, m->row, m->n, &quiet, &found);
+    if (status == FW_NOMEM) return status;
+    for (int i = 0; status == FW_OK && i < found.count; i++) {
+        const fw_process_calibrated *c = &found.item[i];
+        if (strcmp(c->coupon, table[kind].coupon) != 0 || is_listed(list, *n, c->id)) continue;
+        if (*n == READINGS) return FW_LIMIT;
+        fw_process_measurable *r = &list[(*n)++];
+        *r = (fw_process_measurable){.id = c->id, .uncertainty = c->uncertainty, .coupon = true};
+        FW_NEED(r->by = fw_arena_printf(m->arena, "coupon %s%s%s", c->coupon,
+                                        table[kind].with ? ", with " : "",
+                                        table[kind].with ? table[kind].with : ""));
+    }
+    return FW_OK;
+}
+
+/* read.ID */
+static fw_status read_instrument(const fw_process_flow *flow, const fw_quantity *how,
+                                 fw_process_measurable *list, int *n) {
+    const char *id = how->id + strlen(FW_PROCESS_READ);
+    const fw_quantity *q = fw_process_flow_quantity(flow, id);
+    double value;
+    if (!q || how->unknown || is_listed(list, *n, id)) return FW_OK;
+    bool same = fw_quantity_dimension_equal(q->dimension, how->dimension);
+    bool pure = fw_quantity_dimension_equal(how->dimension, (fw_quantity_dimension)FW_DIM_NONE);
+    if (!same && (!pure || !fw_process_flow_nominal(flow, q, &value))) return FW_OK;
+    if (*n == READINGS) return FW_LIMIT;
+    list[(*n)++] =
+        (fw_process_measurable){.id = id,
+                                .uncertainty = same ? how->value : how->value * fabs(value),
+                                .by = how->note ? how->note : how->source};
+    return FW_OK;
+}
+
+const fw_process_measurable *fw_process_measurable_of(const fw_process_measurable *reading, int n,
+                                                      const char *id) {
+    for (int i = 0; i < n; i++)
+        if (strcmp(reading[i].id, id) == 0) return &reading[i];
+    return NULL;
+}
+
+fw_status fw_process_measurables(fw_arena *arena, const fw_process_flow *flow,
+                                 const fw_process_measurable **reading, int *n) {
+    fw_process_measurable *list = fw_arena_array(arena, fw_process_measurable, READINGS);
+    meant *m = fw_arena_one(arena, meant);
+    FW_NEED(list && m ? list : NULL);
+    *m = (meant){.arena = arena,
+                 .flow = flow,
+                 .width_m = known(flow, FW_PROCESS_READ "width"),
+                 .depth_m = known(flow, FW_PROCESS_READ "depth"),
+                 .step_m = known(flow, FW_PROCESS_READ "step"),
+                 .time_s = known(flow, FW_PROCESS_READ "time")};
+    *n = 0;
+    for (int i = 0; i < KINDS; i++)
+        FW_TRY(read_coupon(m, i, list, n));
+    size_t prefix = strlen(FW_PROCESS_READ);
+    for (int i = flow->nquantity - 1; i >= 0; i--) /* the flow's own before the shared ones */
+        if (flow->quantity[i]->id && strncmp(flow->quantity[i]->id, FW_PROCESS_READ, prefix) == 0)
+            FW_TRY(read_instrument(flow, flow->quantity[i], list, n));
+    *reading = list;
+    return FW_OK;
+}

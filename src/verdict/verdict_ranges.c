@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The search of verdict_corners.c with other ranges than those that the device was judged with, and the
+   bands that it leaves. Theory: docs/theory/measurements.md. */
+#include "verdict/verdict_parts.h"
+#include <math.h>
+
+/* what was run for the verdict, found again by what was made */
+static fw_status take_known(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                            fw_verdict_search *s) {
+    const fw_verdict_fabricated_verdict *f = v->fabricated;
+    if (!f || f->ncheck != s->ncheck) return FW_OK;
+    fw_verdict_known *known = fw_arena_array(arena, fw_verdict_known, (size_t)f->ncorner);
+    FW_NEED(known);
+    for (int i = 0; i < f->ncorner; i++)
+        known[i] =
+            (fw_verdict_known){fw_verdict_fabrication_at(v->input, v->ninput, f->corner[i].x),
+                               &f->corner[i], f->ln + (size_t)i * (size_t)f->ncheck};
+    s->known = known;
+    s->nknown = f->ncorner;
+    return FW_OK;
+}
+
+/* ---- bands of what was run ---- */
+
+static void widen(fw_verdict_band *b, double used) {
+    if (isnan(used)) return;
+    b->low = isnan(b->low) ? used : fmin(b->low, used);
+    b->high = isnan(b->high) ? used : fmax(b->high, used);
+}
+
+/* nothing of it was judged, and something speaks against it: a flexure is gone */
+static bool is_gone(const fw_verdict_fabricated_corner *c, int nhinge) {
+    for (int k = 0; k < nhinge; k++)
+        if (c->hinge[k].scene) return false;
+    return c->why && !c->requirement;
+}
+
+static void bands(const fw_verdict_search *s, fw_verdict_band *hinge,
+                  fw_verdict_band *requirement) {
+    const fw_verdict_band none = {(double)NAN, (double)NAN};
+    int nhinge = s->v->nhinge, nrequirement = s->v->nrequirement;
+    for (int k = 0; k < nhinge; k++)
+        hinge[k] = none;
+    for (int i = 0; i < nrequirement; i++)
+        requirement[i] = none;
+    for (int c = 0; c < s->fabricated->ncorner; c++) {
+        const fw_verdict_fabricated_corner *corner = &s->fabricated->corner[c];
+        bool gone = is_gone(corner, nhinge);
+        for (int k = 0; k < nhinge; k++)
+            if (gone || corner->hinge[k].scene)
+                widen(&hinge[k], gone ? (double)INFINITY : corner->hinge[k].utilisation);
+        for (int i = 0; i < nrequirement; i++)
+            if (gone || corner->requirement)
+                widen(&requirement[i],
+                      gone ? (double)INFINITY : corner->requirement[i].utilisation);
+    }
+}
+
+/* nothing differs from the drawing */
+static void as_drawn(const fw_verdict_variant_verdict *v, fw_verdict_band *hinge,
+                     fw_verdict_band *requirement, fw_verdict_ranges *out) {
+    for (int k = 0; k < v->nhinge; k++) {
+        double used = v->hinge[k].scene ? v->hinge[k].utilisation : (double)NAN;
+        hinge[k] = (fw_verdict_band){used, used};
+    }
+    for (int i = 0; i < v->nrequirement; i++) {
+        double used = v->requirement[i].utilisation;
+        requirement[i] = (fw_verdict_band){used, used};
+    }
+    out->decision = v->drawn;
+}
+
+/* ---- both ends ---- */
+
+/* the largest check of a hinge, of the nominal device */
+static int check_of(const fw_verdict_search *s, int hinge) {
+    int checks = s->device->nscene + 1, check = FW_NONE;
+    for (int r = hinge * checks; r < (hinge + 1) * checks; r++)
+        if (!isnan(s->ln[r]) && (check == FW_NONE || s->ln[r] > s->ln[check])) check = r;
+    return check;
+}
+
+static fw_status run_ends(fw_verdict_search *s, int hinge) {
+    const fw_verdict_variant_verdict *v = s->v;
+    int check = hinge == FW_NONE ? FW_NONE : check_of(s, hinge);
+    int requirements = v->nhinge * (s->device->nscene + 1) + s->device->nscene;
+    if (check != FW_NONE) FW_TRY(fw_verdict_search_ends(s, check));
+    for (int i = 0; i < v->nrequirement; i++)
+        FW_TRY(fw_verdict_search_ends(s, requirements + i));
+    return FW_OK;
+}
+
+static fw_status run(fw_arena *scratch, const fw_device *device, const fw_layout *layout,
+                     const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
+                     const fw_verdict_variant_verdict *with, int hinge, fw_verdict_band *of_hinge,
+                     fw_verdict_band *of_requirement, fw_verdict_ranges *out) {
+    fw_verdict_search s;
+    FW_TRY(fw_verdict_search_begin(scratch, device, layout, options, with, &s));
+    FW_TRY(take_known(scratch, v, &s));
+    FW_TRY(fw_verdict_search_corners(&s));
+    fw_verdict_search_govern(&s); /* by the corners that the verdict itself looks at */
+    out->decision = s.fabricated->decision;
+    FW_TRY(run_ends(&s, hinge));
+    bands(&s, of_hinge, of_requirement);
+    out->judged = s.judged;
+    return FW_OK;
+}
+
+/* Bands of the utilisation over the box of ranges, by the corners that the verdict's own search runs,
+   and by the two corners at which a check is highest and lowest to first order.
+   In: v as judged; input (ninput) in SI. Out: shares of limits, 1. Range: as the verdict's, one device
+   for each corner; where first order is off by more than 0.3 all corners are run. Error: that of a run,
+   of the corners that were run; between them as far as utilisation is monotone. Cost: the devices of
+   out->judged. Source: docs/theory/measurements.md. Test: test_ranges.c. */
+fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  const fw_verdict_options *options,
+                                  const fw_verdict_variant_verdict *v,
+                                  const fw_verdict_fabrication_input *input, int ninput, int hinge,
+                                  fw_verdict_ranges *out) {
+    fw_verdict_band *of_hinge = fw_arena_array(arena, fw_verdict_band, (size_t)v->nhinge),
+                    *of_requirement =
+                        fw_arena_array(arena, fw_verdict_band, (size_t)v->nrequirement);
+    FW_NEED(of_hinge && of_requirement ? of_hinge : NULL);
+    *out = (fw_verdict_ranges){.hinge = of_hinge, .requirement = of_requirement};
+    if (ninput == 0) {
+        as_drawn(v, of_hinge, of_requirement, out);
+        return FW_OK;
+    }
+    fw_verdict_variant_verdict with = *v;
+    with.input = input;
+    with.ninput = ninput;
+    with.suspect = NULL;
+    fw_arena *scratch = fw_arena_part(arena, 0);
+    FW_NEED(scratch);
+    fw_status status =
+        run(scratch, device, layout, options, v, &with, hinge, of_hinge, of_requirement, out);
+    fw_arena_free(scratch);
+    return status;
+}
