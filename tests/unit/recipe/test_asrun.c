@@ -320,6 +320,8 @@ static void refused_values(void **state) {
         const char *said = diags.item[diags.count - 1].message;
         if (!strstr(said, bad[i].says)) fail_msg("%s: %s", bad[i].words, said);
     }
+    with(begun(), entry("thickness=9.1 mm; thickness below the mould's top=6"), 0);
+    assert_non_null(strstr(diags.item[1].message, "is the unit right?"));
     lot_wafers = NULL; /* a log of before there were wafers */
     with(begun(), entry("wafer=1"), 282);
     with(begun(), entry("thickness=9.1"), 0);
