@@ -136,16 +136,20 @@ static const char *counted(fw_arena *arena, int n) {
 const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
     double number;
     int n = 0;
+    static const char needs[] =
+        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
+        "with commas between";
     *wrong = NULL;
-    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number) && number >= 1.0 &&
-        number <= FW_RECIPE_WAFERS && number == floor(number))
+    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
+        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
+            *wrong = needs;
+            return NULL;
+        }
         return counted(arena, (int)number);
+    }
     for (const char *at = text; !*wrong; n++) {
         size_t length = strcspn(at, ",");
-        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS)
-            *wrong =
-                "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, "
-                "-, _ and . with commas between";
+        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
         for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
             if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
                 *wrong = "has a wafer twice";
