@@ -374,8 +374,7 @@ static void anything_typed(void **state) {
     (void)state;
     static const char *const good[] = {
         "wafer=A-7; instrument=p 2; thickness=9.1 9.0 9.2 9.15 8.9 um; note=a = b, c",
-        "thickness=left:9.1 top:9.0 um; set current density=0.02 A/cm2; set bath temperature=24 "
-        "Cel",
+        "thickness=left:9.1 top:9.0 um; set current density=20 mA/cm2; set bath temperature=4 Cel",
         "wafer=1; coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 um, u=0.05 um, at=25 C/cm2"};
     uint64_t seed = 11;
     int taken = 0;
