@@ -229,8 +229,8 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
                                     &plan->diags, &run));
     }
     FW_TRY(check_head(plan->arena, &plan->diags, options->run, &run));
-    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, fw_cli_local_time(),
-                               &plan->diags, &line));
+    FW_TRY(fw_recipe_asrun_add(plan->arena, pf->flow, &run, words, options->now_s, &plan->diags,
+                               &line));
     const char *all = fw_arena_printf(plan->arena, "%s%s", first, line);
     FW_NEED(all);
     FW_TRY(fw_append_text(file, all, strlen(all)));

@@ -35,6 +35,15 @@ static int last_words(int status) {
     return status;
 }
 
+/* the clock on the wall, seconds since 1970-01-01T00:00 there; NaN: there is none. Nothing that is computed depends on it: an
+   entry of a log is not accepted before its time has come. */
+static double local_time(void) {
+    struct tm local;
+    time_t now = time(NULL);
+    if (now == (time_t)-1 || !localtime_r(&now, &local)) return (double)NAN;
+    return (double)now + (double)local.tm_gmtoff;
+}
+
 int fw_cli_run(int argc, char **argv) {
     catch_signals();
     if (argc < 2) return fw_cli_usage("no command; see flexwright --help");
@@ -57,7 +66,8 @@ int fw_cli_run(int argc, char **argv) {
     fw_cli_options options = {.design = fw_design_options_default(),
                               .colour = -1,
                               .argv = argv,
-                              .interrupted = &interrupted};
+                              .interrupted = &interrupted,
+                              .now_s = local_time()};
     options.design.data_directory = getenv("FLEXWRIGHT_DATA");
     int status;
     if (!fw_cli_parse(command, argc, argv, &options))
@@ -68,11 +78,4 @@ int fw_cli_run(int argc, char **argv) {
         status = last_words(command->run(&options));
     fw_cli_options_free(&options);
     return status;
-}
-
-double fw_cli_local_time(void) {
-    struct tm local;
-    time_t now = time(NULL);
-    if (now == (time_t)-1 || !localtime_r(&now, &local)) return (double)NAN;
-    return (double)now + (double)local.tm_gmtoff;
 }

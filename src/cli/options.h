@@ -22,6 +22,7 @@ typedef struct fw_cli_options {
     const char *level, *deck;      /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *lot; /* of log */
     const char *wafer, *wafer_ids, *instrument, *report;
+    double now_s; /* local time when it was started, since 1970-01-01T00:00 there */
     struct {
         const char *before, *words; /* "set ", "power=251 W" */
     } logged[FW_MOST_SETS];

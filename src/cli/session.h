@@ -15,9 +15,6 @@ fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status);
 /* prints the diagnostics on standard error and frees; returns the exit status */
 int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int status,
                          int result_if_ok);
-/* cli_run.c: the clock on the wall, seconds since 1970-01-01T00:00 there; NaN: there is none. Nothing that is computed
-   depends on it: an entry of a log is not accepted before its time has come. */
-double fw_cli_local_time(void);
 /* a line on standard error with -v */
 void fw_cli_session_stage(const fw_cli_options *options, const char *stage);
 /* a document (FW_DOCUMENT_...) on standard output; returns the library's status */

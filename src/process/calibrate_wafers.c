@@ -226,10 +226,10 @@ static fw_status note_of(const lot *l, const moments *o, const char *first, cons
     return FW_OK;
 }
 
-static bool behind(const fw_process_calibrated *c, const fw_process_reading *r) {
-    const char *found = strstr(c->coupon, r->row.coupon);
-    if (!found) return false;
-    return strcmp(r->row.coupon, "etch-rate") != 0 || strcmp(r->row.feature, c->id) == 0;
+/* is it a reading of a coupon of c; of one whose feature is a quantity, of that one? */
+static bool behind(const lot *l, const fw_process_calibrated *c, const fw_process_reading *r) {
+    if (!strstr(c->coupon, r->row.coupon)) return false;
+    return !fw_process_flow_quantity(l->flow, r->row.feature) || strcmp(r->row.feature, c->id) == 0;
 }
 
 /* "arde-slots of wafers 1, 2, 3: 105 readings, 84 degrees of freedom, step S18, 2026-11-20 to 2026-11-22; lot L7, log
@@ -244,7 +244,7 @@ static fw_status source_of(const lot *l, fw_process_calibrated *c) {
         bool any = false;
         for (int k = 0; k < w->nrow; k++) {
             const fw_process_reading *r = &l->readings->item[w->reading[k]];
-            if (!behind(c, r)) continue;
+            if (!behind(l, c, r)) continue;
             any = true;
             readings += r->nsite > 0 ? r->nsite : 1;
             freedom += r->nsite > 1 ? r->nsite - 1 : 0;

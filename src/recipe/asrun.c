@@ -136,16 +136,20 @@ static const char *counted(fw_arena *arena, int n) {
 const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
     double number;
     int n = 0;
+    static const char needs[] =
+        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
+        "with commas between";
     *wrong = NULL;
-    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number) && number >= 1.0 &&
-        number <= FW_RECIPE_WAFERS && number == floor(number))
+    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
+        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
+            *wrong = needs;
+            return NULL;
+        }
         return counted(arena, (int)number);
+    }
     for (const char *at = text; !*wrong; n++) {
         size_t length = strcspn(at, ",");
-        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS)
-            *wrong =
-                "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, "
-                "-, _ and . with commas between";
+        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
         for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
             if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
                 *wrong = "has a wafer twice";
@@ -175,6 +179,20 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
 }
 
 /* what is odd, and may still be true */
+/* mm for um: a hundred times what is accepted is in the range of its dimension, and seldom true */
+static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        double most = fw_recipe_asrun_limit(a->high, (double)NAN);
+        if (!(most > 0.0) || !(fabs(m->number) > 100.0 * most)) continue;
+        fw_diag_warning(r->diags, 283, r->place,
+                        "%s=%s is more than 100 times the %s %s that are accepted: is the unit "
+                        "right? A later entry of the step takes its place",
+                        m->measure, m->value, a->high, a->unit);
+    }
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -190,6 +208,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s starts before step %s, which was entered before it", e->step->id,
                         last->step->id);
+    ask_units(r, e);
     if (e->nmeasured < e->step->naccept)
         fw_diag_warning(r->diags, 283, r->place,
                         "the entry gives %d of the %d values that step %s measures", e->nmeasured,

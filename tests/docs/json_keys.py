@@ -93,7 +93,13 @@ with tempfile.TemporaryDirectory() as here:
     log = ["log", SIX, "--flow", "copper-on-porous-silicon", "--run", f"{here}/run.log"]
     for words in ("C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; copper bright in the mould=yes",
                   "C22; start=2026-11-20T10:30; end=2026-11-20T10:52; by=AB; second=CD; tool=p; bath=7; thickness=9; note=x"):
-        subprocess.run([program, *log, "--lot", "7", "--entry", words], cwd=ROOT, capture_output=True, timeout=240)
+        first = [] if pathlib.Path(f"{here}/run.log").exists() else ["--lot", "7", "--wafers", "2"]
+        subprocess.run([program, *log, *first, "--entry", words], cwd=ROOT, capture_output=True, timeout=240)
+    for wafer, current in (("1", "20"), ("2", "30")):
+        subprocess.run([program, *log, "--entry", "C22; start=2026-11-20T10:30; end=2026-11-20T10:52; by=AB; second=CD", "--wafer",
+                        wafer, "--instrument", "p", "--site", "thickness=9 9 9.1 9 9 um", "--setting",
+                        f"current density={current} mA/cm2", "--coupon",
+                        "plating-pads, drawn=1 mm, value=9 um, u=0.1 um, at=25 C/cm2"], cwd=ROOT, capture_output=True, timeout=240)
     walk(json.loads(subprocess.run([program, *log, "--json"], cwd=ROOT, capture_output=True, timeout=240).stdout), "as-run")
     subprocess.run([program, "plan", COMB, "-q", "-o", f"{here}/o", "--set", "volts=49 V"], cwd=ROOT, capture_output=True,
                    timeout=240)

@@ -274,6 +274,37 @@ static void sites_and_settings(void **state) {
     assert_string_equal(list[0].actual, "20.4 mA/cm2");
 }
 
+/* for calibrate: each coupon once, by wafer; what is read again takes its place; the plan is not needed */
+static void readings(void **state) {
+    (void)state;
+    static const char pads[] =
+        "coupon=plating-pads, drawn=%d um, value=%s um, u=0.1 um, at=%d C/cm2";
+    fw_recipe_asrun run;
+    fw_process_readings r;
+    lot_wafers = "1,2";
+    const char *one = fw_arena_printf(arena, pads, 10, "9.0 9.2 9.4", 25),
+               *two = fw_arena_printf(arena, pads, 1000, "9.1", 25),
+               *other = fw_arena_printf(arena, pads, 1000, "9.1", 20),
+               *again = fw_arena_printf(arena, pads, 10, "9.5 9.6", 25);
+    const char *log = with(
+        begun(), entry(fw_arena_printf(arena, "wafer=1; thickness=9 um; %s; %s", one, two)), 0);
+    log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", one)), 0);
+    log = with(log, entry(fw_arena_printf(arena, "wafer=1; %s; %s", other, again)), 0);
+    diags = fw_diags_new(arena);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &r), FW_OK);
+    assert_int_equal(r.n, 4); /* of six, one is superseded and one is of another run */
+    assert_string_equal(r.lot, "lot 7");
+    assert_string_equal(r.item[1].wafer, "2");
+    assert_near(r.item[1].row.value, 9.2e-6, 1e-18);
+    assert_near(r.item[1].squares, 0.08e-12, 1e-24);
+    assert_int_equal(r.item[1].nsite, 3);
+    assert_string_equal(r.item[1].date, "2026-11-20");
+    assert_string_equal(r.item[1].step, "C22");
+    assert_near(r.item[3].row.value, 9.55e-6, 1e-18);
+}
+
 /* what the plan does not know is refused with what there is */
 static void refused_values(void **state) {
     (void)state;
@@ -320,6 +351,8 @@ static void refused_values(void **state) {
         const char *said = diags.item[diags.count - 1].message;
         if (!strstr(said, bad[i].says)) fail_msg("%s: %s", bad[i].words, said);
     }
+    with(begun(), entry("thickness=9.1 mm; thickness below the mould's top=6"), 0);
+    assert_non_null(strstr(diags.item[1].message, "is the unit right?"));
     lot_wafers = NULL; /* a log of before there were wafers */
     with(begun(), entry("wafer=1"), 282);
     with(begun(), entry("thickness=9.1"), 0);
@@ -341,8 +374,7 @@ static void anything_typed(void **state) {
     (void)state;
     static const char *const good[] = {
         "wafer=A-7; instrument=p 2; thickness=9.1 9.0 9.2 9.15 8.9 um; note=a = b, c",
-        "thickness=left:9.1 top:9.0 um; set current density=0.0204 A/cm2; set bath temperature=24 "
-        "Cel",
+        "thickness=left:9.1 top:9.0 um; set current density=20 mA/cm2; set bath temperature=4 Cel",
         "wafer=1; coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 um, u=0.05 um, at=25 C/cm2"};
     uint64_t seed = 11;
     int taken = 0;
@@ -532,6 +564,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_values, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings, setup, teardown),
         cmocka_unit_test_setup_teardown(wafer_lists, setup, teardown),
         cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
