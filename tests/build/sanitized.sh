@@ -11,6 +11,7 @@ cd "$(dirname "$0")/../.."
 all=OFF
 [ -z "${FW_TEST_ALL:-}" ] || all=ON
 sanitized_build sanitized -DFW_SANITIZE_ALL=$all
+[ -n "${FW_TEST_ALL:-}" ] || export FW_TEST_FEWEST=1 # asked by test_fewest() of tests/unit/test.h
 FW_EDGES_TO=$(mktemp -d)
 export FW_EDGES_TO
 log=$(mktemp)
