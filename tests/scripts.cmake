@@ -118,6 +118,7 @@ set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.sanitized PROPERTIES RUN_SERIAL ON) # two at a time within
 
 include(serve/serve.cmake)
+include(ccx/ccx.cmake)
 include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)
