@@ -93,7 +93,7 @@ fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(docs.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/names.py)
-fw_script_test(docs.theory LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
+fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(build.threads COMMAND tests/build/threads.sh TIMEOUT 900)
