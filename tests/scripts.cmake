@@ -95,7 +95,7 @@ fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)
 fw_script_test(docs.pages LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/pages.py)
 fw_script_test(docs.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/names.py)
-fw_script_test(docs.theory LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
+fw_script_test(docs.theory LABEL longer COMMAND ${Python3_EXECUTABLE} tests/docs/theory.py ${FW_PROGRAM})
 fw_script_test(docs.limits COMMAND ${Python3_EXECUTABLE} tests/docs/limits.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(build.sanitized COMMAND tests/build/sanitized.sh TIMEOUT 900)
 fw_script_test(build.threads COMMAND tests/build/threads.sh TIMEOUT 900)
@@ -120,6 +120,7 @@ set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
 set_tests_properties(build.sanitized PROPERTIES RUN_SERIAL ON) # two at a time within
 
 include(serve/serve.cmake)
+include(ccx/ccx.cmake)
 include(web/web.cmake)
 # the functions behind the page without a server
 add_executable(live live/live.c)

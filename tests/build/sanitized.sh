@@ -11,13 +11,14 @@ cd "$(dirname "$0")/../.."
 all=OFF
 [ -z "${FW_TEST_ALL:-}" ] || all=ON
 sanitized_build sanitized -DFW_SANITIZE_ALL=$all
+[ -n "${FW_TEST_ALL:-}" ] || export FW_TEST_FEWEST=1 # asked by test_fewest() of tests/unit/test.h
 FW_EDGES_TO=$(mktemp -d)
 export FW_EDGES_TO
 log=$(mktemp)
 trap 'rm -rf "$FW_EDGES_TO" "$log"' EXIT
 tests/build/sanitized_beside.sh build-asan >"$log" 2>&1 &
 beside=$!
-ctest --test-dir build-asan -L quick --output-on-failure -j 2 -E "$sanitized_never"
+ctest --test-dir build-asan -L 'quick|longer' --output-on-failure -j 2 -E "$sanitized_never"
 wait "$beside" || {
     cat "$log"
     exit 1

@@ -84,7 +84,7 @@ def build():
 def quick():
     """of ctest: what may run under the sanitizers"""
     never = re.search(r"^sanitized_never='(.*)'$", (ROOT / "tests/build/sanitized_build.sh").read_text(), re.M).group(1)
-    return "-L", "quick", "-E", never, "-R", "^(unit|hard)[.]"  # others always run
+    return "-L", "quick|longer", "-E", never, "-R", "^(unit|hard)[.]"  # others always run
 
 
 def candidates(*which):

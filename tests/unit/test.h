@@ -20,6 +20,12 @@ static inline int test_cases(int whole, int quick) {
     return getenv("FW_TEST_QUICK") ? quick : whole;
 }
 
+/* Under the sanitizers (tests/build/sanitized.sh sets FW_TEST_FEWEST) what is repeated over the same
+   lines is done some ten times slower to pass the same edges: as few as pass them all. */
+static inline int test_fewest(int cases, int fewest) {
+    return getenv("FW_TEST_FEWEST") ? fewest : cases;
+}
+
 /* |got - want| <= tol, absolute */
 #define assert_near(got, want, tol)                                                                \
     do {                                                                                           \

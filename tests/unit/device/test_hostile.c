@@ -172,10 +172,12 @@ static void large_files(void **state) {
          "<flexure id=\"a\" kind=\"leaf\" length=\"300 um\" width=\"9 um\"/>", "</device>", 3000},
     };
     for (size_t i = 0; i < sizeof big / sizeof big[0]; i++) {
-        size_t n;
+        size_t n, count = big[i].count;
         char *text;
-        if (big[i].count)
-            text = repeated(big[i].head, big[i].piece, big[i].tail, big[i].count, &n);
+        /* mistakes that are only many: no limit is passed */
+        if (big[i].number >= 40 && big[i].number != 66) count /= (size_t)test_fewest(1, 20);
+        if (count)
+            text = repeated(big[i].head, big[i].piece, big[i].tail, count, &n);
         else { /* distinct names */
             text = malloc(400000);
             assert_non_null(text);
@@ -213,7 +215,7 @@ static void mistakes_at_the_limit(void **state) {
     for (size_t i = 0; i < sizeof big / sizeof big[0]; i++) {
         size_t n;
         char *text = repeated(big[i].head, big[i].piece, big[i].tail,
-                              big[i].count / (size_t)test_cases(1, 8), &n);
+                              big[i].count / (size_t)test_fewest(test_cases(1, 8), 80), &n);
         refuse_within(big[i].name, big[i].number, text, n, (size_t)256 * 1024 * 1024);
         free(text);
     }
