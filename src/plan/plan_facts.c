@@ -151,6 +151,18 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     return FW_OK;
 }
 
+/* distances from the openings of the device with the flow's own marks, once */
+static fw_status release_of(fw_plan *plan, fw_plan_flow *pf) {
+    const fw_layout *marked;
+    int left_out;
+    if (pf->release || !plan->layout || !plan->layout->drawn) return FW_OK;
+    if (!fw_process_flow_releases(pf->flow)) return FW_OK;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &marked, &left_out));
+    return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
+                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
+                            &pf->release);
+}
+
 /* facts of a flow, computed with them; the wafer's own where it is laid out */
 static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
@@ -158,6 +170,8 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
     facts.dies = plan->dies;
+    FW_TRY(release_of(plan, pf));
+    facts.release = pf->release;
     if (pf->wafer) FW_TRY(add_wafer_facts(plan->arena, pf->wafer, &facts));
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
     fw_process_drive_facts *drive;

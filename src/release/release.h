@@ -13,7 +13,7 @@
 typedef enum fw_release_duty {
     FW_RELEASE_MOVES, /* bodies and flexures: no point of them may stay bonded */
     FW_RELEASE_STAYS, /* bases, frame, stators with leads and pads: must not come off */
-    FW_RELEASE_EITHER /* tethers: broken before use */
+    FW_RELEASE_EITHER /* tethers: broken before use; frame and bases where the whole may come off */
 } fw_release_duty;
 
 enum { FW_RELEASE_STEPS = 64 };
@@ -21,6 +21,7 @@ enum { FW_RELEASE_STEPS = 64 };
 typedef struct fw_release_part {
     const char *label; /* "link AB", "frame" */
     fw_release_duty duty;
+    fw_layout_role role;
     int body, joint; /* as of its pieces */
     double area_m2;
     /* distance of the worst point from the nearest opening: found at `at`, and proved nowhere more
@@ -45,11 +46,12 @@ typedef struct fw_release {
 } fw_release;
 
 /* Distances of every part of a layout that is drawn. islands: what stands by itself is there (else it
-   falls out, and is not in the mask). share: 0 to below 1. Lettering and marks are openings in what
-   they lie in. Error of reach_m: at most 10 nm or 2e-4 of itself, stated part by part by most_m;
+   falls out, and is not in the mask). whole: the flow takes the layer from below everything, so that bases
+   and frame may come off, in one piece with the device; islands may not. share: 0 to below 1. Lettering and marks are openings in what
+   they lie in. Error of reach_m: at most 10 nm or 5e-4 of itself, stated part by part by most_m;
    of bonded_m2: below 1 % of the area. */
-fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, double share,
-                           const fw_release **release);
+fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, bool whole,
+                           double share, const fw_release **release);
 /* area of a part that is still bonded after a reach; between two steps by a straight line */
 double fw_release_bonded(const fw_release_part *part, double reach_m);
 

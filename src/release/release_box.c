@@ -6,14 +6,18 @@
 
 static fw_status room(fw_release_level *l, fw_arena *arena, size_t edges) {
     if ((size_t)l->nbox + 1 > l->box_room) {
-        size_t more = l->box_room ? 2 * l->box_room : 256;
+        size_t more = l->box_room ? 4 * l->box_room : 1024;
         FW_NEED(l->box = fw_arena_grow(arena, l->box, (size_t)l->nbox, more, sizeof *l->box));
         l->box_room = more;
     }
     if ((size_t)l->nlist + edges > l->list_room) {
-        size_t more = 2 * l->list_room + edges + 1024;
+        size_t more = 4 * l->list_room + edges + 8192;
         FW_NEED(l->list = fw_arena_grow(arena, l->list, (size_t)l->nlist, more, sizeof *l->list));
         l->list_room = more;
+    }
+    if (edges > l->far_room) {
+        FW_NEED(l->far_m = fw_arena_raw(arena, edges * sizeof *l->far_m));
+        l->far_room = edges;
     }
     return FW_OK;
 }
@@ -25,23 +29,21 @@ static fw_status room(fw_release_level *l, fw_arena *arena, size_t edges) {
    from all of its points. Most edges are told by the circle around them. */
 static fw_status add_box(const fw_release_field *f, const int *from, int n, double x, double y,
                          double half_m, int part, fw_release_level *to) {
-    fw_geometry_vec2 c = {x, y}, foot;
+    fw_geometry_vec2 c = {x, y};
     FW_TRY(room(to, f->arena, (size_t)n));
-    double h = 1.4142135623730951 * half_m, near = HUGE_VAL;
+    double h = 1.4142135623730951 * half_m, near = HUGE_VAL, *far = to->far_m;
     int *list = to->list + to->nlist, kept = 0;
     for (int i = 0; i < n; i++) {
         const fw_release_edge *e = &f->edge[from[i]];
-        double dx = e->about.x - x, dy = e->about.y - y, far = near + e->around;
-        if (!e->open || dx * dx + dy * dy >= far * far) continue;
-        near = fmin(near, fw_release_edge_distance(e, c, &foot));
-    }
-    for (int i = 0; i < n; i++) {
-        const fw_release_edge *e = &f->edge[from[i]];
         double dx = e->about.x - x, dy = e->about.y - y, within = e->open ? near + 2.0 * h : h;
-        double far = within + e->around;
-        if (dx * dx + dy * dy > far * far) continue;
-        if (fw_release_edge_distance(e, c, &foot) <= within) list[kept++] = from[i];
+        far[i] = HUGE_VAL;
+        if (dx * dx + dy * dy > (within + e->around) * (within + e->around)) continue;
+        far[i] = fw_release_edge_distance(e, c);
+        if (e->open && far[i] < near) near = far[i];
     }
+    for (int i = 0; i < n; i++)
+        if (far[i] <= h || (far[i] <= near + 2.0 * h && f->edge[from[i]].open))
+            list[kept++] = from[i];
     to->box[to->nbox++] = (fw_release_box){.x = x,
                                            .y = y,
                                            .half_m = half_m,
@@ -53,21 +55,6 @@ static fw_status add_box(const fw_release_field *f, const int *from, int n, doub
     return FW_OK;
 }
 
-fw_status fw_release_level_first(const fw_release_field *f, fw_release_level *level) {
-    fw_geometry_box b = f->box;
-    double side = fmax(b.x1 - b.x0, b.y1 - b.y0);
-    int *all = fw_arena_array(f->arena, int, (size_t)f->nedge);
-    FW_NEED(all);
-    for (int i = 0; i < f->nedge; i++)
-        all[i] = i;
-    *level = (fw_release_level){0};
-    /* a little larger and not in the middle, so that corners of drawings on a grid do not lie on the
-       edges of boxes */
-    return add_box(f, all, f->nedge, 0.5 * (b.x0 + b.x1) + 1.37e-9 * side,
-                   0.5 * (b.y0 + b.y1) + 0.73e-9 * side, 0.5 * side * (1.0 + 7.1e-6),
-                   FW_RELEASE_MIXED, level);
-}
-
 fw_status fw_release_level_split(const fw_release_field *f, const fw_release_level *level,
                                  const fw_release_box *box, fw_release_level *next) {
     double q = 0.5 * box->half_m;
@@ -77,14 +64,38 @@ fw_status fw_release_level_split(const fw_release_field *f, const fw_release_lev
     return FW_OK;
 }
 
+fw_status fw_release_field_start(fw_release_field *f) {
+    enum { BOXES = 1024 };
+    fw_geometry_box b = f->box;
+    fw_release_level level = {0}, next;
+    double side = fmax(b.x1 - b.x0, b.y1 - b.y0);
+    int *all = fw_arena_array(f->arena, int, (size_t)f->nedge);
+    FW_NEED(all);
+    for (int i = 0; i < f->nedge; i++)
+        all[i] = i;
+    /* a little larger and not in the middle, so that corners of drawings on a grid do not lie on the
+       edges of boxes */
+    FW_TRY(add_box(f, all, f->nedge, 0.5 * (b.x0 + b.x1) + 1.37e-9 * side,
+                   0.5 * (b.y0 + b.y1) + 0.73e-9 * side, 0.5 * side * (1.0 + 7.1e-6),
+                   FW_RELEASE_MIXED, &level));
+    while (level.nbox < BOXES) {
+        next = (fw_release_level){0};
+        for (int i = 0; i < level.nbox; i++)
+            FW_TRY(fw_release_level_split(f, &level, &level.box[i], &next));
+        level = next;
+    }
+    f->start = level;
+    return FW_OK;
+}
+
 bool fw_release_box_cut(const fw_release_field *f, const fw_release_level *level,
                         const fw_release_box *box) {
-    fw_geometry_vec2 c = {box->x, box->y}, foot;
+    fw_geometry_vec2 c = {box->x, box->y};
     double h = fw_release_box_about(box);
     if (box->near_m <= h) return true;
     for (int i = 0; i < box->count; i++) {
         const fw_release_edge *e = &f->edge[level->list[box->first + i]];
-        if (!e->open && fw_release_edge_distance(e, c, &foot) <= h) return true;
+        if (!e->open && fw_release_edge_distance(e, c) <= h) return true;
     }
     return false;
 }
@@ -123,11 +134,10 @@ static bool within(const fw_release_edge *e, fw_geometry_vec2 p, double h) {
    distance from its centre, from the inside the other way; and from anything whatever by no more than
    one over the distance itself, since it is no farther than the foot */
 static tangent touch(const fw_release_edge *e, fw_geometry_vec2 c, double h) {
-    fw_geometry_vec2 foot;
-    double d = fw_release_edge_distance(e, c, &foot), ray = 0.0;
+    double d = fw_release_edge_distance(e, c), ray = 0.0;
     tangent t = {.value = d, .bend = HUGE_VAL, .slope = {0, 0}};
     if (!(d > 1e-15)) return t;
-    t.slope = vec_scale(1.0 / d, vec_sub(c, foot));
+    t.slope = vec_scale(1.0 / d, vec_sub(c, fw_release_edge_foot(e, c)));
     if (d > h) t.bend = 1.0 / (d - h);
     if (!within(e, c, h)) return t;
     if (e->radius > 0.0) ray = vec_distance(c, e->centre);
@@ -195,4 +205,30 @@ double fw_release_box_most(const fw_release_field *f, const fw_release_level *le
         mean.slope = vec_along(mean.slope, w, to);
     }
     return fmin(best, most_of(&mean, h));
+}
+
+/* The same for the part of a box on one side of a seam, where the seam alone runs through it: with the
+   nearest edge's tangent, whose largest value over the half of the circle is on its arc where the slope
+   points there, else at an end of its chord. HUGE_VAL where anything else runs through the circle. */
+double fw_release_box_side(const fw_release_field *f, const fw_release_level *level,
+                           const fw_release_box *box, const fw_release_edge *seam) {
+    fw_geometry_vec2 c = {box->x, box->y}, in = vec_left(seam->along);
+    double h = fw_release_box_about(box);
+    const fw_release_edge *nearest = NULL;
+    if (seam->radius > 0.0 || !within(seam, c, h)) return HUGE_VAL;
+    for (int i = 0; i < box->count; i++) {
+        const fw_release_edge *e = &f->edge[level->list[box->first + i]];
+        double d = fw_release_edge_distance(e, c);
+        bool twin = vec_same(e->a, seam->b) && vec_same(e->b, seam->a);
+        if (d <= h && e != seam && !twin) return HUGE_VAL;
+        if (e->open && d <= box->near_m) nearest = e;
+    }
+    if (!nearest) return HUGE_VAL;
+    tangent t = touch(nearest, c, h);
+    double m = vec_dot(vec_sub(seam->a, c), in); /* the half has in . step >= m */
+    double length = vec_length(t.slope), most = h * length;
+    if (vec_dot(t.slope, in) * h < m * length)
+        most = vec_dot(t.slope, in) * m +
+               fabs(vec_cross(t.slope, in)) * sqrt(fmax(h * h - m * m, 0.0));
+    return t.value + most + 0.5 * t.bend * h * h;
 }

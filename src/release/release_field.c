@@ -4,26 +4,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Distance of a point from a line or an arc. Of an arc: | |p - c| - R | where p lies in the sector of
-   the arc, which the direction to its middle and the cosine of half its sweep tell, else the nearer
-   end. In: edge, point (m). Out: distance (m), the nearest point. Error: a few ulp of the coordinates.
-   Cost: at most three square roots. Test: test_reach_field.c, distances_are_those_of_geometry. */
-double fw_release_edge_distance(const fw_release_edge *e, fw_geometry_vec2 p,
-                                fw_geometry_vec2 *foot) {
+fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2 p) {
     if (e->radius == 0.0) {
         double t;
-        *foot = vec_line_foot(e->a, e->b, p, &t);
-        return vec_distance(p, *foot);
+        return vec_line_foot(e->a, e->b, p, &t);
     }
     fw_geometry_vec2 ray = vec_sub(p, e->centre);
     double length = vec_length(ray);
-    if (length > 0.0 && vec_dot(ray, e->middle) >= e->cosine * length) {
-        *foot = vec_along(e->centre, e->radius / length, ray);
-        return fabs(length - e->radius);
-    }
-    double to_a = vec_distance(p, e->a), to_b = vec_distance(p, e->b);
-    *foot = to_a <= to_b ? e->a : e->b;
-    return to_a <= to_b ? to_a : to_b;
+    if (length > 0.0 && vec_dot(ray, e->middle) >= e->cosine * length)
+        return vec_along(e->centre, e->radius / length, ray);
+    return vec_distance(p, e->a) <= vec_distance(p, e->b) ? e->a : e->b;
 }
 
 /* ---- edges ---- */
@@ -33,7 +23,9 @@ static void add_edge(fw_release_field *f, const fw_geometry_segment *s, int part
     *e = (fw_release_edge){
         .a = s->a, .b = s->b, .part = part, .open = !(s->flags & FW_SEGMENT_JOINT)};
     e->about = vec_scale(0.5, vec_add(s->a, s->b));
-    e->around = 0.5 * vec_distance(s->a, s->b);
+    e->length = vec_distance(s->a, s->b);
+    e->around = 0.5 * e->length;
+    e->along = vec_unit(vec_sub(s->b, s->a));
     if (s->kind != FW_ARC) return;
     e->centre = s->centre;
     e->radius = s->radius;

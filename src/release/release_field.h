@@ -12,6 +12,8 @@ enum { FW_RELEASE_OPENING = -1, FW_RELEASE_MIXED = -2, FW_RELEASE_SEVERAL = -3 }
 /* a line or an arc; what a foot on an arc needs is known beforehand, so that no angle is computed */
 typedef struct fw_release_edge {
     fw_geometry_vec2 a, b, centre;
+    fw_geometry_vec2 along;  /* line: unit, from a to b */
+    double length;           /* of the chord */
     fw_geometry_vec2 middle; /* arc: unit, from the centre to the middle of the arc */
     double radius, cosine;   /* arc: of half its sweep; radius 0: a line */
     fw_geometry_vec2 about;  /* of a circle around the edge, */
@@ -29,6 +31,22 @@ typedef struct fw_release_climb {
     int part, way;         /* way +1: it runs up */
 } fw_release_climb;
 
+typedef struct fw_release_box {
+    double x, y, half_m; /* middle; half a side */
+    int first, count;    /* its edges in the list of its level */
+    int part;            /* FW_RELEASE_MIXED: an edge or a seam runs through it */
+    double near_m;       /* distance of its middle from the nearest open edge */
+} fw_release_box;
+
+typedef struct fw_release_level { /* boxes of one size */
+    double *far_m;                /* (far_room) distances while a box is made */
+    size_t far_room;
+    fw_release_box *box;
+    int *list;
+    int nbox, nlist;
+    size_t box_room, list_room;
+} fw_release_level;
+
 typedef struct fw_release_field {
     fw_arena *arena;
     fw_release_edge *edge; /* (nedge) */
@@ -42,21 +60,8 @@ typedef struct fw_release_field {
     /* (npart + 1) of a question: lettering, then the parts; winding 0 and met false between two */
     int *winding, *touched;
     bool *met;
+    fw_release_level start; /* boxes over all of it, with which every search begins */
 } fw_release_field;
-
-typedef struct fw_release_box {
-    double x, y, half_m; /* middle; half a side */
-    int first, count;    /* its edges in the list of its level */
-    int part;            /* FW_RELEASE_MIXED: an edge or a seam runs through it */
-    double near_m;       /* distance of its middle from the nearest open edge */
-} fw_release_box;
-
-typedef struct fw_release_level { /* boxes of one size */
-    fw_release_box *box;
-    int *list;
-    int nbox, nlist;
-    size_t box_room, list_room;
-} fw_release_level;
 
 /* part_of: (layout->npiece) number of the part, FW_RELEASE_OPENING for lettering, else
    FW_RELEASE_MIXED: it is not there */
@@ -64,12 +69,28 @@ fw_status fw_release_field_make(fw_arena *arena, const fw_layout *layout, const 
                                 int npart, fw_release_field *field);
 /* the part whose material is at p; FW_RELEASE_OPENING: none */
 int fw_release_field_part(fw_release_field *field, fw_geometry_vec2 p);
-/* distance to an edge, and its nearest point */
-double fw_release_edge_distance(const fw_release_edge *e, fw_geometry_vec2 p,
-                                fw_geometry_vec2 *foot);
-/* boxes of equal size over the whole field, each with the edges that may be nearest to any point of it,
-   or run through it */
-fw_status fw_release_level_first(const fw_release_field *field, fw_release_level *level);
+/* Distance of a point from a line or an arc. Of an arc: | |p - c| - R | where p lies in the sector of
+   the arc, which the direction to its middle and the cosine of half its sweep tell, else the nearer
+   end. In: edge, point (m). Out: distance (m). Error: a few ulp of the coordinates. Cost: at most two
+   square roots. Test: test_reach_field.c, distances_are_those_of_geometry. */
+static inline double fw_release_edge_distance(const fw_release_edge *e, fw_geometry_vec2 p) {
+    fw_geometry_vec2 from = vec_sub(p, e->a);
+    if (e->radius == 0.0) {
+        double t = vec_dot(from, e->along);
+        if (t <= 0.0) return vec_length(from);
+        return t >= e->length ? vec_distance(p, e->b) : fabs(vec_cross(e->along, from));
+    }
+    fw_geometry_vec2 ray = vec_sub(p, e->centre), to = vec_sub(p, e->b);
+    double length = vec_length(ray);
+    if (vec_dot(ray, e->middle) >= e->cosine * length) return fabs(length - e->radius);
+    double to_a = vec_dot(from, from), to_b = vec_dot(to, to);
+    return sqrt(to_a < to_b ? to_a : to_b);
+}
+/* its nearest point to p */
+fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2 p);
+/* Field->start: boxes of equal size over the whole field, each with the edges that may be nearest to any
+   point of it, or run through it */
+fw_status fw_release_field_start(fw_release_field *field);
 /* the four quarters of a box, added to the next level; parts are kept where the box has one */
 fw_status fw_release_level_split(const fw_release_field *field, const fw_release_level *level,
                                  const fw_release_box *box, fw_release_level *next);
@@ -81,7 +102,10 @@ bool fw_release_box_cut(const fw_release_field *field, const fw_release_level *l
 /* no point of the box is farther from an opening */
 double fw_release_box_most(const fw_release_field *field, const fw_release_level *level,
                            const fw_release_box *box, fw_geometry_vec2 *up, double *rise_m);
-/* the same with a circle in the place of the box */
+/* the same for what is left of a seam that alone runs through it; HUGE_VAL: not known */
+double fw_release_box_side(const fw_release_field *field, const fw_release_level *level,
+                           const fw_release_box *box, const fw_release_edge *seam);
+/* radius of the circle about the box */
 static inline double fw_release_box_about(const fw_release_box *box) {
     return 1.4142135623730951 * box->half_m;
 }

@@ -20,14 +20,13 @@ static void fill(raster *r, const fw_release_level *level, const fw_release_box 
         for (int i = i0; i < low_x + side && i < m->columns; i++) {
             fw_geometry_vec2 p = {m->box.x0 + (i + 0.5) * r->cell_m,
                                   m->box.y0 + (j + 0.5) * r->cell_m};
-            fw_geometry_vec2 foot;
             double near = HUGE_VAL;
             int part =
                 box->part == FW_RELEASE_MIXED ? fw_release_field_part(r->field, p) : box->part;
             if (part < 0) continue;
             for (int k = 0; k < box->count; k++) {
                 const fw_release_edge *e = &r->field->edge[level->list[box->first + k]];
-                if (e->open) near = fmin(near, fw_release_edge_distance(e, p, &foot));
+                if (e->open) near = fmin(near, fw_release_edge_distance(e, p));
             }
             m->distance_m[(size_t)j * (size_t)m->columns + (size_t)i] = (float)near;
         }
@@ -50,7 +49,7 @@ fw_status fw_release_map_make(fw_arena *arena, const fw_layout *layout, bool isl
                               const fw_release_map **map) {
     fw_release_field field;
     fw_release_part *part;
-    fw_release_level level[2] = {{0}, {0}};
+    fw_release_level level[2] = {{0}, {0}}, *from = &field.start;
     int *part_of, npart;
     fw_release_map *m = fw_arena_one(arena, fw_release_map);
     FW_NEED(m);
@@ -67,11 +66,11 @@ fw_status fw_release_map_make(fw_arena *arena, const fw_layout *layout, bool isl
     fw_mark mark = fw_arena_mark(arena);
     FW_TRY(fw_release_field_make(arena, layout, part_of, npart, &field));
     if (field.nedge == 0 || npart == 0) return FW_OK;
-    FW_TRY(fw_release_level_first(&field, &level[0]));
-    for (int k = 0; level[k].nbox > 0; k = 1 - k) {
-        level[1 - k].nbox = level[1 - k].nlist = 0;
-        for (int i = 0; i < level[k].nbox; i++)
-            FW_TRY(look(&r, &level[k], &level[k].box[i], &level[1 - k]));
+    FW_TRY(fw_release_field_start(&field));
+    for (int k = 0; from->nbox > 0; from = &level[k], k = 1 - k) {
+        level[k].nbox = level[k].nlist = 0;
+        for (int i = 0; i < from->nbox; i++)
+            FW_TRY(look(&r, from, &from->box[i], &level[k]));
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;

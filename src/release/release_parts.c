@@ -50,8 +50,10 @@ fw_status fw_release_parts(fw_arena *arena, const fw_layout *layout, bool island
             if ((*part_of)[k] >= 0 && same_part(layout, i, k)) which = (*part_of)[k];
         if (which < 0) {
             which = (*npart)++;
-            (*part)[which] = (fw_release_part){.label = p->label,
+            const char *label = p->role == FW_ROLE_FRAME ? "frame" : p->label;
+            (*part)[which] = (fw_release_part){.label = label,
                                                .duty = duty_of(p),
+                                               .role = p->role,
                                                .body = p->body,
                                                .joint = p->joint,
                                                .kept_m = (double)NAN};
@@ -111,8 +113,8 @@ static void find_window(fw_release *r) {
     }
 }
 
-fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, double share,
-                           const fw_release **release) {
+fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, bool whole,
+                           double share, const fw_release **release) {
     fw_release_field field;
     int *part_of;
     fw_release *r = fw_arena_one(arena, fw_release);
@@ -120,11 +122,15 @@ fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool island
     *release = r;
     r->share = share;
     FW_TRY(fw_release_parts(arena, layout, islands, &part_of, &r->part, &r->npart));
+    for (int i = 0; whole && i < r->npart; i++)
+        if (r->part[i].duty == FW_RELEASE_STAYS && r->part[i].body != FW_ISLAND)
+            r->part[i].duty = FW_RELEASE_EITHER;
     fw_mark mark = fw_arena_mark(arena);
     FW_TRY(fw_release_field_make(arena, layout, part_of, r->npart, &field));
     r->edges = field.nedge;
     take_lettering(&field, layout, part_of, r->part);
     if (field.nedge > 0 && r->npart > 0) {
+        FW_TRY(fw_release_field_start(&field));
         FW_TRY(fw_release_search(&field, r->part, &r->boxes));
         FW_TRY(fw_release_measure(&field, r->part));
     }

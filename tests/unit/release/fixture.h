@@ -55,7 +55,7 @@ static inline fw_geometry_contour polygon(plate *p, const double (*xy)[2], int n
 
 static inline const fw_release *solve(plate *p, double share) {
     const fw_release *r = NULL;
-    assert_int_equal(fw_release_solve(p->arena, &p->layout, true, share, &r), FW_OK);
+    assert_int_equal(fw_release_solve(p->arena, &p->layout, true, false, share, &r), FW_OK);
     return r;
 }
 #endif

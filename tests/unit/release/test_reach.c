@@ -4,7 +4,7 @@
 
 /* found at a point that has the distance, proved to the stated error, and right */
 static void assert_reach(const fw_release_part *p, double want_um) {
-    double want = want_um * UM, error = fmax(1e-8, 2e-4 * want);
+    double want = want_um * UM, error = fmax(1e-8, 5e-4 * want);
     assert_near(p->reach_m, want, error);
     assert_true(p->reach_m <= want + 1e-12);
     assert_true(p->most_m >= want - 1e-12);

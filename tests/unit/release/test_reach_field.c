@@ -35,12 +35,12 @@ static void distances_are_those_of_geometry(void **state) {
         plate_add(p, FW_ROLE_STRUCTURE, 0, "odd", odd(p, 0, 0, 80));
         assert_int_equal(fw_release_field_make(p->arena, &p->layout, &part_of, 1, &f), FW_OK);
         for (int k = 0; k < 100; k++) {
-            fw_geometry_vec2 at = {6e-4 * (uniform() - 0.5), 6e-4 * (uniform() - 0.5)}, foot, want;
+            fw_geometry_vec2 at = {6e-4 * (uniform() - 0.5), 6e-4 * (uniform() - 0.5)}, want;
             for (int i = 0; i < f.nedge; i++) {
                 double d = fw_geometry_segment_nearest(&p->layout.piece[0].contour.segment[i], at,
                                                        NULL, &want);
-                assert_near(fw_release_edge_distance(&f.edge[i], at, &foot), d, 1e-15);
-                assert_near(vec_distance(at, foot), d, 1e-15);
+                assert_near(fw_release_edge_distance(&f.edge[i], at), d, 1e-15);
+                assert_near(vec_distance(at, fw_release_edge_foot(&f.edge[i], at)), d, 1e-15);
                 /* and the circle around it holds it */
                 double far = vec_distance(want, f.edge[i].about);
                 assert_true(far <= f.edge[i].around * (1 + 1e-12) + 1e-15);
