@@ -12,7 +12,7 @@
    nothing else can lie in that way. Cut and cap are as in release.c, and so are moments. In: the body with
    the holes of its grid. Out: the same with more. Error: a point of the body where holes may lie is at most
    half the pitch and a lattice step's diagonal from an opening. Cost: lattice points times edges near the
-   grid's gaps. Test: test_release.c, heads_have_holes. */
+   grid's gaps. Test: test_release.c, holes_keep_away. */
 #include "layout/release_grid.h"
 #include "base/constants.h"
 #include "geometry/segment.h"

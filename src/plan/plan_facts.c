@@ -173,7 +173,14 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(release_of(plan, pf));
     facts.release = pf->release;
     if (pf->wafer) FW_TRY(add_wafer_facts(plan->arena, pf->wafer, &facts));
+    facts.release_change = pf->release_change;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
+    if (pf->flow->no_window && !pf->release_change) {
+        fw_diags said = fw_diags_new(plan->arena);
+        FW_TRY(fw_plan_release_change(plan, pf, &pf->release_change));
+        facts.release_change = pf->release_change;
+        FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, &facts, &said));
+    }
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));

@@ -101,8 +101,9 @@ static fw_status window(fw_process_judge *j, const fw_process_step *s, double re
         j, FW_ANSWER_NO,
         "step %s has no window: the last that comes free is %s, %s um from the nearest opening, so "
         "that with its over-etch the step runs %s um sideways; but %s keeps less than %s %% of its "
-        "bond after %s um",
-        s->id, slow, needs, runs, weak, share, loses);
+        "bond after %s um. Nearest change: %s",
+        s->id, slow, needs, runs, weak, share, loses,
+        j->facts->release_change ? j->facts->release_change : "release holes, or wider anchors");
 }
 
 /* what the step leaves of the bonds, where that is less than half of one */
@@ -163,12 +164,13 @@ static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double r
         j, FW_ANSWER_OPEN,
         "the time of step %s alone does not hold its window of %s to %s um: with a rate between %s "
         "and %s %s, what is surely free by the longest time may have run %s um. Stop by the "
-        "release ladder of the test die: when its pad of %s um is free and the next is not",
+        "release ladder of the test die: when its plates up to a reach of %s um are free, and none "
+        "beyond %s um",
         s->id, fw_process_judge_um(&t, reach_m), fw_process_judge_um(&t, lost),
         fw_process_judge_number(&t, fw_quantity_in_unit(&slowest), 3),
         fw_process_judge_number(&t, fw_quantity_in_unit(&fastest), 3), rate->unit,
-        isfinite(most) ? fw_process_judge_um(&t, most) : "any",
-        fw_process_judge_um(&t, 2.0 * reach_m));
+        isfinite(most) ? fw_process_judge_um(&t, most) : "any", fw_process_judge_um(&t, reach_m),
+        fw_process_judge_um(&t, lost));
 }
 
 /* no law of time of the flow knows how narrow openings hold a sideways etch back */

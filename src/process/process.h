@@ -293,6 +293,7 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     int ngap;
     /* distances from its openings, of a flow that releases it; NULL: nothing is drawn */
     const fw_release *release;
+    const char *release_change; /* what opens a window for it; NULL: not looked for */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
@@ -304,6 +305,8 @@ bool fw_process_flow_releases(const fw_process_flow *flow);
 /* the step that does, and how far; NULL and NaN: none does, or nobody knows */
 const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m);
 const char *fw_process_duty_word(fw_release_duty duty); /* "moves" */
+/* the window in a sentence, for a run sheet; NULL: the flow has no release, or nothing is drawn. FW_NOMEM */
+fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
 /* member "release" of an open object: window, and every part with its reach */
 void fw_process_release_json(const fw_process_flow *flow, fw_json *json);
 /* is that etch to take its layer from below everything, frame and bases too (where="all")? */

@@ -72,3 +72,29 @@ void fw_process_release_json(const fw_process_flow *flow, fw_json *json) {
     fw_json_end(json);
     fw_json_end(json);
 }
+
+fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out) {
+    const fw_release *r = flow->release;
+    double reach, foot = flow->release_foot_m;
+    const fw_process_step *s = fw_process_flow_release_step(flow, &reach);
+    fw_process_numbers t = {0};
+    *out = NULL;
+    if (!r || !s || isnan(reach) || r->slowest < 0) return FW_OK;
+    const char *most = fw_process_judge_um(&t, reach),
+               *run = fw_process_judge_um(&t, reach * (1.0 + s->overrun)),
+               *needed = fw_process_judge_um(&t, r->needed_m + foot);
+    if (r->weakest < 0) {
+        FW_NEED(*out = fw_arena_printf(arena,
+                                       "Step %s reaches %s um sideways (%s with its over-etch): %s "
+                                       "is free last, after %s um; nothing must stay",
+                                       s->id, most, run, r->part[r->slowest].label, needed));
+        return FW_OK;
+    }
+    FW_NEED(*out = fw_arena_printf(
+                arena,
+                "Step %s reaches %s um sideways (%s with its over-etch): %s is free last, after %s "
+                "um; %s is lost first, after %s um",
+                s->id, most, run, r->part[r->slowest].label, needed, r->part[r->weakest].label,
+                fw_process_judge_um(&t, r->lost_m + foot)));
+    return FW_OK;
+}

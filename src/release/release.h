@@ -49,7 +49,7 @@ typedef struct fw_release {
    falls out, and is not in the mask). whole: the flow takes the layer from below everything, so that bases
    and frame may come off, in one piece with the device; islands may not. share: 0 to below 1. Lettering and marks are openings in what
    they lie in. Error of reach_m: at most 10 nm or 5e-4 of itself, stated part by part by most_m;
-   of bonded_m2: below 1 % of the area. */
+   of bonded_m2: below 2 % of the area. */
 fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, bool whole,
                            double share, const fw_release **release);
 /* area of a part that is still bonded after a reach; between two steps by a straight line */

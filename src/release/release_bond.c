@@ -6,7 +6,7 @@
    one straight edge alone is near. In a box the distance is taken to be linear, with the slope at its
    middle, which is exact beside one straight edge. Up to a reach of a seventh of the greatest the area is
    taken from the exact area and the length of the edges, so that no corner of lettering is looked at. In: field, parts
-   with reach_m. Out: bonded_m2 (m2) for the reaches k reach_m/FW_RELEASE_STEPS. Error: below 1 % of the area
+   with reach_m. Out: bonded_m2 (m2) for the reaches k reach_m/FW_RELEASE_STEPS. Error: below 2 % of the area
    (strip, disc, square). Test: test_reach.c, bonds_shrink_as_in_closed_form. */
 #include "release/release_field.h"
 #include <math.h>
