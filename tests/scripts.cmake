@@ -85,6 +85,8 @@ fw_script_test(clearance.between COMMAND ${Python3_EXECUTABLE} tests/clearance/b
 fw_script_test(clearance.cases COMMAND ${Python3_EXECUTABLE} tests/clearance/cases.py ${FW_PROGRAM})
 fw_script_test(judge.examples COMMAND ${Python3_EXECUTABLE} tests/judge/examples.py ${FW_PROGRAM})
 fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
+fw_script_test(release.distances COMMAND tests/release/distances.py ${FW_PROGRAM} 1 8 TIMEOUT 900)
+set_tests_properties(release.distances PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)

@@ -182,7 +182,7 @@ static const fw_xml_attribute_row die_rows[] = {
                  "They keep out of what is drawn; what moves farther needs a larger keep-out."},
     {"release-pitch", GAP, .fallback = "no holes",
      .sentence = "Pitch of round release holes in bodies that are wider than the release reaches "
-                 "between them; mass and inertia are without them."},
+                 "between them, heads and necks of hinges too; mass and inertia are without them."},
     {"release-hole", GAP, .fallback = "0.3 release-pitch",
      .sentence = "Diameter of a release hole."},
 };

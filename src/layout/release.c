@@ -5,12 +5,13 @@
    none.
 
    The grid lies along the body: on its plate, else on the line between its first two hinges. A hole
-   keeps (p - D)/2 and at least 10 um from edges, and away from what belongs to hinges. An outline
+   keeps (p - D)/2 and at least 10 um from edges; those of the grid also keep away from what belongs to
+   hinges. An outline
    has no holes, so each column of holes is opened by one cut, D/2 wide, from a straight edge
    through all of them, and pieces of their own close the cut again between edge and first hole and
    from hole to hole: as at eyelets, the body stays one outline, and the union of outline and caps
    is the body with its holes. Both sides of a cap are JOINT and THROUGH segments, so that a bias
-   moves edges and holes alike. A column that reaches no straight edge has no holes.
+   moves edges and holes alike. What the grid leaves too far from an opening, release_rest.c fills.
 
    Area, centroid and polar moment follow in closed form: less pi D^2/4 at each middle, with
    pi D^4/32 about its own. Tests: test_release.c. */
@@ -18,25 +19,13 @@
 #include "base/constants.h"
 #include "layout/draw.h"
 #include "layout/pattern.h"
+#include "layout/release_grid.h"
 #include <math.h>
 
 static const double LEAST_RIM_M = 10e-6, LEAST_HOLE_M = 8e-6;
 static const double SAME_M = 1e-9;
 static const double BESIDE_M = 12e-6; /* straight edge that is left beside a cut */
 enum { ACROSS = 60, ALONG = 200 };    /* most holes from the middle of the grid */
-
-typedef struct grid {
-    fw_layout_drawing *d;
-    int body;
-    const char *label;
-    fw_geometry_contour outline; /* as it is now */
-    fw_geometry_contour before;  /* without holes */
-    fw_geometry_box box;         /* of that */
-    fw_geometry_vec2 origin, x, y;
-    double pitch_m, hole_m, rim_m; /* hole: diameter */
-    fw_geometry_vec2 *hole;        /* (nhole) middles of those made */
-    int nhole, room, dropped;
-} grid;
 
 static fw_geometry_vec2 at(const grid *g, double x, double y) {
     return fw_add(fw_add(g->origin, x, g->x), y, g->y);
@@ -168,7 +157,7 @@ static fw_status add_cap(grid *g, const column *c, int k) {
     return fw_layout_drawing_add(g->d, FW_ROLE_STRUCTURE, g->body, FW_NONE, g->label, &cap);
 }
 
-static fw_status note_hole(grid *g, fw_geometry_vec2 middle) {
+fw_status fw_layout_note_hole(grid *g, fw_geometry_vec2 middle) {
     if (g->nhole == g->room) {
         int room = g->room ? 2 * g->room : 32;
         FW_NEED(g->hole = fw_arena_grow(g->d->arena, g->hole, (size_t)g->nhole, (size_t)room,
@@ -199,7 +188,7 @@ static fw_status cut_column(grid *g, const column *c) {
     g->outline = to;
     for (int k = 0; k < c->n; k++) {
         FW_TRY(add_cap(g, c, k));
-        FW_TRY(note_hole(g, of_hole(g, c, k, 0.0, 0.0)));
+        FW_TRY(fw_layout_note_hole(g, of_hole(g, c, k, 0.0, 0.0)));
     }
     return FW_OK;
 }
@@ -213,8 +202,7 @@ static fw_status open_run(grid *g, int i, int low, int n) {
         c.left = fw_left(c.out);
         if (leaves(g, &c)) return cut_column(g, &c);
     }
-    g->dropped += n; /* no straight edge: this run has no holes */
-    return FW_OK;
+    return FW_OK; /* no straight edge: the rest finds other ways */
 }
 
 static fw_status do_column(grid *g, int i) {
@@ -318,12 +306,16 @@ static fw_status do_body(fw_layout_drawing *d, int body, double pitch, double ho
     }
     for (int i = -ALONG; i <= ALONG; i++)
         FW_TRY(do_column(&g, i));
-    if (g.dropped > 0 && !d->said)
+    FW_TRY(fw_layout_release_rest(&g));
+    if (g.far_m > 0.0 && !d->said) {
+        char far[32], x[32], y[32];
         fw_diag_warning(d->diags, 189, fw_layout_body_place(d, body),
-                        "%s: %d of %d release holes reach no straight edge from which they could "
-                        "be opened, and are left out; it comes free later there: allow for that in "
-                        "the time of the release, or make the body narrower",
-                        g.label, g.dropped, g.dropped + g.nhole);
+                        "%s: no hole can be opened near (%s, %s) um, which stays %s um from the "
+                        "nearest opening; it comes free later there: move its edges or holes, or "
+                        "make the body narrower",
+                        g.label, fw_layout_um(x, g.far.x), fw_layout_um(y, g.far.y),
+                        fw_layout_um(far, g.far_m));
+    }
     if (g.nhole == 0) return FW_OK;
     take_out(&g);
     d->held[body] = g.outline;

@@ -151,10 +151,24 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     return FW_OK;
 }
 
+/* distances from the openings of the device with the flow's own marks, once */
+static fw_status release_of(fw_plan *plan, fw_plan_flow *pf) {
+    const fw_layout *marked;
+    int left_out;
+    if (pf->release || !plan->layout || !plan->layout->drawn) return FW_OK;
+    if (!fw_process_flow_releases(pf->flow)) return FW_OK;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &marked, &left_out));
+    return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
+                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
+                            &pf->release);
+}
+
 fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts) {
     FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, plan->layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), facts));
     facts->dies = plan->dies;
+    facts->release = pf->release;
+    facts->release_change = pf->release_change;
     return pf->wafer ? add_wafer_facts(plan->arena, pf->wafer, facts) : FW_OK;
 }
 
@@ -162,8 +176,15 @@ fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_m
 static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) {
     bool drawn = plan->layout && plan->layout->drawn;
     fw_process_mask_facts facts;
+    FW_TRY(release_of(plan, pf));
     FW_TRY(fw_plan_flow_facts(plan, pf, &facts));
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
+    if (pf->flow->no_window && !pf->release_change) {
+        fw_diags said = fw_diags_new(plan->arena);
+        FW_TRY(fw_plan_release_change(plan, pf, &pf->release_change));
+        facts.release_change = pf->release_change;
+        FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, &facts, &said));
+    }
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));

@@ -25,6 +25,9 @@ bool fw_plan_insulated(const fw_plan_flow *pf);
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, const fw_mask_table *table,
                              bool insulated, fw_process_mask_facts *facts);
+/* of a flow without a window for its release: what opens one, in words (plan_release.c). The flow is
+   computed again by the caller */
+fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **out);
 /* times, bias and judgement of every flow, from the exact outlines */
 fw_status fw_plan_compute_flows(fw_plan *plan);
 /* what the times and the judgement of a flow are computed with: of the wafer where it is laid out */

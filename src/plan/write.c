@@ -349,6 +349,17 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", name, ".order.txt", &order);
 }
 
+/* the map of a release, where the flow has one */
+static fw_status write_release(writer *w, const fw_plan_flow *pf) {
+    const fw_layout *marked;
+    int left_out;
+    fw_text svg = fw_text_new(w->scratch);
+    if (!pf->flow->release || !w->plan->layout) return FW_OK;
+    FW_TRY(fw_mask_frame_marks(w->scratch, pf->table, w->plan->layout, &marked, &left_out));
+    FW_TRY(fw_recipe_write_release_svg(w->scratch, pf->flow, marked, fw_plan_insulated(pf), &svg));
+    return svg.length ? put(w, "recipes/", pf->use->ref, ".release.svg", &svg) : FW_OK;
+}
+
 static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
     static const struct {
         const char *ending;
@@ -375,7 +386,7 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }
-    return FW_OK;
+    return write_release(w, pf);
 }
 
 /* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later

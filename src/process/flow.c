@@ -274,6 +274,7 @@ static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
     double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
     if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);
+    fw_process_release_fill(flow, facts);
     return FW_OK;
 }
 

@@ -33,6 +33,11 @@ void fw_process_judge_to_front(fw_process_flow *flow, int from);
 /* what etches do to edges and gaps, from the fixed point (judge_etch.c) */
 fw_status fw_process_judge_etching(fw_process_judge *j);
 
+/* from the distances of the device's openings: the reach that frees it (judge_release.c) */
+fw_status fw_process_judge_release(fw_process_judge *j);
+/* fills the reaches that the pack leaves to the mask; after the edges are solved */
+void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts);
+
 /* fills bias_note, manufacturable and reason. Edges and steps must have been computed. */
 fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts, fw_diags *diags);

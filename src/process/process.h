@@ -3,9 +3,11 @@
    `unknown`, and what needs it is NOT COMPUTABLE with the name of what is missing. */
 #ifndef FW_PROCESS_PROCESS_H
 #define FW_PROCESS_PROCESS_H
+#include "base/json.h"
 #include "device/material.h"
 #include "process/fixed_point.h"
 #include "quantity/quantity.h"
+#include "release/release.h"
 #include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
 
@@ -329,6 +331,10 @@ typedef struct fw_process_flow {
        NaN: there is none. Known after fw_process_flow_compute. */
     double nearest_gap_m, nearest_anisotropy;
     bool nearest_known;
+    /* of the mask's facts; NULL: nothing is drawn, or no step frees anything */
+    const fw_release *release;
+    double release_foot_m; /* how far the foot of the walls stands outside of what is drawn */
+    bool no_window;        /* what must stay is lost before all that moves is free */
     bool tight;            /* something on the mask prints in perfect contact only */
     fw_process_wait *wait; /* (nwait) computed */
     fw_process_text *text; /* (ntext) */
@@ -352,11 +358,28 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     /* (ngap) openings by name, as drawn; the narrowest slot need not be among them */
     const fw_process_mask_gap *gap;
     int ngap;
+    /* distances from its openings, of a flow that releases it; NULL: nothing is drawn */
+    const fw_release *release;
+    const char *release_change; /* what opens a window for it; NULL: not looked for */
 } fw_process_mask_facts;
 
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
    masks the etch, with the bias that the mask has */
 #define FW_MASK_OPENING "mask.narrowest-opening"
+
+/* does a step etch sideways, below what stands? */
+bool fw_process_flow_releases(const fw_process_flow *flow);
+/* the step that does, and how far; NULL and NaN: none does, or nobody knows */
+const fw_process_step *fw_process_flow_release_step(const fw_process_flow *flow, double *reach_m);
+const char *fw_process_duty_word(fw_release_duty duty); /* "moves" */
+/* the window in a sentence, for a run sheet; NULL: the flow has no release, or nothing is drawn. FW_NOMEM */
+fw_status fw_process_release_words(fw_arena *arena, const fw_process_flow *flow, const char **out);
+/* member "release" of an open object: window, and every part with its reach */
+void fw_process_release_json(const fw_process_flow *flow, fw_json *json);
+/* is that etch to take its layer from below everything, frame and bases too (where="all")? */
+bool fw_process_flow_frees_all(const fw_process_flow *flow);
+/* share of its bond that what must stay has to keep, 0 where the pack does not say */
+double fw_process_flow_bond(const fw_process_flow *flow);
 
 typedef struct fw_process_drive_facts { /* a comb drive of a scene that holds in the flow */
     const char *id;

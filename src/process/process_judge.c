@@ -125,6 +125,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(fw_process_judge_etching(&j));
     FW_TRY(lithography(&j));
     FW_TRY(mould(&j));
+    FW_TRY(fw_process_judge_release(&j));
     FW_TRY(not_computable(&j));
     for (int i = 0; i < flow->nopen_point; i++)
         FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));

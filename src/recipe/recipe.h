@@ -53,4 +53,9 @@ fw_status fw_recipe_write_stack_svg(const fw_process_flow *flow, const fw_recipe
 /* layers of the wafer after step `index`, not to scale, as an SVG fragment */
 fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text *out);
 
+/* when every place of the die is free, as a picture; nothing where the flow frees nothing or how far it
+   must go is not known. layout: with the flow's own marks */
+fw_status fw_recipe_write_release_svg(fw_arena *arena, const fw_process_flow *flow,
+                                      const fw_layout *layout, bool islands, fw_text *out);
+
 #endif

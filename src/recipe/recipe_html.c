@@ -177,6 +177,12 @@ static void judgement(const fw_process_flow *flow, fw_text *out) {
     fw_text_add(out, " µm per edge.</b> ");
     fw_text_escaped(out, flow->bias_note ? flow->bias_note : "");
     fw_text_add(out, ".</p>\n");
+    const char *release;
+    if (fw_process_release_words(out->arena, flow, &release) != FW_OK) out->failed = true;
+    if (out->failed || !release) return;
+    fw_text_add(out, "<p class=\"small\"><b>Release window:</b> ");
+    fw_text_escaped(out, release);
+    fw_text_printf(out, ". When every place is free: %s.release.svg.</p>\n", flow->id);
 }
 
 static void summary_row(const fw_process_step *s, fw_text *out) {

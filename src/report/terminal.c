@@ -89,6 +89,9 @@ static void flow(fw_text *out, const fw_report_flow *rf, int detail) {
         fw_text_printf(out, "  - %s\n", f->reason[i]);
     if (shown < f->nreason)
         fw_text_printf(out, "  and %d more (in the report, or with -v)\n", f->nreason - shown);
+    const char *release;
+    if (fw_process_release_words(out->arena, f, &release) != FW_OK) out->failed = true;
+    if (!out->failed && release) fw_text_printf(out, "  %s\n", release);
     fw_text_printf(out, "  %d steps, computed times add up to ", f->nstep);
     fw_text_number(out, f->total_s / 3600.0, 3);
     fw_text_printf(out, " h; %d steps not computable\n", f->not_computable);

@@ -186,6 +186,11 @@ def layout(g):
             "theta": g["strain"] * 2 * g["L"] / g["O"] * (1 - g["wp"] ** 2 / (2 * g["L"] ** 2)) / (1 + 4 / 3 * (g["wp"] / g["O"]) ** 2)}
 
 
+def release(g):
+    need = g["p"] / sqrt(2) - g["D"] / 2
+    return {"need": need, "lost": g["a"] / 2 * (1 - sqrt(g["s"])), "run": need * (1 + g["E"]), "t": need / g["R"]}
+
+
 def contours(g):
     R, w, eps = g["R"], g["w"], g["eps"]
     n = ceil(w / (2 * acos(1 - eps / R)))

@@ -2,6 +2,7 @@
 /* Release holes in the bodies of a device. */
 #include "test.h"
 #include "fixture.h"
+#include "geometry/segment.h"
 #include "layout/pattern.h"
 #include <stdlib.h>
 
@@ -92,11 +93,11 @@ static void moments_follow(void **state) {
     fw_arena_free(holes->arena);
 }
 
-/* no hole near a hinge or an edge: the bodies' own outlines outside are what they were */
+/* no hole near a flexure or an edge: the bodies' own outlines outside are what they were */
 static void holes_keep_away(void **state) {
     (void)state;
     drawn *plain = draw(0, 0), *d = draw(40, 12);
-    int holes = 0;
+    int holes = 0, heads = 0;
     for (int b = 0; b < 5; b++) {
         fw_geometry_region before = pieces_of(plain, b), after = pieces_of(d, b);
         for (int i = 1; i < after.count; i++) { /* caps: the end inside is an arc of a hole */
@@ -113,14 +114,21 @@ static void holes_keep_away(void **state) {
                 least = fmin(least, hypot(at.x - middle.x, at.y - middle.y));
             }
             assert_true(least >= 20 * UM - 1e-9);
+            for (int k = 0; k < d->layout->npiece; k++) { /* and three widths from flexures */
+                const fw_layout_piece *f = &d->layout->piece[k];
+                for (int s = 0; f->role == FW_ROLE_FLEXURE && s < f->contour.count; s++)
+                    assert_true(fw_geometry_segment_nearest(&f->contour.segment[s], middle, &t,
+                                                            &at) >= (20 + 3 * 6) * UM);
+            }
             for (int j = 0; j < 6; j++) {
                 fw_geometry_vec2 w = d->layout->hinge[j].centre;
-                assert_true(hypot(middle.x - w.x, middle.y - w.y) > d->layout->hinge[j].keep_out_m);
+                heads += hypot(middle.x - w.x, middle.y - w.y) < d->layout->hinge[j].keep_out_m;
             }
             holes++;
         }
     }
     assert_true(holes > 300);
+    assert_true(heads > 5); /* in the heads and necks of the hinges, too */
     for (int j = 0; j < 6; j++)
         assert_true(d->layout->hinge[j].free_rad == plain->layout->hinge[j].free_rad);
     fw_arena_free(plain->arena);

@@ -27,6 +27,7 @@ static bench start(const char *pack, double anisotropy, double angle) {
         scene_box(b.s, "bar", bar[i][0], -2000, bar[i][1], 2000);
     b.flow = read_pack(b.s->arena, pack, NULL, NULL, &b.s->diags);
     assert_non_null(b.flow);
+    if (strcmp(pack, "soi-deep-rie") == 0) measured(b.flow, "release.reach", 20e-6, 0);
     if (anisotropy > 0.0) measured(b.flow, "rie.A", anisotropy, 0);
     fw_process_mask_facts facts = plain_facts;
     facts.gap = gap;

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Release: the reach that a sideways etch below the device needs, from the device's own openings, and
+   whether there is a window between that and what must stay.
+
+   A removal with a reach is such an etch. Where the pack leaves the reach to the mask (status derived) it
+   becomes the distance of the worst point of what moves (release/release.h), as it is drawn, and as much
+   farther as the foot of the walls stands out; the step's time follows from it by the step's own law. With
+   E the over-etch as a part, what must stay has to outlast r (1 + E). A rate known to u leaves at the time
+   by which the slowest has freed everything, r R / (R - k u), up to r (R + k u) / (R - k u) of the fastest.
+   Theory: docs/theory/release.md. Test: test_judge_release.c. */
+#include "process/judge.h"
+#include "process/pack.h"
+#include "process/process_law.h"
+#include <math.h>
+#include <string.h>
+
+static const char BOND[] = "release.bond";
+
+bool fw_process_flow_releases(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (flow->step[i].change[k].reach) return true;
+    return false;
+}
+
+bool fw_process_flow_frees_all(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (c->reach && strcmp(c->where, "all") != 0) return false;
+        }
+    return true;
+}
+
+double fw_process_flow_bond(const fw_process_flow *flow) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, BOND);
+    return q && !q->unknown ? fmin(fmax(q->value, 0.0), 0.99) : 0.0;
+}
+
+/* how far the foot of the walls stands outside of the drawn edges; 0 where that is not known */
+static double foot_of(const fw_process_flow *flow) {
+    const fw_process_fixed_point *p = &flow->edges;
+    double foot = p->ncls > 0 && p->solved ? p->cls[p->field].edge.bottom_m : 0.0;
+    return isfinite(foot) ? foot : 0.0;
+}
+
+static bool is_solved(const fw_process_change *c) {
+    return c->reach && c->reach->status == FW_DERIVED;
+}
+
+/* the reach as a quantity that laws of time take; unknown where nothing is drawn */
+void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts) {
+    const fw_release *r = facts ? facts->release : NULL;
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
+    bool known = r && r->slowest >= 0 && r->needed_m > 0.0;
+    flow->release = known ? r : NULL;
+    flow->release_foot_m = foot_of(flow);
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (!is_solved(c)) continue;
+            fw_quantity *q = fw_process_flow_own_quantity(flow, c->reach->id);
+            if (!q) continue;
+            q->unknown = !known;
+            q->value = known ? fmax(r->needed_m + flow->release_foot_m, 0.0) : 0.0;
+            q->uncertainty = known && edge && !edge->unknown ? edge->uncertainty : 0.0;
+            q->source = "this device's own openings";
+        }
+}
+
+/* "of the stage, near (900, 1500) um" */
+static const char *place_of(fw_process_judge *j, const fw_release_part *p) {
+    fw_process_numbers t = {0};
+    return fw_arena_printf(j->arena, "%s, near (%s, %s) um", p->label ? p->label : "a piece",
+                           fw_process_judge_um(&t, p->at.x), fw_process_judge_um(&t, p->at.y));
+}
+
+static fw_status window(fw_process_judge *j, const fw_process_step *s, double reach_m) {
+    const fw_release *r = j->facts->release;
+    fw_process_numbers t = {0};
+    double needed = r->needed_m + j->flow->release_foot_m,
+           lost = r->lost_m + j->flow->release_foot_m;
+    const char *slow, *weak, *needs = fw_process_judge_um(&t, needed),
+                             *loses = fw_process_judge_um(&t, lost),
+                             *runs = fw_process_judge_um(&t, reach_m * (1.0 + s->overrun)),
+                             *most = fw_process_judge_um(&t, reach_m);
+    const char *share = fw_process_judge_number(&t, 100.0 * r->share, 3);
+    FW_NEED(slow = place_of(j, &r->part[r->slowest]));
+    if (needed > reach_m * (1.0 + 1e-9))
+        FW_TRY(fw_process_judge_reason(
+            j, FW_ANSWER_NO,
+            "step %s does not free the device: it reaches %s um from every opening, and the middle "
+            "of %s is %s um from the nearest one. Nearest change: a reach of %s um, or holes "
+            "(release-pitch)",
+            s->id, most, slow, needs, needs));
+    if (r->weakest < 0) return FW_OK;
+    FW_NEED(weak = place_of(j, &r->part[r->weakest]));
+    if (reach_m * (1.0 + s->overrun) < lost) return FW_OK;
+    j->flow->no_window = true;
+    return fw_process_judge_reason(
+        j, FW_ANSWER_NO,
+        "step %s has no window: the last that comes free is %s, %s um from the nearest opening, so "
+        "that with its over-etch the step runs %s um sideways; but %s keeps less than %s %% of its "
+        "bond after %s um. Nearest change: %s",
+        s->id, slow, needs, runs, weak, share, loses,
+        j->facts->release_change ? j->facts->release_change : "release holes, or wider anchors");
+}
+
+/* what the step leaves of the bonds, where that is less than half of one */
+static fw_status bonds(fw_process_judge *j, const fw_process_step *s, double reach_m) {
+    const fw_release *r = j->facts->release;
+    double run = reach_m * (1.0 + s->overrun) - j->flow->release_foot_m, least = 0.5;
+    int part = -1;
+    fw_process_numbers t = {0};
+    for (int i = 0; i < r->npart && !j->flow->no_window; i++) {
+        const fw_release_part *p = &r->part[i];
+        double left = fw_release_bonded(p, run) / p->area_m2;
+        if (p->duty == FW_RELEASE_STAYS && left < least) least = left, part = i;
+    }
+    if (part < 0) return FW_OK;
+    return fw_process_judge_reason(
+        j, FW_ANSWER_OPEN,
+        "at the end of step %s, over-etch included, %s keeps %s %% of its bond; what is narrower "
+        "than %s um, as a lead or a spine, hangs free",
+        s->id, r->part[part].label, fw_process_judge_number(&t, 100.0 * least, 3),
+        fw_process_judge_um(&t, 2.0 * run));
+}
+
+/* a flow that frees everything takes the frame off, too, where it runs so far */
+static fw_status frame(fw_process_judge *j, const fw_process_step *s, double reach_m) {
+    const fw_release *r = j->facts->release;
+    double run = reach_m * (1.0 + s->overrun);
+    fw_process_numbers t = {0};
+    for (int i = 0; i < r->npart; i++) {
+        const fw_release_part *p = &r->part[i];
+        if (p->duty != FW_RELEASE_EITHER || p->body != FW_GROUND || p->joint != FW_NONE ||
+            p->role != FW_ROLE_FRAME || p->reach_m + j->flow->release_foot_m > run)
+            continue;
+        return fw_process_judge_reason(
+            j, FW_ANSWER_OPEN,
+            "step %s runs %s um sideways, and the frame is nowhere farther than %s um from an "
+            "opening: it comes off the wafer with the device, in one piece",
+            s->id, fw_process_judge_um(&t, run),
+            fw_process_judge_um(&t, p->reach_m + j->flow->release_foot_m));
+    }
+    return FW_OK;
+}
+
+/* what a rate that is known to so much alone leaves of the window */
+static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double reach_m) {
+    const fw_release *r = j->facts->release;
+    const fw_quantity *rate = NULL;
+    fw_process_numbers t = {0};
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, "rate") == 0) rate = s->argument[i].q;
+    if (!rate || rate->unknown || r->weakest < 0 || j->flow->no_window) return FW_OK;
+    double low, high, lost = r->lost_m + j->flow->release_foot_m;
+    fw_process_quantity_range(rate, &low, &high);
+    double most = low > 0.0 ? reach_m * high / low : HUGE_VAL;
+    if (most < lost) return FW_OK;
+    fw_quantity slowest = *rate, fastest = *rate;
+    slowest.value = low, fastest.value = high;
+    return fw_process_judge_reason(
+        j, FW_ANSWER_OPEN,
+        "the time of step %s alone does not hold its window of %s to %s um: with a rate between %s "
+        "and %s %s, what is surely free by the longest time may have run %s um. Stop by the "
+        "release ladder of the test die: when its plates up to a reach of %s um are free, and none "
+        "beyond %s um",
+        s->id, fw_process_judge_um(&t, reach_m), fw_process_judge_um(&t, lost),
+        fw_process_judge_number(&t, fw_quantity_in_unit(&slowest), 3),
+        fw_process_judge_number(&t, fw_quantity_in_unit(&fastest), 3), rate->unit,
+        isfinite(most) ? fw_process_judge_um(&t, most) : "any", fw_process_judge_um(&t, reach_m),
+        fw_process_judge_um(&t, lost));
+}
+
+/* no law of time of the flow knows how narrow openings hold a sideways etch back */
+static fw_status lag(fw_process_judge *j, const fw_process_step *s) {
+    const fw_process_law *law = s->law ? fw_process_law_find(s->law) : NULL;
+    if (law && law->lags) return FW_OK;
+    return fw_process_judge_reason(
+        j, FW_ANSWER_OPEN,
+        "whether narrow openings and long ways below a plate hold the etch of step %s back is not "
+        "known: the flow has no law for it, and every opening is taken to be as fast",
+        s->id);
+}
+
+fw_status fw_process_judge_release(fw_process_judge *j) {
+    int before = j->flow->nreason;
+    fw_process_answer so_far = j->verdict;
+    j->flow->no_window = false;
+    if (!j->facts || !j->facts->release || j->facts->release->slowest < 0) return FW_OK;
+    for (int i = 0; i < j->flow->nstep; i++) {
+        const fw_process_step *s = &j->flow->step[i];
+        for (int k = 0; k < s->nchange; k++) {
+            double reach = fw_process_judge_known(s->change[k].reach);
+            if (!s->change[k].reach || isnan(reach)) continue;
+            FW_TRY(window(j, s, reach));
+            FW_TRY(bonds(j, s, reach));
+            FW_TRY(frame(j, s, reach));
+            FW_TRY(by_time(j, s, reach));
+            FW_TRY(lag(j, s));
+        }
+    }
+    if (j->verdict == FW_ANSWER_NO && so_far != FW_ANSWER_NO) /* what refuses comes first */
+        fw_process_judge_to_front(j->flow, before);
+    return FW_OK;
+}

@@ -1,0 +1,68 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Release: an etch runs sideways, below what stands, from every opening of the device layer, and takes
+   the layer that holds it. A point is free when the etch has run its distance to the nearest opening.
+   So of every part: the distance of its worst point, after which it is free as a whole; of what must
+   stay: the reach at which nothing, or less than a stated share, of its bond is left. The window is
+   between what frees all that moves and what loses the first of what stays.
+
+   Distances are those of exact lines and arcs, with proved bounds. Theory: docs/theory/release.md. */
+#ifndef FW_RELEASE_RELEASE_H
+#define FW_RELEASE_RELEASE_H
+#include "layout/layout.h"
+
+typedef enum fw_release_duty {
+    FW_RELEASE_MOVES, /* bodies and flexures: no point of them may stay bonded */
+    FW_RELEASE_STAYS, /* bases, frame, stators with leads and pads: must not come off */
+    FW_RELEASE_EITHER /* tethers: broken before use; frame and bases where the whole may come off */
+} fw_release_duty;
+
+enum { FW_RELEASE_STEPS = 64 };
+
+typedef struct fw_release_part {
+    const char *label; /* "link AB", "frame" */
+    fw_release_duty duty;
+    fw_layout_role role;
+    int body, joint; /* as of its pieces */
+    double area_m2;
+    /* distance of the worst point from the nearest opening: found at `at`, and proved nowhere more
+       than most_m */
+    double reach_m, most_m;
+    fw_geometry_vec2 at;
+    /* of what stays: area that is still bonded after a reach of k/FW_RELEASE_STEPS of reach_m */
+    double bonded_m2[FW_RELEASE_STEPS + 1];
+    double kept_m; /* reach at which the stated share of the bond is left; NaN: need not stay */
+} fw_release_part;
+
+typedef struct fw_release {
+    fw_release_part *part; /* (npart) in the order of the pieces */
+    int npart;
+    double share; /* of its bond that what stays must keep */
+    /* the window, as drawn: parts -1 and NaN where there is none of the kind */
+    int slowest;      /* what moves and is free last */
+    double needed_m;  /* no point of it is farther from an opening */
+    int weakest;      /* what stays and is lost first */
+    double lost_m;    /* the reach at which its bond falls below the share */
+    int edges, boxes; /* of the search: what it cost */
+} fw_release;
+
+/* Distances of every part of a layout that is drawn. islands: what stands by itself is there (else it
+   falls out, and is not in the mask). whole: the flow takes the layer from below everything, so that bases
+   and frame may come off, in one piece with the device; islands may not. share: 0 to below 1. Lettering and marks are openings in what
+   they lie in. Error of reach_m: at most 10 nm or 5e-4 of itself, stated part by part by most_m;
+   of bonded_m2: below 2 % of the area. */
+fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool islands, bool whole,
+                           double share, const fw_release **release);
+/* area of a part that is still bonded after a reach; between two steps by a straight line */
+double fw_release_bonded(const fw_release_part *part, double reach_m);
+
+/* distances to the nearest opening at (columns x rows) places in the middle of equal cells of the
+   die, from its lower left corner row by row; negative: no material there */
+typedef struct fw_release_map {
+    fw_geometry_box box;
+    int columns, rows;
+    float *distance_m; /* (rows x columns) */
+} fw_release_map;
+fw_status fw_release_map_make(fw_arena *arena, const fw_layout *layout, bool islands, int columns,
+                              const fw_release_map **map);
+
+#endif

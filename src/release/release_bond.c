@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How much of what must stay is still bonded after a reach r: the area where the distance to the nearest
+   opening is above r.
+
+   Boxes as in release_search.c, down to a sixteenth of the part's greatest distance, or less soon where
+   one straight edge alone is near. In a box the distance is taken to be linear, with the slope at its
+   middle, which is exact beside one straight edge. Up to a reach of a seventh of the greatest the area is
+   taken from the exact area and the length of the edges, so that no corner of lettering is looked at. In: field, parts
+   with reach_m. Out: bonded_m2 (m2) for the reaches k reach_m/FW_RELEASE_STEPS. Error: below 2 % of the area
+   (strip, disc, square). Test: test_reach.c, bonds_shrink_as_in_closed_form. */
+#include "release/release_field.h"
+#include <math.h>
+
+static const double FINE = 16.0;
+enum { EVEN = 9 }; /* of FW_RELEASE_STEPS: up to here by a parabola */
+
+/* share of the square |x|, |y| <= a in which g x + k y > t, a > 0 */
+static double share_above(double g, double k, double a, double t) {
+    double p = fabs(g) * a, q = fabs(k) * a;
+    if (p < q) {
+        double other = p;
+        p = q, q = other;
+    }
+    if (t >= p + q) return 0.0;
+    if (t <= -p - q) return 1.0;
+    if (t < 0.0) return 1.0 - share_above(g, k, a, -t);
+    if (t <= p - q) return 0.5 - t / (2.0 * p); /* a strip with parallel ends */
+    double corner = p + q - t;
+    return corner * corner / (8.0 * p * q);
+}
+
+typedef struct bond {
+    fw_release_field *field;
+    fw_release_part *part;
+    double *whole; /* (npart x (FW_RELEASE_STEPS + 1)) of boxes that are bonded up to there */
+} bond;
+
+static void add_box(bond *b, int part, double near_m, fw_geometry_vec2 slope, double half_m) {
+    fw_release_part *p = &b->part[part];
+    double area = 4.0 * half_m * half_m, step = p->reach_m / FW_RELEASE_STEPS;
+    double spread = (fabs(slope.x) + fabs(slope.y)) * half_m;
+    int low = (int)floor((near_m - spread) / step), high = (int)ceil((near_m + spread) / step);
+    if (low > FW_RELEASE_STEPS) low = FW_RELEASE_STEPS;
+    if (high > FW_RELEASE_STEPS) high = FW_RELEASE_STEPS;
+    if (low >= 0) b->whole[part * (FW_RELEASE_STEPS + 1) + low] += area;
+    for (int k = low < 0 ? 0 : low + 1; k <= high; k++)
+        p->bonded_m2[k] += area * share_above(slope.x, slope.y, half_m, k * step - near_m);
+}
+
+static bool stays(const bond *b, int part) {
+    return part >= 0 && b->part[part].duty == FW_RELEASE_STAYS && b->part[part].reach_m > 0.0;
+}
+
+/* greatest distance of the least part that may be in the box; HUGE_VAL: nothing of it must stay */
+static double least_of(const bond *b, const fw_release_level *level, const fw_release_box *box) {
+    double least = HUGE_VAL;
+    if (box->part != FW_RELEASE_MIXED)
+        return stays(b, box->part) ? b->part[box->part].reach_m : HUGE_VAL;
+    for (int i = 0; i < box->count; i++) {
+        int part = b->field->edge[level->list[box->first + i]].part;
+        for (int k = 0; part == FW_RELEASE_SEVERAL && k < b->field->npart; k++)
+            if (stays(b, k)) least = fmin(least, b->part[k].reach_m);
+        if (stays(b, part)) least = fmin(least, b->part[part].reach_m);
+    }
+    return least;
+}
+
+/* Beside one straight edge, and nothing else, the distance is linear all over the box: it needs no
+   quarters. */
+static bool beside_line(const fw_release_edge *e, const fw_release_box *box) {
+    fw_geometry_vec2 from = {box->x - e->a.x, box->y - e->a.y};
+    double t = vec_dot(from, e->along), h = fw_release_box_about(box);
+    return e->radius == 0.0 && t >= h && t <= e->length - h;
+}
+
+static fw_status look(bond *b, const fw_release_level *level, fw_release_box *box,
+                      fw_release_level *next) {
+    fw_geometry_vec2 c = {box->x, box->y};
+    const fw_release_edge *nearest = &b->field->edge[level->list[box->first]];
+    double most = box->near_m + fw_release_box_about(box);
+    if (box->part == FW_RELEASE_MIXED && !fw_release_box_cut(b->field, level, box))
+        fw_release_box_settle(b->field, box);
+    double least = least_of(b, level, box), fine = least / FINE;
+    if (least == HUGE_VAL || most < EVEN * least / FW_RELEASE_STEPS) return FW_OK;
+    bool mixed = box->part == FW_RELEASE_MIXED, one = box->count == 1;
+    if (mixed || !(one && beside_line(nearest, box)))
+        if (box->half_m > (one ? 2.0 * fine : fine))
+            return fw_release_level_split(b->field, level, box, next);
+    int part = mixed ? fw_release_field_part(b->field, c) : box->part;
+    if (!stays(b, part) || !(box->near_m > 0.0)) return FW_OK;
+    for (int i = 0; i < box->count; i++) {
+        const fw_release_edge *e = &b->field->edge[level->list[box->first + i]];
+        if (e->open && fw_release_edge_distance(e, c) <= box->near_m) nearest = e;
+    }
+    fw_geometry_vec2 away = vec_sub(c, fw_release_edge_foot(nearest, c));
+    add_box(b, part, box->near_m, vec_scale(1.0 / box->near_m, away), box->half_m);
+    return FW_OK;
+}
+
+/* the first steps: a parabola from the area, which falls by the length of the edges, to where boxes count */
+static void start(fw_release_part *p, double edge_m) {
+    double to = p->reach_m * EVEN / FW_RELEASE_STEPS, fall = p->area_m2 - p->bonded_m2[EVEN];
+    double bend = fmin(fmax(edge_m * to - fall, 0.0), fall); /* fall more slowly, never rise */
+    for (int k = 0; k < EVEN; k++) {
+        double x = (double)k / EVEN;
+        p->bonded_m2[k] = p->area_m2 - (fall + bend) * x + bend * x * x;
+    }
+}
+
+static void sum_up(bond *b, const double *edge) {
+    for (int i = 0; i < b->field->npart; i++) {
+        double above = 0.0, *whole = b->whole + i * (FW_RELEASE_STEPS + 1);
+        fw_release_part *p = &b->part[i];
+        for (int k = FW_RELEASE_STEPS; k >= 0; k--) {
+            above += whole[k];
+            p->bonded_m2[k] = fmin(p->bonded_m2[k] + above, p->area_m2);
+        }
+        start(p, edge[i]);
+        p->bonded_m2[FW_RELEASE_STEPS] = 0.0;
+    }
+}
+
+fw_status fw_release_measure(fw_release_field *field, fw_release_part *part) {
+    bond b = {.field = field, .part = part};
+    fw_release_level level[2] = {{0}, {0}}, *from = &field->start;
+    FW_NEED(b.whole =
+                fw_arena_array(field->arena, double, (size_t)field->npart *(FW_RELEASE_STEPS + 1)));
+    for (int k = 0; from->nbox > 0; from = &level[k], k = 1 - k) {
+        level[k].nbox = level[k].nlist = 0;
+        if (fw_arena_cancelled(field->arena)) return FW_CANCELLED;
+        for (int i = 0; i < from->nbox; i++)
+            FW_TRY(look(&b, from, &from->box[i], &level[k]));
+    }
+    double *edge = fw_arena_array(field->arena, double, (size_t)field->npart);
+    FW_NEED(edge);
+    for (int i = 0; i < field->nedge; i++) {
+        const fw_release_edge *e = &field->edge[i];
+        double length = e->radius > 0.0 ? 2.0 * e->radius * acos(e->cosine) : e->length;
+        if (e->open && e->part >= 0) edge[e->part] += length;
+    }
+    sum_up(&b, edge);
+    return FW_OK;
+}

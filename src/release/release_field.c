@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "release/release_field.h"
+#include "base/constants.h"
+#include <math.h>
+#include <string.h>
+
+fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2 p) {
+    if (e->radius == 0.0) {
+        double t;
+        return vec_line_foot(e->a, e->b, p, &t);
+    }
+    fw_geometry_vec2 ray = vec_sub(p, e->centre);
+    double length = vec_length(ray);
+    if (length > 0.0 && vec_dot(ray, e->middle) >= e->cosine * length)
+        return vec_along(e->centre, e->radius / length, ray);
+    return vec_distance(p, e->a) <= vec_distance(p, e->b) ? e->a : e->b;
+}
+
+/* ---- edges ---- */
+
+static void add_edge(fw_release_field *f, const fw_geometry_segment *s, int part) {
+    fw_release_edge *e = &f->edge[f->nedge++];
+    *e = (fw_release_edge){
+        .a = s->a, .b = s->b, .part = part, .open = !(s->flags & FW_SEGMENT_JOINT)};
+    e->about = vec_scale(0.5, vec_add(s->a, s->b));
+    e->length = vec_distance(s->a, s->b);
+    e->around = 0.5 * e->length;
+    e->along = vec_unit(vec_sub(s->b, s->a));
+    if (s->kind != FW_ARC) return;
+    e->centre = s->centre;
+    e->radius = s->radius;
+    e->cosine = cos(0.5 * fabs(s->sweep_rad));
+    e->middle = vec_unit(fw_geometry_vec_rotate(vec_sub(s->a, s->centre), 0.5 * s->sweep_rad));
+    if (e->cosine > 0.0) { /* less than half a turn: about the chord's middle */
+        double bow = e->radius * (1.0 - e->cosine);
+        e->around = fmax(e->around, bow);
+    } else {
+        e->about = e->centre;
+        e->around = e->radius;
+    }
+}
+
+static void add_climb(fw_release_field *f, fw_release_climb c, double from, double to) {
+    if (from == to) return;
+    c.way = to > from ? 1 : -1;
+    c.y0 = fmin(from, to), c.y1 = fmax(from, to);
+    f->climb[f->nclimb++] = c;
+}
+
+/* a line at once; an arc is cut where it is level, at the top and the bottom of its circle */
+static void add_climbs(fw_release_field *f, const fw_geometry_segment *s, int part) {
+    fw_release_climb c = {.part = part};
+    if (s->kind == FW_LINE) {
+        bool up = s->b.y > s->a.y;
+        c.x0 = up ? s->a.x : s->b.x, c.x1 = up ? s->b.x : s->a.x;
+        add_climb(f, c, s->a.y, s->b.y);
+        return;
+    }
+    c.cx = s->centre.x, c.cy = s->centre.y, c.radius = s->radius;
+    double at = atan2(s->a.y - s->centre.y, s->a.x - s->centre.x), end = at + s->sweep_rad;
+    double turn = s->sweep_rad > 0 ? 1.0 : -1.0, y = s->a.y;
+    for (int n = 0; n < 4;
+         n++) { /* the circle is level at k pi - pi/2: at its top where k is odd */
+        double beyond = (at + 0.5 * FW_PI) / FW_PI;
+        double k = turn > 0 ? floor(beyond + 1e-9) + 1.0 : ceil(beyond - 1e-9) - 1.0;
+        double level = k * FW_PI - 0.5 * FW_PI;
+        bool last = turn * (level - end) >= 0.0, top = fmod(fabs(k), 2.0) == 1.0;
+        double to = last ? end : level;
+        double y_to = last ? s->b.y : s->centre.y + (top ? s->radius : -s->radius);
+        c.side = cos(0.5 * (at + to)) >= 0 ? 1.0 : -1.0;
+        add_climb(f, c, y, y_to);
+        if (last) return;
+        y = y_to, at = to;
+    }
+}
+
+static int bin_of(const fw_release_field *f, double y) {
+    double i = floor((y - f->box.y0) / f->bin_m);
+    return i < 0.0 ? 0 : i >= f->bins ? f->bins - 1 : (int)i;
+}
+
+static fw_status sort_climbs(fw_release_field *f) {
+    f->bins = f->nclimb / 4 + 1;
+    f->bin_m = (f->box.y1 - f->box.y0) / f->bins;
+    FW_NEED(f->first = fw_arena_array(f->arena, int, (size_t)f->bins + 2));
+    for (int i = 0; i < f->nclimb; i++)
+        for (int b = bin_of(f, f->climb[i].y0); b <= bin_of(f, f->climb[i].y1); b++)
+            f->first[b + 2]++;
+    for (int b = 0; b < f->bins; b++)
+        f->first[b + 2] += f->first[b + 1];
+    FW_NEED(f->listed = fw_arena_array(f->arena, int, (size_t)f->first[f->bins + 1] + 1));
+    for (int i = 0; i < f->nclimb; i++)
+        for (int b = bin_of(f, f->climb[i].y0); b <= bin_of(f, f->climb[i].y1); b++)
+            f->listed[f->first[b + 1]++] = i;
+    return FW_OK;
+}
+
+/* lettering: what its edges are cut out of, asked just outside of each */
+static void find_hosts(fw_release_field *f, const fw_layout *layout, const int *part_of) {
+    for (int i = 0, first = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        int host = FW_RELEASE_OPENING;
+        if (part_of[i] == FW_RELEASE_MIXED) continue;
+        for (int k = 0; part_of[i] == FW_RELEASE_OPENING && k < c->count; k++) {
+            fw_geometry_vec2 t = fw_geometry_segment_tangent(&c->segment[k], 0.5);
+            fw_geometry_vec2 at = fw_geometry_segment_point(&c->segment[k], 0.5);
+            int here = fw_release_field_part(f, vec_along(at, -1e-9, vec_left(t)));
+            if (here < 0) continue;
+            host = host < 0 && host != FW_RELEASE_SEVERAL ? here
+                   : host == here                         ? here
+                                                          : FW_RELEASE_SEVERAL;
+        }
+        for (int k = 0; part_of[i] == FW_RELEASE_OPENING && k < c->count; k++)
+            f->edge[first + k].part = host;
+        first += c->count;
+    }
+}
+
+fw_status fw_release_field_make(fw_arena *arena, const fw_layout *layout, const int *part_of,
+                                int npart, fw_release_field *f) {
+    size_t edges = 0;
+    *f = (fw_release_field){.arena = arena, .npart = npart, .box = layout->die};
+    for (int i = 0; i < layout->npiece; i++)
+        if (part_of[i] != FW_RELEASE_MIXED) edges += (size_t)layout->piece[i].contour.count;
+    FW_NEED(f->edge = fw_arena_array(arena, fw_release_edge, edges));
+    FW_NEED(f->climb = fw_arena_array(arena, fw_release_climb, 4 * edges));
+    FW_NEED(f->winding = fw_arena_array(arena, int, (size_t)npart + 1));
+    FW_NEED(f->met = fw_arena_array(arena, bool, (size_t)npart + 1));
+    FW_NEED(f->touched = fw_arena_array(arena, int, (size_t)npart + 1));
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        if (part_of[i] == FW_RELEASE_MIXED) continue;
+        fw_geometry_box box = fw_geometry_contour_box(c);
+        f->box = fw_box_join(f->box, box);
+        for (int k = 0; k < c->count; k++) {
+            add_edge(f, &c->segment[k], part_of[i]);
+            add_climbs(f, &c->segment[k], part_of[i]);
+        }
+    }
+    FW_TRY(sort_climbs(f));
+    find_hosts(f, layout, part_of);
+    return FW_OK;
+}
+
+/* Winding number of every part about p, by the crossings of a ray to the right. A part holds p where its
+   own number is not 0, and no lettering does. Half-open in y, so that a ray through a corner counts
+   once. Cost: the edges whose heights share a bin with p. Test: test_reach_field.c,
+   parts_are_those_of_contains. */
+int fw_release_field_part(fw_release_field *f, fw_geometry_vec2 p) {
+    int found = FW_RELEASE_OPENING, b = bin_of(f, p.y), n = 0;
+    for (int i = f->first[b]; i < f->first[b + 1]; i++) {
+        const fw_release_climb *c = &f->climb[f->listed[i]];
+        if (!(c->y0 <= p.y && p.y < c->y1)) continue;
+        double dy = p.y - c->cy;
+        double x = c->radius > 0.0
+                       ? c->cx + c->side * sqrt(fmax(0.0, c->radius * c->radius - dy * dy))
+                       : c->x0 + (c->x1 - c->x0) * ((p.y - c->y0) / (c->y1 - c->y0));
+        if (x <= p.x) continue;
+        int at = c->part + 1; /* 0: lettering */
+        if (!f->met[at]) f->touched[n++] = at;
+        f->met[at] = true;
+        f->winding[at] += c->way;
+    }
+    bool cleared = f->winding[0] != 0;
+    for (int i = 0; i < n; i++) {
+        int at = f->touched[i];
+        if (at > 0 && f->winding[at] != 0) found = at - 1;
+        f->winding[at] = 0;
+        f->met[at] = false;
+    }
+    return cleared ? FW_RELEASE_OPENING : found;
+}

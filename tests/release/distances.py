@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""distances.py PROGRAM [FIRST COUNT] [--device FILE ...]: what the program says of the release, against another program.
+
+The polygons of the mask as it is written are read back and united, lettering and marks taken out, and eroded by GEOS
+with round corners. Of every part with reach r, as the program says: eroded by r less 1 % some of it is left, eroded by
+r and 1 % none; the worst point lies r from the nearest edge; and of what stays the area that is left after the
+planned reach is the share that the program says, to 2 % of the part."""
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "accept")]
+import geos  # noqa: E402
+import outlines  # noqa: E402
+import random_devices  # noqa: E402
+
+FLOW = "soi-deep-rie"
+FAST = ["--corners", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--effects", "none"]
+MATERIAL = re.compile(r"<flow\b[^>]*/>")
+
+
+def device_of(seed, where):
+    """a random device of the acceptance tests, in the flow that releases, some with holes"""
+    text = MATERIAL.sub("", random_devices.device(seed)[0])
+    pitch = random.Random(seed).choice((None, 30, 40, 55, 80))
+    text = re.sub(r"<material[^>]*/>", '<material ref="silicon-100" thickness="50 um"/>\n  <flow ref="%s"/>' % FLOW, text, count=1)
+    if pitch and "<die" in text:
+        text = re.sub(r"<die\b", '<die release-pitch="%d um"' % pitch, text, count=1)
+    elif pitch:
+        text = text.replace("</device>", '  <die release-pitch="%d um"/>\n</device>' % pitch)
+    path = pathlib.Path(where) / ("%d.xml" % seed)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def run(program, device, where):
+    out = pathlib.Path(where) / ("out-" + device.stem)
+    done = subprocess.run([program, "plan", device, "-o", out, "--force", *FAST], capture_output=True, text=True)
+    recipe, mask = out / "recipes" / (FLOW + ".json"), out / "masks" / (FLOW + ".gds")
+    if not recipe.exists() or not mask.exists():
+        return None, done.stderr.strip().splitlines()[-1:]
+    return (json.loads(recipe.read_text()), mask), done.stderr
+
+
+def compare(name, recipe, mask):
+    """yields what is wrong"""
+    g, release = geos.Geos(), recipe["release"]
+    layers = {key: [[(1e-3 * x, 1e-3 * y) for x, y in ring] for ring in rings] for key, rings in outlines.read_gds(mask).items()}
+    solid = g.polygons(layers["1/0"])
+    for other in ("2/0", "3/0"):
+        if other in layers:
+            solid = g.minus(solid, g.polygons(layers[other]))
+    solid = g.buffer(g.buffer(solid, 0.003), -0.003)  # seams of polygons on a grid
+    edge = g.boundary(solid)
+    bias = recipe["bias_m"] * 1e6
+    pieces = [g.polygons([ring]) for ring in layers["1/0"]]
+    eroded = {}
+
+    def left(reach):
+        key = round(reach, 3)
+        if key not in eroded:
+            eroded[key] = g.buffer(solid, -reach)
+        return eroded[key]
+
+    for part in release["parts"]:
+        at = [1e6 * x for x in part["at_m"]]
+        reach = 1e6 * part["reach_m"] + bias
+        there = g.distance(g.point(*at), edge)
+        slack = 0.01 * reach + 0.02
+        if abs(there - reach) > slack:
+            yield "%s: %s is %.3f um from an edge at its worst point, the program says %.3f" % (name, part["part"], there, reach)
+        own = [p for p in pieces if g.distance(g.point(*at), p) < 0.01]
+        if len(own) != 1:
+            continue  # on a seam: the other part may go on
+        if g.area(g.both(left(reach + slack), own[0])) > 1e-3:
+            yield "%s: %s is not free after %.3f um" % (name, part["part"], reach + slack)
+        if reach - slack > 0 and not g.area(g.both(left(reach - slack), own[0])) > 0:
+            yield "%s: nothing of %s is left after %.3f um" % (name, part["part"], reach - slack)
+        if part["duty"] == "stays" and part["part"] != "frame" and part["bonded_share"]:
+            run_um = 1e6 * (release["run_m"] - release["foot_m"]) + bias
+            share = g.area(g.both(left(run_um), own[0])) / (1e12 * part["area_m2"])
+            if abs(share - part["bonded_share"]) > 0.02:
+                yield "%s: %s keeps %.4f of its bond, the program says %.4f" % (name, part["part"], share, part["bonded_share"])
+
+
+def main():
+    program = str(pathlib.Path(sys.argv[1]).resolve())
+    where = tempfile.mkdtemp()
+    devices, wrong, compared, parts, refused = [], [], 0, 0, 0
+    if "--device" in sys.argv:
+        devices = [pathlib.Path(p).resolve() for p in sys.argv[sys.argv.index("--device") + 1:]]
+    else:
+        first, count = (int(x) for x in (sys.argv[2:4] or ("1", "8")))
+        devices = [device_of(seed, where) for seed in range(first, first + count)]
+    try:
+        geos.Geos()
+    except OSError:
+        print("no GEOS here: skipped")
+        return 77
+    for device in devices:
+        got, said = run(program, device, where)
+        if not got:
+            refused += 1
+            continue
+        compared += 1
+        parts += len(got[0]["release"]["parts"])
+        wrong += list(compare(device.stem, *got))
+    print("\n".join(wrong))
+    print("%d devices compared, %d parts, %d refused; %d wrong" % (compared, parts, refused, len(wrong)))
+    return 1 if wrong or not compared else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
