@@ -57,7 +57,8 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_schedule *schedule; /* after fw_plan_fabricate; NULL: none was made */
     const fw_recipe_cut *cut;    /* the same; NULL: there is nothing to cut */
     const char *release_change;  /* what opens a window for it; NULL: it has one */
-    const fw_release *release;   /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    const fw_release
+        *release; /* after judging; NULL: nothing is drawn, or the flow frees nothing */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */
