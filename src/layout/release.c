@@ -157,17 +157,6 @@ static fw_status add_cap(grid *g, const column *c, int k) {
     return fw_layout_drawing_add(g->d, FW_ROLE_STRUCTURE, g->body, FW_NONE, g->label, &cap);
 }
 
-fw_status fw_layout_note_hole(grid *g, fw_geometry_vec2 middle) {
-    if (g->nhole == g->room) {
-        int room = g->room ? 2 * g->room : 32;
-        FW_NEED(g->hole = fw_arena_grow(g->d->arena, g->hole, (size_t)g->nhole, (size_t)room,
-                                        sizeof *g->hole));
-        g->room = room;
-    }
-    g->hole[g->nhole++] = middle;
-    return FW_OK;
-}
-
 static fw_status cut_column(grid *g, const column *c) {
     const fw_geometry_contour *from = &g->outline;
     fw_geometry_contour to = {0};

@@ -21,6 +21,17 @@
 enum { FINER = 8, TRIES = 6, MOST_HOLES = 4000 };
 static const double BESIDE_LINE_M = 6e-6, BESIDE_ARC_M = 1.0e-6, SEAM_M = 4e-6;
 
+fw_status fw_layout_note_hole(grid *g, fw_geometry_vec2 middle) {
+    if (g->nhole == g->room) {
+        int room = g->room ? 2 * g->room : 32;
+        FW_NEED(g->hole = fw_arena_grow(g->d->arena, g->hole, (size_t)g->nhole, (size_t)room,
+                                        sizeof *g->hole));
+        g->room = room;
+    }
+    g->hole[g->nhole++] = middle;
+    return FW_OK;
+}
+
 typedef struct place {
     fw_geometry_vec2 at;
     double open_m;   /* from everything open; 0: no cut leads to it, */

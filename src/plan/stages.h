@@ -25,6 +25,11 @@ bool fw_plan_insulated(const fw_plan_flow *pf);
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, const fw_mask_table *table,
                              bool insulated, fw_process_mask_facts *facts);
+/* comb drives of the scenes that hold in a flow, each once: scenes may name the same one */
+fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *flow,
+                              fw_process_drive_facts **drive, int *n);
+/* edges of the material: a joint is a cut between two pieces, not an edge */
+double fw_plan_free_perimeter(const fw_geometry_contour *contour);
 /* of a flow without a window for its release: what opens one, in words (plan_release.c). The flow is
    computed again by the caller */
 fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **out);
