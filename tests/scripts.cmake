@@ -152,14 +152,13 @@ list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
 # The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost cli.hinge:60 accept.masks:65 hard.test_hard_verdict:50 hard.valgrind:50 cli.program:55 unit.continuum.test_solid:45
-        unit.continuum.test_continuum:45 hard.test_hard_friction:45 accuracy.survey:30 hard.test_hard_combinations:35
-        hard.test_hard_contact:35 web.page:110 build.threads:60 build.bytes:20 fuzz.device:40 effects.absent:28 docs.json:35
-        accept.wafer:60 cli.advice:90 hard.test_hard_bounds:20 hard.test_hard_windows:20 hard.test_hard_periods:20 serve.robust:20
-        hard.test_hard_surfaces:20 accept.random:15 fault.files:15 cli.tradeoff:30 serve.mutants:18 cli.workspace:60 live.memory:15
-        hard.test_hard_kink:15 unit.plan.test_advice:14 accuracy.reference:14 docs.readme:13 cli.effects:13 cli.limits:25
-        unit.statics.test_bounds:11 fault.memory:10 hard.test_hard_memory:10 whole.dynamics.test_method_motions:9
-        hard.test_hard_nonsmooth:9 whole.plan.test_design:8 gate.counts:8 docs.limits:7)
+foreach(cost cli.advice:85 web.page:80 build.threads:60 accept.masks:55 cli.program:50 cli.workspace:50 fuzz.device:40
+        effects.absent:40 docs.json:35 accuracy.survey:30 accept.wafer:30 cli.tradeoff:30 unit.plan.test_advice:30 hard.valgrind:25
+        cli.limits:25 build.bytes:20 hard.test_hard_bounds:20 serve.robust:20 hard.test_hard_surfaces:18 serve.mutants:18
+        hard.test_hard_friction:17 accept.random:15 fault.files:15 live.memory:15 cli.hinge:14 accuracy.reference:14 docs.readme:13
+        cli.effects:13 hard.test_hard_contact:10 fault.memory:10 unit.continuum.test_continuum:9
+        whole.dynamics.test_method_motions:9 hard.test_hard_verdict:8 whole.plan.test_design:8 gate.counts:8
+        unit.statics.test_bounds:7 docs.limits:7 hard.test_hard_combinations:6)
     string(REPLACE ":" ";" cost ${cost})
     list(GET cost 0 name)
     list(GET cost 1 seconds)

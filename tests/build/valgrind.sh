@@ -26,7 +26,9 @@ clean() { # NAME COMMAND ...
 }
 # all rooms: judged, drawn, written; then a motion
 if [ $# -eq 0 ]; then
-    clean plan "$build/flexwright" plan docs/gallery/leaf-four-bar/device.xml --accuracy 3e-2 --advice none -q -o "$out"
+    corners=none # the same lines, at each corner of the flow once more
+    [ -z "${FW_TEST_ALL:-}" ] || corners=auto
+    clean plan "$build/flexwright" plan docs/gallery/leaf-four-bar/device.xml --accuracy 3e-2 --advice none --corners $corners -q -o "$out"
     clean simulate "$build/flexwright" simulate docs/gallery/reference-six-bar/device.xml --accuracy 3e-2 --json
 fi
 # some forty times slower than alone: the others take it longer than ten seconds and run when they are named

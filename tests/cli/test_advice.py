@@ -123,9 +123,9 @@ class Proposals(unittest.TestCase):
         path.write_text(text)
         return path
 
-    def judged(self, device, *sets):
+    def judged(self, device, *sets, more=()):
         arguments = [a for s in sets for a in ("--set", s)]
-        return run("check", device, "--advice", "none", "--json", *arguments).returncode
+        return run("check", device, "--advice", "none", "--json", *arguments, *more).returncode
 
     def now(self, device, path):
         """the value that the file has, of a parameter or an attribute of a flexure or a load"""
@@ -139,9 +139,9 @@ class Proposals(unittest.TestCase):
         value = found.group(1)
         return self.now(device, value) if re.fullmatch(r"[a-z_]\w*", value) else number(value)
 
-    def follow(self, device, least=("parameter", "flexures", "several")):
+    def follow(self, device, least=("parameter", "flexures", "several"), more=()):
         """every proposal accepts; of these kinds 2 % less of the change, or a last digit, does not"""
-        result = run("check", device, "--json")
+        result = run("check", device, "--json", *more)
         self.assertIn(result.returncode, (1, 4), result.stderr)
         document = json.loads(result.stdout)
         advice = document["advice"]
@@ -149,7 +149,7 @@ class Proposals(unittest.TestCase):
         self.assertEqual(changes, sorted(changes))
         for p in advice:
             sets = [f"{s['path']}={s['value']}" for s in p["set"]]
-            self.assertEqual(self.judged(device, *sets), 0, p)
+            self.assertEqual(self.judged(device, *sets, more=more), 0, p)
             if p["kind"] not in least:
                 continue
             less = []
@@ -159,7 +159,7 @@ class Proposals(unittest.TestCase):
                 if s["path"].startswith("flexure") and abs(part - to) < 1e-7:
                     part = to + (1e-7 if was > to else -1e-7)
                 less.append(f"{s['path']}={part / UNIT[unit]:.9g} {unit}")
-            self.assertNotEqual(self.judged(device, *less), 0, (p, less))
+            self.assertNotEqual(self.judged(device, *less, more=more), 0, (p, less))
         return document
 
     def test_lengths_are_the_least(self):
@@ -176,12 +176,15 @@ class Proposals(unittest.TestCase):
             self.assertIn("flexures", [p["kind"] for p in document["advice"]])
 
     def test_two_at_once(self):
-        """neither the pull nor the width alone reaches stroke and frequency"""
+        """neither the pull nor the width alone reaches stroke and frequency; without corners none of pull, width and leg does, in a
+        quarter of the time, and that proposals hold at the corners is seen of the others here"""
         rng = random.Random(2)
         pull = rng.uniform(55, 65)
-        device = self.changed(STAGE, ('value="115 uN" min="0 uN" max="200 uN"', f'value="{pull:.1f} uN" min="0 uN" max="90 uN"'),
-                              ('min="400 Hz"', f'min="{rng.uniform(540, 570):.0f} Hz"'))
-        document = self.follow(device)
+        narrow = () if ALL else (('min="8 um" max="16 um"', 'min="11.2 um" max="16 um"'), ('max="2.6 mm"', 'max="2.3 mm"'))
+        most = 90 if ALL else 70
+        device = self.changed(STAGE, ('value="115 uN" min="0 uN" max="200 uN"', f'value="{pull:.1f} uN" min="0 uN" max="{most} uN"'),
+                              ('min="400 Hz"', f'min="{rng.uniform(540, 570):.0f} Hz"'), *narrow)
+        document = self.follow(device, more=() if ALL else ("--corners", "none"))
         self.assertTrue(all(p["found"] != "accepts" for p in document["advice_parameters"]))
         proposal, = document["advice"]
         self.assertEqual(proposal["kind"], "several")

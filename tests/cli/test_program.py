@@ -168,11 +168,13 @@ class Plan(InTemporary):
         for name, text in devices.items() if ALL else ((n, devices[n]) for n in first):
             with self.subTest(name):
                 device = self.device(text, name.replace(" ", "-") + ".xml")
-                result = run("check", device)
+                # a third of the time without corners, which the others look at
+                more = ("--corners", "none") if name == "workspace" and not ALL else ()
+                result = run("check", device, *more)
                 self.assertIn(result.returncode, (1, 4), name)
                 self.assertTrue(proposals(result.stdout), result.stdout)
                 for sets in proposals(result.stdout):
-                    self.expect(run("check", device, *[a for s in sets for a in ("--set", s)]), 0)
+                    self.expect(run("check", device, *more, *[a for s in sets for a in ("--set", s)]), 0)
 
     ARC = 'kind="csfh" radius="100 um" angle="270 deg" width="8 um" gap="8 um" fillet="4 um"'
     LEAF = 'kind="leaf" length="300 um" width="8 um" fillet="4 um"'
