@@ -296,7 +296,7 @@ static fw_status do_body(fw_layout_drawing *d, int body, double pitch, double ho
     for (int i = -ALONG; i <= ALONG; i++)
         FW_TRY(do_column(&g, i));
     FW_TRY(fw_layout_release_rest(&g));
-    if (g.far_m > 0.0 && !d->said) {
+    if (g.far_m > fw_layout_holes_reach_m(pitch, hole, true) && !d->said) {
         char far[32], x[32], y[32];
         fw_diag_warning(d->diags, 189, fw_layout_body_place(d, body),
                         "%s: no hole can be opened near (%s, %s) um, which stays %s um from the "
