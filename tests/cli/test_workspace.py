@@ -14,7 +14,7 @@ import unittest
 import unittest.mock
 import xml.etree.ElementTree as tree
 
-from common import GALLERY, ROOT, run
+from common import ALL, GALLERY, ROOT, run
 
 sys.path.insert(0, str(ROOT / "tests/accept"))
 import check_certificate  # noqa: E402
@@ -27,11 +27,19 @@ def bits(text, change):
 
 
 class InTemporary(unittest.TestCase):
+    """the workspace of the six-bar, once for all who look at it"""
+    here = None
+
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.here = pathlib.Path(cls.temporary.name)
+        if InTemporary.here is None:
+            InTemporary.first()
+
+    @classmethod
+    def first(cls):
+        temporary = tempfile.TemporaryDirectory()
+        unittest.addModuleCleanup(temporary.cleanup)
+        cls.here = pathlib.Path(temporary.name)
         cls.out = cls.here / "out"
         cls.result = run("workspace", GALLERY, "-o", cls.out, "--json")
         cls.data = json.loads(cls.result.stdout)
@@ -166,7 +174,7 @@ class Certificate(InTemporary):
 
     def test_smaller_angle(self):
         for hinge in range(6):
-            for end in (0, 1):
+            for end in (0, 1) if ALL else (hinge % 2,):
                 def change(box, hinge=hinge, end=end):
                     claim = box["hinges"][hinge]["angle_rad"]
                     claim[end] = bits(claim[end], lambda v: v * 0.995)
