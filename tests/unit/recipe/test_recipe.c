@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "process/films.h"
 #include "../process/pack_fixture.h"
+#include "process/calibrate.h"
 #include "recipe/recipe.h"
 #include <jansson.h>
 #include <stdlib.h>
@@ -103,6 +104,31 @@ static void html(void **state) {
             signatures += f->step[k].second_signature;
         assert_int_equal(occurrences(text, "<b>second signature</b>"), signatures);
     }
+}
+
+/* two fillings of 80 mL, a price for one acid: 6.40; what is not known is a blank, and what is not in the sum is named */
+static void bill(void **state) {
+    (void)state;
+    fw_process_flow *f = computed("al-masked-rie");
+    const char *plain = written(fw_recipe_write_html, f, "six", false, NULL);
+    assert_null(strstr(plain, "Cost of the lot"));
+    assert_non_null(strstr(plain, "80 mL phosphoric acid"));
+    assert_non_null(strstr(plain, "5 parts deionised water, 1 part ammonia"));
+    assert_non_null(strstr(plain, "on coupon ladder"));
+    const char *lab = "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source "
+                      "id=\"o\" kind=\"datasheet\">offer</source><q id=\"phosphoric.price\" "
+                      "value=\"40\" u=\"0\" unit=\"EUR/L\" status=\"stated\" src=\"o\"/></process>";
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), f, &diags), FW_OK);
+    const char *priced = written(fw_recipe_write_html, f, "six", false, NULL);
+    check_nesting(priced);
+    assert_non_null(strstr(priced, "6.4 EUR</b>"));
+    assert_non_null(strstr(priced, "Not in it: wafers, masks and people."));
+    size_t n;
+    const char *text = written(fw_recipe_write_json, f, "six", false, &n);
+    json_t *all = json_loadb(text, n, 0, NULL), *b = json_object_get(all, "bill");
+    assert_string_equal(json_string_value(json_object_get(b, "currency")), "EUR");
+    assert_near(json_number_value(json_object_get(b, "consumables_cost")), 6.4, 1e-9);
+    json_decref(all);
 }
 
 static void rejected_everywhere(void **state) {
@@ -325,10 +351,15 @@ static void out_of_memory(void **state) {
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
-    const struct CMUnitTest tests[] = {TEST(html),         TEST(rejected_everywhere),
-                                       TEST(csv),          TEST(no_numeric_noise),
-                                       TEST(calendar),     TEST(json),
-                                       TEST(sections),     TEST(same_bytes),
+    const struct CMUnitTest tests[] = {TEST(html),
+                                       TEST(rejected_everywhere),
+                                       TEST(bill),
+                                       TEST(csv),
+                                       TEST(no_numeric_noise),
+                                       TEST(calendar),
+                                       TEST(json),
+                                       TEST(sections),
+                                       TEST(same_bytes),
                                        TEST(out_of_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
