@@ -40,16 +40,17 @@ extern const fw_xml_table fw_device_table;
 #define D_TIME     .kind = FW_KIND_NUMBER, .dimension = {.s = 1}, .unit = "ms"
 #define D_RATE     .kind = FW_KIND_NUMBER, .dimension = {.s = -1}, .unit = "Hz"
 #define D_PURE     .kind = FW_KIND_NUMBER, .unit = "1"
-#define D_PRESSURE .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "GPa"
+#define D_PRESSURE .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0, 0}, .unit = "GPa"
 #define SOME_STRESS                                                                                \
     D_PRESSURE, ABOVE(0, 2e11, "a limit lies above 0; no material is stronger than 200 GPa"),      \
         .fallback = "the material's"
-#define D_DENSITY   .kind = FW_KIND_NUMBER, .dimension = {.m = -3, .kg = 1}, .unit = "kg/m3"
-#define D_FORCE     .kind = FW_KIND_NUMBER, .dimension = {1, 1, -2, 0, 0, 0, 0}, .unit = "uN"
-#define D_TORQUE    .kind = FW_KIND_NUMBER, .dimension = {2, 1, -2, 0, 0, 0, 0}, .unit = "uN mm"
-#define D_TURNING_K .kind = FW_KIND_NUMBER, .dimension = {2, 1, -2, 0, 0, 0, -1}, .unit = "N m/rad"
+#define D_DENSITY .kind = FW_KIND_NUMBER, .dimension = {.m = -3, .kg = 1}, .unit = "kg/m3"
+#define D_FORCE   .kind = FW_KIND_NUMBER, .dimension = {1, 1, -2, 0, 0, 0, 0, 0}, .unit = "uN"
+#define D_TORQUE  .kind = FW_KIND_NUMBER, .dimension = {2, 1, -2, 0, 0, 0, 0, 0}, .unit = "uN mm"
+#define D_TURNING_K                                                                                \
+    .kind = FW_KIND_NUMBER, .dimension = {2, 1, -2, 0, 0, 0, -1, 0}, .unit = "N m/rad"
 #define D_TURNING_C                                                                                \
-    .kind = FW_KIND_NUMBER, .dimension = {2, 1, -1, 0, 0, 0, -1}, .unit = "N m s/rad"
+    .kind = FW_KIND_NUMBER, .dimension = {2, 1, -1, 0, 0, 0, -1, 0}, .unit = "N m s/rad"
 #define D_LINEAR_K .kind = FW_KIND_NUMBER, .dimension = {.kg = 1, .s = -2}, .unit = "N/m"
 #define D_LINEAR_C .kind = FW_KIND_NUMBER, .dimension = {.kg = 1, .s = -1}, .unit = "N s/m"
 #define D_SPEED    .kind = FW_KIND_NUMBER, .dimension = {.m = 1, .s = -1}, .unit = "mm/s"

@@ -54,14 +54,14 @@ static const char *const electrode_kinds[] = {"comb", "plate", NULL};
 static const char *const contact_sides[] = {"inside", "outside", NULL};
 static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
 
-#define D_VOLTAGE   .kind = FW_KIND_NUMBER, .dimension = {2, 1, -3, -1, 0, 0, 0}, .unit = "V"
+#define D_VOLTAGE   .kind = FW_KIND_NUMBER, .dimension = {2, 1, -3, -1, 0, 0, 0, 0}, .unit = "V"
 #define D_KELVIN    .kind = FW_KIND_NUMBER, .dimension = {.K = 1}, .unit = "K"
 #define D_PER_K     .kind = FW_KIND_NUMBER, .dimension = {.K = -1}, .unit = "ppm/K"
 #define D_AREA      .kind = FW_KIND_NUMBER, .dimension = {.m = 2}, .unit = "mm^2"
-#define D_VISCOSITY .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -1, 0, 0, 0, 0}, .unit = "uPa s"
-#define D_STRESS    .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "MPa"
+#define D_VISCOSITY .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -1, 0, 0, 0, 0, 0}, .unit = "uPa s"
+#define D_STRESS    .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0, 0}, .unit = "MPa"
 #define D_STRESS_SLOPE                                                                             \
-    .kind = FW_KIND_NUMBER, .dimension = {-2, 1, -2, 0, 0, 0, 0}, .unit = "MPa/um"
+    .kind = FW_KIND_NUMBER, .dimension = {-2, 1, -2, 0, 0, 0, 0, 0}, .unit = "MPa/um"
 #define BODY_POINT_X "Point in the body's frame; on ground in the world."
 
 /* ---- actuators ---- */
@@ -246,7 +246,7 @@ static const fw_xml_attribute_row air_rows[] = {
      .sentence = "squeeze: of the wall, along the wafer."},
     {"depth", THICKNESS, .fallback = "thickness of the device layer",
      .sentence = "squeeze: of the wall, across the wafer."},
-    {"pressure", .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0}, .unit = "kPa",
+    {"pressure", .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0, 0}, .unit = "kPa",
      ABOVE(0, 1e7,
            "without pressure there is no air: leave <air> out; beyond 10 MPa it is no ideal "
            "gas"),

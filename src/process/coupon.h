@@ -98,6 +98,17 @@ bool fw_process_coupon_value(fw_process_coupon_work *work, const char *id, doubl
 fw_status fw_process_coupon_condition(fw_process_coupon_work *work, fw_quantity_dimension d,
                                       const char *what, double *value, double *uncertainty);
 bool fw_process_coupon_has(const fw_process_flow *flow, const char *id);
+typedef struct
+    fw_process_etch { /* quantities of the etch that cuts the device layer; each may be NULL */
+    const fw_quantity *rate, *lag, *anisotropy;
+    const fw_quantity *selectivity; /* to what masks it */
+    const fw_quantity *over_etch;
+} fw_process_etch;
+/* of the step that removes the flow's own material in a direction */
+fw_process_etch fw_process_flow_etch(const fw_process_flow *flow);
+#define FW_PROCESS_PRINTED_EDGE "litho.edge"
+/* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
+const char *fw_process_coupon_edge(const fw_process_flow *flow);
 /* what isotropic masked etches take from every edge on the way, and the mask adds: m */
 double fw_process_coupon_loss(const fw_process_flow *flow);
 

@@ -52,6 +52,13 @@ static fw_status rates(fw_process_coupon_work *w) {
     return FW_OK;
 }
 
+static fw_status no_etch(fw_process_coupon_work *w, const char *coupon, const char *what) {
+    return fw_process_coupon_wrong(w, w->measurement[0],
+                                   "flow '%s' has no etch of its device layer with %s, which %s "
+                                   "reads; take the rows out",
+                                   w->flow->id, what, coupon);
+}
+
 /* Selectivity S_m = D/a: what is etched over what the mask loses, a measured at D. Through the
    origin as a = D/S_m. D, a m. Test: test_calibrate.c. */
 static fw_status selectivity(fw_process_coupon_work *w) {
@@ -73,7 +80,9 @@ static fw_status selectivity(fw_process_coupon_work *w) {
             w, w->measurement[0],
             "the loss of the mask is not above its uncertainty, so that no selectivity follows; "
             "etch longer, or measure it more exactly");
-    return fw_process_coupon_give(w, "rie.selectivity", 1.0 / loss, u / (loss * loss), &f,
+    fw_process_etch etch = fw_process_flow_etch(w->flow);
+    if (!etch.selectivity) return no_etch(w, "al-step", "a selectivity to its mask");
+    return fw_process_coupon_give(w, etch.selectivity->id, 1.0 / loss, u / (loss * loss), &f,
                                   "etched depth over the loss of the mask");
 }
 
@@ -122,23 +131,25 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
 }
 
 /* Lines of width w on the mask, not compensated; the mask layer lost L at every edge (what the flow
-   plans less made.al-edge), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
+   plans less the edge that cd-lines read), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
    E: the depth that wide openings have reached, or rate times the time, over-etch included. All m;
    A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/calibrate.md. Test:
    test_calibrate.c. */
 static fw_status fit_ladder(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], E, u_E, edge = 0.0, u_edge = 0.0;
     int n = 0;
+    fw_process_etch etch = fw_process_flow_etch(w->flow);
+    if (!etch.anisotropy) return no_etch(w, "undercut-ladder", "an anisotropy");
     bool timed = fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
                                              (fw_quantity_dimension)FW_DIM_TIME);
     FW_TRY(fw_process_coupon_condition(w, w->measurement[0]->at_dimension, "what was etched", &E,
                                        &u_E));
     if (timed) {
         double R, u_R;
-        if (!fw_process_coupon_value(w, "rie.R", &R, &u_R))
+        if (!etch.rate || !fw_process_coupon_value(w, etch.rate->id, &R, &u_R))
             return fw_process_coupon_wrong(w, w->measurement[0],
-                                           "the rate rie.R is not known; give the depth in wide "
-                                           "openings in the column at");
+                                           "the rate of the etch is not known; give the depth in "
+                                           "wide openings in the column at");
         u_E = hypot(R * u_E, E * u_R);
         E *= R;
     } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
@@ -146,18 +157,18 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the column at of undercut-ladder takes a depth or a time");
     FW_TRY(ladder_losses(w, y, s, &n));
-    fw_process_coupon_value(w, "made.al-edge", &edge, &u_edge);
+    fw_process_coupon_value(w, fw_process_coupon_edge(w->flow), &edge, &u_edge);
     fw_process_fit f = fw_process_fit_mean(y, s, n);
     double u = 0.5 * f.value[0] - (fw_process_coupon_loss(w->flow) - edge);
     double A = 1.0 - u / E, u_A = hypot(hypot(0.5 * f.uncertainty[0], u_edge), u / E * u_E) / E;
     if (!(A > 0.0) || !(A < 1.0 + 2.0 * u_A))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the anisotropy that follows is not between 0 and 1: check "
-                                       "the widths, the edge of the aluminium and the depth");
+                                       "the widths, the edge of the mask layer and the depth");
     const char *note = fw_arena_printf(
         w->arena, "undercut at the top over the depth of wide openings, %d lines", n);
     FW_NEED(note);
-    return fw_process_coupon_give(w, "rie.A", fmin(A, 1.0), u_A, &f, note);
+    return fw_process_coupon_give(w, etch.anisotropy->id, fmin(A, 1.0), u_A, &f, note);
 }
 
 const fw_process_coupon fw_process_coupon_ladder = {
@@ -185,6 +196,8 @@ static double depth_of(double width, double travelled, double S) {
    twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
 static fw_status fit_slots(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS], t, u_t;
+    fw_process_etch etch = fw_process_flow_etch(w->flow);
+    if (!etch.rate || !etch.lag) return no_etch(w, "arde-slots", "a rate and a lag");
     FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
                                        &u_t));
     if (w->n < 2)
@@ -222,8 +235,8 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
                                        w->n, (int)lround(100.0 * f.correlation));
     FW_NEED(note);
-    FW_TRY(fw_process_coupon_give(w, "rie.R", R, u, &f, note));
-    return fw_process_coupon_give(w, "rie.S", fmax(S, 0.0), f.uncertainty[1], &f, note);
+    FW_TRY(fw_process_coupon_give(w, etch.rate->id, R, u, &f, note));
+    return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), f.uncertainty[1], &f, note);
 }
 
 const fw_process_coupon fw_process_coupon_slots = {"arde-slots", FW_DIM_LENGTH, false,    true,

@@ -24,10 +24,10 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
         s[i] = 0.5 * r->uncertainty;
     }
     fw_process_fit f = fw_process_fit_mean(y, s, w->n);
-    bool etched = fw_process_coupon_has(w->flow, "made.al-edge");
+    const char *edge = fw_process_coupon_edge(w->flow);
+    bool etched = strcmp(edge, FW_PROCESS_PRINTED_EDGE) != 0;
     return fw_process_coupon_give(
-        w, etched ? "made.al-edge" : "litho.edge", f.value[0] + (etched ? loss : 0.0),
-        f.uncertainty[0], &f,
+        w, edge, f.value[0] + (etched ? loss : 0.0), f.uncertainty[0], &f,
         etched ? "edge in the aluminium against the mask, and what the wet etch is "
                  "planned to take; the printed edge is in it"
                : "edge on the wafer against the mask");

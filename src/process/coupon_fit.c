@@ -207,3 +207,34 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
                                                 .freedom = fit->freedom};
     return FW_OK;
 }
+
+static const fw_quantity *argument_of(const fw_process_step *s, const char *name) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, name) == 0) return s->argument[i].q;
+    return NULL;
+}
+
+fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->nchange; k++) {
+            const fw_process_change *c = &s->change[k];
+            if (!c->anisotropy || strcmp(c->kind, "remove") != 0 || !flow->material ||
+                strcmp(c->material, flow->material) != 0)
+                continue;
+            fw_process_etch e = {.rate = argument_of(s, "rate"),
+                                 .lag = argument_of(s, "probability"),
+                                 .anisotropy = c->anisotropy,
+                                 .over_etch = s->overrun_from};
+            for (int x = 0; x < s->nexposed && !e.selectivity; x++)
+                e.selectivity = s->exposed[x].selectivity;
+            return e;
+        }
+    }
+    return (fw_process_etch){0};
+}
+
+const char *fw_process_coupon_edge(const fw_process_flow *flow) {
+    static const char etched[] = "made.al-edge";
+    return fw_process_coupon_has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
+}

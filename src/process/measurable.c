@@ -27,6 +27,10 @@ static double known(const fw_process_flow *flow, const char *id) {
     return q && fw_process_flow_nominal(flow, q, &value) ? value : (double)NAN;
 }
 
+static double value_of(const meant *m, const fw_quantity *q) {
+    return q ? known(m->flow, q->id) : (double)NAN;
+}
+
 /* a row whose value or condition is not a number reads nothing: the flow lacks what it follows from */
 static void add(meant *m, fw_process_measurement row) {
     bool bare = isnan(row.at);
@@ -54,10 +58,9 @@ static const double cd_um[] = {4, 6, 10}, slot_um[] = {4, 5, 7, 10, 20, 50, 100}
 
 /* where an edge stands against the mask: coupon_films.c */
 static void of_lines(meant *m) {
-    const char *al = "made.al-edge";
-    bool etched = fw_process_coupon_has(m->flow, al);
-    double e = etched ? known(m->flow, al) - fw_process_coupon_loss(m->flow)
-                      : known(m->flow, "litho.edge");
+    const char *edge = fw_process_coupon_edge(m->flow);
+    bool printed = strcmp(edge, FW_PROCESS_PRINTED_EDGE) == 0;
+    double e = known(m->flow, edge) - (printed ? 0.0 : fw_process_coupon_loss(m->flow));
     for (size_t i = 0; i < sizeof cd_um / sizeof cd_um[0]; i++) {
         double w = cd_um[i] * 1e-6;
         add(m, lengths("cd-lines", "line", w, w + 2.0 * e, m->width_m));
@@ -68,7 +71,8 @@ static void of_lines(meant *m) {
 /* depths after 0.9 of the time of wide openings, before the etch is through: to first order in the lag
    D = R t - S J(w, R t), which moves no uncertainty of the fit by as much as the readings do */
 static void of_slots(meant *m) {
-    double R = known(m->flow, "rie.R"), S = known(m->flow, "rie.S");
+    fw_process_etch etch = fw_process_flow_etch(m->flow);
+    double R = value_of(m, etch.rate), S = value_of(m, etch.lag);
     double D = m->flow->thickness ? 0.9 * known(m->flow, m->flow->thickness->id) : (double)NAN;
     for (size_t i = 0; i < sizeof slot_um / sizeof slot_um[0]; i++) {
         double w = slot_um[i] * 1e-6, depth = D;
@@ -84,9 +88,11 @@ static void of_slots(meant *m) {
 
 /* tops of lines that stand, once the device layer is through with the over-etch: coupon_etch.c */
 static void of_ladder(meant *m) {
-    double A = known(m->flow, "rie.A"), over = known(m->flow, "rie.overetch");
+    fw_process_etch etch = fw_process_flow_etch(m->flow);
+    double A = value_of(m, etch.anisotropy), over = value_of(m, etch.over_etch);
     double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
-    double E = D * (1.0 + (isnan(over) ? 0.0 : over)), edge = known(m->flow, "made.al-edge");
+    double E = D * (1.0 + (isnan(over) ? 0.0 : over)),
+           edge = known(m->flow, fw_process_coupon_edge(m->flow));
     double lost = fw_process_coupon_loss(m->flow) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
     for (size_t i = 0; i < sizeof line_um / sizeof line_um[0]; i++) {
         double w = line_um[i] * 1e-6;
@@ -100,7 +106,7 @@ static void of_ladder(meant *m) {
 }
 
 static void of_mask_step(meant *m) {
-    double S = known(m->flow, "rie.selectivity");
+    double S = value_of(m, fw_process_flow_etch(m->flow).selectivity);
     double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
     fw_process_measurement row = lengths("al-step", "", (double)NAN, D / S, m->step_m);
     row.at = D;

@@ -40,7 +40,7 @@ static double between(double low, double high) {
 
 /* ---- rows ---- */
 
-static fw_process_measurement rows[20];
+static fw_process_measurement rows[24];
 static int nrow;
 
 static void put(const char *coupon, const char *feature, double drawn_um, fw_quantity_dimension d,
@@ -242,6 +242,36 @@ static void survivors(void **state) {
     assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
 }
 
+/* the same coupons in another flow: its own ids, and lines of resist, of which nothing is taken: printed 0.05 um wide on each side,
+   2 % of 55 um undercut; S and R from two slots; selectivity 50 um over 0.8 um */
+static void of_another_flow(void **state) {
+    (void)state;
+    fw_process_flow *soi = read_pack(arena, "soi-deep-rie", NULL, NULL, &diags);
+    fw_process_calibration c;
+    nrow = 0;
+    double R = 3e-6 / 60.0, S = 0.03, t = 900.0;
+    for (int i = 0; i < 6; i++) {
+        double w = 10.0 + 2.0 * i;
+        put("cd-lines", i % 2 ? "line" : "space", w, LENGTH, w * 1e-6 + (i % 2 ? 0.1e-6 : -0.1e-6),
+            0.02e-6, TIME, (double)NAN, (double)NAN);
+        put("undercut-ladder", "width", w, LENGTH, w * 1e-6 + 0.1e-6 - 2.0 * 0.02 * 55e-6, 0.05e-6,
+            LENGTH, 55e-6, 0.0);
+        put("arde-slots", "", w, LENGTH, slot_depth(w * 1e-6, t, R, S), 0.1e-6, TIME, t, 0.0);
+    }
+    put("al-step", "", 0, LENGTH, 0.8e-6, 0.01e-6, LENGTH, 50e-6, 0.1e-6);
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &diags, &c), FW_OK);
+    assert_near(found(&c, "litho.edge")->value, 0.05e-6, 1e-12);
+    assert_relative(found(&c, "drie.A")->value, 0.98, 1e-6);
+    assert_relative(found(&c, "drie.R")->value, R, 1e-6);
+    assert_relative(found(&c, "drie.S")->value, S, 1e-4);
+    assert_relative(found(&c, "drie.selectivity")->value, 62.5, 1e-9);
+    /* one that cuts nothing in a direction reads none of it */
+    nrow = 0;
+    put("al-step", "", 0, LENGTH, 0.8e-6, 0.01e-6, LENGTH, 50e-6, 0.1e-6);
+    assert_int_equal(fw_process_calibrate(arena, copper, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "no etch of its device layer"));
+}
+
 static int last_number(const fw_diags *d) {
     return d->count ? d->item[d->count - 1].number : 0;
 }
@@ -431,9 +461,9 @@ static void wrong_packs(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coverage),   cmocka_unit_test(two_slots),
-        cmocka_unit_test(survivors),  cmocka_unit_test(contradictions),
-        cmocka_unit_test(round_trip), cmocka_unit_test(wrong_tables),
-        cmocka_unit_test(wrong_packs)};
+        cmocka_unit_test(coverage),        cmocka_unit_test(two_slots),
+        cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
+        cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
+        cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

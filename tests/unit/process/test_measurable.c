@@ -76,7 +76,10 @@ static void other_flows(void **state) {
     assert_null(fw_process_measurable_of(list, n, "made.wall"));
     assert_null(fw_process_measurable_of(list, n, "ps.P"));
     read(read_pack(arena, "soi-deep-rie", NULL, NULL, &diags));
-    assert_null(fw_process_measurable_of(list, n, "drie.A"));
+    static const char *const of_soi[] = {"drie.A", "drie.R", "drie.S", "drie.selectivity",
+                                         "litho.edge"};
+    for (int i = 0; i < 5; i++)
+        assert_true(fw_process_measurable_of(list, n, of_soi[i])->coupon);
     assert_relative(u_of("soi.d"), 0.1e-6, 1e-12);
 }
 
