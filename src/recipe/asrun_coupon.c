@@ -79,6 +79,10 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, char *word, fw_recip
     static const char *const known[] = {"drawn", "value", "u", "at", "u-at"};
     const char **of[] = {&g->drawn, &g->value, &g->u, &g->at, &g->u_at};
     char *equal = strchr(word, '=');
+    if (strncmp(word, "feature=", 8) == 0) { /* as the column of a table is called */
+        word += 8;
+        equal = NULL;
+    }
     if (!equal) {
         if (c->row.feature[0])
             return fw_diag_error(r->diags, 282, r->place,

@@ -24,9 +24,9 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
         fw_text_printf(&list, "%s%s", i ? ", " : "", known[i]);
     FW_TRY(fw_text_end(&list));
     const char *meant = n ? fw_did_you_mean(name, known, (size_t)n) : NULL;
-    return fw_diag_error(r->diags, 282, r->place, "%s '%s'%s%s%s; there are: %s", what, name,
-                         meant ? "; did you mean '" : "", meant ? meant : "", meant ? "'?" : "",
-                         list.data);
+    return fw_diag_error(r->diags, 282, r->place, "%s '%s'; there are: %s%s%s%s", what, name,
+                         list.data, meant ? "; did you mean '" : "", meant ? meant : "",
+                         meant ? "'?" : "");
 }
 
 typedef struct scan {

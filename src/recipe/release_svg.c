@@ -7,7 +7,7 @@
 #include "recipe/recipe.h"
 #include <math.h>
 
-enum { COLUMNS = 400, BANDS = 8, WIDTH = 760, MARGIN = 16, KEY = 150 };
+enum { COLUMNS = 400, BANDS = 8, WIDTH = 800, MARGIN = 16, KEY = 190 };
 
 /* light to dark: what is free soon to what is free last; what stays is grey */
 static const char *const colour[BANDS + 1] = {"#fdf3d0", "#f9dd9b", "#f4c16c", "#eb9f50", "#dc7a45",
@@ -92,8 +92,8 @@ static void key(const picture *p, const fw_process_step *s, double top) {
                    x, y, colour[k]);
         fw_number_text(from, sizeof from, 1e6 * low * p->run_m, 3);
         fw_number_text(to, sizeof to, 1e6 * high * p->run_m, 3);
-        fw_number_text(t0, sizeof t0, low * minutes, 4);
-        fw_number_text(t1, sizeof t1, high * minutes, 4);
+        fw_number_text(t0, sizeof t0, low * minutes, 3);
+        fw_number_text(t1, sizeof t1, high * minutes, 3);
         if (k == BANDS)
             fw_svg_put(out, "text x='{c}' y='{c}' font-size='11' fill='#222222'>stays bonded\n",
                        x + 22.0, y + 11.0);

@@ -313,6 +313,9 @@ static void refused_values(void **state) {
         int number;
     } bad[] = {
         {"wafer=9", "there are: 1, 2, A-7", 282},
+        {"wafer=A-8", "there are: 1, 2, A-7; did you mean 'A-7'?", 282},
+        {"coupon=plating-pads, a, feature=b, drawn=1 mm, value=9 um, u=1 um, at=25 C/cm2",
+         "'b' is a second feature", 282},
         {"wafer=", "not written as name=value", 282},
         {"thicknes=9.1 um", "did you mean 'thickness'", 282},
         {"thickness=9.1 s", "thickness is given in um", 282},
