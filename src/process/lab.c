@@ -108,6 +108,8 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
             status = fw_process_correlation_read(arena, e, flow, diags);
             if (status != FW_OK && status != FW_INPUT) return status;
         }
+    fw_status tools = fw_process_lab_tools(arena, root, flow, diags);
+    if (tools != FW_OK && tools != FW_INPUT) return tools;
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 

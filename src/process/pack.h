@@ -74,6 +74,9 @@ fw_status fw_process_pack_consumable(fw_process_pack *pack, const fw_xml_record 
 void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 
+/* lab_tools.c: <tool> of a laboratory pack (FW-D376) */
+fw_status fw_process_lab_tools(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
+                               fw_diags *diags);
 /* alternative.c: lists the alternatives, and puts the chosen ones in the places of their steps */
 fw_status fw_process_pack_choose(fw_process_pack *pack, const fw_process_choice *choice, int n);
 

@@ -281,6 +281,14 @@ typedef struct fw_process_override {    /* a value of the laboratory in the plac
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
 } fw_process_override;
 
+/* <tool> of a laboratory: when a machine may be used, or a stretch of days on which it may not */
+typedef struct fw_process_tool_time {
+    const char *equipment;
+    const char *open, *days; /* "09:00-17:00"; "Mon Tue", "": every day; open NULL: it is closed */
+    const char *from, *to;   /* dates, both included; NULL: open */
+    fw_place place;
+} fw_process_tool_time;
+
 typedef struct fw_process_alternative { /* another way of doing a step */
     const char *id, *title, *step;
     bool chosen;
@@ -321,7 +329,8 @@ typedef struct fw_process_flow {
     fw_process_consumable *consumable;   /* (nconsumable) */
     fw_process_bath *bath;               /* (nbath) */
     fw_process_alternative *alternative; /* (nalternative) */
-    int nalternative;
+    fw_process_tool_time *tool_time;     /* (ntool_time) */
+    int nalternative, ntool_time;
     int nprocess_material, nopen_point, ncorner, nfinished, nconsumable, nbath;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */

@@ -129,6 +129,16 @@ static const fw_xml_attribute_row alternative_rows[] = {
     {"id", TOKEN, REQUIRED, .sentence = "Name that a laboratory pack uses."},
     {"title", TEXT, REQUIRED, .sentence = "What people call it."},
 };
+static const fw_xml_attribute_row tool_rows[] = {
+    {"equipment", TOKEN, REQUIRED, .sentence = "An <equipment> of the flow."},
+    {"open", TEXT,
+     .sentence = "Hours between which a whole run lies, as 09:00-12:00,13:00-17:00; or it is "
+                 "closed on days."},
+    {"days", TEXT, .datatype = "NMTOKENS",
+     .sentence = "With open: Mon Tue Wed Thu Fri Sat Sun, those that it is open on; without, all."},
+    {"closed", TEXT, .datatype = "date", .sentence = "First day on which it may not be used."},
+    {"to", TEXT, .datatype = "date", .sentence = "Last one; without, closed is the only one."},
+};
 static const fw_xml_attribute_row choose_rows[] = {
     {"alternative", TOKEN, REQUIRED, .sentence = "An <alternative> of the flow."},
 };
@@ -343,6 +353,8 @@ static const fw_xml_element_row laboratory[] = {
     {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
     {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
      .sentence = "Where numbers are from."},
+    {"tool", "process", ROWS(tool_rows),
+     .sentence = "When a machine may be used; of several for one machine each holds."},
     {"choose", "process", ROWS(choose_rows), .sentence = "How the laboratory does a step."},
     Q_ROW("process"),
     {"correlation", "process", ROWS(correlation_rows),

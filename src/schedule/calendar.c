@@ -6,7 +6,7 @@
 static const double day_s = 86400.0;
 
 bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
-    return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0;
+    return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0 && c->closed_days == 0;
 }
 
 /* quotient towards minus infinity, as days before 1970 need it */
@@ -38,7 +38,8 @@ int fw_schedule_calendar_weekday(const fw_schedule_calendar *c, long day) {
 }
 
 static bool working(const fw_schedule_calendar *c, double day) {
-    return c->weekends || fw_schedule_calendar_weekday(c, (long)day) < 5;
+    int weekday = fw_schedule_calendar_weekday(c, (long)day);
+    return (c->weekends || weekday < 5) && !(c->closed_days >> weekday & 1u);
 }
 
 /* the k-th stretch of a day without a break, s of the day; false: there are not so many */

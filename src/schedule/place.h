@@ -4,7 +4,8 @@
 #define FW_SCHEDULE_PLACE_H
 #include "schedule/schedule.h"
 
-#define FW_TIE_S (4.0 * 3600.0) /* windows that are usually placed at once */
+#define FW_HORIZON_S (400.0 * 86400.0) /* no shop plans farther ahead */
+#define FW_TIE_S     (4.0 * 3600.0)    /* windows that are usually placed at once */
 
 /* which unit is placed next */
 typedef enum fw_schedule_rule {
@@ -63,6 +64,11 @@ bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);
 /* nothing for an empty span */
 void fw_schedule_line_add(fw_schedule_line *line, double start, double end);
+
+/* hours and closed days of the machines (n), from the flow's <tool>s; FW_INPUT with FW-D376 */
+fw_status fw_schedule_tool_hours(fw_arena *arena, const fw_process_flow *flow,
+                                 const fw_schedule_calendar *day, fw_schedule_machine *machine,
+                                 int n, const fw_schedule_task *task, int ntask, fw_diags *diags);
 
 /* ---- lower bounds of the end of all schedules ---- */
 

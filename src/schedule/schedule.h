@@ -14,13 +14,17 @@ typedef struct fw_schedule_calendar {
     bool weekends;          /* people come on Saturdays and Sundays too */
     double break_s[4][2];   /* (breaks) ascending, inside the day: nobody is there from ... to */
     int breaks;
-    bool dated;     /* first_day is stated; without it day 1 is a Monday */
-    long first_day; /* of the plan, days since 1970-01-01, negative before */
+    unsigned closed_days; /* bit 0: Monday; on them it is closed */
+    bool dated;           /* first_day is stated; without it day 1 is a Monday */
+    long first_day;       /* of the plan, days since 1970-01-01, negative before */
 } fw_schedule_calendar;
 
 typedef struct fw_schedule_machine { /* takes one load at a time, or so many wafers on their own */
     const char *id, *title;
     int places;
+    const fw_schedule_calendar *hours; /* (nhours) a run lies inside all of them */
+    const double (*closed_s)[2];       /* (nclosed) from 0:00 of day 1 */
+    int nhours, nclosed;
 } fw_schedule_machine;
 
 typedef struct fw_schedule_task { /* a step of the flow as it is planned */
@@ -61,6 +65,7 @@ typedef enum fw_schedule_wait {
     FW_WAIT_MACHINE,  /* another load */
     FW_WAIT_OPERATOR, /* all were busy */
     FW_WAIT_DAY,      /* the working day */
+    FW_WAIT_TOOL,     /* the hours of the machine */
     FW_WAIT_HOLD      /* it would have opened a window too early */
 } fw_schedule_wait;
 const char *fw_schedule_wait_text(fw_schedule_wait wait);
@@ -148,6 +153,10 @@ int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day)
 bool fw_schedule_date_parse(const char *text, long *day);
 /* year, month and day of the month of a day since 1970-01-01 */
 void fw_schedule_civil(long day, long civil[3]);
+
+/* earliest t >= from such that a run of this length lies inside the hours of the machine and on no day
+   on which it is closed; INFINITY: never. Test: test_tools.c */
+double fw_schedule_machine_fit(const fw_schedule_machine *machine, double from_s, double length_s);
 
 /* ---- durations in words ---- */
 

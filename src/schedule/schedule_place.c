@@ -89,7 +89,6 @@ static void line_remove(fw_schedule_line *line, double start, double end) {
    shifted by what is missing and what follows is placed again (the unscheduling step of Neumann,
    Schwindt, Zimmermann, Project Scheduling with Time Windows and Scarce Resources, 2003, 2.6). */
 
-static const double horizon_s = 400.0 * 86400.0; /* no shop plans farther ahead */
 enum { MOST_SHIFTS = 400, MOST_RESTARTS = 25 };
 
 typedef enum answer { PLACED, LATE, FAILED } answer;
@@ -185,11 +184,13 @@ static double earliest(const fw_schedule_placing *p, int task, int first, int co
         double before = start, next = start;
         if (there > 0.0) next = fw_schedule_calendar_fit(&shop->calendar, start, there);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_DAY;
+        next = fw_schedule_machine_fit(&shop->machine[t->machine], start, t->duration_s);
+        if (next > start + tiny_s) start = next, *why = FW_WAIT_TOOL;
         next = fw_schedule_line_fit(&p->machine[t->machine], start, t->duration_s);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_MACHINE;
         next = fw_schedule_line_fit(&p->people, start, t->attended_s);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_OPERATOR;
-        if (start <= before || start > p->start_s + horizon_s) return start;
+        if (start <= before || start > p->start_s + FW_HORIZON_S) return start;
     }
 }
 
@@ -244,7 +245,7 @@ static answer place_unit(fw_schedule_placing *p, fw_schedule_group *u) {
                 int left = u->count - w;
                 place_run(p, task, u->first + w, left < p->load[task] ? left : p->load[task]);
             }
-        if (p->run[p->nrun - 1].start_s > p->start_s + horizon_s) break;
+        if (p->run[p->nrun - 1].start_s > p->start_s + FW_HORIZON_S) break;
         if (!broken(p, u, true)) {
             u->placed = true;
             for (int w = u->first; w < u->first + u->count; w++)

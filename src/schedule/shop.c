@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shop of a computed flow. */
-#include "schedule/schedule.h"
+#include "schedule/place.h"
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static int machine_of(making *m, const fw_process_step *s) {
                *title = s->equipment ? s->equipment->class_ : "no equipment named";
     for (int i = 0; i < m->shop->nmachine; i++)
         if (strcmp(m->machine[i].id, id) == 0) return i;
-    m->machine[m->shop->nmachine] = (fw_schedule_machine){id, title, 1};
+    m->machine[m->shop->nmachine] = (fw_schedule_machine){.id = id, .title = title, .places = 1};
     return m->shop->nmachine++;
 }
 
@@ -169,6 +169,8 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
         make_task(&m, i);
     FW_TRY(planned(&m, options->planned));
     FW_TRY(make_holds(&m, &hold));
+    FW_TRY(fw_schedule_tool_hours(arena, flow, &m.shop->calendar, m.machine, m.shop->nmachine,
+                                  m.task, m.shop->ntask, diags));
     m.shop->task = m.task;
     m.shop->machine = m.machine;
     m.shop->hold = hold;
@@ -194,7 +196,7 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
 }
 
 const char *fw_schedule_wait_text(fw_schedule_wait wait) {
-    static const char *const text[] = {"nothing",  "flow",        "machine",
-                                       "operator", "working day", "hold window"};
+    static const char *const text[] = {"nothing",     "flow",       "machine",    "operator",
+                                       "working day", "tool hours", "hold window"};
     return text[wait];
 }

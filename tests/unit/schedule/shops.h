@@ -72,8 +72,8 @@ static inline fw_schedule_shop shop_of(fw_arena *arena, const row *rows, int n, 
         while (m < machines && strcmp(machine[m].id, rows[i].machine) != 0)
             m++;
         if (m == machines)
-            machine[machines++] =
-                (fw_schedule_machine){rows[i].machine, rows[i].machine, shelf ? 50 : 1};
+            machine[machines++] = (fw_schedule_machine){
+                .id = rows[i].machine, .title = rows[i].machine, .places = shelf ? 50 : 1};
         task[i] = (fw_schedule_task){.id = rows[i].id,
                                      .title = rows[i].id,
                                      .machine = m,

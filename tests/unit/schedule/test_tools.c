@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hours of machines: every run of a schedule lies inside all of them and on no closed day; the earliest fit against a
+   search by quarters of an hour; what a laboratory writes, and what it may not. */
+#include "../process/pack_fixture.h"
+#include "process/calibrate.h"
+#include "schedule/schedule.h"
+
+enum { HOUR = 3600, DAY = 86400 };
+
+static uint64_t seed = 3;
+static int below(int n) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (int)((seed >> 33) % (uint64_t)n);
+}
+
+/* straight from the words: the run is open from its first to its last second */
+static bool inside(const fw_schedule_machine *m, double start, double end) {
+    for (int i = 0; i < m->nhours; i++) {
+        const fw_schedule_calendar *c = &m->hours[i];
+        double day = floor(start / DAY), from = start - day * DAY, to = end - day * DAY;
+        int weekday = ((int)day % 7 + 7) % 7; /* undated: day 1 is a Monday */
+        if (c->dated) weekday = fw_schedule_calendar_weekday(c, (long)day);
+        bool in = !(c->closed_days >> weekday & 1u) && from >= c->open_s - 1e-6 &&
+                  to <= c->close_s + 1e-6;
+        for (int k = 0; k < c->breaks; k++)
+            in = in && (to <= c->break_s[k][0] + 1e-6 || from >= c->break_s[k][1] - 1e-6);
+        if (!in) return false;
+    }
+    for (int i = 0; i < m->nclosed; i++)
+        if (start < m->closed_s[i][1] - 1e-6 && end > m->closed_s[i][0] + 1e-6) return false;
+    return true;
+}
+
+static void earliest_fit(void **state) {
+    (void)state;
+    const int cases = test_cases(400, 100);
+    int never = 0;
+    for (int i = 0; i < cases; i++) {
+        fw_schedule_calendar hours[2] = {{0}};
+        double closed[2][2];
+        fw_schedule_machine m = {.hours = hours, .nhours = 1 + below(2), .closed_s = closed};
+        for (int k = 0; k < m.nhours; k++) {
+            int open = below(12);
+            hours[k] = (fw_schedule_calendar){.open_s = open * HOUR,
+                                              .close_s = (open + 4 + below(9)) * HOUR,
+                                              .weekends = true,
+                                              .closed_days = (unsigned)below(127)};
+            if (below(2)) {
+                hours[k].breaks = 1;
+                hours[k].break_s[0][0] = hours[k].open_s + 2 * HOUR;
+                hours[k].break_s[0][1] = hours[k].open_s + 3 * HOUR;
+            }
+        }
+        for (m.nclosed = 0; m.nclosed < below(3); m.nclosed++) {
+            closed[m.nclosed][0] = DAY * (double)below(14);
+            closed[m.nclosed][1] = closed[m.nclosed][0] + DAY * (1.0 + below(3));
+        }
+        double from = 900.0 * below(4 * 24 * 10), length = 900.0 * (1 + below(20)), want = from;
+        while (want < 40.0 * DAY && !inside(&m, want, want + length))
+            want += 900.0;
+        double got = fw_schedule_machine_fit(&m, from, length);
+        if (want >= 40.0 * DAY) {
+            assert_true(isinf(got));
+            never++;
+        } else
+            assert_near(got, want, 1e-6);
+    }
+    assert_true(never > 0 && never < cases / 2);
+}
+
+static const char lab_head[] =
+    "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\">%s</process>";
+
+static fw_process_flow *with(const char *tools, fw_status wanted) {
+    diags = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    const char *lab = fw_arena_printf(arena, lab_head, tools);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", lab, strlen(lab), f, &diags), wanted);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    return f;
+}
+
+static void every_run(void **state) {
+    (void)state;
+    static const char *const tools[] = {
+        "<tool equipment=\"rie\" open=\"09:00-13:00\" days=\"Tue Thu\"/>",
+        "<tool equipment=\"rie\" open=\"08:00-12:00,13:00-18:00\"/><tool equipment=\"rie\" "
+        "closed=\"2026-11-24\" to=\"2026-11-26\"/>",
+        "<tool equipment=\"aligner\" open=\"10:00-11:00\" days=\"Mon Fri\"/><tool "
+        "equipment=\"al-bench\" open=\"09:00-17:00\"/>"};
+    for (int i = 0; i < 3; i++)
+        for (int wafers = 1; wafers <= 4; wafers += 3) {
+            fw_process_flow *f = with(tools[i], FW_OK);
+            const fw_schedule *s, *free;
+            fw_schedule_options options = {.wafers = wafers, .day = "08:00-18:00 from 2026-11-23"};
+            assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+            assert_true(s->feasible);
+            int touched = 0;
+            for (int k = 0; k < s->nrun; k++) {
+                const fw_schedule_machine *m =
+                    &s->shop->machine[s->shop->task[s->run[k].task].machine];
+                touched += m->nhours + m->nclosed > 0;
+                assert_true(inside(m, s->run[k].start_s, s->run[k].end_s));
+            }
+            assert_true(touched > 0);
+            f->ntool_time = 0; /* without hours it is not later */
+            assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &free), FW_OK);
+            assert_true(free->makespan_s <= s->makespan_s + 1e-6);
+        }
+}
+
+static void refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *tools, *says, *day;
+        bool read; /* it is refused when the pack is read, else by the schedule */
+    } bad[] = {
+        {"<tool equipment=\"ria\" open=\"09:00-13:00\"/>", "did you mean 'rie'", NULL, true},
+        {"<tool equipment=\"rie\"/>", "either when it is open", NULL, true},
+        {"<tool equipment=\"rie\" open=\"09:00-13:00\" closed=\"2026-11-24\"/>", "either when",
+         NULL, true},
+        {"<tool equipment=\"rie\" open=\"9-13\"/>", "is not like 09:00-17:00", NULL, false},
+        {"<tool equipment=\"rie\" open=\"09:00-13:00\" days=\"Mo\"/>", "are not some of Mon", NULL,
+         false},
+        {"<tool equipment=\"rie\" open=\"09:00-10:00\"/>", "never open for so long", NULL, false},
+        {"<tool equipment=\"rie\" open=\"09:00-13:00\" days=\"Mon\"/><tool equipment=\"rie\" "
+         "open=\"09:00-13:00\" days=\"Tue\"/>",
+         "never open for so long", NULL, false},
+        {"<tool equipment=\"rie\" closed=\"2026-11-24\"/>", "the plan has none", NULL, false},
+        {"<tool equipment=\"rie\" closed=\"2026-11-24\" to=\"2026-11-23\"/>", "are not two dates",
+         "08:00-18:00 from 2026-11-23", false},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        fw_process_flow *f = with(bad[i].tools, bad[i].read ? FW_INPUT : FW_OK);
+        const fw_schedule *s;
+        fw_schedule_options options = {.wafers = 1, .day = bad[i].day};
+        if (!bad[i].read)
+            assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_INPUT);
+        bool said = false;
+        for (size_t k = 0; k < diags.count; k++)
+            said = said || (diags.item[k].number == 376 &&
+                            strstr(diags.item[k].message, bad[i].says) && diags.item[k].place.line);
+        if (!said) fail_msg("case %zu: no FW-D376 with '%s'", i, bad[i].says);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(earliest_fit, setup, teardown),
+        cmocka_unit_test_setup_teardown(every_run, setup, teardown),
+        cmocka_unit_test_setup_teardown(refused, setup, teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
