@@ -130,7 +130,7 @@ static const fw_xml_attribute_row alternative_rows[] = {
     {"title", TEXT, REQUIRED, .sentence = "What people call it."},
 };
 static const fw_xml_attribute_row tool_rows[] = {
-    {"equipment", TOKEN, REQUIRED, .sentence = "An <equipment> of the flow."},
+    {"equipment", TOKEN, REQUIRED, .sentence = "An equipment of the flow."},
     {"open", TEXT,
      .sentence = "Hours between which a whole run lies, as 09:00-12:00,13:00-17:00; or it is "
                  "closed on days."},
@@ -140,7 +140,7 @@ static const fw_xml_attribute_row tool_rows[] = {
     {"to", TEXT, .datatype = "date", .sentence = "Last one; without, closed is the only one."},
 };
 static const fw_xml_attribute_row choose_rows[] = {
-    {"alternative", TOKEN, REQUIRED, .sentence = "An <alternative> of the flow."},
+    {"alternative", TOKEN, REQUIRED, .sentence = "An alternative of the flow."},
 };
 static const fw_xml_attribute_row waste_rows[] = {
     {"stream", TEXT, REQUIRED, .sentence = "Container that it goes into."},
@@ -289,8 +289,8 @@ static const fw_xml_element_row pack_rows[] = {
      .sentence = "What must be true of the wafer when the flow has ended."},
     {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
     {"alternative", "process", ROWS(alternative_rows),
-     .sentence = "Another way of doing a step: a whole <step> with the id of the one whose place "
-                 "it takes when a laboratory pack says <choose alternative>."},
+     .sentence = "Another way of doing a step: a whole step with the id of the one whose place "
+                 "it takes when a laboratory pack chooses it."},
     {"step", "process alternative", "id", ROWS(step_rows), .sentence = "A step of the flow."},
     {"ppe", "hazard", .text = true, .once = true, .needed = true,
      .sentence = "Protection that people wear."},

@@ -27,6 +27,21 @@ static fw_status laboratory_schema(fw_text *out) {
     return fw_xml_schema(&fw_process_laboratory_table, out);
 }
 
+static void element(const fw_xml_table *table, const fw_xml_element_row *e, fw_text *out) {
+    fw_xml_page_element(e, out);
+    if (e->text) fw_text_add(out, "\nIt holds text.\n");
+    if (e->nattribute > 0) fw_text_add(out, FW_XML_PAGE_HEAD);
+    for (int k = 0; k < e->nattribute; k++)
+        fw_xml_page_attribute(table, &e->attribute[k], out);
+}
+
+static bool of_packs_too(const char *name) {
+    const fw_xml_element_row *e;
+    for (int i = 0; (e = fw_xml_row_at(&fw_process_pack_table, i)) != NULL; i++)
+        if (strcmp(e->name, name) == 0) return true;
+    return false;
+}
+
 static fw_status reference_page(fw_text *out) {
     const fw_xml_table *table = &fw_process_pack_table;
     const fw_xml_element_row *e;
@@ -36,16 +51,15 @@ static fw_status reference_page(fw_text *out) {
                 "A process pack is XML in UTF-8: a flow, or what all flows share (`base.xml`). "
                 "What it means is in [theory/process.md](../theory/process.md).\n"
                 "The schema for editors is [process.rng](../../processes/process.rng). A "
-                "laboratory pack is a `<process>` with `flow`, and only `<source>`, `<q>` and "
+                "laboratory pack is a `<process>` with `flow`, and only `<source>`, `<q>`, "
+                "`<choose>`, `<tool>` and "
                 "`<correlation>` "
                 "in it ([laboratory.rng](../../processes/laboratory.rng)).\n");
-    for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++) {
-        fw_xml_page_element(e, out);
-        if (e->text) fw_text_add(out, "\nIt holds text.\n");
-        if (e->nattribute > 0) fw_text_add(out, FW_XML_PAGE_HEAD);
-        for (int k = 0; k < e->nattribute; k++)
-            fw_xml_page_attribute(table, &e->attribute[k], out);
-    }
+    for (int i = 0; (e = fw_xml_row_at(table, i)) != NULL; i++)
+        element(table, e, out);
+    fw_text_add(out, "\n## Of laboratory packs alone\n");
+    for (int i = 0; (e = fw_xml_row_at(&fw_process_laboratory_table, i)) != NULL; i++)
+        if (!of_packs_too(e->name)) element(&fw_process_laboratory_table, e, out);
     return fw_text_end(out);
 }
 
