@@ -161,18 +161,6 @@ static void find_shares(work *w, int hinge) {
 
 /* ---- bands ---- */
 
-/* the hinge that the corners strain most */
-static int most_used(const fw_verdict_variant_verdict *v) {
-    int worst = FW_NONE;
-    double most = -1.0;
-    for (int k = 0; k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h =
-            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
-        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
-    }
-    return worst;
-}
-
 static fw_status name_requirements(work *w) {
     const fw_verdict_variant_verdict *v = w->in->verdict;
     const char **name = fw_arena_array(w->arena, const char *, (size_t)v->nrequirement);
@@ -260,7 +248,7 @@ static fw_status judge_items(work *w, int hinge) {
 
 static fw_status look_at_made(work *w) {
     const fw_verdict_variant_verdict *v = w->in->verdict;
-    int hinge = most_used(v);
+    int hinge = fw_verdict_most_used(v);
     w->out->decision = v->fabricated->decision;
     if (hinge != FW_NONE) {
         find_shares(w, hinge);

@@ -44,14 +44,9 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
 
 /* distances from the openings of the device with the flow's own marks, once */
 static fw_status release_of(fw_plan *plan, fw_plan_flow *pf) {
-    const fw_layout *marked;
-    int left_out;
     if (pf->release || !plan->layout || !plan->layout->drawn) return FW_OK;
     if (!fw_process_flow_releases(pf->flow)) return FW_OK;
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &marked, &left_out));
-    return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
-                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
-                            &pf->release);
+    return fw_plan_release_solve(plan, pf, plan->layout, &pf->release);
 }
 
 fw_status fw_plan_flow_facts(fw_plan *plan, const fw_plan_flow *pf, fw_process_mask_facts *facts) {

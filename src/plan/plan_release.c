@@ -21,6 +21,16 @@ typedef struct answer {
 
 static const double FINEST_M = 27e-6, COARSEST_M = 400e-6, STEP_M = 1e-6;
 
+fw_status fw_plan_release_solve(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
+                                const fw_release **release) {
+    const fw_layout *marked;
+    int left_out;
+    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &left_out));
+    return fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
+                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
+                            release);
+}
+
 /* the device as changed: bodies are copied where bars become narrower */
 static fw_status changed_device(fw_arena *arena, const fw_device *from, const change *c,
                                 fw_device *to) {
@@ -41,10 +51,9 @@ static fw_status changed_device(fw_arena *arena, const fw_device *from, const ch
 /* drawn, measured and judged; *out.opens false where it cannot be drawn, too */
 static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, answer *out) {
     fw_device device;
-    const fw_layout *layout = NULL, *marked;
+    const fw_layout *layout = NULL;
     const fw_release *release;
     fw_process_mask_facts facts;
-    int left_out;
     fw_diags quiet = fw_diags_new(plan->arena);
     *out = (answer){0};
     FW_TRY(changed_device(plan->arena, plan->device, c, &device));
@@ -52,10 +61,7 @@ static fw_status try_change(fw_plan *plan, fw_plan_flow *pf, const change *c, an
     if (status == FW_GEOMETRY || status == FW_INPUT) return FW_OK;
     FW_TRY(status);
     if (!layout || !layout->drawn) return FW_OK;
-    FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, layout, &marked, &left_out));
-    FW_TRY(fw_release_solve(plan->arena, marked, fw_plan_insulated(pf),
-                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
-                            &release));
+    FW_TRY(fw_plan_release_solve(plan, pf, layout, &release));
     FW_TRY(fw_plan_mask_facts(plan->arena, &device, layout, &pf->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
     facts.dies = plan->dies;
@@ -154,9 +160,8 @@ fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **o
                              *const pitch[] = {"<die release-pitch=\"", "\"/>"};
     const char *const *what = frame;
     fw_mark mark = fw_arena_mark(plan->arena);
-    if (r->weakest >= 0 && r->part[r->weakest].role == FW_ROLE_FRAME) {
+    if (r->weakest >= 0 && r->part[r->weakest].role == FW_ROLE_FRAME)
         FW_TRY(find_frame(plan, pf, &size, &a));
-    }
     if (size == 0.0 && is_bar(plan, &r->part[r->slowest])) {
         what = bars;
         FW_TRY(find_bars(plan, pf, &size, &a));
@@ -167,8 +172,10 @@ fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **o
     }
     fw_arena_rewind(plan->arena, mark);
     if (size > 0.0) return words(plan, what, size, &a, out);
-    *out = "none was found: no grid of release holes down to 27 um, no wider frame and no narrower "
-           "bars open "
-           "one; anchors must be wider";
+    FW_NEED(*out = fw_arena_printf(plan->arena,
+                                   "none was found: no grid of release holes down to %.0f um, no "
+                                   "wider frame and no narrower bars open one; anchors must be "
+                                   "wider",
+                                   1e6 * FINEST_M));
     return FW_OK;
 }

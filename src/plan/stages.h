@@ -30,6 +30,9 @@ fw_status fw_plan_find_drives(fw_arena *arena, const fw_device *d, const char *f
                               fw_process_drive_facts **drive, int *n);
 /* edges of the material: a joint is a cut between two pieces, not an edge */
 double fw_plan_free_perimeter(const fw_geometry_contour *contour);
+/* distances of a drawing from its openings, with the flow's own marks (plan_release.c) */
+fw_status fw_plan_release_solve(fw_plan *plan, const fw_plan_flow *pf, const fw_layout *layout,
+                                const fw_release **release);
 /* of a flow without a window for its release: what opens one, in words (plan_release.c). The flow is
    computed again by the caller */
 fw_status fw_plan_release_change(fw_plan *plan, fw_plan_flow *pf, const char **out);

@@ -31,7 +31,8 @@ static fw_status need(fw_arena *arena, const char **missing, const fw_quantity *
 }
 
 static int loads(const fw_process_step *s, int wafers) {
-    return s->batch < 1 ? wafers : (wafers + s->batch - 1) / s->batch;
+    int load = fw_process_step_load(s);
+    return fw_process_step_is_of_lot(s) ? 1 : (wafers + load - 1) / load;
 }
 
 /* the row of a consumable, made where there is none yet */
@@ -141,17 +142,22 @@ static fw_status consumables(work *w) {
 
 /* ---- money ---- */
 
+/* NaN where the amount or the price is not known, and then one more that is left out of the sum */
+static double pay(fw_process_bill *b, const fw_quantity *price, double amount, double *sum,
+                  int *without) {
+    double cost = amount * known(price);
+    if (!price->unknown && !b->currency) b->currency = fw_quantity_unit_currency(price->unit);
+    if (isnan(cost))
+        (*without)++;
+    else
+        *sum += cost;
+    return cost;
+}
+
 static void pay_rows(fw_process_bill *b) {
-    for (int i = 0; i < b->nrow; i++) {
-        fw_process_bill_row *r = &b->row[i];
-        const fw_quantity *price = r->consumable->price;
-        if (!price->unknown && !b->currency) b->currency = fw_quantity_unit_currency(price->unit);
-        r->cost = r->amount * known(price);
-        if (isnan(r->cost))
-            b->rows_without++;
-        else
-            b->consumables_cost += r->cost;
-    }
+    for (int i = 0; i < b->nrow; i++)
+        b->row[i].cost = pay(b, b->row[i].consumable->price, b->row[i].amount, &b->consumables_cost,
+                             &b->rows_without);
 }
 
 static fw_status machines(work *w) {
@@ -171,13 +177,7 @@ static fw_status machines(work *w) {
     }
     for (int k = 0; k < b->nmachine; k++) {
         fw_process_bill_machine *m = &b->machine[k];
-        const fw_quantity *price = m->equipment->price;
-        if (!price->unknown && !b->currency) b->currency = fw_quantity_unit_currency(price->unit);
-        m->cost = m->booked_s * known(price);
-        if (isnan(m->cost))
-            b->machines_without++;
-        else
-            b->machines_cost += m->cost;
+        m->cost = pay(b, m->equipment->price, m->booked_s, &b->machines_cost, &b->machines_without);
     }
     return FW_OK;
 }

@@ -106,7 +106,6 @@ typedef struct
 } fw_process_etch;
 /* of the step that removes the flow's own material in a direction */
 fw_process_etch fw_process_flow_etch(const fw_process_flow *flow);
-#define FW_PROCESS_PRINTED_EDGE "litho.edge"
 /* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
 const char *fw_process_coupon_edge(const fw_process_flow *flow);
 /* what isotropic masked etches take from every edge on the way, and the mask adds: m */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What kinds of coupons share: fits, their test, and results. */
 #include "process/coupon.h"
+#include "process/pack.h"
 #include "base/constants.h"
 #include <math.h>
 #include <stdarg.h>
@@ -208,12 +209,6 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
     return FW_OK;
 }
 
-static const fw_quantity *argument_of(const fw_process_step *s, const char *name) {
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(s->argument[i].name, name) == 0) return s->argument[i].q;
-    return NULL;
-}
-
 fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -222,8 +217,8 @@ fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
             if (!c->anisotropy || strcmp(c->kind, "remove") != 0 || !flow->material ||
                 strcmp(c->material, flow->material) != 0)
                 continue;
-            fw_process_etch e = {.rate = argument_of(s, "rate"),
-                                 .lag = argument_of(s, "probability"),
+            fw_process_etch e = {.rate = fw_process_step_argument(s, "rate"),
+                                 .lag = fw_process_step_argument(s, "probability"),
                                  .anisotropy = c->anisotropy,
                                  .over_etch = s->overrun_from};
             for (int x = 0; x < s->nexposed && !e.selectivity; x++)

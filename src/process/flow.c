@@ -70,7 +70,7 @@ static double all_area(const fw_process_mask_facts *m) {
    an edge that prints b further out. The mask's own area is exact. All m2. */
 static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     double area = all_structure(m);
     double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
     fw_quantity_value_status worst = FW_DERIVED;
@@ -89,7 +89,7 @@ static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
 }
 
 static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
     fill(flow, "mask.structure-area", all_structure(m), 0.0);
@@ -270,7 +270,7 @@ static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
     double thickness = facts ? facts->device_thickness_m : 0.0;
     FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, thickness, p));
     flow->bias_m = p->bias_m;
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
     double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
     if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);

@@ -51,7 +51,7 @@ static bool is_solved(const fw_process_change *c) {
 /* the reach as a quantity that laws of time take; unknown where nothing is drawn */
 void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts) {
     const fw_release *r = facts ? facts->release : NULL;
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     bool known = r && r->slowest >= 0 && r->needed_m > 0.0;
     flow->release = known ? r : NULL;
     flow->release_foot_m = foot_of(flow);
@@ -149,10 +149,8 @@ static fw_status frame(fw_process_judge *j, const fw_process_step *s, double rea
 /* what a rate that is known to so much alone leaves of the window */
 static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double reach_m) {
     const fw_release *r = j->facts->release;
-    const fw_quantity *rate = NULL;
+    const fw_quantity *rate = fw_process_step_argument(s, "rate");
     fw_process_numbers t = {0};
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(s->argument[i].name, "rate") == 0) rate = s->argument[i].q;
     if (!rate || rate->unknown || r->weakest < 0 || j->flow->no_window) return FW_OK;
     double low, high, lost = r->lost_m + j->flow->release_foot_m;
     fw_process_quantity_range(rate, &low, &high);

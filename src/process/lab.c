@@ -5,10 +5,6 @@
 #include "process/wafer_state.h"
 #include <string.h>
 
-static bool computed_id(const fw_quantity *q) {
-    return strncmp(q->id, "mask.", 5) == 0 || (q->status == FW_DERIVED && q->unknown);
-}
-
 static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text) {
     fw_text out = fw_text_new(arena);
     if (q->unknown)
@@ -49,7 +45,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
                          const fw_xml_attribute *id, const fw_quantity *new) {
     fw_quantity *old = (fw_quantity *)fw_process_flow_quantity(flow, id->value);
     if (!old) return no_such(flow, diags, id);
-    if (computed_id(old))
+    if (fw_process_quantity_computed(old))
         return fw_diag_error(diags, 211, id->place,
                              "'%s' is computed from this device's mask or by a step, so that a "
                              "laboratory pack cannot replace it; state the quantities that it "

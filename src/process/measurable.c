@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "process/calibrate.h"
 #include "process/coupon.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
 
@@ -136,14 +137,10 @@ static void of_pads(meant *m) {
 static void of_rates(meant *m) {
     for (int i = 0; i < m->flow->nstep; i++) {
         const fw_process_step *s = &m->flow->step[i];
-        const fw_quantity *rate = NULL, *film = NULL;
-        for (int k = 0; k < s->nargument; k++) {
-            if (strcmp(s->argument[k].name, "rate") == 0) rate = s->argument[k].q;
-            for (int c = 0; c < s->nchange; c++)
-                if (strcmp(s->argument[k].name, "thickness") == 0 &&
-                    s->change[c].thickness == s->argument[k].q)
-                    film = s->argument[k].q;
-        }
+        const fw_quantity *rate = fw_process_step_argument(s, "rate"), *film = NULL,
+                          *thickness = fw_process_step_argument(s, "thickness");
+        for (int c = 0; c < s->nchange; c++)
+            if (thickness && s->change[c].thickness == thickness) film = thickness;
         bool again = false;
         for (int k = 0; rate && k < m->n; k++)
             again = again || strcmp(m->row[k].feature, rate->id) == 0;

@@ -63,14 +63,16 @@ fw_status fw_process_correlation_forget(fw_arena *arena, fw_process_flow *flow, 
 fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *input,
                                          int n);
 
+/* the mask or a step computes it: no laboratory states it */
+bool fw_process_quantity_computed(const fw_quantity *q);
+/* what the law of a step's time takes under this name; NULL: nothing */
+const fw_quantity *fw_process_step_argument(const fw_process_step *step, const char *name);
 /* the flow's quantity with this id, to be filled in; NULL: it has none */
 fw_quantity *fw_process_flow_own_quantity(const fw_process_flow *flow, const char *id);
 
 /* read_bath.c: baths and prices of both files, once all ids are known and before the steps; then what
    a step takes of them, and how its mask is aligned */
 fw_status fw_process_pack_baths(fw_process_pack *pack);
-fw_status fw_process_pack_consumable(fw_process_pack *pack, const fw_xml_record *e,
-                                     fw_process_consumable *consumable);
 void fw_process_pack_use(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *step);
 

@@ -375,6 +375,8 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
 /* id of the quantity that a pack leaves to the fixed point: the narrowest opening in the layer that
    masks the etch, with the bias that the mask has */
 #define FW_MASK_OPENING "mask.narrowest-opening"
+/* ... and of where the printed edge lies against the drawn one */
+#define FW_PROCESS_PRINTED_EDGE "litho.edge"
 
 /* does a step etch sideways, below what stands? */
 bool fw_process_flow_releases(const fw_process_flow *flow);
@@ -429,6 +431,10 @@ fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
+/* once for all wafers together, whatever the machine takes */
+bool fw_process_step_is_of_lot(const fw_process_step *step);
+/* most wafers that go through a step at once: what the pack and the machine both allow */
+int fw_process_step_load(const fw_process_step *step);
 /* or NULL */
 const fw_process_material *fw_process_flow_material(const fw_process_flow *flow, const char *id);
 /* the id when unknown */

@@ -32,6 +32,27 @@ void fw_process_quantity_range(const fw_quantity *q, double *low, double *high) 
     *high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
 }
 
+bool fw_process_quantity_computed(const fw_quantity *q) {
+    return strncmp(q->id, "mask.", 5) == 0 || (q->status == FW_DERIVED && q->unknown);
+}
+
+const fw_quantity *fw_process_step_argument(const fw_process_step *s, const char *name) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, name) == 0) return s->argument[i].q;
+    return NULL;
+}
+
+bool fw_process_step_is_of_lot(const fw_process_step *s) {
+    enum { ONCE_PER_LOT = 99 }; /* batch of a pack */
+    return s->batch >= ONCE_PER_LOT;
+}
+
+int fw_process_step_load(const fw_process_step *s) {
+    int capacity = s->equipment && s->equipment->capacity > 0 ? s->equipment->capacity : 1;
+    int load = s->batch < capacity ? s->batch : capacity;
+    return load < 1 ? 1 : load;
+}
+
 const fw_quantity *fw_process_law_input(const fw_process_law_use *use, const char *name) {
     for (int i = 0; i < use->nargument; i++)
         if (strcmp(use->argument[i].name, name) == 0)

@@ -129,7 +129,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(not_computable(&j));
     for (int i = 0; i < flow->nopen_point; i++)
         FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));
-    const fw_quantity *edge = fw_process_flow_quantity(flow, "litho.edge");
+    const fw_quantity *edge = fw_process_flow_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     if (edge && !edge->unknown && edge->uncertainty > 0.0) {
         fw_process_numbers t = {0};
         fw_text_printf(&j.note,

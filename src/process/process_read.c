@@ -118,7 +118,7 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
         enter(pack, id->value, FW_ID_HAZARD, base, h, id->place);
     } else if (fw_xml_is(e, "consumable")) {
         fw_process_consumable *c = &f->consumable[f->nconsumable++];
-        FW_TRY(fw_process_pack_consumable(pack, e, c));
+        *c = (fw_process_consumable){.id = id->value, .place = e->element->place};
         enter(pack, id->value, FW_ID_CONSUMABLE, base, c, id->place);
     } else if (fw_xml_is(e, "bath")) {
         fw_process_bath *b = &f->bath[f->nbath++];

@@ -6,10 +6,6 @@
 
 /* ---- what counts ---- */
 
-static bool computed(const fw_quantity *q) {
-    return strncmp(q->id, "mask.", 5) == 0 || (q->status == FW_DERIVED && q->unknown);
-}
-
 static bool among(const fw_process_argument *argument, int n, const fw_quantity *q) {
     for (int i = 0; i < n; i++)
         if (argument[i].q == q) return true;
@@ -32,7 +28,8 @@ static bool step_takes(const fw_process_step *s, const fw_quantity *q) {
 }
 
 bool fw_process_flow_takes(const fw_process_flow *flow, const fw_quantity *q) {
-    if (!q->id || computed(q) || strncmp(q->id, FW_PROCESS_READ, strlen(FW_PROCESS_READ)) == 0)
+    if (!q->id || fw_process_quantity_computed(q) ||
+        strncmp(q->id, FW_PROCESS_READ, strlen(FW_PROCESS_READ)) == 0)
         return false;
     for (int i = 0; i < flow->ncorner; i++)
         if (flow->corner[i].q == q) return true;

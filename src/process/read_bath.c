@@ -25,15 +25,14 @@ static const char *const amount_words[] = {
 static const char *const price_units[] = {
     [FW_AMOUNT_L] = "EUR/L", [FW_AMOUNT_kg] = "EUR/kg", [FW_AMOUNT_PIECE] = "EUR"};
 
-fw_status fw_process_pack_consumable(fw_process_pack *pack, const fw_xml_record *e,
-                                     fw_process_consumable *c) {
+static void read_consumable(fw_process_pack *pack, const fw_xml_record *e,
+                            fw_process_consumable *c) {
     const char *unit = fw_process_pack_text(e, "unit");
-    *c = (fw_process_consumable){.id = fw_process_pack_text(e, "id"),
-                                 .name = fw_process_pack_text(e, "name"),
-                                 .place = e->element->place};
+    const fw_xml_attribute *hazard = fw_process_pack_get(e, "hazard");
+    c->name = fw_process_pack_text(e, "name");
+    if (hazard) c->hazard = fw_process_pack_find(pack, hazard, FW_ID_HAZARD);
     for (int i = 0; i < (int)(sizeof amount_words / sizeof *amount_words); i++)
         if (strcmp(amount_words[i], unit) == 0) c->amount = (fw_process_amount)i;
-    return pack->diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* the quantity "ID.price" of the pack, or an unknown one that a laboratory may replace */
@@ -148,23 +147,18 @@ static fw_status read_bath(fw_process_pack *pack, const fw_xml_record *e, fw_pro
     return FW_OK;
 }
 
+/* consumables first: parts of baths are counted as they are */
 fw_status fw_process_pack_baths(fw_process_pack *pack) {
     const fw_xml_record *root[] = {pack->base, pack->root};
     int bath = 0, consumable = 0;
     for (int i = 0; i < 2; i++)
-        for (const fw_xml_record *e = root[i]->first_child; e; e = e->next) {
-            const fw_xml_attribute *id = fw_process_pack_get(e, "id"),
-                                   *hazard = fw_xml_is(e, "consumable")
-                                                 ? fw_process_pack_get(e, "hazard")
-                                                 : NULL;
-            if (!id) continue;
-            if (fw_xml_is(e, "bath"))
+        for (const fw_xml_record *e = root[i]->first_child; e; e = e->next)
+            if (fw_xml_is(e, "consumable") && fw_process_pack_get(e, "id"))
+                read_consumable(pack, e, &pack->flow->consumable[consumable++]);
+    for (int i = 0; i < 2; i++)
+        for (const fw_xml_record *e = root[i]->first_child; e; e = e->next)
+            if (fw_xml_is(e, "bath") && fw_process_pack_get(e, "id"))
                 FW_TRY(read_bath(pack, e, &pack->flow->bath[bath++]));
-            else if (fw_xml_is(e, "consumable")) {
-                fw_process_consumable *c = &pack->flow->consumable[consumable++];
-                if (hazard) c->hazard = fw_process_pack_find(pack, hazard, FW_ID_HAZARD);
-            }
-        }
     return prices(pack);
 }
 

@@ -38,7 +38,7 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
     if (!fine && yes)
         fw_text_add(out, "yes");
     else if (!fine)
-        fw_text_printf(out, "%s to %s", a->low[0] ? a->low : "any", a->high[0] ? a->high : "any");
+        fw_recipe_asrun_put_span(out, a->low, a->high);
     fw_text_add(out, "\n");
 }
 
@@ -48,9 +48,10 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
         fw_text_add(out, ", planned ");
         fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
     }
-    if (!fw_recipe_asrun_allowed(s))
-        fw_text_printf(out, ": OUT of %s to %s", s->low[0] ? s->low : "any",
-                       s->high[0] ? s->high : "any");
+    if (!fw_recipe_asrun_allowed(s)) {
+        fw_text_add(out, ": OUT of ");
+        fw_recipe_asrun_put_span(out, s->low, s->high);
+    }
     fw_text_add(out, "\n");
 }
 
@@ -68,12 +69,7 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         fw_text_printf(out, "      waited ");
         fw_schedule_put_duration(out, fmax(wait, 0.0));
         fw_text_printf(out, " since %s: OUT of ", l->from);
-        fw_schedule_put_duration(out, isnan(l->min_s) ? 0.0 : l->min_s);
-        fw_text_add(out, " to ");
-        if (isnan(l->max_s))
-            fw_text_add(out, "any");
-        else
-            fw_schedule_put_duration(out, l->max_s);
+        fw_recipe_asrun_put_wait(out, l);
         fw_text_add(out, "\n");
     }
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
@@ -110,9 +106,7 @@ static fw_status sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
     int times = 0;
     for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
-        times += e->step == last->step &&
-                 (e->wafer == last->wafer ||
-                  (e->wafer && last->wafer && strcmp(e->wafer, last->wafer) == 0));
+        times += e->step == last->step && fw_recipe_asrun_same_wafer(e, last);
     return times;
 }
 

@@ -117,13 +117,8 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
                                       .place = r->place};
     for (int i = 0; i < FW_RECIPE_SITES; i++)
         c->site[i] = (double)NAN;
-    for (char *word = copy, *next; word; word = next) {
-        char *end = strchr(word, ',');
-        next = end ? end + 1 : NULL;
-        if (end) *end = '\0';
-        word += strspn(word, " ");
-        for (size_t n = strlen(word); n > 0 && word[n - 1] == ' ';)
-            word[--n] = '\0';
+    for (char *at = copy; at;) {
+        char *word = fw_recipe_asrun_word(&at, ',');
         if (!c->row.coupon)
             c->row.coupon = word;
         else if (word[0])

@@ -6,13 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-static bool same_id(const char *a, const char *b) {
-    return a == b || (a && b && strcmp(a, b) == 0);
+bool fw_recipe_asrun_same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->wafer == b->wafer || (a->wafer && b->wafer && strcmp(a->wafer, b->wafer) == 0);
 }
 
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && same_id(later->wafer, e->wafer)) return false;
+        if (later->step == e->step && fw_recipe_asrun_same_wafer(later, e)) return false;
     return true;
 }
 
@@ -88,10 +88,21 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
     return FW_OK;
 }
 
-static void put_span(fw_text *out, const char *low, const char *high, const char *unit) {
-    bool plain = strcmp(unit, "1") == 0;
-    fw_text_printf(out, "%s to %s%s%s", low[0] ? low : "any", high[0] ? high : "any",
-                   plain ? "" : " ", plain ? "" : unit);
+void fw_recipe_asrun_put_span(fw_text *out, const char *low, const char *high) {
+    fw_text_printf(out, "%s to %s", low[0] ? low : "any", high[0] ? high : "any");
+}
+
+void fw_recipe_asrun_put_wait(fw_text *out, const fw_process_lag *lag) {
+    fw_schedule_put_duration(out, isnan(lag->min_s) ? 0.0 : lag->min_s);
+    fw_text_add(out, " to ");
+    if (isnan(lag->max_s))
+        fw_text_add(out, "any");
+    else
+        fw_schedule_put_duration(out, lag->max_s);
+}
+
+static void put_unit(fw_text *out, const char *unit) {
+    if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }
 
 static fw_status times_of(builder *b, const fw_recipe_asrun_entry *e) {
@@ -118,13 +129,15 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
         if (word) {
             fw_text_add(&planned, "yes");
             fw_text_add(&is, m->value);
-        } else
-            put_span(&planned, a->low, a->high, a->unit);
+        } else {
+            fw_recipe_asrun_put_span(&planned, a->low, a->high);
+            put_unit(&planned, a->unit);
+        }
         for (int k = 0, n = 0; k < FW_RECIPE_SITES && !word; k++) {
             if (isnan(m->site[k]) || inside(a->low, a->high, m->site[k])) continue;
             fw_text_add(&is, n++ ? ", " : "");
             fw_recipe_put_value(&is, m->site[k]);
-            if (strcmp(a->unit, "1") != 0) fw_text_printf(&is, " %s", a->unit);
+            put_unit(&is, a->unit);
             if (m->nsite > 1) fw_text_printf(&is, " (%s)", fw_recipe_site_name[k]);
         }
         FW_TRY(add(b, e, m->measure, &planned, &is));
@@ -141,9 +154,10 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
             fw_recipe_put_value(&planned, fw_quantity_in_unit(s->q));
             fw_text_add(&planned, "; ");
         }
-        put_span(&planned, s->low, s->high, s->q->unit);
+        fw_recipe_asrun_put_span(&planned, s->low, s->high);
+        put_unit(&planned, s->q->unit);
         fw_recipe_put_value(&is, s->value);
-        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(&is, " %s", s->q->unit);
+        put_unit(&is, s->q->unit);
         FW_TRY(add(b, e, fw_arena_printf(b->arena, "setting %s", s->name), &planned, &is));
     }
     return FW_OK;
@@ -155,12 +169,7 @@ static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recip
         double wait = fw_recipe_asrun_waited(run, l, e);
         if (fw_recipe_asrun_wait_is_fine(l, wait)) continue;
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
-        fw_schedule_put_duration(&planned, isnan(l->min_s) ? 0.0 : l->min_s);
-        fw_text_add(&planned, " to ");
-        if (isnan(l->max_s))
-            fw_text_add(&planned, "any");
-        else
-            fw_schedule_put_duration(&planned, l->max_s);
+        fw_recipe_asrun_put_wait(&planned, l);
         fw_schedule_put_duration(&is, fmax(wait, 0.0));
         FW_TRY(add(b, e, fw_arena_printf(b->arena, "wait since %s", l->from), &planned, &is));
     }

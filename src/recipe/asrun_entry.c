@@ -49,16 +49,9 @@ static const char *const own_words[] = {"start", "end",  "by",    "second",    "
                                         "bath",  "note", "wafer", "instrument"};
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
-/* <accept> of the step with this name, or NULL */
-static const fw_process_accept *accept_of(const fw_process_step *step, const char *measure) {
-    for (int i = 0; i < step->naccept; i++)
-        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
-    return NULL;
-}
-
 static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
-    const fw_process_accept *a = accept_of(e->step, name);
+    const fw_process_accept *a = fw_recipe_asrun_accept(e->step, name);
     fw_recipe_measured m = {.measure = name, .value = value, .number = (double)NAN};
     /* without its plan, whose values may stand in the name of a measure, only coupons are wanted */
     if (!r->bound) return FW_OK;
@@ -126,9 +119,8 @@ static fw_status no_setting(const fw_recipe_asrun_reader *r, const fw_process_st
 
 static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
-    fw_recipe_set set = {.name = name, .text = value, .value = (double)NAN, .low = "", .high = ""};
     name += strspn(name, " ");
-    set.name = name;
+    fw_recipe_set set = {.name = name, .text = value, .value = (double)NAN, .low = "", .high = ""};
     for (int i = 0; i < e->nset; i++)
         if (strcmp(e->set[i].name, name) == 0)
             return fw_diag_error(r->diags, 282, r->place, "set %s is given twice", name);
@@ -228,13 +220,8 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     FW_NEED(e->measured = fw_arena_array(r->arena, fw_recipe_measured, most));
     FW_NEED(e->set = fw_arena_array(r->arena, fw_recipe_set, most));
     FW_NEED(e->coupon = fw_arena_array(r->arena, fw_recipe_coupon, most));
-    for (char *word = copy, *next; word; word = next) {
-        char *end = strchr(word, separator);
-        next = end ? end + 1 : NULL;
-        if (end) *end = '\0';
-        word += strspn(word, " ");
-        for (size_t length = strlen(word); length > 0 && word[length - 1] == ' ';)
-            word[--length] = '\0';
+    for (char *at = copy; at;) {
+        char *word = fw_recipe_asrun_word(&at, separator);
         if (!word[0]) continue;
         char *equal = strchr(word, '=');
         if (!e->step) {

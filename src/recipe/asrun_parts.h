@@ -33,6 +33,9 @@ fw_status fw_recipe_asrun_values_in(const fw_recipe_asrun_reader *r, const char 
                                     const char *unit, const fw_quantity *range,
                                     fw_recipe_asrun_values *v);
 double fw_recipe_asrun_mean(const double *site);
+/* the next word of *at up to the separator, without blanks around it and ended there; *at moves behind it, NULL: it was
+   the last */
+char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
@@ -51,5 +54,10 @@ bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
                               const fw_recipe_asrun_entry *e);
 bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s);
+/* of one wafer, or both of the whole lot */
+bool fw_recipe_asrun_same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b);
+/* "48 to 52", "any to 52"; the limits of a wait */
+void fw_recipe_asrun_put_span(fw_text *out, const char *low, const char *high);
+void fw_recipe_asrun_put_wait(fw_text *out, const fw_process_lag *lag);
 
 #endif

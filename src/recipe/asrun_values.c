@@ -29,6 +29,15 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
                          meant ? "'?" : "");
 }
 
+char *fw_recipe_asrun_word(char **at, char separator) {
+    char *word = *at + strspn(*at, " "), *end = strchr(word, separator);
+    *at = end ? end + 1 : NULL;
+    if (end) *end = '\0';
+    for (size_t n = strlen(word); n > 0 && word[n - 1] == ' ';)
+        word[--n] = '\0';
+    return word;
+}
+
 typedef struct scan {
     int position; /* of the next number without a name; -1: they have names */
     bool named;

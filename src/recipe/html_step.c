@@ -159,9 +159,9 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
             fw_text_add(out, "; ");
             fw_text_escaped(out, s->equipment->text);
         }
-        if (s->batch > 1 && s->batch < 99)
+        if (s->batch > 1 && !fw_process_step_is_of_lot(s))
             fw_text_printf(out, ". Up to %d wafers at once", s->batch);
-        if (s->batch >= 99) fw_text_add(out, ". Once per lot");
+        if (fw_process_step_is_of_lot(s)) fw_text_add(out, ". Once per lot");
         fw_text_add(out, ".</p>\n");
     }
 }

@@ -87,8 +87,8 @@ static void one_line(const fw_process_step *s, fw_text *out) {
 }
 
 void fw_recipe_html_wafers(const fw_process_step *s, const fw_recipe_header *header, fw_text *out) {
-    int wafers = header->schedule ? header->schedule->shop->wafers : 1;
-    bool lot = s->batch >= 99;
+    int wafers = fw_recipe_wafers(header);
+    bool lot = fw_process_step_is_of_lot(s);
     if (lot) wafers = 1;
     for (int first = 0; first < wafers; first += WAFERS_ABREAST)
         some_wafers(s, first, wafers - first < WAFERS_ABREAST ? wafers - first : WAFERS_ABREAST,

@@ -5,10 +5,6 @@
 #include "recipe/recipe_words.h"
 #include <math.h>
 
-static int wafers_of(const fw_recipe_header *header) {
-    return header->schedule ? header->schedule->shop->wafers : 1;
-}
-
 /* ---- page ---- */
 
 static void amount(const fw_process_consumable *c, double si, fw_text *out) {
@@ -134,7 +130,7 @@ static void costs(const fw_process_bill *b, fw_text *out) {
 fw_status fw_recipe_html_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_text *out) {
     fw_process_bill b;
-    FW_TRY(fw_process_flow_bill(out->arena, flow, wafers_of(header), &b));
+    FW_TRY(fw_process_flow_bill(out->arena, flow, fw_recipe_wafers(header), &b));
     if (b.nrow == 0) return FW_OK;
     fw_text_printf(out, "<h3>Baths and consumables of this lot, %d wafer%s</h3>\n", b.wafers,
                    b.wafers == 1 ? "" : "s");
@@ -184,7 +180,7 @@ static void json_bath(fw_json *out, const fw_process_bill_bath *b) {
 fw_status fw_recipe_json_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_json *out) {
     fw_process_bill b;
-    FW_TRY(fw_process_flow_bill(out->out->arena, flow, wafers_of(header), &b));
+    FW_TRY(fw_process_flow_bill(out->out->arena, flow, fw_recipe_wafers(header), &b));
     fw_json_object(out, "bill");
     fw_json_number(out, "wafers", b.wafers, FW_PLAIN_DIGITS);
     fw_json_list(out, "baths");

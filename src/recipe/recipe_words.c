@@ -137,14 +137,17 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *f) 
     return "";
 }
 
+int fw_recipe_wafers(const fw_recipe_header *header) {
+    return header->schedule ? header->schedule->shop->wafers : 1;
+}
+
 void fw_recipe_put_moment(fw_text *out, const fw_schedule_calendar *c, double seconds) {
-    static const char *const name[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
     long minutes = lround(seconds / 60.0), civil[3];
     if (c->dated) {
         fw_schedule_civil(c->first_day + minutes / 1440, civil);
         fw_text_printf(out, "%s %04ld-%02ld-%02ld, %02ld:%02ld",
-                       name[fw_schedule_calendar_weekday(c, minutes / 1440)], civil[0], civil[1],
-                       civil[2], minutes / 60 % 24, minutes % 60);
+                       fw_schedule_weekday[fw_schedule_calendar_weekday(c, minutes / 1440)],
+                       civil[0], civil[1], civil[2], minutes / 60 % 24, minutes % 60);
         return;
     }
     fw_text_printf(out, "day %ld, %02ld:%02ld", minutes / 1440 + 1, minutes / 60 % 24,

@@ -16,6 +16,9 @@ typedef struct fw_recipe_row {
 fw_status fw_recipe_step_rows(fw_arena *arena, const fw_process_step *step, fw_recipe_row **row,
                               int *n);
 
+/* of the lot: those of the schedule, else one */
+int fw_recipe_wafers(const fw_recipe_header *header);
+
 /* standard uncertainty in the quantity's own unit */
 double fw_recipe_row_uncertainty(const fw_quantity *q);
 /* shortest text of at most 12 digits: what arithmetic adds beyond them is no information. An

@@ -218,18 +218,6 @@ static const char *unit_of(const fw_verdict_fabrication_input *in) {
     return pure ? "" : in->q.unit;
 }
 
-/* of the hinges of a flow the one that its corners strain most; FW_NONE: none was run */
-static int most_used(const fw_verdict_variant_verdict *v) {
-    int worst = FW_NONE;
-    double most = -1.0;
-    for (int k = 0; k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h =
-            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
-        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
-    }
-    return worst;
-}
-
 /* ---- terminal ---- */
 
 static void assumed(fw_text *out, const fw_verdict_variant_verdict *v) {
@@ -249,7 +237,7 @@ void fw_report_fabricated_text(fw_text *out, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         if (!v->fabricated) continue;
-        int k = most_used(v);
+        int k = fw_verdict_most_used(v);
         fw_text_printf(out, "\nas %s makes it: %s (as drawn: %s)\n", v->variant->flow,
                        fw_verdict_decision_text(v->fabricated->decision),
                        fw_verdict_decision_text(v->drawn));

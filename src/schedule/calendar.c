@@ -5,6 +5,8 @@
 
 static const double day_s = 86400.0;
 
+const char *const fw_schedule_weekday[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
+
 bool fw_schedule_calendar_round(const fw_schedule_calendar *c) {
     return c->open_s <= 0.0 && c->close_s >= day_s && c->breaks == 0 && c->closed_days == 0;
 }

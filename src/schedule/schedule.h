@@ -146,6 +146,7 @@ double fw_schedule_calendar_worked(const fw_schedule_calendar *calendar, double 
 bool fw_schedule_calendar_round(const fw_schedule_calendar *calendar); /* round the clock */
 /* when the first working day begins, s from 0:00 of day 1 */
 double fw_schedule_calendar_start(const fw_schedule_calendar *calendar);
+extern const char *const fw_schedule_weekday[7]; /* "Mon" ... */
 /* 0: Monday; `day` counts from 0 */
 int fw_schedule_calendar_weekday(const fw_schedule_calendar *calendar, long day);
 /* "2026-11-23", whatever follows: days since 1970-01-01, negative before. false: no date of the

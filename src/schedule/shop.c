@@ -4,8 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { ONCE_PER_LOT = 99 }; /* batch of a pack */
-
 typedef struct making {
     fw_arena *arena;
     const fw_process_flow *flow;
@@ -39,20 +37,19 @@ static bool never_alone(const fw_process_step *s) {
 static void make_task(making *m, int index) {
     const fw_process_step *s = &m->flow->step[index];
     fw_schedule_task *t = &m->task[index];
-    int capacity = s->equipment && s->equipment->capacity > 0 ? s->equipment->capacity : 1;
     *t = (fw_schedule_task){.id = s->id,
                             .title = s->title,
                             .machine = machine_of(m, s),
                             .attended_s = s->attended_s,
                             .duration_s = s->attended_s,
                             .latest_s = s->attended_s,
-                            .lot = s->batch >= ONCE_PER_LOT,
+                            .lot = fw_process_step_is_of_lot(s),
                             .by_day = never_alone(s),
                             .unknown = !s->time.computable};
     t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
-    t->load = t->alone ? 1 : t->lot ? m->shop->wafers : s->batch < capacity ? s->batch : capacity;
-    t->load = t->load < 1 ? 1 : t->load > m->shop->wafers ? m->shop->wafers : t->load;
-    if (t->alone) m->machine[t->machine].places = capacity;
+    t->load = t->alone ? 1 : t->lot ? m->shop->wafers : fw_process_step_load(s);
+    t->load = t->load > m->shop->wafers ? m->shop->wafers : t->load;
+    if (t->alone && s->equipment) m->machine[t->machine].places = s->equipment->capacity;
     if (t->unknown) return;
     t->duration_s = fmax(s->attended_s, s->booked_s);
     t->latest_s = fmax(t->duration_s, s->booked_stop_s);

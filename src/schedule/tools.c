@@ -23,12 +23,12 @@ double fw_schedule_machine_fit(const fw_schedule_machine *m, double from_s, doub
 
 /* "Mon Tue": the others are closed; false: another word, or none */
 static bool days_of(const char *text, unsigned *closed) {
-    static const char *const name[] = {"Mon", "Tue", "Wed", "Thu", "Fri", "Sat", "Sun"};
     unsigned open = 0;
     while (*text) {
         size_t n = strcspn(text, " \t\n");
         int day = 0;
-        while (day < 7 && (strlen(name[day]) != n || strncmp(text, name[day], n) != 0))
+        while (day < 7 && (strlen(fw_schedule_weekday[day]) != n ||
+                           strncmp(text, fw_schedule_weekday[day], n) != 0))
             day++;
         if (day == 7) return false;
         open |= 1u << day;

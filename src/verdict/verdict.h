@@ -318,6 +318,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *verdict);
+/* of the hinges of a flow the one that its corners strain most; FW_NONE: none was run */
+int fw_verdict_most_used(const fw_verdict_variant_verdict *verdict);
 /* The same search with other ranges (input, ninput), after fw_verdict_as_fabricated with the same
    device, layout and options: its bands. Devices that were run for v->fabricated are not run again.
    hinge: of v, or FW_NONE. v is left alone. Test: tests/unit/verdict/test_ranges.c */

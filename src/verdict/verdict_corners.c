@@ -464,3 +464,14 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);
 }
+
+int fw_verdict_most_used(const fw_verdict_variant_verdict *v) {
+    int worst = FW_NONE;
+    double most = -1.0;
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h =
+            &v->fabricated->corner[v->fabricated->hinge[k].corner].hinge[k];
+        if (h->scene && h->utilisation > most) most = h->utilisation, worst = k;
+    }
+    return worst;
+}
