@@ -14,9 +14,7 @@ static fw_status chosen(const char *name, const char *from, const char *to,
 }
 
 static void expect(int number, const char *says) {
-    for (size_t k = 0; k < diags.count; k++)
-        if (diags.item[k].number == number && strstr(diags.item[k].message, says)) return;
-    fail_msg("no FW-D%d with '%s'", number, says);
+    if (!said_of(number, says)) fail_msg("no FW-D%d with '%s'", number, says);
 }
 
 /* each one of the packs is a flow that passes every check, and differs in its step alone */

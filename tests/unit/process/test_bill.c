@@ -5,14 +5,6 @@
 #include "process/calibrate.h"
 #include <math.h>
 
-static fw_process_flow *computed(const char *name, const char *from, const char *to) {
-    diags = fw_diags_new(arena);
-    fw_process_flow *f = read_pack(arena, name, from, to, &diags);
-    assert_non_null(f);
-    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
-    return f;
-}
-
 static fw_process_bill bill_of(const fw_process_flow *f, int wafers) {
     fw_process_bill b;
     assert_int_equal(fw_process_flow_bill(arena, f, wafers, &b), FW_OK);
@@ -36,7 +28,7 @@ static const fw_process_bill_bath *bath(const fw_process_bill *b, const char *id
 /* 80 to 5 to 10 parts of 1 mL in a dish for one wafer, twice */
 static void amounts(void **state) {
     (void)state;
-    fw_process_flow *f = computed(SILICON, NULL, NULL);
+    fw_process_flow *f = computed_pack(SILICON, NULL, NULL);
     for (int n = 1; n <= 7; n++) {
         fw_process_bill b = bill_of(f, n);
         assert_int_equal(bath(&b, "pan")->fillings, n);
@@ -57,7 +49,7 @@ static void amounts(void **state) {
 /* six wafers a load in S02 and S20, two in the dryer: ceil */
 static void loads_and_fillings(void **state) {
     (void)state;
-    fw_process_flow *f = computed(SILICON, NULL, NULL);
+    fw_process_flow *f = computed_pack(SILICON, NULL, NULL);
     measured(f, "solvent.volume", 1e-3, 0);
     measured(f, "alcohol.volume", 0.5e-3, 0);
     measured(f, "sc1.volume", 7e-3, 0);
@@ -84,7 +76,7 @@ static void loads_and_fillings(void **state) {
 /* 0.5 mol/L of the pentahydrate in 2 L: 249.685 g */
 static void weighed(void **state) {
     (void)state;
-    fw_process_flow *f = computed(COPPER, NULL, NULL);
+    fw_process_flow *f = computed_pack(COPPER, NULL, NULL);
     measured(f, "cu.bath-c", 500.0, 0);
     measured(f, "cu.bath-serves", 10, 0);
     fw_process_bill b = bill_of(f, 4);
@@ -115,7 +107,7 @@ static fw_status priced(fw_process_flow *f, const char *rows) {
 
 static void prices(void **state) {
     (void)state;
-    fw_process_flow *f = computed(SILICON, NULL, NULL);
+    fw_process_flow *f = computed_pack(SILICON, NULL, NULL);
     assert_int_equal(priced(f, PRICE("phosphoric.price", "40", "EUR/L")
                                    PRICE("photoresist.price", "0.5", "EUR/mL")
                                        PRICE("rie.price", "60", "EUR/h")),
@@ -148,15 +140,12 @@ static void bad_prices(void **state) {
         {PRICE("pan.serves", "0.5", "1"), 370, "less than one wafer"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        fw_process_flow *f = computed(SILICON, NULL, NULL);
+        fw_process_flow *f = computed_pack(SILICON, NULL, NULL);
         diags = fw_diags_new(arena);
         assert_int_equal(priced(f, bad[i].rows), FW_INPUT);
-        bool found = false;
-        for (size_t k = 0; k < diags.count; k++)
-            found =
-                found || (diags.item[k].number == bad[i].number &&
-                          strstr(diags.item[k].message, bad[i].says) && diags.item[k].place.line);
-        if (!found) fail_msg("case %zu: no FW-D%03d with '%s'", i, bad[i].number, bad[i].says);
+        const fw_diag *d = said_of(bad[i].number, bad[i].says);
+        if (!d || !d->place.line)
+            fail_msg("case %zu: no FW-D%03d with '%s'", i, bad[i].number, bad[i].says);
     }
 }
 
@@ -190,11 +179,8 @@ static void bad_packs(void **state) {
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         diags = fw_diags_new(arena);
         assert_null(read_pack(arena, SILICON, bad[i].from, bad[i].to, &diags));
-        bool found = false;
-        for (size_t k = 0; k < diags.count; k++)
-            found = found || (diags.item[k].number == bad[i].number &&
-                              strstr(diags.item[k].message, bad[i].says));
-        if (!found) fail_msg("case %zu: no FW-D%03d with '%s'", i, bad[i].number, bad[i].says);
+        const fw_diag *d = said_of(bad[i].number, bad[i].says);
+        if (!d) fail_msg("case %zu: no FW-D%03d with '%s'", i, bad[i].number, bad[i].says);
     }
 }
 

@@ -3,15 +3,8 @@
    the packs as they are pass (test_pack.c, packs_are_clean). */
 #include "pack_fixture.h"
 
-static const fw_diag *found(int number, const char *says) {
-    for (size_t k = 0; k < diags.count; k++)
-        if (diags.item[k].number == number && strstr(diags.item[k].message, says))
-            return &diags.item[k];
-    return NULL;
-}
-
 static void expect(int number, const char *says) {
-    const fw_diag *d = found(number, says);
+    const fw_diag *d = said_of(number, says);
     if (!d)
         fail_msg("no FW-D%d with '%s', but '%s'", number, says,
                  diags.count ? diags.item[0].message : "nothing");
@@ -79,7 +72,7 @@ static void mistakes_of_a_flow(void **state) {
         diags = fw_diags_new(arena);
         assert_null(read_pack(arena, bad[i].flow, bad[i].from, bad[i].to, &diags));
         expect(bad[i].number, bad[i].says);
-        assert_string_equal(found(bad[i].number, bad[i].says)->place.file, "flow.xml");
+        assert_string_equal(said_of(bad[i].number, bad[i].says)->place.file, "flow.xml");
     }
 }
 
@@ -156,14 +149,6 @@ static void shared_hazards(void **state) {
     expect(174, "'h.hf-copper' is hydrofluoric acid");
 }
 
-static fw_process_flow *computed(const char *name, const char *from, const char *to) {
-    diags = fw_diags_new(arena);
-    fw_process_flow *f = read_pack(arena, name, from, to, &diags);
-    assert_non_null(f);
-    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
-    return f;
-}
-
 static int reasons(const fw_process_flow *f, const char *says) {
     int n = 0;
     for (int i = 0; i < f->nreason; i++)
@@ -185,21 +170,21 @@ static void loss(void **state) {
         const char *to = fw_arena_printf(
             arena, "<q id=\"rie.selectivity\" least=\"1\" most=\"100000\" value=\"%g\" u=\"%g\"",
             at[i].S, at[i].u);
-        fw_process_flow *f = computed(SILICON, from, to);
+        fw_process_flow *f = computed_pack(SILICON, from, to);
         assert_int_equal(reasons(f, "of the open"), at[i].gone >= 0);
-        assert_int_equal(found(270, "S18") != NULL, at[i].gone == 1);
+        assert_int_equal(said_of(270, "S18") != NULL, at[i].gone == 1);
         assert_int_equal(f->manufacturable, at[i].gone == 1 ? 0 : -1); /* A is unknown anyway */
     }
     /* by rate: the developer takes 75 nm/min for 60 s and 20 % over: 90 nm */
-    fw_process_flow *f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
-                                  "<q id=\"develop.al\" value=\"840\" u=\"0\"");
+    fw_process_flow *f = computed_pack(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
+                                       "<q id=\"develop.al\" value=\"840\" u=\"0\"");
     assert_int_equal(reasons(f,
                              "step S11 takes 1.01 um of the open aluminium, sputtered, 1 um thick, "
                              "at a rate of 840 nm/min (u = 0): it lasts below 833.3 nm/min"),
                      1);
-    assert_non_null(found(270, "S11"));
-    f = computed(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
-                 "<q id=\"develop.al\" value=\"500\" u=\"0\"");
+    assert_non_null(said_of(270, "S11"));
+    f = computed_pack(SILICON, "<q id=\"develop.al\" value=\"75\" u=\"15\"",
+                      "<q id=\"develop.al\" value=\"500\" u=\"0\"");
     assert_int_equal(reasons(f, "step S11"), 0);
 }
 
@@ -215,12 +200,12 @@ static void mould(void **state) {
         assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
         bool over = thick_um[i] > 16.0;
         assert_int_equal(reasons(f, "grows over it"), over);
-        assert_int_equal(found(273, "C22") != NULL, over);
+        assert_int_equal(said_of(273, "C22") != NULL, over);
         if (over) assert_int_equal(f->manufacturable, 0);
     }
     fw_process_flow *f =
-        computed(COPPER, "thickness=\"cu.d\" where=\"structure\"/>",
-                 "thickness=\"cu.d\" where=\"structure\" spread=\"mould.spins\"/>");
+        computed_pack(COPPER, "thickness=\"cu.d\" where=\"structure\"/>",
+                      "thickness=\"cu.d\" where=\"structure\" spread=\"mould.spins\"/>");
     assert_int_equal(reasons(f, "plates up to 18 um"), 1); /* twice the mean */
 }
 
@@ -248,7 +233,7 @@ static void bath(void **state) {
         assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
         const fw_quantity *taken = fw_process_flow_quantity(f, "cu.taken");
         assert_near(taken->value, 1.269e-3, 1e-6);
-        const fw_diag *d = found(279, "C22");
+        const fw_diag *d = said_of(279, "C22");
         assert_int_equal(d != NULL, cases[i].warns);
         if (!d) continue;
         assert_non_null(strstr(d->message, "8.46")); /* 1.269 mmol of 15 mmol, in % */

@@ -136,11 +136,8 @@ static void refused(void **state) {
         fw_schedule_options options = {.wafers = 1, .day = bad[i].day};
         if (!bad[i].read)
             assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_INPUT);
-        bool said = false;
-        for (size_t k = 0; k < diags.count; k++)
-            said = said || (diags.item[k].number == 376 &&
-                            strstr(diags.item[k].message, bad[i].says) && diags.item[k].place.line);
-        if (!said) fail_msg("case %zu: no FW-D376 with '%s'", i, bad[i].says);
+        const fw_diag *d = said_of(376, bad[i].says);
+        if (!d || !d->place.line) fail_msg("case %zu: no FW-D376 with '%s'", i, bad[i].says);
     }
 }
 
