@@ -197,8 +197,8 @@ static inline char *millionths(char *at, uint64_t n) {
    integer is known unless the product lies within 2^-12 of halfway: that, and all that is larger,
    goes to the library. So the digits are those of printf always. Test: test_growing_text.c. */
 char *fw_fixed_text(char *buffer, double value, int decimals) {
-    static const double ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
-    double product = decimals >= 0 && decimals <= 9 ? fabs(value) * ten[decimals] : HUGE_VAL;
+    static const double ten[] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+    double product = decimals >= 0 && decimals <= 12 ? fabs(value) * ten[decimals] : HUGE_VAL;
     if (!(product < 1099511627776.0)) return fixed_by_library(buffer, value, decimals);
     uint64_t n = (uint64_t)(int64_t)product;
     double rest = product - (double)(int64_t)n;

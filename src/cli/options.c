@@ -155,6 +155,11 @@ static const char *take_mask_flatten(fw_cli_options *o, const char *v) {
     return *v && fw_mask_flattening_named(v, &kind) ? NULL : "needs inside or equal-area";
 }
 
+static const char *take_layers(fw_cli_options *o, const char *v) {
+    o->design.layers = v;
+    return *v ? NULL : "needs the name of a file";
+}
+
 static const char *take_mask_vertices(fw_cli_options *o, const char *v) {
     static const char *const word[] = {"199", "4094", "8190"};
     static const int32_t most[] = {199, 4094, 8190};
@@ -425,6 +430,11 @@ static const fw_cli_option_row table[] = {
      "cut "
      "at vertices",
      FW_OPT_FABRICATE, take_mask_vertices},
+    {"layers", 0, "FILE",
+     "the laboratory's own layer numbers, 0 to 65535, and names, a line for each layer: \"structure 7/0 "
+     "name POLY2\"; LAYER is an id or a role of the layer table, lines below \"flow NAME\" are for that "
+     "flow, # begins a remark",
+     FW_OPT_FABRICATE, take_layers},
     {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},
     {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
      take_operators},

@@ -233,6 +233,7 @@ typedef struct fw_mask_plate {
 fw_status fw_mask_plate_gds(const fw_mask_plate *plate, fw_text *out);
 fw_status fw_mask_plate_svg(const fw_mask_plate *plate, fw_text *out);
 fw_status fw_mask_plate_oasis(const fw_mask_plate *plate, fw_text *out);
+fw_status fw_mask_plate_dxf(const fw_mask_plate *plate, fw_text *out);
 
 typedef struct fw_mask_format { /* a row of formats.def */
     const char *name, *ending;  /* as the user says it; of the file */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/rule.h"
+#include "mask/layer_map.h"
 #include "mask/mask.h"
 #include <math.h>
 #include <stdlib.h>
@@ -13,24 +14,9 @@ static const char *const tones[] = {"data clear", "data dark", NULL};
 
 /* ---- forms of text ---- */
 
-static bool is_identifier(const char *s) {
-    size_t n = strlen(s);
-    if (n == 0 || n > 32) return false;
-    return strspn(s, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == n;
-}
-
-static bool read_gds(const char *s, long *layer, long *datatype) {
-    char *end;
-    *layer = strtol(s, &end, 10);
-    if (!(s[0] >= '0' && s[0] <= '9' && *end == '/' && end[1] >= '0' && end[1] <= '9'))
-        return false;
-    *datatype = strtol(end + 1, &end, 10);
-    return *end == '\0' && *layer >= 1 && *layer <= 63 && *datatype >= 0 && *datatype <= 63;
-}
-
 static bool is_gds(const char *s) {
-    long layer, datatype;
-    return read_gds(s, &layer, &datatype);
+    int layer, datatype;
+    return fw_mask_gds_pair(s, &layer, &datatype);
 }
 
 static bool is_colour(const char *s) {
@@ -220,7 +206,7 @@ static fw_status patterns_build(fw_xml_reader *r, fw_mask_table *table) {
 
 #define REQUIRED .required = true
 #define NAME                                                                                       \
-    .kind = FW_KIND_FORM, .form = is_identifier, .reason = "a name of 1 to 32 of A-Z a-z 0-9 _ -"
+    .kind = FW_KIND_FORM, .form = fw_mask_is_name, .reason = "a name of 1 to 32 of A-Z a-z 0-9 _ -"
 #define LEAST                                                                                      \
     FW_MASK_LENGTH, .ranged = true, .max = 1e-2, .reason = "no design rule is wider than 10 mm",   \
                     .fallback = "no rule"
@@ -234,8 +220,7 @@ static const fw_xml_attribute_row root_rows[] = {
 };
 static const fw_xml_attribute_row layer_rows[] = {
     {"gds", .kind = FW_KIND_FORM, .form = is_gds, REQUIRED,
-     .reason = "LAYER/DATATYPE with layer 1 to 63 and data type 0 to 63, which every mask shop "
-               "reads, for example 1/0",
+     .reason = "LAYER/DATATYPE, both 0 to 65535, for example 1/0; every mask shop reads 1 to 63",
      .sentence = "Its numbers in GDSII and OASIS."},
     {"id", NAME, REQUIRED, .sentence = "Name that rules use."},
     {"name", NAME, REQUIRED, .sentence = "Name in files of masks."},
@@ -298,6 +283,13 @@ static unsigned roles_of(const fw_xml_record *record) {
     return roles;
 }
 
+int fw_mask_layer_of_role(const fw_mask_table *table, const char *role) {
+    for (unsigned r = 0; r < FW_ROLE_COUNT; r++)
+        for (int k = 0; strcmp(role_names[r], role) == 0 && k < table->nlayer; k++)
+            if (table->layer[k].roles & 1u << r) return k;
+    return -1;
+}
+
 static fw_mask_layer layer_of(fw_diags *diags, const fw_xml_record *record) {
     fw_mask_layer l = {.id = fw_xml_text_of(record, "id"),
                        .name = fw_xml_text_of(record, "name"),
@@ -310,11 +302,7 @@ static fw_mask_layer layer_of(fw_diags *diags, const fw_xml_record *record) {
                        .documentation = fw_mask_says(record, "documentation", "yes"),
                        .place = record->element->place};
     const char *gds = fw_xml_text_of(record, "gds");
-    long layer, datatype;
-    if (gds && read_gds(gds, &layer, &datatype)) {
-        l.layer = (int)layer;
-        l.datatype = (int)datatype;
-    }
+    if (!gds || !fw_mask_gds_pair(gds, &l.layer, &l.datatype)) l.layer = l.datatype = -1;
     const fw_xml_cell *width = fw_xml_cell_of(record, "min-width"),
                       *space = fw_xml_cell_of(record, "min-space");
     l.min_width_m = width->ok ? width->number : 0.0;
@@ -348,7 +336,7 @@ static void check_collisions(const fw_mask_table *table, fw_diags *diags) {
                 fw_diag_error(diags, 142, b->place,
                               "layer id \"%s\" is used twice, first in line %d", b->id,
                               a->place.line);
-            if (a->layer > 0 && a->layer == b->layer && a->datatype == b->datatype)
+            if (a->layer >= 0 && a->layer == b->layer && a->datatype == b->datatype)
                 fw_diag_error(diags, 142, b->place,
                               "layer %d/%d is used twice, first in line %d; choose a free number",
                               b->layer, b->datatype, a->place.line);

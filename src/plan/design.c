@@ -155,7 +155,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
                            &o.independent,    &o.rates,        &o.accelerations, &o.corners,
                            &o.hinge_model,    &o.mask_formats, &o.mask_flatten,  &o.day,
                            &o.planning_times, &o.laboratory,   &o.cut,           &o.advice,
-                           &o.measurements};
+                           &o.measurements,   &o.layers};
     for (size_t i = 0; i < sizeof text / sizeof text[0]; i++)
         FW_TRY(keep(arena, text[i]));
     d->wrong_option = wrong_option(&o);
@@ -169,6 +169,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     p->mask_vertices = o.mask_vertices;
     p->mask_flatten = o.mask_flatten;
     p->laboratory = o.laboratory;
+    p->layers = o.layers;
     p->cut = o.cut;
     p->schedule = (fw_schedule_options){
         .wafers = o.wafers, .operators = o.operators, .day = o.day, .planned = o.planning_times};

@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "base/output.h"
+#include "mask/layer_map.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"
 #include <math.h>
@@ -152,6 +153,31 @@ static fw_status warn_of_unused_packs(fw_plan *plan) {
                             "this laboratory pack has no effect: it is for a flow that is not "
                             "planned here");
     return plan->diags.failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- the laboratory's layer numbers ---- */
+
+static fw_status read_layers(fw_plan *plan) {
+    char *text;
+    size_t n;
+    const char *file = plan->options.layers;
+    FW_TRY(fw_input_read(plan->arena, file, MOST_PACK_BYTES, &plan->diags, &text, &n));
+    const char *slash = strrchr(file, '/');
+    FW_TRY(remember_input(plan, slash ? slash + 1 : file, text, n));
+    FW_NEED(plan->layers = fw_arena_one(plan->arena, fw_mask_layer_map));
+    return fw_mask_layer_map_read(plan->arena, file, text, n, &plan->diags, plan->layers);
+}
+
+/* lines that no flow of the device has a layer for */
+static fw_status check_layers(fw_plan *plan) {
+    if (!plan->layers) return FW_OK;
+    const fw_mask_table **table =
+        fw_arena_array(plan->arena, const fw_mask_table *, (size_t)plan->nflow);
+    FW_NEED(table);
+    int n = 0;
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].table) table[n++] = plan->flow[i].table;
+    return fw_mask_layer_map_finish(plan->arena, plan->layers, table, n, &plan->diags);
 }
 
 /* ---- the description and its flows ---- */
@@ -389,6 +415,9 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     FW_NEED(table);
     FW_TRY(fw_mask_table_read(plan->arena, name, xml, n, &plan->diags, table));
     pf->table = table;
+    if (plan->options.layers && !plan->layers) FW_TRY(read_layers(plan));
+    if (plan->layers)
+        FW_TRY(fw_mask_layer_map_apply(plan->arena, plan->layers, table, &plan->diags));
     size_t errors = plan->diags.errors;
     check_coupons(plan, pf->flow, table);
     return plan->diags.errors > errors ? FW_INPUT : FW_OK;
@@ -536,5 +565,6 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
     FW_TRY(references);
     plan->device = device;
     FW_TRY(load_flows(plan));
+    FW_TRY(check_layers(plan));
     return warn_of_unused_packs(plan);
 }

@@ -45,6 +45,7 @@ typedef struct fw_plan_options {
     size_t memory_cap;            /* 0: 512 MiB */
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
     fw_plan_measurements measurements;
+    const char *layers; /* file of the laboratory's layer numbers (mask/layer_map.h); NULL: none */
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -110,6 +111,7 @@ typedef struct fw_plan {
     int ndrawing;
     struct fw_plan_lab *lab; /* (nlab) laboratory packs as read */
     int nlab;
+    struct fw_mask_layer_map *layers; /* numbers of the laboratory; NULL: none */
     const char *base_file, *base_xml;
     size_t base_length;
     struct fw_plan **step; /* (nstep) plans of the steps of a wafer's sweeps; NULL: not planned */

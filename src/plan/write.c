@@ -163,6 +163,10 @@ static void options(fw_json *json, const fw_plan_options *o) {
                  o->mask_tolerance_m > 0 ? o->mask_tolerance_m * 1e9 : 5.0);
     fw_json_text(json, "mask_formats", o->mask_formats);
     fw_json_whole(json, "mask_vertices", o->mask_vertices ? o->mask_vertices : 4094);
+    if (o->layers) {
+        const char *slash = strrchr(o->layers, '/');
+        fw_json_text(json, "layers", slash ? slash + 1 : o->layers);
+    }
     fw_json_real(json, "accuracy", motion->accuracy);
     fw_json_text(json, "effects", effects_text(&motion->effects));
     fw_json_text(json, "hinge_model", fw_effects_hinge_model_text(motion->effects.hinge));
