@@ -192,6 +192,32 @@ static fw_device_wafer_side side_of(const fw_xml_record *record) {
     return says(record, "flat-side", "right") ? FW_SIDE_RIGHT : FW_SIDE_BOTTOM;
 }
 
+static int whole_or(const fw_xml_record *record, const char *name, int other) {
+    double value = fw_xml_number_or(record, name, other);
+    return isfinite(value) ? (int)value : other;
+}
+
+static fw_device_order_asked order_of(const fw_xml_record *record) {
+    return (fw_device_order_asked){.quartz = says(record, "material", "quartz"),
+                                   .thickness_m = fw_xml_number_of(record, "thickness"),
+                                   .cd_m = fw_xml_number_of(record, "cd-tolerance"),
+                                   .registration_m = fw_xml_number_of(record, "registration"),
+                                   .defect_m = fw_xml_number_of(record, "defect"),
+                                   .mirror = says(record, "mirror", "yes")  ? FW_MIRROR_YES
+                                             : says(record, "mirror", "no") ? FW_MIRROR_NO
+                                                                            : FW_MIRROR_READ,
+                                   .pellicle = says(record, "pellicle", "yes"),
+                                   .quantity = whole_or(record, "quantity", 1),
+                                   .place = record->element->place};
+}
+
+/* nothing is said */
+static const fw_device_order_asked no_order = {.thickness_m = (double)NAN,
+                                               .cd_m = (double)NAN,
+                                               .registration_m = (double)NAN,
+                                               .defect_m = (double)NAN,
+                                               .quantity = 1};
+
 static fw_device_wafer_asked wafer_of(const fw_xml_record *record) {
     double tests = fw_xml_number_or(record, "test-dies", 0);
     return (fw_device_wafer_asked){.asked = true,
@@ -209,6 +235,7 @@ static fw_device_wafer_asked wafer_of(const fw_xml_record *record) {
                                    .blocks = says(record, "assign", "blocks"),
                                    .plate_m = fw_xml_number_of(record, "plate"),
                                    .title = fw_xml_text_of(record, "title"),
+                                   .order = no_order,
                                    .place = record->element->place};
 }
 
@@ -276,6 +303,9 @@ static fw_status add_sweep(fw_device_reader *r, const fw_xml_record *record) {
 fw_status fw_device_build_wafer(fw_device_reader *r) {
     for (int i = 0; i < r->xml.nrecord; i++)
         if (fw_xml_is(&r->xml.record[i], "wafer")) r->device->wafer = wafer_of(&r->xml.record[i]);
+    for (int i = 0; i < r->xml.nrecord; i++)
+        if (fw_xml_is(&r->xml.record[i], "order"))
+            r->device->wafer.order = order_of(&r->xml.record[i]);
     for (int i = 0; i < r->xml.nrecord; i++)
         if (fw_xml_is(&r->xml.record[i], "sweep")) FW_TRY(add_sweep(r, &r->xml.record[i]));
     return r->diags->failed ? FW_NOMEM : FW_OK;

@@ -373,6 +373,20 @@ typedef struct fw_device_sweep { /* <sweep parameter from to steps> */
     fw_place place;
 } fw_device_sweep;
 
+typedef struct fw_device_order_asked { /* <order> of a wafer; NaN, NULL: chosen by the wafer room */
+    bool quartz;                       /* else soda-lime glass */
+    double thickness_m, cd_m, registration_m, defect_m;
+    enum {
+        FW_MIRROR_READ,
+        FW_MIRROR_YES,
+        FW_MIRROR_NO
+    } mirror; /* of the written data; READ: as the
+                                                    plate's reading says, seen with the chrome up */
+    bool pellicle;
+    int quantity;
+    fw_place place;
+} fw_device_order_asked;
+
 typedef struct fw_device_wafer_asked { /* <wafer>; NaN: chosen by the wafer room */
     bool asked;
     double diameter_m, flat_m, edge_m;
@@ -386,6 +400,7 @@ typedef struct fw_device_wafer_asked { /* <wafer>; NaN: chosen by the wafer room
     const char *title;        /* NULL: the die's */
     fw_device_sweep sweep[2]; /* (nsweep) along columns, along rows */
     int nsweep;
+    fw_device_order_asked order;
     fw_place place;
 } fw_device_wafer_asked;
 

@@ -18,6 +18,8 @@ static const char *const yes_no[] = {"yes", "no", NULL};
 static const char *const wafer_centres[] = {"auto", "die", "street", NULL};
 static const char *const wafer_sides[] = {"bottom", "top", "left", "right", NULL};
 static const char *const wafer_alignments[] = {"none", "2 sites", NULL};
+static const char *const order_materials[] = {"soda-lime", "quartz", NULL};
+static const char *const order_mirrors[] = {"as read", "yes", "no", NULL};
 static const char *const wafer_assignments[] = {"round-robin", "blocks", NULL};
 
 static const fw_xml_attribute_row device_rows[] = {
@@ -215,6 +217,30 @@ static const fw_xml_attribute_row wafer_rows[] = {
      .sentence = "Edge of the square mask plate."},
     {"title", TEXT, .fallback = "the die's title", .sentence = "Written on the plate."},
 };
+static const fw_xml_attribute_row order_rows[] = {
+    {"material", .kind = FW_KIND_WORD, .words = order_materials, .fallback = "soda-lime",
+     .sentence = "Of the plate. Quartz is for exposure below 350 nm and for close registration."},
+    {"thickness", D_LENGTH, .unit = "mm", RANGE(0.5e-3, 20e-3, "plates are 1 to 13 mm thick"),
+     .fallback = "as usual for the size", .sentence = "Of the plate."},
+    {"mirror", .kind = FW_KIND_WORD, .words = order_mirrors, .fallback = "as read",
+     .sentence = "Are the written data the mirror image of the drawing? as read: the written file "
+                 "is what is seen with the chrome up."},
+    {"cd-tolerance", D_LENGTH, .unit = "um",
+     RANGE(10e-9, 10e-6, "plates are held to 0.01 to 10 um"),
+     .fallback = "from the verdict: what the governing hinge can bear",
+     .sentence = "What a width on the plate may be off by, either way."},
+    {"registration", D_LENGTH, .unit = "um",
+     RANGE(10e-9, 10e-6, "plates are held to 0.01 to 10 um"),
+     .fallback = "a third of the closest overlay that the flow asks for",
+     .sentence = "What a place on the plate may be off by, either way."},
+    {"defect", D_LENGTH, .unit = "um", RANGE(50e-9, 100e-6, "what inspection sees"),
+     .fallback = "a third of the least feature or space",
+     .sentence = "Largest defect that may stay."},
+    {"pellicle", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "A film over the plate; not for contact or proximity printing."},
+    {"quantity", D_PURE, WHOLE, RANGE(1, 100, "an order of more is a mistake"), .fallback = "1",
+     .sentence = "How many plates."},
+};
 static const fw_xml_attribute_row sweep_rows[] = {
     {"parameter", REF(FW_SPACE_PARAMETER), REQUIRED,
      .sentence = "Which parameter differs from die to die."},
@@ -244,6 +270,8 @@ static const fw_xml_element_row own[] = {
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
+    {"order", "wafer", .once = true, ROWS(order_rows),
+     .sentence = "What the mask shop is asked for; all that is not said has a value of its own."},
     {"sweep", "wafer", .most = 2, ROWS(sweep_rows),
      .sentence = "A parameter that differs from die to die: the first along columns, the second "
                  "along rows."},

@@ -249,6 +249,23 @@ static const fw_mask_layer_entry *entry_for(fw_mask_layer_map *map, const fw_mas
     return found;
 }
 
+/* "plate" is the one layer of the plate as it is written */
+static void name_plate(fw_mask_layer_map *map, fw_mask_table *table) {
+    const fw_mask_layer_entry *found = NULL;
+    for (int i = 0; i < map->n; i++) {
+        fw_mask_layer_entry *e = &map->entry[i];
+        if (strcmp(e->layer, "plate") != 0 || layer_named(table, e->layer) >= 0) continue;
+        if (e->flow && (!table->flow || strcmp(e->flow, table->flow) != 0)) continue;
+        e->used = true;
+        if (!found || e->flow) found = e;
+    }
+    if (!found) return;
+    table->written_numbered = found->number >= 0;
+    table->written_layer = found->number;
+    table->written_datatype = found->datatype;
+    table->written_name = found->name;
+}
+
 static void warn_of_large(const fw_mask_layer_entry *e, fw_diags *diags) {
     if (e->number <= 32767 && e->datatype <= 32767) return;
     fw_diag_warning(diags, 383, e->number_place,
@@ -273,6 +290,7 @@ fw_status fw_mask_layer_map_apply(fw_arena *arena, fw_mask_layer_map *map, fw_ma
         if (e->name) y->name = e->name;
         if (e->number >= 0) warn_of_large(e, diags);
     }
+    name_plate(map, table);
     for (int j = 1; j < table->nlayer; j++)
         for (int i = 0; i < j; i++)
             check_pair(table, by, i, j, diags);
@@ -309,7 +327,9 @@ fw_status fw_mask_layer_map_finish(fw_arena *arena, const fw_mask_layer_map *map
         if (planned)
             fw_diag_error(diags, 381, e->place,
                           "no layer has the id or the role \"%s\": %s; roles are structure, "
-                          "flexure, frame, tether, text, mark, dicing, back",
+                          "flexure, frame, tether, text, mark, dicing, back; \"plate\" is the "
+                          "layer of the plate "
+                          "as it is written",
                           e->layer, names_of(arena, table, ntable, e->flow));
         else if (!told || strcmp(told, e->flow) != 0)
             fw_diag_warning(diags, 383, e->place,

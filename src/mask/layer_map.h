@@ -9,7 +9,7 @@
        lane      name SAW
 
    LAYER [NUMBER/DATATYPE] [name NAME]. LAYER is the id of a layer of the table, or a role that is
-   drawn on it (structure, text, mark, ...). Lines below `flow NAME` are for that flow alone, lines
+   drawn on it (structure, text, mark, ...), or "plate": the one layer of the plate as it is written. Lines below `flow NAME` are for that flow alone, lines
    above the first one for every flow. Numbers are 0 to 65535. */
 #ifndef FW_MASK_LAYER_MAP_H
 #define FW_MASK_LAYER_MAP_H

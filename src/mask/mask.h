@@ -60,6 +60,10 @@ typedef struct fw_mask_table {
     int nlayer;
     const char *order;  /* what is on the plate, for the mask shop; may be NULL */
     const char *plate;  /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    bool written_numbered; /* the plate as it is written has a number of its own; else its first
+                              layer's */
+    int written_layer, written_datatype;
+    const char *written_name; /* NULL: "PLATE" */
     fw_mask_rule *rule; /* (nrule) rows <rule>; the rules of <layer> itself are not among them */
     int nrule;
     const fw_layout_pattern *pattern; /* (npattern) of the test die, in the order of the file */

@@ -81,6 +81,35 @@ static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_va
                     index + 1, name, flow, v->why ? v->why : "no mask");
 }
 
+/* of the hinge that the corners strain most: dU/dx of an input that moves edges, over what it moves them
+   by, gives dU per metre of an edge; a line that is wider by d has each edge moved by d/2 */
+static fw_status width_effect(fw_plan *plan, int flow, fw_wafer_width_effect *out) {
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[flow];
+    int h = fw_verdict_most_used(v);
+    *out = (fw_wafer_width_effect){.per_m = (double)NAN, .used = (double)NAN};
+    if (!v->fabricated || h < 0 || h >= v->nhinge) return FW_OK;
+    const fw_verdict_fabricated_hinge *made = &v->fabricated->hinge[h];
+    for (int i = 0; made->share && i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        if (in->edge_m == 0 || in->thickness != 0 || in->youngs != 0 || !(in->sigma > 0)) continue;
+        double per = 0.5 * made->share[i] / in->sigma / in->edge_m;
+        if (isnan(out->per_m) || fabs(per) > fabs(out->per_m)) out->per_m = per;
+    }
+    if (isnan(out->per_m)) return FW_OK;
+    out->used = made->most;
+    FW_NEED(out->what = fw_arena_printf(plan->arena, "hinge %s", v->hinge[h].id));
+    return FW_OK;
+}
+
+static double overlay_of(const fw_process_flow *flow) {
+    double least = (double)NAN;
+    for (int i = 0; flow && i < flow->nstep; i++) {
+        const fw_process_align *a = &flow->step[i].align;
+        if (a->to && a->overlay && !a->overlay->unknown) least = fmin(least, a->overlay->value);
+    }
+    return least;
+}
+
 static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const char *const *why) {
     fw_plan_flow *pf = &plan->flow[flow];
     const fw_device_wafer_asked *w = &plan->device->wafer;
@@ -98,7 +127,11 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
             v[i].value[k] = value[i][k];
         if (!v[i].mask) say(plan, w, &v[i], i, pf->use->ref);
     }
+    fw_wafer_width_effect effect;
+    FW_TRY(width_effect(plan, flow, &effect));
     const fw_wafer_input input = {
+        .effect = effect,
+        .overlay_m = overlay_of(pf->flow),
         .device = plan->device,
         .table = pf->table,
         .variant = v,

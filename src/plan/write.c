@@ -353,6 +353,30 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", name, ".order.txt", &order);
 }
 
+/* the plate as the shop writes it, with an order sheet of its own; no picture, no notes */
+static fw_status write_written(writer *w, const fw_plan_flow *pf) {
+    unsigned set;
+    fw_wafer_written written;
+    if (!pf->wafer) return FW_OK;
+    if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
+    const char *name = fw_arena_printf(w->plan->arena, "%s-plate", pf->use->ref);
+    FW_NEED(name);
+    FW_TRY(fw_wafer_written_of(w->plan->arena, pf->wafer, &written));
+    const fw_mask_format *format;
+    for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
+        if (!(set & 1u << i) || !format->plate || format->plate == fw_mask_plate_svg) continue;
+        fw_text text = fw_text_new(w->scratch);
+        FW_TRY(fw_wafer_write_written(&written, format, &text));
+        FW_TRY(put(w, "masks/", name, format->ending, &text));
+    }
+    fw_output_file *own;
+    int n;
+    FW_TRY(files_of(w, pf->use->ref, "-plate", &own, &n));
+    fw_text order = fw_text_new(w->scratch);
+    FW_TRY(fw_wafer_write_written_order(pf->wafer, &written, own, n, &order));
+    return put(w, "masks/", name, ".order.txt", &order);
+}
+
 /* the map of a release, where the flow has one */
 static fw_status write_release(writer *w, const fw_plan_flow *pf) {
     const fw_layout *marked;
@@ -462,6 +486,7 @@ static fw_status write_all(writer *w, unsigned what) {
         if ((what & FW_WRITE_MASKS) && plan->flow[i].violated)
             FW_TRY(write_violations(w, &plan->flow[i]));
         if (what & FW_WRITE_MASKS) FW_TRY(write_wafer(w, &plan->flow[i]));
+        if (what & FW_WRITE_MASKS) FW_TRY(write_written(w, &plan->flow[i]));
         if ((what & FW_WRITE_RECIPES) && plan->flow[i].flow)
             FW_TRY(write_recipe(w, &plan->flow[i]));
     }

@@ -8,6 +8,7 @@
 #define FW_WAFER_WAFER_H
 #include "device/device.h"
 #include "mask/mask.h"
+#include "mask/mask_merge.h"
 
 enum { FW_WAFER_MOST_DIES = 20000 };
 
@@ -76,6 +77,13 @@ typedef struct fw_wafer_variant {
     int dies;                    /* filled by fw_wafer_build */
 } fw_wafer_variant;
 
+/* what a width on the plate does to what governs the verdict, from its corners */
+typedef struct fw_wafer_width_effect {
+    const char *what; /* "hinge A"; NULL: not known */
+    double used;      /* most of its limit at any corner */
+    double per_m;     /* change of that for lines that are 1 m wider, first order */
+} fw_wafer_width_effect;
+
 typedef struct fw_wafer_input {
     const fw_device *device;
     const fw_mask_table *table;
@@ -84,10 +92,21 @@ typedef struct fw_wafer_input {
     fw_wafer_variant stand_in; /* the description as it stands: for variants without a mask */
     fw_wafer_variant test;     /* the die with coupons; mask NULL: its sites get the marks of an
                                   alignment site */
-    fw_mask_options mask;      /* bias, tolerance, vertex limit of the plate's own cells */
+    fw_wafer_width_effect effect;
+    double overlay_m;     /* closest that the flow aligns a mask; NaN: it aligns none */
+    fw_mask_options mask; /* bias, tolerance, vertex limit of the plate's own cells */
 } fw_wafer_input;
 
+/* what a cell is of: a die that is lettered with its id, the letters of a row or a column, or else */
+typedef enum fw_wafer_cell_kind {
+    FW_WAFER_CELL_OTHER,
+    FW_WAFER_CELL_DIE,
+    FW_WAFER_CELL_ROW,
+    FW_WAFER_CELL_COLUMN
+} fw_wafer_cell_kind;
+
 typedef struct fw_wafer_cell {
+    fw_wafer_cell_kind kind;
     const char *name; /* of the GDSII structure */
     const fw_mask *mask;
     int32_t dx, dy; /* of its origin from the lower left corner of a place */
@@ -116,9 +135,13 @@ typedef struct fw_wafer {
     fw_wafer_run *run; /* (nrun) */
     int nrun;
     int dies, alignments, tests;
-    bool ids;               /* dies are lettered */
-    fw_geometry_vec2 id_at; /* lower left corner of the id from that of a place, m */
-    double stroke_m;        /* of its letters */
+    bool ids;                    /* dies are lettered */
+    fw_geometry_vec2 id_at;      /* lower left corner of the id from that of a place, m */
+    double stroke_m;             /* of its letters */
+    fw_mask_window id_window[2]; /* of its row and of its column, from the lower left corner of a
+                                    place: they share an edge */
+    fw_wafer_width_effect effect;
+    double overlay_m; /* as in fw_wafer_input */
     bool rejected;
 } fw_wafer;
 
@@ -132,6 +155,20 @@ fw_status fw_wafer_write_format(const fw_wafer *wafer, const fw_mask_format *for
 fw_status fw_wafer_write_csv(const fw_wafer *wafer, fw_text *out); /* one line per place */
 fw_status fw_wafer_write_map(const fw_wafer *wafer, fw_text *out); /* SVG for people */
 fw_status fw_wafer_write_json(const fw_wafer *wafer, const char *gds_sha256, fw_text *out);
+
+/* ---- the plate as the shop writes it: wafer_written.c ---- */
+typedef struct fw_wafer_written {
+    fw_mask_plate plate;     /* one layer */
+    fw_mask_merge_sums sums; /* over all places */
+    int cells, references;
+    bool mirrored;
+} fw_wafer_written;
+fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *wafer, fw_wafer_written *written);
+/* in a format that has plates */
+fw_status fw_wafer_write_written(const fw_wafer_written *written, const fw_mask_format *format,
+                                 fw_text *out);
+fw_status fw_wafer_write_written_order(const fw_wafer *wafer, const fw_wafer_written *written,
+                                       const fw_output_file *file, int nfile, fw_text *out);
 
 /* for the mask shop, with the files that go with it */
 fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file, int nfile,

@@ -98,15 +98,17 @@ static fw_status check_spaces(fw_wafer_maker *m) {
 
 /* ---- cells ---- */
 
-static fw_status add_die(fw_wafer_maker *m, const fw_wafer_variant *v, const char *suffix,
-                         int *cell) {
+static fw_status add_die(fw_wafer_maker *m, fw_wafer_cell_kind kind, const fw_wafer_variant *v,
+                         const char *suffix, int *cell) {
     const char *own = v->mask->cell, *name = own;
     int32_t dx, dy;
     if (*suffix)
         FW_NEED(name = fw_arena_printf(m->arena, "%.*s%s",
                                        FW_WAFER_LONGEST_NAME - (int)strlen(suffix), own, suffix));
     fw_wafer_origin(&m->wafer->grid, v->die, &dx, &dy);
-    return fw_wafer_add_cell(m, name, v->mask, dx, dy, cell);
+    FW_TRY(fw_wafer_add_cell(m, name, v->mask, dx, dy, cell));
+    m->wafer->cell[*cell].kind = kind;
+    return FW_OK;
 }
 
 /* cell per variant that has dies; those without a mask share that of the stand-in */
@@ -119,10 +121,11 @@ static fw_status add_dies(fw_wafer_maker *m, int *of_variant) {
         if (w->variant[v].dies == 0) continue;
         if (w->nvariant > 1) snprintf(suffix, sizeof suffix, "_V%d", v + 1);
         if (w->variant[v].mask) {
-            FW_TRY(add_die(m, &w->variant[v], suffix, &of_variant[v]));
+            FW_TRY(add_die(m, FW_WAFER_CELL_DIE, &w->variant[v], suffix, &of_variant[v]));
             continue;
         }
-        if (stand_in < 0) FW_TRY(add_die(m, &m->input->stand_in, "_NOMINAL", &stand_in));
+        if (stand_in < 0)
+            FW_TRY(add_die(m, FW_WAFER_CELL_DIE, &m->input->stand_in, "_NOMINAL", &stand_in));
         of_variant[v] = stand_in;
     }
     return FW_OK;
@@ -141,7 +144,8 @@ static fw_status place(fw_wafer_maker *m) {
         FW_TRY(fw_wafer_alignment_mask(m, &mask));
         if (mask) FW_TRY(fw_wafer_add_cell(m, "ALIGNMENT_SITE", mask, 0, 0, &marks));
     }
-    if (w->tests > 0 && own_test) FW_TRY(add_die(m, &m->input->test, "", &test));
+    if (w->tests > 0 && own_test)
+        FW_TRY(add_die(m, FW_WAFER_CELL_OTHER, &m->input->test, "", &test));
     for (int i = 0; i < w->grid.nsite; i++) {
         const fw_wafer_site *s = &w->grid.site[i];
         of_site[i] = s->kind == FW_WAFER_DIE                ? of_variant[s->variant]
@@ -178,6 +182,8 @@ fw_status fw_wafer_build(fw_arena *arena, const fw_wafer_input *input, fw_diags 
                     .table = input->table,
                     .nvariant = input->nvariant,
                     .stand_in = input->stand_in,
+                    .effect = input->effect,
+                    .overlay_m = input->overlay_m,
                     .title = title,
                     .flow = input->table->flow};
     FW_NEED(w->variant = fw_arena_array(arena, fw_wafer_variant, (size_t)input->nvariant));

@@ -128,8 +128,8 @@ static double line_width(size_t letters, double stroke) {
     return ((LETTER + APART) * (double)letters - APART) * stroke;
 }
 
-static fw_status add_name(fw_wafer_maker *m, const char *prefix, const char *text, int *cell,
-                          double *width) {
+static fw_status add_name(fw_wafer_maker *m, fw_wafer_cell_kind kind, const char *prefix,
+                          const char *text, int *cell, double *width) {
     double stroke = m->wafer->stroke_m;
     fw_wafer_sheet s = {.maker = m};
     FW_TRY(fw_layout_text(m->arena, text, (fw_geometry_vec2){0, 0}, HIGH * stroke, stroke,
@@ -139,7 +139,9 @@ static fw_status add_name(fw_wafer_maker *m, const char *prefix, const char *tex
     FW_NEED(name);
     const fw_mask *mask;
     FW_TRY(fw_wafer_sheet_mask(&s, name, &mask));
-    return fw_wafer_add_cell(m, name, mask, 0, 0, cell);
+    FW_TRY(fw_wafer_add_cell(m, name, mask, 0, 0, cell));
+    m->wafer->cell[*cell].kind = kind;
+    return FW_OK;
 }
 
 static int32_t dbu(double m) {
@@ -148,7 +150,7 @@ static int32_t dbu(double m) {
 
 /* the letters of one row, in arrays over neighbouring dies */
 static fw_status add_row(fw_wafer_maker *m, int start, int end, double field) {
-    const fw_wafer *w = m->wafer;
+    fw_wafer *w = m->wafer;
     const fw_wafer_grid *g = &w->grid;
     char text[FW_WAFER_NAME];
     int cell = -1;
@@ -159,17 +161,19 @@ static fw_status add_row(fw_wafer_maker *m, int start, int end, double field) {
         while (i + n < end && g->site[i + n].kind == FW_WAFER_DIE)
             n++;
         if (cell < 0)
-            FW_TRY(add_name(m, "ROW", fw_wafer_row_name(g->site[i].row, text), &cell, &width));
-        FW_TRY(fw_wafer_add_run(
-            m, (fw_wafer_run){cell, g->site[i].x + dbu(w->id_at.x + field - width),
-                              g->site[i].y + dbu(w->id_at.y), n, 1, g->pitch_x, g->pitch_y}));
+            FW_TRY(add_name(m, FW_WAFER_CELL_ROW, "ROW", fw_wafer_row_name(g->site[i].row, text),
+                            &cell, &width));
+        int32_t dx = dbu(w->id_at.x + field - width), dy = dbu(w->id_at.y);
+        FW_TRY(fw_wafer_add_run(m, (fw_wafer_run){cell, g->site[i].x + dx, g->site[i].y + dy, n, 1,
+                                                  g->pitch_x, g->pitch_y}));
+        w->cell[cell].dx = dx, w->cell[cell].dy = dy;
     }
     return FW_OK;
 }
 
 /* the number of one column; at[r]: its site in row r or -1 */
 static fw_status add_column(fw_wafer_maker *m, const int *at, int column, double from) {
-    const fw_wafer *w = m->wafer;
+    fw_wafer *w = m->wafer;
     const fw_wafer_grid *g = &w->grid;
     char text[FW_WAFER_NAME];
     int cell = -1;
@@ -180,13 +184,26 @@ static fw_status add_column(fw_wafer_maker *m, const int *at, int column, double
         while (r + n < g->rows && at[r + n] >= 0)
             n++;
         if (cell < 0)
-            FW_TRY(add_name(m, "COLUMN", fw_wafer_column_name(g, column, text), &cell, &width));
+            FW_TRY(add_name(m, FW_WAFER_CELL_COLUMN, "COLUMN",
+                            fw_wafer_column_name(g, column, text), &cell, &width));
         const fw_wafer_site *lowest = &g->site[at[r + n - 1]];
-        FW_TRY(fw_wafer_add_run(m, (fw_wafer_run){cell, lowest->x + dbu(w->id_at.x + from),
-                                                  lowest->y + dbu(w->id_at.y), 1, n, g->pitch_x,
-                                                  g->pitch_y}));
+        int32_t dx = dbu(w->id_at.x + from), dy = dbu(w->id_at.y);
+        FW_TRY(fw_wafer_add_run(
+            m, (fw_wafer_run){cell, lowest->x + dx, lowest->y + dy, 1, n, g->pitch_x, g->pitch_y}));
+        w->cell[cell].dx = dx, w->cell[cell].dy = dy;
     }
     return FW_OK;
+}
+
+/* what the letters of a die and half the margin around them take: the written plate draws it apart, so
+   that dies stay alike. The place was found in a bar of the frame with the whole margin free. */
+static void set_windows(fw_wafer *w, size_t letters, size_t all) {
+    double stroke = w->stroke_m, m = 0.5 * MARGIN_M;
+    int32_t y0 = dbu(w->id_at.y - m), y1 = dbu(w->id_at.y + HIGH * stroke + m);
+    int32_t between = dbu(w->id_at.x + line_width(letters, stroke) + 0.5 * APART * stroke);
+    w->id_window[0] = (fw_mask_window){dbu(w->id_at.x - m), y0, between, y1};
+    w->id_window[1] =
+        (fw_mask_window){between, y0, dbu(w->id_at.x + line_width(all, stroke) + m), y1};
 }
 
 static fw_status letter(fw_wafer_maker *m, size_t letters) {
@@ -231,7 +248,10 @@ fw_status fw_wafer_ids(fw_wafer_maker *m) {
          stroke -= 1e-6) {
         w->stroke_m = fw_layout_to_grid(stroke);
         w->ids = find_place(d, n, line_width(all, w->stroke_m), HIGH * w->stroke_m, &w->id_at);
-        if (w->ids) return letter(m, letters);
+        if (w->ids) {
+            set_windows(w, letters, all);
+            return letter(m, letters);
+        }
     }
     if (n > 0)
         fw_diag_warning(m->diags, 193, w->device->wafer.place,

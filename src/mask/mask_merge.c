@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "mask/mask_merge.h"
+#include "geometry/merge.h"
+#include "mask/mask_polygons.h"
+#include <math.h>
+#include <string.h>
+
+fw_status fw_mask_written_table(fw_arena *arena, const fw_mask_table *table,
+                                const fw_mask_table **out) {
+    fw_mask_plate_term *term;
+    int n;
+    FW_TRY(fw_mask_plate_terms(arena, table, &term, &n));
+    fw_mask_table *t = fw_arena_one(arena, fw_mask_table);
+    fw_mask_layer *layer = fw_arena_one(arena, fw_mask_layer);
+    FW_NEED(t && layer ? t : NULL);
+    if (n > 0) *layer = table->layer[term[0].layer];
+    layer->id = "plate";
+    layer->name = table->written_name ? table->written_name : "PLATE";
+    layer->purpose = "the plate as it is written: the layers of the order joined";
+    if (table->written_numbered) {
+        layer->layer = table->written_layer;
+        layer->datatype = table->written_datatype;
+    }
+    *t = *table;
+    t->layer = layer;
+    t->nlayer = 1;
+    t->plate = t->order = NULL;
+    t->rule = NULL;
+    t->nrule = 0;
+    *out = t;
+    return FW_OK;
+}
+
+/* ---- what is joined ---- */
+
+typedef struct joined {
+    fw_geometry_merge_input *input;
+    int n;
+    fw_geometry_merge_term *term;
+    int nterm;
+} joined;
+
+/* set 0 is the window, set 1 + k the k-th different layer of the expression */
+static fw_status terms_of(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
+                          joined *j, int *set_of) {
+    fw_mask_plate_term *term;
+    int n, sets = 1;
+    FW_TRY(fw_mask_plate_terms(arena, mask->table, &term, &n));
+    FW_NEED(j->term = fw_arena_array(arena, fw_geometry_merge_term, (size_t)n + 1));
+    for (int k = 0; k < mask->table->nlayer; k++)
+        set_of[k] = -1;
+    for (int i = 0; i < n; i++) {
+        int *set = &set_of[term[i].layer];
+        if (*set < 0) *set = sets++;
+        if (sets > FW_MERGE_SETS) return FW_LIMIT;
+        j->term[j->nterm++] = (fw_geometry_merge_term){*set, term[i].rule};
+    }
+    bool windowed = o->window.x1 > o->window.x0;
+    if (windowed)
+        j->term[j->nterm++] = (fw_geometry_merge_term){0, o->under < 0 ? FW_SET_NOT : FW_SET_AND};
+    return FW_OK;
+}
+
+static void add(joined *j, const fw_geometry_polygon *polygon, int set) {
+    if (set >= 0 && polygon->count > 2) j->input[j->n++] = (fw_geometry_merge_input){polygon, set};
+}
+
+static fw_status collect(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
+                         joined *j) {
+    int *set_of = fw_arena_array(arena, int, (size_t)mask->table->nlayer + 1);
+    FW_NEED(set_of);
+    FW_TRY(terms_of(arena, mask, o, j, set_of));
+    FW_NEED(j->input = fw_arena_array(arena, fw_geometry_merge_input, (size_t)mask->nshape + 2));
+    for (int i = 0; i < mask->nshape; i++)
+        add(j, &mask->shape[i].polygon, set_of[mask->shape[i].layer]);
+    if (o->window.x1 <= o->window.x0) return FW_OK;
+    fw_geometry_polygon *window = fw_arena_one(arena, fw_geometry_polygon);
+    fw_geometry_point *p = fw_arena_array(arena, fw_geometry_point, 4);
+    FW_NEED(window && p ? window : NULL);
+    for (int i = 0; i < 4; i++)
+        p[i] = (fw_geometry_point){i == 1 || i == 2 ? o->window.x1 : o->window.x0,
+                                   i > 1 ? o->window.y1 : o->window.y0};
+    *window = (fw_geometry_polygon){p, 4};
+    add(j, window, 0);
+    if (o->under >= 0) add(j, window, set_of[o->under]);
+    return FW_OK;
+}
+
+/* ---- what comes of it ---- */
+
+static const fw_layout_piece merged_piece = {
+    .role = FW_ROLE_FRAME, .body = FW_NONE - 1, .joint = FW_NONE, .label = "plate"};
+
+/* mirrored, where asked for; counter-clockwise again */
+static fw_status placed(fw_arena *arena, const fw_geometry_polygon *p,
+                        const fw_mask_merge_options *o, fw_geometry_polygon *out) {
+    FW_NEED(out->vertex = fw_arena_array(arena, fw_geometry_point, (size_t)p->count));
+    out->count = p->count;
+    for (int i = 0; i < p->count; i++) {
+        fw_geometry_point v = p->vertex[o->mirror ? p->count - 1 - i : i];
+        int64_t x = o->mirror ? -(int64_t)v.x_dbu : v.x_dbu;
+        out->vertex[i] = (fw_geometry_point){(int32_t)x, v.y_dbu};
+    }
+    return FW_OK;
+}
+
+/* lines between the vertices, for the formats that write outlines */
+static fw_status outline_of(fw_arena *arena, const fw_geometry_polygon *p,
+                            fw_geometry_contour *out) {
+    FW_NEED(out->segment = fw_arena_array(arena, fw_geometry_segment, (size_t)p->count));
+    out->count = p->count;
+    for (int i = 0; i < p->count; i++) {
+        fw_geometry_point a = p->vertex[i], b = p->vertex[i + 1 < p->count ? i + 1 : 0];
+        out->segment[i] = (fw_geometry_segment){.kind = FW_LINE,
+                                                .a = {a.x_dbu * 1e-9, a.y_dbu * 1e-9},
+                                                .b = {b.x_dbu * 1e-9, b.y_dbu * 1e-9}};
+    }
+    return FW_OK;
+}
+
+static fw_status shape_of(fw_arena *arena, const fw_geometry_polygon *p, int most,
+                          fw_mask_shape *s) {
+    *s = (fw_mask_shape){.piece = &merged_piece, .polygon = *p};
+    FW_TRY(fw_geometry_polygon_check(arena, p, &s->report));
+    if (!s->report.simple) return FW_GEOMETRY;
+    FW_TRY(outline_of(arena, p, &s->contour));
+    s->box = fw_geometry_contour_box(&s->contour);
+    s->polygon_area_m2 = s->area_m2 = 0.5e-18 * (double)fw_geometry_polygon_area2(p);
+    return fw_mask_polygon_cut(arena, &s->polygon, most, &s->part, &s->npart, &s->cut_clear_dbu);
+}
+
+static void extend(fw_mask *m, fw_geometry_box b) {
+    m->box = (fw_geometry_box){fmin(m->box.x0, b.x0), fmin(m->box.y0, b.y0), fmax(m->box.x1, b.x1),
+                               fmax(m->box.y1, b.y1)};
+}
+
+fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
+                         const fw_mask **out, fw_mask_merge_sums *sums) {
+    joined j = {0};
+    fw_geometry_merged merged;
+    FW_TRY(collect(arena, mask, o, &j));
+    FW_TRY(fw_geometry_merge(arena, j.input, j.n, j.term, j.nterm, o->vertices, &merged));
+    fw_mask *m = fw_arena_one(arena, fw_mask);
+    FW_NEED(m);
+    *m = *mask;
+    m->table = o->written;
+    m->measure = NULL;
+    m->edges = NULL;
+    m->finding = NULL;
+    m->nfinding = m->nbroken = 0;
+    m->vertex_limit = o->vertices;
+    m->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    m->nshape = merged.n;
+    FW_NEED(m->shape = fw_arena_array(arena, fw_mask_shape, (size_t)merged.n + 1));
+    *sums = (fw_mask_merge_sums){.cuts = merged.cuts,
+                                 .holes = merged.holes,
+                                 .rounded = merged.rounded,
+                                 .area_m2 = 0.5e-18 * (double)merged.area2_dbu};
+    for (int i = 0; i < merged.n; i++) {
+        fw_geometry_polygon p;
+        fw_mask_shape *s = &m->shape[i];
+        FW_TRY(placed(arena, &merged.polygon[i], o, &p));
+        FW_TRY(shape_of(arena, &p, o->vertices, s));
+        extend(m, s->box);
+        sums->polygons += s->npart > 0 ? s->npart : 1;
+        sums->cuts += s->npart > 1 ? s->npart - 1 : 0;
+        sums->vertices += s->polygon.count + (s->npart > 1 ? 2 * (s->npart - 1) : 0);
+    }
+    *out = m;
+    return FW_OK;
+}
