@@ -52,6 +52,13 @@ done < <(/usr/bin/python3 "$here/layers.py" "$stem.gds" "masks/$flow.xml" "$stem
 judge "gdspy reads it, ${#areas[@]} areas" /usr/bin/python3 "$here/gdspy_read.py" "$stem.gds" "${areas[@]}"
 judge "arrays are the map, the plate keeps 4 um" klayout -b -r "$here/kl_wafer.py" -rd "gds=$stem.gds" -rd "csv=$stem.csv" \
     -rd "dies=${dies#,}" -rd rule=4
+judge "DXF with blocks, arcs against GDSII" klayout -b -r "$here/kl_dxf.py" -rd "gds=$stem.gds" -rd "dxf=$stem.dxf" \
+    -rd "lyt=$work/wafer/masks/$flow.lyt"
+written=$work/wafer/masks/$flow-plate
+judge "written plate: KLayout's booleans of the layered one" klayout -b -r "$here/kl_plate.py" -rd "a=$stem.gds" \
+    -rd "b=$written.gds" -rd "expression=1/0 NOT 2/0 NOT 3/0" -rd layer=1/0 -rd mirror=1
+judge "written plate: strict reading without warnings" "$here/kl_nowarn.sh" "$written.gds"
+judge "written plate: OASIS equal to GDSII" klayout -b -r "$here/kl_xor.py" -rd "a=$written.gds" -rd "b=$written.oas"
 judge "SVG and map are well-formed" xmllint --noout --huge "$stem.svg" "$stem-map.svg"
 [ "$failed" -eq 0 ] && echo "WAFER PASS" || echo "WAFER FAIL"
 exit "$failed"
