@@ -145,7 +145,7 @@ static void wrong_unit_is_told_inside_the_value(void **state) {
 
 static void all_mistakes_in_one_run(void **state) {
     (void)state;
-    static const char xml[] = HEAD "<layer gds=\"0/0\" tone=\"x\" colour=\"y\" roles=\"z\"/>"
+    static const char xml[] = HEAD "<layer gds=\"0/x\" tone=\"x\" colour=\"y\" roles=\"z\"/>"
                                    "<layer wrong=\"1\"/></mask-table>";
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
