@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/layout_rules.h"
 #include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
@@ -7,7 +8,6 @@ static const double UM = 1e-6;
 static const double MARGIN_M = 10e-6;      /* to the window and to the lane */
 static const double LEAST_STROKE_M = 5e-6; /* 4 um rule of contact lithography, and a reserve */
 static const double LARGEST_STROKE_M = 12e-6;
-static const double DEFAULT_LANE_M = 100e-6;
 enum { MOST_LINES = 2, HIGH = 9, APART = 4 }; /* strokes: a line of text, and between two */
 
 typedef struct sheet { /* where marks and text go */
@@ -294,7 +294,7 @@ fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_geomet
                              int *npiece, int *capacity) {
     sheet s = {arena, piece, npiece, capacity, window, die, device->die.lane_m};
     double bar = narrowest_bar(&window, &die);
-    if (isnan(s.lane)) s.lane = fmin(DEFAULT_LANE_M, 0.4 * bar);
+    if (isnan(s.lane)) s.lane = fw_layout_rule.lane_m; /* the frame begins there */
     bool inside = window.x0 < window.x1 && window.y0 < window.y1 && bar >= 0 && bar < 1;
     if (!inside || !(s.lane >= 0 && s.lane <= bar)) return FW_GEOMETRY;
     FW_TRY(add_lane(&s));
