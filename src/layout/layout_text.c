@@ -65,10 +65,11 @@ fw_status fw_layout_text_check(const char *string, const char *what, fw_place pl
     const char *lacking = fw_layout_text_lacks(string), *end = lacking;
     if (!lacking) return FW_OK;
     unsigned code = fw_text_character(&end);
-    return fw_diag_error(diags, 390, place,
-                         "%s \"%s\" holds '%.*s' (U+%04X), which the lettering of the masks does not "
-                         "have; write it with ASCII, the letters of Latin-1 or a Greek mu",
-                         what, string, (int)(end - lacking), lacking, code);
+    return fw_diag_error(
+        diags, 390, place,
+        "%s \"%s\" holds '%.*s' (U+%04X), which the lettering of the masks does not "
+        "have; write it with ASCII, the letters of Latin-1 or a Greek mu",
+        what, string, (int)(end - lacking), lacking, code);
 }
 
 double fw_layout_to_grid(double x_m) {

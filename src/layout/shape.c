@@ -77,8 +77,9 @@ static fw_status unite_lettering(fw_layout_drawing *d, int body, const fw_device
     if (lacking) {
         unsigned code = fw_text_character(&behind);
         const char *why = fw_arena_printf(
-            d->arena, "the lettering holds '%.*s' (U+%04X), which the font does not have; write it "
-                      "with ASCII, the letters of Latin-1 or a Greek mu",
+            d->arena,
+            "the lettering holds '%.*s' (U+%04X), which the font does not have; write it "
+            "with ASCII, the letters of Latin-1 or a Greek mu",
             (int)(behind - lacking), lacking, code);
         FW_NEED(why);
         return fw_layout_shape_refuse(d, 390, shape->place, body, why, fw_v(b->x_m, b->y_m));

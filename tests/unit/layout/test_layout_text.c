@@ -87,8 +87,8 @@ static void widths_and_spaces(void **state) {
     static const double height[] = {72e-6, 90e-6, 120.5e-6};
     const double s = 8e-6, slack = 1e-15;
     for (int h = 0; h < 3; h++) {
-        lettering t =
-            write_text("R=1.5 \xc2\xb5m/%#*;QW(8)N\xc3\xa4\xc3\x86", (fw_geometry_vec2){1.2345e-3, -2e-3}, height[h], s);
+        lettering t = write_text("R=1.5 \xc2\xb5m/%#*;QW(8)N\xc3\xa4\xc3\x86",
+                                 (fw_geometry_vec2){1.2345e-3, -2e-3}, height[h], s);
         for (int i = 0; i < t.n; i++) {
             const fw_geometry_contour *c = &t.piece[i].contour;
             double inside = fw_geometry_contour_clearance(c, true, NULL, NULL);
@@ -144,7 +144,8 @@ static void foreign_letters(void **state) {
     int n = 0, capacity = 0;
     const char *text = "10 \xe2\x84\x83"; /* degree Celsius as one character */
     assert_null(fw_layout_text_lacks(all));
-    assert_null(fw_layout_text_lacks("\xce\xbcm \xe2\x88\x92 A\xc2\xa0" "B")); /* by other letters */
+    assert_null(fw_layout_text_lacks("\xce\xbcm \xe2\x88\x92 A\xc2\xa0"
+                                     "B")); /* by other letters */
     assert_ptr_equal(fw_layout_text_lacks(text), text + 3);
     assert_ptr_equal(fw_layout_text_lacks(text + 4), text + 4); /* inside of a character */
     assert_int_equal(fw_layout_text(arena, text, (fw_geometry_vec2){0, 0}, 9e-6, 1e-6, FW_ROLE_TEXT,
@@ -166,12 +167,15 @@ static void shortened(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     const double s = 5e-6;
-    const char *text = "AB\xc3\x84" "\xc3\x96", *shown;
+    const char *text = "AB\xc3\x84"
+                       "\xc3\x96",
+               *shown;
     for (int cells = 0; cells < 40; cells++) {
         assert_int_equal(fw_layout_text_fit(arena, text, 9 * s, s, cells * s, &shown), FW_OK);
         bool whole = cells >= 34; /* four of 7 cells, three spaces of 2 */
         const char *wanted = whole         ? text
-                             : cells >= 32 ? "AB\xc3\x84" "+"
+                             : cells >= 32 ? "AB\xc3\x84"
+                                             "+"
                              : cells >= 23 ? "AB+"
                              : cells >= 14 ? "A+"
                                            : "";
