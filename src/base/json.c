@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
+#include "base/text.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -28,18 +29,10 @@ fw_status fw_json_finish(fw_json *json, const char *behind) {
 
 /* ---- strings ---- */
 
-/* length of the UTF-8 character at s, 0: it is none (RFC 3629) */
+/* length of the UTF-8 character at s, 0: it is none */
 static size_t character(const unsigned char *s) {
-    if (s[0] < 0x80) return 1;
-    size_t n = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    unsigned least = n == 2 ? 0x80 : n == 3 ? 0x800 : 0x10000;
-    unsigned code = s[0] & (0x7fU >> n);
-    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
-    for (size_t i = 1; i < n; i++) {
-        if ((s[i] & 0xc0) != 0x80) return 0;
-        code = code << 6 | (s[i] & 0x3fU);
-    }
-    return code >= least && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff) ? n : 0;
+    unsigned code;
+    return fw_text_utf8((const char *)s, &code);
 }
 
 bool fw_json_is_text(const char *text, size_t n) {

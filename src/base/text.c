@@ -7,6 +7,28 @@
 #include <stdlib.h>
 #include <string.h>
 
+size_t fw_text_utf8(const char *string, unsigned *code) {
+    const unsigned char *s = (const unsigned char *)string;
+    *code = s[0];
+    if (s[0] < 0x80) return 1;
+    size_t n = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+    unsigned least = n == 2 ? 0x80 : n == 3 ? 0x800 : 0x10000;
+    *code = s[0] & (0x7fU >> n);
+    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
+    for (size_t i = 1; i < n; i++) {
+        if ((s[i] & 0xc0) != 0x80) return 0;
+        *code = *code << 6 | (s[i] & 0x3fU);
+    }
+    return *code >= least && *code <= 0x10ffff && (*code < 0xd800 || *code > 0xdfff) ? n : 0;
+}
+
+unsigned fw_text_character(const char **at) {
+    unsigned code;
+    size_t n = fw_text_utf8(*at, &code);
+    *at += n > 0 ? n : 1;
+    return n > 0 ? code : 0xfffd;
+}
+
 fw_text fw_text_new(fw_arena *arena) {
     return (fw_text){.arena = arena};
 }

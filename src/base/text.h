@@ -14,6 +14,11 @@ typedef struct fw_text {
     int failed;
 } fw_text;
 
+/* bytes of the UTF-8 character at the start of the string (RFC 3629), 0: it is none; *code: which */
+size_t fw_text_utf8(const char *string, unsigned *code);
+/* the character at *at, which moves behind it; U+FFFD for a byte that is no UTF-8 */
+unsigned fw_text_character(const char **at);
+
 fw_text fw_text_new(fw_arena *arena);
 void fw_text_add(fw_text *text, const char *string);
 /* room for so many bytes more at once, where a large text's size is known before */

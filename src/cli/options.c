@@ -130,8 +130,8 @@ static const char *take_force(fw_cli_options *o, const char *v) {
 static const char *take_tolerance(fw_cli_options *o, const char *v) {
     double nm;
     if (!fw_number_parse(v, strlen(v), &nm) || !(nm >= 0.36 && nm <= 1000.0))
-        return "needs nanometres between 0.36 (below, rounding to the 1 nm grid would bend arcs "
-               "the wrong way) and 1000";
+        return "needs nanometres from 0.36 (below, rounding to the 1 nm grid would bend arcs the "
+               "wrong way) to 1000, both included";
     o->design.mask_tolerance_m = nm * 1e-9;
     return NULL;
 }
@@ -417,7 +417,8 @@ static const fw_cli_option_row table[] = {
      take_hinge_model},
     {"force", 0, NULL, "masks and recipes of a rejected design too, each marked REJECTED",
      FW_OPT_FABRICATE, take_force},
-    {"mask-tolerance", 0, "NM", "largest distance between an arc and its polygon, in nm; default 5",
+    {"mask-tolerance", 0, "NM",
+     "largest distance between an arc and its polygon, in nm, from 0.36 to 1000; default 5",
      FW_OPT_FABRICATE, take_tolerance},
     {"mask-flatten", 0, "HOW",
      "arcs as polygons: inside (default; vertices on the arc) or equal-area (chords that enclose "

@@ -35,6 +35,8 @@ typedef struct fw_geometry_flat_bounds { /* proven of the polygon, rounding incl
 
 /* below, chords between vertices on the grid cannot keep the sense of any long arc */
 #define FW_LEAST_TOLERANCE_M 0.36e-9
+/* above, a mask's chords would be seen; it may be this itself */
+#define FW_MOST_TOLERANCE_M 1e-6
 /* from here on they do whatever the arc is; between, it depends on radius, sweep and place */
 #define FW_SAFE_TOLERANCE_M 1.42e-9
 

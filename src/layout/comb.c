@@ -278,7 +278,7 @@ static fw_status find_place(fw_layout_drawing *d, fw_layout_comb_plan *p,
     for (int round = 0; round < 4; round++) {
         double space = round < 2 ? FREE_M : LEAST_M;
         bool named = round % 2 == 0;
-        if (named && (!id || strlen(id) > LETTERS)) continue;
+        if (named && (!id || strlen(id) > LETTERS || fw_layout_text_lacks(id))) continue;
         for (size_t t = 0; t < sizeof aside / sizeof aside[0]; t++)
             for (size_t a = 0; a < sizeof ahead / sizeof ahead[0]; a++)
                 for (size_t f = 0; f < sizeof from / sizeof from[0]; f++) {

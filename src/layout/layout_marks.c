@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "layout/layout_rules.h"
 #include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
@@ -7,7 +8,6 @@ static const double UM = 1e-6;
 static const double MARGIN_M = 10e-6;      /* to the window and to the lane */
 static const double LEAST_STROKE_M = 5e-6; /* 4 um rule of contact lithography, and a reserve */
 static const double LARGEST_STROKE_M = 12e-6;
-static const double DEFAULT_LANE_M = 100e-6;
 enum { MOST_LINES = 2, HIGH = 9, APART = 4 }; /* strokes: a line of text, and between two */
 
 typedef struct sheet { /* where marks and text go */
@@ -177,12 +177,8 @@ static fw_status add_title(const sheet *s, const fw_device_die *die, const char 
         if (die->title && diags) say_title(die, "", HIGH * stroke, band, diags);
         return FW_OK;
     }
-    char *shown = fw_arena_strdup(s->arena, title);
-    FW_NEED(shown);
-    for (size_t n = strlen(shown); n > 0 && width_of(shown, stroke) > length; n--) {
-        shown[n - 1] = '\0';
-        if (n > 1) shown[n - 2] = '+';
-    }
+    const char *shown;
+    FW_TRY(fw_layout_text_fit(s->arena, title, HIGH * stroke, stroke, length, &shown));
     if (die->title && diags && strcmp(shown, title) != 0)
         say_title(die, shown, width_of(title, stroke), length, diags);
     double y = y0 + 0.5 * (band - HIGH * stroke);
@@ -267,17 +263,44 @@ static fw_status add_parameters(const sheet *s, const fw_device *device) {
     return FW_OK;
 }
 
+/* what is drawn as the title; a stated one that cannot be lettered is refused, a name is left out and
+   that is said, for nobody said that it would be lettered */
+static fw_status choose_title(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                              const char **title) {
+    const char *name = device->name;
+    *title = device->die.title;
+    if (*title) {
+        fw_diags unsaid = fw_diags_new(arena);
+        fw_status status = fw_layout_text_check(*title, "the title", device->die.title_place,
+                                                diags ? diags : &unsaid);
+        return status == FW_INPUT ? FW_GEOMETRY : status;
+    }
+    *title = name;
+    const char *lacking = fw_layout_text_lacks(name), *behind = lacking;
+    if (!lacking) return FW_OK;
+    *title = "";
+    fw_text_character(&behind);
+    if (diags)
+        fw_diag_warning(diags, 390, (fw_place){device->file, 0, 0},
+                        "the die has no title, because the name \"%s\" holds '%.*s', which the "
+                        "lettering of the masks does not have; add <die title=\"...\"> in ASCII, "
+                        "letters of Latin-1 or a Greek mu",
+                        name, (int)(behind - lacking), lacking);
+    return FW_OK;
+}
+
 fw_status fw_layout_annotate(fw_arena *arena, const fw_device *device, fw_geometry_box window,
                              fw_geometry_box die, fw_diags *diags, fw_layout_piece **piece,
                              int *npiece, int *capacity) {
     sheet s = {arena, piece, npiece, capacity, window, die, device->die.lane_m};
     double bar = narrowest_bar(&window, &die);
-    if (isnan(s.lane)) s.lane = fmin(DEFAULT_LANE_M, 0.4 * bar);
+    if (isnan(s.lane)) s.lane = fw_layout_rule.lane_m; /* the frame begins there */
     bool inside = window.x0 < window.x1 && window.y0 < window.y1 && bar >= 0 && bar < 1;
     if (!inside || !(s.lane >= 0 && s.lane <= bar)) return FW_GEOMETRY;
     FW_TRY(add_lane(&s));
     FW_TRY(add_marks(&s));
-    const char *title = device->die.title ? device->die.title : device->name;
+    const char *title;
+    FW_TRY(choose_title(arena, device, diags, &title));
     FW_TRY(add_title(&s, &device->die, title, diags));
     return add_parameters(&s, device);
 }

@@ -1,84 +1,75 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/layout_text.h"
+#include "base/text.h"
 #include <math.h>
 #include <string.h>
 
-enum { ROWS = 9, WIDEST = 7, SPACING = 2, MOST_CORNERS = 2 * (ROWS + 1) * (WIDEST + 1) };
+enum { ROWS = 9, SHORT = 6, WIDEST = 9, SPACING = 2, ACCENT_WIDTH = 5 };
+enum { MOST_CORNERS = 2 * (ROWS + 1) * (WIDEST + 1) };
 
+/* rows from the top, a blank between them: ROWS, or the lower SHORT of them; 'X' is drawn */
 typedef struct glyph {
-    char letter;
-    const char *rows; /* ROWS of them from the top, a blank between; 'X' is drawn */
+    unsigned code;
+    const char *rows, *accent; /* the upper two rows; NULL: none */
 } glyph;
 
-/* The gaps sit where stencils have them: at the foot of a bowl (A B D P R), in the middle of the
-   top and bottom bar (0 O 8). test_layout_text.c proves for each letter: no hole, no two cells that
-   touch at a corner only, three cells or more that differ from any other. */
+#define LETTER(code, rows)
+#define ACCENTED(code, below, accent)
+#define ALIAS(code, other)
+#define ACCENT(name, rows) static const char accent_##name[] = rows;
+#define BELOW(name, rows)  static const char below_##name[] = rows;
+#include "layout/glyphs.def"
+#undef LETTER
+#undef ACCENTED
+#undef ACCENT
+#undef BELOW
+#define ACCENT(name, rows)
+#define BELOW(name, rows)
+#define LETTER(code, rows)            {code, rows, NULL},
+#define ACCENTED(code, below, accent) {code, below_##below, accent_##accent},
 static const glyph font[] = {
-    {'A', "..XXX.. .XX.XX. XX...XX X.....X X.....X XXXXX.X X.....X X.....X X.....X"},
-    {'B', "XXXXXX. X....XX X.....X X....XX X.XXXX. X....XX X.....X X....XX X.XXXX."},
-    {'C', ".XXXXX. XX...XX X...... X...... X...... X...... X...... XX...XX .XXXXX."},
-    {'D', "XXXXXX. X....XX X.....X X.....X X.....X X.....X X.....X X....XX X.XXXX."},
-    {'E', "XXXXXX X..... X..... X..... XXXXX. X..... X..... X..... XXXXXX"},
-    {'F', "XXXXXX X..... X..... X..... XXXXX. X..... X..... X..... X....."},
-    {'G', ".XXXXX. XX...XX X...... X...... X...XXX X.....X X.....X XX...XX .XXXXX."},
-    {'H', "X.....X X.....X X.....X X.....X XXXXXXX X.....X X.....X X.....X X.....X"},
-    {'I', "XXX .X. .X. .X. .X. .X. .X. .X. XXX"},
-    {'J', ".....X .....X .....X .....X .....X .....X X....X XX..XX .XXXX."},
-    {'K', "X....XX X...XX. X..XX.. X.XX... XXX.... X.XX... X..XX.. X...XX. X....XX"},
-    {'L', "X..... X..... X..... X..... X..... X..... X..... X..... XXXXXX"},
-    {'M', "X.....X XX...XX XXX.XXX X.XXX.X X..X..X X.....X X.....X X.....X X.....X"},
-    {'N', "X.....X XX....X XXX...X X.XX..X X..X..X X..XX.X X...XXX X....XX X.....X"},
-    {'O', ".XX.XX. XX...XX X.....X X.....X X.....X X.....X X.....X XX...XX .XX.XX."},
-    {'P', "XXXXXX. X....XX X.....X X....XX X.XXXX. X...... X...... X...... X......"},
-    {'Q', ".XXXXX. XX...XX X.....X X.....X X.....X X.....X X..XX.X XX..XXX .XX..XX"},
-    {'R', "XXXXXX. X....XX X.....X X....XX X.XXXX. X..XX.. X...XX. X....XX X.....X"},
-    {'S', ".XXXXX. XX...XX X...... XX..... .XXXXX. .....XX ......X XX...XX .XXXXX."},
-    {'T', "XXXXXXX ...X... ...X... ...X... ...X... ...X... ...X... ...X... ...X..."},
-    {'U', "X.....X X.....X X.....X X.....X X.....X X.....X X.....X XX...XX .XXXXX."},
-    {'V', "X.....X X.....X X.....X XX...XX .X...X. .XX.XX. ..X.X.. ..XXX.. ...X..."},
-    {'W', "X.....X X.....X X.....X X.....X X..X..X X..X..X X.XXX.X XXX.XXX .X...X."},
-    {'X', "X.....X XX...XX .X...X. .XX.XX. ..XXX.. .XX.XX. .X...X. XX...XX X.....X"},
-    {'Y', "X.....X XX...XX .XX.XX. ..XXX.. ...X... ...X... ...X... ...X... ...X..."},
-    {'Z', "XXXXXXX .....XX ....XX. ...XX.. ...X... ..XX... .XX.... XX..... XXXXXXX"},
-    {'0', ".XX.XX. XX...XX X.....X X..X..X X..X..X X..X..X X.....X XX...XX .XX.XX."},
-    {'1', "..X.. XXX.. ..X.. ..X.. ..X.. ..X.. ..X.. ..X.. XXXXX"},
-    {'2', ".XXXXX. XX...XX ......X .....XX ....XX. ..XXX.. .XX.... XX..... XXXXXXX"},
-    {'3', ".XXXXX. XX...XX ......X .....XX ..XXXX. .....XX ......X XX...XX .XXXXX."},
-    {'4', "X....X. X....X. X....X. X....X. XXXXXXX .....X. .....X. .....X. .....X."},
-    {'5', "XXXXXXX X...... X...... XXXXXX. .....XX ......X ......X XX...XX .XXXXX."},
-    {'6', ".XXXXX. XX...XX X...... X...... XXXXXX. X....XX X.....X XX...XX .XX.XX."},
-    {'7', "XXXXXXX .....XX .....X. ....XX. ....X.. ...XX.. ...X... ...X... ...X..."},
-    {'8', ".XX.XX. XX...XX X.....X XX...XX .XXXXX. XX...XX X.....X XX...XX .XX.XX."},
-    {'9', ".XX.XX. XX...XX X.....X XX....X .XXXXXX ......X ......X XX...XX .XXXXX."},
-    {' ', "... ... ... ... ... ... ... ... ..."},
-    {'.', ". . . . . . . . X"},
-    {',', ".. .. .. .. .. .. .X .X XX"},
-    {'-', "..... ..... ..... ..... XXXXX ..... ..... ..... ....."},
-    {'+', "..... ..... ..X.. ..X.. XXXXX ..X.. ..X.. ..... ....."},
-    {'=', "..... ..... ..... XXXXX ..... XXXXX ..... ..... ....."},
-    {'/', "....X ...XX ...X. ..XX. ..X.. .XX.. .X... XX... X...."},
-    {'_', "...... ...... ...... ...... ...... ...... ...... ...... XXXXXX"},
-    {'(', ".XX XX. X.. X.. X.. X.. X.. XX. .XX"},
-    {')', "XX. .XX ..X ..X ..X ..X ..X .XX XX."},
-    {':', ". . . X . . X . ."},
-    {'%', "XX....X XX...XX ....XX. ....X.. ...XX.. ..XX... .XX.... XX...XX X....XX"},
-    {'#', ".X...X. .X...X. XXXXXXX .X...X. .X...X. .X...X. XXX.XXX .X...X. .X...X."},
-    {'*', "..... ..... ..X.. X.X.X XXXXX X.X.X ..X.. ..... ....."},
+#include "layout/glyphs.def"
+};
+#undef LETTER
+#undef ACCENTED
+#undef ALIAS
+#define LETTER(code, rows)
+#define ACCENTED(code, below, accent)
+#define ALIAS(code, other) {code, other},
+static const struct {
+    unsigned code, other;
+} alias[] = {
+#include "layout/glyphs.def"
 };
 
-static const glyph *find(unsigned char c) {
-    char letter = (char)(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-    const glyph *other = NULL;
-    for (size_t i = 0; i < sizeof font / sizeof font[0]; i++) {
-        if (font[i].letter == letter) return &font[i];
-        if (font[i].letter == '*') other = &font[i];
-    }
-    return other;
+/* NULL: the font lacks it */
+static const glyph *find(unsigned code) {
+    for (size_t i = 0; i < sizeof alias / sizeof alias[0]; i++)
+        if (alias[i].code == code) code = alias[i].other;
+    for (size_t i = 0; i < sizeof font / sizeof font[0]; i++)
+        if (font[i].code == code) return &font[i];
+    return NULL;
 }
 
-/* one UTF-8 character counts once */
-static bool continues(unsigned char c) {
-    return (c & 0xc0) == 0x80;
+const char *fw_layout_text_lacks(const char *string) {
+    const char *at = string;
+    while (*at) {
+        const char *letter = at;
+        if (!find(fw_text_character(&at))) return letter;
+    }
+    return NULL;
+}
+
+fw_status fw_layout_text_check(const char *string, const char *what, fw_place place,
+                               fw_diags *diags) {
+    const char *lacking = fw_layout_text_lacks(string), *end = lacking;
+    if (!lacking) return FW_OK;
+    unsigned code = fw_text_character(&end);
+    return fw_diag_error(
+        diags, 390, place,
+        "%s \"%s\" holds '%.*s' (U+%04X), which the lettering of the masks does not "
+        "have; write it with ASCII, the letters of Latin-1 or a Greek mu",
+        what, string, (int)(end - lacking), lacking, code);
 }
 
 double fw_layout_to_grid(double x_m) {
@@ -96,12 +87,38 @@ static size_t width_of(const glyph *g) {
     return strcspn(g->rows, " ");
 }
 
+/* is it drawn in row y from the top? */
+static bool is_drawn(const glyph *g, int y, int x) {
+    int width = (int)width_of(g), above = ROWS - (int)((strlen(g->rows) + 1) / (size_t)(width + 1));
+    if (y >= above) return g->rows[(y - above) * (width + 1) + x] == 'X';
+    x -= (width - ACCENT_WIDTH) / 2;
+    return g->accent && y < 2 && x >= 0 && x < ACCENT_WIDTH &&
+           g->accent[y * (ACCENT_WIDTH + 1) + x] == 'X';
+}
+
 double fw_layout_text_width(const char *string, double height_m, double stroke_m) {
     double cell = cell_of(height_m, stroke_m);
     size_t cells = 0;
-    for (const unsigned char *s = (const unsigned char *)string; *s; s++)
-        if (!continues(*s)) cells += width_of(find(*s)) + SPACING;
+    for (const char *s = string; *s;) {
+        const glyph *g = find(fw_text_character(&s));
+        if (g) cells += width_of(g) + SPACING;
+    }
     return cells > 0 ? (double)(cells - SPACING) * cell : 0;
+}
+
+fw_status fw_layout_text_fit(fw_arena *arena, const char *string, double height_m, double stroke_m,
+                             double length_m, const char **shown) {
+    char *text = fw_arena_printf(arena, "%s+", string);
+    FW_NEED(*shown = text);
+    size_t n = strlen(string);
+    text[n] = '\0';
+    while (n > 0 && fw_layout_text_width(text, height_m, stroke_m) > length_m) {
+        n--;
+        while (n > 0 && ((unsigned char)text[n] & 0xc0) == 0x80) /* inside a character */
+            n--;
+        strcpy(text + n, n > 0 ? "+" : "");
+    }
+    return FW_OK;
 }
 
 fw_status fw_layout_add(fw_arena *arena, fw_layout_piece item, fw_layout_piece **piece, int *npiece,
@@ -126,11 +143,9 @@ typedef struct raster {
 
 static raster fill(const glyph *g) {
     raster r = {.width = (int)width_of(g)};
-    for (int y = 0; y < ROWS; y++) {
-        const char *row = g->rows + (ROWS - 1 - y) * (r.width + 1);
+    for (int y = 0; y < ROWS; y++)
         for (int x = 0; x < r.width; x++)
-            r.cell[y + 1][x + 1] = row[x] == 'X';
-    }
+            r.cell[y + 1][x + 1] = is_drawn(g, ROWS - 1 - y, x);
     return r;
 }
 
@@ -203,11 +218,11 @@ fw_status fw_layout_text(fw_arena *arena, const char *string, fw_geometry_vec2 o
                          fw_layout_piece **piece, int *npiece, int *capacity) {
     double cell = cell_of(height_m, stroke_m);
     if (!(cell > 0) || !(fabs(origin.x) < 1) || !(fabs(origin.y) < 1)) return FW_GEOMETRY;
+    if (fw_layout_text_lacks(string)) return FW_GEOMETRY;
     fw_geometry_vec2 at = {fw_layout_to_grid(origin.x), fw_layout_to_grid(origin.y)};
     fw_layout_piece item = {.role = role, .body = FW_NONE - 1, .joint = FW_NONE, .label = label};
-    for (const unsigned char *s = (const unsigned char *)string; *s; s++) {
-        if (continues(*s)) continue;
-        const glyph *g = find(*s);
+    for (const char *s = string; *s;) {
+        const glyph *g = find(fw_text_character(&s));
         FW_TRY(add_letter(arena, g, at, cell, item, piece, npiece, capacity));
         at.x += (double)(width_of(g) + SPACING) * cell;
     }

@@ -1,21 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lettering, alignment marks and the dicing lane, as polygons that pass a width/space check.
 
-   Letters are drawn on square cells of one stroke, nine high and up to seven wide, two cells apart.
+   Letters are drawn on square cells of one stroke, nine high and up to nine wide, two cells apart.
    Every part and every space is at least `stroke` wide; corners are 90 or 270 degrees; closed
    letters (A B D O 0 8 ...) are open through a stencil gap, so there is neither a hole nor an
-   island; parts never touch at a corner. Lower case is drawn as upper case; a character that the
-   font lacks is drawn as '*'. All coordinates are multiples of 1 nm. */
+   island; parts never touch at a corner. Text is UTF-8; the font has ASCII, the letters of Latin-1,
+   mu, omega and some signs (glyphs.def). What it lacks is refused, never drawn as something else.
+   All coordinates are multiples of 1 nm. */
 #ifndef FW_LAYOUT_LAYOUT_TEXT_H
 #define FW_LAYOUT_LAYOUT_TEXT_H
 #include "layout/layout.h"
+
+/* the text, or as much of its beginning as is no longer than length_m, with '+' at its end; "" where
+   not even one letter and the '+' are */
+fw_status fw_layout_text_fit(fw_arena *arena, const char *string, double height_m, double stroke_m,
+                             double length_m, const char **shown);
+/* the first character that the font lacks, inside the string; NULL: it has them all */
+const char *fw_layout_text_lacks(const char *string);
+/* FW_INPUT with an error at `place` (FW-D390) where the font lacks a character of the text, which
+   `what` says what it is; else FW_OK */
+fw_status fw_layout_text_check(const char *string, const char *what, fw_place place,
+                               fw_diags *diags);
 
 /* width of the line of text, m; 0 for "" and for sizes that fw_layout_text refuses */
 double fw_layout_text_width(const char *string, double height_m, double stroke_m);
 
 /* appends the letters as pieces with body FW_NONE - 1; `origin` is the lower left corner. Cells are
    height / 9, rounded down to 1 nm. FW_GEOMETRY unless stroke >= 1 nm and height >= 9 stroke, all
-   finite and below 1 m. The three last arguments are a growing array: *npiece used of *capacity. */
+   finite and below 1 m, and the font has every character. The three last arguments are a growing array: *npiece used of *capacity. */
 fw_status fw_layout_text(fw_arena *arena, const char *string, fw_geometry_vec2 origin,
                          double height_m, double stroke_m, fw_layout_role role, const char *label,
                          fw_layout_piece **piece, int *npiece, int *capacity);

@@ -73,6 +73,17 @@ static fw_status unite_lettering(fw_layout_drawing *d, int body, const fw_device
     fw_layout_piece *piece = NULL;
     int n = 0, capacity = 0;
     const fw_device_body *b = &d->device->body[body];
+    const char *lacking = fw_layout_text_lacks(shape->text), *behind = lacking;
+    if (lacking) {
+        unsigned code = fw_text_character(&behind);
+        const char *why = fw_arena_printf(
+            d->arena,
+            "the lettering holds '%.*s' (U+%04X), which the font does not have; write it "
+            "with ASCII, the letters of Latin-1 or a Greek mu",
+            (int)(behind - lacking), lacking, code);
+        FW_NEED(why);
+        return fw_layout_shape_refuse(d, 390, shape->place, body, why, fw_v(b->x_m, b->y_m));
+    }
     FW_TRY(fw_layout_text(d->arena, shape->text, (fw_geometry_vec2){0, 0}, shape->height_m,
                           shape->height_m / 9, FW_ROLE_TEXT, "", &piece, &n, &capacity));
     if (n == 0)

@@ -33,7 +33,8 @@ static const char *pieces(fw_arena *arena, const fw_mask_finding *f) {
     return p && q ? fw_arena_printf(arena, "%s and %s", p, q) : NULL;
 }
 
-static const char *sentence(fw_arena *arena, const fw_mask_layer *layer, const fw_mask_finding *f) {
+static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_mask_layer *layer,
+                            const fw_mask_finding *f) {
     const fw_mask_rule *rule = f->rule;
     const fw_mask_rule_kind_row *kind = rule->kind;
     const char *who = pieces(arena, f), *unit = fw_mask_rule_unit_name(kind);
@@ -43,9 +44,12 @@ static const char *sentence(fw_arena *arena, const fw_mask_layer *layer, const f
     fw_number_text(needed, sizeof needed, fw_mask_rule_row_shown(kind, f->needed), 6);
     fw_number_text(limit, sizeof limit, fw_mask_rule_row_shown(kind, f->limit), 6);
     if (!who) return NULL;
+    const char *cause =
+        layout ? fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1]))) : "";
+    if (!cause) return NULL;
     if (kind->built_in)
-        return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s", who,
-                               at, layer->name, kind->advice);
+        return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s%s", who,
+                               at, layer->name, kind->advice, cause);
     return fw_arena_printf(
         arena, "%s: %s of %s %s at %s; layer %s %s %s %s (rule %s %s%s%s%s; %s); %s", who, f->what,
         value, unit, at, layer->name, f->value > f->needed ? "takes at most" : "needs", needed,
@@ -54,7 +58,7 @@ static const char *sentence(fw_arena *arena, const fw_mask_layer *layer, const f
 }
 
 static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
-    const char *text = sentence(r->arena, &r->table->layer[f->rule->layer], f);
+    const char *text = sentence(r->arena, r->layout, &r->table->layer[f->rule->layer], f);
     FW_NEED(text);
     fw_place place = {0};
     if (f->rule->severity == FW_ERROR)

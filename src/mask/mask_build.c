@@ -53,23 +53,27 @@ static fw_geometry_vec2 middle_of(const fw_geometry_contour *c, int i) {
     return (fw_geometry_vec2){0.5 * (s->a.x + s->b.x), 0.5 * (s->a.y + s->b.y)};
 }
 
-static void refuse_bias(fw_diags *diags, const fw_mask_shape *shape, double bias_m, int i, int j) {
+static fw_status refuse_bias(fw_arena *arena, const fw_layout *layout, fw_diags *diags,
+                             const fw_mask_shape *shape, double bias_m, int i, int j) {
     char p[80], q[80], bias[32], need[32];
     const fw_geometry_contour *c = &shape->piece->contour;
     fw_mask_place_text(p, sizeof p, middle_of(c, i));
     fw_mask_place_text(q, sizeof q, middle_of(c, j));
     fw_number_text(bias, sizeof bias, bias_m * 1e6, 6);
     fw_number_text(need, sizeof need, fabs(2 * bias_m) * 1e6, 6);
+    const char *cause = fw_mask_cause(arena, layout, middle_of(c, i));
+    FW_NEED(cause);
     fw_diag_error(
         diags, 143, nowhere,
         "%s cannot take the bias of %s um per edge: its edges %d at %s and %d at %s would "
-        "meet or vanish; keep them more than %s um apart and hollow radii above the bias, "
-        "or choose a flow with a smaller bias",
-        shape->piece->label, bias, i, p, j, q, need);
+        "meet or vanish; keep them more than %s um apart and hollow radii above the bias%s",
+        shape->piece->label, bias, i, p, j, q, need,
+        *cause ? cause : ", or choose a flow with a smaller bias");
+    return FW_OK;
 }
 
-static fw_status bias_shapes(fw_arena *arena, const fw_mask_table *table, fw_mask_shape *shape,
-                             int nshape, double bias_m, fw_diags *diags) {
+static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
+                             fw_mask_shape *shape, int nshape, double bias_m, fw_diags *diags) {
     size_t errors = diags->errors;
     for (int k = 0; k < nshape; k++) {
         if (!table->layer[shape[k].layer].biased || bias_m == 0) continue;
@@ -77,7 +81,7 @@ static fw_status bias_shapes(fw_arena *arena, const fw_mask_table *table, fw_mas
         fw_status status = fw_geometry_contour_offset(arena, &shape[k].piece->contour, bias_m,
                                                       &shape[k].contour, &i, &j);
         if (status == FW_GEOMETRY)
-            refuse_bias(diags, &shape[k], bias_m, i, j);
+            FW_TRY(refuse_bias(arena, layout, diags, &shape[k], bias_m, i, j));
         else
             FW_TRY(status);
     }
@@ -130,9 +134,47 @@ static fw_status tell_wavy(const fw_mask_shape *shape, const fw_mask_wavy_arc *w
         fw_number_text(next, sizeof next, up_nm, 7));
 }
 
+/* would the outline be simple with the smallest tolerance that is safe for every arc? */
+static fw_status is_simple_when_fine(fw_arena *arena, const fw_mask_shape *shape, bool *simple) {
+    fw_mask_shape fine = *shape;
+    fw_mask_wavy_arc wavy;
+    fw_status status = fw_mask_flatten(arena, &fine, FW_SAFE_TOLERANCE_M, &wavy);
+    *simple = false;
+    if (status == FW_GEOMETRY) return FW_OK;
+    FW_TRY(status);
+    FW_TRY(fw_geometry_polygon_check(arena, &fine.polygon, &fine.report));
+    *simple = fine.report.simple;
+    return FW_OK;
+}
+
+static fw_status tell_touching(fw_arena *arena, const fw_layout *layout, const fw_mask_shape *shape,
+                               double tolerance_m, fw_diags *diags) {
+    const fw_geometry_polygon *p = &shape->polygon;
+    const fw_geometry_polygon_report *r = &shape->report;
+    fw_geometry_point v = p->vertex[r->bad_i >= 0 ? r->bad_i % p->count : 0];
+    fw_geometry_vec2 place = {v.x_dbu * GRID_M, v.y_dbu * GRID_M};
+    char at[80];
+    bool fine = false;
+    fw_mask_place_text(at, sizeof at, place);
+    if (tolerance_m > FW_SAFE_TOLERANCE_M) FW_TRY(is_simple_when_fine(arena, shape, &fine));
+    if (fine)
+        return fw_diag_error(diags, 147, nowhere,
+                             "%s: on the 1 nm grid its edges %d and %d touch at %s; with a "
+                             "tolerance of 1.42 nm they do not, so choose a smaller one, or a "
+                             "larger feature",
+                             shape->piece->label, r->bad_i, r->bad_j, at);
+    const char *cause = fw_mask_cause(arena, layout, place);
+    FW_NEED(cause);
+    return fw_diag_error(diags, 147, nowhere,
+                         "%s: its edges %d and %d touch at %s, whatever the tolerance: its outline "
+                         "has no room there%s",
+                         shape->piece->label, r->bad_i, r->bad_j, at,
+                         *cause ? cause : ", so move its parts or make them larger");
+}
+
 /* one shape: polygon, exact integer certificate, area against the exact outline */
-static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance_m, int most,
-                         fw_diags *diags) {
+static fw_status flatten(fw_arena *arena, const fw_layout *layout, fw_mask_shape *shape,
+                         double tolerance_m, int most, fw_diags *diags) {
     FW_TRY(check_range(shape, diags));
     fw_mask_wavy_arc wavy;
     fw_status flat_status = fw_mask_flatten(arena, shape, tolerance_m, &wavy);
@@ -141,16 +183,7 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
     const char *name = shape->piece->label;
     const fw_geometry_polygon *p = &shape->polygon;
     FW_TRY(fw_geometry_polygon_check(arena, p, &shape->report));
-    if (!shape->report.simple) {
-        fw_geometry_point v =
-            p->vertex[shape->report.bad_i >= 0 ? shape->report.bad_i % p->count : 0];
-        char at[80];
-        fw_mask_place_text(at, sizeof at, (fw_geometry_vec2){v.x_dbu * GRID_M, v.y_dbu * GRID_M});
-        return fw_diag_error(diags, 147, nowhere,
-                             "%s: on the 1 nm grid its edges %d and %d touch at %s; choose a "
-                             "smaller tolerance or a larger feature",
-                             name, shape->report.bad_i, shape->report.bad_j, at);
-    }
+    if (!shape->report.simple) return tell_touching(arena, layout, shape, tolerance_m, diags);
     FW_TRY(cut(arena, shape, most, diags));
     shape->area_m2 = fw_geometry_contour_area_in(&shape->contour, shape->box);
     double flat = 0.5 * (double)fw_geometry_polygon_area2(p) * GRID_M * GRID_M;
@@ -164,11 +197,11 @@ static fw_status flatten(fw_arena *arena, fw_mask_shape *shape, double tolerance
                          fw_number_text(want, sizeof want, shape->area_m2 * 1e12, 12));
 }
 
-static fw_status flatten_all(fw_arena *arena, fw_mask_shape *shape, int nshape, double tolerance_m,
-                             int most, fw_diags *diags) {
+static fw_status flatten_all(fw_arena *arena, const fw_layout *layout, fw_mask_shape *shape,
+                             int nshape, double tolerance_m, int most, fw_diags *diags) {
     bool wrong = false;
     for (int k = 0; k < nshape; k++) {
-        fw_status status = flatten(arena, &shape[k], tolerance_m, most, diags);
+        fw_status status = flatten(arena, layout, &shape[k], tolerance_m, most, diags);
         if (status != FW_OK && status != FW_INPUT) return status;
         wrong = wrong || status == FW_INPUT;
     }
@@ -203,35 +236,38 @@ static fw_status check_options(const fw_mask_options *options, double tolerance_
         return fw_diag_error(diags, 143, nowhere,
                              "the bias of %s m per edge is not below 1 mm; check its unit",
                              fw_number_text(number, sizeof number, options->bias_m, 6));
-    if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12) && tolerance_m <= 1e-6))
+    if (!(tolerance_m >= FW_LEAST_TOLERANCE_M * (1 - 1e-12) &&
+          tolerance_m <= FW_MOST_TOLERANCE_M * (1 + 1e-12)))
         return fw_diag_error(diags, 147, nowhere,
                              "the tolerance of %s nm is not between 0.36 nm (below it, rounding to "
-                             "the grid makes every arc wavy) and 1000 nm",
+                             "the grid makes every arc wavy) and 1000 nm, both included",
                              fw_number_text(number, sizeof number, tolerance_m * 1e9, 6));
     return FW_OK;
 }
 
 /* polygons and their proofs */
-static fw_status prove(fw_arena *arena, fw_mask *m, fw_diags *diags) {
-    FW_TRY(flatten_all(arena, m->shape, m->nshape, m->tolerance_m, m->vertex_limit, diags));
+static fw_status prove(fw_arena *arena, const fw_layout *layout, fw_mask *m, fw_diags *diags) {
+    FW_TRY(flatten_all(arena, layout, m->shape, m->nshape, m->tolerance_m, m->vertex_limit, diags));
     FW_TRY(fw_mask_check_joints(arena, m->shape, m->nshape, diags));
     fw_mask_check_corners(m->shape, m->nshape, diags);
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* rules on exact outlines, polygons, rules on these. Where rules are broken, what could not be
-   flattened besides is told, but the rest is there to be looked at. */
-static fw_status judge(fw_arena *arena, fw_mask *m, fw_mask_measure *measure, fw_diags *diags) {
+/* near edges of the exact outlines, polygons, rules on these. Where rules are broken, what could not
+   be flattened besides is told, but the rest is there to be looked at. */
+static fw_status judge(fw_arena *arena, const fw_layout *layout, fw_mask *m,
+                       fw_mask_measure *measure, fw_diags *diags) {
     fw_mask_rules rules = {.arena = arena,
                            .table = m->table,
                            .shape = m->shape,
                            .nshape = m->nshape,
+                           .layout = layout,
                            .tolerance_m = m->tolerance_m};
     FW_TRY(fw_mask_rules_start(&rules, measure));
-    FW_TRY(fw_mask_rules_check(&rules, false));
-    fw_status status = prove(arena, m, diags);
+    fw_status status = prove(arena, layout, m, diags);
     if (status != FW_OK && status != FW_INPUT && status != FW_GEOMETRY) return status;
     m->whole = status == FW_OK;
+    FW_TRY(fw_mask_rules_check(&rules, false));
     FW_TRY(fw_mask_rules_check(&rules, true));
     FW_TRY(fw_mask_rules_tell(&rules, diags, &m->nbroken));
     m->finding = rules.finding;
@@ -271,11 +307,11 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     m->flattening = options->flattening;
     m->thickness_m = options->thickness_m;
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
-    FW_TRY(bias_shapes(arena, table, m->shape, m->nshape, options->bias_m, diags));
+    FW_TRY(bias_shapes(arena, layout, table, m->shape, m->nshape, options->bias_m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
     for (int k = 0; k < m->nshape; k++)
         m->shape[k].box = fw_geometry_contour_box(&m->shape[k].contour);
-    fw_status status = judge(arena, m, measure, diags);
+    fw_status status = judge(arena, layout, m, measure, diags);
     if (status != FW_OK && !(status == FW_INPUT && m->nbroken)) return status;
     m->rejected = options->rejected || m->nbroken > 0;
     FW_NEED(m->cell = cell_name(arena, device_name, m->rejected));

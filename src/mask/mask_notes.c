@@ -18,13 +18,21 @@ typedef struct lines {
 
 fw_status fw_mask_note(fw_arena *arena, const char *key, const char *value, const char **line) {
     FW_NEED(value);
-    char *text = fw_arena_printf(arena, "%s%s%s", key, *key ? "=" : "", value);
-    FW_NEED(text);
-    for (char *s = text; *s; s++)
-        if ((unsigned char)*s < 0x20 || (unsigned char)*s > 0x7e) *s = '?';
-    if (strlen(text) > FW_MASK_NOTE_MOST) text[FW_MASK_NOTE_MOST] = '\0';
-    *line = text;
-    return FW_OK;
+    fw_text text = fw_text_new(arena);
+    const char *at = fw_arena_printf(arena, "%s%s%s", key, *key ? "=" : "", value);
+    FW_NEED(at);
+    while (*at) { /* readers take ASCII only; a whole character is one <U+00B5> */
+        const char *letter = at;
+        unsigned code = fw_text_character(&at);
+        bool plain = code >= 0x20 && code <= 0x7e;
+        if (text.length + (plain ? 1 : 10) > FW_MASK_NOTE_MOST) break;
+        if (plain)
+            fw_text_bytes(&text, letter, 1);
+        else
+            fw_text_printf(&text, "<U+%04X>", code);
+    }
+    *line = text.data ? text.data : "";
+    return fw_text_end(&text);
 }
 
 static fw_status add(lines *l, const char *key, const char *value) {

@@ -115,6 +115,7 @@ typedef struct fw_mask_rules { /* one mask while it is checked */
     const fw_mask_table *table;
     const fw_mask_shape *shape; /* (nshape) */
     int nshape;
+    const fw_layout *layout; /* for messages: what a place belongs to; NULL: not known */
     double tolerance_m;
     fw_mask_rule *rule; /* (nrule) the table's, and those that layers state themselves */
     int nrule;

@@ -76,14 +76,9 @@ static fw_status add_line(fw_wafer_sheet *s, const char *text, double middle, do
     while (stroke > LEAST_STROKE_M && fw_layout_text_width(text, HIGH * stroke, stroke) > length)
         stroke -= 10e-6;
     stroke = fw_layout_to_grid(stroke);
-    char *shown = fw_arena_strdup(arena, text);
-    FW_NEED(shown);
-    for (size_t n = strlen(shown);
-         n > 1 && fw_layout_text_width(shown, HIGH * stroke, stroke) > length; n--) {
-        *fits = false;
-        shown[n - 1] = '\0';
-        shown[n - 2] = '+';
-    }
+    const char *shown;
+    FW_TRY(fw_layout_text_fit(arena, text, HIGH * stroke, stroke, length, &shown));
+    *fits = strcmp(shown, text) == 0;
     double width = fw_layout_text_width(shown, HIGH * stroke, stroke);
     return fw_layout_text(
         arena, shown, (fw_geometry_vec2){-0.5 * width, middle - 0.5 * HIGH * stroke}, HIGH * stroke,
@@ -111,8 +106,12 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
                          ARM_M, HALF_M));
     double inner = 0.5 * w->form.diameter_m + BESIDE_M, outer = half - RIM_M;
     double length = 2 * (corner - ARM_M - BESIDE_M);
-    const char *title =
-        fw_arena_printf(m->arena, "%s%s", w->rejected ? "REJECTED  " : "", w->title);
+    const fw_device_wafer_asked *stated = &w->device->wafer;
+    if (stated->title)
+        FW_TRY(fw_layout_text_check(stated->title, "<wafer>: the title", stated->place, m->diags));
+    /* of the die, which is checked, or the name, of which the die's drawing says that it cannot be */
+    const char *own = fw_layout_text_lacks(w->title) ? "" : w->title;
+    const char *title = fw_arena_printf(m->arena, "%s%s", w->rejected ? "REJECTED  " : "", own);
     const char *line = identification(m);
     FW_NEED(title && line ? title : NULL);
     bool above, below;

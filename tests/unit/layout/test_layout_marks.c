@@ -173,7 +173,7 @@ static void narrow_bars(void **state) {
     sheet s;
     fw_device d = device(two, 2);
     fw_geometry_box tight = {die.x0 + 120e-6, die.y0 + 120e-6, die.x1 - 120e-6, die.y1 - 120e-6};
-    assert_int_equal(annotate(&s, &d, tight, die), FW_OK); /* 40 % of 120 um is lane */
+    assert_int_equal(annotate(&s, &d, tight, die), FW_OK); /* 100 um of them are lane */
     assert_int_equal(count_of(&s, "alignment cross"), 0);
     assert_int_equal(count_of(&s, "dicing lane"), 4);
     fw_arena_free(s.arena);

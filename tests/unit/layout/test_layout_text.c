@@ -1,8 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/layout_text.h"
+#include "base/text.h"
 #include "test.h"
 
-static const char all[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.,-+=/_():%#*";
+/* every letter of the font once, apart by their first bytes; the blank has nothing to look at */
+static const char all[] = "!\"#$%&'()*+,-./0123456789:;<=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`"
+                          "abcdefghijklmnopqrstuvwxyz{|}~°±²³µ·¹×÷ΩŸ"
+                          "ÀÁÂÃÄÅÆÇÈÉÊËÌÍÎÏÐÑÒÓÔÕÖØÙÚÛÜÝÞßàáâãäåæçèéêëìíîïðñòóôõöøùúûüýþÿ";
+
+/* the character at *at as a string of its own, *at behind it */
+static const char *next_letter(const char **at, char letter[5]) {
+    const char *from = *at;
+    fw_text_character(at);
+    memcpy(letter, from, (size_t)(*at - from));
+    letter[*at - from] = '\0';
+    return letter;
+}
 
 typedef struct lettering {
     fw_arena *arena;
@@ -25,7 +38,7 @@ static bool drawn(const lettering *t, double x, double y) {
     return false;
 }
 
-enum { W = 9, H = 11 }; /* 7 x 9 cells with an empty rim */
+enum { W = 11, H = 11 }; /* 9 x 9 cells with an empty rim */
 
 static void spread(int cell[H][W], int y, int x) {
     if (y < 0 || y >= H || x < 0 || x >= W || cell[y][x] != 0) return;
@@ -38,13 +51,14 @@ static void spread(int cell[H][W], int y, int x) {
 
 static void no_hole_and_no_corner_contact(void **state) {
     (void)state;
-    for (size_t k = 0; k < strlen(all); k++) {
-        const char letter[2] = {all[k], 0};
+    for (const char *at = all; *at;) {
+        char letter[5];
+        next_letter(&at, letter);
         const double s = 8e-6;
         lettering t = write_text(letter, (fw_geometry_vec2){0, 0}, 9 * s, s);
         int cell[H][W] = {{0}}, count = 0;
         for (int y = 0; y < 9; y++)
-            for (int x = 0; x < 7; x++) {
+            for (int x = 0; x < 9; x++) {
                 cell[y + 1][x + 1] = drawn(&t, (x + 0.5) * s, (y + 0.5) * s);
                 count += cell[y + 1][x + 1];
             }
@@ -52,12 +66,12 @@ static void no_hole_and_no_corner_contact(void **state) {
             for (int x = 0; x + 1 < W; x++) {
                 int a = cell[y][x], b = cell[y][x + 1], c = cell[y + 1][x], d = cell[y + 1][x + 1];
                 if ((a && d && !b && !c) || (b && c && !a && !d))
-                    fail_msg("letter %c touches itself at a corner", all[k]);
+                    fail_msg("letter %s touches itself at a corner", letter);
             }
         spread(cell, 0, 0);
         for (int y = 0; y < H; y++)
             for (int x = 0; x < W; x++)
-                if (cell[y][x] == 0) fail_msg("letter %c has a hole", all[k]);
+                if (cell[y][x] == 0) fail_msg("letter %s has a hole", letter);
         double area = 0;
         for (int i = 0; i < t.n; i++)
             area += fw_geometry_contour_area(&t.piece[i].contour);
@@ -73,8 +87,8 @@ static void widths_and_spaces(void **state) {
     static const double height[] = {72e-6, 90e-6, 120.5e-6};
     const double s = 8e-6, slack = 1e-15;
     for (int h = 0; h < 3; h++) {
-        lettering t =
-            write_text("R=1.5 um/%#*;QW(8)N", (fw_geometry_vec2){1.2345e-3, -2e-3}, height[h], s);
+        lettering t = write_text("R=1.5 \xc2\xb5m/%#*;QW(8)N\xc3\xa4\xc3\x86",
+                                 (fw_geometry_vec2){1.2345e-3, -2e-3}, height[h], s);
         for (int i = 0; i < t.n; i++) {
             const fw_geometry_contour *c = &t.piece[i].contour;
             double inside = fw_geometry_contour_clearance(c, true, NULL, NULL);
@@ -99,33 +113,87 @@ static void widths_and_spaces(void **state) {
 
 static void every_letter_differs(void **state) {
     (void)state;
-    for (size_t k = 1; k < strlen(all); k++)
-        for (size_t m = 0; m < k; m++) {
-            const char a[2] = {all[k], 0}, b[2] = {all[m], 0};
-            const double s = 1e-6;
-            lettering t = write_text(a, (fw_geometry_vec2){0, 0}, 9 * s, s);
-            lettering u = write_text(b, (fw_geometry_vec2){0, 0}, 9 * s, s);
+    static bool seen[200][9][9];
+    char letter[200][5];
+    int n = 0;
+    for (const char *at = all; *at; n++) {
+        const double s = 1e-6;
+        assert_true(n < 200);
+        lettering t = write_text(next_letter(&at, letter[n]), (fw_geometry_vec2){0, 0}, 9 * s, s);
+        for (int y = 0; y < 9; y++)
+            for (int x = 0; x < 9; x++)
+                seen[n][y][x] = drawn(&t, (x + 0.5) * s, (y + 0.5) * s);
+        fw_arena_free(t.arena);
+    }
+    assert_int_equal(n, 167);
+    for (int k = 1; k < n; k++)
+        for (int m = 0; m < k; m++) {
             int differ = 0;
-            for (int y = 0; y < 9; y++)
-                for (int x = 0; x < 7; x++)
-                    differ += drawn(&t, (x + 0.5) * s, (y + 0.5) * s) !=
-                              drawn(&u, (x + 0.5) * s, (y + 0.5) * s);
-            if (differ < 3) fail_msg("%c and %c look the same", all[k], all[m]);
-            fw_arena_free(t.arena);
-            fw_arena_free(u.arena);
+            for (int i = 0; i < 81; i++)
+                differ += seen[k][i / 9][i % 9] != seen[m][i / 9][i % 9];
+            if (differ < 3) fail_msg("%s and %s look the same", letter[k], letter[m]);
         }
+}
+
+/* what is not in the font is refused, not drawn as something else, and named with its code */
+static void foreign_letters(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_layout_piece *piece = NULL;
+    int n = 0, capacity = 0;
+    const char *text = "10 \xe2\x84\x83"; /* degree Celsius as one character */
+    assert_null(fw_layout_text_lacks(all));
+    assert_null(fw_layout_text_lacks("\xce\xbcm \xe2\x88\x92 A\xc2\xa0"
+                                     "B")); /* by other letters */
+    assert_ptr_equal(fw_layout_text_lacks(text), text + 3);
+    assert_ptr_equal(fw_layout_text_lacks(text + 4), text + 4); /* inside of a character */
+    assert_int_equal(fw_layout_text(arena, text, (fw_geometry_vec2){0, 0}, 9e-6, 1e-6, FW_ROLE_TEXT,
+                                    "", &piece, &n, &capacity),
+                     FW_GEOMETRY);
+    assert_int_equal(n, 0);
+    fw_place at = {"a.xml", 3, 7};
+    assert_int_equal(fw_layout_text_check("A & B \xc2\xb5", "the title", at, &diags), FW_OK);
+    assert_int_equal(fw_layout_text_check(text, "the title", at, &diags), FW_INPUT);
+    assert_int_equal(diags.count, 1);
+    assert_int_equal(diags.item[0].number, 390);
+    assert_int_equal(diags.item[0].place.line, 3);
+    assert_non_null(strstr(diags.item[0].message, "'\xe2\x84\x83' (U+2103)"));
+    fw_arena_free(arena);
+}
+
+/* whole characters are dropped, and the rest with its '+' has room */
+static void shortened(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double s = 5e-6;
+    const char *text = "AB\xc3\x84"
+                       "\xc3\x96",
+               *shown;
+    for (int cells = 0; cells < 40; cells++) {
+        assert_int_equal(fw_layout_text_fit(arena, text, 9 * s, s, cells * s, &shown), FW_OK);
+        bool whole = cells >= 34; /* four of 7 cells, three spaces of 2 */
+        const char *wanted = whole         ? text
+                             : cells >= 32 ? "AB\xc3\x84"
+                                             "+"
+                             : cells >= 23 ? "AB+"
+                             : cells >= 14 ? "A+"
+                                           : "";
+        assert_string_equal(shown, wanted);
+    }
+    fw_arena_free(arena);
 }
 
 static void width_of_a_line(void **state) {
     (void)state;
     const double s = 5e-6;
-    /* H 7 cells, 2 between, I 3 cells; lower case alike */
+    /* H 7 cells, 2 between, i 3 cells */
     assert_near(fw_layout_text_width("Hi", 9 * s, s), 12 * s, 1e-18);
     assert_near(fw_layout_text_width("", 9 * s, s), 0, 0);
     assert_near(fw_layout_text_width("H", 8 * s, s), 0, 0); /* refused size */
     /* cells of 100 um / 9, down to the grid */
     assert_near(fw_layout_text_width("H", 100e-6, s), 7 * 11.111e-6, 1e-15);
-    /* one foreign character of two bytes counts once, as '*' */
+    /* a character of two bytes is one letter */
     assert_near(fw_layout_text_width("\xc2\xb5", 9 * s, s), 5 * s, 1e-18);
     lettering t = write_text("HI", (fw_geometry_vec2){0, 0}, 9 * s, s);
     fw_geometry_box last = fw_geometry_contour_box(&t.piece[t.n - 1].contour);
@@ -207,6 +275,8 @@ int main(void) {
         cmocka_unit_test(no_hole_and_no_corner_contact),
         cmocka_unit_test(widths_and_spaces),
         cmocka_unit_test(every_letter_differs),
+        cmocka_unit_test(foreign_letters),
+        cmocka_unit_test(shortened),
         cmocka_unit_test(width_of_a_line),
         cmocka_unit_test(figures_by_their_features),
         cmocka_unit_test(refusals),
