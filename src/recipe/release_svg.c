@@ -7,7 +7,7 @@
 #include "recipe/recipe.h"
 #include <math.h>
 
-enum { COLUMNS = 400, BANDS = 8, WIDTH = 800, MARGIN = 16, KEY = 190 };
+enum { COLUMNS = 288, BANDS = 8, WIDTH = 800, MARGIN = 16, KEY = 190 };
 
 /* light to dark: what is free soon to what is free last; what stays is grey */
 static const char *const colour[BANDS + 1] = {"#fdf3d0", "#f9dd9b", "#f4c16c", "#eb9f50", "#dc7a45",

@@ -13,7 +13,7 @@
 #include "measure.h"
 #include <sys/resource.h>
 
-enum { ROUNDS = 41, STAGES = 8, COLUMNS = 400 };
+enum { ROUNDS = 41, STAGES = 8, COLUMNS = 288 };
 static const char *const stage_name[STAGES] = {
     "description read",  "layout",      "mask with its rules",  "GDSII",
     "release distances", "release map", "all, without release", "all"};
