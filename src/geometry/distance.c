@@ -135,7 +135,7 @@ double fw_geometry_segment_distance(const fw_geometry_segment *p, const fw_geome
     return nearest_chord(p, q, HUGE_VAL, at_p, at_q);
 }
 
-enum { FEW = 96, RUN = 8 };
+enum { FEW = 1024, RUN = 8 };
 
 /* the segments of q against one of p whose box is given; box: of the first FEW, run: of every RUN
    of these */
@@ -200,7 +200,7 @@ double fw_geometry_contour_distance(const fw_geometry_contour *p, const fw_geome
 
 /* Width and space of one outline: the shortest chord between two edges that face each other. */
 
-enum { BOXED = 128, SPAN = 8 };
+enum { BOXED = 1024, SPAN = 8 };
 
 typedef struct search {
     const fw_geometry_contour *contour;

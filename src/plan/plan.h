@@ -72,9 +72,10 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     size_t xml_length;
     const fw_measuring *measuring; /* NULL: not asked for */
     const fw_wafer *measured_on;   /* whose times it is about; NULL: those of the die alone */
-    const char *release_change;  /* what opens a window for it; NULL: it has one */
+    const char *release_change;    /* what opens a window for it; NULL: it has one */
     const fw_release
-        *release; /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+        *release;        /* after judging; NULL: nothing is drawn, or the flow frees nothing */
+    fw_text release_svg; /* its picture as a fragment, composed once; empty: none */
 } fw_plan_flow;
 
 typedef struct fw_plan_input_file { /* for the manifest */

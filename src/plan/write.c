@@ -11,9 +11,14 @@
 static fw_report_flow *report_flows(fw_plan *plan) {
     fw_report_flow *flow = fw_arena_array(plan->arena, fw_report_flow, (size_t)plan->nflow);
     for (int i = 0; flow && i < plan->nflow; i++)
-        flow[i] = (fw_report_flow){&plan->verdict.variant[i], plan->flow[i].flow,
-                                   plan->flow[i].mask,        plan->flow[i].mask_error,
-                                   plan->flow[i].violated,    plan->flow[i].measuring};
+        flow[i] =
+            (fw_report_flow){&plan->verdict.variant[i],
+                             plan->flow[i].flow,
+                             plan->flow[i].mask,
+                             plan->flow[i].mask_error,
+                             plan->flow[i].violated,
+                             plan->flow[i].measuring,
+                             plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL};
     return flow;
 }
 
@@ -50,11 +55,36 @@ static fw_status report_ladders(fw_plan *plan, fw_plan_ladders *ladders) {
     return status;
 }
 
+/* The map of a release, where the flow has one: a file, and a fragment that the run sheet and the report take. */
+static fw_status draw_release(fw_plan *plan, fw_plan_flow *pf, fw_text *file) {
+    const fw_layout *marked;
+    const fw_release_map *map;
+    int left_out;
+    if (!pf->flow || !pf->flow->release || !plan->layout) return FW_OK;
+    if (pf->release_svg.length && !file) return FW_OK;
+    fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
+    FW_NEED(scratch);
+    bool islands = fw_plan_insulated(pf);
+    fw_status status = fw_mask_frame_marks(scratch, pf->table, plan->layout, &marked, &left_out);
+    if (status == FW_OK) status = fw_recipe_release_map(scratch, pf->flow, marked, islands, &map);
+    if (status == FW_OK && map && pf->release_svg.length == 0) {
+        pf->release_svg = fw_text_new(plan->arena);
+        status = fw_recipe_write_release_svg(scratch, pf->flow, marked, islands, map, false,
+                                             &pf->release_svg);
+    }
+    if (status == FW_OK && map && file)
+        status = fw_recipe_write_release_svg(scratch, pf->flow, marked, islands, map, true, file);
+    fw_arena_free(scratch);
+    return status;
+}
+
 fw_status fw_plan_report_html(fw_plan *plan, fw_text *out) {
     FW_TRY(fw_plan_assumptions(plan));
     FW_TRY(fw_plan_measurements_find(plan, true));
     fw_plan_ladders ladders;
     fw_report_hinge *hinge;
+    for (int i = 0; i < plan->nflow; i++)
+        FW_TRY(draw_release(plan, &plan->flow[i], NULL));
     fw_report_input input = fw_plan_report_input(plan);
     FW_NEED(input.flow);
     FW_TRY(report_ladders(plan, &ladders));
@@ -92,7 +122,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
                               .schedule = pf->schedule,
                               .mask = pf->mask,
                               .cut = pf->cut,
-                              .measuring = pf->measuring};
+                              .measuring = pf->measuring,
+                              .release = pf->release_svg.length ? &pf->release_svg : NULL};
 }
 
 /* of a rejected device */
@@ -377,18 +408,13 @@ static fw_status write_written(writer *w, const fw_plan_flow *pf) {
     return put(w, "masks/", name, ".order.txt", &order);
 }
 
-/* the map of a release, where the flow has one */
-static fw_status write_release(writer *w, const fw_plan_flow *pf) {
-    const fw_layout *marked;
-    int left_out;
+static fw_status write_release(writer *w, fw_plan_flow *pf) {
     fw_text svg = fw_text_new(w->scratch);
-    if (!pf->flow->release || !w->plan->layout) return FW_OK;
-    FW_TRY(fw_mask_frame_marks(w->scratch, pf->table, w->plan->layout, &marked, &left_out));
-    FW_TRY(fw_recipe_write_release_svg(w->scratch, pf->flow, marked, fw_plan_insulated(pf), &svg));
+    FW_TRY(draw_release(w->plan, pf, &svg));
     return svg.length ? put(w, "recipes/", pf->use->ref, ".release.svg", &svg) : FW_OK;
 }
 
-static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
+static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
     static const struct {
         const char *ending;
         fw_status (*write)(const fw_process_flow *flow, const fw_recipe_header *header,
@@ -405,6 +431,7 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
                   {".sections.svg", fw_recipe_write_sections_svg, .of_cut = true},
                   {".sections.json", fw_recipe_write_sections_json, .of_cut = true},
                   {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true}};
+    FW_TRY(write_release(w, pf));
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
         fw_text text = fw_text_new(w->scratch);
@@ -414,7 +441,7 @@ static fw_status write_recipe(writer *w, const fw_plan_flow *pf) {
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }
-    return write_release(w, pf);
+    return FW_OK;
 }
 
 /* SCENE.csv and SCENE.svg; where a scene runs in several flows: SCENE.FLOW.csv for the later

@@ -48,6 +48,17 @@ static bool is_solved(const fw_process_change *c) {
     return c->reach && c->reach->status == FW_DERIVED;
 }
 
+/* does every law by which a release is timed know how narrow openings fall behind? */
+static bool knows_lag(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_step *s = &flow->step[i];
+            const fw_process_law *law = s->law ? fw_process_law_find(s->law) : NULL;
+            if (s->change[k].reach && !(law && law->lags)) return false;
+        }
+    return true;
+}
+
 /* the reach as a quantity that laws of time take; unknown where nothing is drawn */
 void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts) {
     const fw_release *r = facts ? facts->release : NULL;
@@ -55,6 +66,7 @@ void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts 
     bool known = r && r->slowest >= 0 && r->needed_m > 0.0;
     flow->release = known ? r : NULL;
     flow->release_foot_m = foot_of(flow);
+    flow->release_lag_known = knows_lag(flow);
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
             const fw_process_change *c = &flow->step[i].change[k];

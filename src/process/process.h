@@ -342,11 +342,12 @@ typedef struct fw_process_flow {
     bool nearest_known;
     /* of the mask's facts; NULL: nothing is drawn, or no step frees anything */
     const fw_release *release;
-    double release_foot_m; /* how far the foot of the walls stands outside of what is drawn */
-    bool no_window;        /* what must stay is lost before all that moves is free */
-    bool tight;            /* something on the mask prints in perfect contact only */
-    fw_process_wait *wait; /* (nwait) computed */
-    fw_process_text *text; /* (ntext) */
+    double release_foot_m;  /* how far the foot of the walls stands outside of what is drawn */
+    bool release_lag_known; /* the law of its time knows how narrow openings fall behind */
+    bool no_window;         /* what must stay is lost before all that moves is free */
+    bool tight;             /* something on the mask prints in perfect contact only */
+    fw_process_wait *wait;  /* (nwait) computed */
+    fw_process_text *text;  /* (ntext) */
     int nwait, ntext;
     fw_place place;
 } fw_process_flow;

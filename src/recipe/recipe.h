@@ -21,6 +21,7 @@ typedef struct fw_recipe_header {
     const fw_mask *mask;           /* NULL: none was made; then the layers are drawn not to scale */
     const fw_recipe_cut *cut;      /* NULL: the same */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
+    const fw_text *release;        /* the picture of the release as a fragment; NULL: none */
 } fw_recipe_header;
 
 fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_header *header,
@@ -53,9 +54,14 @@ fw_status fw_recipe_write_stack_svg(const fw_process_flow *flow, const fw_recipe
 /* layers of the wafer after step `index`, not to scale, as an SVG fragment */
 fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text *out);
 
-/* when every place of the die is free, as a picture; nothing where the flow frees nothing or how far it
-   must go is not known. layout: with the flow's own marks */
+/* when every place of the die is free, for a picture of it; NULL where the flow frees nothing or how far it must
+   go is not known. layout: with the flow's own marks. islands: what stands by itself is there */
+enum { FW_RECIPE_RELEASE_COLUMNS = 288 };
+fw_status fw_recipe_release_map(fw_arena *arena, const fw_process_flow *flow,
+                                const fw_layout *layout, bool islands, const fw_release_map **map);
+/* the picture: a file of its own, or a fragment for a page */
 fw_status fw_recipe_write_release_svg(fw_arena *arena, const fw_process_flow *flow,
-                                      const fw_layout *layout, bool islands, fw_text *out);
+                                      const fw_layout *layout, bool islands,
+                                      const fw_release_map *map, bool file, fw_text *out);
 
 #endif

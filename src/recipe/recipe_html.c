@@ -161,7 +161,7 @@ static void front(const fw_process_flow *flow, const fw_recipe_header *h, fw_tex
         flow->count[FW_DERIVED], flow->count[FW_MEASURED], flow->not_computable, flow->nstep);
 }
 
-static void judgement(const fw_process_flow *flow, fw_text *out) {
+static void judgement(const fw_process_flow *flow, const fw_recipe_header *h, fw_text *out) {
     static const char *const word[] = {"Not guaranteed until something is measured",
                                        "Not manufacturable in this flow",
                                        "Nothing speaks against making it in this flow"};
@@ -182,7 +182,11 @@ static void judgement(const fw_process_flow *flow, fw_text *out) {
     if (out->failed || !release) return;
     fw_text_add(out, "<p class=\"small\"><b>Release window:</b> ");
     fw_text_escaped(out, release);
-    fw_text_printf(out, ". When every place is free: %s.release.svg.</p>\n", flow->id);
+    fw_text_add(out, ".</p>\n");
+    if (!h->release) return;
+    fw_text_add(out, "<div class=\"release\">");
+    fw_text_bytes(out, h->release->data, h->release->length);
+    fw_text_add(out, "</div>\n");
 }
 
 static void summary_row(const fw_process_step *s, fw_text *out) {
@@ -260,7 +264,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
                     "<div class=\"rejected\">REJECTED: the verdict rejects this design. Do not "
                     "fabricate.</div>\n");
     front(flow, header, out);
-    judgement(flow, out);
+    judgement(flow, header, out);
     overrides_table(flow, out);
     fw_recipe_html_measurements(header, out);
     summary(flow, out);

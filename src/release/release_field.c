@@ -2,6 +2,7 @@
 #include "release/release_field.h"
 #include "base/constants.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2 p) {
@@ -43,7 +44,8 @@ static void add_edge(fw_release_field *f, const fw_geometry_segment *s, int part
 static void add_climb(fw_release_field *f, fw_release_climb c, double from, double to) {
     if (from == to) return;
     c.way = to > from ? 1 : -1;
-    c.y0 = fmin(from, to), c.y1 = fmax(from, to);
+    c.y0 = from < to ? from : to, c.y1 = from < to ? to : from;
+    c.x_most = c.radius > 0.0 ? c.cx + (c.side > 0.0 ? c.radius : 0.0) : c.x0 > c.x1 ? c.x0 : c.x1;
     f->climb[f->nclimb++] = c;
 }
 
@@ -96,7 +98,7 @@ static fw_status sort_climbs(fw_release_field *f) {
 }
 
 /* lettering: what its edges are cut out of, asked just outside of each */
-static void find_hosts(fw_release_field *f, const fw_layout *layout, const int *part_of) {
+void fw_release_field_hosts(fw_release_field *f, const fw_layout *layout, const int *part_of) {
     for (int i = 0, first = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
         int host = FW_RELEASE_OPENING;
@@ -122,8 +124,8 @@ fw_status fw_release_field_make(fw_arena *arena, const fw_layout *layout, const 
     *f = (fw_release_field){.arena = arena, .npart = npart, .box = layout->die};
     for (int i = 0; i < layout->npiece; i++)
         if (part_of[i] != FW_RELEASE_MIXED) edges += (size_t)layout->piece[i].contour.count;
-    FW_NEED(f->edge = fw_arena_array(arena, fw_release_edge, edges));
-    FW_NEED(f->climb = fw_arena_array(arena, fw_release_climb, 4 * edges));
+    FW_NEED(f->edge = fw_arena_raw(arena, edges * sizeof *f->edge));
+    FW_NEED(f->climb = fw_arena_raw(arena, 4 * edges * sizeof *f->climb));
     FW_NEED(f->winding = fw_arena_array(arena, int, (size_t)npart + 1));
     FW_NEED(f->met = fw_arena_array(arena, bool, (size_t)npart + 1));
     FW_NEED(f->touched = fw_arena_array(arena, int, (size_t)npart + 1));
@@ -137,9 +139,14 @@ fw_status fw_release_field_make(fw_arena *arena, const fw_layout *layout, const 
             add_climbs(f, &c->segment[k], part_of[i]);
         }
     }
-    FW_TRY(sort_climbs(f));
-    find_hosts(f, layout, part_of);
-    return FW_OK;
+    return sort_climbs(f);
+}
+
+static double crossing(const fw_release_climb *c, double y) {
+    double dy = y - c->cy;
+    if (c->radius == 0.0) return c->x0 + (c->x1 - c->x0) * ((y - c->y0) / (c->y1 - c->y0));
+    double square = c->radius * c->radius - dy * dy;
+    return c->cx + c->side * (square > 0.0 ? sqrt(square) : 0.0);
 }
 
 /* Winding number of every part about p, by the crossings of a ray to the right. A part holds p where its
@@ -151,11 +158,7 @@ int fw_release_field_part(fw_release_field *f, fw_geometry_vec2 p) {
     for (int i = f->first[b]; i < f->first[b + 1]; i++) {
         const fw_release_climb *c = &f->climb[f->listed[i]];
         if (!(c->y0 <= p.y && p.y < c->y1)) continue;
-        double dy = p.y - c->cy;
-        double x = c->radius > 0.0
-                       ? c->cx + c->side * sqrt(fmax(0.0, c->radius * c->radius - dy * dy))
-                       : c->x0 + (c->x1 - c->x0) * ((p.y - c->y0) / (c->y1 - c->y0));
-        if (x <= p.x) continue;
+        if (c->x_most <= p.x || crossing(c, p.y) <= p.x) continue;
         int at = c->part + 1; /* 0: lettering */
         if (!f->met[at]) f->touched[n++] = at;
         f->met[at] = true;
@@ -169,4 +172,64 @@ int fw_release_field_part(fw_release_field *f, fw_geometry_vec2 p) {
         f->met[at] = false;
     }
     return cleared ? FW_RELEASE_OPENING : found;
+}
+
+static int by_x(const void *p, const void *q) {
+    double a = ((const fw_release_crossing *)p)->x, b = ((const fw_release_crossing *)q)->x;
+    return (a > b) - (a < b);
+}
+
+static void sort_row(fw_release_crossing *row, int n) {
+    enum { SHORT = 12 };
+    if (n > SHORT) qsort(row, (size_t)n, sizeof *row, by_x);
+    for (int i = 1; n <= SHORT && i < n; i++) {
+        fw_release_crossing c = row[i];
+        int k = i;
+        for (; k > 0 && row[k - 1].x > c.x; k--)
+            row[k] = row[k - 1];
+        row[k] = c;
+    }
+}
+
+/* a part whose number is not 0, of those that were met; 0: none */
+static int any_of(const fw_release_field *f, int touched) {
+    for (int i = touched - 1; i >= 0; i--)
+        if (f->touched[i] > 0 && f->winding[f->touched[i]] != 0) return f->touched[i];
+    return 0;
+}
+
+/* The same for all points of a row from x0 to x1 at once: between two crossings the numbers do not change, and
+   from right to left they are sums. Cost: that of one point, and of sorting what is between. Test:
+   test_reach_field.c, rows_are_those_of_points. */
+int fw_release_field_row(fw_release_field *f, double y, double x0, double x1,
+                         fw_release_crossing *row) {
+    int b = bin_of(f, y), n = 0, touched = 0;
+    for (int i = f->first[b]; i < f->first[b + 1]; i++) {
+        const fw_release_climb *c = &f->climb[f->listed[i]];
+        if (!(c->y0 <= y && y < c->y1) || c->x_most <= x0) continue;
+        double x = crossing(c, y);
+        if (x <= x0) continue;
+        int at = c->part + 1;
+        if (!f->met[at]) f->touched[touched++] = at;
+        f->met[at] = true;
+        if (x >= x1)
+            f->winding[at] += c->way;
+        else
+            row[n++] = (fw_release_crossing){x, at, c->way, FW_RELEASE_OPENING};
+    }
+    sort_row(row, n);
+    int here = any_of(f, touched);
+    row[n] = (fw_release_crossing){HUGE_VAL, 0, 0, f->winding[0] == 0 ? here - 1 : -1};
+    for (int i = n - 1; i >= 0; i--) { /* what lies left of this crossing has it on its right */
+        int at = row[i].edge_part;
+        f->winding[at] += row[i].way;
+        if (at > 0 && f->winding[at] != 0) here = at;
+        if (here > 0 && f->winding[here] == 0) here = any_of(f, touched);
+        if (here > 0 && f->winding[0] == 0) row[i].part = here - 1;
+    }
+    for (int i = 0; i < touched; i++) {
+        f->winding[f->touched[i]] = 0;
+        f->met[f->touched[i]] = false;
+    }
+    return n;
 }

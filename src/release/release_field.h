@@ -28,6 +28,7 @@ typedef struct fw_release_climb {
     double x0, x1;         /* at those, of a line */
     double cx, cy, radius; /* of an arc; radius 0: a line */
     double side;           /* of an arc: +1 right of its centre, -1 left of it */
+    double x_most;         /* no point of it lies farther right */
     int part, way;         /* way +1: it runs up */
 } fw_release_climb;
 
@@ -60,15 +61,26 @@ typedef struct fw_release_field {
     /* (npart + 1) of a question: lettering, then the parts; winding 0 and met false between two */
     int *winding, *touched;
     bool *met;
-    fw_release_level start; /* boxes over all of it, with which every search begins */
+    fw_release_level start; /* boxes over all that is not opening: every search begins with them */
 } fw_release_field;
 
 /* part_of: (layout->npiece) number of the part, FW_RELEASE_OPENING for lettering, else
    FW_RELEASE_MIXED: it is not there */
 fw_status fw_release_field_make(fw_arena *arena, const fw_layout *layout, const int *part_of,
                                 int npart, fw_release_field *field);
+/* which part lettering is cut out of: edge[].part of its edges, which is FW_RELEASE_OPENING before */
+void fw_release_field_hosts(fw_release_field *field, const fw_layout *layout, const int *part_of);
 /* the part whose material is at p; FW_RELEASE_OPENING: none */
 int fw_release_field_part(fw_release_field *field, fw_geometry_vec2 p);
+/* The crossings of a row between x0 and x1, from left to right; how many. row: (nclimb + 1), of which the one
+   behind the last stands for what is right of it. */
+typedef struct fw_release_crossing {
+    double x;
+    int edge_part, way; /* of its climb; edge_part 0: lettering, 1 and more: the parts */
+    int part;           /* whose material is on the left of it, as far as the one before */
+} fw_release_crossing;
+int fw_release_field_row(fw_release_field *field, double y, double x0, double x1,
+                         fw_release_crossing *row);
 /* Distance of a point from a line or an arc. Of an arc: | |p - c| - R | where p lies in the sector of
    the arc, which the direction to its middle and the cosine of half its sweep tell, else the nearer
    end. In: edge, point (m). Out: distance (m). Error: a few ulp of the coordinates. Cost: at most two
@@ -88,9 +100,15 @@ static inline double fw_release_edge_distance(const fw_release_edge *e, fw_geome
 }
 /* its nearest point to p */
 fw_geometry_vec2 fw_release_edge_foot(const fw_release_edge *e, fw_geometry_vec2 p);
-/* Field->start: boxes of equal size over the whole field, each with the edges that may be nearest to any
-   point of it, or run through it */
+/* the nearest open edge of a list (n) to a point that is surely no farther than most_m from it; HUGE_VAL:
+   that is not known. Most edges are told by the circle around them. */
+const fw_release_edge *fw_release_nearest(const fw_release_field *field, const int *list, int n,
+                                          fw_geometry_vec2 p, double most_m, double *near_m);
+/* Field->start: boxes of equal size over all that is not opening, each with the edges that may be nearest to
+   any point of it, or run through it (release_start.c) */
 fw_status fw_release_field_start(fw_release_field *field);
+/* room for one more box of so many edges, and for their distances */
+fw_status fw_release_level_room(fw_release_level *level, fw_arena *arena, size_t edges);
 /* the four quarters of a box, added to the next level; parts are kept where the box has one */
 fw_status fw_release_level_split(const fw_release_field *field, const fw_release_level *level,
                                  const fw_release_box *box, fw_release_level *next);

@@ -128,6 +128,7 @@ fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool island
     fw_mark mark = fw_arena_mark(arena);
     FW_TRY(fw_release_field_make(arena, layout, part_of, r->npart, &field));
     r->edges = field.nedge;
+    fw_release_field_hosts(&field, layout, part_of);
     take_lettering(&field, layout, part_of, r->part);
     if (field.nedge > 0 && r->npart > 0) {
         FW_TRY(fw_release_field_start(&field));

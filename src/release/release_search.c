@@ -16,7 +16,8 @@
 static const double RELATIVE = 5e-4, LEAST_M = 5e-9, SMALLEST_M = 1e-9;
 
 static double enough(const fw_release_part *p) {
-    return p->reach_m + fmax(RELATIVE * p->reach_m, LEAST_M);
+    double more = RELATIVE * p->reach_m;
+    return p->reach_m + (more > LEAST_M ? more : LEAST_M);
 }
 
 enum { FEW = 40 }; /* edges of a box in which seams are tried */
@@ -37,11 +38,8 @@ static void found(fw_release_part *p, double reach_m, fw_geometry_vec2 at) {
 /* d anywhere in the circle about the box: one of its edges is nearest */
 static double distance_at(const search *s, const fw_release_level *level, const fw_release_box *box,
                           fw_geometry_vec2 p) {
-    double near = HUGE_VAL;
-    for (int i = 0; i < box->count; i++) {
-        const fw_release_edge *e = &s->field->edge[level->list[box->first + i]];
-        if (e->open) near = fmin(near, fw_release_edge_distance(e, p));
-    }
+    double near;
+    fw_release_nearest(s->field, level->list + box->first, box->count, p, HUGE_VAL, &near);
     return near;
 }
 

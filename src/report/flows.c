@@ -215,6 +215,15 @@ static void steps(fw_text *out, const fw_process_flow *flow) {
     fw_text_add(out, "</tbody></table></div>\n");
 }
 
+/* when every place is free */
+static void release(fw_text *out, const fw_report_flow *f) {
+    if (!f->release) return;
+    fw_text_add(out, "<figure class=\"wide release\"><figcaption>Release: when every place is free"
+                     "</figcaption>\n");
+    fw_text_bytes(out, f->release->data, f->release->length);
+    fw_text_add(out, "</figure>\n");
+}
+
 fw_status fw_report_section_recipes(fw_report_page *page) {
     fw_text *out = page->out;
     for (int i = 0; i < page->in->nflow; i++) {
@@ -227,6 +236,7 @@ fw_status fw_report_section_recipes(fw_report_page *page) {
                       flow->not_computable);
         else
             fw_text_add(out, "none is missing.</p>\n");
+        release(out, &page->in->flow[i]);
         steps(out, flow);
     }
     if (page->in->nflow == 0) fw_text_add(out, "<p>The description names no flow.</p>\n");

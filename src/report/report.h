@@ -28,6 +28,7 @@ typedef struct fw_report_flow { /* one process flow of the device */
     const char *mask_error;        /* NULL: the design was rejected, or masks were not asked for */
     const fw_mask *violated;       /* its findings are listed; NULL: no rule is broken */
     const fw_measuring *measuring; /* which measurement pays; NULL: not asked for */
+    const fw_text *release;        /* picture of when every place is free; NULL: none */
 } fw_report_flow;
 
 typedef struct fw_report_input {

@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a description in memory to the bytes of its GDSII file, as plans do it: reading, layout,
-   frame marks, bias, rules, flattening with its proofs, writing. Thread CPU time, median and least
-   of rounds, each in an arena of its own; then the memory beyond the start of the program.
+   frame marks, bias, rules, flattening with its proofs, writing; then the distances of its release, and
+   the map of them. Thread CPU time, median and least of rounds, each in an arena of its own; then the
+   memory beyond the start of the program.
 
    cmake --build DIR --target bench_device_mask &&
-   DIR/tests/bench/bench_device_mask docs/gallery/reference-six-bar/device.xml masks/al-masked-rie.xml 1.5e-6 */
+   DIR/tests/bench/bench_device_mask docs/gallery/reference-six-bar/device.xml masks/al-masked-rie.xml 1.5e-6
+
+   A fourth argument, a pitch of release holes in metres, makes the device one with holes. */
 #include "mask/mask.h"
+#include "release/release.h"
 #include "measure.h"
 #include <sys/resource.h>
 
-enum { ROUNDS = 41, STAGES = 5 };
-static const char *const stage_name[STAGES] = {"description read", "layout", "mask with its rules",
-                                               "GDSII", "all"};
+enum { ROUNDS = 41, STAGES = 8, COLUMNS = 288 };
+static const char *const stage_name[STAGES] = {
+    "description read",  "layout",      "mask with its rules",  "GDSII",
+    "release distances", "release map", "all, without release", "all"};
 
 typedef struct source {
     const char *path;
@@ -44,15 +49,17 @@ static void must(fw_status status, const char *what, const fw_diags *diags) {
 
 /* spent_s (STAGES): CPU seconds of each stage and of all */
 static size_t run(const source *device_file, const source *table_file, double bias_m,
-                  double spent_s[STAGES], size_t *peak) {
+                  double pitch_m, double spent_s[STAGES], size_t *peak) {
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_mask_table table;
     must(fw_mask_table_read(arena, table_file->path, table_file->text, table_file->length, &diags,
                             &table),
          table_file->path, &diags);
-    double at[STAGES];
+    double at[STAGES - 1];
     const fw_device *device;
+    const fw_release *release;
+    const fw_release_map *map;
     const fw_layout *drawn, *layout;
     const fw_mask *mask;
     int left_out;
@@ -61,6 +68,9 @@ static size_t run(const source *device_file, const source *table_file, double bi
                         &diags, &device),
          device_file->path, &diags);
     at[1] = cpu_seconds();
+    fw_device pierced = *device;
+    if (pitch_m > 0.0) pierced.release_pitch_m = pitch_m;
+    device = &pierced;
     must(fw_layout_build(arena, device, &diags, &drawn), "layout", &diags);
     at[2] = cpu_seconds();
     must(fw_mask_frame_marks(arena, &table, drawn, &layout, &left_out), "marks", &diags);
@@ -71,9 +81,14 @@ static size_t run(const source *device_file, const source *table_file, double bi
     fw_text out = fw_text_new(arena);
     must(fw_mask_write_gds(mask, &out), "GDSII", &diags);
     at[4] = cpu_seconds();
-    for (int i = 0; i + 1 < STAGES; i++)
+    must(fw_release_solve(arena, layout, true, false, 0.1, &release), "release", &diags);
+    at[5] = cpu_seconds();
+    must(fw_release_map_make(arena, layout, true, COLUMNS, &map), "map", &diags);
+    at[6] = cpu_seconds();
+    for (int i = 0; i < 6; i++)
         spent_s[i] = at[i + 1] - at[i];
-    spent_s[STAGES - 1] = at[4] - at[0];
+    spent_s[6] = at[4] - at[0];
+    spent_s[7] = at[6] - at[0];
     *peak = fw_arena_peak(arena);
     size_t bytes = out.length;
     fw_arena_free(arena);
@@ -88,16 +103,17 @@ static long resident_kB(void) {
 
 int main(int argc, char **argv) {
     if (argc < 3) {
-        fprintf(stderr, "bench_device_mask DEVICE.xml TABLE.xml [BIAS_M]\n");
+        fprintf(stderr, "bench_device_mask DEVICE.xml TABLE.xml [BIAS_M [PITCH_M]]\n");
         return 2;
     }
     source device = read_source(argv[1]), table = read_source(argv[2]);
     double bias_m = argc > 3 ? strtod(argv[3], NULL) : 1.5e-6, spent_s[STAGES][ROUNDS];
+    double pitch_m = argc > 4 ? strtod(argv[4], NULL) : 0.0;
     size_t bytes = 0, peak = 0;
     long before_kB = resident_kB(), after_kB = 0;
     for (int r = 0; r < ROUNDS; r++) {
         double one[STAGES];
-        bytes = run(&device, &table, bias_m, one, &peak);
+        bytes = run(&device, &table, bias_m, pitch_m, one, &peak);
         if (r == 0) after_kB = resident_kB();
         for (int i = 0; i < STAGES; i++)
             spent_s[i][r] = one[i];

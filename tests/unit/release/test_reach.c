@@ -2,6 +2,12 @@
 /* The worst point of a part, and what is left of a bond, against closed forms. */
 #include "fixture.h"
 
+static uint64_t seed = 7;
+static double uniform(void) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(seed >> 11) / 9007199254740992.0;
+}
+
 /* found at a point that has the distance, proved to the stated error, and right */
 static void assert_reach(const fw_release_part *p, double want_um) {
     double want = want_um * UM, error = fmax(1e-8, 5e-4 * want);
@@ -93,6 +99,25 @@ static void plates_with_square_holes(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* a wedge with one worst point, beside a slot: a box in the middle of the slot says nothing of what lies beyond
+   its edges */
+static void wedges_beside_slots(void **state) {
+    (void)state;
+    for (int n = test_cases(2000, 300); n > 0; n--) {
+        plate *p = plate_new(800);
+        double x = 300 * (uniform() - 0.5), y = 300 * (uniform() - 0.5),
+               half = 150 + 200 * uniform();
+        double high = 60 + 60 * uniform(), slot = 1 + 30 * uniform();
+        double wedge[3][2] = {{x - half, y}, {x + half, y}, {x, y + high}};
+        plate_add(p, FW_ROLE_STRUCTURE, 0, "body", polygon(p, wedge, 3));
+        plate_add(p, FW_ROLE_STRUCTURE, 0, "body",
+                  rectangle(p, x - half, y - slot - 30, x + half, y - slot));
+        double inscribed = half * high / (half + hypot(half, high));
+        assert_reach(&solve(p, 0.0)->part[0], fmax(inscribed, 15));
+        fw_arena_free(p->arena);
+    }
+}
+
 /* two halves of a bar, joined by a seam: no opening there; and a part behind it is as far from one */
 static void seams_are_no_openings(void **state) {
     (void)state;
@@ -134,12 +159,6 @@ static void bonds_shrink_as_in_closed_form(void **state) {
     assert_int_equal(r->weakest, 2);
     assert_near(r->lost_m, r->part[2].kept_m, 0);
     fw_arena_free(p->arena);
-}
-
-static uint64_t seed = 7;
-static double uniform(void) {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(seed >> 11) / 9007199254740992.0;
 }
 
 /* any plate with any holes: no random point is farther than the bound, and the worst one found is as far
@@ -184,6 +203,7 @@ int main(void) {
         cmocka_unit_test(rings_and_triangles),
         cmocka_unit_test(plates_with_holes),
         cmocka_unit_test(plates_with_square_holes),
+        cmocka_unit_test(wedges_beside_slots),
         cmocka_unit_test(seams_are_no_openings),
         cmocka_unit_test(bonds_shrink_as_in_closed_form),
         cmocka_unit_test(bounds_hold),

@@ -81,6 +81,104 @@ static void parts_are_those_of_contains(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* a plate of nine shapes with slots, holes and letters between them */
+static plate *busy(void) {
+    plate *p = plate_new(500);
+    for (int i = 0; i < 9; i++) {
+        double x = 300 * (i % 3) - 300, y = 300 * (i / 3) - 300, w = 60 + 85 * uniform();
+        plate_add(p, FW_ROLE_STRUCTURE, i, "odd",
+                  i % 3 == 0   ? disc(p, x, y, w)
+                  : i % 3 == 1 ? odd(p, x, y, 0.4 * w)
+                               : rectangle(p, x - w, y - 140, x + w, y + 140));
+    }
+    for (int i = 0; i < 12; i++) {
+        double x = 800 * (uniform() - 0.5), y = 800 * (uniform() - 0.5), w = 30 * uniform() + 1;
+        plate_add(p, FW_ROLE_TEXT, FW_NONE - 1, "letter",
+                  i % 2 ? disc(p, x, y, w) : rectangle(p, x, y, x + 6 * w, y + w));
+    }
+    return p;
+}
+
+static fw_release_field field_of(plate *p) {
+    fw_release_field f;
+    fw_release_part *part;
+    int *part_of, npart;
+    assert_int_equal(fw_release_parts(p->arena, &p->layout, true, &part_of, &part, &npart), FW_OK);
+    assert_int_equal(fw_release_field_make(p->arena, &p->layout, part_of, npart, &f), FW_OK);
+    assert_int_equal(fw_release_field_start(&f), FW_OK);
+    return f;
+}
+
+static double nearest_of_all(const fw_release_field *f, fw_geometry_vec2 at) {
+    double near = HUGE_VAL;
+    for (int i = 0; i < f->nedge; i++)
+        if (f->edge[i].open) near = fmin(near, fw_release_edge_distance(&f->edge[i], at));
+    return near;
+}
+
+/* a row asked at once says of each of its points what the point says */
+static void rows_are_those_of_points(void **state) {
+    (void)state;
+    for (int n = 0; n < 20; n++) {
+        plate *p = busy();
+        fw_release_field f = field_of(p);
+        fw_release_crossing *row =
+            fw_arena_array(p->arena, fw_release_crossing, (size_t)f.nclimb + 1);
+        for (int k = 0; k < 200; k++) {
+            double y = 1e-3 * (uniform() - 0.5), x0 = 1e-3 * (uniform() - 0.5), x1 = x0;
+            x1 += 5e-4 * uniform();
+            int crossings = fw_release_field_row(&f, y, x0, x1, row);
+            for (int i = 0; i < 40; i++) {
+                fw_geometry_vec2 at = {x0 + (x1 - x0) * uniform(), y};
+                int c = 0;
+                while (c < crossings && row[c].x <= at.x)
+                    c++;
+                assert_int_equal(row[c].part, fw_release_field_part(&f, at));
+            }
+        }
+        fw_arena_free(p->arena);
+    }
+}
+
+static const fw_release_box *box_about(const fw_release_level *l, fw_geometry_vec2 at) {
+    for (int i = 0; i < l->nbox; i++)
+        if (fabs(at.x - l->box[i].x) <= l->box[i].half_m &&
+            fabs(at.y - l->box[i].y) <= l->box[i].half_m)
+            return &l->box[i];
+    return NULL;
+}
+
+/* every point of material has a box, and the edge that is nearest is in its list, at the beginning and in
+   every quarter; and no point is farther from an opening than the box says */
+static void boxes_hold_what_they_say(void **state) {
+    (void)state;
+    int met = 0;
+    for (int n = test_cases(100, 12); n > 0; n--) {
+        plate *p = busy();
+        fw_release_field f = field_of(p);
+        for (int k = 0; k < 600; k++) {
+            fw_geometry_vec2 at = {1e-3 * (uniform() - 0.5), 1e-3 * (uniform() - 0.5)}, up;
+            fw_release_level quarter = {0}, *level = &f.start;
+            if (fw_release_field_part(&f, at) < 0) continue;
+            double want = nearest_of_all(&f, at), near, rise;
+            for (int depth = 0; depth < 5; depth++) {
+                const fw_release_box *box = box_about(level, at);
+                assert_non_null(box);
+                fw_release_nearest(&f, level->list + box->first, box->count, at, HUGE_VAL, &near);
+                assert_near(near, want, 0);
+                assert_near(box->near_m, nearest_of_all(&f, (fw_geometry_vec2){box->x, box->y}), 0);
+                assert_true(want <= fw_release_box_most(&f, level, box, &up, &rise) * (1 + 1e-12));
+                fw_release_level next = {0};
+                assert_int_equal(fw_release_level_split(&f, level, box, &next), FW_OK);
+                quarter = next, level = &quarter;
+                met++;
+            }
+        }
+        fw_arena_free(p->arena);
+    }
+    assert_true(met > 5000);
+}
+
 /* cells of a map have the distance of their middles */
 static void maps_are_distances(void **state) {
     (void)state;
@@ -104,6 +202,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distances_are_those_of_geometry),
         cmocka_unit_test(parts_are_those_of_contains),
+        cmocka_unit_test(rows_are_those_of_points),
+        cmocka_unit_test(boxes_hold_what_they_say),
         cmocka_unit_test(maps_are_distances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
