@@ -432,8 +432,10 @@ static const fw_cli_option_row table[] = {
      "at vertices",
      FW_OPT_FABRICATE, take_mask_vertices},
     {"layers", 0, "FILE",
-     "the laboratory's own layer numbers, 0 to 65535, and names, a line for each layer: \"structure 7/0 "
-     "name POLY2\"; LAYER is an id or a role of the layer table, lines below \"flow NAME\" are for that "
+     "the laboratory's own layer numbers, 0 to 65535, and names, a line for each layer: "
+     "\"structure 7/0 "
+     "name POLY2\"; LAYER is an id or a role of the layer table, lines below \"flow NAME\" are for "
+     "that "
      "flow, # begins a remark",
      FW_OPT_FABRICATE, take_layers},
     {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},

@@ -17,16 +17,16 @@ typedef struct line { /* low before high */
 /* by the lower end, then from the one that turns most to the right to the one most to the left */
 static int by_start_and_turn(fw_geometry_point a_low, fw_geometry_point a_high,
                              fw_geometry_point b_low, fw_geometry_point b_high) {
-    int order = fw_order_wholes(fw_merge_key(a_low), fw_merge_key(b_low));
+    int order = fw_order_wholes(fw_geometry_merge_key(a_low), fw_geometry_merge_key(b_low));
     if (order) return order;
     return fw_order_wholes(0, fw_cross(a_low, a_high, b_high));
 }
 
 static int by_edge(const void *left, const void *right) {
-    const fw_merge_edge *a = left, *b = right;
+    const fw_geometry_merge_edge *a = left, *b = right;
     int order = by_start_and_turn(a->low, a->high, b->low, b->high);
     if (order) return order;
-    order = fw_order_wholes(fw_merge_key(a->high), fw_merge_key(b->high));
+    order = fw_order_wholes(fw_geometry_merge_key(a->high), fw_geometry_merge_key(b->high));
     return order ? order : fw_order_wholes(a->set, b->set);
 }
 
@@ -36,18 +36,20 @@ static bool nothing(const line *l, int sets) {
     return true;
 }
 
-static fw_status lines_of(fw_arena *arena, const fw_merge_edges *edges, int sets, line **out,
-                          int *count) {
-    fw_merge_edge *sorted = fw_arena_array(arena, fw_merge_edge, (size_t)edges->n);
+static fw_status lines_of(fw_arena *arena, const fw_geometry_merge_edges *edges, int sets,
+                          line **out, int *count) {
+    fw_geometry_merge_edge *sorted =
+        fw_arena_array(arena, fw_geometry_merge_edge, (size_t)edges->n);
     line *l = fw_arena_array(arena, line, (size_t)edges->n);
     FW_NEED(sorted && l ? l : NULL);
     memcpy(sorted, edges->edge, (size_t)edges->n * sizeof *sorted);
     qsort(sorted, (size_t)edges->n, sizeof *sorted, by_edge);
     int n = 0;
     for (int i = 0; i < edges->n; i++) {
-        const fw_merge_edge *e = &sorted[i];
-        bool same = i > 0 && fw_merge_key(sorted[i - 1].low) == fw_merge_key(e->low) &&
-                    fw_merge_key(sorted[i - 1].high) == fw_merge_key(e->high);
+        const fw_geometry_merge_edge *e = &sorted[i];
+        bool same = i > 0 &&
+                    fw_geometry_merge_key(sorted[i - 1].low) == fw_geometry_merge_key(e->low) &&
+                    fw_geometry_merge_key(sorted[i - 1].high) == fw_geometry_merge_key(e->high);
         if (!same) {
             if (n > 0 && nothing(&l[n - 1], sets)) n--; /* two neighbours share it */
             l[n++] = (line){.low = e->low, .high = e->high};
@@ -111,7 +113,7 @@ static int below(const sweep *s, fw_geometry_point p) {
 static void exchange(sweep *s, int at, fw_geometry_point p, int from, int to) {
     int ending = 0;
     while (at + ending < s->nactive &&
-           fw_merge_key(s->line[s->active[at + ending]].high) == fw_merge_key(p))
+           fw_geometry_merge_key(s->line[s->active[at + ending]].high) == fw_geometry_merge_key(p))
         ending++;
     int beginning = to - from;
     if (beginning != ending)
@@ -149,15 +151,15 @@ static fw_status sweep_lines(fw_arena *arena, sweep *s) {
     s->active = fw_arena_array(arena, int, (size_t)s->nline);
     FW_NEED(key && s->active ? key : NULL);
     for (int i = 0; i < s->nline; i++) {
-        key[2 * i] = fw_merge_key(s->line[i].low);
-        key[2 * i + 1] = fw_merge_key(s->line[i].high);
+        key[2 * i] = fw_geometry_merge_key(s->line[i].low);
+        key[2 * i + 1] = fw_geometry_merge_key(s->line[i].high);
     }
     qsort(key, 2 * (size_t)s->nline, sizeof *key, by_key);
     for (int i = 0, from = 0; i < 2 * s->nline; i++) {
         if (i > 0 && key[i] == key[i - 1]) continue;
         fw_geometry_point p = point_of(key[i]);
         int to = from, at = below(s, p);
-        while (to < s->nline && fw_merge_key(s->line[to].low) == key[i])
+        while (to < s->nline && fw_geometry_merge_key(s->line[to].low) == key[i])
             to++;
         wind(s, at, from, to);
         exchange(s, at, p, from, to);
@@ -168,66 +170,6 @@ static fw_status sweep_lines(fw_arena *arena, sweep *s) {
 
 /* ---- closed lines ---- */
 
-fw_status fw_merge_add_side(fw_arena *arena, fw_merge_sides *list, fw_merge_side side) {
-    if (list->n == list->capacity) {
-        int more = list->capacity ? 2 * list->capacity : 256;
-        FW_NEED(list->side = fw_arena_grow(arena, list->side, (size_t)list->n, (size_t)more,
-                                           sizeof *list->side));
-        list->capacity = more;
-    }
-    list->side[list->n++] = side;
-    return FW_OK;
-}
-
-/* Does q come before r when a ray from o turns clockwise from the direction of `back`? None of them
-   has the direction of another. */
-static bool sooner(fw_geometry_point o, fw_geometry_point back, fw_geometry_point q,
-                   fw_geometry_point r) {
-    int64_t bq = fw_cross(o, back, q), br = fw_cross(o, back, r), qr = fw_cross(o, q, r);
-    /* half a turn to the right of `back` first: there the cross product is below 0 */
-    bool q_right = bq < 0, r_right = br < 0;
-    if (bq == 0) q_right = false; /* straight on: behind all on the right, before all on the left */
-    if (br == 0) r_right = false;
-    if (q_right != r_right) return q_right;
-    if (bq == 0 || br == 0) return bq == 0;
-    return qr < 0;
-}
-
-static int by_start(const void *left, const void *right) {
-    const fw_merge_side *a = left, *b = right;
-    int order = fw_order_wholes(fw_merge_key(a->a), fw_merge_key(b->a));
-    return order ? order : fw_order_wholes(fw_merge_key(a->b), fw_merge_key(b->b));
-}
-
-static int first_from(const fw_merge_sides *s, int64_t key) {
-    int low = 0, high = s->n;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (fw_merge_key(s->side[middle].a) < key)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
-}
-
-fw_status fw_merge_follow(fw_arena *arena, fw_merge_sides *s, int **next) {
-    FW_NEED(*next = fw_arena_array(arena, int, (size_t)s->n + 1));
-    if (s->n > 1) qsort(s->side, (size_t)s->n, sizeof *s->side, by_start);
-    for (int i = 0; i < s->n; i++) {
-        const fw_merge_side *e = &s->side[i];
-        int64_t key = fw_merge_key(e->b);
-        int best = -1;
-        for (int k = first_from(s, key); k < s->n && fw_merge_key(s->side[k].a) == key; k++) {
-            if (fw_merge_key(s->side[k].b) == fw_merge_key(e->a)) continue; /* its other side */
-            if (best < 0 || sooner(e->b, e->a, s->side[k].b, s->side[best].b)) best = k;
-        }
-        if (best < 0) return FW_INTERNAL; /* a border that ends */
-        (*next)[i] = best;
-    }
-    return FW_OK;
-}
-
 /* is b on the way from a to c? */
 static bool straight(fw_geometry_point a, fw_geometry_point b, fw_geometry_point c) {
     return fw_cross(a, b, c) == 0 &&
@@ -237,20 +179,21 @@ static bool straight(fw_geometry_point a, fw_geometry_point b, fw_geometry_point
 }
 
 /* does no other line come by where a side starts? */
-static bool alone(const fw_merge_sides *s, int i) {
-    int64_t key = fw_merge_key(s->side[i].a);
-    return (i == 0 || fw_merge_key(s->side[i - 1].a) != key) &&
-           (i + 1 == s->n || fw_merge_key(s->side[i + 1].a) != key);
+static bool alone(const fw_geometry_merge_sides *s, int i) {
+    int64_t key = fw_geometry_merge_key(s->side[i].a);
+    return (i == 0 || fw_geometry_merge_key(s->side[i - 1].a) != key) &&
+           (i + 1 == s->n || fw_geometry_merge_key(s->side[i + 1].a) != key);
 }
 
 /* one closed line without its straight vertices; says its direction */
-static fw_status add_loop(fw_arena *arena, const fw_merge_sides *s, const int *next, int start,
-                          bool *done, fw_merge_sides *out, int *outlines, int *holes) {
+static fw_status add_loop(fw_arena *arena, const fw_geometry_merge_sides *s, const int *next,
+                          int start, bool *done, fw_geometry_merge_sides *out, int *outlines,
+                          int *holes) {
     int from = out->n;
     int64_t area2 = 0;
     for (int i = start; !done[i]; i = next[i]) {
-        const fw_merge_side *e = &s->side[i];
-        fw_merge_side *last = out->n > from ? &out->side[out->n - 1] : NULL;
+        const fw_geometry_merge_side *e = &s->side[i];
+        fw_geometry_merge_side *last = out->n > from ? &out->side[out->n - 1] : NULL;
         done[i] = true;
         area2 +=
             ((int64_t)e->a.x_dbu - s->side[start].a.x_dbu) * ((int64_t)e->b.y_dbu - e->a.y_dbu) -
@@ -258,9 +201,9 @@ static fw_status add_loop(fw_arena *arena, const fw_merge_sides *s, const int *n
         if (last && alone(s, i) && straight(last->a, last->b, e->b))
             last->b = e->b;
         else
-            FW_TRY(fw_merge_add_side(arena, out, *e));
+            FW_TRY(fw_geometry_merge_add_side(arena, out, *e));
     }
-    fw_merge_side *first = &out->side[from], *last = &out->side[out->n - 1];
+    fw_geometry_merge_side *first = &out->side[from], *last = &out->side[out->n - 1];
     if (alone(s, start) && straight(last->a, last->b, first->b)) {
         first->a = last->a;
         out->n--;
@@ -269,12 +212,12 @@ static fw_status add_loop(fw_arena *arena, const fw_merge_sides *s, const int *n
     return FW_OK;
 }
 
-fw_status fw_merge_border(fw_arena *arena, const fw_merge_edges *edges,
-                          const fw_geometry_merge_term *term, int nterm, fw_merge_sides *out,
-                          int *outlines, int *holes) {
+fw_status fw_geometry_merge_border(fw_arena *arena, const fw_geometry_merge_edges *edges,
+                                   const fw_geometry_merge_term *term, int nterm,
+                                   fw_geometry_merge_sides *out, int *outlines, int *holes) {
     sweep s = {.term = term, .nterm = nterm};
-    fw_merge_sides border = {0};
-    *out = (fw_merge_sides){0};
+    fw_geometry_merge_sides border = {0};
+    *out = (fw_geometry_merge_sides){0};
     *outlines = *holes = 0;
     for (int i = 0; i < edges->n; i++)
         s.sets = edges->edge[i].set >= s.sets ? edges->edge[i].set + 1 : s.sets;
@@ -284,12 +227,12 @@ fw_status fw_merge_border(fw_arena *arena, const fw_merge_edges *edges,
     for (int i = 0; i < s.nline; i++) {
         const line *l = &s.line[i];
         if (l->in_below == l->in_above) continue;
-        fw_merge_side side = {l->in_above ? l->low : l->high, l->in_above ? l->high : l->low, false,
-                              -1};
-        FW_TRY(fw_merge_add_side(arena, &border, side));
+        fw_geometry_merge_side side = {l->in_above ? l->low : l->high,
+                                       l->in_above ? l->high : l->low, false, -1};
+        FW_TRY(fw_geometry_merge_add_side(arena, &border, side));
     }
     int *next;
-    FW_TRY(fw_merge_follow(arena, &border, &next));
+    FW_TRY(fw_geometry_merge_follow(arena, &border, &next));
     bool *done = fw_arena_array(arena, bool, (size_t)border.n + 1);
     FW_NEED(done);
     for (int i = 0; i < border.n; i++)
@@ -300,22 +243,22 @@ fw_status fw_merge_border(fw_arena *arena, const fw_merge_edges *edges,
 /* ---- the whole ---- */
 
 static fw_status edges_of(fw_arena *arena, const fw_geometry_merge_input *input, int ninput,
-                          fw_merge_edges *out) {
+                          fw_geometry_merge_edges *out) {
     size_t n = 0;
     for (int i = 0; i < ninput; i++)
         n += (size_t)input[i].polygon->count;
     if (n > INT32_MAX / 4) return FW_LIMIT;
-    *out = (fw_merge_edges){.edge = fw_arena_array(arena, fw_merge_edge, n + 1)};
+    *out = (fw_geometry_merge_edges){.edge = fw_arena_array(arena, fw_geometry_merge_edge, n + 1)};
     FW_NEED(out->edge);
     for (int i = 0; i < ninput; i++) {
         const fw_geometry_polygon *p = input[i].polygon;
         int times = fw_geometry_polygon_area2(p) < 0 ? -1 : 1; /* of either direction */
         for (int k = 0; k < p->count; k++) {
             fw_geometry_point a = p->vertex[k], b = p->vertex[k + 1 < p->count ? k + 1 : 0];
-            bool forward = fw_merge_key(a) < fw_merge_key(b);
-            if (fw_merge_key(a) == fw_merge_key(b)) continue;
-            out->edge[out->n++] = (fw_merge_edge){forward ? a : b, forward ? b : a, input[i].set,
-                                                  forward ? times : -times};
+            bool forward = fw_geometry_merge_key(a) < fw_geometry_merge_key(b);
+            if (fw_geometry_merge_key(a) == fw_geometry_merge_key(b)) continue;
+            out->edge[out->n++] = (fw_geometry_merge_edge){forward ? a : b, forward ? b : a,
+                                                           input[i].set, forward ? times : -times};
         }
     }
     return FW_OK;
@@ -324,16 +267,17 @@ static fw_status edges_of(fw_arena *arena, const fw_geometry_merge_input *input,
 fw_status fw_geometry_merge(fw_arena *arena, const fw_geometry_merge_input *input, int ninput,
                             const fw_geometry_merge_term *term, int nterm, int most,
                             fw_geometry_merged *out) {
-    fw_merge_edges edges, nodes;
-    fw_merge_sides sides;
+    fw_geometry_merge_edges edges, nodes;
+    fw_geometry_merge_sides sides;
     *out = (fw_geometry_merged){0};
     for (int i = 0; i < ninput; i++)
         if (input[i].set < 0 || input[i].set >= FW_MERGE_SETS) return FW_LIMIT;
     for (int i = 0; i < nterm; i++)
         if (term[i].set < 0 || term[i].set >= FW_MERGE_SETS) return FW_LIMIT;
     FW_TRY(edges_of(arena, input, ninput, &edges));
-    FW_TRY(fw_merge_nodes(arena, &edges, &nodes, &out->rounded));
-    FW_TRY(fw_merge_border(arena, &nodes, term, nterm, &sides, &out->outlines, &out->holes));
-    FW_TRY(fw_merge_monotone(arena, &sides));
-    return fw_merge_parts(arena, &sides, most, out);
+    FW_TRY(fw_geometry_merge_nodes(arena, &edges, &nodes, &out->rounded));
+    FW_TRY(
+        fw_geometry_merge_border(arena, &nodes, term, nterm, &sides, &out->outlines, &out->holes));
+    FW_TRY(fw_geometry_merge_monotone(arena, &sides));
+    return fw_geometry_merge_parts(arena, &sides, most, out);
 }

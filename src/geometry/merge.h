@@ -46,53 +46,55 @@ typedef struct fw_geometry_merged {
    that separate two polygons which would be simple together are left out, the longest first.
    Source: Hobby, Computational Geometry 13 (1999) 199 (snap rounding); Garey, Johnson, Preparata and
    Tarjan, Inf. Proc. Letters 7 (1978) 175 (monotone parts). Test: test_merge.c; KLayout's booleans in
-   tests/accept/plate.sh. */
+   tests/accept/wafer.sh. */
 fw_status fw_geometry_merge(fw_arena *arena, const fw_geometry_merge_input *input, int ninput,
                             const fw_geometry_merge_term *term, int nterm, int most,
                             fw_geometry_merged *out);
 
 /* ---- between the files of the room ---- */
 
-typedef struct fw_merge_edge { /* low before high, by x, then y */
+typedef struct fw_geometry_merge_edge { /* low before high, by x, then y */
     fw_geometry_point low, high;
     int set, times; /* +1: runs from low to high */
-} fw_merge_edge;
+} fw_geometry_merge_edge;
 
-typedef struct fw_merge_edges {
-    fw_merge_edge *edge; /* (n) */
+typedef struct fw_geometry_merge_edges {
+    fw_geometry_merge_edge *edge; /* (n) */
     int n, capacity;
-} fw_merge_edges;
+} fw_geometry_merge_edges;
 
-static inline int64_t fw_merge_key(fw_geometry_point p) {
+static inline int64_t fw_geometry_merge_key(fw_geometry_point p) {
     return (int64_t)p.x_dbu * ((int64_t)1 << 32) + p.y_dbu;
 }
 
 /* edges cut so that they meet at their ends only */
-fw_status fw_merge_nodes(fw_arena *arena, const fw_merge_edges *in, fw_merge_edges *out,
-                         int *rounded);
+fw_status fw_geometry_merge_nodes(fw_arena *arena, const fw_geometry_merge_edges *in,
+                                  fw_geometry_merge_edges *out, int *rounded);
 
-typedef struct fw_merge_side { /* an edge from a to b with the region on its left */
+typedef struct fw_geometry_merge_side { /* an edge from a to b with the region on its left */
     fw_geometry_point a, b;
     bool cut; /* a diagonal: its other side is there, too */
     int twin; /* index of that; else -1 */
-} fw_merge_side;
+} fw_geometry_merge_side;
 
-typedef struct fw_merge_sides {
-    fw_merge_side *side; /* (n) */
+typedef struct fw_geometry_merge_sides {
+    fw_geometry_merge_side *side; /* (n) */
     int n, capacity;
-} fw_merge_sides;
-fw_status fw_merge_add_side(fw_arena *arena, fw_merge_sides *list, fw_merge_side side);
+} fw_geometry_merge_sides;
+fw_status fw_geometry_merge_add_side(fw_arena *arena, fw_geometry_merge_sides *list,
+                                     fw_geometry_merge_side side);
 
 /* closed lines of sides: next[i] of each, as the region's border runs on; sorts the sides by where
    they start */
-fw_status fw_merge_follow(fw_arena *arena, fw_merge_sides *sides, int **next);
+fw_status fw_geometry_merge_follow(fw_arena *arena, fw_geometry_merge_sides *sides, int **next);
 /* the sides that bound the region of the terms, without straight vertices */
-fw_status fw_merge_border(fw_arena *arena, const fw_merge_edges *edges,
-                          const fw_geometry_merge_term *term, int nterm, fw_merge_sides *out,
-                          int *outlines, int *holes);
+fw_status fw_geometry_merge_border(fw_arena *arena, const fw_geometry_merge_edges *edges,
+                                   const fw_geometry_merge_term *term, int nterm,
+                                   fw_geometry_merge_sides *out, int *outlines, int *holes);
 /* adds diagonals, so that every part is monotone in x */
-fw_status fw_merge_monotone(fw_arena *arena, fw_merge_sides *sides);
+fw_status fw_geometry_merge_monotone(fw_arena *arena, fw_geometry_merge_sides *sides);
 /* takes out diagonals that need not be, and lists the polygons */
-fw_status fw_merge_parts(fw_arena *arena, fw_merge_sides *sides, int most, fw_geometry_merged *out);
+fw_status fw_geometry_merge_parts(fw_arena *arena, fw_geometry_merge_sides *sides, int most,
+                                  fw_geometry_merged *out);
 
 #endif

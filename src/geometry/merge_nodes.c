@@ -25,7 +25,7 @@ typedef struct cells {
 
 typedef struct work {
     fw_arena *arena;
-    const fw_merge_edges *in;
+    const fw_geometry_merge_edges *in;
     fw_geometry_point *hot; /* (nhot) each once, sorted */
     int nhot, capacity;
     cells grid;
@@ -34,7 +34,7 @@ typedef struct work {
 
 static int by_point(const void *left, const void *right) {
     const fw_geometry_point *a = left, *b = right;
-    return fw_order_wholes(fw_merge_key(*a), fw_merge_key(*b));
+    return fw_order_wholes(fw_geometry_merge_key(*a), fw_geometry_merge_key(*b));
 }
 
 static int64_t floor_of(int64_t a, int64_t b) { /* a / b downwards, b > 0 */
@@ -54,7 +54,8 @@ static int row_of(const cells *g, int64_t y) {
 }
 
 /* rows of the cells of one column that an edge passes, and 1 dbu around */
-static void rows_of(const cells *g, const fw_merge_edge *e, int column, int *first, int *last) {
+static void rows_of(const cells *g, const fw_geometry_merge_edge *e, int column, int *first,
+                    int *last) {
     int64_t left = g->x0 + column * g->size - 2, right = left + g->size + 4;
     int64_t dx = (int64_t)e->high.x_dbu - e->low.x_dbu, dy = (int64_t)e->high.y_dbu - e->low.y_dbu;
     int64_t from = e->low.y_dbu, to = e->high.y_dbu;
@@ -70,7 +71,7 @@ static void rows_of(const cells *g, const fw_merge_edge *e, int column, int *fir
 static void place_edges(work *w, int *count, int *list) {
     cells *g = &w->grid;
     for (int i = 0; i < w->in->n; i++) {
-        const fw_merge_edge *e = &w->in->edge[i];
+        const fw_geometry_merge_edge *e = &w->in->edge[i];
         int c1 = column_of(g, (int64_t)e->high.x_dbu + 2);
         for (int c = column_of(g, (int64_t)e->low.x_dbu - 2), first, last; c <= c1; c++) {
             rows_of(g, e, c, &first, &last);
@@ -158,8 +159,8 @@ static int32_t nearest(int64_t a, int64_t d, int64_t num, int64_t den) {
 }
 
 /* where two edges cross, strictly within both: the rounded point */
-static bool crossing(const fw_merge_edge *e, const fw_merge_edge *f, fw_geometry_point *at,
-                     bool *exact) {
+static bool crossing(const fw_geometry_merge_edge *e, const fw_geometry_merge_edge *f,
+                     fw_geometry_point *at, bool *exact) {
     int64_t a = fw_cross(e->low, e->high, f->low), b = fw_cross(e->low, e->high, f->high);
     if ((a >= 0 && b >= 0) || (a <= 0 && b <= 0)) return false;
     int64_t c = fw_cross(f->low, f->high, e->low), d = fw_cross(f->low, f->high, e->high);
@@ -173,7 +174,7 @@ static bool crossing(const fw_merge_edge *e, const fw_merge_edge *f, fw_geometry
     return true;
 }
 
-static bool apart(const fw_merge_edge *e, const fw_merge_edge *f) {
+static bool apart(const fw_geometry_merge_edge *e, const fw_geometry_merge_edge *f) {
     if (e->high.x_dbu < f->low.x_dbu || f->high.x_dbu < e->low.x_dbu) return true;
     int32_t e0 = e->low.y_dbu, e1 = e->high.y_dbu, f0 = f->low.y_dbu, f1 = f->high.y_dbu;
     return (e0 < f0 && e0 < f1 && e1 < f0 && e1 < f1) || (e0 > f0 && e0 > f1 && e1 > f0 && e1 > f1);
@@ -183,7 +184,7 @@ static void unique_points(work *w) {
     qsort(w->hot, (size_t)w->nhot, sizeof *w->hot, by_point);
     int n = 0;
     for (int i = 0; i < w->nhot; i++)
-        if (n == 0 || fw_merge_key(w->hot[n - 1]) != fw_merge_key(w->hot[i]))
+        if (n == 0 || fw_geometry_merge_key(w->hot[n - 1]) != fw_geometry_merge_key(w->hot[i]))
             w->hot[n++] = w->hot[i];
     w->nhot = n;
 }
@@ -201,8 +202,8 @@ static fw_status find_hot(work *w) {
     for (int c = 0; c < ncell; c++)
         for (int i = w->grid.edge_from[c]; i < w->grid.edge_from[c + 1]; i++)
             for (int k = i + 1; k < w->grid.edge_from[c + 1]; k++) {
-                const fw_merge_edge *e = &w->in->edge[w->grid.edge[i]];
-                const fw_merge_edge *f = &w->in->edge[w->grid.edge[k]];
+                const fw_geometry_merge_edge *e = &w->in->edge[w->grid.edge[i]];
+                const fw_geometry_merge_edge *f = &w->in->edge[w->grid.edge[k]];
                 fw_geometry_point at;
                 bool exact;
                 if (apart(e, f) || !crossing(e, f, &at, &exact)) continue;
@@ -218,7 +219,7 @@ static fw_status find_hot(work *w) {
 
 /* Does the edge pass the square about c, its left and lower rim included? The same as: does the edge,
    moved right and up by nothing, pass the open square? */
-static bool passes(const fw_merge_edge *e, fw_geometry_point c) {
+static bool passes(const fw_geometry_merge_edge *e, fw_geometry_point c) {
     int64_t x0 = 2 * ((int64_t)e->low.x_dbu - c.x_dbu), x1 = 2 * ((int64_t)e->high.x_dbu - c.x_dbu);
     int64_t y0 = 2 * ((int64_t)e->low.y_dbu - c.y_dbu), y1 = 2 * ((int64_t)e->high.y_dbu - c.y_dbu);
     int64_t low = y0 < y1 ? y0 : y1, high = y0 < y1 ? y1 : y0;
@@ -242,21 +243,22 @@ typedef struct stop { /* a hot point on an edge */
 static int by_along(const void *left, const void *right) {
     const stop *a = left, *b = right;
     int order = fw_order_wholes(a->along, b->along);
-    return order ? order : fw_order_wholes(fw_merge_key(a->at), fw_merge_key(b->at));
+    return order ? order
+                 : fw_order_wholes(fw_geometry_merge_key(a->at), fw_geometry_merge_key(b->at));
 }
 
-static fw_status add_edge(fw_arena *arena, fw_merge_edges *list, fw_geometry_point a,
+static fw_status add_edge(fw_arena *arena, fw_geometry_merge_edges *list, fw_geometry_point a,
                           fw_geometry_point b, int set, int times) {
-    if (fw_merge_key(a) == fw_merge_key(b)) return FW_OK;
+    if (fw_geometry_merge_key(a) == fw_geometry_merge_key(b)) return FW_OK;
     if (list->n == list->capacity) {
         int more = list->capacity ? 2 * list->capacity : 256;
         FW_NEED(list->edge = fw_arena_grow(arena, list->edge, (size_t)list->n, (size_t)more,
                                            sizeof *list->edge));
         list->capacity = more;
     }
-    bool forward = fw_merge_key(a) < fw_merge_key(b);
+    bool forward = fw_geometry_merge_key(a) < fw_geometry_merge_key(b);
     list->edge[list->n++] =
-        (fw_merge_edge){forward ? a : b, forward ? b : a, set, forward ? times : -times};
+        (fw_geometry_merge_edge){forward ? a : b, forward ? b : a, set, forward ? times : -times};
     return FW_OK;
 }
 
@@ -265,7 +267,7 @@ typedef struct stops {
     int n, capacity;
 } stops;
 
-static fw_status stop_at(work *w, stops *s, const fw_merge_edge *e, fw_geometry_point p) {
+static fw_status stop_at(work *w, stops *s, const fw_geometry_merge_edge *e, fw_geometry_point p) {
     if (s->n == s->capacity) {
         int more = 2 * s->capacity + 16;
         FW_NEED(s->item =
@@ -278,7 +280,8 @@ static fw_status stop_at(work *w, stops *s, const fw_merge_edge *e, fw_geometry_
     return FW_OK;
 }
 
-static fw_status cut(work *w, const fw_merge_edge *e, stops *s, fw_merge_edges *out) {
+static fw_status cut(work *w, const fw_geometry_merge_edge *e, stops *s,
+                     fw_geometry_merge_edges *out) {
     const cells *g = &w->grid;
     s->n = 0;
     int c1 = column_of(g, (int64_t)e->high.x_dbu + 1);
@@ -294,7 +297,8 @@ static fw_status cut(work *w, const fw_merge_edge *e, stops *s, fw_merge_edges *
     fw_geometry_point at = e->low;
     for (int i = 0; i < s->n; i++) {
         fw_geometry_point p = s->item[i].at;
-        if (fw_merge_key(p) == fw_merge_key(e->low) || fw_merge_key(p) == fw_merge_key(e->high))
+        if (fw_geometry_merge_key(p) == fw_geometry_merge_key(e->low) ||
+            fw_geometry_merge_key(p) == fw_geometry_merge_key(e->high))
             continue;
         FW_TRY(add_edge(w->arena, out, at, p, e->set, e->times));
         at = p;
@@ -302,11 +306,11 @@ static fw_status cut(work *w, const fw_merge_edge *e, stops *s, fw_merge_edges *
     return add_edge(w->arena, out, at, e->high, e->set, e->times);
 }
 
-fw_status fw_merge_nodes(fw_arena *arena, const fw_merge_edges *in, fw_merge_edges *out,
-                         int *rounded) {
+fw_status fw_geometry_merge_nodes(fw_arena *arena, const fw_geometry_merge_edges *in,
+                                  fw_geometry_merge_edges *out, int *rounded) {
     work w = {.arena = arena, .in = in};
     stops s = {0};
-    *out = (fw_merge_edges){0};
+    *out = (fw_geometry_merge_edges){0};
     *rounded = 0;
     if (in->n == 0) return FW_OK;
     FW_TRY(lay_grid(&w));

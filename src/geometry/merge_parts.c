@@ -21,12 +21,12 @@ typedef struct sweep {
     int n;
     int *active; /* (nactive) borders that the vertical meets, from below */
     int nactive;
-    fw_merge_sides *sides; /* diagonals are added */
+    fw_geometry_merge_sides *sides; /* diagonals are added */
 } sweep;
 
 static int by_border(const void *left, const void *right) {
     const border *a = left, *b = right;
-    int order = fw_order_wholes(fw_merge_key(a->low), fw_merge_key(b->low));
+    int order = fw_order_wholes(fw_geometry_merge_key(a->low), fw_geometry_merge_key(b->low));
     return order ? order : fw_order_wholes(0, fw_cross(a->low, a->high, b->high));
 }
 
@@ -53,8 +53,9 @@ static int below(const sweep *s, fw_geometry_point p) {
 }
 
 static fw_status add_diagonal(sweep *s, fw_geometry_point a, fw_geometry_point b) {
-    FW_TRY(fw_merge_add_side(s->arena, s->sides, (fw_merge_side){a, b, true, -1}));
-    return fw_merge_add_side(s->arena, s->sides, (fw_merge_side){b, a, true, -1});
+    FW_TRY(
+        fw_geometry_merge_add_side(s->arena, s->sides, (fw_geometry_merge_side){a, b, true, -1}));
+    return fw_geometry_merge_add_side(s->arena, s->sides, (fw_geometry_merge_side){b, a, true, -1});
 }
 
 /* the border below a place among the active ones, where the region lies above it; else NULL */
@@ -89,7 +90,7 @@ static fw_status vertex(sweep *s, fw_geometry_point v, int at, int ending, int f
     return FW_OK;
 }
 
-fw_status fw_merge_monotone(fw_arena *arena, fw_merge_sides *sides) {
+fw_status fw_geometry_merge_monotone(fw_arena *arena, fw_geometry_merge_sides *sides) {
     int n = sides->n;
     sweep s = {.arena = arena, .n = n, .sides = sides};
     if (n == 0) return FW_OK;
@@ -99,8 +100,8 @@ fw_status fw_merge_monotone(fw_arena *arena, fw_merge_sides *sides) {
     FW_NEED(key && s.border && s.active ? key : NULL);
     for (int i = 0; i < n; i++) {
         fw_geometry_point a = sides->side[i].a, b = sides->side[i].b;
-        key[2 * i] = fw_merge_key(a);
-        key[2 * i + 1] = fw_merge_key(b);
+        key[2 * i] = fw_geometry_merge_key(a);
+        key[2 * i + 1] = fw_geometry_merge_key(b);
         bool forward = key[2 * i] < key[2 * i + 1];
         s.border[i] = (border){.low = forward ? a : b, .high = forward ? b : a, .above = forward};
     }
@@ -111,9 +112,9 @@ fw_status fw_merge_monotone(fw_arena *arena, fw_merge_sides *sides) {
         fw_geometry_point v = point_of(key[i]);
         int at = below(&s, v), to = from, ending = 0;
         while (at + ending < s.nactive &&
-               fw_merge_key(s.border[s.active[at + ending]].high) == key[i])
+               fw_geometry_merge_key(s.border[s.active[at + ending]].high) == key[i])
             ending++;
-        while (to < n && fw_merge_key(s.border[to].low) == key[i])
+        while (to < n && fw_geometry_merge_key(s.border[to].low) == key[i])
             to++;
         FW_TRY(vertex(&s, v, at, ending, from, to));
         from = to;
@@ -131,7 +132,7 @@ typedef struct part { /* polygons put together */
 
 typedef struct joiner {
     fw_arena *arena;
-    fw_merge_sides *sides;
+    fw_geometry_merge_sides *sides;
     int *next, *of; /* (sides) the side behind each; the part that each bounds */
     part *part;
     int *up; /* (parts) the part that took it, or itself */
@@ -145,17 +146,18 @@ static int whole(joiner *j, int p) {
 }
 
 static int by_ends(const void *left, const void *right) {
-    const fw_merge_side *a = left, *b = right;
-    int order = fw_order_wholes(fw_merge_key(a->a), fw_merge_key(b->a));
-    return order ? order : fw_order_wholes(fw_merge_key(a->b), fw_merge_key(b->b));
+    const fw_geometry_merge_side *a = left, *b = right;
+    int order = fw_order_wholes(fw_geometry_merge_key(a->a), fw_geometry_merge_key(b->a));
+    return order ? order
+                 : fw_order_wholes(fw_geometry_merge_key(a->b), fw_geometry_merge_key(b->b));
 }
 
-/* the sides are sorted: fw_merge_follow has done so */
-static void find_twins(fw_merge_sides *s) {
+/* the sides are sorted: fw_geometry_merge_follow has done so */
+static void find_twins(fw_geometry_merge_sides *s) {
     for (int i = 0; i < s->n; i++) {
-        fw_merge_side other = {.a = s->side[i].b, .b = s->side[i].a};
+        fw_geometry_merge_side other = {.a = s->side[i].b, .b = s->side[i].a};
         if (!s->side[i].cut) continue;
-        const fw_merge_side *found =
+        const fw_geometry_merge_side *found =
             bsearch(&other, s->side, (size_t)s->n, sizeof *s->side, by_ends);
         s->side[i].twin = found ? (int)(found - s->side) : -1;
     }
@@ -163,12 +165,12 @@ static void find_twins(fw_merge_sides *s) {
 
 /* points that may be met by another part: where a diagonal ends, or the border comes by twice */
 static fw_status mark_shared(joiner *j, bool **out) {
-    const fw_merge_sides *s = j->sides;
+    const fw_geometry_merge_sides *s = j->sides;
     FW_NEED(*out = fw_arena_array(j->arena, bool, (size_t)s->n + 1));
     for (int i = 0; i < s->n;) {
-        int64_t key = fw_merge_key(s->side[i].a);
+        int64_t key = fw_geometry_merge_key(s->side[i].a);
         int end = i;
-        while (end < s->n && fw_merge_key(s->side[end].a) == key)
+        while (end < s->n && fw_geometry_merge_key(s->side[end].a) == key)
             end++;
         for (int k = i; k < end; k++)
             (*out)[k] = end - i > 1;
@@ -178,7 +180,7 @@ static fw_status mark_shared(joiner *j, bool **out) {
 }
 
 static fw_status find_parts(joiner *j) {
-    const fw_merge_sides *s = j->sides;
+    const fw_geometry_merge_sides *s = j->sides;
     bool *shared;
     int n = 0;
     FW_TRY(mark_shared(j, &shared));
@@ -199,7 +201,7 @@ static fw_status find_parts(joiner *j) {
         p->nshared = 0;
         int k = i;
         do {
-            if (shared[k]) p->shared[p->nshared++] = fw_merge_key(s->side[k].a);
+            if (shared[k]) p->shared[p->nshared++] = fw_geometry_merge_key(s->side[k].a);
             k = j->next[k];
         } while (k != i);
         qsort(p->shared, (size_t)p->nshared, sizeof *p->shared, by_key);
@@ -247,7 +249,7 @@ static int by_length(const void *left, const void *right) { /* the longest first
     return order ? order : fw_order_wholes(a->side, b->side);
 }
 
-static double length2(const fw_merge_side *s) {
+static double length2(const fw_geometry_merge_side *s) {
     double dx = (double)s->b.x_dbu - s->a.x_dbu, dy = (double)s->b.y_dbu - s->a.y_dbu;
     return dx * dx + dy * dy;
 }
@@ -255,7 +257,7 @@ static double length2(const fw_merge_side *s) {
 /* a diagonal can go where the parts on its sides have nothing else in common: then they are one
    simple polygon */
 static fw_status join(joiner *j, bool *gone) {
-    fw_merge_sides *s = j->sides;
+    fw_geometry_merge_sides *s = j->sides;
     diagonal *list = fw_arena_array(j->arena, diagonal, (size_t)s->n + 1);
     FW_NEED(list);
     int n = 0;
@@ -279,13 +281,14 @@ static fw_status join(joiner *j, bool *gone) {
 static void turn_to_least(fw_geometry_polygon *p, fw_geometry_point *scratch) {
     int least = 0;
     for (int i = 1; i < p->count; i++)
-        if (fw_merge_key(p->vertex[i]) < fw_merge_key(p->vertex[least])) least = i;
+        if (fw_geometry_merge_key(p->vertex[i]) < fw_geometry_merge_key(p->vertex[least]))
+            least = i;
     memcpy(scratch, p->vertex, (size_t)p->count * sizeof *scratch);
     for (int i = 0; i < p->count; i++)
         p->vertex[i] = scratch[(least + i) % p->count];
 }
 
-static void trace(const fw_merge_sides *s, const int *next, int start, bool *done,
+static void trace(const fw_geometry_merge_sides *s, const int *next, int start, bool *done,
                   fw_geometry_polygon *p) {
     int i = start;
     p->count = 0;
@@ -298,15 +301,18 @@ static void trace(const fw_merge_sides *s, const int *next, int start, bool *don
 
 static int by_first(const void *left, const void *right) {
     const fw_geometry_polygon *a = left, *b = right;
-    int order = fw_order_wholes(fw_merge_key(a->vertex[0]), fw_merge_key(b->vertex[0]));
+    int order =
+        fw_order_wholes(fw_geometry_merge_key(a->vertex[0]), fw_geometry_merge_key(b->vertex[0]));
     for (int i = 1; !order && i < a->count && i < b->count; i++)
-        order = fw_order_wholes(fw_merge_key(a->vertex[i]), fw_merge_key(b->vertex[i]));
+        order = fw_order_wholes(fw_geometry_merge_key(a->vertex[i]),
+                                fw_geometry_merge_key(b->vertex[i]));
     return order ? order : fw_order_wholes(a->count, b->count);
 }
 
-static void account(const fw_merge_sides *s, fw_geometry_merged *out) {
+static void account(const fw_geometry_merge_sides *s, fw_geometry_merged *out) {
     for (int i = 0; i < s->n; i++)
-        if (s->side[i].cut && fw_merge_key(s->side[i].a) < fw_merge_key(s->side[i].b)) {
+        if (s->side[i].cut &&
+            fw_geometry_merge_key(s->side[i].a) < fw_geometry_merge_key(s->side[i].b)) {
             out->cuts++;
             out->cut_m += 1e-9 * sqrt(length2(&s->side[i]));
         }
@@ -316,20 +322,20 @@ static void account(const fw_merge_sides *s, fw_geometry_merged *out) {
     }
 }
 
-fw_status fw_merge_parts(fw_arena *arena, fw_merge_sides *sides, int most,
-                         fw_geometry_merged *out) {
+fw_status fw_geometry_merge_parts(fw_arena *arena, fw_geometry_merge_sides *sides, int most,
+                                  fw_geometry_merged *out) {
     joiner j = {.arena = arena, .sides = sides, .most = most};
     if (sides->n == 0) return FW_OK;
-    FW_TRY(fw_merge_follow(arena, sides, &j.next));
+    FW_TRY(fw_geometry_merge_follow(arena, sides, &j.next));
     find_twins(sides);
     bool *gone = fw_arena_array(arena, bool, (size_t)sides->n + 1);
     FW_NEED(gone);
     FW_TRY(find_parts(&j));
     FW_TRY(join(&j, gone));
-    fw_merge_sides left = {0};
+    fw_geometry_merge_sides left = {0};
     for (int i = 0; i < sides->n; i++)
-        if (!gone[i]) FW_TRY(fw_merge_add_side(arena, &left, sides->side[i]));
-    FW_TRY(fw_merge_follow(arena, &left, &j.next));
+        if (!gone[i]) FW_TRY(fw_geometry_merge_add_side(arena, &left, sides->side[i]));
+    FW_TRY(fw_geometry_merge_follow(arena, &left, &j.next));
     bool *done = fw_arena_array(arena, bool, (size_t)left.n + 1);
     fw_geometry_point *vertex = fw_arena_array(arena, fw_geometry_point, (size_t)left.n + 1);
     fw_geometry_point *scratch = fw_arena_array(arena, fw_geometry_point, (size_t)left.n + 1);

@@ -3,30 +3,6 @@
 #include "mask/rule.h"
 #include <string.h>
 
-bool fw_mask_is_name(const char *s) {
-    size_t n = strlen(s);
-    if (n == 0 || n > 32) return false;
-    return strspn(s, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == n;
-}
-
-/* digits alone, at most FW_MASK_LARGEST_NUMBER; behind them, or NULL */
-static const char *number_at(const char *s, int *value) {
-    *value = 0;
-    if (*s < '0' || *s > '9') return NULL;
-    for (; *s >= '0' && *s <= '9'; s++) {
-        *value = 10 * *value + (*s - '0');
-        if (*value > FW_MASK_LARGEST_NUMBER) return NULL;
-    }
-    return s;
-}
-
-bool fw_mask_gds_pair(const char *s, int *number, int *datatype) {
-    s = number_at(s, number);
-    if (!s || *s != '/') return false;
-    s = number_at(s + 1, datatype);
-    return s && *s == '\0';
-}
-
 /* ---- reading ---- */
 
 typedef struct reader {

@@ -58,8 +58,8 @@ typedef struct fw_mask_table {
     const char *flow, *reading; /* "right-reading chrome down" */
     fw_mask_layer *layer;
     int nlayer;
-    const char *order;  /* what is on the plate, for the mask shop; may be NULL */
-    const char *plate;  /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    const char *order;     /* what is on the plate, for the mask shop; may be NULL */
+    const char *plate;     /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
     bool written_numbered; /* the plate as it is written has a number of its own; else its first
                               layer's */
     int written_layer, written_datatype;

@@ -25,7 +25,7 @@ typedef struct fw_mask_merge_sums { /* added up over calls, each so many times *
 /* The plate's expression over the polygons of a mask (fw_geometry_merge), as a mask of one layer whose
    writers are those of any other. FW_LIMIT: coordinates of more than 268 mm, or more layers in the
    expression than FW_MERGE_SETS - 1. FW_GEOMETRY: a polygon that is not simple, or has too many vertices
-   and no cut. Test: test_mask_merge.c, tests/accept/plate.sh */
+   and no cut. Test: tests/accept/wafer.sh, against KLayout */
 fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *options,
                          const fw_mask **out, fw_mask_merge_sums *sums);
 /* the one layer: number and name of the laboratory for "plate", else those of the first layer of the

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows <rule> of a layer table; docs/theory/masks.md lists the kinds and their attributes. */
 #include "mask/rule.h"
+#include "mask/layer_map.h"
 #include <string.h>
 
 /* ---- what rows of other elements have too ---- */
@@ -12,6 +13,30 @@ bool fw_mask_is_plain(const char *text) {
     for (size_t i = 0; i < n; i++)
         if ((unsigned char)text[i] < 0x20 || (unsigned char)text[i] > 0x7e) return false;
     return n > 0 && n <= 400;
+}
+
+bool fw_mask_is_name(const char *s) {
+    size_t n = strlen(s);
+    if (n == 0 || n > 32) return false;
+    return strspn(s, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") == n;
+}
+
+/* digits alone, at most FW_MASK_LARGEST_NUMBER; behind them, or NULL */
+static const char *number_at(const char *s, int *value) {
+    *value = 0;
+    if (*s < '0' || *s > '9') return NULL;
+    for (; *s >= '0' && *s <= '9'; s++) {
+        *value = 10 * *value + (*s - '0');
+        if (*value > FW_MASK_LARGEST_NUMBER) return NULL;
+    }
+    return s;
+}
+
+bool fw_mask_gds_pair(const char *s, int *number, int *datatype) {
+    s = number_at(s, number);
+    if (!s || *s != '/') return false;
+    s = number_at(s + 1, datatype);
+    return s && *s == '\0';
 }
 
 bool fw_mask_says(const fw_xml_record *record, const char *name, const char *word) {

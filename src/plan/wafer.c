@@ -85,9 +85,9 @@ static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_va
    by, gives dU per metre of an edge; a line that is wider by d has each edge moved by d/2 */
 static fw_status width_effect(fw_plan *plan, int flow, fw_wafer_width_effect *out) {
     const fw_verdict_variant_verdict *v = &plan->verdict.variant[flow];
-    int h = fw_verdict_most_used(v);
+    int h = v->fabricated ? fw_verdict_most_used(v) : FW_NONE;
     *out = (fw_wafer_width_effect){.per_m = (double)NAN, .used = (double)NAN};
-    if (!v->fabricated || h < 0 || h >= v->nhinge) return FW_OK;
+    if (h < 0) return FW_OK;
     const fw_verdict_fabricated_hinge *made = &v->fabricated->hinge[h];
     for (int i = 0; made->share && i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];

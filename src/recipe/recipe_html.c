@@ -63,6 +63,7 @@ static const char style[] =
     ".pair,.window,.hazard,.note,.nc{break-inside:avoid}\n"
     ".meta{font-size:8pt;text-align:right;white-space:nowrap;padding-top:0.8mm}\n"
     ".pair{display:flex;gap:4mm;align-items:flex-start}\n.pair>div:first-child{flex:1}\n"
+    ".release{margin:2mm 0;break-inside:avoid}.release svg{width:120mm;height:auto;display:block}\n"
     ".pair>div:last-child{width:58mm}\n.pair svg{width:58mm;height:auto;display:block}\n"
     ".small{font-size:7.2pt}\n.muted{color:#444}\ntd .muted{font-size:6.5pt;line-height:1.1}\n"
     ".hazard{border:0.9pt solid #000;padding:0.3mm 1.5mm;margin:0.8mm 0;font-size:8pt}\n"
