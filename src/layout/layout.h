@@ -19,6 +19,9 @@ typedef enum fw_layout_role {
     FW_ROLE_MARK,      /* alignment marks */
     FW_ROLE_DICING,    /* lane */
     FW_ROLE_BACK,      /* marks of the back side, as seen from the front */
+    FW_ROLE_CAVITY,    /* hollow in the carrier, below what moves */
+    FW_ROLE_LAND,      /* within a cavity: what stays of the carrier, below what is held there */
+    FW_ROLE_METAL,     /* of bond pads */
     FW_ROLE_COUNT
 } fw_layout_role;
 

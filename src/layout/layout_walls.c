@@ -14,6 +14,9 @@ bool fw_layout_is_wall(const fw_layout_piece *p) {
     case FW_ROLE_MARK:
     case FW_ROLE_DICING:
     case FW_ROLE_BACK:
+    case FW_ROLE_CAVITY: /* of the carrier */
+    case FW_ROLE_LAND:
+    case FW_ROLE_METAL:
     case FW_ROLE_COUNT:
         break;
     }

@@ -271,6 +271,10 @@ fw_status fw_mask_layer_map_apply(fw_arena *arena, fw_mask_layer_map *map, fw_ma
         for (int i = 0; i < j; i++)
             check_pair(table, by, i, j, diags);
     FW_TRY(renumber(arena, old, table->layer, table->nlayer, &table->plate));
+    for (int i = 0; i < table->nplate; i++) {
+        FW_TRY(renumber(arena, old, table->layer, table->nlayer, &table->plates[i].layers));
+        FW_TRY(renumber(arena, old, table->layer, table->nlayer, &table->plates[i].order));
+    }
     FW_TRY(renumber(arena, old, table->layer, table->nlayer, &table->order));
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;

@@ -17,7 +17,10 @@ typedef struct fw_mask_layer { /* a row of masks/FLOW.xml */
     double min_width_m, min_space_m;                 /* design rule; 0 = none */
     const char *rule_source;
     bool documentation; /* TEXT records go here; nothing is drawn */
-    fw_place place;     /* in the table */
+    /* quantity of the flow by which its step widens, or narrows, what is printed: the plate is drawn so
+       much smaller, or larger, at every edge; NULL: by none */
+    const char *shrink, *grow;
+    fw_place place; /* in the table */
 } fw_mask_layer;
 
 /* ---- design rules: rows of the table, and what breaks them ---- */
@@ -54,12 +57,42 @@ typedef struct fw_mask_finding { /* one place where a rule is broken */
     int edge[2];          /* of their outlines; -1: none */
 } fw_mask_finding;
 
+/* <content>: what a plate draws besides the device, found from the device's drawing; kinds are rows of
+   contents.def (mask_plates.h) */
+struct fw_mask_content_kind;
+enum { FW_CONTENT_PARAMETERS = 4 };
+typedef struct fw_mask_content {
+    const struct fw_mask_content_kind *kind;
+    double value[FW_CONTENT_PARAMETERS]; /* in the order of the kind's parameters */
+    const char *source;
+    fw_place place;
+} fw_mask_content;
+
+/* a plate that the flow prints: <plate>, or the attributes of a table that has only one */
+typedef struct fw_mask_plate_row {
+    const char *id, *title;
+    const char *layers;     /* "1/0 NOT 2/0"; NULL: not said */
+    const char *reading;    /* "right-reading chrome down" */
+    const char *order;      /* what is on it, for the mask shop; may be NULL */
+    const char *aligned_to; /* id of a plate printed before; NULL: of none */
+    bool back;              /* aligned from the back of the wafer, on marks seen there */
+    double overlay_m;       /* budget between the two; NaN: not aligned */
+    fw_place place;
+} fw_mask_plate_row;
+
 typedef struct fw_mask_table {
     const char *flow, *reading; /* "right-reading chrome down" */
     fw_mask_layer *layer;
     int nlayer;
-    const char *order;     /* what is on the plate, for the mask shop; may be NULL */
-    const char *plate;     /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    const char *order; /* what is on the device's plate, for the mask shop; may be NULL */
+    const char *plate; /* the same as an expression, "1/0 NOT 2/0"; NULL: not said */
+    fw_mask_plate_row *
+        plates; /* (nplate) rows <plate>, in the order of printing; 0: the table has one plate, which is
+                                  that of reading, order and plate above */
+    int nplate,
+        device_plate; /* the one that draws the structure: reading, order and plate above are its own */
+    const fw_mask_content *content; /* (ncontent) what other plates draw below or upon the device */
+    int ncontent;
     bool written_numbered; /* the plate as it is written has a number of its own; else its first
                               layer's */
     int written_layer, written_datatype;
@@ -128,9 +161,10 @@ typedef struct fw_mask {
     fw_geometry_flattening flattening;
     double thickness_m; /* of the device, for solids; 0: not known */
     fw_geometry_box box;
-    int vertex_limit;  /* of one GDSII boundary */
-    bool rejected;     /* every file says REJECTED */
-    const char **note; /* (nnote) lines written on the documentation layer */
+    int vertex_limit;           /* of one GDSII boundary */
+    bool rejected;              /* every file says REJECTED */
+    const double *layer_bias_m; /* as of the options; NULL: none */
+    const char **note;          /* (nnote) lines written on the documentation layer */
     int nnote;
     const char *device, *title;
     const fw_mask_measure *measure; /* (table->nlayer) */
@@ -141,15 +175,27 @@ typedef struct fw_mask {
     bool whole;  /* every polygon is there and proven */
 } fw_mask;
 
+/* what a layer's polygons stand outside of what is drawn, m per edge */
+double fw_mask_layer_bias_m(const fw_mask *mask, int layer);
+
 /* a layer, and how it joins what stands before it; the first: OR */
 typedef struct fw_mask_plate_term {
     int layer;
     fw_geometry_set_rule rule;
 } fw_mask_plate_term;
-/* what the plate draws, from the left: the terms of table->plate, or the biased layers where it is
-   not said */
+/* what the device's plate draws, from the left: the terms of table->plate, or the biased layers where
+   it is not said */
 fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
                               fw_mask_plate_term **term, int *n);
+/* the same of any plate */
+fw_status fw_mask_plate_terms_of(fw_arena *arena, const fw_mask_table *table, int plate,
+                                 fw_mask_plate_term **term, int *n);
+int fw_mask_plates(const fw_mask_table *table); /* at least one */
+fw_mask_plate_row fw_mask_plate_at(const fw_mask_table *table, int i);
+/* index of a plate by its id; -1: there is none */
+int fw_mask_plate_named(const fw_mask_table *table, const char *id);
+/* is a layer in what a plate draws or takes away? */
+bool fw_mask_plate_draws(const fw_mask_table *table, int plate, int layer);
 
 fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                              fw_diags *diags, fw_mask_table *table);
@@ -164,6 +210,8 @@ typedef struct fw_mask_options {
     int nnote;
     const fw_mask_edges *edges; /* kept; may be NULL */
     bool no_islands; /* the flow has no insulating carrier: what is not joined would fall out */
+    /* (table->nlayer) what layers with shrink or grow get at every edge, m; NULL: nothing */
+    const double *layer_bias_m;
 } fw_mask_options;
 /* biases, checks the rules, flattens, certifies. FW_OK: the mask can be made. FW_INPUT with a mask:
    rules are broken, and its findings say all of them; diagnostics name the worst. FW_INPUT or
@@ -196,6 +244,17 @@ fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,
    has none */
 fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const fw_layout *device,
                               const fw_layout **layout, int *left_out);
+/* ... and with what its other plates draw (<content>) */
+fw_status fw_mask_contents_add(fw_arena *arena, const fw_mask_table *table, const fw_layout *marked,
+                               const fw_layout **layout);
+/* why the device of a drawing cannot be made with what the other plates draw; none: it can */
+typedef struct fw_mask_verdict {
+    fw_arena *arena;
+    const char **reason; /* (n) sentences */
+    int n, room;
+} fw_mask_verdict;
+fw_status fw_mask_contents_judge(fw_arena *arena, const fw_mask_table *table,
+                                 const fw_layout *layout, fw_mask_verdict *verdict);
 /* the certificate and, in `coupons`, every pattern: place, drawn sizes, what to measure and which
    quantity of the process it gives */
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,
@@ -272,11 +331,11 @@ const char *fw_mask_rule_unit(const fw_mask_rule *rule);           /* "" of a sh
 /* the same with the files that it goes with */
 fw_status fw_mask_write_certificate_of(const fw_mask *mask, const char *gds_sha256,
                                        const fw_output_file *file, int nfile, fw_text *out);
-/* order sheet for the mask shop, as JSON and for people, with the files that go with it */
-fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
+/* order sheet of one plate for the mask shop, as JSON and for people, with the files that go with it */
+fw_status fw_mask_write_order(const fw_mask *mask, int plate, const fw_output_file *file, int nfile,
                               fw_text *out);
-fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
-                                   fw_text *out);
+fw_status fw_mask_write_order_text(const fw_mask *mask, int plate, const fw_output_file *file,
+                                   int nfile, fw_text *out);
 
 /* ---- what the order sheet says, gathered once for its two forms and the wafer's ---- */
 typedef struct fw_mask_order_site { /* where the shop, and later the laboratory, measures */
@@ -287,6 +346,7 @@ typedef struct fw_mask_order_site { /* where the shop, and later the laboratory,
 } fw_mask_order_site;
 
 typedef struct fw_mask_order {
+    int plate_index;   /* of table->plates */
     const char *name;  /* of the mask */
     const char *tone;  /* of the plate's polygons: "data clear", "data dark"; NULL: not said */
     const char *field; /* "dark" or "clear": what is where there are no polygons */
@@ -299,13 +359,16 @@ typedef struct fw_mask_order {
     int polygons, vertices; /* of the plate's layers in the GDSII file */
 } fw_mask_order;
 
-fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_order *order);
+fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
+                               fw_mask_order *order);
 
 /* Lines of the sheet for people, ASCII: one of them; what is on the plate (called `what`), with its
    tone, reading and mirror; least sizes (INFINITY: none), bias and grid; corners of the data, m */
 void fw_mask_order_line(fw_text *out, const char *what, const char *value);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
+/* which plate of how many it is, and what it is aligned to; nothing where there is only one */
+void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_mask_order *order);
 void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask);
 void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);
 
@@ -315,7 +378,8 @@ void fw_mask_order_count(const fw_mask *mask, int layer, int *polygons, int *ver
 /* "1/0 NOT 2/0": terms "LAYER/DATATYPE" with AND, OR, NOT, XOR between them, applied from the left.
    Marks the layers named (NULL: does not) and says which comes first, -1 where nothing is said;
    false: not of this form, or a layer is not in the table (*wrong is where) */
-bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong);
+bool fw_mask_plate_layers(const fw_mask_table *table, const char *layers, bool *named, int *first,
+                          const char **wrong);
 
 /* ---- three outlines of one shape: as drawn, on the mask, as it stands in the end ----
    The last is the mask's outline taken back by what the flow loses at its edges, at the top and at

@@ -72,11 +72,18 @@ static fw_status refuse_bias(fw_arena *arena, const fw_layout *layout, fw_diags 
     return FW_OK;
 }
 
-static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, const fw_mask_table *table,
-                             fw_mask_shape *shape, int nshape, double bias_m, fw_diags *diags) {
+double fw_mask_layer_bias_m(const fw_mask *mask, int layer) {
+    if (mask->table->layer[layer].biased) return mask->bias_m;
+    return mask->layer_bias_m ? mask->layer_bias_m[layer] : 0.0;
+}
+
+static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                             fw_diags *diags) {
     size_t errors = diags->errors;
-    for (int k = 0; k < nshape; k++) {
-        if (!table->layer[shape[k].layer].biased || bias_m == 0) continue;
+    fw_mask_shape *shape = mask->shape;
+    for (int k = 0; k < mask->nshape; k++) {
+        double bias_m = fw_mask_layer_bias_m(mask, shape[k].layer);
+        if (bias_m == 0) continue;
         int i = -1, j = -1;
         fw_status status = fw_geometry_contour_offset(arena, &shape[k].piece->contour, bias_m,
                                                       &shape[k].contour, &i, &j);
@@ -307,7 +314,8 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     m->flattening = options->flattening;
     m->thickness_m = options->thickness_m;
     fw_mask_set_flattening(m->shape, m->nshape, options->flattening);
-    FW_TRY(bias_shapes(arena, layout, table, m->shape, m->nshape, options->bias_m, diags));
+    m->layer_bias_m = options->layer_bias_m;
+    FW_TRY(bias_shapes(arena, layout, m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
     for (int k = 0; k < m->nshape; k++)
         m->shape[k].box = fw_geometry_contour_box(&m->shape[k].contour);
@@ -342,8 +350,9 @@ fw_status fw_mask_frame_marks(fw_arena *arena, const fw_mask_table *table, const
                               const fw_layout **layout, int *left_out) {
     const fw_mask_layer *layer = structure_layer(table);
     double width = layer ? layer->min_width_m : 0, space = layer ? layer->min_space_m : 0;
-    return fw_layout_content_on_frame(arena, device, table->pattern, table->npattern, width, space,
-                                      layout, left_out);
+    FW_TRY(fw_layout_content_on_frame(arena, device, table->pattern, table->npattern, width, space,
+                                      layout, left_out));
+    return fw_mask_contents_add(arena, table, *layout, layout);
 }
 
 fw_status fw_mask_coupons_build(fw_arena *arena, const fw_mask_table *table,

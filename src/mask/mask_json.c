@@ -472,8 +472,25 @@ static void yes_no(fw_json *json, const char *key, int value) {
         fw_json_truth(json, key, value);
 }
 
+/* only where a flow prints several */
+static void plate_of_set(fw_json *json, const fw_mask_table *table, const fw_mask_order *order) {
+    const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
+    if (fw_mask_plates(table) < 2) return;
+    fw_json_line(json, 2);
+    fw_json_object(json, "plate_of_set");
+    fw_json_text(json, "id", row->id);
+    fw_json_text(json, "title", row->title);
+    fw_json_whole(json, "number", order->plate_index + 1);
+    fw_json_whole(json, "of", table->nplate);
+    fw_json_text(json, "aligned_to", row->aligned_to);
+    fw_json_truth(json, "from_the_back", row->back);
+    fw_json_number(json, "overlay_um", row->overlay_m * 1e6, 9);
+    fw_json_end(json);
+}
+
 static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *order) {
     static const char *const sense[] = {"right-reading", "wrong-reading"};
+    const fw_mask_plate_row own = fw_mask_plate_at(mask->table, order->plate_index), *row = &own;
     line_text(json, "schema", "flexwright.order/1");
     line_text(json, "mask", order->name);
     line_text(json, "device", mask->device);
@@ -482,11 +499,12 @@ static void order_head(fw_json *json, const fw_mask *mask, const fw_mask_order *
     fw_json_text(json, "version", FW_VERSION);
     fw_json_line(json, 2);
     yes_no(json, "rejected", mask->rejected);
-    line_text(json, "plate", mask->table->plate);
-    line_text(json, "plate_text", mask->table->order);
+    plate_of_set(json, mask->table, order);
+    line_text(json, "plate", row->layers);
+    line_text(json, "plate_text", row->order);
     line_text(json, "polygon_tone", order->tone);
     fw_json_text(json, "field", order->field);
-    line_text(json, "reading", mask->table->reading);
+    line_text(json, "reading", row->reading);
     line_text(json, "reading_chrome_up", order->mirror < 0 ? NULL : sense[order->mirror]);
     yes_no(json, "mirror_seen_chrome_up", order->mirror);
     fw_json_text(json, "mirror_axis", order->mirror == 1 ? "x becomes -x" : NULL);
@@ -549,10 +567,10 @@ static void site(fw_json *json, const fw_mask *mask, const fw_mask_order_site *s
     fw_json_end(json);
 }
 
-fw_status fw_mask_write_order(const fw_mask *mask, const fw_output_file *file, int nfile,
+fw_status fw_mask_write_order(const fw_mask *mask, int plate, const fw_output_file *file, int nfile,
                               fw_text *out) {
     fw_mask_order order;
-    FW_TRY(fw_mask_order_gather(out->arena, mask, &order));
+    FW_TRY(fw_mask_order_gather(out->arena, mask, plate, &order));
     fw_json json = fw_json_new(out, FW_JSON_SPACED);
     fw_json_object(&json, NULL);
     order_head(&json, mask, &order);

@@ -25,8 +25,9 @@ static const char *behind_operator(const char *s) {
     return NULL;
 }
 
-bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, const char **wrong) {
-    const char *s = table->plate;
+bool fw_mask_plate_layers(const fw_mask_table *table, const char *layers, bool *named, int *first,
+                          const char **wrong) {
+    const char *s = layers;
     *first = -1;
     while (s) {
         char *end;
@@ -40,6 +41,16 @@ bool fw_mask_plate_layers(const fw_mask_table *table, bool *named, int *first, c
         if (*end && !s) return false;
     }
     return true;
+}
+
+bool fw_mask_plate_draws(const fw_mask_table *table, int plate, int layer) {
+    for (const char *s = fw_mask_plate_at(table, plate).layers; s;) {
+        char *end;
+        int k = layer_named(table, s, &end);
+        if (k < 0 || k == layer) return k == layer;
+        s = *end ? behind_operator(end) : NULL;
+    }
+    return false;
 }
 
 /* the operator before `s` */
@@ -56,16 +67,22 @@ static fw_geometry_set_rule rule_before(const char *s) {
 
 fw_status fw_mask_plate_terms(fw_arena *arena, const fw_mask_table *table,
                               fw_mask_plate_term **term, int *n) {
+    return fw_mask_plate_terms_of(arena, table, table->device_plate, term, n);
+}
+
+fw_status fw_mask_plate_terms_of(fw_arena *arena, const fw_mask_table *table, int plate,
+                                 fw_mask_plate_term **term, int *n) {
+    const char *layers = fw_mask_plate_at(table, plate).layers;
     *n = 0;
-    size_t most = table->plate ? strlen(table->plate) / 3 + 1 : (size_t)table->nlayer;
+    size_t most = layers ? strlen(layers) / 3 + 1 : (size_t)table->nlayer;
     FW_NEED(*term = fw_arena_array(arena, fw_mask_plate_term, most));
-    for (int k = 0; !table->plate && k < table->nlayer; k++)
+    for (int k = 0; !layers && k < table->nlayer; k++)
         if (table->layer[k].biased) (*term)[(*n)++] = (fw_mask_plate_term){k, FW_SET_OR};
-    for (const char *s = table->plate; s;) {
+    for (const char *s = layers; s;) {
         char *end;
         int k = layer_named(table, s, &end);
         if (k < 0) return FW_INPUT; /* cannot be: the table was read */
-        (*term)[(*n)++] = (fw_mask_plate_term){k, s == table->plate ? FW_SET_OR : rule_before(s)};
+        (*term)[(*n)++] = (fw_mask_plate_term){k, s == layers ? FW_SET_OR : rule_before(s)};
         s = *end ? behind_operator(end) : NULL;
     }
     return FW_OK;
@@ -121,21 +138,25 @@ static fw_status order_sites(fw_arena *arena, const fw_mask *mask, fw_mask_order
     return FW_OK;
 }
 
-fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, fw_mask_order *order) {
+fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
+                               fw_mask_order *order) {
     const fw_mask_table *table = mask->table;
+    const fw_mask_plate_row own = fw_mask_plate_at(table, plate), *row = &own;
     const char *wrong;
     int first;
-    *order = (fw_mask_order){.width_m = HUGE_VAL, .space_m = HUGE_VAL};
-    FW_NEED(order->name = fw_arena_printf(arena, "%s-%s", mask->cell, mask->flow));
+    *order = (fw_mask_order){.plate_index = plate, .width_m = HUGE_VAL, .space_m = HUGE_VAL};
+    FW_NEED(order->name = fw_arena_printf(arena, "%s-%s%s%s", mask->cell, mask->flow,
+                                          fw_mask_plates(table) > 1 ? "-" : "",
+                                          fw_mask_plates(table) > 1 ? row->id : ""));
     FW_NEED(order->plate = fw_arena_array(arena, bool, (size_t)table->nlayer));
-    if (!fw_mask_plate_layers(table, order->plate, &first, &wrong)) return FW_INPUT;
-    for (int k = 0; !table->plate && k < table->nlayer; k++) /* not said: all that is drawn */
+    if (!fw_mask_plate_layers(table, row->layers, order->plate, &first, &wrong)) return FW_INPUT;
+    for (int k = 0; !row->layers && k < table->nlayer; k++) /* not said: all that is drawn */
         order->plate[k] = table->layer[k].roles != 0;
     if (first >= 0) {
         order->tone = table->layer[first].tone;
         order->field = strcmp(order->tone, "data dark") == 0 ? "clear" : "dark";
     }
-    order->mirror = mirrored(table->reading);
+    order->mirror = mirrored(row->reading);
     for (int k = 0; k < table->nlayer; k++) {
         if (!order->plate[k]) continue;
         int polygons, vertices;
@@ -160,15 +181,30 @@ void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_tab
         "the reading does not say: ask before writing",
         "no: with the chrome up the plate looks like the data",
         "yes: with the chrome up the plate is the mirror image of the data (x becomes -x)"};
+    const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
     char tone[200];
-    fw_mask_order_line(out, what, table->plate ? table->plate : "not said: all layers drawn");
-    if (table->order) fw_mask_order_line(out, "", table->order);
+    fw_mask_order_line(out, what, row->layers ? row->layers : "not said: all layers drawn");
+    if (row->order) fw_mask_order_line(out, "", row->order);
     snprintf(tone, sizeof tone, "digitised %s (%s field)", order->tone ? order->tone : "data: ask",
              order->field ? order->field : "unknown");
     fw_mask_order_line(out, "polygon tone", tone);
-    fw_mask_order_line(out, "reading", table->reading);
+    fw_mask_order_line(out, "reading", row->reading);
     fw_mask_order_line(out, "mirror", mirror[order->mirror + 1]);
     fw_mask_order_line(out, "", "the data themselves are not mirrored");
+}
+
+void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_mask_order *order) {
+    const fw_mask_plate_row own = fw_mask_plate_at(table, order->plate_index), *row = &own;
+    char line[200], number[32];
+    if (fw_mask_plates(table) < 2) return;
+    snprintf(line, sizeof line, "%d of %d of this flow, \"%s\": %s", order->plate_index + 1,
+             table->nplate, row->id, row->title);
+    fw_mask_order_line(out, "of the set", line);
+    if (!row->aligned_to) return;
+    snprintf(line, sizeof line, "to the marks of plate \"%s\"%s, within %s um", row->aligned_to,
+             row->back ? ", seen from the back of the wafer" : "",
+             fw_number_text(number, sizeof number, row->overlay_m * 1e6, 4));
+    fw_mask_order_line(out, "aligned", line);
 }
 
 static void least_line(fw_text *out, const char *what, double value_m) {
@@ -207,6 +243,7 @@ static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) 
     fw_mask_order_line(out, "device", mask->device);
     fw_mask_order_line(out, "flow", mask->flow);
     fw_mask_order_line(out, "top cell", mask->cell);
+    fw_mask_order_set_lines(out, mask->table, order);
     fw_mask_order_plate_lines(out, "plate", mask->table, order);
     fw_mask_order_size_lines(out, order->width_m, order->space_m, mask);
 }
@@ -244,10 +281,10 @@ static void sites(const fw_mask *mask, const fw_mask_order *order, fw_text *out)
     }
 }
 
-fw_status fw_mask_write_order_text(const fw_mask *mask, const fw_output_file *file, int nfile,
-                                   fw_text *out) {
+fw_status fw_mask_write_order_text(const fw_mask *mask, int plate, const fw_output_file *file,
+                                   int nfile, fw_text *out) {
     fw_mask_order order;
-    FW_TRY(fw_mask_order_gather(out->arena, mask, &order));
+    FW_TRY(fw_mask_order_gather(out->arena, mask, plate, &order));
     head(mask, &order, out);
     fw_mask_order_extent_line(out, mask->box);
     fw_text_printf(out, "%-22s %d, %d vertices, at most %d each\n", "polygons on the plate",

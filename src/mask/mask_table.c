@@ -2,6 +2,7 @@
 #include "mask/rule.h"
 #include "mask/layer_map.h"
 #include "mask/mask.h"
+#include "mask/mask_plates.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,8 @@
 static const char *const role_names[] = {
     [FW_ROLE_STRUCTURE] = "structure", [FW_ROLE_FLEXURE] = "flexure", [FW_ROLE_FRAME] = "frame",
     [FW_ROLE_TETHER] = "tether",       [FW_ROLE_TEXT] = "text",       [FW_ROLE_MARK] = "mark",
-    [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_COUNT] = NULL};
+    [FW_ROLE_DICING] = "dicing",       [FW_ROLE_BACK] = "back",       [FW_ROLE_CAVITY] = "cavity",
+    [FW_ROLE_LAND] = "land",           [FW_ROLE_METAL] = "metal",     [FW_ROLE_COUNT] = NULL};
 static const char *const tones[] = {"data clear", "data dark", NULL};
 
 /* ---- forms of text ---- */
@@ -213,10 +215,11 @@ static fw_status patterns_build(fw_xml_reader *r, fw_mask_table *table) {
 
 static const fw_xml_attribute_row root_rows[] = {
     {"flow", NAME, REQUIRED, .sentence = "Flow that the masks are for."},
-    {"reading", FW_MASK_PLAIN, REQUIRED,
-     .sentence = "How the plate is read, such as right-reading chrome down."},
-    {"order", FW_MASK_PLAIN, .sentence = "What the mask shop is told."},
-    {"plate", FW_MASK_PLAIN, .sentence = "Layers with AND, OR, NOT or XOR between: 1/0 NOT 2/0."},
+    {"reading", FW_MASK_PLAIN,
+     .sentence = "Of a flow with one plate: how it is read, such as right-reading chrome down."},
+    {"order", FW_MASK_PLAIN, .sentence = "Of a flow with one plate: what the mask shop is told."},
+    {"plate", FW_MASK_PLAIN,
+     .sentence = "Of a flow with one plate: layers with AND, OR, NOT or XOR between, 1/0 NOT 2/0."},
 };
 static const fw_xml_attribute_row layer_rows[] = {
     {"gds", .kind = FW_KIND_FORM, .form = is_gds, REQUIRED,
@@ -235,6 +238,12 @@ static const fw_xml_attribute_row layer_rows[] = {
     {"min-width", LEAST, .sentence = "Narrowest that is printed."},
     {"min-space", LEAST, .sentence = "Nearest that is printed apart."},
     {"documentation", FW_MASK_YES_NO, .sentence = "yes: for people; nothing is exposed."},
+    {"shrink", .kind = FW_KIND_FORM, .form = is_name_of_quantity,
+     .reason = "the id of a quantity of the flow",
+     .sentence = "Length by which its step widens what is printed: it is drawn so much smaller."},
+    {"grow", .kind = FW_KIND_FORM, .form = is_name_of_quantity,
+     .reason = "the id of a quantity of the flow",
+     .sentence = "Length by which its step narrows what is printed: it is drawn so much larger."},
 };
 static const fw_xml_element_row rows[] = {
     {"mask-table", "", FW_MASK_ROWS(root_rows), .sentence = "The layers of a flow's masks."},
@@ -246,13 +255,13 @@ static const fw_xml_element_row rows[] = {
      .sentence = "A test pattern."},
     {0},
 };
-static const fw_xml_element_row *const parts[] = {rows, NULL};
+static const fw_xml_element_row *const parts[] = {rows, fw_mask_plate_rows, NULL};
 static const char *const spaces[] = {"name"};
 
 static const fw_xml_table table_of_layers = {.file = "layer table",
                                              .root = "mask-table",
                                              .urn = "urn:flexwright:masks:1",
-                                             .head = "flow=\"...\" reading=\"...\"",
+                                             .head = "flow=\"...\"",
                                              .source = "src/mask/mask_table.c",
                                              .part = parts,
                                              .space = spaces,
@@ -300,6 +309,8 @@ static fw_mask_layer layer_of(fw_diags *diags, const fw_xml_record *record) {
                        .biased = fw_mask_says(record, "biased", "yes"),
                        .rule_source = fw_xml_text_of(record, "source"),
                        .documentation = fw_mask_says(record, "documentation", "yes"),
+                       .shrink = fw_xml_text_of(record, "shrink"),
+                       .grow = fw_xml_text_of(record, "grow"),
                        .place = record->element->place};
     const char *gds = fw_xml_text_of(record, "gds");
     if (!gds || !fw_mask_gds_pair(gds, &l.layer, &l.datatype)) l.layer = l.datatype = -1;
@@ -310,21 +321,15 @@ static fw_mask_layer layer_of(fw_diags *diags, const fw_xml_record *record) {
     if ((l.min_width_m > 0 || l.min_space_m > 0) && !fw_xml_given(record, "source"))
         fw_diag_error(diags, 140, l.place,
                       "<layer> has a design rule without its reason; add source=\"...\"");
+    if ((l.biased && (l.shrink || l.grow)) || (l.shrink && l.grow))
+        fw_diag_error(diags, 141, l.place,
+                      "a layer takes one of biased, shrink and grow: each says what its step does "
+                      "to an edge");
     if (l.documentation && l.roles)
         fw_diag_error(diags, 141, l.place,
                       "a documentation layer is never exposed, so no role may be drawn on it; "
                       "remove roles or documentation");
     return l;
-}
-
-static void check_plate(const fw_mask_table *table, const fw_xml_record *root, fw_diags *diags) {
-    int first;
-    const char *wrong;
-    if (fw_mask_plate_layers(table, NULL, &first, &wrong)) return;
-    fw_diag_error(diags, 133, fw_xml_place_of(root, "plate"),
-                  "plate=\"%s\" cannot be read at \"%s\"; write layers of this table with AND, OR, "
-                  "NOT or XOR between, for example \"1/0 NOT 2/0\"",
-                  table->plate, wrong);
 }
 
 /* same id, same GDSII pair, a role on two layers, two documentation layers */
@@ -360,15 +365,13 @@ fw_status fw_mask_table_read(fw_arena *arena, const char *file, const char *xml,
     FW_TRY(fw_xml_table_read(arena, &table_of_layers, file, xml, n, diags, &r));
     const fw_xml_record *root = r.record;
     table->flow = fw_xml_text_of(root, "flow");
-    table->reading = fw_xml_text_of(root, "reading");
-    table->order = fw_xml_text_of(root, "order");
-    table->plate = fw_xml_text_of(root, "plate");
     size_t count = (size_t)fw_xml_children(root, "layer");
     FW_NEED(table->layer = fw_arena_array(arena, fw_mask_layer, count));
     for (const fw_xml_record *e = root->first_child; e; e = e->next)
         if (fw_xml_is(e, "layer")) table->layer[table->nlayer++] = layer_of(diags, e);
     check_collisions(table, diags);
-    if (table->plate) check_plate(table, root, diags);
+    FW_TRY(fw_mask_plates_build(&r, table));
+    FW_TRY(fw_mask_contents_build(&r, table));
     FW_TRY(patterns_build(&r, table));
     FW_TRY(fw_mask_rules_build(&r, table));
     if (diags->failed) return FW_NOMEM;

@@ -20,7 +20,8 @@ static fw_status lay_out_coupons(fw_plan *plan, fw_plan_flow *pf) {
                                                .thickness_m = pf->mask->thickness_m,
                                                .rejected = pf->mask->rejected,
                                                .note = pf->mask->note,
-                                               .nnote = pf->mask->nnote}};
+                                               .nnote = pf->mask->nnote,
+                                               .layer_bias_m = pf->mask->layer_bias_m}};
     fw_diags said = fw_diags_new(plan->arena);
     fw_status status = fw_mask_coupons_build(plan->arena, pf->table, &options, &said, &pf->coupons);
     if (status == FW_NOMEM || said.failed) return FW_NOMEM;
@@ -118,6 +119,36 @@ static fw_status edges_of(fw_plan *plan, const fw_process_flow *flow, const fw_m
     return FW_OK;
 }
 
+/* a quantity of the flow that is a known length, for a layer */
+static fw_status length_of(fw_plan *plan, const fw_plan_flow *pf, const fw_mask_layer *layer,
+                           const char *id, double *m) {
+    const fw_quantity *q = fw_process_flow_quantity(pf->flow, id);
+    if (q && !q->unknown &&
+        fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.m = 1})) {
+        *m = q->value;
+        return FW_OK;
+    }
+    fw_diag_error(&plan->diags, 411, layer->place,
+                  "layer \"%s\" is drawn by %s, which is not a known length of flow %s", layer->id,
+                  id, pf->flow->id);
+    return FW_INPUT;
+}
+
+/* what layers with shrink or grow get, from the flow's own quantities */
+fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m) {
+    double *own = fw_arena_array(plan->arena, double, (size_t)pf->table->nlayer);
+    FW_NEED(own);
+    *bias_m = own;
+    for (int k = 0; k < pf->table->nlayer; k++) {
+        const fw_mask_layer *l = &pf->table->layer[k];
+        double m = 0.0;
+        if (l->shrink || l->grow)
+            FW_TRY(length_of(plan, pf, l, l->shrink ? l->shrink : l->grow, &m));
+        own[k] = l->shrink ? -m : m;
+    }
+    return FW_OK;
+}
+
 /* the mask of one flow; when rules or offsets refuse, the reason is kept and the plan goes on */
 static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!plan->layout || plan->layout->nfault > 0) { /* dimensions that do not fit in any flow */
@@ -142,6 +173,7 @@ static fw_status build_mask(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
     FW_TRY(notes_of(plan, pf, &options));
     FW_TRY(edges_of(plan, pf->flow, &options.edges));
+    FW_TRY(fw_plan_layer_bias(plan, pf, &options.layer_bias_m));
     const fw_layout *layout;
     int left_out; /* a mark that finds no room on the frame is no mistake */
     FW_TRY(fw_mask_frame_marks(plan->arena, pf->table, plan->layout, &layout, &left_out));

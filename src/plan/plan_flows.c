@@ -71,6 +71,10 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
         facts.release_change = pf->release_change;
         FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, &facts, &said));
     }
+    fw_mask_verdict contents; /* hollows, pads: what the other plates draw */
+    FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
+    for (int i = 0; i < contents.n; i++)
+        FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, contents.reason[i]));
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));

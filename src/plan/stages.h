@@ -21,6 +21,8 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
 /* the flow of a pack read once more, with the laboratory's values: to be changed by whoever asks */
 fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow);
 bool fw_plan_insulated(const fw_plan_flow *pf);
+/* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
+fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_mechanism_variant *variant, const fw_mask_table *table,

@@ -139,6 +139,7 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
         .stand_in = own,
         .test = {.mask = pf->coupons ? pf->coupons->mask : NULL, .die = plan->layout->die},
         .mask = {.bias_m = pf->mask->bias_m,
+                 .layer_bias_m = pf->mask->layer_bias_m,
                  .tolerance_m = pf->mask->tolerance_m,
                  .vertex_limit = pf->mask->vertex_limit,
                  .flattening = pf->mask->flattening}};

@@ -272,24 +272,39 @@ static fw_status files_of(writer *w, const char *flow, const char *behind, fw_ou
     FW_NEED(*own = fw_arena_array(w->plan->arena, fw_output_file, count));
     *n = 0;
     for (size_t i = 0; i < count; i++)
-        if (strncmp(all[i].name, start, strlen(start)) == 0) {
+        if (strncmp(all[i].name, start, strlen(start)) == 0 && !strstr(all[i].name, ".order.")) {
             (*own)[*n] = all[i];
             (*own)[(*n)++].name = all[i].name + strlen("masks/");
         }
     return FW_OK;
 }
 
-/* the order sheets name what was written before them */
+/* ".cavity.order.txt" where a flow prints several plates, ".order.txt" where it prints one */
+static fw_status order_ending(writer *w, const fw_mask_table *table, int plate, const char *form,
+                              const char **ending) {
+    bool several = fw_mask_plates(table) > 1;
+    FW_NEED(*ending = fw_arena_printf(w->plan->arena, "%s%s.order.%s", several ? "." : "",
+                                      several ? fw_mask_plate_at(table, plate).id : "", form));
+    return FW_OK;
+}
+
+/* an order sheet for each plate; they name what was written before them */
 static fw_status write_order(writer *w, const fw_mask *mask, const char *name) {
     fw_output_file *own;
+    const char *ending;
     int n;
     FW_TRY(files_of(w, name, ".", &own, &n));
-    fw_text json = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order(mask, own, n, &json));
-    FW_TRY(put(w, "masks/", name, ".order.json", &json));
-    fw_text text = fw_text_new(w->scratch);
-    FW_TRY(fw_mask_write_order_text(mask, own, n, &text));
-    return put(w, "masks/", name, ".order.txt", &text);
+    for (int plate = 0; plate < fw_mask_plates(mask->table); plate++) {
+        FW_TRY(order_ending(w, mask->table, plate, "json", &ending));
+        fw_text json = fw_text_new(w->scratch);
+        FW_TRY(fw_mask_write_order(mask, plate, own, n, &json));
+        FW_TRY(put(w, "masks/", name, ending, &json));
+        FW_TRY(order_ending(w, mask->table, plate, "txt", &ending));
+        fw_text text = fw_text_new(w->scratch);
+        FW_TRY(fw_mask_write_order_text(mask, plate, own, n, &text));
+        FW_TRY(put(w, "masks/", name, ending, &text));
+    }
+    return FW_OK;
 }
 
 typedef struct mask_files { /* a mask: the device's, or the test die's with its list */
@@ -379,9 +394,14 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf) {
     fw_output_file *own;
     int n;
     FW_TRY(files_of(w, pf->use->ref, "-wafer", &own, &n));
-    fw_text order = fw_text_new(w->scratch);
-    FW_TRY(fw_wafer_write_order(pf->wafer, own, n, &order));
-    return put(w, "masks/", name, ".order.txt", &order);
+    for (int plate = 0; plate < fw_mask_plates(pf->table); plate++) {
+        const char *ending;
+        fw_text order = fw_text_new(w->scratch);
+        FW_TRY(order_ending(w, pf->table, plate, "txt", &ending));
+        FW_TRY(fw_wafer_write_order(pf->wafer, plate, own, n, &order));
+        FW_TRY(put(w, "masks/", name, ending, &order));
+    }
+    return FW_OK;
 }
 
 /* the plate as the shop writes it, with an order sheet of its own; no picture, no notes */
@@ -419,7 +439,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
         const char *ending;
         fw_status (*write)(const fw_process_flow *flow, const fw_recipe_header *header,
                            fw_text *out);
-        bool of_schedule, of_cut, of_measuring;
+        bool of_schedule, of_cut, of_measuring, of_one_plate;
     } format[] = {{".html", fw_recipe_write_html, .of_cut = false},
                   {".csv", fw_recipe_write_csv, .of_cut = false},
                   {".ics", fw_recipe_write_ics, .of_cut = false},
@@ -430,7 +450,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
                   {".schedule.svg", fw_recipe_write_schedule_svg, .of_schedule = true},
                   {".sections.svg", fw_recipe_write_sections_svg, .of_cut = true},
                   {".sections.json", fw_recipe_write_sections_json, .of_cut = true},
-                  {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true}};
+                  {".stack.svg", fw_recipe_write_stack_svg, .of_cut = true, .of_one_plate = true}};
     FW_TRY(write_release(w, pf));
     fw_recipe_header header = fw_plan_recipe_header(w->plan, pf);
     for (size_t i = 0; i < sizeof format / sizeof format[0]; i++) {
@@ -438,6 +458,7 @@ static fw_status write_recipe(writer *w, fw_plan_flow *pf) {
         if (format[i].of_schedule && !header.schedule) continue;
         if (format[i].of_cut && !header.cut) continue;
         if (format[i].of_measuring && !header.measuring) continue;
+        if (format[i].of_one_plate && pf->flow->nplate > 0) continue; /* docs/limits.md */
         FW_TRY(format[i].write(pf->flow, &header, &text));
         FW_TRY(put(w, "recipes/", pf->use->ref, format[i].ending, &text));
     }

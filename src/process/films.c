@@ -9,15 +9,15 @@
 /* Heights that nobody stated are drawn as this part of the device layer; what is thicker than so
    many device layers, and nothing is made of it, is drawn as thick as half of one. */
 static const double UNKNOWN_PART = 0.12, THICK = 3.0, SHORTENED_PART = 0.4;
-static const double TOUCH_M = 1e-12;                  /* heights nearer than that are one */
-enum { OTHER = FW_STACK_STRUCTURE + FW_STACK_FIELD }; /* OTHER - column: the other one */
+static const double TOUCH_M = 1e-12; /* heights nearer than that are one */
+static const fw_process_side STRUCTURE = {0, false}, FIELD = {0, true};
 
 typedef struct maker {
     fw_arena *arena;
     const fw_process_flow *flow;
     fw_process_films *films;
     double device_m; /* thickness of the device layer */
-    int note_room;
+    int note_room, columns;
 } maker;
 
 static double known(const fw_quantity *q) {
@@ -55,15 +55,51 @@ static fw_status add_film(maker *m, fw_process_film film) {
     return FW_OK;
 }
 
-/* what narrow openings have left of a film that is gone from wide ones */
-static bool is_floor(const fw_process_film *f) {
-    return f->cut && !f->in[FW_STACK_STRUCTURE];
+static fw_process_side other(fw_process_side side) {
+    side.set = !side.set;
+    return side;
 }
 
-static double top_of(const fw_process_films *f, int column) {
+static bool in_side(const maker *m, const fw_process_film *f, fw_process_side side) {
+    for (int c = 0; c < m->columns; c++)
+        if (f->in[c] && fw_process_side_holds(m->flow, side, c)) return true;
+    return false;
+}
+
+static bool only_in(const maker *m, const fw_process_film *f, fw_process_side side) {
+    return in_side(m, f, side) && !in_side(m, f, other(side));
+}
+
+/* does it end where the plate has its edges? */
+static bool is_parted(const maker *m, const fw_process_film *f, int plate) {
+    fw_process_side side = {plate, false};
+    return in_side(m, f, side) != in_side(m, f, other(side));
+}
+
+/* its wall at the edges of a plate */
+static double *foot_of(fw_process_film *f, int plate) {
+    return plate ? &f->further[plate - 1].foot_m : &f->foot_m;
+}
+
+static double *head_of(fw_process_film *f, int plate) {
+    return plate ? &f->further[plate - 1].head_m : &f->head_m;
+}
+
+static void set_walls(fw_process_film *f, int plate, double foot_m, double head_m) {
+    *foot_of(f, plate) = foot_m;
+    *head_of(f, plate) = head_m;
+}
+
+/* what narrow openings have left of a film that is gone from wide ones */
+static bool is_floor(const maker *m, const fw_process_film *f) {
+    return f->cut && !in_side(m, f, STRUCTURE);
+}
+
+static double top_of(const maker *m, int column) {
+    const fw_process_films *f = m->films;
     double top = 0.0;
     for (int i = 0; i < f->n; i++)
-        if (f->film[i].in[column] && !is_floor(&f->film[i])) top = fmax(top, f->film[i].top_m);
+        if (f->film[i].in[column] && !is_floor(m, &f->film[i])) top = fmax(top, f->film[i].top_m);
     return top;
 }
 
@@ -93,64 +129,75 @@ static double printed_slope(const maker *m) {
     return device_is_cut(m) || !(m->device_m > 0.0) ? 0.0 : -m->flow->edges.flare_m / m->device_m;
 }
 
-static double wall_at(const fw_process_film *f, double z_m) {
-    double h = f->top_m - f->bottom_m;
-    return h > 0.0 ? f->foot_m + (f->head_m - f->foot_m) * (z_m - f->bottom_m) / h : f->foot_m;
+static double wall_at(const fw_process_film *f, int plate, double z_m) {
+    double foot = plate ? f->further[plate - 1].foot_m : f->foot_m,
+           head = plate ? f->further[plate - 1].head_m : f->head_m, h = f->top_m - f->bottom_m;
+    return h > 0.0 ? foot + (head - foot) * (z_m - f->bottom_m) / h : foot;
 }
 
-/* the film in `column` alone that lies next above z (from z on); NULL */
-static const fw_process_film *mask_above(const fw_process_films *f, int column, double z_m) {
+/* where printing leaves the edge of a plate */
+static double edge_of_plate(const maker *m, int plate) {
+    const fw_quantity *shrink = plate ? m->flow->plate[plate - 1].shrink : NULL;
+    if (!plate) return printed_m(m);
+    return shrink && !shrink->unknown ? -shrink->value : 0.0;
+}
+
+/* the film on one side alone that lies next above z (from z on); NULL */
+static const fw_process_film *mask_above(const maker *m, fw_process_side side, double z_m) {
+    const fw_process_films *f = m->films;
     const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
         const fw_process_film *c = &f->film[i];
-        if (c->in[column] && !c->in[OTHER - column] && c->bottom_m >= z_m - TOUCH_M &&
+        if (only_in(m, c, side) && c->bottom_m >= z_m - TOUCH_M &&
             (!best || c->bottom_m < best->bottom_m))
             best = c;
     }
     return best;
 }
 
-/* edge of what covers `column` above a film, that is of the mask of whatever is done beside it */
-static double mask_edge(const maker *m, const fw_process_film *film, int column) {
-    const fw_process_film *mask = mask_above(m->films, column, film->top_m);
-    return mask ? mask->foot_m : printed_m(m);
+/* edge of what covers a side above a film, that is of the mask of whatever is done beside it */
+static double mask_edge(const maker *m, const fw_process_film *film, fw_process_side side) {
+    const fw_process_film *mask = mask_above(m, side, film->top_m);
+    return mask ? wall_at(mask, side.plate, mask->bottom_m) : edge_of_plate(m, side.plate);
 }
 
-/* a film in both columns becomes one in each; *at is the one in `column` */
-static fw_status split(maker *m, int i, int column, double edge_m, int *at) {
+/* a film on both sides becomes one on each; *at is the one on `side` */
+static fw_status split(maker *m, int i, fw_process_side side, double edge_m, int *at) {
     fw_process_film twin = m->films->film[i];
     *at = i;
-    if (!twin.in[OTHER - column]) return FW_OK;
-    twin.in[column] = false;
-    twin.foot_m = twin.head_m = edge_m;
+    if (!in_side(m, &twin, other(side))) return FW_OK;
     fw_process_film *f = &m->films->film[i];
-    f->in[OTHER - column] = false;
-    f->foot_m = f->head_m = edge_m;
+    for (int c = 0; c < m->columns; c++)
+        *(fw_process_side_holds(m->flow, side, c) ? &twin.in[c] : &f->in[c]) = false;
+    set_walls(&twin, side.plate, edge_m, edge_m);
+    set_walls(f, side.plate, edge_m, edge_m);
     return add_film(m, twin);
 }
 
-static void set_wall(fw_process_films *f, const fw_process_film *like, double foot_m,
+static void set_wall(const maker *m, int plate, const fw_process_film *like, double foot_m,
                      double head_m) {
+    fw_process_films *f = m->films;
     for (int i = 0; i < f->n; i++) {
         fw_process_film *c = &f->film[i];
-        if (same(c->material, like->material) && c->in[0] != c->in[1] &&
-            fabs(c->bottom_m - like->bottom_m) <= TOUCH_M) {
-            c->foot_m = foot_m;
-            c->head_m = head_m;
-        }
+        if (same(c->material, like->material) && is_parted(m, c, plate) &&
+            fabs(c->bottom_m - like->bottom_m) <= TOUCH_M)
+            set_walls(c, plate, foot_m, head_m);
     }
 }
 
 /* ---- what is added ---- */
 
-/* far from everything: the flow adds it as a whole and takes it away as a whole, if at all */
-static bool is_background(const maker *m, const fw_process_change *add) {
+/* far from everything: added and taken away as a whole, if at all, or hollowed out to no more than *depth_m */
+static bool is_background(const maker *m, const fw_process_change *add, double *depth_m) {
+    *depth_m = 0.0;
     for (int i = 0; i < m->flow->nstep; i++)
         for (int k = 0; k < m->flow->step[i].nchange; k++) {
             const fw_process_change *c = &m->flow->step[i].change[k];
-            if (same(c->kind, "remove") && same(c->material, add->material) &&
-                (c->thickness || !same(c->where, "all")))
-                return false;
+            if (!same(c->kind, "remove") || !same(c->material, add->material)) continue;
+            double t = known(c->thickness);
+            bool shallow = c->isotropic && t < 0.5 * known(add->thickness);
+            if (shallow) *depth_m = fmax(*depth_m, t);
+            if (!shallow && (c->thickness || !same(c->where, "all"))) return false;
         }
     return same(add->where, "all");
 }
@@ -165,44 +212,62 @@ static fw_status drawn_height(maker *m, const fw_process_change *c, double *heig
         return note(m, fw_arena_printf(m->arena, "The thickness of %s is not known",
                                        fw_process_flow_material_name(m->flow, c->material)));
     }
-    if (t > THICK * m->device_m && is_background(m, c)) {
+    double depth;
+    if (t > THICK * m->device_m && is_background(m, c, &depth)) {
         *shortened = true;
-        *height_m = SHORTENED_PART * m->device_m;
+        *height_m = SHORTENED_PART * m->device_m + depth;
     }
     return FW_OK;
 }
 
-/* the wall at z between a film that grows in `column` and what stands beside it at `beside_m` */
-static double wall_beside(const maker *m, int column, double beside_m, double z_m) {
-    double best = printed_m(m), near = (double)INFINITY;
+/* the wall at z between a film that grows on a side and what stands beside it at `beside_m` */
+static double wall_beside(const maker *m, fw_process_side side, double beside_m, double z_m) {
+    double best = edge_of_plate(m, side.plate), near = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++) {
         const fw_process_film *f = &m->films->film[i];
-        if (f->in[0] == f->in[1]) continue;
+        if (!is_parted(m, f, side.plate)) continue;
         bool beside =
-            f->in[OTHER - column] && f->bottom_m <= beside_m + TOUCH_M && f->top_m > beside_m;
+            in_side(m, f, other(side)) && f->bottom_m <= beside_m + TOUCH_M && f->top_m > beside_m;
         double far = beside ? -1.0 : fabs(f->top_m - beside_m);
         if (far >= near) continue;
         near = far;
-        best = beside ? wall_at(f, z_m) : f->head_m;
+        best = wall_at(f, side.plate, beside ? z_m : f->top_m);
     }
     return best;
 }
 
+/* walls of a new film at the edges of every plate at which it ends */
+static void stand_beside(const maker *m, fw_process_film *f) {
+    for (int plate = 0; plate <= m->flow->nplate; plate++) {
+        fw_process_side side = {plate, in_side(m, f, (fw_process_side){plate, true})};
+        if (is_parted(m, f, plate))
+            set_walls(f, plate, wall_beside(m, side, f->bottom_m, f->bottom_m),
+                      wall_beside(m, side, f->top_m - TOUCH_M, f->top_m));
+    }
+}
+
+/* one film for all columns of one height; what spans lies on the highest of all */
 static fw_status add_front(maker *m, const fw_process_change *c, fw_process_film film,
                            double height_m) {
-    double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
-    bool whole = same(c->where, "all") && fabs(top[0] - top[1]) <= TOUCH_M;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!fw_process_where_holds(c->where, column)) continue;
+    double top[FW_STACK_MOST], ground = 0.0;
+    bool left[FW_STACK_MOST];
+    for (int k = 0; k < m->columns; k++) {
+        top[k] = top_of(m, k);
+        ground = fmax(ground, top[k]);
+        left[k] = fw_process_where_holds(m->flow, c->where, k);
+    }
+    for (int column = 0; column < m->columns; column++) {
+        if (!left[column]) continue;
         fw_process_film f = film;
-        f.in[column] = true;
-        if (whole) f.in[OTHER - column] = true;
-        f.bottom_m = top[column];
+        f.bottom_m = c->spans ? ground : top[column];
         f.top_m = f.bottom_m + height_m;
-        f.foot_m = wall_beside(m, column, f.bottom_m, f.bottom_m);
-        f.head_m = wall_beside(m, column, f.top_m - TOUCH_M, f.top_m);
+        for (int k = column; k < m->columns; k++)
+            if (left[k] && (c->spans || fabs(top[k] - top[column]) <= TOUCH_M)) {
+                f.in[k] = true;
+                left[k] = false;
+            }
+        stand_beside(m, &f);
         FW_TRY(add_film(m, f));
-        if (whole) break;
     }
     return FW_OK;
 }
@@ -214,61 +279,79 @@ static fw_status add(maker *m, const fw_process_change *c) {
     if (!c->back) return add_front(m, c, film, height);
     film.top_m = floor_of(m->films);
     film.bottom_m = film.top_m - height;
-    film.in[0] = fw_process_where_holds(c->where, 0);
-    film.in[1] = fw_process_where_holds(c->where, 1);
+    for (int k = 0; k < m->columns; k++)
+        film.in[k] = fw_process_where_holds(m->flow, c->where, k);
     film.foot_m = film.head_m = printed_m(m);
     return add_film(m, film);
 }
 
 /* ---- what is changed ---- */
 
-/* a latent image: what of the film lies in one column becomes exposed */
+/* the side that a change names; false: all of the wafer */
+static bool side_of(const maker *m, const fw_process_change *c, fw_process_side *side) {
+    *side = STRUCTURE;
+    return !same(c->where, "all") && fw_process_where_side(m->flow, c->where, side);
+}
+
+/* a latent image: what of the film lies on one side becomes exposed */
 static fw_status expose(maker *m, const fw_process_change *c) {
-    double slope = printed_slope(m),
-           foot = printed_m(m) + (slope != 0.0 ? 0.5 * m->flow->edges.flare_m : 0.0);
+    fw_process_side side;
+    bool part = side_of(m, c, &side);
+    double slope = side.plate ? 0.0 : printed_slope(m),
+           foot =
+               edge_of_plate(m, side.plate) + (slope != 0.0 ? 0.5 * m->flow->edges.flare_m : 0.0);
     double base = (double)INFINITY;
     for (int i = 0; i < m->films->n; i++)
         if (same(m->films->film[i].material, c->material))
             base = fmin(base, m->films->film[i].bottom_m);
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        for (int i = 0, n = m->films->n; i < n; i++) {
-            int at = i;
-            if (!same(m->films->film[i].material, c->material) ||
-                !fw_process_where_holds(c->where, column) || !m->films->film[i].in[column])
-                continue;
-            if (!same(c->where, "all")) FW_TRY(split(m, i, column, foot, &at));
-            fw_process_film *f = &m->films->film[at];
-            f->exposed = true;
-            set_wall(m->films, f, foot + slope * (f->bottom_m - base),
-                     foot + slope * (f->top_m - base));
-        }
+    for (int i = 0, n = m->films->n; i < n; i++) {
+        int at = i;
+        if (!same(m->films->film[i].material, c->material) ||
+            (part && !in_side(m, &m->films->film[i], side)))
+            continue;
+        if (part) FW_TRY(split(m, i, side, foot, &at));
+        fw_process_film *f = &m->films->film[at];
+        f->exposed = true;
+        set_wall(m, side.plate, f, foot + slope * (f->bottom_m - base),
+                 foot + slope * (f->top_m - base));
+    }
     return FW_OK;
+}
+
+/* topmost film of a material in a column; -1: there is none */
+static int topmost(const maker *m, int column, const char *material) {
+    int at = -1;
+    for (int i = 0; i < m->films->n; i++)
+        if (m->films->film[i].in[column] && same(m->films->film[i].material, material) &&
+            (at < 0 || m->films->film[i].top_m > m->films->film[at].top_m))
+            at = i;
+    return at;
 }
 
 /* the upper part of the topmost film of `from` becomes `material` */
 static fw_status convert(maker *m, const fw_process_change *c) {
     double height, t = known(c->thickness);
-    bool shortened;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        int at = -1;
-        for (int i = 0; i < m->films->n; i++)
-            if (m->films->film[i].in[column] && same(m->films->film[i].material, c->from) &&
-                (at < 0 || m->films->film[i].top_m > m->films->film[at].top_m))
-                at = i;
-        if (at < 0 || !fw_process_where_holds(c->where, column)) continue;
+    bool shortened, done[FW_STACK_MOST] = {false};
+    fw_process_side side;
+    bool part = side_of(m, c, &side);
+    for (int column = 0; column < m->columns; column++) {
+        int at = topmost(m, column, c->from);
+        if (at < 0 || done[column] || !fw_process_where_holds(m->flow, c->where, column)) continue;
         FW_TRY(drawn_height(m, c, &height, &shortened));
-        if (!same(c->where, "all"))
-            FW_TRY(split(m, at, column, mask_edge(m, &m->films->film[at], OTHER - column), &at));
+        if (part) FW_TRY(split(m, at, side, mask_edge(m, &m->films->film[at], other(side)), &at));
         fw_process_film *f = &m->films->film[at], fabricated = *f;
         height = fmin(height, 0.6 * (f->top_m - f->bottom_m));
         fabricated.material = c->material;
         fabricated.thickness_m = t;
         fabricated.shortened = false;
         fabricated.bottom_m = f->top_m = f->top_m - height;
-        fabricated.foot_m = f->head_m = wall_at(f, fabricated.bottom_m);
+        for (int plate = 0; plate <= m->flow->nplate; plate++)
+            *foot_of(&fabricated, plate) = *head_of(f, plate) =
+                wall_at(f, plate, fabricated.bottom_m);
         if (!isnan(t)) f->thickness_m -= t;
+        for (int k = 0; k < m->columns; k++)
+            done[k] = done[k] || fabricated.in[k];
         FW_TRY(add_film(m, fabricated));
-        if (fabricated.in[OTHER - column]) break; /* both columns at once */
     }
     return FW_OK;
 }
@@ -302,30 +385,36 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
                            cut->step->id, c->anisotropy->id ? c->anisotropy->id : "anisotropy"));
 }
 
-/* one film, of which `column` is etched beside a mask on the other column */
+/* one film, of which a side is etched beside a mask on the other */
 static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
-                             int column) {
-    double edge = mask_edge(m, &m->films->film[i], OTHER - column);
-    double way = column == FW_STACK_FIELD ? 1.0 : -1.0; /* the structure shrinks, or the field */
+                             fw_process_side side) {
+    double edge = mask_edge(m, &m->films->film[i], other(side));
+    bool field = side.plate == 0 && side.set;
+    double way =
+        field || (side.plate && !side.set) ? 1.0 : -1.0; /* what is drawn shrinks, or grows */
     const fw_process_cut *cut = fw_process_fixed_point_cut(&m->flow->edges, c->anisotropy);
     int at;
-    FW_TRY(split(m, i, column, edge, &at));
+    FW_TRY(split(m, i, side, edge, &at));
     fw_process_film gone = m->films->film[at], walls = gone;
-    walls.foot_m = walls.head_m = edge;
-    if (c->isotropic && !isnan(known(c->thickness)))
-        walls.foot_m = walls.head_m = edge - way * known(c->thickness) * (1.0 + s->overrun);
-    if (cut) FW_TRY(cut_walls(m, c, cut, edge, way, &walls));
-    set_wall(m->films, &gone, walls.foot_m, walls.head_m);
+    double foot = edge, head = edge, t = known(c->thickness);
+    bool bowl = c->isotropic && side.plate && !isnan(t) && t < 0.98 * gone.thickness_m + TOUCH_M;
+    if (c->isotropic && !isnan(t) && !bowl) foot = head = edge - way * t * (1.0 + s->overrun);
+    if (bowl) head = edge - way * t;
+    if (cut) {
+        walls.foot_m = walls.head_m = edge;
+        FW_TRY(cut_walls(m, c, cut, edge, way, &walls));
+        foot = walls.foot_m, head = walls.head_m;
+    }
+    set_wall(m, side.plate, &gone, foot, head);
     for (int k = 0; cut && k < m->films->n; k++) { /* what stays beside it has a foot of its own */
         fw_process_film *f = &m->films->film[k];
-        if (f->in[OTHER - column] && !f->in[column] && same(f->material, gone.material) &&
+        if (only_in(m, f, other(side)) && same(f->material, gone.material) &&
             fabs(f->bottom_m - gone.bottom_m) <= TOUCH_M) {
             f->cut = cut;
             f->mask_edge_m = edge;
         }
     }
-    bool floors =
-        cut && cut->lag != FW_LAG_NONE && !isnan(cut->lag_value) && column == FW_STACK_FIELD;
+    bool floors = cut && cut->lag != FW_LAG_NONE && !isnan(cut->lag_value) && field;
     if (!floors) {
         drop(m->films, at);
         return FW_OK;
@@ -338,19 +427,36 @@ static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_proces
                            cut->step->id, cut->lag_quantity->id ? cut->lag_quantity->id : "lag"));
 }
 
+/* an isotropic etch of a depth that leaves the rest of the film: its upper part becomes a film of its own, which is
+   etched through. Its wall is a quarter of a circle about the mask's edge, drawn as its chord. */
+static fw_status hollow_out(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
+                            fw_process_side side) {
+    fw_process_film upper = m->films->film[i];
+    double t = known(c->thickness);
+    fw_process_film *f = &m->films->film[i];
+    f->top_m -= t;
+    f->thickness_m -= t;
+    upper.bottom_m = f->top_m;
+    upper.thickness_m = t;
+    upper.shortened = false;
+    FW_TRY(add_film(m, upper));
+    return etch_beside(m, s, c, m->films->n - 1, side);
+}
+
 /* an etch that runs sideways from every opening: out of the field, and from below the structure */
 static fw_status undercut(maker *m, const fw_process_step *s, const fw_process_change *c) {
     double reach = known(c->reach);
     for (int i = m->films->n - 1; i >= 0; i--) {
         fw_process_film *f = &m->films->film[i];
         if (!same(f->material, c->material)) continue;
-        if (isnan(reach) || !f->in[FW_STACK_STRUCTURE]) {
+        if (isnan(reach) || !in_side(m, f, STRUCTURE)) {
             drop(m->films, i);
             continue;
         }
-        if (f->in[FW_STACK_FIELD]) {
-            f->foot_m = f->head_m = mask_edge(m, f, FW_STACK_STRUCTURE);
-            f->in[FW_STACK_FIELD] = false;
+        if (in_side(m, f, FIELD)) {
+            f->foot_m = f->head_m = mask_edge(m, f, STRUCTURE);
+            for (int k = 0; k < m->columns; k++)
+                if (fw_process_side_holds(m->flow, FIELD, k)) f->in[k] = false;
         }
         f->reach_m = fmax(f->reach_m, reach * (1.0 + s->overrun));
     }
@@ -372,25 +478,27 @@ static void thin(const fw_process_change *c, fw_process_film *f) {
     if (c->back)
         f->bottom_m += t;
     else {
-        f->head_m = wall_at(f, f->top_m - t);
+        f->head_m = wall_at(f, 0, f->top_m - t);
         f->top_m -= t;
     }
     f->thickness_m = left;
 }
 
 static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_change *c) {
-    bool whole = same(c->where, "all"), etch = c->isotropic || c->anisotropy;
-    int column = same(c->where, "structure") ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
+    fw_process_side side;
+    bool whole = !side_of(m, c, &side), etch = c->isotropic || c->anisotropy;
     if (c->reach) return undercut(m, s, c);
     for (int i = m->films->n - 1; i >= 0; i--) { /* what is split off comes behind */
         fw_process_film *f = &m->films->film[i];
-        if (!same(f->material, c->material) || (!whole && !f->in[column])) continue;
+        if (!same(f->material, c->material) || (!whole && !in_side(m, f, side))) continue;
         if (is_shallow(c, f)) {
             int at = i;
-            if (!whole) FW_TRY(split(m, i, column, mask_edge(m, f, OTHER - column), &at));
+            if (!whole) FW_TRY(split(m, i, side, mask_edge(m, f, other(side)), &at));
             thin(c, &m->films->film[at]);
-        } else if (!whole && (etch || f->in[OTHER - column])) {
-            FW_TRY(etch_beside(m, s, c, i, column));
+        } else if (!whole && c->isotropic && known(c->thickness) < 0.5 * f->thickness_m) {
+            FW_TRY(hollow_out(m, s, c, i, side));
+        } else if (!whole && (etch || in_side(m, f, other(side)))) {
+            FW_TRY(etch_beside(m, s, c, i, side));
         } else {
             drop(m->films, i);
         }
@@ -398,23 +506,36 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
     return FW_OK;
 }
 
-/* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open */
+/* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open, or
+   no plate parts one from the other */
 static fw_status open_part(maker *m, int i, const double top[], int *open) {
     const fw_process_film *f = &m->films->film[i];
-    bool up[FW_STACK_COLUMNS];
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
-        up[column] = f->in[column] && fabs(f->top_m - top[column]) <= TOUCH_M;
-    *open = up[0] || up[1] ? i : -1;
-    if (*open < 0 || !f->in[0] || !f->in[1] || up[0] == up[1]) return FW_OK;
-    int column = up[0] ? 0 : 1;
-    return split(m, i, column, mask_edge(m, f, OTHER - column), open);
+    bool up[FW_STACK_MOST], any = false, all = true;
+    for (int k = 0; k < m->columns; k++) {
+        up[k] = f->in[k] && fabs(f->top_m - top[k]) <= TOUCH_M;
+        any = any || up[k];
+        all = all && (up[k] || !f->in[k]);
+    }
+    *open = any ? i : -1;
+    if (!any || all) return FW_OK;
+    for (int half = 0; half < 2 * (m->flow->nplate + 1); half++) {
+        fw_process_side side = {half / 2, half % 2 == 1};
+        bool fits = true;
+        for (int k = 0; k < m->columns; k++)
+            fits = fits && (!f->in[k] || up[k] == fw_process_side_holds(m->flow, side, k));
+        if (fits) return split(m, i, side, mask_edge(m, f, other(side)), open);
+    }
+    *open = -1;
+    return FW_OK;
 }
 
 /* what the step's chemical takes of films that lie open on top (fw_process_exposed_loss), and of
    the device's walls where it is a liquid (films.h) */
 static fw_status wear(maker *m, const fw_process_step *s, const fw_process_exposed *x) {
     double most, loss = fw_process_exposed_loss(s, x, &most);
-    double top[] = {top_of(m->films, 0), top_of(m->films, 1)};
+    double top[FW_STACK_MOST];
+    for (int k = 0; k < m->columns; k++)
+        top[k] = top_of(m, k);
     bool open = false, walls = fw_process_step_is_wet(s) && x->rate && m->flow->material &&
                                same(x->material, m->flow->material);
     for (int i = m->films->n - 1; i >= 0; i--) {
@@ -430,10 +551,10 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
             drop(m->films, at);
             continue;
         }
-        f->head_m = wall_at(f, f->top_m - loss);
+        f->head_m = wall_at(f, 0, f->top_m - loss);
         f->top_m -= loss;
         f->thickness_m -= loss;
-        if (!walls || f->in[FW_STACK_FIELD]) continue;
+        if (!walls || in_side(m, f, FIELD)) continue;
         f->foot_m -= loss;
         f->head_m -= loss;
     }
@@ -451,16 +572,6 @@ static fw_status apply(maker *m, const fw_process_step *s, const fw_process_chan
     return convert(m, c);
 }
 
-bool fw_process_films_is_new(const fw_process_films *now, const fw_process_films *before, int i) {
-    for (int k = 0; k < before->nnote; k++)
-        if (same(before->note[k], now->note[i])) return false;
-    return true;
-}
-
-bool fw_process_step_changes(const fw_process_step *step) {
-    return step->nchange > 0 || step->nexposed > 0;
-}
-
 static int by_height(const void *left, const void *right) {
     const fw_process_film *p = left, *q = right;
     int order = fw_order_doubles(p->bottom_m, q->bottom_m);
@@ -474,7 +585,7 @@ static int by_height(const void *left, const void *right) {
 fw_status fw_process_flow_films(fw_arena *arena, const fw_process_flow *flow, int index,
                                 fw_process_films *films) {
     double device = known(flow->thickness);
-    maker m = {arena, flow, films, device > 0.0 ? device : 10e-6, 0};
+    maker m = {arena, flow, films, device > 0.0 ? device : 10e-6, 0, fw_process_flow_columns(flow)};
     *films = (fw_process_films){0};
     for (int i = 0; i < flow->nstep && i <= index; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -486,23 +597,4 @@ fw_status fw_process_flow_films(fw_arena *arena, const fw_process_flow *flow, in
     }
     if (films->n > 1) qsort(films->film, (size_t)films->n, sizeof *films->film, by_height);
     return FW_OK;
-}
-
-/* z + lag(w, z) = E by bisection: the left side rises with z. In: the cut with its E, the opening w
-   m. Out: m, error 1e-15 of the depth. Test: test_films.c, depth: z = D and E where they should. */
-double fw_process_cut_depth(const fw_process_cut *cut, double w_m) {
-    double E = cut->etched_m;
-    if (isnan(E)) return cut->depth_m;
-    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m);
-    if (isnan(lag)) return fmin(E, cut->depth_m);
-    if (cut->depth_m + lag <= E) return cut->depth_m;
-    double low = 0.0, high = cut->depth_m;
-    for (int i = 0; i < 50; i++) {
-        double z = 0.5 * (low + high);
-        if (z + fw_process_cut_lag(cut, w_m, z) <= E)
-            low = z;
-        else
-            high = z;
-    }
-    return low;
 }

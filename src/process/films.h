@@ -4,6 +4,7 @@
 #ifndef FW_PROCESS_FILMS_H
 #define FW_PROCESS_FILMS_H
 #include "process/process.h"
+#include "xml/xml_reader.h"
 
 /* ---- stacks! ---- */
 /* The wafer's layers after a step, as the <change> elements make them: two columns, one through the
@@ -16,12 +17,30 @@ typedef struct fw_process_cell {
     bool exposed;          /* latent image in resist */
 } fw_process_cell;
 
-enum { FW_STACK_STRUCTURE, FW_STACK_FIELD, FW_STACK_COLUMNS };
+/* the first two columns of every flow; with further plates there are more (regions.c) */
+enum { FW_STACK_STRUCTURE, FW_STACK_FIELD };
 
 typedef struct fw_process_stack {
-    fw_process_cell *cell[FW_STACK_COLUMNS]; /* (n), bottom to top; removed ones are gone */
-    int n[FW_STACK_COLUMNS], capacity;
+    fw_process_cell *cell[FW_STACK_MOST]; /* (n), bottom to top; removed ones are gone */
+    int n[FW_STACK_MOST], capacity, columns;
 } fw_process_stack;
+
+/* ---- parts of the wafer: regions.c ---- */
+typedef struct
+    fw_process_side { /* of what a plate prints; plate 0: the device's, of which set says field */
+    int plate;
+    bool set;
+} fw_process_side;
+int fw_process_flow_columns(const fw_process_flow *flow);
+/* false: "all", or no part of the wafer */
+bool fw_process_where_side(const fw_process_flow *flow, const char *where, fw_process_side *side);
+bool fw_process_side_holds(const fw_process_flow *flow, fw_process_side side, int column);
+/* is the column in this part of the wafer ("all", "structure", "field", "cavity" ...)? */
+bool fw_process_where_holds(const fw_process_flow *flow, const char *where, int column);
+/* does one plate alone part them? */
+bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b);
+/* "structure", "field, cavity" */
+const char *fw_process_column_name(const fw_process_flow *flow, int column, char name[FW_LABEL]);
 
 /* layers after step `index` (-1: before the first). *absent (may be NULL) is the first change that
    touches a material which is not there, else NULL. */
@@ -32,8 +51,6 @@ fw_status fw_process_flow_stack(fw_arena *arena, const fw_process_flow *flow, in
 fw_status fw_process_flow_stack_before(fw_arena *arena, const fw_process_flow *flow, int step,
                                        int change, fw_process_stack *stack);
 
-/* is the column in this part of the wafer ("all", "structure", "field")? */
-bool fw_process_where_holds(const char *where, int column);
 /* is there a film of the material in the column? */
 bool fw_process_stack_holds(const fw_process_stack *stack, int column, const char *material);
 /* topmost film of a column; NULL: it has none */
@@ -75,12 +92,15 @@ fw_process_wear fw_process_flow_wear(const fw_process_flow *flow);
 
 typedef struct fw_process_film {
     const char *material;
-    bool in[FW_STACK_COLUMNS];
+    bool in[FW_STACK_MOST];
     double bottom_m, top_m; /* as drawn: to scale but where `thickness_m` says otherwise */
     double thickness_m;     /* NaN: nobody stated it */
     bool shortened;         /* drawn thinner than it is: far from everything that is made */
     bool exposed;           /* latent image in resist */
     double foot_m, head_m;  /* the structure's wall at bottom and top, outside the drawn edge */
+    struct {                /* the same of what further plates print */
+        double foot_m, head_m;
+    } further[FW_PROCESS_PLATES];
     /* of the field: etched by this; what the lag leaves is its floor. In the structure: its foot
        follows the width of the opening beside it */
     const fw_process_cut *cut;

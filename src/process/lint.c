@@ -263,7 +263,7 @@ static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
     for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(arena, flow, k, &stack, NULL));
-        for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+        for (int column = 0; column < stack.columns; column++) {
             double there = top_layer(&stack, column, x->material);
             if (there > 0.0) least = fmin(least, there);
         }

@@ -109,9 +109,6 @@ fw_status fw_process_lint_wet(fw_process_pack *pack) {
 
 /* ---- is what a step works on there, and open? ---- */
 
-static const char *const part_name[FW_STACK_COLUMNS] = {
-    [FW_STACK_STRUCTURE] = "structure", [FW_STACK_FIELD] = "field"};
-
 /* a removal, a conversion and an exposure need what they work on open to them; one that reaches sideways needs it open
    anywhere */
 static fw_status lint_open(fw_process_pack *pack, int step, int change) {
@@ -123,15 +120,16 @@ static fw_status lint_open(fw_process_pack *pack, int step, int change) {
     if (strcmp(c->kind, "add") == 0 || c->back) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
     if (c->reach && fw_process_stack_open(f, &stack, on)) return FW_OK;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+    for (int column = 0; column < stack.columns; column++) {
+        char part[FW_LABEL];
         const char *by;
         const fw_process_cell *cell = fw_process_stack_find(f, &stack, column, on, &by);
         bool back = cell && cell->bottom < -1e-9; /* of the wafer: nothing here looks at it */
-        if (!fw_process_where_holds(c->where, column) || !cell || !by || back) continue;
+        if (!fw_process_where_holds(f, c->where, column) || !cell || !by || back) continue;
         fw_diag_error(pack->diags, 339, c->place,
                       "step %s works on '%s' in the %s, but there it lies below '%s'; take that "
                       "off before, or name the part where it is open (where)",
-                      s->id, on, part_name[column], by);
+                      s->id, on, fw_process_column_name(f, column, part), by);
         return FW_OK;
     }
     return FW_OK;
@@ -150,20 +148,22 @@ static fw_status lint_plating(fw_process_pack *pack, int step, int change) {
     fw_process_stack stack;
     if (!fw_process_step_is_op(s, "plate") || strcmp(c->kind, "add") != 0) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+    for (int column = 0; column < stack.columns; column++) {
+        char part[FW_LABEL];
         const char *on = top(&stack, column);
         const fw_process_material *m = on ? fw_process_flow_material(f, on) : NULL;
-        bool wanted = fw_process_where_holds(c->where, column);
+        bool wanted = fw_process_where_holds(f, c->where, column);
+        fw_process_column_name(f, column, part);
         if (wanted && (!on || (m && m->conducts == 0)))
             fw_diag_error(pack->diags, 340, c->place,
                           "step %s plates '%s' on '%s', which carries no current; a seed must lie "
                           "open in the %s",
-                          s->id, c->material, on ? on : "nothing", part_name[column]);
+                          s->id, c->material, on ? on : "nothing", part);
         else if (!wanted && m && m->conducts == 1)
             fw_diag_error(pack->diags, 340, c->place,
                           "step %s plates '%s' in the %s only, but '%s' lies open in the %s too "
                           "and carries current; a mould must cover it",
-                          s->id, c->material, c->where, on, part_name[column]);
+                          s->id, c->material, c->where, on, part);
     }
     return FW_OK;
 }
@@ -207,12 +207,13 @@ static fw_status unlike(fw_process_pack *pack, int step, const fw_process_wafer 
         return FW_OK;
     }
     FW_TRY(fw_process_flow_stack(pack->arena, f, step - 1, &stack, NULL));
-    for (int column = 0; column < FW_STACK_COLUMNS && !*wrong; column++)
-        if (fw_process_where_holds(r->where, column) &&
+    char part[FW_LABEL];
+    for (int column = 0; column < stack.columns && !*wrong; column++)
+        if (fw_process_where_holds(f, r->where, column) &&
             fw_process_stack_holds(&stack, column, r->material) != r->present)
             FW_NEED(*wrong = fw_arena_printf(pack->arena, "'%s' is %s in the %s", r->material,
                                              r->present ? "not there" : "still there",
-                                             part_name[column]));
+                                             fw_process_column_name(f, column, part)));
     return FW_OK;
 }
 
@@ -270,14 +271,16 @@ static bool has_change(const fw_process_step *s, const char *kind) {
 }
 
 /* a wet or dry etch of one part that a resist masks */
-static bool masked_by(const fw_process_step *s, const fw_process_stack *stack, const char *resist) {
+static bool masked_by(const fw_process_flow *f, const fw_process_step *s,
+                      const fw_process_stack *stack, const char *resist) {
     for (int k = 0; k < s->nchange; k++) {
         const fw_process_change *c = &s->change[k];
         if (strcmp(c->kind, "remove") != 0 || strcmp(c->where, "all") == 0 || c->back) continue;
-        int other = fw_process_where_holds(c->where, FW_STACK_STRUCTURE) ? FW_STACK_FIELD
-                                                                         : FW_STACK_STRUCTURE;
-        const char *mask = top(stack, other);
-        if (mask && strcmp(mask, resist) == 0) return true;
+        for (int column = 0; column < stack->columns; column++) {
+            const char *mask =
+                fw_process_where_holds(f, c->where, column) ? NULL : top(stack, column);
+            if (mask && strcmp(mask, resist) == 0) return true;
+        }
     }
     return false;
 }
@@ -308,7 +311,7 @@ static fw_status lint_bake(fw_process_pack *pack, int i, const fw_process_wafer 
     if (etches && b->resist && !b->hard) {
         fw_process_stack stack;
         FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-        if (masked_by(s, &stack, b->resist))
+        if (masked_by(f, s, &stack, b->resist))
             fw_diag_warning(pack->diags, 341, s->place,
                             "step %s etches through '%s' that was not baked since it was "
                             "developed: it lifts or flows; add a hard bake before it",
@@ -336,8 +339,9 @@ fw_status fw_process_lint_bakes(fw_process_pack *pack) {
 
 static void lint_end_layer(fw_process_pack *pack, const fw_process_stack *stack,
                            const char *material, const char *where, bool present, fw_place place) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!fw_process_where_holds(where, column) ||
+    for (int column = 0; column < stack->columns; column++) {
+        char part[FW_LABEL];
+        if (!fw_process_where_holds(pack->flow, where, column) ||
             fw_process_stack_holds(stack, column, material) == present)
             continue;
         fw_diag_error(pack->diags, 338, place,
@@ -345,7 +349,7 @@ static void lint_end_layer(fw_process_pack *pack, const fw_process_stack *stack,
                                 "missing, or one takes it off that should not"
                               : "the flow ends with '%s' still in the %s; a step that takes it off "
                                 "is missing",
-                      material, part_name[column]);
+                      material, fw_process_column_name(pack->flow, column, part));
         return;
     }
 }

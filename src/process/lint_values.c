@@ -163,7 +163,7 @@ static fw_status lint_thickness(fw_process_pack *pack, int step, int change) {
     }
     if (strcmp(c->kind, "convert") != 0) return FW_OK;
     FW_TRY(fw_process_flow_stack_before(pack->arena, f, step, change, &stack));
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < stack.columns; column++)
         for (int i = stack.n[column] - 1; i >= 0; i--) {
             const fw_process_cell *cell = &stack.cell[column][i];
             if (strcmp(cell->material, c->from) != 0) continue;

@@ -87,8 +87,9 @@ fw_status fw_process_lint_attacked(fw_process_pack *pack) {
 }
 
 static bool on_wafer(const fw_process_stack *stack, const char *material) {
-    return fw_process_stack_holds(stack, FW_STACK_STRUCTURE, material) ||
-           fw_process_stack_holds(stack, FW_STACK_FIELD, material);
+    for (int column = 0; column < stack->columns; column++)
+        if (fw_process_stack_holds(stack, column, material)) return true;
+    return false;
 }
 
 static void lint_hot(fw_process_pack *pack, const fw_process_step *s, const fw_process_stack *stack,
@@ -148,7 +149,7 @@ fw_status fw_process_lint_contamination(fw_process_pack *pack) {
 }
 
 static bool has_image(const fw_process_stack *stack, const char *material) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < stack->columns; column++)
         for (int i = 0; i < stack->n[column]; i++)
             if (strcmp(stack->cell[column][i].material, material) == 0 &&
                 stack->cell[column][i].exposed)
@@ -190,14 +191,18 @@ fw_status fw_process_lint_masking(fw_process_pack *pack) {
                 continue;
             fw_process_stack stack;
             FW_TRY(fw_process_flow_stack(pack->arena, f, i - 1, &stack, NULL));
-            int other = strcmp(c->where, "structure") == 0 ? FW_STACK_FIELD : FW_STACK_STRUCTURE;
-            int n = stack.n[other];
-            if (n > 0 && strcmp(stack.cell[other][n - 1].material, c->material) == 0)
+            for (int other = 0; other < stack.columns; other++) {
+                const fw_process_cell *open = fw_process_stack_top(&stack, other);
+                char part[FW_LABEL];
+                if (fw_process_where_holds(f, c->where, other) || !open ||
+                    strcmp(open->material, c->material) != 0)
+                    continue;
                 fw_diag_error(pack->diags, 275, c->place,
                               "step %s removes '%s' from the %s only, but it lies open in the %s "
                               "too; a mask must cover it there",
-                              s->id, c->material, c->where,
-                              other == FW_STACK_FIELD ? "field" : "structure");
+                              s->id, c->material, c->where, fw_process_column_name(f, other, part));
+                break;
+            }
         }
     return FW_OK;
 }

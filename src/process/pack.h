@@ -53,6 +53,10 @@ const fw_quantity *fw_process_pack_quantity(fw_process_pack *pack, const fw_xml_
 /* or wrong */
 double fw_process_pack_number(const fw_xml_record *e, const char *name, double absent);
 
+/* regions.c: <plate>s, and the words of every `where` (FW-D413) */
+void fw_process_read_plates(fw_process_pack *pack);
+void fw_process_check_regions(fw_process_pack *pack);
+
 /* lab_correlation.c: a <correlation> of a laboratory pack into the quantities of the flow (FW-D211); what is known of one
    that is replaced holds no longer */
 fw_status fw_process_correlation_read(fw_arena *arena, const fw_xml_record *e,

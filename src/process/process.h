@@ -103,9 +103,11 @@ typedef struct fw_process_setting {
 } fw_process_setting;
 
 typedef struct fw_process_change {
-    const char *kind, *material;   /* add remove convert pattern */
-    const fw_quantity *thickness;  /* may be NULL */
-    const char *where;             /* "all", "structure" (what stays of the device), "field" */
+    const char *kind, *material;  /* add remove convert pattern */
+    const fw_quantity *thickness; /* may be NULL */
+    const char
+        *where; /* "all", "structure" (what stays of the device), "field", a part of a plate */
+    bool spans; /* lies on the highest ground, hollows below it stay hollow */
     const char *from;              /* convert: the material that is turned into `material`; "" */
     bool back;                     /* on the back of the wafer */
     bool isotropic;                /* undercuts the mask by thickness (1 + overrun) per edge */
@@ -301,6 +303,15 @@ typedef struct fw_process_choice { /* of a laboratory */
     fw_place place;
 } fw_process_choice;
 
+/* a plate that the flow prints besides the device's: <plate>. Its parts of the wafer are named where changes say
+   where; `within`: words of which all hold wherever the inside is */
+typedef struct fw_process_plate {
+    const char *id, *inside, *outside, *within;
+    const fw_quantity *shrink; /* printed so much inside of what is drawn; NULL: as drawn */
+    fw_place place;
+} fw_process_plate;
+enum { FW_PROCESS_PLATES = 2, FW_STACK_MOST = 8 }; /* 2 to the plates, the device's included */
+
 typedef struct fw_process_flow {
     const char *id, *version, *title, *file, *sha256;
     const char *material;         /* id of the structural material */
@@ -346,8 +357,12 @@ typedef struct fw_process_flow {
     bool release_lag_known; /* the law of its time knows how narrow openings fall behind */
     bool no_window;         /* what must stay is lost before all that moves is free */
     bool tight;             /* something on the mask prints in perfect contact only */
-    fw_process_wait *wait;  /* (nwait) computed */
-    fw_process_text *text;  /* (ntext) */
+    fw_process_plate plate[FW_PROCESS_PLATES]; /* (nplate) in the order of printing */
+    unsigned
+        column_code[FW_STACK_MOST]; /* (ncolumn) what the columns of its stacks are: regions.c */
+    int nplate, ncolumn;
+    fw_process_wait *wait; /* (nwait) computed */
+    fw_process_text *text; /* (ntext) */
     int nwait, ntext;
     fw_place place;
 } fw_process_flow;

@@ -335,11 +335,13 @@ fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, co
     FW_TRY(make_room(&pack));
     FW_TRY(read_everything(&pack));
     read_head(&pack);
+    fw_process_read_plates(&pack);
     fw_process_pack_corners(&pack);
     read_finished(&pack);
     FW_TRY(fw_process_pack_baths(&pack));
     FW_TRY(fw_process_pack_steps(&pack));
     FW_TRY(fw_process_pack_texts(&pack));
+    fw_process_check_regions(&pack);
     if (diags->errors == errors) FW_TRY(fw_process_pack_lint(&pack));
     if (diags->errors == errors) FW_TRY(fw_process_flow_waits(arena, pack.flow));
     if (diags->failed) return FW_NOMEM;

@@ -26,7 +26,6 @@ static const char *const operations[] = {
     "clean",    "anodise",  "displace", "coat",    "bake",  "expose", "develop", "plate", "deposit",
     "wet-etch", "dry-etch", "strip",    "release", "mount", "hold",   "inspect", NULL};
 static const char *const changes[] = {"add", "remove", "convert", "pattern", NULL};
-static const char *const places[] = {"all", "structure", "field", NULL};
 static const char *const sides[] = {"front", "back", NULL};
 static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
 static const char *const faces[] = {"top", "middle", "bottom", NULL};
@@ -157,11 +156,22 @@ static const fw_xml_attribute_row corner_rows[] = {
     {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
 };
+static const fw_xml_attribute_row plate_rows[] = {
+    {"id", TOKEN, REQUIRED, .sentence = "That of its row in the layer table."},
+    {"inside", TOKEN, REQUIRED, .sentence = "What the part of the wafer is called that it draws."},
+    {"outside", TOKEN, REQUIRED, .sentence = "... and the rest of it."},
+    {"shrink", TO(QUANTITY),
+     .sentence =
+         "Length by which it is printed inside of what is drawn: what its step takes sideways."},
+    {"within", TEXT, .fallback = "everywhere",
+     .sentence = "Parts of which all hold wherever the inside is, such as \"structure bond\"."},
+};
 static const fw_xml_attribute_row finished_rows[] = {
     {"material", TO(MATERIAL), REQUIRED, .sentence = "Which layer."},
     {"is", WORD(there), REQUIRED, .sentence = "Whether it is still there at the end."},
-    {"where", WORD(places), .fallback = "all",
-     .sentence = "structure: in what stays of the device; field: in all else."},
+    {"where", TOKEN, .fallback = "all",
+     .sentence =
+         "structure: in what stays of the device; field: in all else; or a part of a <plate>."},
 };
 static const fw_xml_attribute_row step_rows[] = {
     ID,
@@ -178,8 +188,10 @@ static const fw_xml_attribute_row change_rows[] = {
     {"kind", WORD(changes), REQUIRED, .sentence = "What the step does to the wafer."},
     {"material", TO(MATERIAL), REQUIRED, .sentence = "To which layer, or what it becomes."},
     {"thickness", TO(QUANTITY), .sentence = "How much of it."},
-    {"where", WORD(places), .fallback = "all",
-     .sentence = "structure: what stays of the device; field: all else."},
+    {"where", TOKEN, .fallback = "all",
+     .sentence = "structure: what stays of the device; field: all else; or a part of a <plate>."},
+    {"spans", WORD(yes_no), .fallback = "no",
+     .sentence = "add: it lies on the highest ground, and hollows below it stay hollow."},
     {"from", TO(MATERIAL), .sentence = "convert: what is turned into the material."},
     {"side", WORD(sides), .fallback = "front", .sentence = "Of the wafer."},
     {"profile", WORD(profiles), .fallback = "anisotropic",
@@ -254,8 +266,9 @@ static const fw_xml_attribute_row requires_rows[] = {
     {"material", TO(MATERIAL), .sentence = "Or a layer that is there, or is not."},
     {"state", WORD(states), .sentence = "Or what the wafer is like, or is not."},
     {"is", WORD(there), .fallback = "present", .sentence = "Whether it is there."},
-    {"where", WORD(places), .fallback = "all",
-     .sentence = "Of a layer. structure: in what stays of the device; field: in all else."},
+    {"where", TOKEN, .fallback = "all",
+     .sentence = "Of a layer. structure: in what stays of the device; field: in all else; or a "
+                 "part of a <plate>."},
 };
 static const fw_xml_attribute_row lag_rows[] = {
     {"from", TO(STEP), REQUIRED, .sentence = "The step from whose end it is counted."},
@@ -285,6 +298,8 @@ static const fw_xml_element_row pack_rows[] = {
     Q_ROW("process material"),
     {"corner", "process", ROWS(corner_rows),
      .sentence = "What a flow does not make exactly as drawn."},
+    {"plate", "process", ROWS(plate_rows),
+     .sentence = "A plate that the flow prints besides the device's."},
     {"finished", "process", ROWS(finished_rows),
      .sentence = "What must be true of the wafer when the flow has ended."},
     {"open-point", "process", .text = true, .sentence = "What the source leaves open."},

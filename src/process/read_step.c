@@ -224,6 +224,7 @@ static void read_change(fw_process_pack *pack, const fw_xml_record *e, fw_proces
                              .material = fw_process_pack_text(e, "material"),
                              .thickness = fw_process_pack_quantity(pack, e, "thickness"),
                              .where = fw_process_pack_where(e),
+                             .spans = strcmp(fw_process_pack_text(e, "spans"), "yes") == 0,
                              .from = fw_process_pack_text(e, "from"),
                              .back = strcmp(fw_process_pack_text(e, "side"), "back") == 0,
                              .isotropic =

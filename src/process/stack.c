@@ -10,11 +10,6 @@ static double drawn_height(const fw_quantity *thickness) {
     return 1.5 + 2.5 * log10(1.0 + thickness->value / 0.1e-6);
 }
 
-bool fw_process_where_holds(const char *where, int column) {
-    if (strcmp(where, "all") == 0) return true;
-    return (strcmp(where, "structure") == 0) == (column == FW_STACK_STRUCTURE);
-}
-
 static double top_of(const fw_process_stack *s, int column) {
     double top = 0.0;
     for (int i = 0; i < s->n[column]; i++)
@@ -24,7 +19,7 @@ static double top_of(const fw_process_stack *s, int column) {
 
 static double bottom_of(const fw_process_stack *s) {
     double bottom = 0.0;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < s->columns; column++)
         for (int i = 0; i < s->n[column]; i++)
             bottom = fmin(bottom, s->cell[column][i].bottom);
     return bottom;
@@ -37,10 +32,11 @@ static void insert(fw_process_stack *s, int column, int at, fw_process_cell cell
     s->n[column]++;
 }
 
-static bool add(fw_process_stack *s, int column, const fw_process_change *c, double below) {
+static bool add(fw_process_stack *s, int column, const fw_process_change *c, double below,
+                double ground) {
     double height = drawn_height(c->thickness);
     double thickness = c->thickness && !c->thickness->unknown ? c->thickness->value : (double)NAN;
-    double bottom = c->back ? below - height : top_of(s, column);
+    double bottom = c->back ? below - height : c->spans ? ground : top_of(s, column);
     insert(s, column, c->back ? 0 : s->n[column],
            (fw_process_cell){c->material, thickness, bottom, height, false});
     return true;
@@ -79,13 +75,17 @@ static bool convert(fw_process_stack *s, int column, const fw_process_change *c)
     return true;
 }
 
-static bool apply(fw_process_stack *s, const fw_process_change *c) {
+static bool apply(const fw_process_flow *flow, fw_process_stack *s, const fw_process_change *c) {
+
     bool found = false;
     double below = bottom_of(s);
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
-        if (!fw_process_where_holds(c->where, column)) continue;
+    double ground = 0.0; /* the highest top: what spans lies on it */
+    for (int column = 0; column < s->columns; column++)
+        ground = fmax(ground, top_of(s, column));
+    for (int column = 0; column < s->columns; column++) {
+        if (!fw_process_where_holds(flow, c->where, column)) continue;
         if (strcmp(c->kind, "add") == 0)
-            found = add(s, column, c, below) || found;
+            found = add(s, column, c, below, ground) || found;
         else if (strcmp(c->kind, "remove") == 0)
             found = take_away(s, column, c) || found;
         else if (strcmp(c->kind, "pattern") == 0)
@@ -102,13 +102,13 @@ static fw_status stack_of(fw_arena *arena, const fw_process_flow *flow, int step
     int most = 0;
     for (int i = 0; i < flow->nstep && i <= step; i++)
         most += flow->step[i].nchange;
-    *stack = (fw_process_stack){.capacity = most + 1};
+    *stack = (fw_process_stack){.capacity = most + 1, .columns = fw_process_flow_columns(flow)};
     if (absent) *absent = NULL;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < stack->columns; column++)
         FW_NEED(stack->cell[column] = fw_arena_array(arena, fw_process_cell, (size_t)most + 1));
     for (int i = 0; i < flow->nstep && i <= step; i++)
         for (int j = 0; j < flow->step[i].nchange && (i < step || j < changes); j++)
-            if (!apply(stack, &flow->step[i].change[j]) && absent && !*absent)
+            if (!apply(flow, stack, &flow->step[i].change[j]) && absent && !*absent)
                 *absent = &flow->step[i].change[j];
     return FW_OK;
 }
@@ -138,7 +138,9 @@ const fw_process_cell *fw_process_stack_top(const fw_process_stack *stack, int c
 const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
                                              const fw_process_stack *stack, int column,
                                              const char *material, const char **cover) {
-    double beside = top_of(stack, FW_STACK_COLUMNS - 1 - column);
+    double beside = (double)INFINITY;
+    for (int k = 0; k < stack->columns; k++)
+        if (fw_process_columns_meet(flow, column, k)) beside = fmin(beside, top_of(stack, k));
     *cover = NULL;
     for (int i = stack->n[column] - 1; i >= 0; i--) {
         const fw_process_cell *c = &stack->cell[column][i];
@@ -155,7 +157,7 @@ const fw_process_cell *fw_process_stack_find(const fw_process_flow *flow,
 bool fw_process_stack_open(const fw_process_flow *flow, const fw_process_stack *stack,
                            const char *material) {
     const char *cover;
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < stack->columns; column++)
         if (fw_process_stack_find(flow, stack, column, material, &cover) && !cover) return true;
     return false;
 }

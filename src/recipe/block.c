@@ -254,7 +254,7 @@ static void draw_wall(const view *v, const fw_recipe_wall *w, const fw_process_f
 static fw_status draw_walls(fw_recipe_slicer *slicer, const view *v, const layer *l,
                             double tolerance_m) {
     double tx = sin(TURN), ty = -cos(TURN);
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+    for (int column = 0; column <= FW_STACK_FIELD; column++) {
         if (occupied(l, FW_STACK_FIELD + FW_STACK_STRUCTURE - column)) continue;
         for (int i = 0; i < l->films->n; i++) {
             const fw_process_film *f = &l->films->film[i];

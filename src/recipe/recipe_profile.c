@@ -26,12 +26,14 @@ static bool line_meets(fw_geometry_cut_line line, fw_geometry_box box) {
     return low <= FW_COINCIDENT_M && high >= -FW_COINCIDENT_M;
 }
 
-fw_status fw_recipe_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_recipe_cut *cut,
-                                 fw_recipe_slicer *slicer) {
+static fw_status start_plate(fw_arena *arena, const fw_mask *mask, int plate,
+                             const fw_recipe_cut *cut, fw_recipe_slicer *slicer) {
     fw_mask_plate_term *term;
-    *slicer = (fw_recipe_slicer){.arena = arena, .mask = mask, .cut = cut};
-    FW_TRY(fw_mask_plate_terms(arena, mask->table, &term, &slicer->nterm));
+    *slicer = (fw_recipe_slicer){.arena = arena, .mask = mask, .cut = cut, .bias_m = mask->bias_m};
+    FW_TRY(fw_mask_plate_terms_of(arena, mask->table, plate, &term, &slicer->nterm));
     slicer->term = term;
+    if (plate != mask->table->device_plate && slicer->nterm > 0)
+        slicer->bias_m = fw_mask_layer_bias_m(mask, term[0].layer);
     size_t most = (size_t)mask->nshape * (size_t)slicer->nterm;
     FW_NEED(slicer->shape = fw_arena_array(arena, const fw_mask_shape *, most));
     FW_NEED(slicer->term_of = fw_arena_array(arena, int, most));
@@ -49,6 +51,11 @@ fw_status fw_recipe_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_
     return FW_OK;
 }
 
+fw_status fw_recipe_slicer_start(fw_arena *arena, const fw_mask *mask, const fw_recipe_cut *cut,
+                                 fw_recipe_slicer *slicer) {
+    return start_plate(arena, mask, mask->table->device_plate, cut, slicer);
+}
+
 /* A biased shape stands `edge_m` outside what was drawn; what is taken out of it (lettering) stands
    as far inside its own outline as the structure moved from the plate. A shape that cannot be moved
    so far is gone; a hole that cannot stays as it is. */
@@ -56,13 +63,18 @@ static fw_status moved(const fw_recipe_slicer *slicer, int k, double edge_m,
                        fw_geometry_contour *out) {
     const fw_mask *mask = slicer->mask;
     const fw_mask_shape *s = slicer->shape[k];
+    double own_m = fw_mask_layer_bias_m(mask, s->layer);
     bool biased = mask->table->layer[s->layer].biased;
     bool hole = slicer->term[slicer->term_of[k]].rule == FW_SET_NOT;
-    double d = hole ? mask->bias_m - edge_m : edge_m - mask->bias_m;
+    double d = hole ? slicer->bias_m - edge_m : edge_m - slicer->bias_m;
     int i, j;
     *out = s->contour;
     if (biased && edge_m == 0.0 && !hole) *out = s->piece->contour;
     if (d == 0.0 || (biased && edge_m == 0.0 && !hole)) return FW_OK;
+    if (own_m != 0.0 && !biased && fabs(own_m + d) < 1e-15) { /* back to what is drawn */
+        *out = s->piece->contour;
+        return FW_OK;
+    }
     fw_status status = fw_geometry_contour_offset(slicer->arena, &s->contour, d, out, &i, &j);
     if (status != FW_GEOMETRY) return status;
     *out = hole ? s->contour : (fw_geometry_contour){0};
@@ -339,6 +351,67 @@ static fw_status put_field(fw_recipe_slicer *slicer, fw_recipe_cross_section *p,
     return put_between(slicer, p, f, low->gap, high->gap, f->bottom_m, f->top_m);
 }
 
+/* ---- flows with further plates ---- */
+
+static fw_status further_slicer(fw_recipe_slicer *slicer, const fw_process_flow *flow, int plate,
+                                fw_recipe_slicer **out) {
+    if (plate == 0) {
+        *out = slicer;
+        return FW_OK;
+    }
+    fw_recipe_slicer **own = &slicer->further[plate - 1];
+    if (!*own) {
+        int row = fw_mask_plate_named(slicer->mask->table, flow->plate[plate - 1].id);
+        if (row < 0) return FW_INTERNAL; /* cannot be: flow and table were compared (FW-D412) */
+        FW_NEED(*own = fw_arena_one(slicer->arena, fw_recipe_slicer));
+        FW_TRY(start_plate(slicer->arena, slicer->mask, row, slicer->cut, *own));
+    }
+    *out = *own;
+    return FW_OK;
+}
+
+/* along the cut, one side of a plate with its wall at edge_m */
+static fw_status side_slices(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                             fw_process_side side, double edge_m, fw_geometry_slices *out) {
+    fw_recipe_slicer *of;
+    const fw_recipe_outline_at *at;
+    FW_TRY(further_slicer(slicer, flow, side.plate, &of));
+    FW_TRY(fw_recipe_slicer_at(of, edge_m, &at));
+    bool inside = side.plate == 0 ? !side.set : side.set;
+    *out = inside ? at->inside : at->gap;
+    return FW_OK;
+}
+
+/* where a film lies: over its columns, what all plates leave of each; plates on both of whose sides it lies alike part
+   nothing */
+static fw_status film_slices(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                             const fw_process_film *f, bool head, fw_geometry_slices *out) {
+    fw_geometry_slice all = {-1.0, 2.0 * slicer->cut->length_m + 1.0, 1.0, 1.0};
+    *out = (fw_geometry_slices){0};
+    for (int k = 0; k < fw_process_flow_columns(flow); k++) {
+        fw_geometry_slices own = {.item = &all, .n = 1}, part;
+        if (!f->in[k]) continue;
+        for (int plate = 0; plate <= flow->nplate; plate++) {
+            fw_process_side side = {plate,
+                                    fw_process_side_holds(flow, (fw_process_side){plate, true}, k)};
+            double foot_m = plate ? f->further[plate - 1].foot_m : f->foot_m,
+                   head_m = plate ? f->further[plate - 1].head_m : f->head_m;
+            FW_TRY(side_slices(slicer, flow, side, head ? head_m : foot_m, &part));
+            FW_TRY(fw_geometry_slices_combine(slicer->arena, own, part, FW_SET_AND, &own));
+        }
+        FW_TRY(fw_geometry_slices_combine(slicer->arena, *out, own, FW_SET_OR, out));
+    }
+    return FW_OK;
+}
+
+static fw_status put_film(fw_recipe_slicer *slicer, const fw_process_flow *flow,
+                          fw_recipe_cross_section *p, const fw_process_film *f) {
+    fw_geometry_slices low, high;
+    FW_TRY(film_slices(slicer, flow, f, false, &low));
+    FW_TRY(film_slices(slicer, flow, f, true, &high));
+    return put_between(slicer, p, f, low, high, f->bottom_m, f->top_m);
+}
+
 /* Every film along the cut. In: the flow as computed. Out: trapezia, clipped to the window. Exact
    where outlines are (fw_geometry_contour_offset, fw_geometry_contour_slice: 1e-12 m); floors and
    feet of narrow openings as the fixed point has them for their width. Cost: one offset and one
@@ -351,7 +424,9 @@ fw_status fw_recipe_cross_section_of(fw_recipe_slicer *slicer, const fw_process_
     double end = slicer->cut->length_m;
     for (int i = 0; i < profile->films.n; i++) {
         const fw_process_film *f = &profile->films.film[i];
-        if (f->in[FW_STACK_STRUCTURE] && f->in[FW_STACK_FIELD])
+        if (flow->nplate > 0 && !(f->cut && !f->in[FW_STACK_STRUCTURE]))
+            FW_TRY(put_film(slicer, flow, profile, f));
+        else if (f->in[FW_STACK_STRUCTURE] && f->in[FW_STACK_FIELD])
             FW_TRY(put(slicer, profile,
                        (fw_recipe_patch){f, {0.0, end}, {0.0, end}, f->bottom_m, f->top_m}));
         else if (f->in[FW_STACK_STRUCTURE])

@@ -26,6 +26,9 @@ typedef struct fw_recipe_slicer {
     int nshape;
     fw_recipe_outline_at *at; /* (nat) */
     int nat, capacity;
+    double bias_m; /* of what the plate draws, against what is drawn */
+    struct fw_recipe_slicer
+        *further[FW_PROCESS_PLATES]; /* of the flow's other plates; NULL: not asked for yet */
 } fw_recipe_slicer;
 
 typedef struct fw_recipe_patch { /* a film in the section: a trapezium */

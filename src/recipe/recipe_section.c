@@ -102,6 +102,32 @@ enum { WIDTH = 310, SECTION = 150, HEIGHT = 118, BANDS = 7 };
 /* which column each band shows, and its width; two flexures, their slot, a body */
 static const int band_column[BANDS] = {1, 0, 1, 0, 1, 0, 1};
 static const int band_width[BANDS] = {26, 9, 12, 9, 16, 52, 26};
+enum { BANDS_MOST = FW_STACK_MOST };
+
+typedef struct bands {
+    int column[BANDS_MOST], n;
+    double width[BANDS_MOST];
+} bands;
+
+/* a flow with further plates: field, structure with the last plate's inside, then without, the rest of the field */
+static bands bands_of(const fw_process_flow *flow) {
+    bands b = {.n = 0};
+    int columns = fw_process_flow_columns(flow);
+    fw_process_side field = {0, true}, last = {flow->nplate, true};
+    for (int k = 0; columns == 2 && k < BANDS; k++)
+        b.column[b.n] = band_column[k], b.width[b.n++] = band_width[k];
+    if (columns == 2) return b;
+    for (int turn = 0; turn < 4; turn++)
+        for (int k = 0; k < columns; k++) {
+            bool in_field = fw_process_side_holds(flow, field, k),
+                 inside = fw_process_side_holds(flow, last, k);
+            int when = in_field ? (k == FW_STACK_FIELD ? 0 : 3) : inside ? 1 : 2;
+            if (when == turn) b.column[b.n++] = k;
+        }
+    for (int k = 0; k < b.n; k++)
+        b.width[k] = SECTION / (double)b.n;
+    return b;
+}
 
 /* lowest and highest drawn edge over the whole flow, so that the picture does not jump */
 static fw_status extent(fw_arena *arena, const fw_process_flow *flow, double *low, double *high) {
@@ -111,7 +137,7 @@ static fw_status extent(fw_arena *arena, const fw_process_flow *flow, double *lo
         fw_process_stack stack;
         if (flow->step[i].nchange == 0) continue;
         FW_TRY(fw_process_flow_stack(arena, flow, i, &stack, NULL));
-        for (int column = 0; column < FW_STACK_COLUMNS; column++)
+        for (int column = 0; column < FW_STACK_MOST; column++)
             for (int k = 0; k < stack.n[column]; k++) {
                 const fw_process_cell *c = &stack.cell[column][k];
                 *low = fmin(*low, c->bottom);
@@ -141,17 +167,15 @@ static bool has_cell(const fw_process_stack *s, int column, const fw_process_cel
     return false;
 }
 
-static void draw_bands(fw_text *out, const fw_process_stack *s, double high, double scale,
-                       bool lines) {
+static void draw_bands(fw_text *out, const fw_process_stack *s, const bands *b, double high,
+                       double scale, bool lines) {
     double x = 0.0;
-    for (int band = 0; band < BANDS; band++) {
-        int column = band_column[band];
+    for (int band = 0; band < b->n; band++) {
+        int column = b->column[band];
         for (int i = 0; i < s->n[column]; i++) {
             const fw_process_cell *c = &s->cell[column][i];
             double top = (high - c->bottom - c->height) * scale,
-                   floor_y = (high - c->bottom) * scale, w = band_width[band];
-            bool edge = band == 0 || band == BANDS - 1;
-            bool same = has_cell(s, 1 - column, c);
+                   floor_y = (high - c->bottom) * scale, w = b->width[band];
             if (!lines) {
                 rectangle(out, x, top, w, floor_y - top,
                           fw_recipe_paint_fill(c->material, c->exposed));
@@ -159,15 +183,16 @@ static void draw_bands(fw_text *out, const fw_process_stack *s, double high, dou
             }
             stroke(out, x, top, x + w, top);
             stroke(out, x, floor_y, x + w, floor_y);
-            if (!same && !(edge && band == 0)) stroke(out, x, top, x, floor_y);
-            if (!same && !(edge && band > 0)) stroke(out, x + w, top, x + w, floor_y);
+            if (band > 0 && !has_cell(s, b->column[band - 1], c)) stroke(out, x, top, x, floor_y);
+            if (band < b->n - 1 && !has_cell(s, b->column[band + 1], c))
+                stroke(out, x + w, top, x + w, floor_y);
         }
-        x += band_width[band];
+        x += b->width[band];
     }
 }
 
 static void collect(const fw_process_stack *s, legend_list *legend) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+    for (int column = 0; column < FW_STACK_MOST; column++) {
         for (int i = 0; i < s->n[column]; i++) {
             const fw_process_cell *c = &s->cell[column][i];
             legend_add(legend, &(legend_entry){.material = c->material,
@@ -202,12 +227,13 @@ static void label(fw_text *out, const fw_process_flow *flow, const legend_entry 
 fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text *out) {
     fw_process_stack stack;
     legend_list legend = {.most = 8};
+    bands row = bands_of(flow);
     double low, high;
     FW_TRY(extent(out->arena, flow, &low, &high));
     FW_TRY(fw_process_flow_stack(out->arena, flow, index, &stack, NULL));
     double scale = (HEIGHT - 4.0) / (high - low), top = -1e9, bottom = 1e9;
     collect(&stack, &legend);
-    for (int column = 0; column < FW_STACK_COLUMNS; column++)
+    for (int column = 0; column < FW_STACK_MOST; column++)
         for (int i = 0; i < stack.n[column]; i++) {
             const fw_process_cell *c = &stack.cell[column][i];
             top = fmax(top, c->bottom + c->height);
@@ -223,9 +249,9 @@ fw_status fw_recipe_section_svg(const fw_process_flow *flow, int index, fw_text 
                                       .font_size = 10});
     fw_svg_title(out, "layers after this step, not to scale");
     high = top + 2.0 / scale; /* drawn from the top down */
-    draw_bands(out, &stack, high, scale, false);
+    draw_bands(out, &stack, &row, high, scale, false);
     fw_svg_path(out, "fill='none' stroke='#222' stroke-width='0.6'");
-    draw_bands(out, &stack, high, scale, true);
+    draw_bands(out, &stack, &row, high, scale, true);
     fw_svg_path_end(out);
     for (int i = 0; i < legend.n; i++)
         label(out, flow, &legend.entry[i], 2 + 15 * i);
@@ -377,7 +403,7 @@ void fw_recipe_section_draw(const fw_recipe_cross_section *p, const fw_recipe_se
 /* ---- legend ---- */
 
 static void exact_collect(const fw_process_films *films, legend_list *list) {
-    for (int column = 0; column < FW_STACK_COLUMNS; column++) {
+    for (int column = 0; column < FW_STACK_MOST; column++) {
         for (int i = 0; i < films->n; i++) {
             const fw_process_film *f = &films->film[i];
             if (!f->in[column] || (f->cut && !f->in[FW_STACK_STRUCTURE])) continue;

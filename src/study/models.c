@@ -234,6 +234,7 @@ static fw_status one(fw_study_problem *p, const fw_plan_flow *pf, const fw_layou
                                .thickness_m = pf->variant.thickness_m,
                                .no_islands = !fw_plan_insulated(pf)};
     if (!fw_mask_flattening_named(plan->options.mask_flatten, &options.flattening)) return FW_USAGE;
+    FW_TRY(fw_plan_layer_bias(plan, pf, &options.layer_bias_m));
     fw_mark mark = fw_arena_mark(p->arena);
     fw_diags own = fw_diags_new(p->arena);
     const fw_mask *mask = NULL;

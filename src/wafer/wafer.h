@@ -170,8 +170,8 @@ fw_status fw_wafer_write_written(const fw_wafer_written *written, const fw_mask_
 fw_status fw_wafer_write_written_order(const fw_wafer *wafer, const fw_wafer_written *written,
                                        const fw_output_file *file, int nfile, fw_text *out);
 
-/* for the mask shop, with the files that go with it */
-fw_status fw_wafer_write_order(const fw_wafer *wafer, const fw_output_file *file, int nfile,
-                               fw_text *out);
+/* of one plate of the flow, for the mask shop, with the files that go with it */
+fw_status fw_wafer_write_order(const fw_wafer *wafer, int plate, const fw_output_file *file,
+                               int nfile, fw_text *out);
 
 #endif

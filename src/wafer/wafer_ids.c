@@ -54,6 +54,7 @@ static bool is_free(const die *d, fw_geometry_box r) {
         if (!meet(d->box[i], own)) continue;
         const fw_mask_shape *s = &d->mask->shape[i];
         fw_layout_role role = s->piece->role;
+        if (role == FW_ROLE_CAVITY || role == FW_ROLE_LAND) continue; /* below the device layer */
         if (role == FW_ROLE_TEXT || role == FW_ROLE_MARK || role == FW_ROLE_DICING) return false;
         if (edge_inside(&s->contour, own)) return false;
         framed =

@@ -59,7 +59,7 @@ static fw_status plate(fw_json *json, const fw_wafer *w, const fw_wafer_sum *s) 
     static const char *const sense[] = {"right-reading", "wrong-reading"};
     fw_mask_order order;
     const fw_mask *any = w->ncell > 0 ? w->cell[0].mask : w->plate;
-    FW_TRY(fw_mask_order_gather(json->out->arena, any, &order));
+    FW_TRY(fw_mask_order_gather(json->out->arena, any, w->table->device_plate, &order));
     double width = HUGE_VAL, space = HUGE_VAL;
     for (int k = 0; k < w->table->nlayer; k++)
         if (order.plate[k]) {

@@ -17,8 +17,10 @@ static void lengths(fw_text *out, const char *what, double a_m, const char *betw
 
 static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
     if (w->rejected) fw_text_add(out, "REJECTED: the design is not accepted. Do not order.\n\n");
-    fw_text_printf(out, "Order sheet of plate %s-%s (flexwright " FW_VERSION ")\n\n", w->top,
-                   w->flow);
+    bool several = fw_mask_plates(w->table) > 1;
+    fw_text_printf(out, "Order sheet of plate %s-%s%s%s (flexwright " FW_VERSION ")\n\n", w->top,
+                   w->flow, several ? "-" : "",
+                   several ? fw_mask_plate_at(w->table, order->plate_index).id : "");
     fw_mask_order_line(out, "device", w->device->name);
     fw_mask_order_line(out, "title", w->title);
     fw_mask_order_line(out, "flow", w->flow);
@@ -26,6 +28,7 @@ static void head(const fw_wafer *w, const fw_mask_order *order, fw_text *out) {
     lengths(out, "plate", w->form.plate_m, " mm x ", w->form.plate_m);
     lengths(out, "wafer", w->form.diameter_m, " mm, in the plate's middle; edge exclusion ",
             w->form.edge_m);
+    fw_mask_order_set_lines(out, w->table, order);
     fw_mask_order_plate_lines(out, "layers on the plate", w->table, order);
 }
 
@@ -88,7 +91,7 @@ static void sites(const fw_wafer *w, const fw_mask_order *order, const fw_wafer_
     }
 }
 
-fw_status fw_wafer_write_order(const fw_wafer *w, const fw_output_file *file, int nfile,
+fw_status fw_wafer_write_order(const fw_wafer *w, int plate, const fw_output_file *file, int nfile,
                                fw_text *out) {
     const fw_wafer_site *die = middle_die(w);
     if (!die) return FW_INTERNAL; /* test dies leave one */
@@ -97,7 +100,7 @@ fw_status fw_wafer_write_order(const fw_wafer *w, const fw_output_file *file, in
     fw_mask_order order;
     fw_wafer_sum *s;
     int32_t dx, dy;
-    FW_TRY(fw_mask_order_gather(out->arena, v->mask, &order));
+    FW_TRY(fw_mask_order_gather(out->arena, v->mask, plate, &order));
     FW_TRY(fw_wafer_sums(w, out->arena, &s));
     fw_wafer_origin(&w->grid, v->die, &dx, &dy);
     head(w, &order, out);

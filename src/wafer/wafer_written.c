@@ -73,7 +73,7 @@ fw_status fw_wafer_written_of(fw_arena *arena, const fw_wafer *w, fw_wafer_writt
     fw_mask_plate_cell *cell = fw_arena_array(arena, fw_mask_plate_cell, (size_t)w->ncell);
     fw_mask_plate_place *place = fw_arena_array(arena, fw_mask_plate_place, (size_t)w->nrun);
     FW_NEED(cell && place ? cell : NULL);
-    FW_TRY(fw_mask_order_gather(arena, any, &order));
+    FW_TRY(fw_mask_order_gather(arena, any, w->table->device_plate, &order));
     FW_TRY(fw_mask_written_table(arena, w->table, &base.written));
     base.mirror = mirrored(w, &order);
     *out =

@@ -117,7 +117,7 @@ static fw_status sites_of(const fw_wafer *w, const fw_wafer_site *die, bool mirr
     fw_mask_order order;
     int32_t dx, dy;
     if (fw_wafer_stood_in(v)) v = &w->stand_in;
-    FW_TRY(fw_mask_order_gather(out->arena, v->mask, &order));
+    FW_TRY(fw_mask_order_gather(out->arena, v->mask, w->table->device_plate, &order));
     fw_wafer_origin(&w->grid, v->die, &dx, &dy);
     bool flexure = false;
     for (int i = 0; i < order.nsite; i++) {
@@ -186,7 +186,7 @@ fw_status fw_wafer_write_written_order(const fw_wafer *w, const fw_wafer_written
     fw_mask_order order;
     fw_wafer_sum *s;
     char tone[200];
-    FW_TRY(fw_mask_order_gather(out->arena, any, &order));
+    FW_TRY(fw_mask_order_gather(out->arena, any, w->table->device_plate, &order));
     FW_TRY(fw_wafer_sums(w, out->arena, &s));
     for (int k = 0; k < w->table->nlayer; k++)
         if (order.plate[k]) width = fmin(width, s[k].width_m), space = fmin(space, s[k].space_m);

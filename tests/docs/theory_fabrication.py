@@ -191,6 +191,11 @@ def release(g):
     return {"need": need, "lost": g["a"] / 2 * (1 - sqrt(g["s"])), "run": need * (1 + g["E"]), "t": need / g["R"]}
 
 
+def plates(g):
+    overlay = g["o1"] + g["o2"]
+    return {"o": overlay, "side": g["b"] + 2 * overlay, "far": sqrt(2) * (g["m"] + 2 * g["g"])}
+
+
 def contours(g):
     R, w, eps = g["R"], g["w"], g["eps"]
     n = ceil(w / (2 * acos(1 - eps / R)))

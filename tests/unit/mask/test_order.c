@@ -16,7 +16,7 @@ static const fw_mask *built(scene *s) {
 
 static json_t *sheet(const fw_mask *mask, fw_arena *arena) {
     fw_text out = fw_text_new(arena);
-    assert_int_equal(fw_mask_write_order(mask, files, 2, &out), FW_OK);
+    assert_int_equal(fw_mask_write_order(mask, 0, files, 2, &out), FW_OK);
     json_error_t error;
     json_t *json = json_loads(out.data, 0, &error);
     if (!json) fail_msg("line %d: %s", error.line, error.text);
@@ -70,7 +70,8 @@ static void plates(void **state) {
         int first;
         const char *wrong = "";
         s->table.plate = row[i].plate;
-        assert_int_equal(fw_mask_plate_layers(&s->table, on, &first, &wrong), !row[i].wrong);
+        assert_int_equal(fw_mask_plate_layers(&s->table, s->table.plate, on, &first, &wrong),
+                         !row[i].wrong);
         if (row[i].wrong)
             assert_string_equal(wrong, row[i].wrong);
         else
@@ -208,7 +209,7 @@ static void tone_and_reading(void **state) {
         assert_true(
             json_is_null(json_object_get(json, "min_feature_um"))); /* 200 um: not looked at */
         fw_text out = fw_text_new(s->arena);
-        assert_int_equal(fw_mask_write_order_text(mask, files, 2, &out), FW_OK);
+        assert_int_equal(fw_mask_write_order_text(mask, 0, files, 2, &out), FW_OK);
         for (size_t k = 0; k < out.length; k++)
             assert_true(out.data[k] == '\n' || (out.data[k] >= 0x20 && out.data[k] <= 0x7e));
         assert_int_equal(strstr(out.data, "REJECTED") != NULL, i == 1);
@@ -231,7 +232,8 @@ static void short_memory(void **state) {
         for (long at = 1; status != FW_OK && at < 100; at++) {
             fw_text out = fw_text_new(s->arena);
             fw_arena_fail_at(at, 1);
-            status = (form ? fw_mask_write_order : fw_mask_write_order_text)(mask, files, 2, &out);
+            status =
+                (form ? fw_mask_write_order : fw_mask_write_order_text)(mask, 0, files, 2, &out);
             fw_arena_fail_at(0, 0);
             assert_true(status == FW_OK || status == FW_NOMEM);
         }

@@ -230,7 +230,7 @@ static void test_order(void **state) {
     const fw_wafer *w = plate_build(p);
     const fw_output_file file = {"f.gds", 12, "0123"};
     fw_text out = fw_text_new(p->arena), own = fw_text_new(p->arena);
-    assert_int_equal(fw_wafer_write_order(w, &file, 1, &out), FW_OK);
+    assert_int_equal(fw_wafer_write_order(w, 0, &file, 1, &out), FW_OK);
     assert_non_null(strstr(out.data, "0123  12  f.gds\n"));
     assert_non_null(strstr(out.data, "76.2 mm x 76.2 mm"));
     const char *line = strstr(out.data, "CD sites in die ");
@@ -247,7 +247,7 @@ static void test_order(void **state) {
     assert_int_equal(die->kind, FW_WAFER_DIE);
     assert_true(abs(die->x) < 2 * w->grid.pitch_x && abs(die->y) < 2 * w->grid.pitch_y);
     const fw_wafer_variant *v = &w->variant[die->variant];
-    assert_int_equal(fw_mask_write_order_text(v->mask ? v->mask : w->stand_in.mask, NULL, 0, &own),
+    assert_int_equal(fw_mask_write_order_text(v->mask ? v->mask : w->stand_in.mask, 0, NULL, 0, &own),
                      FW_OK);
     const char *there = strstr(own.data, "CD sites");
     int sites = 0, a, b;

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* cavity: hollows in the carrier below all that moves, and the ground that is left below what is held.
+
+   Drawn is the hollow as it shall be at the bonded face. Its layers have shrink and grow: an etch that widens the opening by
+   u is printed u inside of it (land u outside). Judged is whether every held part keeps a bonded square of side
+
+       bond + 2 overlay
+
+   where overlay is the budget between the plate that prints the hollow and that of the device. Theory: docs/theory/plates.md;
+   test: test_plates.c. */
+#include "mask/mask_plates.h"
+#include "release/release_cavity.h"
+#include <math.h>
+
+enum { MARGIN, WALL, STEP, BOND };
+
+static fw_release_cavity_asked asked_by(const fw_mask_content *c) {
+    return (fw_release_cavity_asked){
+        .margin_m = c->value[MARGIN], .wall_m = c->value[WALL], .step_m = c->value[STEP]};
+}
+
+static fw_status draw(const fw_mask_content *content, fw_mask_sheet *sheet) {
+    fw_release_cavity_asked asked = asked_by(content);
+    fw_release_cavity cavity;
+    FW_TRY(fw_release_cavity_make(sheet->arena, sheet->device, &asked, &cavity));
+    for (int i = 0; i < cavity.hollow.count; i++)
+        FW_TRY(fw_mask_sheet_add(sheet, FW_ROLE_CAVITY, FW_NONE - 1, "cavity",
+                                 &cavity.hollow.contour[i]));
+    for (int i = 0; i < cavity.land.count; i++)
+        FW_TRY(fw_mask_sheet_add(sheet, FW_ROLE_LAND, FW_NONE - 1, "ground within a cavity",
+                                 &cavity.land.contour[i]));
+    return FW_OK;
+}
+
+static fw_status judge(const fw_mask_content *content, const fw_mask_table *table,
+                       const fw_layout *layout, fw_mask_verdict *verdict) {
+    fw_release_cavity_asked asked = asked_by(content);
+    fw_release_cavity cavity;
+    double overlay = fw_mask_overlay_m(table, FW_ROLE_CAVITY),
+           least = content->value[BOND] + 2 * overlay;
+    FW_TRY(fw_release_cavity_make(verdict->arena, layout, &asked, &cavity));
+    for (int i = 0; i < cavity.nground; i++) {
+        const fw_release_ground *g = &cavity.ground[i];
+        double side = g->square.x1 - g->square.x0;
+        char have[32], need[32], bond[32], by[32], margin[32];
+        if (side >= least - 1e-12) continue;
+        FW_TRY(fw_mask_verdict_add(
+            verdict, fw_arena_printf(
+                         verdict->arena,
+                         "%s is bonded to the carrier on a square of %s um at most, and needs one "
+                         "of %s um (%s um, "
+                         "and twice the overlay of %s um between the plates): around what moves "
+                         "the carrier is "
+                         "hollow for %s um; make it wider there, or move it away from what moves",
+                         g->label, fw_number_text(have, sizeof have, side * 1e6, 4),
+                         fw_number_text(need, sizeof need, least * 1e6, 4),
+                         fw_number_text(bond, sizeof bond, content->value[BOND] * 1e6, 4),
+                         fw_number_text(by, sizeof by, overlay * 1e6, 4),
+                         fw_number_text(margin, sizeof margin, content->value[MARGIN] * 1e6, 4))));
+    }
+    return FW_OK;
+}
+
+const fw_mask_content_kind fw_mask_content_cavity = {
+    .name = "cavity",
+    .what = "hollows in the carrier below all that moves",
+    .parameter = {{"margin", (double)NAN, 5e-6, 500e-6,
+                   "From what moves to the edge of the hollow."},
+                  {"wall", 40e-6, 5e-6, 500e-6,
+                   "Narrowest ground between two hollows that stands."},
+                  {"step", 10e-6, 2e-6, 50e-6, "Of the grid that its edges lie on."},
+                  {"bond", 80e-6, 5e-6, 1e-3, "Side of a bonded square that holds a part."}},
+    .nparameter = 4,
+    .draw = draw,
+    .judge = judge,
+};
