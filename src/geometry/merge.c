@@ -42,7 +42,7 @@ static fw_status lines_of(fw_arena *arena, const fw_geometry_merge_edges *edges,
         fw_arena_array(arena, fw_geometry_merge_edge, (size_t)edges->n);
     line *l = fw_arena_array(arena, line, (size_t)edges->n);
     FW_NEED(sorted && l ? l : NULL);
-    memcpy(sorted, edges->edge, (size_t)edges->n * sizeof *sorted);
+    if (edges->n) memcpy(sorted, edges->edge, (size_t)edges->n * sizeof *sorted);
     qsort(sorted, (size_t)edges->n, sizeof *sorted, by_edge);
     int n = 0;
     for (int i = 0; i < edges->n; i++) {
