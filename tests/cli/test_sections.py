@@ -66,7 +66,9 @@ class Sections(unittest.TestCase):
                     if step["changes"]:
                         self.assertIn(step["title"], words)
             html = (self.out / "recipes" / (flow + ".html")).read_text()
-            self.assertEqual(html.count("<svg "), sum(s["changes"] for s in steps) + 1)  # of every change, and what is made
+            # of every change, what is made, and where the flow has a release its map
+            map_of_release = (self.out / "recipes" / (flow + ".release.svg")).exists()
+            self.assertEqual(html.count("<svg "), sum(s["changes"] for s in steps) + 1 + map_of_release)
 
     def test_wrong_cuts(self):
         for cut in ("1,2,3", "flexure:nobody", "1,1,1,1"):
