@@ -4,7 +4,7 @@
 # share without an order between them. Some twenty times slower: fewer moments of cancelling.
 set -eu
 cd "$(dirname "$0")/../.."
-cmake -S . -B build-threads -G Ninja -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
+cmake -S . -B build-threads -G Ninja -DCMAKE_C_COMPILER=clang -DFW_TESTS=ON -DFW_PAGE=OFF -DCMAKE_BUILD_TYPE=Debug \
     -DCMAKE_C_FLAGS_DEBUG="-g1 -O0" -DCMAKE_C_FLAGS=-fsanitize=thread >/dev/null
 cmake --build build-threads --target cancel_threads >build-threads/log 2>&1 || {
     tail -40 build-threads/log
