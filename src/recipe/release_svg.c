@@ -169,10 +169,9 @@ static fw_status say(const picture *p, fw_arena *arena, double y) {
         line[2] = "Nothing must stay on the wafer: the device may come off in one piece.";
     else
         FW_NEED(line[2] = fw_arena_printf(
-                    arena, "%s holds until %s%s.", r->part[r->weakest].label,
-                    when(p, arena, r->lost_m + foot),
-                    lost ? ": lost before the step ends, so that there is no window"
-                         : ": stop before, it is the first that is lost of what must stay"));
+                    arena, "Of what must stay, %s goes first, at %s: %s.",
+                    r->part[r->weakest].label, when(p, arena, r->lost_m + foot),
+                    lost ? "before the step ends, so that there is no window" : "stop before"));
     line[3] =
         p->flow->release_lag_known
             ? "Narrow openings are taken as slow as the flow's law says."
