@@ -106,6 +106,9 @@ typedef struct fw_mask_table {
 typedef struct fw_mask_neck { /* the narrowest place of a flexure */
     bool there;
     fw_geometry_vec2 at[2];      /* ends of the chord on the exact outline */
+    int segment[2];              /* of the outline, */
+    double t[2];                 /* and where on them */
+    bool divided[2];             /* the arc was flattened in two parts there */
     bool on_vertex[2];           /* a vertex is there: on arcs always, on lines where they end */
     fw_geometry_point vertex[2]; /* it, where it is */
 } fw_mask_neck;

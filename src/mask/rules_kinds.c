@@ -34,7 +34,7 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
     FW_NEED(list = fw_arena_array(r->arena, fw_mask_rule_finding, (size_t)in->nfound));
     for (int i = 0; i < in->nfound; i++) {
         const fw_mask_rule_finding *f = &in->found[i];
-        if (f->kind == kind && f->value_m < rule->least + f->slack_m - FW_COINCIDENT_M &&
+        if (f->kind == kind && fw_mask_rule_short(f->value_m, rule->least) &&
             (!pick || pick(r, f, with)))
             list[n++] = *f;
     }
@@ -47,7 +47,7 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
                                                .box = f->box,
                                                .value = f->value_m,
                                                .limit = rule->least,
-                                               .needed = rule->least + f->slack_m,
+                                               .needed = rule->least,
                                                .label = {r->shape[f->shape[0]].piece->label,
                                                          r->shape[f->shape[1]].piece->label},
                                                .edge = {f->segment[0], f->segment[1]}});
