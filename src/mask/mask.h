@@ -52,7 +52,7 @@ typedef struct fw_mask_finding { /* one place where a rule is broken */
     fw_geometry_box box;  /* all of the place, m */
     double value;         /* in the rule's unit */
     double limit;         /* what the rule says */
-    double needed;        /* the same and what the 1 nm grid takes away */
+    double needed;        /* the same: what is written is judged, and nothing is allowed for it */
     const char *label[2]; /* pieces; NULL: none */
     int edge[2];          /* of their outlines; -1: none */
 } fw_mask_finding;
