@@ -23,6 +23,7 @@ typedef struct fw_mask_rule_edge { /* a segment of a shape that is no joint */
     struct fw_mask_rule_written *written; /* (nwritten) NULL until they are needed */
     int *near;                            /* (nwritten) of them, while a pair is judged */
     int nwritten;
+    fw_geometry_box written_box; /* of all of them */
 } fw_mask_rule_edge;
 
 /* an edge of the polygon that is written, with the material on its left */

@@ -61,11 +61,14 @@ bool fw_mask_rule_write(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
     e->written = fw_arena_raw(in->arena, (size_t)(n + 1) * sizeof *e->written);
     e->near = fw_arena_raw(in->arena, (size_t)(n + 1) * sizeof *e->near);
     if (!e->written || !e->near) goto no_memory;
-    for (int i = 0; i + 1 < n; i++) {
-        fw_geometry_point a = at[i], b = at[i + 1];
-        if (a.x_dbu == b.x_dbu && a.y_dbu == b.y_dbu) continue;
-        e->written[e->nwritten++] =
-            (fw_mask_rule_written){a, b, fw_mask_box_around(place_of(a), place_of(b))};
+    fw_geometry_vec2 from = {0, 0}, to;
+    for (int i = 0; i < n; i++, from = to) {
+        to = place_of(at[i]);
+        if (i == 0 || vec_same(from, to)) continue;
+        fw_geometry_box box = {fw_lesser(from.x, to.x), fw_lesser(from.y, to.y),
+                               fw_greater(from.x, to.x), fw_greater(from.y, to.y)};
+        e->written_box = e->nwritten ? fw_box_join(e->written_box, box) : box;
+        e->written[e->nwritten++] = (fw_mask_rule_written){at[i - 1], at[i], box};
     }
     return true;
 no_memory:
@@ -181,13 +184,6 @@ static int near_of(fw_mask_rule_edge *q, fw_geometry_box box, int first, double 
     return n;
 }
 
-static fw_geometry_box box_of(const fw_mask_rule_edge *e) {
-    fw_geometry_box box = e->written[0].box;
-    for (int i = 1; i < e->nwritten; i++)
-        box = fw_box_join(box, e->written[i].box);
-    return box;
-}
-
 static bool ready(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q) {
     return fw_mask_rule_write(in, p) && fw_mask_rule_write(in, q) && p->nwritten > 0 &&
            q->nwritten > 0;
@@ -197,12 +193,12 @@ void fw_mask_rule_judge(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_r
                         bool square) {
     if (!ready(in, p, q)) return;
     double limit_m = fw_greater(in->limit_m[FW_RULE_WIDTH], in->limit_m[FW_RULE_SPACE]);
-    fw_geometry_box all = box_of(q);
-    int n = p == q ? 0 : near_of(q, box_of(p), 0, limit_m);
+    const fw_geometry_box *all = &q->written_box;
+    int n = p == q ? 0 : near_of(q, p->written_box, 0, limit_m);
     for (int i = 0; i < p->nwritten; i++) {
         const fw_mask_rule_written *a = &p->written[i], *b;
         if (p == q) n = near_of(q, a->box, i + 1, limit_m);
-        if (fw_box_apart(&a->box, &all, limit_m)) continue;
+        if (fw_box_apart(&a->box, all, limit_m)) continue;
         for (int k = 0; k < n; k++) {
             b = &q->written[q->near[k]];
             if (!fw_box_apart(&a->box, &b->box, limit_m) && facing(a, b, square))
@@ -215,7 +211,7 @@ double fw_mask_rule_apart(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask
                           double limit_m, fw_geometry_vec2 at[2]) {
     apart best = {.nm = HUGE_VAL};
     if (!ready(in, p, q)) return HUGE_VAL;
-    int n = near_of(q, box_of(p), 0, limit_m);
+    int n = near_of(q, p->written_box, 0, limit_m);
     for (int i = 0; i < p->nwritten; i++)
         for (int k = 0; k < n; k++) {
             const fw_mask_rule_written *a = &p->written[i], *b = &q->written[q->near[k]];
