@@ -368,6 +368,10 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
 /* Lines of the sheet for people, ASCII: one of them; what is on the plate (called `what`), with its
    tone, reading and mirror; least sizes (INFINITY: none), bias and grid; corners of the data, m */
 void fw_mask_order_line(fw_text *out, const char *what, const char *value);
+/* "7/0" of a layer, and how many characters the longest of a table has, at least 5 */
+enum { FW_MASK_GDS_TEXT = 32 };
+const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer);
+int fw_mask_order_gds_width(const fw_mask_table *table);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */

@@ -93,7 +93,11 @@ fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double toleran
 int fw_mask_rule_start_at(const fw_mask_rule_search *in, fw_geometry_vec2 at, int after);
 /* rules_search.c: every pair of edges that may matter */
 void fw_mask_rule_search_run(fw_mask_rule_search *in);
-/* rules_written.c: what is written of an edge, once; false: no memory */
+/* rules_written.c */
+void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f);
+/* the same, the lesser shape first */
+void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f);
+/* what is written of an edge, once; false: no memory */
 bool fw_mask_rule_write(fw_mask_rule_search *in, fw_mask_rule_edge *e);
 /* findings between what is written of two edges, or of one and itself. square: the two meet at a
    corner of the outline that is not below 90 degrees */
@@ -106,9 +110,6 @@ double fw_mask_rule_apart(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask
 /* rules_pair.c */
 void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q);
 void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e);
-void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f);
-/* the same, the lesser shape first */
-void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f);
 /* rules_places.c: the chords of one kind that are below a limit, as places: the shortest chord of
    each, in the order of shapes. Sorts `list`. */
 fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,

@@ -22,6 +22,36 @@
 static const double GRID_M = 1e-9;
 static const double SIN_LEAN = 0.1305261922200516; /* sin 7.5 deg */
 
+/* ---- findings ---- */
+
+void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f) {
+    if (in->nfound == in->room) {
+        size_t more = in->room ? 2 * (size_t)in->room : 16;
+        fw_mask_rule_finding *grown =
+            fw_arena_grow(in->arena, in->found, (size_t)in->nfound, more, sizeof f);
+        if (!grown) {
+            in->no_memory = true;
+            return;
+        }
+        in->found = grown;
+        in->room = (int)more;
+    }
+    in->found[in->nfound++] = f;
+}
+
+void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f) {
+    if (f.shape[0] > f.shape[1] || (f.shape[0] == f.shape[1] && f.segment[0] > f.segment[1]))
+        f = (fw_mask_rule_finding){.kind = f.kind,
+                                   .shape = {f.shape[1], f.shape[0]},
+                                   .segment = {f.segment[1], f.segment[0]},
+                                   .value_m = f.value_m,
+                                   .slack_m = f.slack_m,
+                                   .at = {f.at[1], f.at[0]},
+                                   .edge = {f.edge[1], f.edge[0]},
+                                   .box = f.box};
+    fw_mask_rule_add(in, f);
+}
+
 /* ---- what is written ---- */
 
 static fw_status points_of(const fw_mask_rule_search *in, const fw_mask_rule_edge *e,
