@@ -88,6 +88,8 @@ fw_script_test(accept.selftest COMMAND tests/accept/selftest.py ${FW_PROGRAM})
 fw_script_test(release.distances COMMAND tests/release/distances.py ${FW_PROGRAM} 1 8 TIMEOUT 900)
 set_tests_properties(release.distances PROPERTIES SKIP_RETURN_CODE 77)
 fw_script_test(accept.random COMMAND tests/accept/random_masks.py ${FW_PROGRAM} TIMEOUT 600)
+# width and space as written before KLayout's, in both directions; with FW_TEST_ALL=1 24 devices
+fw_script_test(accept.written COMMAND tests/accept/written_rules.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${FW_PROGRAM})
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
@@ -134,7 +136,7 @@ target_link_libraries(fault_memory PRIVATE fw_plan)
 fw_first_part_of(fault.memory COMMAND fault_memory docs/gallery/reference-six-bar/device.xml FIRST 60 WHOLE 120)
 fw_script_test(golden.gallery COMMAND tests/golden/gallery.sh ${FW_PROGRAM})
 fw_script_test(accept.wafer COMMAND tests/accept/wafer.sh ${FW_PROGRAM})
-set_tests_properties(accept.masks accept.wafer accept.random accept.selftest PROPERTIES SKIP_RETURN_CODE 77)
+set_tests_properties(accept.masks accept.wafer accept.random accept.selftest accept.written PROPERTIES SKIP_RETURN_CODE 77)
 if(NOT FW_SANITIZE) # a sanitized library wants a sanitized user
     fw_script_test(library.consumer COMMAND tests/consumer/run.sh ${PROJECT_BINARY_DIR} ${FW_PROGRAM})
 endif()
@@ -155,7 +157,7 @@ add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 foreach(cost cli.advice:85 web.page:80 build.threads:60 accept.masks:55 cli.program:50 cli.workspace:50 fuzz.device:40
         effects.absent:40 docs.json:35 accuracy.survey:30 accept.wafer:30 cli.tradeoff:30 unit.plan.test_advice:30 hard.valgrind:25
         cli.limits:25 build.bytes:20 hard.test_hard_bounds:20 serve.robust:20 hard.test_hard_surfaces:18 serve.mutants:18
-        hard.test_hard_friction:17 accept.random:15 fault.files:15 live.memory:15 cli.hinge:14 accuracy.reference:14 docs.readme:13
+        hard.test_hard_friction:17 accept.random:15 accept.written:10 fault.files:15 live.memory:15 cli.hinge:14 accuracy.reference:14 docs.readme:13
         cli.effects:13 hard.test_hard_contact:10 fault.memory:10 unit.continuum.test_continuum:9
         whole.dynamics.test_method_motions:9 hard.test_hard_verdict:8 whole.plan.test_design:8 gate.counts:8
         unit.statics.test_bounds:7 docs.limits:7 hard.test_hard_combinations:6)

@@ -208,6 +208,8 @@ static fw_device_order_asked order_of(const fw_xml_record *record) {
                                                                             : FW_MIRROR_READ,
                                    .pellicle = says(record, "pellicle", "yes"),
                                    .quantity = whole_or(record, "quantity", 1),
+                                   .barcode = fw_xml_text_of(record, "barcode"),
+                                   .flat_line = says(record, "flat-line", "yes"),
                                    .place = record->element->place};
 }
 

@@ -384,6 +384,8 @@ typedef struct fw_device_order_asked { /* <order> of a wafer; NaN, NULL: chosen 
                                                     plate's reading says, seen with the chrome up */
     bool pellicle;
     int quantity;
+    const char *barcode; /* text of a Code 39 beside the wafer; NULL: none */
+    bool flat_line;      /* where the wafer's flat lies */
     fw_place place;
 } fw_device_order_asked;
 

@@ -2,6 +2,7 @@
 /* Rows of the table: what a device is made of and what is asked of it. */
 #include "device/device_table.h"
 #include "base/constants.h"
+#include <string.h>
 
 #define FW_DEVICE_FLEXURE(name, sentence) #name,
 static const char *const flexure_kinds[] = {
@@ -217,6 +218,11 @@ static const fw_xml_attribute_row wafer_rows[] = {
      .sentence = "Edge of the square mask plate."},
     {"title", TEXT, .fallback = "the die's title", .sentence = "Written on the plate."},
 };
+static bool is_code_39(const char *text) {
+    size_t n = strlen(text);
+    return n >= 1 && n <= 40 && strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789 -.$/+%") == n;
+}
+
 static const fw_xml_attribute_row order_rows[] = {
     {"material", .kind = FW_KIND_WORD, .words = order_materials, .fallback = "soda-lime",
      .sentence = "Of the plate. Quartz is for exposure below 350 nm and for close registration."},
@@ -240,6 +246,11 @@ static const fw_xml_attribute_row order_rows[] = {
      .sentence = "A film over the plate; not for contact or proximity printing."},
     {"quantity", D_PURE, WHOLE, RANGE(1, 100, "an order of more is a mistake"), .fallback = "1",
      .sentence = "How many plates."},
+    {"barcode", .kind = FW_KIND_FORM, .form = is_code_39, .fallback = "none",
+     .reason = "A to Z, 0 to 9, space and - . $ / + %, 1 to 40 of them: Code 39 has no other signs",
+     .sentence = "Text of a Code 39 that stands beside the wafer, on the left of the drawing."},
+    {"flat-line", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
+     .sentence = "A line on the plate whose inner edge is where the wafer's flat lies."},
 };
 static const fw_xml_attribute_row sweep_rows[] = {
     {"parameter", REF(FW_SPACE_PARAMETER), REQUIRED,
@@ -307,6 +318,7 @@ const fw_xml_table fw_device_table = {.file = "device file",
                                                   .twice = 45,
                                                   .range = 47,
                                                   .word = 48,
+                                                  .form = 48,
                                                   .text = 49,
                                                   .once = 51,
                                                   .most = 66,

@@ -41,6 +41,11 @@ static void add(builder *b, fw_geometry_point p, bool fixed) {
     if (b->count == 1) b->first_fixed |= b->fixed;
 }
 
+static fw_geometry_point rounded(fw_geometry_vec2 p) {
+    return (fw_geometry_point){fw_round_half_up(p.x * FW_GRID_PER_M),
+                               fw_round_half_up(p.y * FW_GRID_PER_M)};
+}
+
 /* Do the rounded corners of an arc's chords keep the sense of the arc? From one end to the other,
    both included; a corner that rounding made straight has gone. Exact integers. */
 static bool keeps_sense(const fw_geometry_point *inner, int n, fw_geometry_point start,
@@ -68,8 +73,7 @@ static bool arc_proven(const fw_geometry_chords *c, const fw_geometry_segment *s
     if (c->n < 2 || tolerance_m >= 4 * PROVEN_SAGITTA_M ||
         2 * c->arc.radius * sine * sine >= PROVEN_SAGITTA_M)
         return true;
-    fw_geometry_point end = {fw_round_half_up(s->b.x * FW_GRID_PER_M),
-                             fw_round_half_up(s->b.y * FW_GRID_PER_M)};
+    fw_geometry_point end = rounded(s->b);
     sine = sin(0.25 * fabs(c->arc.sweep_rad) / (c->n - 1));
     *next_m = 2 * c->arc.radius * sine * sine;
     return keeps_sense(inner, c->n - 1, start, end, s->sweep_rad > 0);
@@ -156,9 +160,7 @@ static int run_along(builder *b, const fw_geometry_contour *contour,
     for (int i = 0; i < contour->count; i++) {
         const fw_geometry_segment *s = &contour->segment[i];
         const fw_geometry_segment *before = &contour->segment[i > 0 ? i - 1 : contour->count - 1];
-        fw_geometry_point a = {fw_round_half_up(s->a.x * FW_GRID_PER_M),
-                               fw_round_half_up(s->a.y * FW_GRID_PER_M)};
-        add(b, a, (s->flags | before->flags) & FW_SEGMENT_JOINT);
+        add(b, rounded(s->a), (s->flags | before->flags) & FW_SEGMENT_JOINT);
         if (s->kind == FW_ARC && !add_arc(b, &chords[i], s, tolerance_m, next_m)) return i;
     }
     return -1;
@@ -194,6 +196,21 @@ fw_status fw_geometry_flatten(fw_arena *arena, const fw_geometry_contour *contou
     bound_rounding(length_m, (int)most, &box, &proven);
     *polygon = (fw_geometry_polygon){vertex, b.count};
     if (bounds) *bounds = proven;
+    return FW_OK;
+}
+
+fw_status fw_geometry_flatten_segment(fw_arena *arena, const fw_geometry_segment *s,
+                                      double tolerance_m, fw_geometry_flattening kind,
+                                      fw_geometry_point **at, int *n) {
+    fw_geometry_chords chords = {.n = 1};
+    fw_geometry_box box = fw_segment_box(s);
+    if (!in_range(&box, tolerance_m)) return FW_LIMIT;
+    if (s->kind == FW_ARC) chords = fw_geometry_flatten_plan(s, tolerance_m, kind);
+    *n = chords.n + 1;
+    FW_NEED(*at = fw_arena_raw(arena, (size_t)*n * sizeof **at));
+    (*at)[0] = rounded(s->a);
+    if (chords.n > 1) fw_geometry_flatten_points(&chords, *at + 1);
+    (*at)[chords.n] = rounded(s->b);
     return FW_OK;
 }
 

@@ -48,6 +48,12 @@ fw_status fw_geometry_flatten(fw_arena *arena, const fw_geometry_contour *contou
                               double tolerance_m, fw_geometry_flattening kind,
                               fw_geometry_polygon *polygon, fw_geometry_flat_bounds *bounds);
 
+/* What an outline with this segment has as vertices from its start to its end, both included: at
+   (n), n = 2 of a line. Before vertices that repeat others or lie on a straight way are left out. */
+fw_status fw_geometry_flatten_segment(fw_arena *arena, const fw_geometry_segment *segment,
+                                      double tolerance_m, fw_geometry_flattening kind,
+                                      fw_geometry_point **at, int *n);
+
 /* the same with vertices on the arcs. tolerance_m is the sagitta eps; grid 1e-9 m. Vertices that
    lie exactly on the way between their neighbours are left out, except the ends of JOINT segments.
    A clockwise outline gives a clockwise polygon. FW_LIMIT: a coordinate of 2^30 or more;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a place of a mask that cannot be drawn belongs to: mostly a hinge whose two heads were given
-   no room, and then neither bias nor tolerance is what to change. Not yet tested by itself. */
+   no room, and then neither bias nor tolerance is what to change. Test: test_causes.c. */
 #include "mask/mask_polygons.h"
 #include "base/constants.h"
 #include "base/text.h"

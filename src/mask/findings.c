@@ -42,6 +42,8 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
     fw_mask_place_text(at, sizeof at, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
     fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 6);
     fw_number_text(needed, sizeof needed, fw_mask_rule_row_shown(kind, f->needed), 6);
+    if (strcmp(value, needed) == 0) /* less than one part in a million: all digits */
+        fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 12);
     fw_number_text(limit, sizeof limit, fw_mask_rule_row_shown(kind, f->limit), 6);
     if (!who) return NULL;
     const char *cause =
@@ -51,10 +53,10 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         return fw_arena_printf(arena, "%s meet at %s on layer %s without a shared joint; %s%s", who,
                                at, layer->name, kind->advice, cause);
     return fw_arena_printf(
-        arena, "%s: %s of %s %s at %s; layer %s %s %s %s (rule %s %s%s%s%s; %s); %s", who, f->what,
+        arena, "%s: %s of %s %s at %s; layer %s %s %s %s (rule %s %s%s%s; %s); %s", who, f->what,
         value, unit, at, layer->name, f->value > f->needed ? "takes at most" : "needs", needed,
-        unit, limit, unit, f->needed != f->limit ? " and what the 1 nm grid takes" : "",
-        rule->formula ? ", " : "", rule->formula ? rule->formula : "", rule->source, kind->advice);
+        unit, limit, unit, rule->formula ? ", " : "", rule->formula ? rule->formula : "",
+        rule->source, kind->advice);
 }
 
 static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {

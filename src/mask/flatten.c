@@ -60,19 +60,19 @@ static bool divisible(const fw_geometry_segment *s, double t) {
 }
 
 /* the outline with one more end on each of two arcs */
-static fw_status divide(fw_arena *arena, const fw_geometry_contour *c, const int segment[2],
-                        const double t[2], const fw_geometry_vec2 at[2], fw_geometry_contour *out) {
+static fw_status divide(fw_arena *arena, const fw_geometry_contour *c, const fw_mask_neck *neck,
+                        fw_geometry_contour *out) {
     int n = 0;
     FW_NEED(out->segment = fw_arena_array(arena, fw_geometry_segment, (size_t)c->count + 2));
     for (int i = 0; i < c->count; i++) {
         const fw_geometry_segment *s = &c->segment[i];
-        int k = i == segment[0] ? 0 : i == segment[1] ? 1 : -1;
-        if (k < 0 || !divisible(s, t[k])) {
+        int k = i == neck->segment[0] ? 0 : i == neck->segment[1] ? 1 : -1;
+        if (k < 0 || !neck->divided[k]) {
             out->segment[n++] = *s;
             continue;
         }
-        out->segment[n++] = fw_geometry_segment_cut(s, 0, s->a, t[k], at[k]);
-        out->segment[n++] = fw_geometry_segment_cut(s, t[k], at[k], 1, s->b);
+        out->segment[n++] = fw_geometry_segment_cut(s, 0, s->a, neck->t[k], neck->at[k]);
+        out->segment[n++] = fw_geometry_segment_cut(s, neck->t[k], neck->at[k], 1, s->b);
     }
     out->count = n;
     return FW_OK;
@@ -109,14 +109,20 @@ fw_status fw_mask_flatten(fw_arena *arena, fw_mask_shape *shape, double toleranc
     *neck = (fw_mask_neck){0};
     *wavy = (fw_mask_wavy_arc){.there = false};
     if (shape->piece->role == FW_ROLE_FLEXURE && find_neck(&shape->contour, segment, &chord)) {
-        *neck = (fw_mask_neck){.at = {chord.at_p, chord.at_q}, .there = true};
-        FW_TRY(divide(arena, &shape->contour, segment, (double[]){chord.tp, chord.tq}, neck->at,
-                      &contour));
+        const fw_geometry_segment *s = shape->contour.segment;
+        *neck = (fw_mask_neck){
+            .at = {chord.at_p, chord.at_q},
+            .segment = {segment[0], segment[1]},
+            .t = {chord.tp, chord.tq},
+            .divided = {divisible(&s[segment[0]], chord.tp), divisible(&s[segment[1]], chord.tq)},
+            .there = true};
+        FW_TRY(divide(arena, &shape->contour, neck, &contour));
     }
     fw_status status = fw_geometry_flatten(arena, &contour, tolerance_m, shape->flattening,
                                            &shape->polygon, &bounds);
     if (status == FW_GEOMETRY && bounds.wavy >= 0 && contour.count != shape->contour.count) {
         contour = shape->contour; /* the parts of an arc are shorter than it is */
+        neck->divided[0] = neck->divided[1] = false;
         status = fw_geometry_flatten(arena, &contour, tolerance_m, shape->flattening,
                                      &shape->polygon, &bounds);
     }

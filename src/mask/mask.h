@@ -52,7 +52,7 @@ typedef struct fw_mask_finding { /* one place where a rule is broken */
     fw_geometry_box box;  /* all of the place, m */
     double value;         /* in the rule's unit */
     double limit;         /* what the rule says */
-    double needed;        /* the same and what the 1 nm grid takes away */
+    double needed;        /* the same: what is written is judged, and nothing is allowed for it */
     const char *label[2]; /* pieces; NULL: none */
     int edge[2];          /* of their outlines; -1: none */
 } fw_mask_finding;
@@ -106,6 +106,9 @@ typedef struct fw_mask_table {
 typedef struct fw_mask_neck { /* the narrowest place of a flexure */
     bool there;
     fw_geometry_vec2 at[2];      /* ends of the chord on the exact outline */
+    int segment[2];              /* of the outline, */
+    double t[2];                 /* and where on them */
+    bool divided[2];             /* the arc was flattened in two parts there */
     bool on_vertex[2];           /* a vertex is there: on arcs always, on lines where they end */
     fw_geometry_point vertex[2]; /* it, where it is */
 } fw_mask_neck;
@@ -365,6 +368,10 @@ fw_status fw_mask_order_gather(fw_arena *arena, const fw_mask *mask, int plate,
 /* Lines of the sheet for people, ASCII: one of them; what is on the plate (called `what`), with its
    tone, reading and mirror; least sizes (INFINITY: none), bias and grid; corners of the data, m */
 void fw_mask_order_line(fw_text *out, const char *what, const char *value);
+/* "7/0" of a layer, and how many characters the longest of a table has, at least 5 */
+enum { FW_MASK_GDS_TEXT = 32 };
+const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer);
+int fw_mask_order_gds_width(const fw_mask_table *table);
 void fw_mask_order_plate_lines(fw_text *out, const char *what, const fw_mask_table *table,
                                const fw_mask_order *order);
 /* which plate of how many it is, and what it is aligned to; nothing where there is only one */

@@ -260,7 +260,7 @@ static fw_status prove(fw_arena *arena, const fw_layout *layout, fw_mask *m, fw_
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* near edges of the exact outlines, polygons, rules on these. Where rules are broken, what could not
+/* Polygons, near edges of the outlines, and rules on what is written of these. Where rules are broken, what could not
    be flattened besides is told, but the rest is there to be looked at. */
 static fw_status judge(fw_arena *arena, const fw_layout *layout, fw_mask *m,
                        fw_mask_measure *measure, fw_diags *diags) {
@@ -270,10 +270,10 @@ static fw_status judge(fw_arena *arena, const fw_layout *layout, fw_mask *m,
                            .nshape = m->nshape,
                            .layout = layout,
                            .tolerance_m = m->tolerance_m};
-    FW_TRY(fw_mask_rules_start(&rules, measure));
     fw_status status = prove(arena, layout, m, diags);
     if (status != FW_OK && status != FW_INPUT && status != FW_GEOMETRY) return status;
     m->whole = status == FW_OK;
+    FW_TRY(fw_mask_rules_start(&rules, measure)); /* reads what flattening wrote of necks */
     FW_TRY(fw_mask_rules_check(&rules, false));
     FW_TRY(fw_mask_rules_check(&rules, true));
     FW_TRY(fw_mask_rules_tell(&rules, diags, &m->nbroken));

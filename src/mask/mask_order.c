@@ -248,31 +248,53 @@ static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) 
     fw_mask_order_size_lines(out, order->width_m, order->space_m, mask);
 }
 
+const char *fw_mask_order_gds(char text[FW_MASK_GDS_TEXT], const fw_mask_layer *layer) {
+    snprintf(text, FW_MASK_GDS_TEXT, "%d/%d", layer->layer, layer->datatype);
+    return text;
+}
+
+int fw_mask_order_gds_width(const fw_mask_table *table) {
+    char gds[FW_MASK_GDS_TEXT];
+    size_t most = 5;
+    for (int k = 0; k < table->nlayer; k++) {
+        size_t wide = strlen(fw_mask_order_gds(gds, &table->layer[k]));
+        most = wide > most ? wide : most;
+    }
+    return (int)most;
+}
+
 static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
-    fw_text_add(out, "\nlayer  name                 tone        on plate  polygons  vertices\n");
+    int wide = fw_mask_order_gds_width(mask->table), name = 20;
+    for (int k = 0; k < mask->table->nlayer; k++)
+        if (strlen(mask->table->layer[k].name) > (size_t)name)
+            name = (int)strlen(mask->table->layer[k].name);
+    fw_text_printf(out, "\n%-*s  %-*s tone        on plate  polygons  vertices\n", wide, "layer",
+                   name, "name");
     for (int k = 0; k < mask->table->nlayer; k++) {
         const fw_mask_layer *y = &mask->table->layer[k];
         int polygons, vertices;
-        char gds[32];
+        char gds[FW_MASK_GDS_TEXT];
         fw_mask_order_count(mask, k, &polygons, &vertices);
-        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
-        fw_text_printf(out, "%-6s %-20s %-11s %-9s %8d  %8d\n", gds, y->name,
-                       y->documentation ? "-" : y->tone, order->plate[k] ? "yes" : "no", polygons,
-                       vertices);
+        fw_text_printf(out, "%-*s  %-*s %-11s %-9s %8d  %8d\n", wide, fw_mask_order_gds(gds, y),
+                       name, y->name, y->documentation ? "-" : y->tone,
+                       order->plate[k] ? "yes" : "no", polygons, vertices);
     }
 }
 
 static void sites(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {
-    fw_text_add(out, "\nCD sites: centre of the chord and its direction, um and degrees\n"
-                     "site  layer  kind        x            y       angle       CD  what\n");
+    int wide = fw_mask_order_gds_width(mask->table);
+    fw_text_printf(out,
+                   "\nCD sites: centre of the chord and its direction, um and degrees\n"
+                   "site  %-*s  kind        x            y       angle       CD  what\n",
+                   wide, "layer");
     for (int i = 0; i < order->nsite; i++) {
         const fw_mask_order_site *s = &order->site[i];
         const fw_mask_layer *y = &mask->table->layer[s->layer];
         fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
-        char gds[32];
-        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
+        char gds[FW_MASK_GDS_TEXT];
         double degrees = atan2(along.y, along.x) * 180 / FW_PI;
-        fw_text_printf(out, "%4d  %-5s  %-5s ", i + 1, gds, s->space ? "space" : "width");
+        fw_text_printf(out, "%4d  %-*s  %-5s ", i + 1, wide, fw_mask_order_gds(gds, y),
+                       s->space ? "space" : "width");
         fw_text_real(out, "%12.3f", at.x * 1e6);
         fw_text_real(out, " %12.3f", at.y * 1e6);
         fw_text_real(out, " %8.2f", degrees);

@@ -17,13 +17,20 @@ typedef struct fw_mask_rule_edge { /* a segment of a shape that is no joint */
     fw_geometry_box box;
     int shape, segment;
     bool corner_a, corner_b; /* the outline turns there, across joints too */
-    double slack_m;          /* what flattening may take away on this side */
+    double slack_m;          /* how far the edges that are written may be from it */
     fw_geometry_vec2 along; /* unit tangent in the middle; unused of arcs of half a turn and more */
-    double sin_half, cos_half; /* of half its sweep; a line: 0, 1 */
-    fw_geometry_segment *part; /* (nparts) of at most 7.5 degrees; NULL until they are needed */
-    fw_geometry_box *part_box;
-    int nparts;
+    double sin_half, cos_half;            /* of half its sweep; a line: 0, 1 */
+    struct fw_mask_rule_written *written; /* (nwritten) NULL until they are needed */
+    int *near;                            /* (nwritten) of them, while a pair is judged */
+    int nwritten;
+    fw_geometry_box written_box; /* of all of them */
 } fw_mask_rule_edge;
+
+/* an edge of the polygon that is written, with the material on its left */
+typedef struct fw_mask_rule_written {
+    fw_geometry_point a, b;
+    fw_geometry_box box; /* m */
+} fw_mask_rule_written;
 
 typedef struct fw_mask_rule_range { /* the edges of one shape */
     int first, count, shape;
@@ -35,7 +42,7 @@ typedef enum fw_mask_rule_kind { FW_RULE_WIDTH, FW_RULE_SPACE, FW_RULE_OVERLAP }
 typedef struct fw_mask_rule_finding { /* a chord that is shorter than a rule; edges that meet */
     fw_mask_rule_kind kind;
     int shape[2], segment[2];
-    double value_m, slack_m; /* its length; what flattening may take of it */
+    double value_m, slack_m; /* its length; how much longer the outlines' own may be */
     fw_geometry_vec2 at[2];
     const fw_mask_rule_edge *edge[2]; /* NULL: one lies inside the other */
     fw_geometry_box box;              /* of the whole place, by fw_mask_rule_places */
@@ -50,7 +57,8 @@ typedef struct fw_mask_rule_search { /* one layer */
     struct fw_mask_rule_starts *start; /* where edges begin */
     fw_mask_rule_range *range;         /* (nrange) by the left end of their boxes */
     int nedge, nrange;
-    double slack_m; /* largest of any edge */
+    double slack_m;     /* largest of any edge */
+    double tolerance_m; /* of flattening */
     fw_mask_measure *measure;
     fw_mask_rule_finding *found; /* (nfound) grows */
     int nfound, room;
@@ -59,11 +67,17 @@ typedef struct fw_mask_rule_search { /* one layer */
     bool no_memory;
 } fw_mask_rule_search;
 
-/* what a rule asks of a pair of edges; 0: there is none */
+/* outlines farther apart than this have no chord between written edges that breaks a rule; 0: there
+   is none */
 static inline double fw_mask_rule_needed(const fw_mask_rule_search *in, fw_mask_rule_kind kind,
                                          double slack_m) {
     double limit = in->limit_m[kind];
     return limit > 0 ? limit + slack_m : 0;
+}
+/* shorter than a rule: distances on the grid are known to 1e-15 m, and those that differ from a limit
+   differ by more */
+static inline bool fw_mask_rule_short(double value_m, double limit_m) {
+    return value_m < limit_m - 1e-15;
 }
 /* beyond this a chord of that kind changes nothing */
 static inline double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_rule_kind kind) {
@@ -74,18 +88,28 @@ static inline double fw_mask_rule_bound(const fw_mask_rule_search *in, fw_mask_r
 
 /* rules_edges.c */
 fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double tolerance_m);
-bool fw_mask_rule_parts(fw_mask_rule_search *in, fw_mask_rule_edge *e); /* false: no memory */
 /* which edges begin at a place, by the bits of its coordinates: the next one after edge `after`, or
    -1 for the first; -1: there is none. In the order of the edges. Cost O(1). */
 int fw_mask_rule_start_at(const fw_mask_rule_search *in, fw_geometry_vec2 at, int after);
 /* rules_search.c: every pair of edges that may matter */
 void fw_mask_rule_search_run(fw_mask_rule_search *in);
-/* rules_pair.c */
-void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q);
-void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e);
+/* rules_written.c */
 void fw_mask_rule_add(fw_mask_rule_search *in, fw_mask_rule_finding f);
 /* the same, the lesser shape first */
 void fw_mask_rule_report(fw_mask_rule_search *in, fw_mask_rule_finding f);
+/* what is written of an edge, once; false: no memory */
+bool fw_mask_rule_write(fw_mask_rule_search *in, fw_mask_rule_edge *e);
+/* findings between what is written of two edges, or of one and itself. square: the two meet at a
+   corner of the outline that is not below 90 degrees */
+void fw_mask_rule_judge(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q,
+                        bool square);
+/* least distance between what is written of two edges, whatever way they face, and where; INFINITY
+   where it is not below the limit */
+double fw_mask_rule_apart(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q,
+                          double limit_m, fw_geometry_vec2 at[2]);
+/* rules_pair.c */
+void fw_mask_rule_pair(fw_mask_rule_search *in, fw_mask_rule_edge *p, fw_mask_rule_edge *q);
+void fw_mask_rule_own(fw_mask_rule_search *in, fw_mask_rule_edge *e);
 /* rules_places.c: the chords of one kind that are below a limit, as places: the shortest chord of
    each, in the order of shapes. Sorts `list`. */
 fw_status fw_mask_rule_places(fw_arena *arena, fw_mask_rule_finding *list, int n, double limit_m,

@@ -21,20 +21,22 @@ static int by_left(const void *left, const void *right) {
     return order ? order : fw_order_wholes(p->index, q->index);
 }
 
-static void look_at_edges(fw_mask_rule_search *out, const fw_mask_rule_edge *p,
-                          const fw_mask_rule_edge *q, double limit_m) {
+static void look_at_edges(fw_mask_rule_search *out, fw_mask_rule_edge *p, fw_mask_rule_edge *q,
+                          double limit_m) {
     double slack = p->slack_m + q->slack_m;
     if (fw_box_apart(&p->box, &q->box, limit_m + slack)) return;
     if (!(fw_box_gap(p->box, q->box) < limit_m + slack)) return;
-    fw_geometry_vec2 at_p, at_q;
-    double d = fw_geometry_segment_distance(&p->s, &q->s, &at_p, &at_q);
-    if (!(d < limit_m + slack - FW_COINCIDENT_M)) return;
+    fw_geometry_vec2 at[2];
+    double d = fw_geometry_segment_distance(&p->s, &q->s, &at[0], &at[1]);
+    if (!(d < limit_m + slack)) return;
+    if (d > FW_COINCIDENT_M) d = fw_mask_rule_apart(out, p, q, limit_m, at);
+    if (!(d < limit_m)) return;
     fw_mask_rule_finding f = {.kind = FW_RULE_SPACE,
                               .shape = {p->shape, q->shape},
                               .segment = {p->segment, q->segment},
                               .value_m = d <= FW_COINCIDENT_M ? 0 : d,
                               .slack_m = slack,
-                              .at = {at_p, at_q},
+                              .at = {at[0], at[1]},
                               .edge = {p, q}};
     fw_mask_rule_add(out, f);
 }
@@ -44,10 +46,10 @@ static void look_at_ranges(fw_mask_rule_search *out, const fw_mask_rule_search *
                            const fw_mask_rule_range *s, double limit_m) {
     double far = limit_m + a->slack_m + b->slack_m;
     for (int i = 0; i < r->count; i++) {
-        const fw_mask_rule_edge *p = &a->edge[r->first + i];
+        fw_mask_rule_edge *p = &a->edge[r->first + i];
         if (fw_box_gap(p->box, s->box) > far) continue;
         for (int j = 0; j < s->count; j++) {
-            const fw_mask_rule_edge *q = &b->edge[s->first + j];
+            fw_mask_rule_edge *q = &b->edge[s->first + j];
             if (q->box.x0 - p->box.x1 > far) break;
             look_at_edges(out, p, q, limit_m);
         }
@@ -59,7 +61,8 @@ static fw_status between_layers(fw_mask_rules *rules, const fw_mask_rule *rule,
                                 fw_mask_rule_search *out) {
     const fw_mask_rule_search *a = &rules->search[rule->layer], *b = &rules->search[rule->other];
     int n = a->nrange + b->nrange;
-    *out = (fw_mask_rule_search){.arena = rules->arena, .shape = rules->shape};
+    *out = (fw_mask_rule_search){
+        .arena = rules->arena, .shape = rules->shape, .tolerance_m = rules->tolerance_m};
     entry *list = fw_arena_array(rules->arena, entry, (size_t)n);
     FW_NEED(list);
     for (int i = 0; i < n; i++)
@@ -106,7 +109,7 @@ static fw_status add_distances(fw_mask_rules *rules, const fw_mask_rule *rule,
                                                        .box = f->box,
                                                        .value = f->value_m,
                                                        .limit = rule->least,
-                                                       .needed = rule->least + f->slack_m,
+                                                       .needed = rule->least,
                                                        .label = {label[0], alone ? NULL : label[1]},
                                                        .edge = {f->segment[0], f->segment[1]}});
         }

@@ -10,7 +10,6 @@
 
 static const double GRID_M = 1e-9;
 static const double ROUND_M = FW_SQRT_HALF / 1e9; /* a vertex moves by at most g/sqrt2 */
-static const double PART_RAD = FW_PI / 24;        /* 7.5 deg */
 
 /* nearest whole number, as nearbyint finds it, without its call */
 static double nearest(double n) {
@@ -179,6 +178,7 @@ fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double toleran
     for (int k = 0; k < nshape; k++)
         if (in->shape[k].layer == in->index) shapes++, edges += (size_t)in->shape[k].contour.count;
     /* not zeroed: each is filled as a whole */
+    in->tolerance_m = tolerance_m;
     FW_NEED(in->edge = fw_arena_raw(in->arena, edges * sizeof *in->edge));
     FW_NEED(in->range = fw_arena_array(in->arena, fw_mask_rule_range, shapes));
     for (int k = 0; k < nshape; k++)
@@ -187,28 +187,4 @@ fw_status fw_mask_rule_edges(fw_mask_rule_search *in, int nshape, double toleran
     mark_corners(in);
     qsort(in->range, (size_t)in->nrange, sizeof *in->range, by_left);
     return FW_OK;
-}
-
-bool fw_mask_rule_parts(fw_mask_rule_search *in, fw_mask_rule_edge *e) {
-    if (e->part) return true;
-    if (e->s.kind == FW_LINE) { /* itself */
-        e->part = &e->s, e->part_box = &e->box, e->nparts = 1;
-        return true;
-    }
-    int n = (int)ceil(fabs(e->s.sweep_rad) / PART_RAD);
-    fw_geometry_segment *part = fw_arena_raw(in->arena, (size_t)n * sizeof *part);
-    fw_geometry_box *box = fw_arena_raw(in->arena, (size_t)n * sizeof *box);
-    if (!part || !box) {
-        in->no_memory = true;
-        return false;
-    }
-    for (int m = 0; m < n; m++) {
-        part[m] = e->s;
-        part[m].sweep_rad = e->s.sweep_rad / n;
-        if (m > 0) part[m].a = part[m - 1].b;
-        if (m + 1 < n) part[m].b = fw_geometry_segment_point(&e->s, (double)(m + 1) / n);
-        box[m] = fw_segment_box(&part[m]);
-    }
-    e->part = part, e->part_box = box, e->nparts = n;
-    return true;
 }

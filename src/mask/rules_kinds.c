@@ -29,14 +29,19 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
     if (!(rule->kind->chords & 1u << kind)) return FW_INTERNAL; /* they were not all searched */
     const fw_mask_rule_search *in = &r->search[rule->layer];
     fw_mask_rule_finding *list, *place;
-    int n = 0, count;
+    int n = 0, count, *island = NULL;
     if (in->nfound == 0) return FW_OK;
     FW_NEED(list = fw_arena_array(r->arena, fw_mask_rule_finding, (size_t)in->nfound));
     for (int i = 0; i < in->nfound; i++) {
         const fw_mask_rule_finding *f = &in->found[i];
-        if (f->kind == kind && f->value_m < rule->least + f->slack_m - FW_COINCIDENT_M &&
-            (!pick || pick(r, f, with)))
-            list[n++] = *f;
+        if (f->kind != kind || !fw_mask_rule_short(f->value_m, rule->least) ||
+            (pick && !pick(r, f, with)))
+            continue;
+        if (kind == FW_RULE_WIDTH && f->shape[0] != f->shape[1]) { /* of what hangs together */
+            if (!island) FW_TRY(fw_mask_rules_islands(r, rule->layer, &island));
+            if (island[f->shape[0]] != island[f->shape[1]]) continue;
+        }
+        list[n++] = *f;
     }
     FW_TRY(fw_mask_rule_places(r->arena, list, n, rule->least, &place, &count));
     for (int i = 0; i < count; i++) {
@@ -47,7 +52,7 @@ fw_status fw_mask_rules_chords(fw_mask_rules *r, const fw_mask_rule *rule, fw_ma
                                                .box = f->box,
                                                .value = f->value_m,
                                                .limit = rule->least,
-                                               .needed = rule->least + f->slack_m,
+                                               .needed = rule->least,
                                                .label = {r->shape[f->shape[0]].piece->label,
                                                          r->shape[f->shape[1]].piece->label},
                                                .edge = {f->segment[0], f->segment[1]}});

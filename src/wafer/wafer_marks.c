@@ -16,6 +16,10 @@ static const double BESIDE_M = 1e-3;                 /* from the wafer's edge to
 static const double ARM_M = 1.5e-3, HALF_M = 0.1e-3; /* of a fiducial */
 static const double LARGEST_STROKE_M = 300e-6, LEAST_STROKE_M = 50e-6;
 enum { HIGH = 9 };
+/* of a Code 39: bars that hand readers take; a line that is seen without a microscope */
+static const double LARGEST_BAR_M = 250e-6, LEAST_BAR_M = 100e-6, LEAST_BARS_M = 2e-3,
+                    MOST_BARS_M = 8e-3, FLAT_LINE_M = 200e-6;
+enum { WIDE_BAR = 3 };
 
 bool fw_wafer_draws(const fw_mask_table *table, fw_layout_role role) {
     for (int k = 0; k < table->nlayer; k++)
@@ -85,6 +89,52 @@ static fw_status add_line(fw_wafer_sheet *s, const char *text, double middle, do
         stroke, FW_ROLE_FRAME, "plate text", &s->piece, &s->npiece, &s->capacity);
 }
 
+/* a bar along x, from (x0, y0) to (x1, y1) */
+static fw_status add_bar(fw_wafer_sheet *s, const char *label, double x0, double y0, double x1,
+                         double y1) {
+    const fw_geometry_vec2 p[] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    return sheet_add(s, FW_ROLE_FRAME, label, p, 4);
+}
+
+/* Code 39 in the strip left of the wafer, read upwards: bars lie along x. A wide bar or gap is three
+   narrow ones, as readers take it best; narrow is what lets it fit, 0.25 mm at most. */
+static fw_status add_barcode(fw_wafer_sheet *s, const char *text, double inner, double outer,
+                             double length, bool *fits) {
+    bool *wide;
+    int n, units = 0;
+    FW_TRY(fw_wafer_barcode(s->maker->arena, text, &wide, &n));
+    for (int i = 0; i < n; i++)
+        units += wide[i] ? WIDE_BAR : 1;
+    double narrow = fmin(LARGEST_BAR_M, floor(length / units * 1e6) * 1e-6);
+    *fits = narrow >= LEAST_BAR_M && outer - inner >= LEAST_BARS_M;
+    if (!*fits) return FW_OK;
+    double y = -0.5 * units * narrow, far = fmin(outer, inner + MOST_BARS_M);
+    for (int i = 0; i < n; i++) {
+        double next = y + (wide[i] ? WIDE_BAR : 1) * narrow;
+        if (i % 2 == 0) FW_TRY(add_bar(s, "barcode", -far, y, -inner, next));
+        y = next;
+    }
+    return FW_OK;
+}
+
+/* its inner edge is the flat: as long as that, behind it */
+static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form) {
+    double half = 0.5 * form->flat_m, r = 0.5 * form->diameter_m, away = sqrt(r * r - half * half);
+    double beyond = away + FLAT_LINE_M;
+    if (!(form->flat_m > 0)) return FW_OK;
+    switch (form->side) {
+    case FW_SIDE_BOTTOM:
+        return add_bar(s, "flat line", -half, -beyond, half, -away);
+    case FW_SIDE_TOP:
+        return add_bar(s, "flat line", -half, away, half, beyond);
+    case FW_SIDE_LEFT:
+        return add_bar(s, "flat line", -beyond, -half, -away, half);
+    case FW_SIDE_RIGHT:
+        return add_bar(s, "flat line", away, -half, beyond, half);
+    }
+    return FW_OK;
+}
+
 static const char *identification(fw_wafer_maker *m) {
     const fw_mask_table *t = m->input->table;
     const char *tone = "";
@@ -117,6 +167,16 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
     bool above, below;
     FW_TRY(add_line(&s, title, 0.5 * (inner + outer), outer - inner, length, &above));
     FW_TRY(add_line(&s, line, -0.5 * (inner + outer), outer - inner, length, &below));
+    const fw_device_order_asked *order = &w->device->wafer.order;
+    bool beside = true;
+    if (order->barcode) /* title and identification stand beyond it */
+        FW_TRY(add_barcode(&s, order->barcode, inner, outer, 2 * inner, &beside));
+    if (order->flat_line) FW_TRY(add_flat_line(&s, &w->form));
+    if (!beside)
+        fw_diag_warning(
+            m->diags, 195, order->place,
+            "<order>: the barcode does not fit beside the wafer with bars of 0.1 mm, and "
+            "is left out; shorten it, or state a larger plate");
     if (!above || !below)
         fw_diag_warning(
             m->diags, 195, w->device->wafer.place,

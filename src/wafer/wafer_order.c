@@ -71,18 +71,19 @@ static const fw_wafer_site *middle_die(const fw_wafer *w) {
 static void sites(const fw_wafer *w, const fw_mask_order *order, const fw_wafer_site *die,
                   fw_geometry_vec2 shift, fw_text *out) {
     char name[2 * FW_WAFER_NAME];
+    int wide = fw_mask_order_gds_width(w->table);
     fw_text_printf(out,
                    "\nCD sites in die %s: centre of the chord from the plate's middle and its "
                    "direction, um and degrees\n"
-                   "site  layer  kind        x            y       angle       CD  what\n",
-                   fw_wafer_site_name(w, die, name));
+                   "site  %-*s  kind        x            y       angle       CD  what\n",
+                   fw_wafer_site_name(w, die, name), wide, "layer");
     for (int i = 0; i < order->nsite; i++) {
         const fw_mask_order_site *s = &order->site[i];
         const fw_mask_layer *y = &w->table->layer[s->layer];
         fw_geometry_vec2 along = vec_sub(s->to, s->from), at = vec_along(s->from, 0.5, along);
-        char gds[32];
-        snprintf(gds, sizeof gds, "%d/%d", y->layer, y->datatype);
-        fw_text_printf(out, "%4d  %-5s  %-5s ", i + 1, gds, s->space ? "space" : "width");
+        char gds[FW_MASK_GDS_TEXT];
+        fw_text_printf(out, "%4d  %-*s  %-5s ", i + 1, wide, fw_mask_order_gds(gds, y),
+                       s->space ? "space" : "width");
         fw_text_real(out, "%12.3f", (at.x + shift.x) * 1e6);
         fw_text_real(out, " %12.3f", (at.y + shift.y) * 1e6);
         fw_text_real(out, " %8.2f", atan2(along.y, along.x) * 180 / FW_PI);

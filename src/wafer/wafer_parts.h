@@ -30,6 +30,9 @@ fw_status fw_wafer_add_run(fw_wafer_maker *m, fw_wafer_run run);
 /* arrays of equal cells in every row; cell_of[i]: of site i, -1: none */
 fw_status fw_wafer_add_rows(fw_wafer_maker *m, const int *cell_of);
 
+/* wafer_barcode.c: a text as bars and gaps in turn, wide or narrow */
+fw_status fw_wafer_barcode(fw_arena *arena, const char *text, bool **element, int *n);
+
 /* wafer_marks.c, wafer_ids.c */
 fw_status fw_wafer_plate(fw_wafer_maker *m);
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask);

@@ -55,6 +55,16 @@ class Violations(unittest.TestCase):
     def files(self, out):
         return {p.name[len(flow):] for flow in FLOWS[:1] for p in (out / "masks").iterdir() if p.name.startswith(flow)}
 
+    def test_a_frame_of_any_width_keeps_the_rules(self):
+        """its brackets, marks and title: 17 widths from 40 to 140 um, in either flow"""
+        fast = ["--corners", "none", "--advice", "none", "--accuracy", "3e-2", "--hinge-model", "revolute", "--mask-format", "gds"]
+        for width in [40 + 6.25 * i for i in range(17)]:
+            out = self.here / f"{width:g}"
+            result = run("mask", GALLERY, "--force", *fast, "--set", f"die/@frame={width:g} um", "-o", out)
+            self.assertNotRegex(result.stderr, r"FW-D1(4\d|5\d)\b", f"frame of {width:g} um")
+            for flow in FLOWS:
+                self.assertFalse(json.loads((out / "masks" / f"{flow}.json").read_text())["rejected"], (width, flow))
+
     def test_all_are_listed_and_klayout_reads_them(self):
         out = self.here / "out"
         result = run("mask", GALLERY, "-o", out, env=self.data(RULES))

@@ -52,6 +52,31 @@ static void all_of_it(void **state) {
     fw_arena_free(arena);
 }
 
+/* <order>: what is not said is left to the wafer room */
+static void order(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_device_order_asked *o = &sound(arena, WAFER("", ""), NULL, 0)->wafer.order;
+    assert_true(isnan(o->thickness_m) && isnan(o->cd_m) && isnan(o->registration_m) &&
+                isnan(o->defect_m));
+    assert_true(!o->quartz && !o->pellicle && o->mirror == FW_MIRROR_READ && o->quantity == 1);
+    assert_true(!o->barcode && !o->flat_line);
+    o = &sound(arena,
+               WAFER("", "<order material=\"quartz\" thickness=\"2.3 mm\" mirror=\"no\" "
+                         "cd-tolerance=\"0.2 um\" registration=\"w/10\" defect=\"1 um\" "
+                         "pellicle=\"yes\" quantity=\"3\" barcode=\"A-1 $2\" flat-line=\"yes\"/>"),
+               NULL, 0)
+             ->wafer.order;
+    assert_true(o->quartz && o->pellicle && o->mirror == FW_MIRROR_NO && o->quantity == 3);
+    assert_near(o->thickness_m, 2.3e-3, 1e-15);
+    assert_near(o->cd_m, 0.2e-6, 1e-20);
+    assert_near(o->registration_m, 0.8e-6, 1e-20);
+    assert_near(o->defect_m, 1e-6, 1e-20);
+    assert_string_equal(o->barcode, "A-1 $2");
+    assert_true(o->flat_line);
+    fw_arena_free(arena);
+}
+
 /* the unit of the steps: of `from`, else of the parameter, else none is known; pure numbers need
  * none */
 static void units(void **state) {
@@ -106,10 +131,8 @@ static void refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plain),
-        cmocka_unit_test(all_of_it),
-        cmocka_unit_test(units),
-        cmocka_unit_test(refused),
+        cmocka_unit_test(order), cmocka_unit_test(plain),   cmocka_unit_test(all_of_it),
+        cmocka_unit_test(units), cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,25 +42,45 @@ static void exactly_the_rule_on_the_grid_passes(void **state) {
     scene_free(s);
 }
 
-/* off the grid rounding may take g/sqrt2 from each side, so exactly the rule is too little */
-static void exactly_the_rule_turned_does_not(void **state) {
+/* Off the grid rounding makes a bar of exactly the rule wider or narrower, and it is judged as it is
+   written: by the distance of its corners from the two long edges, in whole numbers. */
+static void exactly_the_rule_turned_as_it_is_written(void **state) {
     (void)state;
-    for (int more = 0; more < 2; more++) {
-        scene *s = scene_new(4 * UM, 4 * UM);
+    int narrow = 0;
+    for (int i = 0; i < 60; i++) {
+        scene *s = scene_new(4 * UM, 0);
         fw_geometry_contour c;
-        double width = 4 * UM + (more ? 1.5e-9 : 0);
-        assert_int_equal(fw_geometry_contour_bar(s->arena, (fw_geometry_vec2){0, 0},
-                                                 (fw_geometry_vec2){90 * UM, 33 * UM}, width, &c),
-                         FW_OK);
+        fw_geometry_polygon p;
+        double angle = 0.05 + 0.1 * i;
+        assert_int_equal(
+            fw_geometry_contour_bar(s->arena, (fw_geometry_vec2){0, 0},
+                                    (fw_geometry_vec2){90 * UM * cos(angle), 90 * UM * sin(angle)},
+                                    4 * UM, &c),
+            FW_OK);
         scene_add(s, FW_ROLE_STRUCTURE, "turned bar", c);
-        if (more) {
-            assert_near(built(s)->measure[0].width_m, width, 1e-17);
-        } else {
-            refused(s, 144);
-            assert_says(scene_first(s, 144), "needs 4.00141 um");
+        assert_int_equal(fw_geometry_flatten(s->arena, &c, 5e-9, FW_FLATTEN_INSIDE, &p, NULL),
+                         FW_OK);
+        assert_int_equal(p.count, 4);
+        double least = HUGE_VAL;
+        for (int k = 0; k < 4; k++) { /* edge k, and the two corners beyond it */
+            int64_t dx = p.vertex[(k + 1) % 4].x_dbu - p.vertex[k].x_dbu;
+            int64_t dy = p.vertex[(k + 1) % 4].y_dbu - p.vertex[k].y_dbu;
+            double length = sqrt((double)(dx * dx + dy * dy));
+            for (int m = 2; m < 4 && length > 50000; m++) {
+                fw_geometry_point q = p.vertex[(k + m) % 4];
+                int64_t x = q.x_dbu - p.vertex[k].x_dbu, y = q.y_dbu - p.vertex[k].y_dbu;
+                double along = (double)(x * dx + y * dy) / length;
+                if (along >= 0 && along <= length)
+                    least = fmin(least, (double)(dx * y - dy * x) / length);
+            }
         }
+        const fw_mask *mask = NULL;
+        assert_int_equal(scene_build(s, &mask), least < 4000 ? FW_INPUT : FW_OK);
+        if (least < 4000) assert_says(scene_first(s, 144), "needs 4 um (rule 4 um");
+        narrow += least < 4000;
         scene_free(s);
     }
+    assert_true(narrow > 30 && narrow < 60); /* of four distances the least */
 }
 
 static void close_bars_are_named(void **state) {
@@ -140,13 +160,13 @@ static void conjugate_gap(void **state) {
     scene_free(s);
 }
 
-/* arcs need the sagitta and the rounding on top of the rule */
-static void arcs_pay_for_flattening(void **state) {
+/* the chords of a hollow arc stand up to 5 nm in the gap: 4 um of arcs are too little, as written */
+static void arcs_are_judged_by_their_chords(void **state) {
     (void)state;
     for (int more = 0; more < 2; more++) {
         scene *s = scene_new(0, 4 * UM);
         fw_geometry_contour disc, shell;
-        double gap = 4 * UM + (more ? 11.5e-9 : 11.3e-9); /* 2 (5 nm + 0.7071 nm) = 11.414 nm */
+        double gap = 4 * UM + (more ? 11.5e-9 : 2e-9); /* 2 (5 nm + 0.7071 nm) = 11.414 nm */
         assert_int_equal(
             fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 40 * UM, &disc), FW_OK);
         assert_int_equal(fw_geometry_contour_ring_sector(s->arena, (fw_geometry_vec2){0, 0},
@@ -162,8 +182,36 @@ static void arcs_pay_for_flattening(void **state) {
     }
 }
 
-/* a disc faces itself over chords that turn by more than 90 deg: r sqrt2 and up, in parts of 7.5
- * deg */
+/* A tip of R = 2.84 um keeps a rule of 4 um as an arc, over R sqrt 2 = 4.016 um. Its chords do not:
+   two that enclose more than 90 degrees are nearer by the turn of one chord. */
+static void a_small_tip_is_judged_by_its_chords(void **state) {
+    (void)state;
+    const struct {
+        double tolerance_nm, radius;
+        bool refused;
+    } tip[] = {{5, 2.84, true}, {50, 2.84, true}, {0.7, 2.84, true}, {0.5, 2.95, false},
+               {5, 3.1, false}, {5, 3.0, false},  {50, 3.1, true},   {50, 3.6, false}};
+    for (size_t i = 0; i < sizeof tip / sizeof tip[0]; i++) {
+        scene *s = scene_new(4 * UM, 0);
+        fw_geometry_contour bar;
+        double r = tip[i].radius * UM;
+        fw_geometry_outline o = fw_geometry_outline_start(s->arena, (fw_geometry_vec2){0, -r});
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){40 * UM, -r}, 0);
+        fw_geometry_outline_arc_to(&o, (fw_geometry_vec2){40 * UM, 0}, PI,
+                                   (fw_geometry_vec2){40 * UM, r}, 0);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){0, r}, 0);
+        assert_int_equal(fw_geometry_outline_close(&o, &bar), FW_OK);
+        scene_add(s, FW_ROLE_STRUCTURE, "tip", bar);
+        s->options.tolerance_m = tip[i].tolerance_nm * 1e-9;
+        const fw_mask *mask = NULL;
+        fw_status status = scene_build(s, &mask);
+        if (status != (tip[i].refused ? FW_INPUT : FW_OK))
+            fail_msg("tip %d: %s", (int)i, s->diags.count ? s->diags.item[0].message : "passed");
+        scene_free(s);
+    }
+}
+
+/* a disc faces itself over chords that turn by more than 90 deg: r sqrt2 and up, less a chord */
 static void small_disc(void **state) {
     (void)state;
     scene *s = scene_new(4 * UM, 0);
@@ -174,7 +222,7 @@ static void small_disc(void **state) {
     refused(s, 144);
     scene_free(s);
     s = scene_new(4 * UM, 0);
-    assert_int_equal(fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 3 * UM, &disc),
+    assert_int_equal(fw_geometry_contour_disc(s->arena, (fw_geometry_vec2){0, 0}, 3.1 * UM, &disc),
                      FW_OK);
     scene_add(s, FW_ROLE_STRUCTURE, "disc", disc);
     built(s);
@@ -217,11 +265,12 @@ static void layers_do_not_mix(void **state) {
 static void joined_pieces_are_one(void **state) {
     (void)state;
     scene *s = scene_new(4 * UM, 4 * UM);
-    scene_arch(s, 50, 8, 2); /* legs of 2 um: shorter than the rule, but they go on in the arch */
+    scene_arch(s, 50, 8,
+               4.5); /* legs of 4.5 um: narrower than all else, but they go on in the arch */
     const fw_mask *mask = built(s);
     assert_near(mask->measure[0].width_m, 8 * UM, 1e-16);
     assert_near(mask->measure[0].space_m, 92 * UM, 1e-16);
-    double rim = PI * (54 + 46) * UM + 2 * (8 + 2 * 2) * UM;
+    double rim = PI * (54 + 46) * UM + 2 * (8 + 2 * 4.5) * UM;
     assert_relative(mask->measure[0].perimeter_m, rim, 1e-12);
     scene_free(s);
 }
@@ -275,13 +324,14 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(narrow_bar),
         cmocka_unit_test(exactly_the_rule_on_the_grid_passes),
-        cmocka_unit_test(exactly_the_rule_turned_does_not),
+        cmocka_unit_test(exactly_the_rule_turned_as_it_is_written),
         cmocka_unit_test(close_bars_are_named),
         cmocka_unit_test(corner_to_corner),
         cmocka_unit_test(notch),
         cmocka_unit_test(acute_corners),
         cmocka_unit_test(conjugate_gap),
-        cmocka_unit_test(arcs_pay_for_flattening),
+        cmocka_unit_test(arcs_are_judged_by_their_chords),
+        cmocka_unit_test(a_small_tip_is_judged_by_its_chords),
         cmocka_unit_test(small_disc),
         cmocka_unit_test(overlaps),
         cmocka_unit_test(layers_do_not_mix),

@@ -242,13 +242,43 @@ static void short_memory(void **state) {
     scene_free(s);
 }
 
+/* columns are as wide as what stands in them: laboratories number layers up to 65535 */
+static void columns_of_long_numbers(void **state) {
+    (void)state;
+    for (int many = 0; many < 2; many++) {
+        scene *s = scene_new(4 * UM, 4 * UM);
+        scene_box(s, "bar", 0, 0, 20, 300);
+        scene_box(s, "other", 30, 0, 50, 300);
+        if (many) s->layer[0].layer = s->layer[0].datatype = 65535;
+        if (many) s->layer[1].name = "a name of more than twenty characters";
+        fw_text out = fw_text_new(s->arena);
+        assert_int_equal(fw_mask_write_order_text(built(s), 0, files, 2, &out), FW_OK);
+        const char *head = strstr(out.data, "\nlayer  "), *line;
+        assert_non_null(head);
+        long tone = strstr(head + 1, "tone") - head, name = strstr(head, "name") - head;
+        line = head + 1;
+        for (int k = 0; k < 3; k++) {
+            const char *before = strchr(line, '\n');
+            line = before + 1;
+            const fw_mask_layer *y = &s->layer[k];
+            assert_memory_equal(before + name, y->name, strlen(y->name));
+            assert_memory_equal(before + tone, y->documentation ? "-" : y->tone, 1);
+            assert_int_equal(before[name - 1], ' ');
+            assert_int_equal(before[tone - 1], ' ');
+        }
+        head = strstr(out.data, "\nsite  ");
+        assert_non_null(head);
+        const char *site = strchr(head + 1, '\n');
+        assert_memory_equal(site + (strstr(head, "kind") - head), "width", 5);
+        scene_free(s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plates),
-        cmocka_unit_test(plate_of_a_table),
-        cmocka_unit_test(says_what_is_drawn),
-        cmocka_unit_test(tone_and_reading),
-        cmocka_unit_test(short_memory),
+        cmocka_unit_test(columns_of_long_numbers), cmocka_unit_test(plates),
+        cmocka_unit_test(plate_of_a_table),        cmocka_unit_test(says_what_is_drawn),
+        cmocka_unit_test(tone_and_reading),        cmocka_unit_test(short_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

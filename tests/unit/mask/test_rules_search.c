@@ -183,8 +183,9 @@ static void a_rounded_corner_is_no_width(void **state) {
     }
 }
 
-/* the parts of an arc follow each other bit for bit, and each is the arc that its sweep says */
-static void parts_are_the_arc(void **state) {
+/* what is written of the edges of an outline, one after the other, is its polygon and vertices that
+   lie on a straight way between others */
+static void what_is_written_is_the_polygon(void **state) {
     (void)state;
     uint64_t seed = 3;
     for (int i = 0; i < 200; i++) {
@@ -192,27 +193,31 @@ static void parts_are_the_arc(void **state) {
         bend(s, &seed, (fw_geometry_vec2){1e-3 * random01(&seed), -1e-3 * random01(&seed)});
         answer a;
         ask(s, false, &a);
-        for (int k = 0; k < a.in.nedge; k++) {
-            fw_mask_rule_edge *e = &a.in.edge[k];
-            assert_true(fw_mask_rule_parts(&a.in, e));
-            assert_true(vec_same(e->part[0].a, e->s.a) &&
-                        vec_same(e->part[e->nparts - 1].b, e->s.b));
-            for (int m = 0; e->s.kind == FW_ARC && m < e->nparts; m++) {
-                const fw_geometry_segment *p = &e->part[m];
-                fw_geometry_vec2 turned =
-                    fw_geometry_vec_rotate(vec_sub(p->a, p->centre), p->sweep_rad);
-                assert_near(vec_distance(turned, vec_sub(p->b, p->centre)), 0, 1e-17);
-                assert_true(fabs(p->sweep_rad) <= FW_PI / 24 + 1e-15);
-                assert_true(m == 0 || vec_same(p->a, e->part[m - 1].b));
+        fw_geometry_polygon p;
+        assert_int_equal(
+            fw_geometry_flatten(s->arena, &s->piece[0].contour, 5e-9, FW_FLATTEN_INSIDE, &p, NULL),
+            FW_OK);
+        int at = 0, vertices = 0;
+        for (int segment = 0; segment < a.in.nedge; segment++)
+            for (int k = 0; k < a.in.nedge; k++) {
+                fw_mask_rule_edge *e = &a.in.edge[k];
+                if (e->segment != segment) continue;
+                assert_true(fw_mask_rule_write(&a.in, e));
+                for (int m = 0; m < e->nwritten; m++) {
+                    fw_geometry_point v = e->written[m].a, q = p.vertex[at % p.count];
+                    if (vertices == 0 || (v.x_dbu == q.x_dbu && v.y_dbu == q.y_dbu))
+                        vertices++, at++;
+                }
             }
-        }
+        assert_int_equal(vertices, p.count);
         scene_free(s);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_is_passed_over), cmocka_unit_test(every_violation_is_told),
-        cmocka_unit_test(a_rounded_corner_is_no_width), cmocka_unit_test(parts_are_the_arc)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_passed_over),
+                                       cmocka_unit_test(every_violation_is_told),
+                                       cmocka_unit_test(a_rounded_corner_is_no_width),
+                                       cmocka_unit_test(what_is_written_is_the_polygon)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

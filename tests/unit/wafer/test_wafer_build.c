@@ -358,8 +358,122 @@ static void test_gds(void **state) {
     }
 }
 
+/* ---- what <order> puts on the plate ---- */
+
+/* ISO/IEC 16388, sign by sign: bar, gap, bar, ...; 1 is wide */
+static const char *const code_39[] = {
+    "0000110100", "1100100001", "2001100001", "3101100000", "4000110001", "5100110000",
+    "6001110000", "7000100101", "8100100100", "9001100100", "A100001001", "B001001001",
+    "C101001000", "D000011001", "E100011000", "F001011000", "G000001101", "H100001100",
+    "I001001100", "J000011100", "K100000011", "L001000011", "M101000010", "N000010011",
+    "O100010010", "P001010010", "Q000000111", "R100000110", "S001000110", "T000010110",
+    "U110000001", "V011000001", "W111000000", "X010010001", "Y110010000", "Z011010000",
+    "-010000101", ".110000100", " 011000100", "*010010100", "$010101000", "/010100010",
+    "+010001010", "%000101010"};
+
+typedef struct bar {
+    double from, to;
+} bar;
+
+static int by_from(const void *left, const void *right) {
+    const bar *p = left, *q = right;
+    return (p->from > q->from) - (p->from < q->from);
+}
+
+/* the bars as drawn, upwards, without the process bias */
+static int bars_of(const plate *p, const fw_wafer *w, bar list[600]) {
+    int n = 0;
+    for (int i = 0; i < w->plate->nshape; i++) {
+        const fw_mask_shape *s = &w->plate->shape[i];
+        if (strcmp(s->piece->label, "barcode") != 0) continue;
+        double bias = p->input.mask.bias_m;
+        assert_true(s->box.x1 < -0.5 * w->form.diameter_m && n < 600);
+        assert_true(s->box.x0 > -0.5 * w->form.plate_m + 4.9e-3);
+        list[n++] = (bar){s->box.y0 + bias, s->box.y1 - bias};
+    }
+    if (n) qsort(list, (size_t)n, sizeof *list, by_from);
+    return n;
+}
+
+static char sign_of(const char *elements) {
+    for (size_t k = 0; k < sizeof code_39 / sizeof code_39[0]; k++)
+        if (memcmp(code_39[k] + 1, elements, 9) == 0) return code_39[k][0];
+    return '?';
+}
+
+static void test_barcode(void **state) {
+    (void)state;
+    static const char *const text[] = {"ABCDEFGHIJKL",
+                                       "MNOPQRSTUVWX",
+                                       "YZ0123456789",
+                                       "-. $/+%",
+                                       "A",
+                                       "FLEXWRIGHT-1 REV C 2026 $/+%"};
+    for (size_t t = 0; t < sizeof text / sizeof text[0]; t++) {
+        plate *p = plate_new(240);
+        p->device.wafer.plate_m = 127e-3;
+        p->device.wafer.order.barcode = text[t];
+        const fw_wafer *w = plate_build(p);
+        assert_int_equal(p->diags.count, 0);
+        bar list[600];
+        char element[1200], read[64];
+        int n = bars_of(p, w, list), m = 0, signs = 0;
+        assert_int_equal(n, 5 * (int)(strlen(text[t]) + 2));
+        double narrow = HUGE_VAL;
+        for (int i = 0; i < n; i++)
+            narrow = fmin(narrow, list[i].to - list[i].from);
+        assert_true(narrow >= 100e-6 - 1e-12 && narrow <= 250e-6 + 1e-12);
+        for (int i = 0; i < n; i++) {
+            element[m++] = list[i].to - list[i].from > 2 * narrow ? '1' : '0';
+            if (i + 1 < n) element[m++] = list[i + 1].from - list[i].to > 2 * narrow ? '1' : '0';
+        }
+        for (int i = 0; i + 9 <= m; i += 10)
+            read[signs++] = sign_of(element + i);
+        read[signs] = '\0';
+        assert_int_equal(read[0], '*');
+        assert_int_equal(read[signs - 1], '*');
+        read[signs - 1] = '\0';
+        assert_string_equal(read + 1, text[t]);
+        fw_arena_free(p->arena);
+    }
+    plate *p = plate_new(240); /* 42 signs at 0.1 mm are 67 mm: too long for a plate of 3 inches */
+    p->device.wafer.order.barcode = "0123456789012345678901234567890123456789";
+    const fw_wafer *w = plate_build(p);
+    bar list[600];
+    assert_int_equal(bars_of(p, w, list), 0);
+    assert_int_equal(p->diags.count, 1);
+    assert_int_equal(p->diags.item[0].number, 195);
+    fw_arena_free(p->arena);
+}
+
+/* its inner edge lies on the flat: the chord as long as that, on its side */
+static void test_flat_line(void **state) {
+    (void)state;
+    for (int side = FW_SIDE_BOTTOM; side <= FW_SIDE_RIGHT; side++) {
+        plate *p = plate_new(240);
+        p->device.wafer.side = (fw_device_wafer_side)side;
+        p->device.wafer.order.flat_line = true;
+        const fw_wafer *w = plate_build(p);
+        double half = 0.5 * w->form.flat_m, r = 0.5 * w->form.diameter_m;
+        double bias = p->input.mask.bias_m, away = sqrt(r * r - half * half) - bias;
+        int lines = 0;
+        for (int i = 0; i < w->plate->nshape; i++) {
+            const fw_mask_shape *s = &w->plate->shape[i];
+            if (strcmp(s->piece->label, "flat line") != 0) continue;
+            const double to[4] = {-s->box.y1, s->box.y0, -s->box.x1, s->box.x0};
+            bool along_x = side == FW_SIDE_BOTTOM || side == FW_SIDE_TOP;
+            assert_near(to[side], away, 1e-9);
+            assert_near(along_x ? s->box.x1 : s->box.y1, half + bias, 1e-9);
+            lines++;
+        }
+        assert_int_equal(lines, 1);
+        fw_arena_free(p->arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_barcode),    cmocka_unit_test(test_flat_line),
         cmocka_unit_test(test_one_device), cmocka_unit_test(test_sweeps),
         cmocka_unit_test(test_ids),        cmocka_unit_test(test_id_sizes),
         cmocka_unit_test(test_spaces),     cmocka_unit_test(test_more_steps_than_columns),

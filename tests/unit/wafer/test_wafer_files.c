@@ -247,8 +247,8 @@ static void test_order(void **state) {
     assert_int_equal(die->kind, FW_WAFER_DIE);
     assert_true(abs(die->x) < 2 * w->grid.pitch_x && abs(die->y) < 2 * w->grid.pitch_y);
     const fw_wafer_variant *v = &w->variant[die->variant];
-    assert_int_equal(fw_mask_write_order_text(v->mask ? v->mask : w->stand_in.mask, 0, NULL, 0, &own),
-                     FW_OK);
+    assert_int_equal(
+        fw_mask_write_order_text(v->mask ? v->mask : w->stand_in.mask, 0, NULL, 0, &own), FW_OK);
     const char *there = strstr(own.data, "CD sites");
     int sites = 0, a, b;
     double x, y, x0, y0;
@@ -267,10 +267,53 @@ static void test_order(void **state) {
     fw_arena_free(p->arena);
 }
 
+/* CD tolerance: half of what the governing hinge has left over what a width changes of it, downwards
+   to 10 nm, and a tenth of the least feature at most; what is stated stays as it is stated */
+static void cd_tolerance(void **state) {
+    (void)state;
+    const struct {
+        double used, per_m, stated_m;
+        const char *says;
+    } row[] = {
+        {0.60, 2e6, (double)NAN, "+- 0.1 um (half of what the verdict has left)"},
+        {0.60, -2e6, (double)NAN, "+- 0.1 um (half of what the verdict has left)"},
+        {0.60, 0.7e6, (double)NAN, "+- 0.28 um (half of what the verdict has left)"},
+        {0.60, 1e3, (double)NAN, " um (a tenth of the least feature or space)"},
+        {0.60, 0, (double)NAN, " um (a tenth of the least feature or space)"},
+        {1.20, 2e6, (double)NAN, " um (a tenth of the least feature or space)"},
+        {0.60, 2e6, 0.25e-6, "+- 0.25 um (stated)"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        plate *p = plate_new(240);
+        p->input.effect = (fw_wafer_width_effect){"hinge A", row[i].used, row[i].per_m};
+        p->input.overlay_m = (double)NAN;
+        double none = (double)NAN;
+        p->device.wafer.order = (fw_device_order_asked){.thickness_m = none,
+                                                        .cd_m = row[i].stated_m,
+                                                        .registration_m = none,
+                                                        .defect_m = none,
+                                                        .quantity = 2};
+        const fw_wafer *w = plate_build(p);
+        fw_wafer_written written;
+        fw_text out = fw_text_new(p->arena);
+        assert_int_equal(fw_wafer_written_of(p->arena, w, &written), FW_OK);
+        assert_int_equal(fw_wafer_write_written_order(w, &written, NULL, 0, &out), FW_OK);
+        const char *line = strstr(out.data, "CD tolerance +-");
+        assert_non_null(line);
+        char one[200];
+        snprintf(one, sizeof one, "%.*s", (int)strcspn(line, "\n"), line);
+        const char *number = row[i].says + (row[i].says[0] == '+' ? 3 : 0);
+        if (!strstr(one, number)) fail_msg("case %d: %s", (int)i, one);
+        assert_non_null(strstr(out.data, "hinge A: at most"));
+        fw_arena_free(p->arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_csv), cmocka_unit_test(test_oasis), cmocka_unit_test(test_json),
-        cmocka_unit_test(test_svg), cmocka_unit_test(test_map),   cmocka_unit_test(test_order),
+        cmocka_unit_test(cd_tolerance), cmocka_unit_test(test_csv), cmocka_unit_test(test_oasis),
+        cmocka_unit_test(test_json),    cmocka_unit_test(test_svg), cmocka_unit_test(test_map),
+        cmocka_unit_test(test_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
