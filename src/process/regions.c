@@ -35,6 +35,11 @@ bool fw_process_where_holds(const fw_process_flow *flow, const char *where, int 
            (fw_process_where_side(flow, where, &side) && fw_process_side_holds(flow, side, column));
 }
 
+bool fw_process_where_is_of_device(const fw_process_flow *flow, const char *where) {
+    fw_process_side side;
+    return !fw_process_where_side(flow, where, &side) || side.plate == 0;
+}
+
 /* do two columns lie beside each other: does one plate alone part them? */
 bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b) {
     unsigned other = code_of(flow, a) ^ code_of(flow, b);
