@@ -255,6 +255,13 @@ typedef struct fw_mask_verdict {
 } fw_mask_verdict;
 fw_status fw_mask_contents_judge(fw_arena *arena, const fw_mask_table *table,
                                  const fw_layout *layout, fw_mask_verdict *verdict);
+/* a length of the first <content> of a kind, "margin" of "cavity"; NaN: the table has none */
+double fw_mask_content_m(const fw_mask_table *table, const char *kind, const char *parameter);
+/* the first plate that draws a role; -1: none does */
+int fw_mask_plate_of_role(const fw_mask_table *table, fw_layout_role role);
+/* budget between the plate of the device and the one with a role: along the rows that align them, added;
+   0 where one plate has both */
+double fw_mask_overlay_m(const fw_mask_table *table, fw_layout_role role);
 /* the certificate and, in `coupons`, every pattern: place, drawn sizes, what to measure and which
    quantity of the process it gives */
 fw_status fw_mask_write_coupons(const fw_mask_coupons *coupons, const char *gds_sha256,

@@ -25,6 +25,15 @@ int fw_mask_plate_named(const fw_mask_table *table, const char *id) {
     return -1;
 }
 
+double fw_mask_content_m(const fw_mask_table *table, const char *kind, const char *parameter) {
+    for (int i = 0; i < table->ncontent; i++) {
+        const fw_mask_content_kind *k = table->content[i].kind;
+        for (int j = 0; strcmp(k->name, kind) == 0 && j < k->nparameter; j++)
+            if (strcmp(k->parameter[j].name, parameter) == 0) return table->content[i].value[j];
+    }
+    return (double)NAN;
+}
+
 fw_status fw_mask_sheet_add(fw_mask_sheet *sheet, fw_layout_role role, int body, const char *label,
                             const fw_geometry_contour *contour) {
     fw_layout_piece piece = {

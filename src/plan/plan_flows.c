@@ -75,6 +75,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, fw_diags *diags) 
     FW_TRY(fw_mask_contents_judge(plan->arena, pf->table, plan->layout, &contents));
     for (int i = 0; i < contents.n; i++)
         FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, 0, contents.reason[i]));
+    FW_TRY(fw_plan_check_hollows(plan, pf, diags));
     fw_process_drive_facts *drive;
     int n;
     FW_TRY(fw_plan_find_drives(plan->arena, plan->device, pf->variant.flow, &drive, &n));

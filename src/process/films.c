@@ -385,9 +385,10 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
                            cut->step->id, c->anisotropy->id ? c->anisotropy->id : "anisotropy"));
 }
 
-/* one film, of which a side is etched beside a mask on the other */
+/* one film, of which a side is etched beside a mask on the other; bowl: into the film, so that its foot is where the mask
+   has its edge */
 static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
-                             fw_process_side side) {
+                             fw_process_side side, bool bowl) {
     double edge = mask_edge(m, &m->films->film[i], other(side));
     bool field = side.plate == 0 && side.set;
     double way =
@@ -397,7 +398,6 @@ static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_proces
     FW_TRY(split(m, i, side, edge, &at));
     fw_process_film gone = m->films->film[at], walls = gone;
     double foot = edge, head = edge, t = known(c->thickness);
-    bool bowl = c->isotropic && side.plate && !isnan(t) && t < 0.98 * gone.thickness_m + TOUCH_M;
     if (c->isotropic && !isnan(t) && !bowl) foot = head = edge - way * t * (1.0 + s->overrun);
     if (bowl) head = edge - way * t;
     if (cut) {
@@ -440,7 +440,7 @@ static fw_status hollow_out(maker *m, const fw_process_step *s, const fw_process
     upper.thickness_m = t;
     upper.shortened = false;
     FW_TRY(add_film(m, upper));
-    return etch_beside(m, s, c, m->films->n - 1, side);
+    return etch_beside(m, s, c, m->films->n - 1, side, side.plate > 0);
 }
 
 /* an etch that runs sideways from every opening: out of the field, and from below the structure */
@@ -498,7 +498,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
         } else if (!whole && c->isotropic && known(c->thickness) < 0.5 * f->thickness_m) {
             FW_TRY(hollow_out(m, s, c, i, side));
         } else if (!whole && (etch || in_side(m, f, other(side)))) {
-            FW_TRY(etch_beside(m, s, c, i, side));
+            FW_TRY(etch_beside(m, s, c, i, side, false));
         } else {
             drop(m->films, i);
         }

@@ -443,6 +443,9 @@ bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags);
    not guaranteed, said behind them. `why` is kept. */
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,
                                      const char *why);
+/* what the step etches isotropically inside of a plate (*at, which may be NULL): the depth of its hollows; NULL: none does */
+const fw_quantity *fw_process_flow_hollow(const fw_process_flow *flow, const char *plate,
+                                          const struct fw_process_step **at);
 /* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
    way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
