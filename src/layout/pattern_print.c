@@ -224,11 +224,12 @@ const fw_layout_pattern_kind fw_layout_pattern_vernier = {
 /* back-mark: a window in a block of the device layer and, in its middle, the cross of the back
    side's own plate. Both are drawn as seen from the front; the plate for the back is the mirror
    image, which its order says. Centred in the window the sides agree; the distances from the arms
-   to the window's edges tell the offset: (left - right)/2, (below - above)/2. In: window, cross
-   (size over all), arm (width), m. Out: areas exact. Test: test_patterns.c. */
+   to the window's edges tell the offset: (left - right)/2, (below - above)/2. A ring of metal around
+   the window tells that of the pads' plate alike. In: window, cross (size over all), arm (width), ring
+   (width; 0: none), m. Out: areas exact. Test: test_patterns.c. */
 
-enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM };
-static const double RIM_M = 40e-6;
+enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM, BACK_MARK_RING };
+static const double RIM_M = 40e-6, RING_CLEAR_M = 10e-6;
 
 static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, double arm,
                                  double window) {
@@ -243,11 +244,27 @@ static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, dou
     return FW_OK;
 }
 
+/* four bars of metal around the window, below what the device's plate leaves of the block */
+static fw_status draw_ring(fw_layout_pen *pen, double from, double to, double width) {
+    double a = from - RING_CLEAR_M - width, b = to + RING_CLEAR_M + width;
+    FW_TRY(fw_layout_pen_box(pen, a, a, b, a + width));
+    FW_TRY(fw_layout_pen_box(pen, a, b - width, b, b));
+    FW_TRY(fw_layout_pen_box(pen, a, a, a + width, b));
+    FW_TRY(fw_layout_pen_box(pen, b - width, a, b, b));
+    FW_TRY(fw_layout_pen_shape(pen, FW_ROLE_METAL, "ring of the back mark"));
+    double middle = 0.5 * (from + to);
+    FW_TRY(fw_layout_pen_chord(pen, "ring left", a + width, middle, from, middle, NULL));
+    return fw_layout_pen_chord(pen, "ring below", middle, a + width, middle, from, NULL);
+}
+
 static fw_status draw_back_mark(fw_layout_pen *pen) {
     double window = fw_layout_pen_value(pen, BACK_MARK_WINDOW), side = window + 2 * RIM_M;
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_STRUCTURE, "block of the back mark", 0, 0, side, side));
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M,
                              RIM_M + window, RIM_M + window));
+    double ring = fw_layout_pen_value(pen, BACK_MARK_RING);
+    if (ring > RIM_M - 2 * RING_CLEAR_M) return FW_GEOMETRY;
+    if (ring > 0) FW_TRY(draw_ring(pen, RIM_M, RIM_M + window, ring));
     return back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
                            fw_layout_pen_value(pen, BACK_MARK_ARM), window);
 }
@@ -257,8 +274,9 @@ const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
     .what = "cross on the back's own layer in a window of the device layer",
     .parameter = {{"window", 160e-6, 40e-6, 1e-3, false},
                   {"cross", 120e-6, 20e-6, 1e-3, false},
-                  {"arm", 20e-6, 4e-6, 200e-6, false}},
-    .nparameter = 3,
+                  {"arm", 20e-6, 4e-6, 200e-6, false},
+                  {"ring", 0, 0, 20e-6, false}},
+    .nparameter = 4,
     .draw = draw_back_mark,
 };
 

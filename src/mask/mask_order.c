@@ -215,13 +215,43 @@ static void least_line(fw_text *out, const char *what, double value_m) {
     fw_mask_order_line(out, what, line);
 }
 
-void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask) {
+/* "-20 um per edge of 6/0, 20 um of 7/0" of a plate with lengths of its own; of the device's "1.1 um per edge" */
+static void bias_line(fw_text *out, const fw_mask *mask, int plate) {
+    const fw_mask_table *table = mask->table;
+    char number[32];
+    int said = 0;
+    fw_text line = fw_text_new(out->arena);
+    bool own = plate != table->device_plate;
+    for (int k = 0; own && k < table->nlayer; k++) {
+        if (!fw_mask_plate_draws(table, plate, k)) continue;
+        double bias_m = fw_mask_layer_bias_m(mask, k);
+        fw_text_printf(&line, "%s%s um %sof %d/%d", said ? ", " : "",
+                       fw_number_text(number, sizeof number, bias_m * 1e6, 6),
+                       said ? "" : "per edge ", table->layer[k].layer, table->layer[k].datatype);
+        said++;
+    }
+    if (!own)
+        fw_text_printf(&line, "%s um per edge",
+                       fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
+    fw_text_add(&line, ", in the data already; mask CD bias 0");
+    fw_mask_order_line(out, "process bias", fw_text_end(&line) == FW_OK ? line.data : "");
+}
+
+double fw_mask_plate_bias_m(const fw_mask *mask, int plate) {
+    int first;
+    const char *wrong;
+    const char *layers = fw_mask_plate_at(mask->table, plate).layers;
+    bool own = plate != mask->table->device_plate && layers &&
+               fw_mask_plate_layers(mask->table, layers, NULL, &first, &wrong);
+    return own ? fw_mask_layer_bias_m(mask, first) : mask->bias_m;
+}
+
+void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, const fw_mask *mask,
+                              int plate) {
     char line[200], number[32];
     least_line(out, "least feature", width_m);
     least_line(out, "least space", space_m);
-    snprintf(line, sizeof line, "%s um per edge, in the data already; mask CD bias 0",
-             fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
-    fw_mask_order_line(out, "process bias", line);
+    bias_line(out, mask, plate);
     snprintf(line, sizeof line, "1 nm; arcs within %s nm",
              fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
     fw_mask_order_line(out, "grid", line);
@@ -245,7 +275,7 @@ static void head(const fw_mask *mask, const fw_mask_order *order, fw_text *out) 
     fw_mask_order_line(out, "top cell", mask->cell);
     fw_mask_order_set_lines(out, mask->table, order);
     fw_mask_order_plate_lines(out, "plate", mask->table, order);
-    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask);
+    fw_mask_order_size_lines(out, order->width_m, order->space_m, mask, order->plate_index);
 }
 
 static void layers(const fw_mask *mask, const fw_mask_order *order, fw_text *out) {

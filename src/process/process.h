@@ -373,7 +373,9 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     double perimeter_m;
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
-    int dies;                                  /* on the wafer or coupon */
+    double
+        widest_hollow_m; /* side of the largest square within a hollow below the device; 0: it has none */
+    int dies;            /* on the wafer or coupon */
     /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
        die's own */
     double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
