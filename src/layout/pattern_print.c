@@ -224,9 +224,9 @@ const fw_layout_pattern_kind fw_layout_pattern_vernier = {
 /* back-mark: a window in a block of the device layer and, in its middle, the cross of the back
    side's own plate. Both are drawn as seen from the front; the plate for the back is the mirror
    image, which its order says. Centred in the window the sides agree; the distances from the arms
-   to the window's edges tell the offset: (left - right)/2, (below - above)/2. A ring of metal around
-   the window tells that of the pads' plate alike. In: window, cross (size over all), arm (width), ring
-   (width; 0: none), m. Out: areas exact. Test: test_patterns.c. */
+   to the window's edges tell the offset: (left - right)/2, (below - above)/2. Bars of metal beside
+   the window tell that of the pads' plate alike. In: window, cross (size over all), arm (width), ring
+   (width of these bars; 0: none), m. Out: areas exact. Test: test_patterns.c. */
 
 enum { BACK_MARK_WINDOW, BACK_MARK_CROSS, BACK_MARK_ARM, BACK_MARK_RING };
 static const double RIM_M = 40e-6, RING_CLEAR_M = 10e-6;
@@ -244,17 +244,16 @@ static fw_status back_cross_draw(fw_layout_pen *pen, double m, double cross, dou
     return FW_OK;
 }
 
-/* four bars of metal around the window, below what the device's plate leaves of the block */
+/* a bar of metal beside each side of the window, below what the device's plate leaves of the block */
 static fw_status draw_ring(fw_layout_pen *pen, double from, double to, double width) {
-    double a = from - RING_CLEAR_M - width, b = to + RING_CLEAR_M + width;
-    FW_TRY(fw_layout_pen_box(pen, a, a, b, a + width));
-    FW_TRY(fw_layout_pen_box(pen, a, b - width, b, b));
-    FW_TRY(fw_layout_pen_box(pen, a, a, a + width, b));
-    FW_TRY(fw_layout_pen_box(pen, b - width, a, b, b));
-    FW_TRY(fw_layout_pen_shape(pen, FW_ROLE_METAL, "ring of the back mark"));
-    double middle = 0.5 * (from + to);
-    FW_TRY(fw_layout_pen_chord(pen, "ring left", a + width, middle, from, middle, NULL));
-    return fw_layout_pen_chord(pen, "ring below", middle, a + width, middle, from, NULL);
+    static const char label[] = "metal beside the back mark";
+    double a = from - RING_CLEAR_M, b = to + RING_CLEAR_M, middle = 0.5 * (from + to);
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, from, a - width, to, a));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, from, b, to, b + width));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, a - width, from, a, to));
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_METAL, label, b, from, b + width, to));
+    FW_TRY(fw_layout_pen_chord(pen, "metal left", a, middle, from, middle, NULL));
+    return fw_layout_pen_chord(pen, "metal below", middle, a, middle, from, NULL);
 }
 
 static fw_status draw_back_mark(fw_layout_pen *pen) {
@@ -263,7 +262,7 @@ static fw_status draw_back_mark(fw_layout_pen *pen) {
     FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", RIM_M, RIM_M,
                              RIM_M + window, RIM_M + window));
     double ring = fw_layout_pen_value(pen, BACK_MARK_RING);
-    if (ring > RIM_M - 2 * RING_CLEAR_M) return FW_GEOMETRY;
+    if (ring > RIM_M - 2 * RING_CLEAR_M + 1e-12) return FW_GEOMETRY;
     if (ring > 0) FW_TRY(draw_ring(pen, RIM_M, RIM_M + window, ring));
     return back_cross_draw(pen, 0.5 * side, fw_layout_pen_value(pen, BACK_MARK_CROSS),
                            fw_layout_pen_value(pen, BACK_MARK_ARM), window);
