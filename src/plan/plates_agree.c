@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pack of a flow and its layer table speak of the same plates: printed in one order, drawn smaller by the same length,
-   aligned to the same one within the same budget. Page: docs/theory/plates.md; test: test_plates_agree.c. */
+   aligned to the same one within the same budget. Page: docs/theory/plates.md; test: test_hollows.c. */
 #include "plan/stages.h"
 #include <math.h>
 #include <string.h>

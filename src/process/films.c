@@ -142,14 +142,25 @@ static double edge_of_plate(const maker *m, int plate) {
     return shrink && !shrink->unknown ? -shrink->value : 0.0;
 }
 
+/* has a film, within a side of a plate, edges at that plate's? Not one that another plate prints within that side alone */
+static bool reaches_edges(const maker *m, const fw_process_film *f, int plate) {
+    for (int a = 0; a < m->columns; a++)
+        for (int b = 0; f->in[a] && b < m->columns; b++)
+            if (fw_process_columns_meet(m->flow, a, b) &&
+                fw_process_side_holds(m->flow, (fw_process_side){plate, true}, a) !=
+                    fw_process_side_holds(m->flow, (fw_process_side){plate, true}, b))
+                return true;
+    return false;
+}
+
 /* the film on one side alone that lies next above z (from z on); NULL */
 static const fw_process_film *mask_above(const maker *m, fw_process_side side, double z_m) {
     const fw_process_films *f = m->films;
     const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
         const fw_process_film *c = &f->film[i];
-        if (only_in(m, c, side) && c->bottom_m >= z_m - TOUCH_M &&
-            (!best || c->bottom_m < best->bottom_m))
+        if (only_in(m, c, side) && reaches_edges(m, c, side.plate) &&
+            c->bottom_m >= z_m - TOUCH_M && (!best || c->bottom_m < best->bottom_m))
             best = c;
     }
     return best;
