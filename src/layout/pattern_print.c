@@ -282,15 +282,18 @@ const fw_layout_pattern_kind fw_layout_pattern_back_mark = {
 /* ---- frame-mark ---- */
 
 /* frame-mark: window and cross of `back-mark` in both uprights of every die's frame, as far apart
-   as the die is wide: two of them give offset and turn of the back. In: window, cross, arm, m.
+   as the die is wide: two of them give offset and turn of the back. In: window, cross, arm, ring, m.
    Test: test_patterns.c. */
 
-enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM };
+enum { FRAME_MARK_WINDOW, FRAME_MARK_CROSS, FRAME_MARK_ARM, FRAME_MARK_RING };
 
 static fw_status draw_frame_mark(fw_layout_pen *pen) {
-    double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW);
-    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", 0, 0, window, window));
-    return back_cross_draw(pen, 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
+    double window = fw_layout_pen_value(pen, FRAME_MARK_WINDOW),
+           ring = fw_layout_pen_value(pen, FRAME_MARK_RING);
+    double from = ring > 0 ? RING_CLEAR_M + ring : 0, to = from + window;
+    FW_TRY(fw_layout_pen_bar(pen, FW_ROLE_MARK, "window of the back mark", from, from, to, to));
+    if (ring > 0) FW_TRY(draw_ring(pen, from, to, ring));
+    return back_cross_draw(pen, from + 0.5 * window, fw_layout_pen_value(pen, FRAME_MARK_CROSS),
                            fw_layout_pen_value(pen, FRAME_MARK_ARM), window);
 }
 
@@ -299,8 +302,9 @@ const fw_layout_pattern_kind fw_layout_pattern_frame_mark = {
     .what = "windows with a cross of the back on the frame of every die",
     .parameter = {{"window", 120e-6, 40e-6, 1e-3, false},
                   {"cross", 90e-6, 20e-6, 1e-3, false},
-                  {"arm", 14e-6, 4e-6, 200e-6, false}},
-    .nparameter = 3,
+                  {"arm", 14e-6, 4e-6, 200e-6, false},
+                  {"ring", 0, 0, 50e-6, false}},
+    .nparameter = 4,
     .draw = draw_frame_mark,
     .on_frame = 2,
 };

@@ -517,9 +517,9 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
     return FW_OK;
 }
 
-/* the part of film i that lies open on top becomes a film of its own where the other part is covered; -1: none is open, or
-   no plate parts one from the other */
-static fw_status open_part(maker *m, int i, const double top[], int *open) {
+/* the part of film i that lies open on top becomes a film of its own where the other part is covered, or, where nothing
+   known is taken of it, stays one with it; -1: none is open, or no plate parts one from the other */
+static fw_status open_part(maker *m, int i, const double top[], bool taken, int *open) {
     const fw_process_film *f = &m->films->film[i];
     bool up[FW_STACK_MOST], any = false, all = true;
     for (int k = 0; k < m->columns; k++) {
@@ -528,7 +528,7 @@ static fw_status open_part(maker *m, int i, const double top[], int *open) {
         all = all && (up[k] || !f->in[k]);
     }
     *open = any ? i : -1;
-    if (!any || all) return FW_OK;
+    if (!any || all || !taken) return FW_OK;
     for (int half = 0; half < 2 * (m->flow->nplate + 1); half++) {
         fw_process_side side = {half / 2, half % 2 == 1};
         bool fits = true;
@@ -553,7 +553,7 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
         const fw_process_film *whole = &m->films->film[i];
         int at = -1;
         if (same(whole->material, x->material) && !whole->shortened && !isnan(whole->thickness_m))
-            FW_TRY(open_part(m, i, top, &at));
+            FW_TRY(open_part(m, i, top, !isnan(loss), &at));
         if (at < 0) continue;
         open = true;
         if (isnan(loss)) continue;
