@@ -142,24 +142,13 @@ static double edge_of_plate(const maker *m, int plate) {
     return shrink && !shrink->unknown ? -shrink->value : 0.0;
 }
 
-/* has a film, within a side of a plate, edges at that plate's? Not one that another plate prints within that side alone */
-static bool reaches_edges(const maker *m, const fw_process_film *f, int plate) {
-    for (int a = 0; a < m->columns; a++)
-        for (int b = 0; f->in[a] && b < m->columns; b++)
-            if (fw_process_columns_meet(m->flow, a, b) &&
-                fw_process_side_holds(m->flow, (fw_process_side){plate, true}, a) !=
-                    fw_process_side_holds(m->flow, (fw_process_side){plate, true}, b))
-                return true;
-    return false;
-}
-
 /* the film on one side alone that lies next above z (from z on); NULL */
 static const fw_process_film *mask_above(const maker *m, fw_process_side side, double z_m) {
     const fw_process_films *f = m->films;
     const fw_process_film *best = NULL;
     for (int i = 0; i < f->n; i++) {
         const fw_process_film *c = &f->film[i];
-        if (only_in(m, c, side) && reaches_edges(m, c, side.plate) &&
+        if (only_in(m, c, side) && fw_process_columns_edge(m->flow, c->in, side.plate) &&
             c->bottom_m >= z_m - TOUCH_M && (!best || c->bottom_m < best->bottom_m))
             best = c;
     }
@@ -396,8 +385,7 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
                            cut->step->id, c->anisotropy->id ? c->anisotropy->id : "anisotropy"));
 }
 
-/* one film, of which a side is etched beside a mask on the other; bowl: into the film, so that its foot is where the mask
-   has its edge */
+/* one film, of which a side is etched beside a mask on the other; bowl: its foot stays at the mask's edge */
 static fw_status etch_beside(maker *m, const fw_process_step *s, const fw_process_change *c, int i,
                              fw_process_side side, bool bowl) {
     double edge = mask_edge(m, &m->films->film[i], other(side));
@@ -518,7 +506,7 @@ static fw_status take_away(maker *m, const fw_process_step *s, const fw_process_
 }
 
 /* the part of film i that lies open on top becomes a film of its own where the other part is covered, or, where nothing
-   known is taken of it, stays one with it; -1: none is open, or no plate parts one from the other */
+   known is taken of it and other plates may lean its walls, stays one with it; -1: none is open, or no plate parts one from the other */
 static fw_status open_part(maker *m, int i, const double top[], bool taken, int *open) {
     const fw_process_film *f = &m->films->film[i];
     bool up[FW_STACK_MOST], any = false, all = true;
@@ -553,7 +541,7 @@ static fw_status wear(maker *m, const fw_process_step *s, const fw_process_expos
         const fw_process_film *whole = &m->films->film[i];
         int at = -1;
         if (same(whole->material, x->material) && !whole->shortened && !isnan(whole->thickness_m))
-            FW_TRY(open_part(m, i, top, !isnan(loss), &at));
+            FW_TRY(open_part(m, i, top, !isnan(loss) || m->flow->nplate == 0, &at));
         if (at < 0) continue;
         open = true;
         if (isnan(loss)) continue;

@@ -39,6 +39,9 @@ bool fw_process_side_holds(const fw_process_flow *flow, fw_process_side side, in
 bool fw_process_where_holds(const fw_process_flow *flow, const char *where, int column);
 /* do edges of what is removed there lie at those of the device, not at those of another plate? */
 bool fw_process_where_is_of_device(const fw_process_flow *flow, const char *where);
+/* has what lies in these columns, all on one side of a plate, edges at that plate's? Not what another plate prints within
+   that side alone */
+bool fw_process_columns_edge(const fw_process_flow *flow, const bool in[], int plate);
 /* does one plate alone part them? */
 bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b);
 /* "structure", "field, cavity" */

@@ -47,6 +47,14 @@ bool fw_process_columns_meet(const fw_process_flow *flow, int a, int b) {
     return other && !(other & (other - 1u));
 }
 
+bool fw_process_columns_edge(const fw_process_flow *flow, const bool in[], int plate) {
+    int n = fw_process_flow_columns(flow);
+    for (int a = 0; a < n; a++)
+        for (int b = 0; in[a] && b < n; b++)
+            if ((code_of(flow, a) ^ code_of(flow, b)) == 1u << plate) return true;
+    return false;
+}
+
 const char *fw_process_column_name(const fw_process_flow *flow, int column, char name[FW_LABEL]) {
     unsigned code = code_of(flow, column);
     int n = snprintf(name, FW_LABEL, "%s", code & 1u ? "field" : "structure");
