@@ -66,7 +66,8 @@ class Sections(unittest.TestCase):
                     if step["changes"]:
                         self.assertIn(step["title"], words)
             html = (self.out / "recipes" / (flow + ".html")).read_text()
-            self.assertEqual(html.count("<svg "), sum(s["changes"] for s in steps) + 1)  # of every change, and what is made
+            release = (self.out / "recipes" / (flow + ".release.svg")).exists()  # its map is in the sheet, too
+            self.assertEqual(html.count("<svg "), sum(s["changes"] for s in steps) + 1 + release)  # changes, what is made
 
     def test_wrong_cuts(self):
         for cut in ("1,2,3", "flexure:nobody", "1,1,1,1"):
