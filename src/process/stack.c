@@ -44,11 +44,11 @@ static bool add(fw_process_stack *s, int column, const fw_process_change *c, dou
 
 /* an isotropic etch that leaves most of a layer hollows it out (films.c); drawn is how much lower its top is then */
 static bool hollow_out(fw_process_stack *s, int column, const fw_process_change *c) {
-    double depth = c->isotropic && c->thickness && !c->thickness->unknown ? c->thickness->value
-                                                                          : (double)INFINITY;
     int top = s->n[column] - 1;
-    fw_process_cell *cell = top >= 0 ? &s->cell[column][top] : NULL;
-    if (!cell || strcmp(cell->material, c->material) != 0 || !(depth < 0.5 * cell->thickness_m))
+    if (!c->isotropic || !c->thickness || c->thickness->unknown || top < 0) return false;
+    fw_process_cell *cell = &s->cell[column][top];
+    double depth = c->thickness->value;
+    if (!(depth < 0.5 * cell->thickness_m) || strcmp(cell->material, c->material) != 0)
         return false;
     cell->thickness_m -= depth;
     cell->height -= fmin(drawn_height(c->thickness), 0.6 * cell->height);
